@@ -1,0 +1,72 @@
+# How the project builds: flags, and one function each for a core library, a node and a test.
+
+find_package(Eigen3 REQUIRED NO_MODULE)
+find_package(PkgConfig REQUIRED)
+find_package(Threads REQUIRED)
+find_package(GTest REQUIRED)
+find_package(OpenCV REQUIRED COMPONENTS core imgproc imgcodecs calib3d video features2d)
+pkg_check_modules(LCM REQUIRED IMPORTED_TARGET lcm)
+pkg_check_modules(YAML_CPP REQUIRED IMPORTED_TARGET yaml-cpp)
+pkg_check_modules(NLOPT REQUIRED IMPORTED_TARGET nlopt)
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+endif()
+find_program(MOLD_PROGRAM mold)
+if(MOLD_PROGRAM)
+  add_link_options(-fuse-ld=mold)
+endif()
+
+set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O3 -g1")
+add_library(rover_flags INTERFACE)
+# No -ffast-math and no contraction: the same inputs give the same bytes on every run.
+target_compile_options(rover_flags INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror
+  -march=x86-64-v2 -ffp-contract=off)
+if(ROVER_SANITIZE)
+  target_compile_options(rover_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all
+    -fno-omit-frame-pointer)
+  target_link_options(rover_flags INTERFACE -fsanitize=address,undefined)
+  target_compile_definitions(rover_flags INTERFACE EIGEN_INITIALIZE_MATRICES_BY_NAN)
+endif()
+
+# OpenCV's and other packages' headers are not ours to warn about.
+add_library(rover_opencv INTERFACE)
+target_include_directories(rover_opencv SYSTEM INTERFACE ${OpenCV_INCLUDE_DIRS})
+target_link_libraries(rover_opencv INTERFACE ${OpenCV_LIBS})
+
+# rover_core(NAME SOURCES ... LINK ...): a library without middleware. It cannot see LCM, YAML or the bus.
+function(rover_core name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  add_library(${name} STATIC ${ARG_SOURCES})
+  target_include_directories(${name} PUBLIC ${CMAKE_SOURCE_DIR}/services ${CMAKE_SOURCE_DIR})
+  target_link_libraries(${name} PUBLIC rover_flags Eigen3::Eigen ${ARG_LINK})
+endfunction()
+
+# rover_node(SERVICE SOURCES ... LINK ...): library <service>_node over <service>_core, and its executable from main.cpp.
+function(rover_node service)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  add_library(${service}_node STATIC ${ARG_SOURCES})
+  target_link_libraries(${service}_node PUBLIC ${service}_core rover_bus ${ARG_LINK})
+  add_executable(${service} main.cpp)
+  target_link_libraries(${service} PRIVATE ${service}_node)
+  set_target_properties(${service} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+endfunction()
+
+# rover_test(NAME SOURCES ... LINK ... [LABEL unit|integration]): builds and registers a GoogleTest program.
+function(rover_test name)
+  cmake_parse_arguments(ARG "" "LABEL;TIMEOUT" "SOURCES;LINK" ${ARGN})
+  if(NOT ARG_LABEL)
+    set(ARG_LABEL unit)
+  endif()
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 300)
+  endif()
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE ${ARG_LINK} GTest::gtest_main)
+  target_compile_definitions(${name} PRIVATE
+    ROVER_SOURCE_DIR="${CMAKE_SOURCE_DIR}" ROVER_BINARY_DIR="${CMAKE_BINARY_DIR}")
+  add_test(NAME ${name} COMMAND ${name})
+  set_tests_properties(${name} PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT})
+endfunction()

@@ -1,0 +1,57 @@
+#include "common/bus/checkpoint.hpp"
+
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+namespace rover {
+namespace {
+
+constexpr std::uint64_t kMagic = 0x31545043'52564f52;  // marks the file's format
+
+struct FileHead {
+  std::uint64_t magic;
+  std::uint64_t size;
+  std::uint64_t checksum;
+};
+
+// FNV-1a: tells a torn or overwritten file from a whole one.
+std::uint64_t checksum(const std::vector<std::uint8_t>& bytes) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (const std::uint8_t byte : bytes) hash = (hash ^ byte) * 0x100000001b3u;
+  return hash;
+}
+
+std::string path_of(const std::string& run_dir, const std::string& name) { return run_dir + "/" + name + ".ckpt"; }
+
+}  // namespace
+
+bool save_checkpoint(const std::string& run_dir, const std::string& name, const std::vector<std::uint8_t>& bytes) {
+  const std::string path = path_of(run_dir, name);
+  const std::string fresh = path + ".new";
+  {
+    std::ofstream file(fresh, std::ios::binary | std::ios::trunc);
+    const FileHead head{kMagic, bytes.size(), checksum(bytes)};
+    file.write(reinterpret_cast<const char*>(&head), sizeof head);
+    file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    file.flush();
+    if (!file) return false;
+  }
+  return std::rename(fresh.c_str(), path.c_str()) == 0;
+}
+
+std::optional<std::vector<std::uint8_t>> load_checkpoint(const std::string& run_dir, const std::string& name) {
+  std::ifstream file(path_of(run_dir, name), std::ios::binary);
+  FileHead head{};
+  if (!file.read(reinterpret_cast<char*>(&head), sizeof head) || head.magic != kMagic) return std::nullopt;
+  constexpr std::uint64_t kLargest = 64u << 20;
+  if (head.size > kLargest) return std::nullopt;
+  std::vector<std::uint8_t> bytes(head.size);
+  if (!file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size())))
+    return std::nullopt;
+  if (checksum(bytes) != head.checksum) return std::nullopt;
+  return bytes;
+}
+
+}  // namespace rover

@@ -1,0 +1,187 @@
+#include "common/bus/config.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+#include "common/core/frames.hpp"
+
+namespace rover {
+
+struct Config::Seen {
+  std::set<std::string> keys;
+  std::vector<Config> children;
+};
+
+namespace {
+
+std::string where(const std::string& file, const YAML::Node& node) {
+  const YAML::Mark mark = node.Mark();
+  return mark.is_null() ? file : file + ":" + std::to_string(mark.line + 1);
+}
+
+YAML::Node checked_map(const YAML::Node& node, const std::string& file) {
+  if (!node.IsMap()) throw ConfigError(where(file, node) + ": a mapping of keys to values is expected here");
+  std::set<std::string> keys;
+  for (const auto& entry : node) {
+    const auto key = entry.first.as<std::string>("");
+    if (!keys.insert(key).second) throw ConfigError(where(file, entry.first) + ": " + key + ": given twice");
+  }
+  return node;
+}
+
+}  // namespace
+
+Config::Config(YAML::Node node, std::string file, std::string prefix)
+    : node_(std::move(node)), file_(std::move(file)), prefix_(std::move(prefix)), seen_(std::make_shared<Seen>()) {}
+
+Config Config::load(const std::string& file) {
+  if (!std::filesystem::is_regular_file(file)) throw ConfigError(file + ": no such file");
+  try {
+    return {checked_map(YAML::LoadFile(file), file), file, ""};
+  } catch (const YAML::Exception& error) {
+    throw ConfigError(file + ":" + std::to_string(error.mark.line + 1) + ": not valid YAML: " + error.msg);
+  }
+}
+
+Config Config::parse(const std::string& text, const std::string& name) {
+  try {
+    return {checked_map(YAML::Load(text), name), name, ""};
+  } catch (const YAML::Exception& error) {
+    throw ConfigError(name + ":" + std::to_string(error.mark.line + 1) + ": not valid YAML: " + error.msg);
+  }
+}
+
+bool Config::has(const std::string& key) const { return static_cast<bool>(node_[key]); }
+
+std::vector<std::string> Config::keys() const {
+  std::vector<std::string> names;
+  for (const auto& entry : node_) names.push_back(entry.first.as<std::string>());
+  return names;
+}
+
+void Config::fail(const std::string& key, const std::string& what) const {
+  const YAML::Node at = node_[key] ? node_[key] : node_;
+  throw ConfigError(where(file_, at) + ": " + prefix_ + key + ": " + what);
+}
+
+YAML::Node Config::required(const std::string& key) const {
+  seen_->keys.insert(key);
+  const YAML::Node node = node_[key];
+  if (!node) fail(key, "missing");
+  return node;
+}
+
+template <class T>
+T Config::value(const std::string& key, const char* type) const {
+  const YAML::Node node = required(key);
+  T out{};
+  if (!node.IsScalar() || !YAML::convert<T>::decode(node, out)) fail(key, std::string("not ") + type);
+  return out;
+}
+
+namespace {
+
+std::string range_text(Range range) {
+  std::ostringstream text;
+  text << "out of range [" << range.min << ", " << range.max << "]";
+  return text.str();
+}
+
+bool outside(double value, Range range) { return !std::isfinite(value) || value < range.min || value > range.max; }
+
+}  // namespace
+
+double Config::number(const std::string& key, Range range) const {
+  const double number = value<double>(key, "a number");
+  if (outside(number, range)) fail(key, range_text(range));
+  return number;
+}
+
+std::int64_t Config::integer64(const std::string& key, Range range) const {
+  const auto number = value<std::int64_t>(key, "a whole number");
+  if (outside(static_cast<double>(number), range)) fail(key, range_text(range));
+  return number;
+}
+
+int Config::integer(const std::string& key, Range range) const {
+  return static_cast<int>(integer64(key, {std::max(range.min, -2147483648.0), std::min(range.max, 2147483647.0)}));
+}
+
+bool Config::boolean(const std::string& key) const { return value<bool>(key, "true or false"); }
+
+std::string Config::text(const std::string& key) const { return value<std::string>(key, "a text"); }
+
+std::string Config::one_of(const std::string& key, const std::vector<std::string>& choices) const {
+  const std::string choice = text(key);
+  std::string list;
+  for (const std::string& allowed : choices) {
+    if (choice == allowed) return choice;
+    list += (list.empty() ? "" : ", ") + allowed;
+  }
+  fail(key, "'" + choice + "' is not one of " + list);
+}
+
+std::vector<double> Config::numbers(const std::string& key, Range range, size_t count) const {
+  const YAML::Node node = required(key);
+  if (!node.IsSequence()) fail(key, "not a list of numbers");
+  if (count != 0 && node.size() != count)
+    fail(key, std::to_string(count) + " numbers expected, found " + std::to_string(node.size()));
+  std::vector<double> values;
+  for (const YAML::Node& item : node) {
+    double number = 0.0;
+    if (!item.IsScalar() || !YAML::convert<double>::decode(item, number)) fail(key, "not a list of numbers");
+    if (outside(number, range)) fail(key, range_text(range));
+    values.push_back(number);
+  }
+  return values;
+}
+
+Config Config::section(const std::string& key) const {
+  const YAML::Node node = required(key);
+  Config child(checked_map(node, file_), file_, prefix_ + key + ".");
+  seen_->children.push_back(child);
+  return child;
+}
+
+std::vector<Config> Config::list(const std::string& key) const {
+  const YAML::Node node = required(key);
+  if (!node.IsSequence()) fail(key, "not a list");
+  std::vector<Config> items;
+  for (const YAML::Node& item : node) {
+    items.push_back(
+        Config(checked_map(item, file_), file_, prefix_ + key + "[" + std::to_string(items.size()) + "]."));
+    seen_->children.push_back(items.back());
+  }
+  return items;
+}
+
+void Config::read(const std::string& key, double& value, Range range) const {
+  if (has(key)) value = number(key, range);
+}
+
+void Config::read(const std::string& key, int& value, Range range) const {
+  if (has(key)) value = integer(key, range);
+}
+
+void Config::read(const std::string& key, bool& value) const {
+  if (has(key)) value = boolean(key);
+}
+
+void Config::read(const std::string& key, std::string& value) const {
+  if (has(key)) value = text(key);
+}
+
+void Config::read_deg(const std::string& key, double& value_rad, Range range_deg) const {
+  if (has(key)) value_rad = to_rad(number(key, range_deg));
+}
+
+void Config::finish() const {
+  for (const auto& entry : node_) {
+    const auto key = entry.first.as<std::string>();
+    if (!seen_->keys.contains(key)) throw ConfigError(where(file_, entry.first) + ": " + prefix_ + key + ": unknown key");
+  }
+  for (const Config& child : seen_->children) child.finish();
+}
+
+}  // namespace rover

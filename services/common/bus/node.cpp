@@ -1,0 +1,329 @@
+#include "common/bus/node.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <rover/injection_t.hpp>
+
+#include "common/core/frames.hpp"
+
+namespace rover {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr Utime kHeartbeatPeriod = 5 * kTickUs;
+// Wall time that a lockstep tick waits for messages that are listed but not here: only loss or reordering on the bus
+// makes it wait at all. A stream never seen is given less, because it may be of a process that is not running.
+constexpr auto kPatience = std::chrono::seconds(2);
+constexpr auto kPatienceUnknown = std::chrono::milliseconds(50);
+
+bool is_power_of_two(std::int64_t n) { return (n & (n - 1)) == 0; }
+
+}  // namespace
+
+// What the node keeps of one channel it takes.
+struct Node::Subscription {
+  struct Progress {
+    std::int64_t boot_id = 0;
+    std::int64_t seq = 0;
+    Utime utime = kNever;
+  };
+  std::string channel;  // ".*" for the raw one
+  std::int64_t fingerprint = 0;
+  Utime slow = 0;
+  DecodeAndCall call;
+  input_health_t health;
+  std::map<std::string, Progress> progress;  // by channel and publisher
+};
+
+struct Node::Pending {
+  Utime release = 0;
+  Subscription* subscription = nullptr;
+  RawMessage message;
+};
+
+struct Node::QueuedTick {
+  tick_t tick;
+  Clock::time_point arrived;
+};
+
+Node::Node(NodeOptions options, lcm::LCM& lcm)
+    : options_(std::move(options)), lcm_(lcm), streams_(options_.name, options_.boot_id) {
+  if (options_.allow_injection || !options_.muted.empty()) {
+    tap_ = std::make_unique<Tap>(std::hash<std::string>{}(options_.name));
+    for (const std::string& channel : options_.muted) tap_->mute(channel);
+  }
+  if (options_.allow_injection)
+    subscribe<injection_t>(channel::kInject, [this](const injection_t& injection) { tap_->inject(injection); });
+  auto* subscription = lcm_.subscribeFunction(
+      channel::kTick,
+      +[](const lcm::ReceiveBuffer* buffer, const std::string& channel, Node* node) {
+        node->receive_tick(buffer, channel);
+      },
+      this);
+  subscription->setQueueCapacity(0);
+}
+
+Node::~Node() = default;
+
+Node::Subscription& Node::add_subscription(const std::string& channel, std::int64_t fingerprint, Utime slow,
+                                           DecodeAndCall call) {
+  auto owned = std::make_unique<Subscription>();
+  Subscription& added = *owned;
+  added.channel = channel;
+  added.fingerprint = fingerprint;
+  added.slow = slow;
+  added.call = std::move(call);
+  added.health.channel = channel;
+  added.health.last_utime = kNever;
+  added.health.received = added.health.gaps = added.health.malformed = added.health.out_of_order = 0;
+  subscriptions_.push_back(std::move(owned));
+  struct Context {
+    Node* node;
+    Subscription* subscription;
+  };
+  auto* subscription = lcm_.subscribeFunction(
+      channel,
+      +[](const lcm::ReceiveBuffer* buffer, const std::string& from, Context context) {
+        context.node->receive(buffer, from, *context.subscription);
+      },
+      Context{this, &added});
+  subscription->setQueueCapacity(0);
+  return added;
+}
+
+void Node::subscribe_raw(std::function<void(const RawMessage&)> handler) {
+  add_subscription(".*", 0, 0, [handler = std::move(handler)](const RawMessage& raw) {
+    handler(raw);
+    return true;
+  });
+}
+
+void Node::receive(const lcm::ReceiveBuffer* buffer, const std::string& channel, Subscription& subscription) {
+  const int size = static_cast<int>(buffer->data_size);
+  RawMessage message;
+  message.channel = channel;
+  if (!peek_header(buffer->data, size, message.header)) return count_malformed(subscription, "truncated");
+  if (subscription.fingerprint != 0 && peek_fingerprint(buffer->data, size) != subscription.fingerprint)
+    return count_malformed(subscription, "foreign fingerprint");
+  // Announcements (seq 0) are outside of the order of ticks.
+  if (message.header.seq <= 0) return;
+  if (!ledger_.arrived(channel, message.header)) {
+    ++subscription.health.out_of_order;
+    return;
+  }
+  const auto* begin = static_cast<const std::uint8_t*>(buffer->data);
+  if (!tap_) {
+    message.bytes.assign(begin, begin + size);
+    return enqueue(subscription, std::move(message), 0);
+  }
+  for (Tap::Passed& passed : tap_->pass(channel, message.header.utime, buffer->data, size)) {
+    RawMessage tapped;
+    tapped.channel = channel;
+    if (!peek_header(passed.bytes.data(), static_cast<int>(passed.bytes.size()), tapped.header)) continue;
+    tapped.bytes = std::move(passed.bytes);
+    enqueue(subscription, std::move(tapped), passed.delay);
+  }
+}
+
+void Node::enqueue(Subscription& subscription, RawMessage message, Utime delay) {
+  Pending pending;
+  pending.release = message.header.release_utime + delay;
+  pending.subscription = &subscription;
+  pending.message = std::move(message);
+  pending_.push_back(std::move(pending));
+}
+
+void Node::receive_tick(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
+  QueuedTick queued{{}, Clock::now()};
+  const int size = static_cast<int>(buffer->data_size);
+  if (queued.tick.decode(buffer->data, 0, size) != size) {
+    log("WARN", "BAD_MESSAGE channel=" + channel + " why=malformed");
+    return;
+  }
+  const Utime latest = ticks_.empty() ? now_ : ticks_.back().tick.header.utime;
+  if (queued.tick.header.utime > latest) {
+    ticks_.push_back(std::move(queued));
+  } else if (queued.tick.header.utime == now_) {
+    send(channel::kDone, last_done_);  // the world did not hear it
+  }
+}
+
+void Node::process_ready_ticks() {
+  while (!ticks_.empty() && holds_all_for(ticks_.front())) {
+    const tick_t tick = std::move(ticks_.front().tick);
+    ticks_.pop_front();
+    process(tick);
+  }
+}
+
+bool Node::holds_all_for(QueuedTick& queued) {
+  if (queued.tick.mode == tick_t::REALTIME) return true;
+  const auto waited = Clock::now() - queued.arrived;
+  for (const stream_seq_t& stream : queued.tick.streams) {
+    const bool taken = std::any_of(subscriptions_.begin(), subscriptions_.end(), [&](const auto& subscription) {
+      return subscription->channel == stream.channel || subscription->channel == ".*";
+    });
+    if (!taken || stream.publisher == options_.name || ledger_.complete(stream)) continue;
+    if (waited < (ledger_.known(stream) ? Clock::duration(kPatience) : Clock::duration(kPatienceUnknown))) return false;
+    if (ledger_.known(stream)) log("WARN", "LOST_ON_BUS channel=" + stream.channel + " publisher=" + stream.publisher);
+    ledger_.give_up(stream);
+  }
+  return true;
+}
+
+std::vector<Node::Pending> Node::take_released(Utime until) {
+  const auto later = [until](const Pending& pending) { return pending.release > until; };
+  const auto split = std::stable_partition(pending_.begin(), pending_.end(), later);
+  std::vector<Pending> released(std::make_move_iterator(split), std::make_move_iterator(pending_.end()));
+  pending_.erase(split, pending_.end());
+  std::stable_sort(released.begin(), released.end(), [](const Pending& a, const Pending& b) {
+    const auto key = [](const Pending& p) {
+      return std::tie(p.release, p.message.channel, p.message.header.publisher, p.message.header.boot_id,
+                      p.message.header.seq);
+    };
+    return key(a) < key(b);
+  });
+  return released;
+}
+
+void Node::process(const tick_t& tick) {
+  now_ = tick.header.utime;
+  const std::vector<Pending> released = take_released(now_);
+  Utime slow = 0;
+  for (const Pending& pending : released) slow = std::max(slow, pending.subscription->slow);
+  if (slow > 0) {
+    promise_ = std::max(promise_, now_ + slow);
+    publish_done(now_);
+    timer_.begin();
+  }
+  for (const Pending& pending : released) dispatch(pending);
+  if (slow > 0) timer_.end();
+  if (step_) step_(now_);
+  if (now_ % kHeartbeatPeriod == 0) publish_heartbeat();
+  publish_done(now_);
+}
+
+bool Node::in_order(Subscription& subscription, const RawMessage& message) {
+  const header_t& header = message.header;
+  auto& progress = subscription.progress[message.channel + '/' + header.publisher];
+  if (header.boot_id < progress.boot_id) return false;
+  if (header.boot_id > progress.boot_id) progress = {header.boot_id, 0, kNever};
+  if (header.seq <= progress.seq || header.utime < progress.utime) return false;
+  if (progress.seq > 0) subscription.health.gaps += header.seq - progress.seq - 1;
+  progress = {header.boot_id, header.seq, header.utime};
+  return true;
+}
+
+void Node::dispatch(const Pending& pending) {
+  Subscription& subscription = *pending.subscription;
+  if (!in_order(subscription, pending.message)) {
+    ++subscription.health.out_of_order;
+    return;
+  }
+  const Utime before = subscription.health.last_utime;
+  subscription.health.last_utime = pending.message.header.utime;
+  ++subscription.health.received;
+  if (!subscription.call(pending.message)) {
+    subscription.health.last_utime = before;
+    count_malformed(subscription, "truncated");
+  }
+}
+
+void Node::count_malformed(Subscription& subscription, const std::string& why) {
+  ++subscription.health.malformed;
+  if (is_power_of_two(subscription.health.malformed))
+    log("WARN", "BAD_MESSAGE channel=" + subscription.channel + " count=" +
+                    std::to_string(subscription.health.malformed) + " why=" + why);
+}
+
+void Node::reject(const std::string& channel, const std::string& why) {
+  for (const auto& subscription : subscriptions_)
+    if (subscription->channel == channel) return count_malformed(*subscription, why);
+}
+
+double Node::age_s(const std::string& channel) const {
+  for (const auto& subscription : subscriptions_)
+    if (subscription->channel == channel && subscription->health.last_utime != kNever)
+      return to_seconds(now_ - subscription->health.last_utime);
+  return kInfinity;
+}
+
+void Node::set_status(std::int8_t status, std::string text) {
+  status_ = status;
+  status_text_ = std::move(text);
+}
+
+void Node::log(const char* level, const std::string& event) {
+  std::printf("%lld %s %s %s\n", static_cast<long long>(now_), level, options_.name.c_str(), event.c_str());
+  std::fflush(stdout);
+}
+
+void Node::publish_heartbeat() {
+  heartbeat_t heartbeat;
+  heartbeat.service = options_.name;
+  heartbeat.pid = getpid();
+  heartbeat.status = status_;
+  heartbeat.text = status_text_;
+  heartbeat.cpu_s = process_cpu_s();
+  heartbeat.rss_mb = process_rss_mb();
+  heartbeat.step_p50_ms = timer_.quantile_ms(0.5);
+  heartbeat.step_p99_ms = timer_.quantile_ms(0.99);
+  for (const auto& subscription : subscriptions_) heartbeat.inputs.push_back(subscription->health);
+  heartbeat.input_count = static_cast<std::int32_t>(heartbeat.inputs.size());
+  publish(channel::kHeartbeat, heartbeat, now_);
+}
+
+void Node::publish_done(Utime tick) {
+  last_done_.tick_utime = tick;
+  last_done_.promise_utime = promise_;
+  last_done_.pid = getpid();
+  last_done_.streams = streams_.take_grown();
+  last_done_.stream_count = static_cast<std::int32_t>(last_done_.streams.size());
+  last_done_.header = streams_.next(channel::kDone, tick, std::max(tick, promise_));
+  send(channel::kDone, last_done_);
+}
+
+void Node::publish_bytes(const std::string& channel, const std::vector<std::uint8_t>& bytes) {
+  if (lcm_.publish(channel, bytes.data(), static_cast<unsigned int>(bytes.size())) != 0)
+    log("ERROR", "NOT_PUBLISHED channel=" + channel);
+}
+
+void Node::announce() {
+  done_t hello;
+  hello.header.utime = hello.header.release_utime = kNever;
+  hello.header.seq = 0;
+  hello.header.publisher = options_.name;
+  hello.header.boot_id = options_.boot_id;
+  hello.tick_utime = hello.promise_utime = kNever;
+  hello.pid = getpid();
+  hello.stream_count = 0;
+  send(channel::kDone, hello);
+}
+
+bool Node::handle(int timeout_ms) {
+  const int handled = lcm_.handleTimeout(timeout_ms);
+  process_ready_ticks();
+  return handled >= 0;
+}
+
+void Node::run(const std::function<bool()>& running) {
+  constexpr int kAnnounceMs = 50;
+  constexpr int kPollMs = 20;
+  auto announced = Clock::time_point{};
+  while (running()) {
+    if (now_ == kNever && Clock::now() - announced > std::chrono::milliseconds(kAnnounceMs)) {
+      announce();
+      announced = Clock::now();
+    }
+    if (!handle(kPollMs)) {
+      log("ERROR", "BUS_FAILED");
+      return;
+    }
+  }
+}
+
+}  // namespace rover

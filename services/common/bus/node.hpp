@@ -1,0 +1,160 @@
+// The base of every service on the bus: inputs in tick and release order, DONE and promises, accounting, heartbeat.
+//
+// A node works in message time only. At TICK(t) it takes, in the order (release, channel, publisher, seq), every input
+// released until t, calls its handlers, then its step, and reports DONE(t). What it publishes is released one tick
+// later or later. A node that takes long promises, before it starts, to publish nothing before t + L; the world runs on
+// meanwhile. TICK lists what has been published, so a node knows that it holds all it must have before it goes on.
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <lcm/lcm-cpp.hpp>
+#include <map>
+#include <memory>
+#include <rover/done_t.hpp>
+#include <rover/heartbeat_t.hpp>
+#include <rover/tick_t.hpp>
+#include <string>
+#include <vector>
+
+#include "common/bus/channels.hpp"
+#include "common/bus/config.hpp"
+#include "common/bus/health.hpp"
+#include "common/bus/streams.hpp"
+#include "common/bus/tap.hpp"
+#include "common/core/time.hpp"
+
+namespace rover {
+
+struct NodeOptions {
+  std::string name;                // service name = publisher
+  std::int64_t boot_id = 1;        // larger at each start of the process
+  std::string run_dir;             // checkpoints are kept here; empty: none
+  bool allow_injection = false;    // builds the tap and obeys INJECT
+  std::vector<std::string> muted;  // channels not to take, whatever arrives on them
+};
+
+// One message as it lies on the bus, for those who do not decode it.
+struct RawMessage {
+  std::string channel;
+  header_t header;
+  std::vector<std::uint8_t> bytes;
+};
+
+class Node {
+ public:
+  Node(NodeOptions options, lcm::LCM& lcm);
+  ~Node();
+  Node(const Node&) = delete;
+  Node& operator=(const Node&) = delete;
+
+  // Calls handler(message) at the first tick that is not before its release.
+  template <class Message>
+  void subscribe(const std::string& channel, std::function<void(const Message&)> handler);
+
+  // As subscribe, for work that takes long: before the handlers of a tick that holds such a message the node promises
+  // silence until tick + latency, and all it publishes in that time is released then.
+  template <class Message>
+  void subscribe_slow(const std::string& channel, Utime latency, std::function<void(const Message&)> handler);
+
+  // Every message of every channel, undecoded, in the same order (recorder).
+  void subscribe_raw(std::function<void(const RawMessage&)> handler);
+
+  // Called once each tick, after the inputs.
+  void on_step(std::function<void(Utime now)> step) { step_ = std::move(step); }
+
+  // Fills the header and publishes. `utime`: what the data are of. Release: the next tick plus extra_latency, or later
+  // by a promise.
+  template <class Message>
+  void publish(const std::string& channel, Message& message, Utime utime, Utime extra_latency = 0);
+
+  // Time since the newest message taken on the channel was measured [s], infinity where none came yet.
+  double age_s(const std::string& channel) const;
+  // The content of a message was not usable (range, NaN, size): counts as malformed.
+  void reject(const std::string& channel, const std::string& why);
+
+  // Health that the next heartbeats report (heartbeat_t constants).
+  void set_status(std::int8_t status, std::string text);
+  // One line on the service's log: "utime level service EVENT key=value".
+  void log(const char* level, const std::string& event);
+
+  Utime now() const { return now_; }
+  const NodeOptions& options() const { return options_; }
+
+  // Announces the node, then handles messages while `running`.
+  void run(const std::function<bool()>& running);
+  // Handles what waits on the bus, at most timeout_ms; false where the bus failed.
+  bool handle(int timeout_ms);
+  // Tells the world that this node is there and waits for ticks.
+  void announce();
+
+ private:
+  struct Subscription;
+  struct Pending;
+  struct QueuedTick;
+
+  using DecodeAndCall = std::function<bool(const RawMessage&)>;
+  Subscription& add_subscription(const std::string& channel, std::int64_t fingerprint, Utime slow, DecodeAndCall call);
+  void receive(const lcm::ReceiveBuffer* buffer, const std::string& channel, Subscription& subscription);
+  void enqueue(Subscription& subscription, RawMessage message, Utime delay);
+  void receive_tick(const lcm::ReceiveBuffer* buffer, const std::string& channel);
+  void process_ready_ticks();
+  bool holds_all_for(QueuedTick& tick);
+  void process(const tick_t& tick);
+  std::vector<Pending> take_released(Utime until);
+  bool in_order(Subscription& subscription, const RawMessage& message);
+  void dispatch(const Pending& pending);
+  void count_malformed(Subscription& subscription, const std::string& why);
+  void publish_heartbeat();
+  void publish_done(Utime tick);
+  void publish_bytes(const std::string& channel, const std::vector<std::uint8_t>& bytes);
+  template <class Message>
+  void send(const std::string& channel, const Message& message);
+
+  NodeOptions options_;
+  lcm::LCM& lcm_;
+  StreamCounter streams_;
+  ArrivalLedger ledger_;
+  std::unique_ptr<Tap> tap_;
+  StepTimer timer_;
+  std::function<void(Utime)> step_;
+  std::vector<std::unique_ptr<Subscription>> subscriptions_;
+  std::vector<Pending> pending_;
+  std::deque<QueuedTick> ticks_;
+  done_t last_done_;
+  Utime now_ = kNever;
+  Utime promise_ = kNever;
+  std::int8_t status_ = heartbeat_t::OK;
+  std::string status_text_;
+};
+
+template <class Message>
+void Node::subscribe(const std::string& channel, std::function<void(const Message&)> handler) {
+  subscribe_slow<Message>(channel, 0, std::move(handler));
+}
+
+template <class Message>
+void Node::subscribe_slow(const std::string& channel, Utime latency, std::function<void(const Message&)> handler) {
+  add_subscription(channel, Message::getHash(), latency, [handler = std::move(handler)](const RawMessage& raw) {
+    Message message;
+    const int size = static_cast<int>(raw.bytes.size());
+    if (message.decode(raw.bytes.data(), 0, size) != size) return false;
+    handler(message);
+    return true;
+  });
+}
+
+template <class Message>
+void Node::publish(const std::string& channel, Message& message, Utime utime, Utime extra_latency) {
+  message.header = streams_.next(channel, utime, std::max(now_ + kTickUs + extra_latency, promise_));
+  send(channel, message);
+}
+
+template <class Message>
+void Node::send(const std::string& channel, const Message& message) {
+  std::vector<std::uint8_t> bytes(static_cast<size_t>(message.getEncodedSize()));
+  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  publish_bytes(channel, bytes);
+}
+
+}  // namespace rover

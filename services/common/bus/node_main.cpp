@@ -1,0 +1,73 @@
+#include "common/bus/node_main.hpp"
+
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+
+namespace rover {
+namespace {
+
+std::atomic<bool> running{true};
+
+void stop(int) { running = false; }
+
+void install_signals() {
+  struct sigaction action {};
+  action.sa_handler = stop;
+  sigaction(SIGTERM, &action, nullptr);
+  sigaction(SIGINT, &action, nullptr);
+  std::signal(SIGPIPE, SIG_IGN);
+}
+
+// A process started by hand is newer than any that was started before it.
+std::int64_t boot_id_from_clock() {
+  return std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
+}  // namespace
+
+std::string load_bus_url(const std::string& config_dir) {
+  const Config config = Config::load(config_dir + "/bus.yaml");
+  const std::string url = config.text("url");
+  config.finish();
+  return url;
+}
+
+int node_main(int argc, char** argv, const std::string& service, const NodeFactory& factory) {
+  NodeOptions options;
+  options.name = service;
+  options.boot_id = boot_id_from_clock();
+  std::string config_dir = "config";
+  std::string bus;
+  CLI::App app(service + ": a service of the rover");
+  app.add_option("--config", config_dir, "folder of the configuration")->capture_default_str();
+  app.add_option("--bus", bus, "LCM URL instead of the one in bus.yaml");
+  app.add_option("--boot-id", options.boot_id, "start number; larger at each start");
+  app.add_option("--run-dir", options.run_dir, "the run's folder, for checkpoints");
+  app.add_flag("--allow-injection", options.allow_injection, "obey INJECT");
+  app.add_option("--mute", options.muted, "channels not to take");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  install_signals();
+  try {
+    lcm::LCM lcm(bus.empty() ? load_bus_url(config_dir) : bus);
+    if (!lcm.good()) throw ConfigError("bus: cannot join " + (bus.empty() ? load_bus_url(config_dir) : bus));
+    Node node(options, lcm);
+    const std::shared_ptr<void> keep = factory({node, config_dir});
+    node.log("INFO", "STARTED boot=" + std::to_string(options.boot_id));
+    node.run([] { return running.load(); });
+    node.log("INFO", "STOPPED");
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s: %s\n", service.c_str(), error.what());
+    return 2;
+  }
+  return 0;
+}
+
+}  // namespace rover

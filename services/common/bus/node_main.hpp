@@ -1,0 +1,28 @@
+// The common part of every service's main: arguments, configuration, bus, signals, exit status.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "common/bus/config.hpp"
+#include "common/bus/node.hpp"
+
+namespace rover {
+
+// What a service is built from.
+struct NodeContext {
+  Node& node;
+  std::string config_dir;  // holds vehicle.yaml, <service>.yaml, ...
+};
+
+// Builds the service on the node and returns the object that keeps it alive.
+using NodeFactory = std::function<std::shared_ptr<void>(const NodeContext&)>;
+
+// The bus of config/bus.yaml.
+std::string load_bus_url(const std::string& config_dir);
+
+// Exit status 0 at SIGTERM or SIGINT, 2 on bad arguments or configuration.
+int node_main(int argc, char** argv, const std::string& service, const NodeFactory& factory);
+
+}  // namespace rover

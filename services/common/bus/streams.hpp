@@ -1,0 +1,59 @@
+// Sequence numbers on both sides of a stream (channel, publisher, boot).
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <rover/header_t.hpp>
+#include <rover/stream_seq_t.hpp>
+#include <set>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "common/core/time.hpp"
+
+namespace rover {
+
+// The publishing side: fills headers and lists what grew since the last call.
+class StreamCounter {
+ public:
+  StreamCounter(std::string publisher, std::int64_t boot_id);
+  header_t next(const std::string& channel, Utime utime, Utime release);
+  std::vector<stream_seq_t> take_grown();
+  const std::string& publisher() const { return publisher_; }
+  std::int64_t boot_id() const { return boot_id_; }
+
+ private:
+  std::string publisher_;
+  std::int64_t boot_id_;
+  std::map<std::string, std::int64_t> last_seq_;
+  std::set<std::string> grown_;
+};
+
+// The receiving side: which messages have arrived without a hole, counted from the first that came.
+class ArrivalLedger {
+ public:
+  using Key = std::tuple<std::string, std::string, std::int64_t>;  // channel, publisher, boot
+
+  // False where this very message has arrived before.
+  bool arrived(const std::string& channel, const header_t& header);
+  bool known(const stream_seq_t& stream) const;
+  // Whether everything from the first message that arrived up to stream.seq is here.
+  bool complete(const stream_seq_t& stream) const;
+  // Stops waiting for what is missing up to stream.seq.
+  void give_up(const stream_seq_t& stream);
+
+ private:
+  struct Arrival {
+    std::int64_t contiguous = 0;
+    std::set<std::int64_t> ahead;
+  };
+  std::map<Key, Arrival> arrivals_;
+};
+
+// Reads the header of any message without knowing its type. False where the bytes are too short for one.
+bool peek_header(const void* data, int size, header_t& header);
+// The fingerprint in front of a message; 0 where there are too few bytes.
+std::int64_t peek_fingerprint(const void* data, int size);
+
+}  // namespace rover

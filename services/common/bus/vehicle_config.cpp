@@ -1,0 +1,106 @@
+#include "common/bus/vehicle_config.hpp"
+
+#include <algorithm>
+
+#include "common/core/frames.hpp"
+
+namespace rover {
+namespace {
+
+constexpr Range kMetres{0.0, 10.0};
+constexpr Range kSignedMetres{-10.0, 10.0};
+
+template <size_t N>
+std::array<double, N> fixed(const Config& config, const std::string& key, Range range) {
+  const std::vector<double> values = config.numbers(key, range, N);
+  std::array<double, N> out{};
+  std::copy(values.begin(), values.end(), out.begin());
+  return out;
+}
+
+Eigen::Vector3d vector3(const Config& config, const std::string& key, Range range) {
+  const auto values = fixed<3>(config, key, range);
+  return {values[0], values[1], values[2]};
+}
+
+PinholeCamera pinhole(const Config& config) {
+  PinholeCamera camera;
+  camera.fx_px = config.number("fx_px", {10, 1e5});
+  camera.fy_px = config.number("fy_px", {10, 1e5});
+  camera.cx_px = config.number("cx_px", {0, 1e5});
+  camera.cy_px = config.number("cy_px", {0, 1e5});
+  camera.distortion = fixed<5>(config, "distortion", {-10, 10});
+  return camera;
+}
+
+void read_body(const Config& body, Vehicle& v) {
+  v.origin_height_m = body.number("origin_height_m", kMetres);
+  v.body_mass_kg = body.number("mass_kg", {1, 1e4});
+  v.body_half_length_m = body.number("half_length_m", kMetres);
+  v.body_half_width_m = body.number("half_width_m", kMetres);
+  v.body_top_m = body.number("top_m", kMetres);
+  v.belly_clearance_m = body.number("belly_clearance_m", kMetres);
+}
+
+void read_wheels(const Config& wheels, Vehicle& v) {
+  v.wheel_radius_m = wheels.number("radius_m", {0.01, 2});
+  v.wheel_width_m = wheels.number("width_m", {0.01, 2});
+  v.wheel_mass_kg = wheels.number("mass_kg", {0.01, 1000});
+  v.wheel_x_m = fixed<6>(wheels, "x_m", kSignedMetres);
+  v.wheel_y_m = fixed<6>(wheels, "y_m", kSignedMetres);
+}
+
+void read_motors(const Config& steering, const Config& drive, Vehicle& v) {
+  v.steer_max_rad = to_rad(steering.number("max_angle_deg", {0, 180}));
+  v.steer_rate_radps = to_rad(steering.number("max_rate_degps", {0.1, 720}));
+  v.steer_current_nominal_a = steering.number("current_nominal_a", {0, 1000});
+  v.steer_current_limit_a = steering.number("current_limit_a", {0, 1000});
+  v.gear_ratio = drive.number("gear_ratio", {1, 1e5});
+  v.drive_current_nominal_a = drive.number("current_nominal_a", {0, 1000});
+  v.drive_current_limit_a = drive.number("current_limit_a", {0, 1000});
+}
+
+void read_limits(const Config& limits, Vehicle& v) {
+  v.top_speed_mps = limits.number("top_speed_mps", {0.01, 10});
+  v.deceleration_mps2 = limits.number("deceleration_mps2", {0.01, 10});
+  v.min_turn_radius_m = limits.number("min_turn_radius_m", kMetres);
+  v.max_climb_m = limits.number("max_climb_m", kMetres);
+  v.hazard_height_m = limits.number("hazard_height_m", kMetres);
+}
+
+}  // namespace
+
+Vehicle load_vehicle(const std::string& config_dir) {
+  const Config config = Config::load(config_dir + "/vehicle.yaml");
+  Vehicle vehicle;
+  read_body(config.section("body"), vehicle);
+  read_wheels(config.section("wheels"), vehicle);
+  read_motors(config.section("steering"), config.section("drive"), vehicle);
+  read_limits(config.section("limits"), vehicle);
+  vehicle.imu_position_m = vector3(config.section("imu"), "position_m", kSignedMetres);
+  config.finish();
+  return vehicle;
+}
+
+StereoRig load_stereo_rig(const std::string& config_dir, const std::string& camera) {
+  const Config config = Config::load(config_dir + "/cameras.yaml");
+  const Config rig_config = config.section(camera);
+  StereoRig rig;
+  rig.width = rig_config.integer("width_px", {16, 8192});
+  rig.height = rig_config.integer("height_px", {16, 8192});
+  rig.left = pinhole(rig_config.section("left"));
+  rig.right = pinhole(rig_config.section("right"));
+  const Config right = rig_config.section("right_in_left");
+  const Eigen::Vector3d rpy = vector3(right, "rpy_deg", {-180, 180}) * (kPi / 180.0);
+  rig.T_left_right =
+      make_pose(rotation_from_rpy(rpy.x(), rpy.y(), rpy.z()), vector3(right, "position_m", kSignedMetres));
+  const Config mount = rig_config.section("left_in_body");
+  rig.T_body_left = make_pose(camera_rotation(to_rad(mount.number("pitch_down_deg", {-90, 90})),
+                                              to_rad(mount.number("roll_deg", {-180, 180})),
+                                              to_rad(mount.number("yaw_deg", {-180, 180}))),
+                              vector3(mount, "position_m", kSignedMetres));
+  rig_config.finish();
+  return rig;
+}
+
+}  // namespace rover

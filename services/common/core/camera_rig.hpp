@@ -1,0 +1,26 @@
+// An unrectified stereo rig: two pinhole cameras with distortion (OpenCV's five-parameter model).
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+
+namespace rover {
+
+struct PinholeCamera {
+  double fx_px = 0.0;
+  double fy_px = 0.0;
+  double cx_px = 0.0;
+  double cy_px = 0.0;
+  std::array<double, 5> distortion{};  // k1 k2 p1 p2 k3
+};
+
+struct StereoRig {
+  int width = 0;
+  int height = 0;
+  PinholeCamera left;
+  PinholeCamera right;
+  Eigen::Isometry3d T_left_right = Eigen::Isometry3d::Identity();  // right camera in left camera axes
+  Eigen::Isometry3d T_body_left = Eigen::Isometry3d::Identity();
+};
+
+}  // namespace rover
