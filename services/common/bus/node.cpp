@@ -139,11 +139,12 @@ void Node::enqueue(Subscription& subscription, RawMessage message, Utime delay) 
 
 void Node::receive_tick(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
   QueuedTick queued{{}, Clock::now()};
-  const int size = static_cast<int>(buffer->data_size);
-  if (queued.tick.decode(buffer->data, 0, size) != size) {
+  if (!decode_message(buffer->data, static_cast<int>(buffer->data_size), queued.tick)) {
     log("WARN", "BAD_MESSAGE channel=" + channel + " why=malformed");
     return;
   }
+  const auto& members = queued.tick.members;
+  if (std::find(members.begin(), members.end(), options_.name) == members.end()) return;
   const Utime latest = ticks_.empty() ? now_ : ticks_.back().tick.header.utime;
   if (queued.tick.header.utime > latest) {
     ticks_.push_back(std::move(queued));

@@ -137,8 +137,7 @@ template <class Message>
 void Node::subscribe_slow(const std::string& channel, Utime latency, std::function<void(const Message&)> handler) {
   add_subscription(channel, Message::getHash(), latency, [handler = std::move(handler)](const RawMessage& raw) {
     Message message;
-    const int size = static_cast<int>(raw.bytes.size());
-    if (message.decode(raw.bytes.data(), 0, size) != size) return false;
+    if (!decode_message(raw.bytes.data(), static_cast<int>(raw.bytes.size()), message)) return false;
     handler(message);
     return true;
   });

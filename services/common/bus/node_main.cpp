@@ -1,5 +1,7 @@
 #include "common/bus/node_main.hpp"
 
+#include <sys/resource.h>
+
 #include <CLI/CLI.hpp>
 #include <atomic>
 #include <chrono>
@@ -19,6 +21,13 @@ void install_signals() {
   sigaction(SIGTERM, &action, nullptr);
   sigaction(SIGINT, &action, nullptr);
   std::signal(SIGPIPE, SIG_IGN);
+}
+
+// A damaged length in a message then costs an exception, not the machine's memory.
+void limit_memory() {
+  constexpr rlim_t kLimit = rlim_t{6} << 30;
+  const rlimit limit{kLimit, kLimit};
+  setrlimit(RLIMIT_AS, &limit);
 }
 
 // A process started by hand is newer than any that was started before it.
@@ -55,6 +64,7 @@ int node_main(int argc, char** argv, const std::string& service, const NodeFacto
     return app.exit(error) == 0 ? 0 : 2;
   }
   install_signals();
+  limit_memory();
   try {
     lcm::LCM lcm(bus.empty() ? load_bus_url(config_dir) : bus);
     if (!lcm.good()) throw ConfigError("bus: cannot join " + (bus.empty() ? load_bus_url(config_dir) : bus));

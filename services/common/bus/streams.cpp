@@ -34,7 +34,11 @@ bool ArrivalLedger::arrived(const std::string& channel, const header_t& header) 
   const auto [it, first] = arrivals_.try_emplace(Key{channel, header.publisher, header.boot_id});
   Arrival& arrival = it->second;
   if (first) {
-    arrival.contiguous = header.seq;
+    arrival.first = arrival.contiguous = header.seq;
+    return true;
+  }
+  if (header.seq < arrival.first) {  // overtaken by the first that came
+    arrival.first = header.seq;
     return true;
   }
   if (header.seq <= arrival.contiguous || !arrival.ahead.insert(header.seq).second) return false;
@@ -64,7 +68,11 @@ void ArrivalLedger::give_up(const stream_seq_t& stream) {
 bool peek_header(const void* data, int size, header_t& header) {
   constexpr int kFingerprintBytes = 8;
   if (size <= kFingerprintBytes) return false;
-  return header._decodeNoHash(data, kFingerprintBytes, size - kFingerprintBytes) > 0;
+  try {
+    return header._decodeNoHash(data, kFingerprintBytes, size - kFingerprintBytes) > 0;
+  } catch (const std::exception&) {  // lcm-gen's decoders believe the lengths they read
+    return false;
+  }
 }
 
 std::int64_t peek_fingerprint(const void* data, int size) {

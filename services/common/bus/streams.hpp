@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
 #include <map>
 #include <rover/header_t.hpp>
 #include <rover/stream_seq_t.hpp>
@@ -45,6 +46,7 @@ class ArrivalLedger {
 
  private:
   struct Arrival {
+    std::int64_t first = 0;
     std::int64_t contiguous = 0;
     std::set<std::int64_t> ahead;
   };
@@ -53,6 +55,15 @@ class ArrivalLedger {
 
 // Reads the header of any message without knowing its type. False where the bytes are too short for one.
 bool peek_header(const void* data, int size, header_t& header);
+// Decodes a whole message. False where it is truncated, of another type or has trailing bytes.
+template <class Message>
+bool decode_message(const void* data, int size, Message& message) {
+  try {
+    return message.decode(data, 0, size) == size;
+  } catch (const std::exception&) {  // a length in it is negative, or larger than the memory
+    return false;
+  }
+}
 // The fingerprint in front of a message; 0 where there are too few bytes.
 std::int64_t peek_fingerprint(const void* data, int size);
 

@@ -1,0 +1,193 @@
+#include "common/bus/node.hpp"
+
+#include <gtest/gtest.h>
+
+#include <rover/pose_t.hpp>
+#include <rover/slip_t.hpp>
+
+#include "common/core/frames.hpp"
+
+namespace rover {
+namespace {
+
+// A world of one node: gives ticks, publishes inputs, hears what the node says.
+class NodeTest : public testing::Test {
+ protected:
+  NodeTest() : bus_("memq://"), world_("world", 1) {
+    bus_.subscribe(channel::kDone, &NodeTest::on_done, this);
+    bus_.subscribe("POSE", &NodeTest::on_pose, this);
+  }
+
+  void on_done(const lcm::ReceiveBuffer*, const std::string&, const done_t* done) { dones_.push_back(*done); }
+  void on_pose(const lcm::ReceiveBuffer*, const std::string&, const pose_t* pose) { poses_.push_back(*pose); }
+
+  slip_t slip(double value, Utime utime, Utime release) {
+    slip_t message{};
+    message.header = world_.next(channel::kSlip, utime, release);
+    message.wheel_mps = value;
+    return message;
+  }
+
+  void tick(Node& node, Utime utime, std::vector<stream_seq_t> streams = {}) {
+    tick_t tick;
+    tick.header = world_.next(channel::kTick, utime, utime);
+    tick.mode = tick_t::LOCKSTEP;
+    tick.members = {"node"};
+    tick.member_count = 1;
+    tick.streams = std::move(streams);
+    tick.stream_count = static_cast<std::int32_t>(tick.streams.size());
+    bus_.publish(channel::kTick, &tick);
+    drain(node);
+  }
+
+  void drain(Node& node) {
+    while (bus_.handleTimeout(0) > 0) node.handle(0);
+    node.handle(0);
+  }
+
+  lcm::LCM bus_;
+  StreamCounter world_;
+  std::vector<done_t> dones_;
+  std::vector<pose_t> poses_;
+};
+
+TEST_F(NodeTest, TakesInputsByReleaseNotByArrival) {
+  Node node({.name = "node"}, bus_);
+  std::vector<double> taken;
+  node.subscribe<slip_t>(channel::kSlip, [&](const slip_t& message) { taken.push_back(message.wheel_mps); });
+  slip_t first = slip(1.0, 0, 20'000);
+  slip_t second = slip(2.0, 10, 40'000);
+  bus_.publish(channel::kSlip, &second);
+  bus_.publish(channel::kSlip, &first);
+  tick(node, 20'000);
+  EXPECT_EQ(taken, std::vector<double>{1.0});
+  tick(node, 40'000);
+  EXPECT_EQ(taken, (std::vector<double>{1.0, 2.0}));
+}
+
+TEST_F(NodeTest, ReportsDoneWithWhatItPublished) {
+  Node node({.name = "node"}, bus_);
+  node.on_step([&](Utime now) {
+    pose_t pose{};
+    node.publish(channel::kPose, pose, now);
+  });
+  tick(node, 20'000);
+  ASSERT_EQ(dones_.size(), 1u);
+  EXPECT_EQ(dones_[0].tick_utime, 20'000);
+  ASSERT_EQ(dones_[0].stream_count, 1);
+  EXPECT_EQ(dones_[0].streams[0].channel, "POSE");
+  ASSERT_EQ(poses_.size(), 1u);
+  EXPECT_EQ(poses_[0].header.release_utime, 40'000);
+}
+
+TEST_F(NodeTest, SlowWorkPromisesFirstAndReleasesAtThePromise) {
+  Node node({.name = "node"}, bus_);
+  size_t dones_before_work = 0;
+  node.subscribe_slow<slip_t>(channel::kSlip, 120'000, [&](const slip_t& message) {
+    bus_.handleTimeout(0);
+    dones_before_work = dones_.size();
+    pose_t pose{};
+    node.publish(channel::kPose, pose, message.header.utime);
+  });
+  slip_t message = slip(1.0, 0, 20'000);
+  bus_.publish(channel::kSlip, &message);
+  tick(node, 20'000);
+  EXPECT_EQ(dones_before_work, 1u);
+  EXPECT_EQ(dones_[0].promise_utime, 140'000);
+  ASSERT_EQ(poses_.size(), 1u);
+  EXPECT_EQ(poses_[0].header.release_utime, 140'000);
+}
+
+TEST_F(NodeTest, WaitsForWhatTheTickLists) {
+  Node node({.name = "node"}, bus_);
+  std::vector<double> taken;
+  node.subscribe<slip_t>(channel::kSlip, [&](const slip_t& message) { taken.push_back(message.wheel_mps); });
+  slip_t first = slip(1.0, 0, 20'000);
+  bus_.publish(channel::kSlip, &first);
+  tick(node, 20'000, world_.take_grown());
+  slip_t second = slip(2.0, 10, 40'000);
+  tick(node, 40'000, world_.take_grown());
+  EXPECT_EQ(taken, std::vector<double>{1.0});
+  bus_.publish(channel::kSlip, &second);
+  drain(node);
+  EXPECT_EQ(taken, (std::vector<double>{1.0, 2.0}));
+}
+
+TEST_F(NodeTest, GapsRepeatsAndOldMessagesAreCountedAndNotTaken) {
+  Node node({.name = "node"}, bus_);
+  int taken = 0;
+  node.subscribe<slip_t>(channel::kSlip, [&](const slip_t&) { ++taken; });
+  heartbeat_t heartbeat;
+  bus_.subscribeFunction(
+      channel::kHeartbeat,
+      +[](const lcm::ReceiveBuffer* buffer, const std::string&, heartbeat_t* out) {
+        out->decode(buffer->data, 0, static_cast<int>(buffer->data_size));
+      },
+      &heartbeat);
+  slip_t one = slip(1.0, 1000, 20'000);
+  slip_t lost = slip(2.0, 2000, 20'000);
+  slip_t three = slip(3.0, 3000, 20'000);
+  for (const slip_t* message : {&one, &three, &three}) bus_.publish(channel::kSlip, message);
+  tick(node, 20'000);
+  bus_.publish(channel::kSlip, &lost);
+  tick(node, 100'000);
+  EXPECT_EQ(taken, 2);
+  ASSERT_EQ(heartbeat.input_count, 1);
+  EXPECT_EQ(heartbeat.inputs[0].gaps, 1);
+  EXPECT_EQ(heartbeat.inputs[0].out_of_order, 2);
+}
+
+TEST_F(NodeTest, GarbageIsCountedAndChangesNothing) {
+  Node node({.name = "node"}, bus_);
+  int taken = 0;
+  node.subscribe<slip_t>(channel::kSlip, [&](const slip_t&) { ++taken; });
+  const std::vector<std::uint8_t> noise(100, 0xA5);
+  bus_.publish(channel::kSlip, noise.data(), 3);
+  bus_.publish(channel::kSlip, noise.data(), 100);
+  pose_t foreign{};
+  foreign.header = world_.next(channel::kSlip, 0, 0);
+  bus_.publish(channel::kSlip, &foreign);
+  slip_t good = slip(1.0, 0, 20'000);
+  std::vector<std::uint8_t> cut(static_cast<size_t>(good.getEncodedSize()));
+  good.encode(cut.data(), 0, static_cast<int>(cut.size()));
+  bus_.publish(channel::kSlip, cut.data(), static_cast<unsigned int>(cut.size() - 4));
+  tick(node, 20'000);
+  EXPECT_EQ(taken, 0);
+  EXPECT_EQ(node.age_s(channel::kSlip), kInfinity);
+  slip_t next = slip(1.0, 0, 40'000);
+  bus_.publish(channel::kSlip, &next);
+  tick(node, 40'000);
+  EXPECT_EQ(taken, 1);
+}
+
+TEST_F(NodeTest, AnswersATickThatIsGivenAgain) {
+  Node node({.name = "node"}, bus_);
+  int steps = 0;
+  node.on_step([&](Utime) { ++steps; });
+  tick(node, 20'000);
+  tick(node, 20'000);
+  EXPECT_EQ(steps, 1);
+  EXPECT_EQ(dones_.size(), 2u);
+}
+
+TEST_F(NodeTest, StaysOutOfTicksThatDoNotNameIt) {
+  Node node({.name = "other"}, bus_);
+  int steps = 0;
+  node.on_step([&](Utime) { ++steps; });
+  tick(node, 20'000);
+  EXPECT_EQ(steps, 0);
+}
+
+TEST_F(NodeTest, AgeGrowsWithMessageTime) {
+  Node node({.name = "node"}, bus_);
+  node.subscribe<slip_t>(channel::kSlip, [](const slip_t&) {});
+  slip_t message = slip(1.0, 0, 20'000);
+  bus_.publish(channel::kSlip, &message);
+  tick(node, 20'000);
+  EXPECT_DOUBLE_EQ(node.age_s(channel::kSlip), 0.02);
+  tick(node, 60'000);
+  EXPECT_DOUBLE_EQ(node.age_s(channel::kSlip), 0.06);
+}
+
+}  // namespace
+}  // namespace rover

@@ -1,0 +1,69 @@
+#include "common/bus/streams.hpp"
+
+#include <gtest/gtest.h>
+
+namespace rover {
+namespace {
+
+header_t header_with_seq(std::int64_t seq) {
+  header_t header;
+  header.utime = header.release_utime = 0;
+  header.seq = seq;
+  header.publisher = "a";
+  header.boot_id = 1;
+  return header;
+}
+
+stream_seq_t until(std::int64_t seq) {
+  stream_seq_t stream;
+  stream.channel = "C";
+  stream.publisher = "a";
+  stream.boot_id = 1;
+  stream.seq = seq;
+  return stream;
+}
+
+TEST(ArrivalLedger, AHoleIsNotComplete) {
+  ArrivalLedger ledger;
+  EXPECT_FALSE(ledger.known(until(1)));
+  EXPECT_TRUE(ledger.arrived("C", header_with_seq(1)));
+  EXPECT_TRUE(ledger.arrived("C", header_with_seq(3)));
+  EXPECT_FALSE(ledger.complete(until(3)));
+  EXPECT_TRUE(ledger.arrived("C", header_with_seq(2)));
+  EXPECT_TRUE(ledger.complete(until(3)));
+}
+
+TEST(ArrivalLedger, ARepeatedMessageIsNotNew) {
+  ArrivalLedger ledger;
+  EXPECT_TRUE(ledger.arrived("C", header_with_seq(5)));
+  EXPECT_FALSE(ledger.arrived("C", header_with_seq(5)));
+  EXPECT_TRUE(ledger.arrived("C", header_with_seq(7)));
+  EXPECT_FALSE(ledger.arrived("C", header_with_seq(7)));
+}
+
+TEST(ArrivalLedger, GivingUpGoesOnBehindTheHole) {
+  ArrivalLedger ledger;
+  ledger.arrived("C", header_with_seq(1));
+  ledger.arrived("C", header_with_seq(4));
+  ledger.give_up(until(3));
+  EXPECT_TRUE(ledger.complete(until(4)));
+}
+
+TEST(StreamCounter, CountsEachChannelAndListsWhatGrew) {
+  StreamCounter counter("node", 3);
+  counter.next("A", 0, 0);
+  EXPECT_EQ(counter.next("A", 0, 0).seq, 2);
+  EXPECT_EQ(counter.next("B", 0, 0).seq, 1);
+  EXPECT_EQ(counter.take_grown().size(), 2u);
+  EXPECT_TRUE(counter.take_grown().empty());
+}
+
+TEST(Peek, ShortBytesHaveNoHeader) {
+  header_t header;
+  const std::uint8_t bytes[12] = {};
+  EXPECT_FALSE(peek_header(bytes, 8, header));
+  EXPECT_FALSE(peek_header(bytes, 12, header));
+}
+
+}  // namespace
+}  // namespace rover
