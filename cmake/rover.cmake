@@ -4,6 +4,7 @@ find_package(Eigen3 REQUIRED NO_MODULE)
 find_package(PkgConfig REQUIRED)
 find_package(Threads REQUIRED)
 find_package(GTest REQUIRED)
+find_package(benchmark REQUIRED)
 find_package(OpenCV REQUIRED COMPONENTS core imgproc imgcodecs calib3d video features2d)
 pkg_check_modules(LCM REQUIRED IMPORTED_TARGET lcm)
 pkg_check_modules(YAML_CPP REQUIRED IMPORTED_TARGET yaml-cpp)
@@ -38,6 +39,11 @@ add_library(rover_opencv INTERFACE)
 target_include_directories(rover_opencv SYSTEM INTERFACE ${OpenCV_INCLUDE_DIRS})
 target_link_libraries(rover_opencv INTERFACE ${OpenCV_LIBS})
 
+# runtime: what ./rover run needs. unit_tests: the programs of the unit tests. benchmarks: those of ./rover bench micro.
+add_custom_target(runtime)
+add_custom_target(unit_tests)
+add_custom_target(benchmarks)
+
 # rover_core(NAME SOURCES ... LINK ...): a library without middleware. It cannot see LCM, YAML or the bus.
 function(rover_core name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
@@ -53,7 +59,23 @@ function(rover_node service)
   target_link_libraries(${service}_node PUBLIC ${service}_core rover_bus ${ARG_LINK})
   add_executable(${service} main.cpp)
   target_link_libraries(${service} PRIVATE ${service}_node)
-  set_target_properties(${service} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+  rover_program(${service})
+endfunction()
+
+# rover_program(NAME): an executable that ./rover uses, in build/bin.
+function(rover_program name)
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+  add_dependencies(runtime ${name})
+endfunction()
+
+# rover_benchmark(NAME SOURCES ... LINK ...): a Google Benchmark program, in build/bench.
+function(rover_benchmark name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  add_executable(${name} EXCLUDE_FROM_ALL ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE ${ARG_LINK} benchmark::benchmark)
+  target_compile_definitions(${name} PRIVATE ROVER_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bench)
+  add_dependencies(benchmarks ${name})
 endfunction()
 
 # rover_test(NAME SOURCES ... LINK ... [LABEL unit|integration]): builds and registers a GoogleTest program.
@@ -71,4 +93,7 @@ function(rover_test name)
     ROVER_SOURCE_DIR="${CMAKE_SOURCE_DIR}" ROVER_BINARY_DIR="${CMAKE_BINARY_DIR}")
   add_test(NAME ${name} COMMAND ${name})
   set_tests_properties(${name} PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT})
+  if(ARG_LABEL STREQUAL unit)
+    add_dependencies(unit_tests ${name})
+  endif()
 endfunction()

@@ -1,0 +1,108 @@
+#include "hazard_detector/ground_plane.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rover::hazard {
+namespace {
+
+constexpr int kPitchSteps = 12;       // hypotheses to each side of zero: 1 deg
+constexpr int kRollSteps = 6;         // 2 deg
+constexpr double kBin = 0.02;         // of the offsets' histogram [m]
+constexpr double kBelowWeight = 0.5;  // what a cell below the plane takes from its score
+constexpr int kRefinements = 4;
+
+// Offsets of all points under the slopes, as a histogram over the bounded offsets and as far around as needed.
+class OffsetHistogram {
+ public:
+  explicit OffsetHistogram(const PlanePrior& prior)
+      : reach_(prior.max_offset_m + 3.0 * prior.inlier_m), bins_(static_cast<size_t>(std::ceil(2.0 * reach_ / kBin))) {}
+
+  void fill(const GroundPoints& points, const PlanePrior& prior, double slope_x, double slope_y) {
+    std::fill(bins_.begin(), bins_.end(), 0);
+    below_ = 0;
+    const float sx = static_cast<float>(slope_x), sy = static_cast<float>(slope_y);
+    const float shift = static_cast<float>(reach_ + slope_x * prior.wheel_line_x_m);
+    const float per_bin = static_cast<float>(1.0 / kBin);
+    for (const Eigen::Vector3f& p : points) {
+      const float bin = (p.z() - sx * p.x() - sy * p.y() + shift) * per_bin;
+      if (bin < 0.0f)
+        ++below_;
+      else if (bin < static_cast<float>(bins_.size()))
+        ++bins_[static_cast<size_t>(bin)];
+    }
+  }
+
+  // Best score and its offset.
+  std::pair<double, double> best(const PlanePrior& prior) const {
+    const int half = std::max(1, static_cast<int>(std::lround(prior.inlier_m / kBin)));
+    std::pair<double, double> best{-1e9, 0.0};
+    int below = below_, inside = 0;
+    for (int i = 0; i < std::min<int>(2 * half, static_cast<int>(bins_.size())); ++i)
+      inside += bins_[static_cast<size_t>(i)];
+    for (int centre = half; centre + half < static_cast<int>(bins_.size()); ++centre) {
+      const double offset = centre * kBin - reach_;
+      const double score = inside - kBelowWeight * below;
+      if (std::abs(offset) <= prior.max_offset_m && score > best.first) best = {score, offset};
+      inside += bins_[static_cast<size_t>(centre + half)] - bins_[static_cast<size_t>(centre - half)];
+      below += bins_[static_cast<size_t>(centre - half)];
+    }
+    return best;
+  }
+
+ private:
+  double reach_;
+  std::vector<int> bins_;
+  int below_ = 0;
+};
+
+GroundPlane search(const GroundPoints& points, const PlanePrior& prior) {
+  OffsetHistogram histogram(prior);
+  GroundPlane plane;
+  double best = -1e9;
+  for (int i = -kPitchSteps; i <= kPitchSteps; ++i)
+    for (int j = -kRollSteps; j <= kRollSteps; ++j) {
+      const double slope_x = std::tan(prior.max_slope_rad * i / kPitchSteps);
+      const double slope_y = std::tan(prior.max_slope_rad * j / kRollSteps);
+      histogram.fill(points, prior, slope_x, slope_y);
+      const auto [raw_score, offset] = histogram.best(prior);
+      // Among equals the one nearest to the plane under the rover.
+      const double score = raw_score - 1e-3 * (std::abs(i) + std::abs(j)) - 1e-2 * std::abs(offset);
+      if (score > best) {
+        best = score;
+        plane = {offset, slope_x, slope_y, true};
+      }
+    }
+  return plane;
+}
+
+// One step of iteratively reweighted least squares with Tukey's weights.
+void refine(const GroundPoints& points, const PlanePrior& prior, GroundPlane& plane) {
+  Eigen::Matrix3d A = Eigen::Matrix3d::Identity() * 1e-3;
+  Eigen::Vector3d b = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3f& p : points) {
+    const Eigen::Vector3d a(1.0, p.x() - prior.wheel_line_x_m, p.y());
+    const double residual = p.z() - a.dot(Eigen::Vector3d(plane.offset_m, plane.slope_x, plane.slope_y));
+    const double s = residual / prior.tukey_m;
+    if (std::abs(s) >= 1.0) continue;
+    const double weight = (1.0 - s * s) * (1.0 - s * s);
+    A += weight * a * a.transpose();
+    b += weight * a * residual;
+  }
+  const Eigen::Vector3d step = A.ldlt().solve(b);
+  const double max_slope = std::tan(prior.max_slope_rad);
+  plane.offset_m = std::clamp(plane.offset_m + step[0], -prior.max_offset_m, prior.max_offset_m);
+  plane.slope_x = std::clamp(plane.slope_x + step[1], -max_slope, max_slope);
+  plane.slope_y = std::clamp(plane.slope_y + step[2], -max_slope, max_slope);
+}
+
+}  // namespace
+
+GroundPlane fit_ground_plane(const GroundPoints& points, const PlanePrior& prior) {
+  if (static_cast<int>(points.size()) < prior.min_cells) return {};
+  GroundPlane plane = search(points, prior);
+  for (int i = 0; i < kRefinements; ++i) refine(points, prior, plane);
+  return plane;
+}
+
+}  // namespace rover::hazard

@@ -1,0 +1,181 @@
+#include "hazard_detector/hazard_detector.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/core/check.hpp"
+
+namespace rover::hazard {
+namespace {
+
+bool same_camera(const StereoCamera& a, const StereoCamera& b) {
+  return a.width == b.width && a.height == b.height && a.focal_px == b.focal_px && a.cx_px == b.cx_px &&
+         a.cy_px == b.cy_px && a.baseline_m == b.baseline_m && a.T_body_cam.matrix() == b.T_body_cam.matrix();
+}
+
+// Cell of a point, -1 outside the grid.
+struct CellLookup {
+  float origin_x, origin_y, per_m;
+  int cells_x, cells_y;
+
+  explicit CellLookup(const GridShape& s)
+      : origin_x(static_cast<float>(s.origin_x_m)),
+        origin_y(static_cast<float>(s.origin_y_m)),
+        per_m(static_cast<float>(1.0 / s.cell_m)),
+        cells_x(s.cells_x),
+        cells_y(s.cells_y) {}
+
+  int operator()(float x, float y) const {
+    const float fx = (x - origin_x) * per_m, fy = (y - origin_y) * per_m;
+    if (!(fx >= 0.0f && fy >= 0.0f && fx < static_cast<float>(cells_x) && fy < static_cast<float>(cells_y))) return -1;
+    return static_cast<int>(fy) * cells_x + static_cast<int>(fx);
+  }
+};
+
+// Limits of one cell, as factors on the disparity of the reference plane: h / (h - height) for each height.
+struct Limits {
+  float high, raised, low;
+};
+
+float limit(double camera_height_m, double height_m) {
+  return static_cast<float>(camera_height_m / std::max(0.05, camera_height_m - height_m));
+}
+
+}  // namespace
+
+HazardDetector::HazardDetector(const HazardConfig& config)
+    : config_(config), shape_(config.grid), evidence_(static_cast<size_t>(shape_.size())) {}
+
+HazardResult HazardDetector::step(const Disparity& disparity, const StereoCamera& camera) {
+  ROVER_CHECK(disparity.width == camera.width && disparity.height == camera.height, disparity.width, camera.width);
+  prepare(camera);
+  HazardResult result;
+  const Coverage coverage = locate(disparity);
+  result.plane = fit_plane();
+  judge(disparity, result.plane, bend(result.plane));
+  result.cells = cell_states(evidence_, shape_, config_);
+  result.coverage = coverage.whole;
+  summarize(result);
+  if (std::min(coverage.whole, coverage.stop) < config_.min_coverage) result.status = Status::kBlind;
+  return result;
+}
+
+void HazardDetector::prepare(const StereoCamera& camera) {
+  std::fill(evidence_.begin(), evidence_.end(), CellEvidence{});
+  if (table_ && same_camera(camera, mount_)) return;
+  mount_ = camera;
+  table_.emplace(config_.calibration ? calibrated_camera(camera, *config_.calibration, config_.ground_below_m) : camera,
+                 config_);
+  cell_of_sample_.assign(table_->samples().size(), -1);
+}
+
+// Puts every measured sample into its cell, and counts the region of interest.
+HazardDetector::Coverage HazardDetector::locate(const Disparity& disparity) {
+  const StereoCamera& camera = table_->camera();
+  const CellLookup lookup(shape_);
+  const Eigen::Vector3f p_cam = camera.T_body_cam.translation().cast<float>();
+  const float ground_z = p_cam.z() + static_cast<float>(config_.ground_below_m);
+  const float depth_px16 = static_cast<float>(16.0 * camera.focal_px * camera.baseline_m);
+  const std::vector<Sample>& samples = table_->samples();
+  int roi = 0, roi_measured = 0, stop = 0, stop_measured = 0;
+  for (size_t k = 0; k < samples.size(); ++k) {
+    const Sample& s = samples[k];
+    const int d = disparity.px16[static_cast<size_t>(s.index)];
+    roi += s.in_roi;
+    stop += s.in_stop_roi;
+    cell_of_sample_[k] = -1;
+    if (d <= 0) continue;
+    roi_measured += s.in_roi;
+    stop_measured += s.in_stop_roi;
+    const float depth = depth_px16 / static_cast<float>(d);
+    const int cell = lookup(p_cam.x() + depth * s.ray_x, p_cam.y() + depth * s.ray_y);
+    if (cell < 0) continue;
+    cell_of_sample_[k] = static_cast<std::int16_t>(cell);
+    CellEvidence& e = evidence_[static_cast<size_t>(cell)];
+    ++e.measured;
+    e.sum_z_m += ground_z + depth * s.ray_z;
+  }
+  return {roi > 0 ? static_cast<double>(roi_measured) / roi : 0.0,
+          stop > 0 ? static_cast<double>(stop_measured) / stop : 0.0};
+}
+
+GroundPlane HazardDetector::fit_plane() const {
+  GroundPoints points;
+  for (int iy = 0; iy < shape_.cells_y; ++iy)
+    for (int ix = 0; ix < shape_.cells_x; ++ix) {
+      const CellEvidence& e = evidence_[static_cast<size_t>(shape_.at(ix, iy))];
+      if (e.measured < config_.min_free_samples) continue;
+      points.emplace_back(static_cast<float>(shape_.x_m(ix)), static_cast<float>(shape_.y_m(iy)),
+                          e.sum_z_m / static_cast<float>(e.measured));
+    }
+  return fit_ground_plane(points, config_.prior);
+}
+
+LocalGround HazardDetector::bend(const GroundPlane& plane) const {
+  std::vector<float> over_plane(evidence_.size(), std::numeric_limits<float>::quiet_NaN());
+  for (int iy = 0; iy < shape_.cells_y; ++iy)
+    for (int ix = 0; ix < shape_.cells_x; ++ix) {
+      const size_t i = static_cast<size_t>(shape_.at(ix, iy));
+      if (evidence_[i].measured < config_.min_free_samples) continue;
+      const double plane_m = plane.offset_m + plane.slope_x * (shape_.x_m(ix) - config_.prior.wheel_line_x_m) +
+                             plane.slope_y * shape_.y_m(iy);
+      over_plane[i] = evidence_[i].sum_z_m / static_cast<float>(evidence_[i].measured) - static_cast<float>(plane_m);
+    }
+  return local_ground(over_plane, shape_, config_.relief, config_.prior.wheel_line_x_m);
+}
+
+// Compares each sample's disparity with the limits: the table's d_cal, corrected by the plane ahead, times the factors
+// of its cell. And counts, for each cell, the samples that would see its ground.
+void HazardDetector::judge(const Disparity& disparity, const GroundPlane& plane, const LocalGround& ground) {
+  const StereoCamera& camera = table_->camera();
+  const Eigen::Vector3d normal = plane.normal();
+  const Eigen::Vector3d p_plane(config_.prior.wheel_line_x_m, 0.0, plane.offset_m - config_.ground_below_m);
+  const double height_m = normal.dot(camera.T_body_cam.translation() - p_plane);
+  const DisparityPlane ahead = disparity_plane(camera, p_plane, normal);
+  const DisparityPlane& flat = table_->flat_ground();
+  const float du = static_cast<float>(16.0 * (ahead.per_u - flat.per_u));
+  const float dv = static_cast<float>(16.0 * (ahead.per_v - flat.per_v));
+  const float d0 = static_cast<float>(16.0 * (ahead.at_origin_px - flat.at_origin_px));
+  std::vector<Limits> limits;
+  limits.reserve(evidence_.size());
+  for (size_t i = 0; i < evidence_.size(); ++i)
+    limits.push_back({limit(height_m, ground.low_m[i] + config_.near_m),
+                      limit(height_m, ground.low_m[i] + config_.grow_m),
+                      limit(height_m, ground.high_m[i] - config_.far_m)});
+  const CellLookup lookup(shape_);
+  const Eigen::Vector3f p_cam = camera.T_body_cam.translation().cast<float>();
+  const float depth_px16 = static_cast<float>(16.0 * camera.focal_px * camera.baseline_m);
+  const std::vector<Sample>& samples = table_->samples();
+  for (size_t k = 0; k < samples.size(); ++k) {
+    const Sample& s = samples[k];
+    const float reference = s.d_cal_px16 + d0 + du * s.u + dv * s.v;
+    if (reference > 0.0f) {
+      const float depth = depth_px16 / reference;
+      const int cell = lookup(p_cam.x() + depth * s.ray_x, p_cam.y() + depth * s.ray_y);
+      if (cell >= 0) ++evidence_[static_cast<size_t>(cell)].expected;
+    }
+    const int cell = cell_of_sample_[k];
+    if (cell < 0) continue;
+    const float d = static_cast<float>(disparity.px16[static_cast<size_t>(s.index)]);
+    const Limits& l = limits[static_cast<size_t>(cell)];
+    CellEvidence& e = evidence_[static_cast<size_t>(cell)];
+    e.high += d > l.high * reference;
+    e.raised += d > l.raised * reference;
+    e.low += d < l.low * reference;
+  }
+}
+
+void HazardDetector::summarize(HazardResult& result) const {
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (int iy = 0; iy < shape_.cells_y; ++iy)
+    for (int ix = 0; ix < shape_.cells_x; ++ix) {
+      const size_t i = static_cast<size_t>(shape_.at(ix, iy));
+      if (result.cells[i] != Cell::kObstacle && result.cells[i] != Cell::kHole) continue;
+      result.hazard_px += evidence_[i].high + evidence_[i].low;
+      nearest_m = std::min(nearest_m, std::hypot(shape_.x_m(ix), shape_.y_m(iy)));
+    }
+  result.status = std::isfinite(nearest_m) ? Status::kHazard : Status::kClear;
+  if (std::isfinite(nearest_m)) result.nearest_hazard_m = nearest_m;
+}
+
+}  // namespace rover::hazard

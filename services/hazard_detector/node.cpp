@@ -1,0 +1,43 @@
+#include "hazard_detector/node.hpp"
+
+#include <rover/hazards_t.hpp>
+
+#include "common/bus/convert.hpp"
+#include "hazard_detector/convert.hpp"
+
+namespace rover::hazard {
+
+HazardNode::HazardNode(Node& node, const NodeConfig& config) : node_(node), core_(config.core) {
+  node_.subscribe_slow<disparity_t>(channel::kDisparity, config.latency_us,
+                                    [this](const disparity_t& message) { take(message); });
+}
+
+void HazardNode::take(const disparity_t& message) {
+  const std::string fault = fault_of(message);
+  if (!fault.empty()) {
+    node_.reject(channel::kDisparity, fault);
+    return;
+  }
+  const HazardResult result = core_.step(disparity_from(message), camera_from(message));
+  hazards_t hazards;
+  hazards_to(result, core_.shape(), hazards);
+  node_.publish(channel::kHazards, hazards, message.header.utime);
+  report(result);
+}
+
+void HazardNode::report(const HazardResult& result) {
+  if (result.status == last_) return;
+  last_ = result.status;
+  const bool blind = result.status == Status::kBlind;
+  node_.set_status(blind ? heartbeat_t::DEGRADED : heartbeat_t::OK, blind ? "too little stereo" : "");
+  static constexpr const char* kNames[] = {"CLEAR", "HAZARD", "BLIND"};
+  node_.log(blind ? "WARN" : "INFO", std::string(kNames[static_cast<int>(result.status)]) +
+                                            " coverage=" + std::to_string(result.coverage) +
+                                            " nearest_m=" + std::to_string(result.nearest_hazard_m));
+}
+
+std::shared_ptr<HazardNode> make_hazard_detector(Node& node, const std::string& config_dir) {
+  return std::make_shared<HazardNode>(node, load_config(config_dir));
+}
+
+}  // namespace rover::hazard

@@ -1,0 +1,31 @@
+// The bus side of the hazard detector: a HAZARDS for each DISPARITY, in every state of the rover.
+#pragma once
+
+#include <memory>
+#include <rover/disparity_t.hpp>
+#include <string>
+
+#include "common/bus/node.hpp"
+#include "hazard_detector/config.hpp"
+#include "hazard_detector/hazard_detector.hpp"
+
+namespace rover::hazard {
+
+class HazardNode {
+ public:
+  HazardNode(Node& node, const NodeConfig& config);
+  HazardNode(const HazardNode&) = delete;
+  HazardNode& operator=(const HazardNode&) = delete;
+
+ private:
+  void take(const disparity_t& message);
+  void report(const HazardResult& result);
+
+  Node& node_;
+  HazardDetector core_;
+  Status last_ = Status::kClear;
+};
+
+std::shared_ptr<HazardNode> make_hazard_detector(Node& node, const std::string& config_dir);
+
+}  // namespace rover::hazard

@@ -1,0 +1,68 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+
+#include "common/bus/config.hpp"
+#include "launcher/bench_command.hpp"
+#include "launcher/run_command.hpp"
+
+namespace {
+
+std::string command_line(int argc, char** argv) {
+  std::string text = "./rover";
+  for (int i = 1; i < argc; ++i) text += std::string(" ") + argv[i];
+  return text;
+}
+
+void add_run_options(CLI::App& command, rover::RunArguments& run) {
+  command.add_option("--level", run.level, "autonomy level: auto, efficient or full")
+      ->check(CLI::IsMember({"auto", "efficient", "full"}))
+      ->capture_default_str();
+  command.add_option("--set", run.set, "set a value of the configuration: file.key=value, repeatable");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("./rover: guidance, navigation and control of a planetary rover");
+  app.require_subcommand(1);
+  rover::RunArguments run;
+  run.source_dir = std::filesystem::current_path();
+  run.bin_dir = std::filesystem::canonical("/proc/self/exe").parent_path();
+
+  CLI::App* run_command = app.add_subcommand("run", "drive a scenario to its goal. Example: ./rover run --seed 3");
+  run_command->add_option("scenario", run.scenario, "scenario file; default: config/scenarios/default.yaml");
+  run_command->add_option("--seed", run.seed, "seed of rocks, noise and errors; default: the scenario's")
+      ->check(CLI::NonNegativeNumber);
+  run_command->add_option("--out", run.out, "folder of the run; default: logs/<time>-<scenario>");
+  run_command->add_option("--bus", run.bus, "LCM URL; default: of config/bus.yaml");
+  run_command->add_option("--record", run.record, "full or reduced")->check(CLI::IsMember({"full", "reduced"}));
+  run_command->add_flag("--headless", run.headless, "no page");
+  run_command->add_flag("--realtime", run.realtime, "pace by the clock instead of lockstep");
+  add_run_options(*run_command, run);
+
+  rover::BenchArguments bench;
+  std::string seeds = "1..10";
+  CLI::App* bench_command = app.add_subcommand("bench", "measure. Example: ./rover bench seed --seeds 1..10 --resume");
+  bench_command->add_option("suite", bench.suite, "seed: both seed traverses")->capture_default_str();
+  bench_command->add_option("--seeds", seeds, "a range like 1..10 or a list like 1,4,7")->capture_default_str();
+  bench_command->add_flag("--resume", bench.resume, "keep the rows that this commit already has");
+  bench_command->add_option("--jobs", bench.jobs, "runs at a time")->check(CLI::Range(1, 64))->capture_default_str();
+  add_run_options(*bench_command, run);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  try {
+    if (run_command->parsed()) return rover::run(run).exit_status;
+    bench.run = run;
+    bench.seeds = rover::parse_seeds(seeds);
+    bench.command = command_line(argc, argv);
+    return rover::bench(bench);
+  } catch (const rover::ConfigError& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 2;
+  }
+}

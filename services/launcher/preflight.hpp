@@ -1,0 +1,25 @@
+// What must be so on this machine before services start; each failure names the command that mends it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace rover {
+
+// Lines that say what is wrong with the bus; empty where all is well. Only udpm:// buses have needs.
+std::vector<std::string> bus_problems(const std::string& bus_url);
+
+// Holds the bus for this process: two rovers on one bus would drive each other. Released when the process ends.
+class BusLock {
+ public:
+  explicit BusLock(const std::string& bus_url);
+  ~BusLock();
+  BusLock(const BusLock&) = delete;
+  BusLock& operator=(const BusLock&) = delete;
+  bool held() const { return fd_ >= 0; }
+
+ private:
+  int fd_ = -1;
+};
+
+}  // namespace rover

@@ -1,0 +1,46 @@
+// What the terminal shows of a run: distance, speed, state, hazards, expected end.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <lcm/lcm-cpp.hpp>
+#include <rover/planner_status_t.hpp>
+#include <rover/pose_t.hpp>
+#include <rover/slip_t.hpp>
+#include <rover/supervisor_state_t.hpp>
+#include <string>
+
+namespace rover {
+
+std::string state_name(std::int8_t state);
+std::string level_name(std::int8_t level);
+
+class Progress {
+ public:
+  // `enabled`: print at all; on a terminal one line is kept up to date, else a line comes every ten seconds.
+  Progress(lcm::LCM& lcm, bool enabled);
+  // Prints what is due.
+  void show();
+  // Leaves the terminal on a fresh line.
+  void finish();
+  bool moved() const { return pose_.travelled_m > 0.05; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void on_pose(const lcm::ReceiveBuffer* buffer, const std::string& channel, const pose_t* message);
+  void on_planner(const lcm::ReceiveBuffer* buffer, const std::string& channel, const planner_status_t* message);
+  void on_state(const lcm::ReceiveBuffer* buffer, const std::string& channel, const supervisor_state_t* message);
+  std::string line() const;
+
+  bool enabled_;
+  bool terminal_;
+  pose_t pose_{};
+  planner_status_t planner_{};
+  supervisor_state_t state_{};
+  std::int64_t first_utime_ = -1;
+  Clock::time_point started_ = Clock::now();
+  Clock::time_point shown_{};
+  std::int8_t shown_state_ = -1;
+};
+
+}  // namespace rover

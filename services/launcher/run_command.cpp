@@ -1,0 +1,148 @@
+#include "launcher/run_command.hpp"
+
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <lcm/lcm-cpp.hpp>
+#include <nlohmann/json.hpp>
+
+#include "common/bus/config.hpp"
+#include "launcher/preflight.hpp"
+#include "launcher/progress.hpp"
+#include "launcher/run_folder.hpp"
+#include "launcher/s6_tree.hpp"
+
+namespace rover {
+namespace fs = std::filesystem;
+namespace {
+
+volatile std::sig_atomic_t interrupted = 0;
+
+void interrupt(int) { interrupted = 1; }
+
+// The stack of the Efficient level, in the order of its flow.
+const std::vector<std::string> kServices = {"recorder",     "stereo",       "visual_odometry",    "localization",
+                                            "hazard_detector", "path_planner", "trajectory_control", "locomotion",
+                                            "supervisor",   "mission_control"};
+
+std::vector<ServiceCommand> service_commands(const RunArguments& arguments, const RunFolder& folder) {
+  const std::string common =
+      " --config '" + folder.config_dir + "' --bus '" + folder.bus_url + "' --run-dir '" + folder.dir + "'";
+  std::vector<ServiceCommand> commands;
+  std::string participants;
+  for (const std::string& name : kServices) {
+    commands.push_back({name, "'" + arguments.bin_dir + "/" + name + "'" + common, false});
+    participants += (participants.empty() ? "" : ",") + name;
+  }
+  commands.push_back({"rover_simulator",
+                      "'" + arguments.bin_dir + "/rover_simulator'" + common + " --scenario '" + folder.scenario +
+                          "' --seed " + std::to_string(folder.seed) + " --participants " + participants +
+                          (arguments.realtime ? " --realtime" : ""),
+                      true});
+  return commands;
+}
+
+bool wait_for_end(const RunArguments& arguments, const RunFolder& folder, S6Session& session) {
+  lcm::LCM lcm(folder.bus_url);
+  Progress progress(lcm, !arguments.quiet);
+  const std::string end_file = folder.dir + "/simulation.json";
+  while (!interrupted) {
+    lcm.handleTimeout(100);
+    progress.show();
+    if (fs::exists(end_file)) break;
+    const auto failed = failed_services(folder.dir);
+    for (const std::string& line : failed) std::fprintf(stderr, "%s\n", line.c_str());
+    if (!failed.empty()) return false;
+    if (!session.running()) {
+      std::fprintf(stderr, "s6-svscan has ended; see %s/service_logs/s6.log\n", folder.dir.c_str());
+      return false;
+    }
+  }
+  progress.finish();
+  return true;
+}
+
+nlohmann::json read_json(const std::string& file) {
+  std::ifstream in(file);
+  return nlohmann::json::parse(in, nullptr, false);
+}
+
+// The launcher's part of the run's facts, for the report.
+void write_run_json(const RunArguments& arguments, const RunFolder& folder) {
+  const nlohmann::json facts = {{"scenario", scenario_name(arguments.scenario)},
+                                {"seed", folder.seed},
+                                {"level", arguments.level},
+                                {"realtime", arguments.realtime},
+                                {"interrupted", interrupted != 0}};
+  std::ofstream(folder.dir + "/run.json") << facts.dump(2) << "\n";
+}
+
+int make_report(const RunArguments& arguments, const RunFolder& folder) {
+  const std::string command = "'" + arguments.bin_dir + "/rover_report' '" + folder.dir + "' > '" + folder.dir +
+                              "/service_logs/report.log' 2>&1";
+  return std::system(command.c_str());
+}
+
+void print_result(const RunFolder& folder, const nlohmann::json& metrics) {
+  const auto number = [&](const char* key) {
+    return metrics.contains(key) && metrics[key].is_number() ? metrics[key].get<double>() : 0.0;
+  };
+  std::printf("%s: %.1f m driven for %.1f m planned in %.0f s, %.0f repairs, %.0f hazard stops, %.0f collisions, "
+              "drift %.2f %%, %.1f times real time\n",
+              metrics.value("outcome", "unknown").c_str(), number("driven_length_m"), number("planned_length_m"),
+              number("duration_s"), number("replans"), number("hazard_stops"), number("collisions"),
+              number("odometry_drift_percent"), number("realtime_factor"));
+  std::printf("report: %s/report.html\n", folder.dir.c_str());
+}
+
+}  // namespace
+
+RunResult run(const RunArguments& arguments) {
+  RunResult result;
+  RunFolder folder;
+  try {
+    folder = make_run_folder(arguments);
+  } catch (const ConfigError& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    result.exit_status = 2;
+    return result;
+  }
+  result.dir = folder.dir;
+  const auto problems = bus_problems(folder.bus_url);
+  for (const std::string& problem : problems) std::fprintf(stderr, "%s\n", problem.c_str());
+  const BusLock lock(folder.bus_url);
+  if (problems.empty() && !lock.held())
+    std::fprintf(stderr, "bus: another rover runs on %s. Stop it, or give this one a bus: --bus udpm://...\n",
+                 folder.bus_url.c_str());
+  if (!problems.empty() || !lock.held()) {
+    result.exit_status = 2;
+    return result;
+  }
+  std::signal(SIGINT, interrupt);
+  std::signal(SIGTERM, interrupt);
+  if (!arguments.quiet) std::printf("run: %s\n", folder.dir.c_str());
+  write_s6_tree(folder.dir, service_commands(arguments, folder));
+  bool ended = false;
+  {
+    S6Session session(folder.dir);
+    ended = wait_for_end(arguments, folder, session);
+    session.stop();
+  }
+  if (!ended) {
+    result.exit_status = failed_services(folder.dir).empty() ? 1 : 2;
+    return result;
+  }
+  write_run_json(arguments, folder);
+  if (make_report(arguments, folder) != 0) {
+    std::fprintf(stderr, "the report failed; see %s/service_logs/report.log\n", folder.dir.c_str());
+    return result;
+  }
+  const nlohmann::json metrics = read_json(folder.dir + "/metrics.json");
+  if (!arguments.quiet) print_result(folder, metrics);
+  const bool success = metrics.value("outcome", "") == "goal_reached" && metrics.value("collisions", 1) == 0;
+  result.exit_status = success ? 0 : 1;
+  return result;
+}
+
+}  // namespace rover

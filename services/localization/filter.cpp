@@ -1,0 +1,179 @@
+#include "localization/filter.hpp"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+namespace rover::loc {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using ErrorVector = Eigen::Matrix<double, kErrorSize, 1>;
+
+double square(double x) {
+  return x * x;
+}
+
+void correct(FilterState& state, const ErrorVector& error) {
+  state.T_odom_body.translation() += error.segment<3>(kPosition);
+  state.T_odom_body.linear() = exp_so3(error.segment<3>(kAttitude)) * state.T_odom_body.linear();
+  state.gyro_bias_radps += error.segment<3>(kBias);
+}
+
+// Kalman update with residual r = H error + noise.
+template <int N>
+void update(FilterState& state, const Eigen::Matrix<double, N, kErrorSize>& H, const Eigen::Matrix<double, N, 1>& r,
+            const Eigen::Matrix<double, N, N>& R) {
+  const Eigen::Matrix<double, N, N> S = H * state.P * H.transpose() + R;
+  const Eigen::Matrix<double, kErrorSize, N> K = state.P * H.transpose() * S.inverse();
+  const ErrorCov I_KH = ErrorCov::Identity() - K * H;
+  state.P = I_KH * state.P * I_KH.transpose() + K * R * K.transpose();
+  correct(state, K * r);
+}
+
+// Rotation over records by gyro, and what is known about it.
+struct GyroRotation {
+  Matrix3d R = Matrix3d::Identity();
+  double biased_s = 0.0;                  // time over which the bias acts
+  double blind_s = 0.0;                   // time without a gyro
+  Vector3d force_sum = Vector3d::Zero();  // specific force times time, axes of the body at the start
+  double force_s = 0.0;
+};
+
+GyroRotation integrate(const std::vector<MotionRecord>& records, const Vector3d& bias) {
+  GyroRotation g;
+  for (const MotionRecord& r : records) {
+    if (r.force) {
+      g.force_sum += g.R * r.delta_velocity_mps;
+      g.force_s += r.dt_s();
+    }
+    if (r.standing) continue;
+    if (!r.gyro) {
+      g.R = g.R * exp_so3({0.0, 0.0, r.wheel_motion.z()});
+      g.blind_s += r.dt_s();
+      continue;
+    }
+    g.R = g.R * exp_so3(r.delta_angle_rad - bias * r.dt_s());
+    g.biased_s += r.dt_s();
+  }
+  return g;
+}
+
+constexpr int kVisualPosition = kErrorSize;
+constexpr int kVisualRotation = kErrorSize + 3;
+constexpr int kGyro = kErrorSize + 6;
+constexpr int kJoint = kErrorSize + 9;
+using JointCov = Eigen::Matrix<double, kJoint, kJoint>;
+using JointVector = Eigen::Matrix<double, kJoint, 1>;
+
+}  // namespace
+
+FilterState Filter::start(Utime utime, const Matrix3d& R_odom_body, const Vector3d& gyro_bias) const {
+  FilterState state;
+  state.utime = utime;
+  state.T_odom_body.linear() = R_odom_body;
+  state.gyro_bias_radps = gyro_bias;
+  constexpr double kLevelSigma = 0.005;  // rad, accelerometer bias of a few mg
+  state.P.diagonal().segment<2>(kAttitude).setConstant(square(kLevelSigma));
+  state.P.diagonal().segment<3>(kBias).setConstant(square(config_.gyro_bias_sigma_radps));
+  state.P(kScale, kScale) = square(config_.visual_scale_sigma);
+  return state;
+}
+
+FilterState Filter::advance(FilterState state, const MotionRecord& record, double grip) const {
+  const double dt = record.dt_s();
+  const Matrix3d R = state.T_odom_body.linear();
+  const Vector3d moved = R * Vector3d(grip * record.wheel_motion.x(), grip * record.wheel_motion.y(), 0.0);
+  const bool turning = !record.standing;
+  const bool gyro = record.gyro && turning;
+  ErrorCov F = ErrorCov::Identity();
+  F.block<3, 3>(kPosition, kAttitude) = -skew(moved);
+  if (gyro) F.block<3, 3>(kAttitude, kBias) = -R * dt;
+  state.P = F * state.P * F.transpose();
+  state.P.diagonal().segment<3>(kPosition).array() += square(config_.wheel_noise_m_rtm) * moved.norm();
+  if (turning) {
+    const double noise = gyro ? config_.gyro_noise_radps_rthz : config_.blind_rate_radps;
+    state.P.diagonal().segment<3>(kAttitude).array() += square(noise) * dt;
+  }
+  state.P.diagonal().segment<3>(kBias).array() += square(config_.gyro_bias_walk_radps_rts) * dt;
+  state.T_odom_body.translation() += moved;
+  if (turning) {
+    const Vector3d turned = gyro ? Vector3d(record.delta_angle_rad - state.gyro_bias_radps * dt)
+                                 : Vector3d(0.0, 0.0, record.wheel_motion.z());
+    state.T_odom_body.linear() = R * exp_so3(turned);
+  }
+  state.utime = record.end;
+  if (record.standing && record.gyro) stand(state, record);
+  if (record.force) level(state, R * record.delta_velocity_mps / dt, dt);
+  return state;
+}
+
+// At standstill the gyro measures its bias.
+void Filter::stand(FilterState& state, const MotionRecord& record) const {
+  Eigen::Matrix<double, 3, kErrorSize> H = Eigen::Matrix<double, 3, kErrorSize>::Zero();
+  H.block<3, 3>(0, kBias).setIdentity();
+  const Vector3d r = record.delta_angle_rad / record.dt_s() - state.gyro_bias_radps;
+  update<3>(state, H, r, square(config_.standing_rate_sigma_radps) * Matrix3d::Identity());
+}
+
+// Gravity points down on average: R_true f = (1 + [d]x) R f has to be (0, 0, g), and d x g z = (d_y g, -d_x g).
+void Filter::level(FilterState& state, const Vector3d& mean_force_odom, double duration_s) const {
+  Eigen::Matrix<double, 2, kErrorSize> H = Eigen::Matrix<double, 2, kErrorSize>::Zero();
+  H(0, kAttitude + 1) = gravity_mps2_;
+  H(1, kAttitude) = -gravity_mps2_;
+  const Eigen::Matrix2d R = square(config_.force_noise_mps2_rthz) / duration_s * Eigen::Matrix2d::Identity();
+  update<2>(state, H, -mean_force_odom.head<2>(), R);
+}
+
+std::optional<FilterState> Filter::fuse_visual(const FilterState& at_from, const std::vector<MotionRecord>& records,
+                                               const VisualInterval& visual) const {
+  const GyroRotation gyro = integrate(records, at_from.gyro_bias_radps);
+  JointCov joint = JointCov::Zero();
+  joint.topLeftCorner<kErrorSize, kErrorSize>() = at_from.P;
+  joint.block<6, 6>(kVisualPosition, kVisualPosition) = visual.cov;
+  joint.diagonal().segment<3>(kVisualPosition).array() += square(config_.visual_floor_m);
+  joint.diagonal().segment<3>(kGyro).setConstant(square(config_.gyro_noise_radps_rthz) * gyro.biased_s +
+                                                 square(config_.blind_rate_radps) * gyro.blind_s + 1e-10);
+
+  // What the two rotations differ by: visual error - gyro error; the latter is the bias's error times time, and noise.
+  Eigen::Matrix<double, 3, kJoint> H = Eigen::Matrix<double, 3, kJoint>::Zero();
+  H.block<3, 3>(0, kBias) = -gyro.biased_s * Matrix3d::Identity();
+  H.block<3, 3>(0, kVisualRotation).setIdentity();
+  H.block<3, 3>(0, kGyro) = -Matrix3d::Identity();
+  const Vector3d apart = log_so3(visual.T_from_to.linear() * gyro.R.transpose());
+  const Matrix3d S = H * joint * H.transpose();
+  const Matrix3d S_inv = S.inverse();
+  if (apart.norm() > config_.max_rotation_conflict_rad &&
+      apart.dot(S_inv * apart) > square(config_.max_rotation_conflict_sigma))
+    return std::nullopt;
+  const Eigen::Matrix<double, kJoint, 3> K = joint * H.transpose() * S_inv;
+  const JointVector error = K * apart;
+  joint -= K * S * K.transpose();
+
+  FilterState state = at_from;
+  correct(state, error.head<kErrorSize>());
+  const Matrix3d R = state.T_odom_body.linear();
+  const Vector3d moved = R * (visual.T_from_to.translation() - error.segment<3>(kVisualPosition));
+  const Matrix3d turned = exp_so3(-error.segment<3>(kVisualRotation)) * visual.T_from_to.linear();
+  state.T_odom_body.translation() += moved;
+  state.T_odom_body.linear() = R * turned;
+  state.utime = visual.to;
+
+  Eigen::Matrix<double, kErrorSize, kJoint> G = Eigen::Matrix<double, kErrorSize, kJoint>::Zero();
+  G.topLeftCorner<kErrorSize, kErrorSize>().setIdentity();
+  G.block<3, 3>(kPosition, kAttitude) = -skew(moved);
+  G.block<3, 1>(kPosition, kScale) = moved;
+  G.block<3, 3>(kPosition, kVisualPosition) = -R;
+  G.block<3, 3>(kAttitude, kVisualRotation) = -R;
+  state.P = G * joint * G.transpose();
+  const double duration = to_seconds(visual.to - visual.from);
+  state.P.diagonal().segment<3>(kBias).array() += square(config_.gyro_bias_walk_radps_rts) * duration;
+  for (const MotionRecord& r : records)
+    if (r.standing && r.gyro) stand(state, r);
+  if (gyro.force_s > 0.0) level(state, R * gyro.force_sum / gyro.force_s, gyro.force_s);
+  state.P = 0.5 * (state.P + state.P.transpose().eval());
+  return state;
+}
+
+}  // namespace rover::loc

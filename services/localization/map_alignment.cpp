@@ -1,0 +1,113 @@
+#include "localization/map_alignment.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace rover::loc {
+namespace {
+
+// x, y, yaw among the filter's errors.
+constexpr std::array<int, 3> kPlanar = {kPosition, kPosition + 1, kAttitude + 2};
+
+using PlanarRows = Eigen::Matrix<double, 3, kErrorSize>;
+
+PlanarRows planar_rows() {
+  PlanarRows H = PlanarRows::Zero();
+  for (int i = 0; i < 3; ++i) H(i, kPlanar[static_cast<size_t>(i)]) = 1.0;
+  return H;
+}
+
+// Map and odom differ by a turn about z.
+Eigen::Matrix3d planar_rotation(const Eigen::Isometry3d& T) {
+  return rotation_from_rpy(0.0, 0.0, yaw_of(T));
+}
+
+}  // namespace
+
+void MapAlignment::set_start(const StartPose& start, const Eigen::Isometry3d& T_odom_body) {
+  const double yaw = wrap_angle(start.yaw_rad - yaw_of(T_odom_body));
+  const Eigen::Matrix3d R = rotation_from_rpy(0.0, 0.0, yaw);
+  T_map_odom_ = make_pose(R, start.position_map_m - R * T_odom_body.translation());
+  pending_.setZero();
+  known_ = true;
+}
+
+void MapAlignment::restore(const Eigen::Isometry3d& T_map_odom) {
+  T_map_odom_ = T_map_odom;
+  pending_.setZero();
+  known_ = true;
+}
+
+Eigen::Vector3d MapAlignment::innovation(const MapMeasurement& m, const Eigen::Isometry3d& T_odom_body) const {
+  const Eigen::Isometry3d wanted = from_planar(m.T_map_odom) * T_odom_body;
+  const Eigen::Isometry3d now = T_map_odom_ * T_odom_body;
+  const Eigen::Vector3d apart = wanted.translation() - now.translation();
+  return {apart.x(), apart.y(), wrap_angle(m.T_map_odom.yaw_rad - yaw_of(T_map_odom_))};
+}
+
+Eigen::Matrix3d MapAlignment::planar_cov(const ErrorCov& P) const {
+  const PlanarRows H = planar_rows();
+  const Eigen::Matrix3d R = planar_rotation(T_map_odom_);
+  return R * (H * P * H.transpose()) * R.transpose();
+}
+
+Eigen::Vector3d MapAlignment::gained(const Eigen::Vector3d& innovation, const ErrorCov& P, const PlanarCov& R) const {
+  const Eigen::Matrix3d C = planar_cov(P);
+  return C * (C + R).inverse() * innovation;
+}
+
+ErrorCov MapAlignment::updated(const ErrorCov& P, const PlanarCov& R_map) const {
+  const Eigen::Matrix3d rotation = planar_rotation(T_map_odom_);
+  const PlanarCov R = rotation.transpose() * R_map * rotation;
+  const PlanarRows H = planar_rows();
+  const Eigen::Matrix3d C = H * P * H.transpose();
+  const Eigen::Matrix<double, kErrorSize, 3> K = H.transpose() * (C * (C + R).inverse());
+  const ErrorCov I_KH = ErrorCov::Identity() - K * H;
+  return I_KH * P * I_KH.transpose() + K * R * K.transpose();
+}
+
+void MapAlignment::shift(const Eigen::Vector3d& delta, const Eigen::Isometry3d& T_odom_body) {
+  const Eigen::Vector3d p = T_map_odom_ * T_odom_body.translation();
+  const Eigen::Vector3d moved = p + Eigen::Vector3d(delta.x(), delta.y(), 0.0);
+  const Eigen::Matrix3d R = rotation_from_rpy(0.0, 0.0, yaw_of(T_map_odom_) + delta.z());
+  T_map_odom_ = make_pose(R, moved - R * T_odom_body.translation());
+}
+
+std::string_view MapAlignment::take_correction(const MapMeasurement& m, const Eigen::Isometry3d& T_odom_body,
+                                               const ErrorCov& P) {
+  if (!known_) return "no start pose yet";
+  if (m.utime <= newest_correction_) return "older than one already taken";
+  const Eigen::Vector3d apart = innovation(m, T_odom_body);
+  const Eigen::Matrix3d S = planar_cov(P) + m.cov;
+  if (apart.dot(S.inverse() * apart) > config_.gate_chi2) return "further off than its covariance and ours allow";
+  newest_correction_ = m.utime;
+  pending_.setZero();
+  shift(gained(apart, P, m.cov), T_odom_body);
+  return {};
+}
+
+std::string_view MapAlignment::take_slam(const MapMeasurement& m, const Eigen::Isometry3d& T_odom_body,
+                                         const ErrorCov& P) {
+  if (!known_) return "no start pose yet";
+  if (m.utime <= newest_correction_) return "older than a correction already taken";
+  const Eigen::Vector3d apart = innovation(m, T_odom_body);
+  const Eigen::Matrix3d S = planar_cov(P) + m.cov;
+  if (apart.dot(S.inverse() * apart) > config_.gate_chi2) return "further off than its covariance and ours allow";
+  pending_ = gained(apart, P, m.cov);
+  return {};
+}
+
+void MapAlignment::step(double dt_s, const Eigen::Isometry3d& T_odom_body) {
+  const double metres = pending_.head<2>().norm();
+  const double share_m = metres > 0.0 ? std::min(1.0, config_.slam_rate_mps * dt_s / metres) : 1.0;
+  const double turn = std::abs(pending_.z());
+  const double share_rad = turn > 0.0 ? std::min(1.0, config_.slam_rate_radps * dt_s / turn) : 1.0;
+  const Eigen::Vector3d part(share_m * pending_.x(), share_m * pending_.y(), share_rad * pending_.z());
+  if (part.isZero(0.0)) return;
+  shift(part, T_odom_body);
+  pending_ -= part;
+}
+
+}  // namespace rover::loc

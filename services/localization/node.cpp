@@ -1,0 +1,132 @@
+#include "localization/node.hpp"
+
+#include <rover/command_ack_t.hpp>
+#include <rover/service_state_t.hpp>
+
+#include "common/bus/checkpoint.hpp"
+#include "localization/convert.hpp"
+
+namespace rover::loc {
+namespace {
+
+constexpr char kCheckpoint[] = "localization";
+constexpr Utime kSavePeriodUs = 1'000'000;
+
+const char* text_of(PoseStatus status) {
+  switch (status) {
+    case PoseStatus::kOk:
+      return "OK";
+    case PoseStatus::kDegraded:
+      return "DEGRADED";
+    case PoseStatus::kLost:
+      return "LOST";
+    case PoseStatus::kUninitialised:
+      break;
+  }
+  return "UNINITIALISED";
+}
+
+}  // namespace
+
+LocalizationNode::LocalizationNode(Node& node, const LocalizationConfig& config, const Vehicle& vehicle)
+    : node_(node), localization_(config, vehicle) {
+  subscribe();
+  restore();
+  node_.on_step([this](Utime now) { on_step(now); });
+}
+
+void LocalizationNode::subscribe() {
+  node_.subscribe<imu_t>(channel::kImu,
+                         [this](const imu_t& m) { check(channel::kImu, localization_.take_imu(imu_from(m))); });
+  node_.subscribe<wheel_state_t>(channel::kWheelState, [this](const wheel_state_t& m) {
+    check(channel::kWheelState, localization_.take_wheels(wheels_from(m)));
+  });
+  node_.subscribe<wheel_command_t>(channel::kWheelCommand, [this](const wheel_command_t& m) {
+    check(channel::kWheelCommand, localization_.take_wheel_command(wheel_command_from(m)));
+  });
+  node_.subscribe<vo_motion_t>(
+      channel::kVo, [this](const vo_motion_t& m) { check(channel::kVo, localization_.take_visual(visual_from(m))); });
+  node_.subscribe<ground_command_t>(channel::kGroundCommand,
+                                    [this](const ground_command_t& m) { on_ground_command(m); });
+  node_.subscribe<slam_pose_t>(channel::kSlamPose, [this](const slam_pose_t& m) {
+    if (m.status == slam_pose_t::OK && m.information > 0.0)
+      check(channel::kSlamPose, localization_.take_slam(measurement_from(m)));
+  });
+  node_.subscribe<correction_t>(channel::kCorrection, [this](const correction_t& m) {
+    if (m.accepted) check(channel::kCorrection, localization_.take_correction(measurement_from(m)));
+  });
+}
+
+void LocalizationNode::on_ground_command(const ground_command_t& command) {
+  if (command.kind != ground_command_t::SET_START_POSE) return;
+  const std::string_view refusal = localization_.take_start_pose(start_pose_from(command));
+  command_ack_t ack{};
+  ack.command_id = command.command_id;
+  ack.accepted = refusal.empty() ? 1 : 0;
+  ack.reason = std::string(refusal);
+  node_.publish(channel::kCommandAck, ack, node_.now());
+  node_.log(refusal.empty() ? "info" : "warning",
+            "START_POSE accepted=" + std::to_string(ack.accepted) + " reason=" + ack.reason);
+}
+
+void LocalizationNode::on_step(Utime now) {
+  if (!restored_.empty()) {
+    service_state_t state{};
+    state.service = node_.options().name;
+    state.size = static_cast<int32_t>(restored_.size());
+    state.data = restored_;
+    node_.publish(channel::kServiceState, state, now);
+    restored_.clear();
+  }
+  localization_.step(now);
+  publish();
+  tell_status();
+  save();
+}
+
+void LocalizationNode::publish() {
+  const PoseEstimate& pose = localization_.pose();
+  const Utime utime = pose.utime == kNever ? node_.now() : pose.utime;
+  pose_t pose_message{};
+  pose_to(pose, pose_message);
+  node_.publish(channel::kPose, pose_message, utime);
+  slip_t slip_message{};
+  slip_to(localization_.slip(), slip_message);
+  node_.publish(channel::kSlip, slip_message, utime);
+}
+
+void LocalizationNode::tell_status() {
+  const PoseEstimate& pose = localization_.pose();
+  if (pose.status == told_ && pose.reason == told_reason_) return;
+  told_ = pose.status;
+  told_reason_ = std::string(pose.reason);
+  const bool ok = told_ == PoseStatus::kOk;
+  node_.set_status(ok ? heartbeat_t::OK : heartbeat_t::DEGRADED, told_reason_);
+  node_.log(ok ? "info" : "warning", std::string("POSE_STATUS status=") + text_of(told_) + " reason=" + told_reason_);
+}
+
+void LocalizationNode::restore() {
+  if (node_.options().run_dir.empty()) return;
+  const auto bytes = load_checkpoint(node_.options().run_dir, kCheckpoint);
+  if (!bytes) return;
+  const auto checkpoint = from_bytes(*bytes);
+  if (!checkpoint) return node_.log("warning", "CHECKPOINT unusable");
+  localization_.restore(*checkpoint);
+  restored_ = *bytes;
+  node_.log("info", "CHECKPOINT restored utime=" + std::to_string(checkpoint->utime));
+}
+
+void LocalizationNode::save() {
+  if (node_.options().run_dir.empty() || node_.now() < next_save_) return;
+  next_save_ = node_.now() + kSavePeriodUs;
+  const auto checkpoint = localization_.checkpoint();
+  if (!checkpoint) return;
+  if (!save_checkpoint(node_.options().run_dir, kCheckpoint, to_bytes(*checkpoint)))
+    node_.log("warning", "CHECKPOINT not saved");
+}
+
+void LocalizationNode::check(const char* channel, std::string_view refusal) {
+  if (!refusal.empty()) node_.reject(channel, std::string(refusal));
+}
+
+}  // namespace rover::loc

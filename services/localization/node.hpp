@@ -1,0 +1,37 @@
+// Localization on the bus.
+#pragma once
+
+#include <rover/ground_command_t.hpp>
+#include <rover/slam_pose_t.hpp>
+#include <string>
+
+#include "common/bus/node.hpp"
+#include "common/core/vehicle.hpp"
+#include "localization/localization.hpp"
+
+namespace rover::loc {
+
+class LocalizationNode {
+ public:
+  LocalizationNode(Node& node, const LocalizationConfig& config, const Vehicle& vehicle);
+
+ private:
+  void subscribe();
+  void on_ground_command(const ground_command_t& command);
+  void on_step(Utime now);
+  void publish();
+  void tell_status();
+  void restore();
+  void save();
+  // Counts an input that was not used.
+  void check(const char* channel, std::string_view refusal);
+
+  Node& node_;
+  Localization localization_;
+  PoseStatus told_ = PoseStatus::kOk;
+  std::string told_reason_;
+  std::vector<std::uint8_t> restored_;  // to be published as SERVICE_STATE
+  Utime next_save_ = 0;
+};
+
+}  // namespace rover::loc

@@ -1,0 +1,18 @@
+// config/locomotion.yaml over the defaults of the core.
+#pragma once
+
+#include <string>
+
+#include "locomotion/locomotion.hpp"
+
+namespace rover::locomotion {
+
+struct NodeConfig {
+  LocomotionConfig locomotion;
+  Vehicle vehicle;
+  double command_validity_s = 0.2;
+};
+
+NodeConfig load_config(const std::string& config_dir);
+
+}  // namespace rover::locomotion

@@ -1,0 +1,245 @@
+#include "path_planner/arc_search.hpp"
+
+#include <array>
+#include <cstdint>
+#include <functional>
+
+namespace rover::planning {
+namespace {
+
+constexpr double kSampleM = 0.1;
+constexpr int kHeadings = 32;
+constexpr double kPlaceM = 0.15;  // two poses in one such square with one heading are the same
+constexpr double kTurnSampleRad = 0.0524;
+constexpr std::array<double, 9> kCurvatures = {0.0, 0.25, -0.25, 0.5, -0.5, 0.75, -0.75, 1.0, -1.0};  // of the largest
+constexpr std::array<double, 4> kJoinAheadM = {0.8, 1.5, 2.4, 3.5};
+constexpr std::array<double, 2> kJoinRadii = {1.6, 1.0};  // of the least radius
+constexpr std::array<double, 9> kTurnsDeg = {45.0, 60.0, 75.0, 90.0, 105.0, 120.0, 140.0, 160.0, 180.0};
+
+struct ArcNode {
+  Pose2 pose;
+  double curvature_per_m = 0.0;
+  double cost = 0.0;
+  double way_m = 0.0;
+  double turn_rad = 0.0;  // point turn before the first arc
+  int parent = -1;
+};
+
+class ArcSearch {
+ public:
+  ArcSearch(const ArcSearchConfig& config, const SearchProblem& problem)
+      : config_(config), problem_(problem), terrain_(problem.check.terrain()), seen_(problem.check, problem.view) {
+    corner_ = terrain_.center_of(0);
+    places_ = static_cast<int>(std::ceil(terrain_.cells() * terrain_.cell_m() / kPlaceM)) + 1;
+    best_cost_.assign(static_cast<size_t>(places_) * places_ * kHeadings, kInfinity);
+  }
+
+  SearchResult run() {
+    offer({problem_.start, problem_.start_curvature_per_m, 0.0, 0.0, 0.0, -1});
+    offer_turns(1.0);
+    offer_turns(-1.0);
+    int left = config_.max_expansions;
+    while (!open_.empty() && left-- > 0) {
+      const auto [estimate, index] = pop();
+      if (estimate >= result_.cost) break;
+      if (nodes_[index].cost > best_cost_[key(nodes_[index].pose)]) continue;
+      ++result_.expansions;
+      const bool had = result_.found;
+      finish_from(index);
+      expand(index);
+      if (result_.found && !had) left = std::min(left, config_.further_expansions);
+    }
+    return result_;
+  }
+
+ private:
+  using Entry = std::pair<double, int>;
+
+  size_t key(const Pose2& pose) const {
+    const auto place = [&](double v, double corner) {
+      return std::clamp(static_cast<int>((v - corner) / kPlaceM), 0, places_ - 1);
+    };
+    const double turn = pose.yaw_rad / (2.0 * kPi);
+    const int heading = std::clamp(static_cast<int>((turn - std::floor(turn)) * kHeadings), 0, kHeadings - 1);
+    return (static_cast<size_t>(place(pose.y_m, corner_.y_m)) * places_ + place(pose.x_m, corner_.x_m)) * kHeadings +
+           heading;
+  }
+
+  double travel_from(const Pose2& pose) const {
+    return terrain_.contains(position(pose)) ? problem_.travel[terrain_.cell_of(position(pose))] : kInfinity;
+  }
+
+  double ground_cost(const Pose2& pose) const {
+    return terrain_.contains(position(pose)) ? problem_.cost.cost_per_m[terrain_.cell_of(position(pose))] : kInfinity;
+  }
+
+  void offer(const ArcNode& node) {
+    const double estimate = node.cost + travel_from(node.pose);
+    if (!(estimate < result_.cost)) return;
+    double& best = best_cost_[key(node.pose)];
+    if (node.cost >= best) return;
+    best = node.cost;
+    nodes_.push_back(node);
+    open_.emplace_back(estimate, static_cast<int>(nodes_.size()) - 1);
+    std::push_heap(open_.begin(), open_.end(), std::greater<>());
+  }
+
+  Entry pop() {
+    std::pop_heap(open_.begin(), open_.end(), std::greater<>());
+    const Entry entry = open_.back();
+    open_.pop_back();
+    return entry;
+  }
+
+  // Point turns to one side, as far as the rectangle turns freely over seen ground.
+  void offer_turns(double side) {
+    seen_.clear();
+    double turned = 0.0;
+    for (const double turn_deg : kTurnsDeg) {
+      const double turn = to_rad(turn_deg);
+      for (; turned < turn + 1e-9; turned += kTurnSampleRad) {
+        Pose2 pose = problem_.stopped;
+        pose.yaw_rad += side * turned;
+        if (!problem_.check.clear(pose) || !seen_.covers(pose)) return;
+      }
+      Pose2 pose = problem_.stopped;
+      pose.yaw_rad += side * turn;
+      offer({pose, 0.0, config_.turn_cost_m + config_.turn_cost_per_rad_m * turn, 0.0, side * turn, -1});
+    }
+  }
+
+  double bend_cost(double from_per_m, double to_per_m) const {
+    return config_.bend_cost_m * std::abs(to_per_m - from_per_m) / config_.max_curvature_per_m;
+  }
+
+  // Cost of an arc from the pose, infinity where it is not free; passes are noted for what follows.
+  double arc_cost(const Pose2& from, const ArcSegment& arc, double way_before_m) {
+    const int samples = std::max(1, static_cast<int>(std::ceil(arc.length_m / kSampleM - 1e-6)));
+    const double step = arc.length_m / samples;
+    const double share = arc.curvature_per_m / config_.max_curvature_per_m;
+    double cost = config_.curvature_cost * share * share * arc.length_m;
+    for (int i = 1; i <= samples; ++i) {
+      const Pose2 pose = advanced(from, step * i, arc.curvature_per_m);
+      cost += step * ground_cost(pose);
+      if (std::isinf(cost) || !problem_.check.clear(pose)) return kInfinity;
+      if (way_before_m + step * i > config_.look_ahead_m) continue;
+      if (!seen_.covers(pose)) {
+        result_.unseen_in_the_way = true;
+        return kInfinity;
+      }
+    }
+    return cost;
+  }
+
+  void note_way_to(int index) {
+    seen_.clear();
+    for (int i = index; i >= 0; i = nodes_[i].parent) seen_.passed(nodes_[i].pose);
+  }
+
+  void expand(int index) {
+    note_way_to(index);
+    const ArcNode from = nodes_[index];
+    for (const double share : kCurvatures) {
+      const ArcSegment arc{share * config_.max_curvature_per_m, config_.step_m};
+      ArcNode next = from;
+      next.parent = index;
+      next.pose = advanced(from.pose, arc.length_m, arc.curvature_per_m);
+      next.cost += bend_cost(from.curvature_per_m, arc.curvature_per_m);
+      if (next.cost + arc.length_m + travel_from(next.pose) >= result_.cost) continue;
+      next.cost += arc_cost(from.pose, arc, from.way_m);
+      next.curvature_per_m = arc.curvature_per_m;
+      next.way_m += arc.length_m;
+      offer(next);
+    }
+  }
+
+  void finish_from(int index) {
+    const ArcNode& node = nodes_[index];
+    if (problem_.goal && node.parent >= 0 && distance(position(node.pose), *problem_.goal) <= problem_.goal_radius_m &&
+        node.cost < result_.cost)
+      accept(index, nullptr, -1, node.cost);
+    if (problem_.targets.empty()) return;
+    const int near = nearest_target(position(node.pose));
+    const double near_m = problem_.targets[near].way_m;
+    int last = -1;
+    for (const double ahead : kJoinAheadM) {
+      int target = near;
+      while (target + 1 < static_cast<int>(problem_.targets.size()) && problem_.targets[target].way_m < near_m + ahead)
+        ++target;
+      if (target == last) break;
+      last = target;
+      for (const double radius : kJoinRadii) join(index, target, radius / config_.max_curvature_per_m);
+    }
+  }
+
+  int nearest_target(Point2 p) const {
+    int best = 0;
+    for (int i = 1; i < static_cast<int>(problem_.targets.size()); ++i)
+      if (distance(position(problem_.targets[i].pose), p) < distance(position(problem_.targets[best].pose), p)) best = i;
+    return best;
+  }
+
+  void join(int index, int target, double radius_m) {
+    const ArcNode node = nodes_[index];
+    const JoinTarget& join_at = problem_.targets[target];
+    const double straight = distance(position(node.pose), position(join_at.pose));
+    const std::optional<DubinsPath> path = dubins_path(node.pose, join_at.pose, radius_m);
+    if (!path || path->length_m() > 1.25 * straight + 0.1) return;
+    double cost = node.cost + join_at.travel_cost;
+    if (cost + path->length_m() >= result_.cost) return;
+    note_way_to(index);
+    Pose2 pose = node.pose;
+    double way = node.way_m;
+    double curvature = node.curvature_per_m;
+    for (const ArcSegment& arc : path->segments) {
+      if (arc.length_m < 1e-6) continue;
+      cost += bend_cost(curvature, arc.curvature_per_m) + arc_cost(pose, arc, way);
+      if (cost >= result_.cost) return;
+      pose = advanced(pose, arc.length_m, arc.curvature_per_m);
+      way += arc.length_m;
+      curvature = arc.curvature_per_m;
+      seen_.passed(pose);
+    }
+    accept(index, &*path, target, cost + bend_cost(curvature, 0.0));
+  }
+
+  void accept(int index, const DubinsPath* join, int target, double cost) {
+    result_.found = true;
+    result_.cost = cost;
+    result_.target = target;
+    result_.segments.clear();
+    int i = index;
+    for (; nodes_[i].parent >= 0; i = nodes_[i].parent)
+      result_.segments.insert(result_.segments.begin(), {nodes_[i].curvature_per_m, config_.step_m});
+    result_.turn_rad = nodes_[i].turn_rad;
+    result_.start = nodes_[i].pose;
+    if (join == nullptr) return;
+    for (const ArcSegment& arc : join->segments)
+      if (arc.length_m >= 1e-6) result_.segments.push_back(arc);
+  }
+
+  const ArcSearchConfig& config_;
+  const SearchProblem& problem_;
+  const Terrain& terrain_;
+  SeenOnTheWay seen_;
+  Point2 corner_;
+  int places_;
+  std::vector<double> best_cost_;
+  std::vector<ArcNode> nodes_;
+  std::vector<Entry> open_;
+  SearchResult result_;
+};
+
+}  // namespace
+
+bool SeenOnTheWay::covers(const Pose2& pose) const {
+  return check_.all_unseen(pose, [&](Point2 p) {
+    return std::any_of(poses_.begin(), poses_.end(), [&](const Pose2& from) { return view_.sees(from, p); });
+  });
+}
+
+SearchResult search_arcs(const ArcSearchConfig& config, const SearchProblem& problem) {
+  return ArcSearch(config, problem).run();
+}
+
+}  // namespace rover::planning

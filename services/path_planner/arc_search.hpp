@@ -1,0 +1,79 @@
+// Descent of the fast-marching field by a vehicle that turns on arcs: best-first search over poses joined by short
+// arcs, with the field as the estimate of what is left (hybrid A*, Dolgov et al., IJRR 2010). From each pose an
+// arc-line-arc path is tried to the poses at which the global path may be joined.
+//
+// Plain gradient descent, as in the paper, knows no heading: near the rover it asks for steps to the side. Here every
+// path starts along the rover's heading (or after a point turn, at its price), keeps the curvature bound and is tested
+// with the exact rectangle.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "path_planner/dubins.hpp"
+#include "path_planner/fast_marching.hpp"
+#include "path_planner/terrain.hpp"
+
+namespace rover::planning {
+
+struct ArcSearchConfig {
+  double step_m = 0.3;
+  double max_curvature_per_m = 0.8;  // radius 1.25 m: preferred over the least radius of 1.0 m
+  double curvature_cost = 0.3;       // per metre, at the largest curvature
+  double bend_cost_m = 0.15;         // for a change of curvature by the largest
+  double turn_cost_m = 3.0;          // a point turn takes about 15 s, in which the rover could drive 3 m
+  double turn_cost_per_rad_m = 0.5;
+  double look_ahead_m = 2.5;         // way within which ground must have been seen before the rover reaches it
+  int max_expansions = 2500;
+  int further_expansions = 120;      // after the first way has been found, for a better one
+};
+
+// A pose at which a way may end, with what the rest of the way costs from there.
+struct JoinTarget {
+  Pose2 pose;
+  double way_m = 0.0;  // along the global path
+  double travel_cost = 0.0;
+};
+
+struct SearchProblem {
+  const FootprintCheck& check;
+  const MarchGrid& cost;
+  const std::vector<double>& travel;  // the fast-marching field of `cost` from the targets
+  ViewArea view;
+  const std::vector<JoinTarget>& targets;  // ordered along the global path
+  std::optional<Point2> goal;              // any heading will do within goal_radius_m of it
+  double goal_radius_m = 0.0;
+  Pose2 start;
+  double start_curvature_per_m = 0.0;
+  Pose2 stopped;  // where the rover stands if it brakes now: point turns start there
+};
+
+struct SearchResult {
+  bool found = false;
+  bool unseen_in_the_way = false;  // ways were dropped because their ground would not be seen in time
+  double turn_rad = 0.0;           // point turn at the start
+  Pose2 start;                     // after that turn
+  std::vector<ArcSegment> segments;
+  int target = -1;                 // -1: ends near the goal
+  double cost = kInfinity;
+  int expansions = 0;
+};
+
+SearchResult search_arcs(const ArcSearchConfig& config, const SearchProblem& problem);
+
+// Whether each point that a footprint covers was seen before: in the map, or from a pose passed earlier on the way.
+class SeenOnTheWay {
+ public:
+  SeenOnTheWay(const FootprintCheck& check, const ViewArea& view) : check_(check), view_(view) {}
+  void passed(const Pose2& pose) { poses_.push_back(pose); }
+  void clear() { poses_.clear(); }
+  // The bare rectangle, without margin.
+  bool covers(const Pose2& pose) const;
+
+ private:
+  const FootprintCheck& check_;
+  ViewArea view_;
+  std::vector<Pose2> poses_;
+};
+
+}  // namespace rover::planning

@@ -1,0 +1,67 @@
+#include "path_planner/block_finder.hpp"
+
+namespace rover::planning {
+namespace {
+
+constexpr double kStepM = 0.05;
+constexpr double kTurnStepRad = 0.0524;
+constexpr double kMergeM = 1.0;  // the controller takes a cross-track error out within about this way
+
+class BlockFinder {
+ public:
+  explicit BlockFinder(const BlockQuery& query)
+      : query_(query), check_(query.terrain, query.footprint, query.margin_m, query.rover) {}
+
+  Block run() {
+    const Pose2 here = query_.route.pose_at(query_.from_m);
+    const double turn = wrap_angle(here.yaw_rad - query_.rover.yaw_rad);
+    const bool turning = std::abs(turn) > query_.turn_threshold_rad;
+    if (turning) look_at_turn(turn);
+    for (double s = query_.from_m; s <= query_.route.length_m() && !complete(); s += kStepM) {
+      const Pose2 pose = expected_pose(s, here, turning);
+      if (!query_.terrain.contains(position(pose))) break;
+      // After a point turn the camera has seen what lies ahead; until then nothing can be said of it.
+      note(pose, s, !turning);
+    }
+    return block_;
+  }
+
+ private:
+  bool complete() const { return std::isfinite(block_.confirmed_m) && std::isfinite(block_.unseen_m); }
+
+  void look_at_turn(double turn_rad) {
+    const int steps = static_cast<int>(std::ceil(std::abs(turn_rad) / kTurnStepRad));
+    for (int i = 0; i <= steps; ++i) {
+      Pose2 pose = query_.rover;
+      pose.yaw_rad += turn_rad * i / steps;
+      note(pose, query_.from_m, true);
+    }
+  }
+
+  // The path's pose, moved by what is left of the rover's error.
+  Pose2 expected_pose(double s_m, const Pose2& here, bool turning) const {
+    Pose2 pose = query_.route.pose_at(s_m);
+    const double left = std::max(0.0, 1.0 - (s_m - query_.from_m) / kMergeM);
+    pose.x_m += left * (query_.rover.x_m - here.x_m);
+    pose.y_m += left * (query_.rover.y_m - here.y_m);
+    if (!turning) pose.yaw_rad += left * wrap_angle(query_.rover.yaw_rad - here.yaw_rad);
+    return pose;
+  }
+
+  void note(const Pose2& pose, double s_m, bool look_for_unseen) {
+    if (std::isinf(block_.confirmed_m) && !check_.clear_of(pose, true)) block_.confirmed_m = s_m;
+    if (std::isinf(block_.possible_m) && !check_.clear_of(pose, false)) block_.possible_m = s_m;
+    if (look_for_unseen && std::isinf(block_.unseen_m) && !check_.all_unseen(pose, [](Point2) { return false; }))
+      block_.unseen_m = s_m;
+  }
+
+  const BlockQuery& query_;
+  FootprintCheck check_;
+  Block block_;
+};
+
+}  // namespace
+
+Block find_block(const BlockQuery& query) { return BlockFinder(query).run(); }
+
+}  // namespace rover::planning

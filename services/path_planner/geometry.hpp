@@ -1,0 +1,67 @@
+// Plane geometry of a rectangular vehicle on circular arcs.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/core/frames.hpp"
+
+namespace rover::planning {
+
+struct Point2 {
+  double x_m = 0.0;
+  double y_m = 0.0;
+};
+
+inline double distance(Point2 a, Point2 b) { return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m); }
+inline Point2 position(const Pose2& pose) { return {pose.x_m, pose.y_m}; }
+
+inline Point2 to_body(const Pose2& pose, Point2 p) {
+  const double c = std::cos(pose.yaw_rad);
+  const double s = std::sin(pose.yaw_rad);
+  const double dx = p.x_m - pose.x_m;
+  const double dy = p.y_m - pose.y_m;
+  return {c * dx + s * dy, c * dy - s * dx};
+}
+
+// Along an arc of the signed curvature (positive: left).
+inline Pose2 advanced(const Pose2& pose, double way_m, double curvature_per_m) {
+  const double turned = way_m * curvature_per_m;
+  const double chord = std::abs(turned) < 1e-9 ? way_m : 2.0 * std::sin(0.5 * turned) / curvature_per_m;
+  const double middle = pose.yaw_rad + 0.5 * turned;
+  return {pose.x_m + chord * std::cos(middle), pose.y_m + chord * std::sin(middle), pose.yaw_rad + turned};
+}
+
+// The ground that wheels and body cover, about the body origin.
+struct Footprint {
+  double half_length_m = 0.0;
+  double half_width_m = 0.0;
+
+  double radius_m() const { return std::hypot(half_length_m, half_width_m); }
+
+  // From the rectangle's edge to the point, negative inside.
+  double distance_m(Point2 in_body) const {
+    const double dx = std::abs(in_body.x_m) - half_length_m;
+    const double dy = std::abs(in_body.y_m) - half_width_m;
+    if (dx > 0.0 && dy > 0.0) return std::hypot(dx, dy);
+    return std::max(dx, dy);
+  }
+  double distance_m(const Pose2& pose, Point2 p) const { return distance_m(to_body(pose, p)); }
+};
+
+// The ground that the camera sees: a trapezoid ahead of the body origin.
+struct ViewArea {
+  double near_m = 1.0;
+  double far_m = 2.7;
+  double near_half_width_m = 0.42;
+  double far_half_width_m = 1.2;
+
+  bool sees(const Pose2& pose, Point2 p) const {
+    const Point2 b = to_body(pose, p);
+    if (b.x_m < near_m || b.x_m > far_m) return false;
+    const double u = (b.x_m - near_m) / (far_m - near_m);
+    return std::abs(b.y_m) <= near_half_width_m + u * (far_half_width_m - near_half_width_m);
+  }
+};
+
+}  // namespace rover::planning

@@ -1,0 +1,105 @@
+#include "path_planner/hazard_memory.hpp"
+
+#include <array>
+
+namespace rover::planning {
+namespace {
+
+constexpr int kMostHits = 10;
+constexpr int kMostCells = 1 << 20;
+
+// Cells of the map whose centres lie in the box.
+template <class F>
+void for_cells_in(GridMap<GroundCell>& map, Point2 low, Point2 high, F&& f) {
+  const CellIndex a = map.index_of(low.x_m, low.y_m);
+  const CellIndex b = map.index_of(high.x_m, high.y_m);
+  const CellIndex o = map.origin();
+  for (int iy = std::max(a.iy, o.iy); iy <= std::min(b.iy, o.iy + map.cells() - 1); ++iy)
+    for (int ix = std::max(a.ix, o.ix); ix <= std::min(b.ix, o.ix + map.cells() - 1); ++ix) {
+      const CellIndex i{ix, iy};
+      f(map.at(i), Point2{map.center_x_m(i), map.center_y_m(i)});
+    }
+}
+
+// Body ground plane to odom, seen from above: an affine map.
+struct PlaneMap {
+  Eigen::Matrix2d A;
+  Eigen::Vector2d b;
+  PlaneMap(const Eigen::Isometry3d& T, double z_m)
+      : A(T.linear().topLeftCorner<2, 2>()), b((T * Eigen::Vector3d(0.0, 0.0, z_m)).head<2>()) {}
+  Eigen::Vector2d operator()(double x_m, double y_m) const { return A * Eigen::Vector2d(x_m, y_m) + b; }
+};
+
+}  // namespace
+
+std::string HazardGrid::fault() const {
+  if (cells_x <= 0 || cells_y <= 0 || cells_x > kMostCells / cells_y) return "grid has no sensible size";
+  if (cells.size() != static_cast<size_t>(cells_x) * static_cast<size_t>(cells_y)) return "grid size contradicts itself";
+  if (!(cell_m >= 0.01 && cell_m <= 1.0)) return "cell size out of range";
+  if (!std::isfinite(origin_x_m) || !std::isfinite(origin_y_m)) return "grid origin is not finite";
+  if (std::any_of(cells.begin(), cells.end(), [](std::uint8_t c) { return c > kMargin; })) return "unknown cell value";
+  return "";
+}
+
+void HazardMemory::add(const HazardGrid& grid, const Eigen::Isometry3d& T_odom_body, double ground_z_m) {
+  frame_ = static_cast<std::uint16_t>(frame_ == 0xffff ? 1 : frame_ + 1);
+  const PlaneMap to_odom(T_odom_body, ground_z_m);
+  const Eigen::Matrix2d to_grid = to_odom.A.inverse();
+  const double far_x = grid.origin_x_m + grid.cells_x * grid.cell_m;
+  const double far_y = grid.origin_y_m + grid.cells_y * grid.cell_m;
+  Eigen::AlignedBox2d box;
+  for (const double x : {grid.origin_x_m, far_x})
+    for (const double y : {grid.origin_y_m, far_y}) box.extend(to_odom(x, y));
+
+  for_cells_in(map_, {box.min().x(), box.min().y()}, {box.max().x(), box.max().y()}, [&](GroundCell& cell, Point2 p) {
+    const Eigen::Vector2d in_body = to_grid * (Eigen::Vector2d(p.x_m, p.y_m) - to_odom.b);
+    const int ix = static_cast<int>(std::floor((in_body.x() - grid.origin_x_m) / grid.cell_m));
+    const int iy = static_cast<int>(std::floor((in_body.y() - grid.origin_y_m) / grid.cell_m));
+    if (ix < 0 || iy < 0 || ix >= grid.cells_x || iy >= grid.cells_y) return;
+    const std::uint8_t value = grid.cells[static_cast<size_t>(iy) * grid.cells_x + ix];
+    if (value == HazardGrid::kFree) note_free(cell, in_body.norm() <= config_.clear_range_m);
+    // The margin about a hazard is ground that was seen; this service keeps margins of its own.
+    if (value == HazardGrid::kMargin) cell.seen = true;
+  });
+  // From the obstacle's side, so that none falls between the cells of the turned grid.
+  for (int iy = 0; iy < grid.cells_y; ++iy)
+    for (int ix = 0; ix < grid.cells_x; ++ix) {
+      const std::uint8_t value = grid.cells[static_cast<size_t>(iy) * grid.cells_x + ix];
+      if (value != HazardGrid::kObstacle && value != HazardGrid::kHole) continue;
+      const Eigen::Vector2d p =
+          to_odom(grid.origin_x_m + (ix + 0.5) * grid.cell_m, grid.origin_y_m + (iy + 0.5) * grid.cell_m);
+      note_obstacle(map_.index_of(p.x(), p.y()));
+    }
+}
+
+void HazardMemory::note_obstacle(CellIndex index) {
+  if (!map_.contains(index)) return;
+  GroundCell& cell = map_.at(index);
+  cell.seen = true;
+  cell.contrary = 0;
+  if (cell.frame != frame_ && cell.hits < kMostHits) ++cell.hits;
+  cell.frame = frame_;
+}
+
+void HazardMemory::note_free(GroundCell& cell, bool close) const {
+  cell.seen = true;
+  if (cell.hits == 0 || (confirmed(cell) && !close)) return;
+  const int enough = confirmed(cell) ? config_.confirmed_clear : config_.possible_clear;
+  if (++cell.contrary < enough) return;
+  cell.hits = 0;
+  cell.contrary = 0;
+}
+
+void HazardMemory::mark_driven(const Pose2& pose, const Footprint& footprint) {
+  const double r = footprint.radius_m();
+  for_cells_in(map_, {pose.x_m - r, pose.y_m - r}, {pose.x_m + r, pose.y_m + r}, [&](GroundCell& cell, Point2 p) {
+    if (footprint.distance_m(pose, p) <= 0.0) cell = GroundCell{.seen = true};
+  });
+}
+
+void HazardMemory::mark_seen(Point2 center, double radius_m) {
+  for_cells_in(map_, {center.x_m - radius_m, center.y_m - radius_m}, {center.x_m + radius_m, center.y_m + radius_m},
+               [&](GroundCell& cell, Point2 p) { cell.seen = cell.seen || distance(p, center) <= radius_m; });
+}
+
+}  // namespace rover::planning

@@ -1,0 +1,72 @@
+// What the rover has seen around it: a grid in odom that moves with the rover. Obstacles are counted over frames; what
+// leaves the field of view is kept, what leaves the grid is forgotten.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/core/grid_map.hpp"
+#include "common/core/time.hpp"
+#include "path_planner/geometry.hpp"
+
+namespace rover::planning {
+
+struct HazardMemoryConfig {
+  int cells = 120;
+  double cell_m = 0.1;
+  int confirm_hits = 2;        // frames that saw an obstacle in the cell
+  int possible_clear = 2;      // frames in a row that saw it free end a possible hazard
+  int confirmed_clear = 5;     // ... from close by a confirmed one
+  double clear_range_m = 2.0;  // what counts as close by, from the body origin
+};
+
+// HAZARDS as the detector sends it, in the body frame of the exposure.
+struct HazardGrid {
+  enum Cell : std::uint8_t { kUnseen = 0, kFree = 1, kObstacle = 2, kHole = 3, kMargin = 4 };
+  Utime utime = kNever;
+  double cell_m = 0.0;
+  double origin_x_m = 0.0;
+  double origin_y_m = 0.0;
+  int cells_x = 0;
+  int cells_y = 0;
+  std::vector<std::uint8_t> cells;  // iy * cells_x + ix
+
+  // Why the grid is not usable; empty where it is.
+  std::string fault() const;
+};
+
+struct GroundCell {
+  bool seen = false;
+  std::uint8_t hits = 0;      // frames that saw an obstacle here
+  std::uint8_t contrary = 0;  // frames in a row that then saw it free
+  std::uint16_t frame = 0;    // the last that counted as a hit: two grid cells may fall into one cell here
+};
+
+class HazardMemory {
+ public:
+  explicit HazardMemory(const HazardMemoryConfig& config) : config_(config), map_(config.cells, config.cell_m) {}
+
+  void move_to(Point2 rover) { map_.move_to(rover.x_m, rover.y_m); }
+  void clear() { map_.clear(); }
+  // One frame. The ground lies `ground_z_m` above (negative: below) the body origin.
+  void add(const HazardGrid& grid, const Eigen::Isometry3d& T_odom_body, double ground_z_m);
+  // The ground under the vehicle carries it, whatever was thought of it.
+  void mark_driven(const Pose2& pose, const Footprint& footprint);
+  // Ground that the operator certifies.
+  void mark_seen(Point2 center, double radius_m);
+
+  bool confirmed(const GroundCell& cell) const { return cell.hits >= config_.confirm_hits; }
+  const GridMap<GroundCell>& map() const { return map_; }
+  GridMap<GroundCell>& map() { return map_; }
+
+ private:
+  void note_obstacle(CellIndex index);
+  void note_free(GroundCell& cell, bool close) const;
+
+  HazardMemoryConfig config_;
+  GridMap<GroundCell> map_;
+  std::uint16_t frame_ = 0;
+};
+
+}  // namespace rover::planning

@@ -1,0 +1,170 @@
+#include "path_planner/local_repair.hpp"
+
+#include "path_planner/distance_field.hpp"
+
+namespace rover::planning {
+namespace {
+
+constexpr double kPoseStepM = 0.05;
+constexpr double kPathStepM = 0.1;
+constexpr double kBorderM = 0.5;         // of the map, where nothing is joined
+constexpr double kShortestJoinM = 0.5;   // ahead of the rover
+constexpr double kSoonM = 1.0;           // reach of "as soon as possible": what an arc needs to come in
+constexpr double kSoonFactor = 3.0;      // prices the global path, so that an early join is worth a longer way
+constexpr double kTightCost = 8.0;       // per metre where only a rectangle turned the right way may pass
+constexpr double kBareM = 0.05;          // nearer than the half width less this nothing passes
+constexpr double kMarchBeyond = 3.5;     // travel cost, as much as a point turn and a way round
+constexpr double kMostClearanceM = 2.0;
+constexpr double kLeastSmoothM = 0.6;
+
+// The stretch of the global path from `from_m` that lies inside the map.
+std::vector<double> stations(const Route& global, const Terrain& terrain, double from_m) {
+  std::vector<double> out;
+  for (double s = from_m; s < global.length_m(); s += kPathStepM) {
+    if (terrain.inside_m(global.point_at(s)) < kBorderM) return out;
+    out.push_back(s);
+  }
+  if (terrain.inside_m(global.point_at(global.length_m())) >= kBorderM) out.push_back(global.length_m());
+  return out;
+}
+
+}  // namespace
+
+const char* text_of(RepairStatus status) {
+  switch (status) {
+    case RepairStatus::kFound:
+      return "repair found";
+    case RepairStatus::kNoTarget:
+      return "the global path is blocked as far as known";
+    case RepairStatus::kNoWay:
+      return "hazards leave no way to the global path";
+    case RepairStatus::kUnseen:
+      return "no way to the global path over ground that is seen in time";
+  }
+  return "";
+}
+
+RepairResult LocalRepair::plan(const RepairRequest& request) const {
+  const FootprintCheck check(request.terrain, config_.footprint, request.margin_m, request.start);
+  RepairResult result;
+  std::vector<JoinTarget> targets = join_targets(request, check);
+  MarchGrid cost = travel_costs(request, check);
+  std::vector<Seed> seeds;
+  for (JoinTarget& target : targets) seeds.push_back({request.terrain.cell_of(position(target.pose)), target.travel_cost});
+
+  const Point2 end = request.global.point_at(request.global.length_m());
+  std::optional<Point2> goal;
+  if (request.terrain.inside_m(end) >= kBorderM) {
+    goal = end;
+    seeds.push_back({request.terrain.cell_of(end), 0.0});
+  }
+  if (seeds.empty()) {
+    result.status = RepairStatus::kNoTarget;
+    return result;
+  }
+  const std::vector<double> travel = march(cost, seeds, request.terrain.cell_of(position(request.start)), kMarchBeyond);
+  const SearchResult way =
+      search_arcs(config_.search, {check, cost, travel, config_.view, targets, goal, 0.6 * request.goal_tolerance_m,
+                                   request.start, request.start_curvature_per_m, request.stopped});
+  result.expansions = way.expansions;
+  if (!way.found) {
+    result.status = way.unseen_in_the_way ? RepairStatus::kUnseen
+                    : targets.empty()     ? RepairStatus::kNoTarget
+                                          : RepairStatus::kNoWay;
+    return result;
+  }
+  result.poses = best_poses(request, check, way, result.smoothed);
+  if (result.poses.empty()) return result;
+  result.status = RepairStatus::kFound;
+  result.turn_rad = way.turn_rad;
+  result.join_m = way.target >= 0 ? targets[way.target].way_m : request.global.length_m();
+  result.clearance_m = kMostClearanceM;
+  for (const Pose2& pose : result.poses) result.clearance_m = check.clearance_m(pose, result.clearance_m);
+  return result;
+}
+
+// Clear poses past the last known blockage, within the reach that the configuration asks for.
+std::vector<JoinTarget> LocalRepair::join_targets(const RepairRequest& request, const FootprintCheck& check) const {
+  const std::vector<double> way = stations(request.global, request.terrain, request.from_m + kShortestJoinM);
+  size_t first = 0;
+  for (size_t i = 0; i < way.size(); ++i)
+    if (!check.clear(request.global.pose_at(way[i]))) first = i + 1;
+  std::vector<JoinTarget> targets;
+  if (first == way.size()) return targets;
+  const bool soon = config_.rejoin_within_m <= 0.0;
+  const double reach_m = soon ? kSoonM : config_.rejoin_within_m;
+  for (size_t i = first; i < way.size() && way[i] <= way[first] + reach_m; ++i) {
+    JoinTarget target{request.global.pose_at(way[i]), way[i], 0.0};
+    if (std::isfinite(ground_cost(request.terrain, request.terrain.cell_of(position(target.pose)), request.margin_m)))
+      targets.push_back(target);
+  }
+  double ahead = 0.0;
+  for (size_t i = targets.size(); i-- > 0;) {
+    targets[i].travel_cost = ahead;
+    if (i == 0) break;
+    const int cell = request.terrain.cell_of(position(targets[i].pose));
+    ahead += (targets[i].way_m - targets[i - 1].way_m) * (soon ? kSoonFactor : 1.0) *
+             ground_cost(request.terrain, cell, request.margin_m);
+  }
+  return targets;
+}
+
+double LocalRepair::ground_cost(const Terrain& terrain, int cell, double margin_m) const {
+  const double room = terrain.hazard_distance_m(cell) - config_.footprint.half_width_m;
+  if (room < -kBareM) return kInfinity;
+  if (room < margin_m) return kTightCost;
+  const double lack = std::max(0.0, 1.0 - (room - margin_m) / config_.risk_distance_m);
+  return 1.0 + config_.risk_cost * lack * lack + (terrain.unseen(cell) ? config_.unseen_cost : 0.0);
+}
+
+MarchGrid LocalRepair::travel_costs(const RepairRequest& request, const FootprintCheck& check) const {
+  const Terrain& terrain = request.terrain;
+  MarchGrid grid{terrain.cells(), terrain.cells(), terrain.cell_m(), {}};
+  const size_t count = static_cast<size_t>(terrain.cells()) * terrain.cells();
+  std::vector<std::uint8_t> path(count, 0);
+  for (double s = std::max(0.0, request.from_m - 6.0); s <= std::min(request.from_m + 12.0, request.global.length_m());
+       s += kPathStepM)
+    if (const Point2 p = request.global.point_at(s); terrain.contains(p)) path[terrain.cell_of(p)] = 1;
+  const std::vector<double> off_path = distance_field(path, terrain.cells(), terrain.cells(), terrain.cell_m());
+  const double at_start = off_path[terrain.cell_of(position(request.start))];
+  const double most = std::max(config_.max_deviation_m, at_start + kSoonM);
+  grid.cost_per_m.resize(count);
+  for (size_t i = 0; i < count; ++i)
+    grid.cost_per_m[i] = off_path[i] > most ? kInfinity : ground_cost(terrain, static_cast<int>(i), check.margin_m());
+  return grid;
+}
+
+std::vector<Pose2> LocalRepair::best_poses(const RepairRequest& request, const FootprintCheck& check,
+                                           const SearchResult& way, bool& smoothed) const {
+  double length = 0.0;
+  for (const ArcSegment& arc : way.segments) length += arc.length_m;
+  const double curvature = way.turn_rad == 0.0 ? request.start_curvature_per_m : 0.0;
+  if (length >= kLeastSmoothM) {
+    const SmoothProblem problem{request.terrain, config_.footprint, request.margin_m, way.start, curvature, way.segments};
+    const std::optional<std::vector<Pose2>> poses = smooth(config_.smoother, problem, kPoseStepM);
+    smoothed = poses && verified(*poses, check, config_.view, config_.search.look_ahead_m);
+    if (smoothed) return *poses;
+  }
+  std::vector<Pose2> rough = sample(way.start, way.segments, kPoseStepM);
+  return verified(rough, check, config_.view, config_.search.look_ahead_m) ? rough : std::vector<Pose2>{};
+}
+
+bool verified(const std::vector<Pose2>& poses, const FootprintCheck& check, const ViewArea& view, double look_ahead_m) {
+  if (poses.size() < 2) return false;
+  SeenOnTheWay seen(check, view);
+  Pose2 noted = poses.front();
+  seen.passed(noted);
+  double way = 0.0;
+  for (size_t i = 0; i < poses.size(); ++i) {
+    if (i > 0) way += distance(position(poses[i - 1]), position(poses[i]));
+    if (!check.clear(poses[i])) return false;
+    if (i == 0 || way > look_ahead_m) continue;
+    if (!seen.covers(poses[i])) return false;
+    if (distance(position(noted), position(poses[i])) < 0.2) continue;
+    noted = poses[i];
+    seen.passed(noted);
+  }
+  return true;
+}
+
+}  // namespace rover::planning

@@ -1,0 +1,342 @@
+#include "path_planner/path_planner.hpp"
+
+#include <cmath>
+
+namespace rover::planning {
+namespace {
+
+constexpr double kSearchBackM = 0.5;
+constexpr double kSearchAheadM = 1.0;
+constexpr double kKeepBehindM = 0.3;
+constexpr double kStandingMps = 0.02;
+constexpr double kStandingRadps = 0.02;
+constexpr double kLeastPathM = 0.1;
+constexpr double kLongestPathM = 1e5;
+constexpr double kMaxCurvatureNow = 1.0;
+constexpr double kCorridorReserveM = 0.05;
+constexpr double kCellHalfM = 0.05;
+constexpr double kGoalNearM = 1.0;
+constexpr size_t kPosesPerPoint = 2;  // repairs are verified every 5 cm and published every 10 cm
+
+Pose2 inverse(const Pose2& T) {
+  const double c = std::cos(T.yaw_rad);
+  const double s = std::sin(T.yaw_rad);
+  return {-c * T.x_m - s * T.y_m, s * T.x_m - c * T.y_m, -T.yaw_rad};
+}
+
+Point2 apply(const Pose2& T, Point2 p) {
+  const double c = std::cos(T.yaw_rad);
+  const double s = std::sin(T.yaw_rad);
+  return {T.x_m + c * p.x_m - s * p.y_m, T.y_m + s * p.x_m + c * p.y_m};
+}
+
+double smooth_step(double u) {
+  const double v = std::clamp(u, 0.0, 1.0);
+  return v * v * (3.0 - 2.0 * v);
+}
+
+}  // namespace
+
+std::string GlobalPath::fault() const {
+  if (points.size() < 2) return "path has fewer than 2 points";
+  double length = 0.0;
+  for (size_t i = 0; i < points.size(); ++i) {
+    if (!std::isfinite(points[i].p.x_m) || !std::isfinite(points[i].p.y_m))
+      return "point " + std::to_string(i) + " of the path is not finite";
+    if (i > 0) length += distance(points[i - 1].p, points[i].p);
+  }
+  if (length < kLeastPathM) return "path is shorter than 0.1 m";
+  if (length > kLongestPathM) return "path is longer than 100 km";
+  if (goal_tolerance_m < 0.0 || std::isinf(goal_tolerance_m)) return "goal tolerance is out of range";
+  if (corridor_half_width_m < 0.0 || std::isinf(corridor_half_width_m)) return "corridor is out of range";
+  return "";
+}
+
+PathPlanner::PathPlanner(const PathPlannerConfig& config, std::int64_t first_path_id)
+    : config_(config), local_repair_(config.repair), memory_(config.memory), next_path_id_(first_path_id) {}
+
+std::string PathPlanner::set_global_path(const GlobalPath& path) {
+  if (const std::string fault = path.fault(); !fault.empty()) return fault;
+  global_ = path;
+  if (!(path.goal_tolerance_m > 0.0)) global_->goal_tolerance_m = config_.goal_tolerance_m;
+  if (!(path.corridor_half_width_m > 0.0)) global_->corridor_half_width_m = config_.corridor_half_width_m;
+  global_map_ = rounded(path.points, config_.rounding);
+  global_odom_ = Route();
+  active_ = Active();
+  failures_ = 0;
+  return "";
+}
+
+void PathPlanner::set_start_area(Point2 center_map, double radius_m, Utime utime) {
+  start_area_ = StartArea{center_map, radius_m, utime};
+}
+
+void PathPlanner::add_pose(const PoseSample& sample) {
+  if (!sample.usable) {
+    history_.clear();  // what comes after need not fit to what was before
+    return;
+  }
+  history_.add(sample);
+  take_start_area();
+  memory_.move_to(position(rover()));
+  memory_.mark_driven(rover(), config_.footprint);
+}
+
+void PathPlanner::take_start_area() {
+  if (!start_area_ || history_.newest().utime <= start_area_->utime) return;
+  const PoseSample newest = history_.newest();
+  history_.clear();
+  history_.add(newest);
+  memory_.clear();
+  memory_.move_to(position(rover()));
+  const Point2 center = apply(inverse(planar(newest.T_map_odom)), start_area_->center_map);
+  if (start_area_->radius_m > 0.0) memory_.mark_seen(center, start_area_->radius_m);
+  start_area_.reset();
+  global_odom_ = Route();
+  active_ = Active();
+  new_ground_ = true;
+}
+
+std::string PathPlanner::add_hazards(const HazardGrid& grid) {
+  if (const std::string fault = grid.fault(); !fault.empty()) return fault;
+  const std::optional<Eigen::Isometry3d> T = history_.at(grid.utime);
+  if (!T) return "no pose at the time of exposure";
+  memory_.add(grid, *T, config_.ground_z_m);
+  new_ground_ = true;
+  return "";
+}
+
+bool PathPlanner::ready() const { return global_ && !history_.empty(); }
+
+PlannerOutput PathPlanner::step(Utime) {
+  PlannerOutput out;
+  if (ready()) {
+    if (global_odom_.empty()) lay_global_path();
+    if (active_.route.empty()) {
+      if (failures_ == 0 || new_ground_) begin(out);
+    } else {
+      track_progress();
+      leave_repair(out);
+      follow_correction(out);
+      if (new_ground_) react(out);
+    }
+    new_ground_ = false;
+  }
+  out.status = status();
+  return out;
+}
+
+void PathPlanner::lay_global_path() {
+  T_map_odom_laid_ = planar(history_.newest().T_map_odom);
+  global_odom_ = transformed(global_map_, inverse(T_map_odom_laid_));
+  global_progress_m_ = global_odom_.closest(position(rover()));
+}
+
+void PathPlanner::track_progress() {
+  const Point2 p = position(rover());
+  active_.progress_m = active_.route.closest(p, active_.progress_m - kSearchBackM, active_.progress_m + kSearchAheadM);
+  global_progress_m_ =
+      global_odom_.closest(p, global_progress_m_ - kSearchBackM, global_progress_m_ + 3.0 * kSearchAheadM);
+}
+
+void PathPlanner::begin(PlannerOutput& out) {
+  const Point2 start = global_odom_.point_at(global_progress_m_);
+  if (distance(start, position(rover())) > config_.max_start_offset_m) {
+    repair(false, out);
+    return;
+  }
+  active_.margin_m = config_.margin_m;
+  active_.corridor_half_width_m = global_->corridor_half_width_m;
+  std::vector<RoutePoint> points;
+  const size_t next = global_odom_.vertex_after(global_progress_m_);
+  if (next < global_odom_.points().size())
+    points.push_back({start, global_progress_m_, global_odom_.level_at(global_progress_m_)});
+  else
+    points.push_back(global_odom_.points()[next - 2]);  // the rover stands at the end: the last piece is the path
+  for (size_t i = std::min(next, global_odom_.points().size() - 1); i < global_odom_.points().size(); ++i)
+    points.push_back(global_odom_.points()[i]);
+  adopt(Route(std::move(points)), PathKind::kGlobal, out);
+  judge();
+}
+
+// A new frame: is the way still free, and if not, is there another?
+void PathPlanner::react(PlannerOutput& out) {
+  judge();
+  const bool blocked = block_.confirmed_m - active_.progress_m < config_.trigger_m;
+  const bool before_unseen = unseen_ahead_m() < config_.stop_unseen_m && standing();
+  frames_before_unseen_ = before_unseen ? frames_before_unseen_ + 1 : 0;
+  if (blocked || frames_before_unseen_ >= config_.patience_frames) {
+    if (repair(blocked, out)) frames_before_unseen_ = 0;
+  } else {
+    failures_ = 0;
+  }
+}
+
+void PathPlanner::judge() {
+  const Terrain terrain(memory_, true);
+  block_ = find_block({terrain, active_.route, config_.footprint, active_.progress_m, rover(),
+                       active_.margin_m + sigma_margin_m(), config_.turn_threshold_rad});
+}
+
+bool PathPlanner::repair(bool because_of_hazard, PlannerOutput& out) {
+  double margin = config_.margin_m;
+  last_repair_ = plan_repair(margin, true);
+  if (last_repair_.status != RepairStatus::kFound) {
+    margin = config_.tight_margin_m;
+    last_repair_ = plan_repair(margin, false);
+  }
+  if (last_repair_.status != RepairStatus::kFound) {
+    ++failures_;
+    return false;
+  }
+  failures_ = 0;
+  if (because_of_hazard) ++replans_;
+  Route route = repaired_route(last_repair_);
+  active_.margin_m = margin;
+  active_.corridor_half_width_m =
+      std::clamp(last_repair_.clearance_m - kCellHalfM - kCorridorReserveM, config_.least_corridor_m,
+                 std::max(config_.least_corridor_m, global_->corridor_half_width_m));
+  adopt(std::move(route), PathKind::kRepair, out);
+  judge();
+  return true;
+}
+
+RepairResult PathPlanner::plan_repair(double margin_m, bool with_possible) const {
+  const PoseSample& now = history_.newest();
+  const double speed = std::max(now.forward_mps, 0.0);
+  const double moving = std::abs(now.forward_mps) > kStandingMps ? 1.0 : 0.0;
+  const double curvature =
+      moving > 0.0 ? std::clamp(now.yaw_rate_radps / now.forward_mps, -kMaxCurvatureNow, kMaxCurvatureNow) : 0.0;
+  const double lead = moving * speed * config_.release_latency_s;
+  const double braking = moving * 0.5 * speed * speed / config_.deceleration_mps2;
+  const Terrain terrain(memory_, with_possible);
+  return local_repair_.plan({terrain, global_odom_, global_progress_m_, advanced(rover(), lead, curvature), curvature,
+                             advanced(rover(), lead + braking, curvature),
+                             margin_m + config_.plan_extra_m + sigma_margin_m(), global_->goal_tolerance_m});
+}
+
+Route PathPlanner::repaired_route(const RepairResult& repair) const {
+  std::vector<RoutePoint> points;
+  const std::vector<Pose2>& poses = repair.poses;
+  for (size_t i = 0; i < poses.size(); ++i) {
+    if (i % kPosesPerPoint != 0 && i + 1 != poses.size()) continue;
+    const double share = static_cast<double>(i) / static_cast<double>(poses.size() - 1);
+    const double along = global_progress_m_ + share * (repair.join_m - global_progress_m_);
+    points.push_back({position(poses[i]), kNaN, global_odom_.level_at(along)});
+  }
+  for (size_t i = global_odom_.vertex_after(repair.join_m + 0.5 * config_.rounding.step_m);
+       i < global_odom_.points().size(); ++i)
+    points.push_back(global_odom_.points()[i]);
+  return Route(std::move(points));
+}
+
+void PathPlanner::adopt(Route route, PathKind kind, PlannerOutput& out) {
+  active_.route = std::move(route);
+  active_.kind = kind;
+  active_.id = next_path_id_++;
+  active_.progress_m = active_.route.closest(position(rover()), 0.0, kSearchAheadM);
+  active_.repair_end_m = 0.0;
+  for (size_t i = 0; i < active_.route.points().size(); ++i)
+    if (std::isnan(active_.route.points()[i].global_s_m)) active_.repair_end_m = active_.route.s_at(i);
+  out.path = LocalPath{active_.id, kind, active_.corridor_half_width_m, global_->goal_tolerance_m,
+                       active_.route.points()};
+}
+
+// Past the place where the global path is joined the path is the global path again, with its own corridor.
+void PathPlanner::leave_repair(PlannerOutput& out) {
+  if (active_.kind != PathKind::kRepair || active_.progress_m <= active_.repair_end_m) return;
+  std::vector<RoutePoint> rest;
+  const std::vector<RoutePoint>& points = active_.route.points();
+  const size_t first = active_.route.vertex_after(active_.progress_m - kKeepBehindM);
+  for (size_t i = first > 0 ? first - 1 : 0; i < points.size(); ++i) rest.push_back(points[i]);
+  if (rest.size() < 2) return;
+  const double shift = active_.route.s_at(first > 0 ? first - 1 : 0);
+  active_.corridor_half_width_m = global_->corridor_half_width_m;
+  adopt(Route(std::move(rest)), PathKind::kGlobal, out);
+  block_ = {block_.confirmed_m - shift, block_.possible_m - shift, block_.unseen_m - shift};
+}
+
+// Map has moved against odom: obstacles stay, the global path's part of the active path moves, at bounded curvature and
+// not before the rover has left a repair.
+void PathPlanner::follow_correction(PlannerOutput& out) {
+  const Pose2 T_now = planar(history_.newest().T_map_odom);
+  const Point2 ahead = apply(T_map_odom_laid_, active_.route.point_at(active_.progress_m + 10.0));
+  const Point2 here = apply(T_map_odom_laid_, position(rover()));
+  const Pose2 T_odom_map = inverse(T_now);
+  const Pose2 T_odom_map_laid = inverse(T_map_odom_laid_);
+  const auto moved = [&](Point2 p_map) { return distance(apply(T_odom_map, p_map), apply(T_odom_map_laid, p_map)); };
+  const double change = std::max(moved(here), moved(ahead));
+  if (change < config_.correction_m) return;
+  lay_global_path();
+  const double begin = std::max(active_.progress_m + 1.0, active_.repair_end_m);
+  // Of the blend 3u^2 - 2u^3: slope at most 0.33, curvature at most 0.3 per metre.
+  const double ramp = std::max({3.0, 4.5 * change, std::sqrt(20.0 * change)});
+  std::vector<RoutePoint> points = active_.route.points();
+  for (size_t i = 0; i < points.size(); ++i) {
+    if (std::isnan(points[i].global_s_m)) continue;
+    const Point2 target = global_odom_.point_at(points[i].global_s_m);
+    const double w = smooth_step((active_.route.s_at(i) - begin) / ramp);
+    points[i].p = {points[i].p.x_m + w * (target.x_m - points[i].p.x_m),
+                   points[i].p.y_m + w * (target.y_m - points[i].p.y_m)};
+  }
+  const double progress = active_.progress_m;
+  adopt(Route(std::move(points)), active_.kind, out);
+  active_.progress_m = active_.route.closest(position(rover()), progress - kSearchBackM, progress + kSearchAheadM);
+  judge();
+}
+
+double PathPlanner::sigma_margin_m() const {
+  return std::min(config_.most_sigma_margin_m, config_.sigma_gain * history_.gained_sigma_m());
+}
+
+bool PathPlanner::standing() const {
+  return std::abs(history_.newest().forward_mps) < kStandingMps &&
+         std::abs(history_.newest().yaw_rate_radps) < kStandingRadps;
+}
+
+double PathPlanner::hazard_ahead_m() const {
+  return std::min(block_.confirmed_m, block_.possible_m) - active_.progress_m;
+}
+
+PlannerStatus PathPlanner::status() const {
+  PlannerStatus status;
+  status.replans = replans_;
+  if (global_) status.global_path_id = global_->id;
+  if (!ready()) {
+    status.text = global_ ? "no usable pose" : "no global path";
+    return status;
+  }
+  if (!global_odom_.empty())
+    status.corridor_offset_m = distance(global_odom_.point_at(global_progress_m_), position(rover()));
+  if (active_.route.empty()) {
+    status.state = PlannerState::kNoPath;
+    status.text = std::string("no way to the global path: ") + text_of(last_repair_.status);
+    return status;
+  }
+  status.path_id = active_.id;
+  status.goal_distance_m = goal_distance_m();
+  status.state = active_.kind == PathKind::kRepair ? PlannerState::kRepairing : PlannerState::kFollowing;
+  describe_block(status);
+  return status;
+}
+
+void PathPlanner::describe_block(PlannerStatus& status) const {
+  const double hazard = hazard_ahead_m();
+  const double unseen = unseen_ahead_m();
+  status.blocked_in_m = std::max(0.0, std::min(hazard, unseen));
+  status.block_kind = std::isinf(status.blocked_in_m) ? BlockKind::kNone
+                      : hazard <= unseen              ? BlockKind::kHazard
+                                                      : BlockKind::kUnseen;
+  if (failures_ == 0) return;
+  status.text = text_of(last_repair_.status);
+  const bool in_the_way = hazard < config_.stop_hazard_m || unseen < config_.stop_unseen_m;
+  if (in_the_way && failures_ >= config_.patience_frames) status.state = PlannerState::kNoPath;
+}
+
+double PathPlanner::goal_distance_m() const {
+  const double along = active_.route.length_m() - active_.progress_m;
+  const double straight = distance(active_.route.points().back().p, position(rover()));
+  return along < kGoalNearM ? std::max(along, straight) : along;
+}
+
+}  // namespace rover::planning

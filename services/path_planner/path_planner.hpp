@@ -1,0 +1,162 @@
+// Keeps the rover on the global path and leads it around what the cameras find: hazard memory, block test, local repair.
+// Two triggers make a path: a hazard on the active path, and a change of map against odom.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "path_planner/block_finder.hpp"
+#include "path_planner/hazard_memory.hpp"
+#include "path_planner/local_repair.hpp"
+#include "path_planner/pose_history.hpp"
+#include "path_planner/route.hpp"
+
+namespace rover::planning {
+
+struct PathPlannerConfig {
+  Footprint footprint;
+  double ground_z_m = 0.0;            // of flat ground in body axes
+  double deceleration_mps2 = 0.1;
+  HazardMemoryConfig memory;
+  LocalRepairConfig repair;           // its footprint is taken from above
+  RoundingConfig rounding;
+  double margin_m = 0.15;             // rectangle to the centre of a hazard's cell: 0.05 m of it is the cell
+  double tight_margin_m = 0.10;       // where the first finds no way
+  double plan_extra_m = 0.06;         // repairs keep that much more, so that a hazard may grow by half a cell
+  double sigma_gain = 1.0;            // of the deviation gained since a hazard was seen
+  double most_sigma_margin_m = 0.10;
+  double release_latency_s = 0.1;     // of the path, message time
+  double trigger_m = 6.0;             // a block further ahead is left until it comes nearer
+  double corridor_half_width_m = 0.75;
+  double least_corridor_m = 0.20;
+  double goal_tolerance_m = 0.4;      // where the global path names none
+  double max_start_offset_m = 0.5;    // from the global path; further away a way to it is planned
+  double turn_threshold_rad = 0.7;    // as trajectory_control: larger heading errors are a point turn
+  double stop_hazard_m = 0.6;         // nearer blocks stand in the way at once: no path if no repair is found
+  double stop_unseen_m = 0.35;
+  int patience_frames = 5;            // standing before unseen ground or a blocked path, until it is called no path
+  double correction_m = 0.05;         // movement of map against odom that updates the path
+};
+
+struct GlobalPath {
+  std::int64_t id = -1;
+  std::vector<RoutePoint> points;  // in map
+  double corridor_half_width_m = kNaN;
+  double goal_tolerance_m = kNaN;
+
+  // Why it is not a path; empty where it is one.
+  std::string fault() const;
+};
+
+enum class PlannerState : std::int8_t { kIdle = 0, kFollowing = 1, kRepairing = 2, kNoPath = 3 };
+enum class BlockKind : std::int8_t { kNone = 0, kHazard = 1, kUnseen = 2 };
+enum class PathKind : std::int8_t { kGlobal = 0, kRepair = 1 };
+
+struct PlannerStatus {
+  PlannerState state = PlannerState::kIdle;
+  std::int64_t path_id = -1;
+  std::int64_t global_path_id = -1;
+  double blocked_in_m = 0.0;
+  BlockKind block_kind = BlockKind::kUnseen;
+  std::int32_t replans = 0;
+  double goal_distance_m = kNaN;
+  double corridor_offset_m = kNaN;
+  std::string text;
+};
+
+struct LocalPath {
+  std::int64_t id = -1;
+  PathKind kind = PathKind::kGlobal;
+  double corridor_half_width_m = 0.0;
+  double goal_tolerance_m = 0.0;
+  std::vector<RoutePoint> points;  // in odom
+};
+
+struct PlannerOutput {
+  PlannerStatus status;
+  std::optional<LocalPath> path;  // new or changed
+};
+
+class PathPlanner {
+ public:
+  // Path ids count up from first_path_id; a restarted service must not use those of its predecessor.
+  PathPlanner(const PathPlannerConfig& config, std::int64_t first_path_id);
+
+  // Empty: accepted; otherwise why not, and the old path stays.
+  std::string set_global_path(const GlobalPath& path);
+  // The operator certifies a circle in map as clear; odom begins anew, so everything remembered in it goes.
+  void set_start_area(Point2 center_map, double radius_m, Utime utime);
+  void add_pose(const PoseSample& sample);
+  // Empty: taken; otherwise why not.
+  std::string add_hazards(const HazardGrid& grid);
+  PlannerOutput step(Utime now);
+
+  std::vector<std::uint8_t> save() const;
+  // False where the bytes are not a state; the planner is then unchanged.
+  bool restore(const std::vector<std::uint8_t>& bytes);
+
+  const HazardMemory& memory() const { return memory_; }
+  const Route& active_route() const { return active_.route; }
+  const RepairResult& last_repair() const { return last_repair_; }
+
+ private:
+  struct Active {
+    Route route;
+    std::int64_t id = -1;
+    PathKind kind = PathKind::kGlobal;
+    double repair_end_m = 0.0;
+    double margin_m = 0.0;
+    double corridor_half_width_m = 0.0;
+    double progress_m = 0.0;
+  };
+  struct StartArea {
+    Point2 center_map;
+    double radius_m = 0.0;
+    Utime utime = kNever;
+  };
+
+  bool ready() const;
+  Pose2 rover() const { return planar(history_.newest().T_odom_body); }
+  void take_start_area();
+  void lay_global_path();
+  void track_progress();
+  void begin(PlannerOutput& out);
+  void react(PlannerOutput& out);
+  void follow_correction(PlannerOutput& out);
+  void leave_repair(PlannerOutput& out);
+  void judge();
+  bool repair(bool because_of_hazard, PlannerOutput& out);
+  RepairResult plan_repair(double margin_m, bool with_possible) const;
+  void adopt(Route route, PathKind kind, PlannerOutput& out);
+  Route repaired_route(const RepairResult& repair) const;
+  double sigma_margin_m() const;
+  bool standing() const;
+  double hazard_ahead_m() const;
+  double unseen_ahead_m() const { return block_.unseen_m - active_.progress_m; }
+  PlannerStatus status() const;
+  void describe_block(PlannerStatus& status) const;
+  double goal_distance_m() const;
+
+  PathPlannerConfig config_;
+  LocalRepair local_repair_;
+  HazardMemory memory_;
+  PoseHistory history_;
+  std::optional<StartArea> start_area_;
+  std::optional<GlobalPath> global_;
+  Route global_map_;   // rounded, in map
+  Route global_odom_;  // the same in odom
+  Pose2 T_map_odom_laid_;
+  double global_progress_m_ = 0.0;
+  Active active_;
+  Block block_;
+  bool new_ground_ = false;  // seen or certified since the last judgement
+  std::int64_t next_path_id_;
+  std::int32_t replans_ = 0;
+  int failures_ = 0;
+  int frames_before_unseen_ = 0;
+  RepairResult last_repair_;
+};
+
+}  // namespace rover::planning

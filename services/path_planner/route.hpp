@@ -1,0 +1,53 @@
+// A path in the plane, measured by its arc length.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "path_planner/geometry.hpp"
+
+namespace rover::planning {
+
+struct RoutePoint {
+  Point2 p;
+  double global_s_m = kNaN;  // along the global path; NaN: on a repair
+  std::int8_t level = 0;     // wanted from here on (path_t)
+};
+
+class Route {
+ public:
+  Route() = default;
+  explicit Route(std::vector<RoutePoint> points);
+
+  bool empty() const { return points_.empty(); }
+  const std::vector<RoutePoint>& points() const { return points_; }
+  double length_m() const { return s_m_.empty() ? 0.0 : s_m_.back(); }
+  double s_at(size_t i) const { return s_m_[i]; }
+  // Position on the polyline; heading from chords of 0.2 m.
+  Pose2 pose_at(double s_m) const;
+  Point2 point_at(double s_m) const;
+  std::int8_t level_at(double s_m) const;
+  // Arc length of the closest point with arc length in [from, to].
+  double closest(Point2 p, double from_m, double to_m) const;
+  double closest(Point2 p) const { return closest(p, 0.0, length_m()); }
+  // First vertex with arc length above s.
+  size_t vertex_after(double s_m) const;
+
+ private:
+  std::vector<RoutePoint> points_;
+  std::vector<double> s_m_;
+};
+
+// The route seen from another frame.
+Route transformed(const Route& route, const Pose2& T);
+// Points at steps of `step_m`, corners rounded with a radius of at least `min_radius_m` and at most `max_radius_m` where
+// that keeps within `tolerance_m` of the corner; sharper ones stay, for a point turn.
+struct RoundingConfig {
+  double step_m = 0.1;
+  double min_radius_m = 1.0;
+  double max_radius_m = 4.0;
+  double tolerance_m = 0.2;
+};
+Route rounded(const std::vector<RoutePoint>& corners, const RoundingConfig& config);
+
+}  // namespace rover::planning

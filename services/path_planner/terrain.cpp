@@ -1,0 +1,107 @@
+#include "path_planner/terrain.hpp"
+
+#include <array>
+
+#include "path_planner/distance_field.hpp"
+
+namespace rover::planning {
+namespace {
+
+// A single unseen cell among seen ones hides nothing that matters: a hazard 0.15 m tall is wider than one cell of 0.1 m.
+constexpr int kNeighboursThatFill = 6;
+
+constexpr double kRelaxM = 0.02;  // leaves room for rounding where the rover stands close to a hazard
+
+bool counts_as_seen(const GridMap<GroundCell>& map, CellIndex i) {
+  if (map.at(i).seen) return true;
+  int seen = 0;
+  for (int dy = -1; dy <= 1; ++dy)
+    for (int dx = -1; dx <= 1; ++dx) seen += map.get({i.ix + dx, i.iy + dy}).seen ? 1 : 0;
+  return seen >= kNeighboursThatFill;
+}
+
+}  // namespace
+
+Terrain::Terrain(const HazardMemory& memory, bool with_possible)
+    : cells_(memory.map().cells()), cell_m_(memory.map().cell_m()) {
+  const GridMap<GroundCell>& map = memory.map();
+  corner_ = {map.origin().ix * cell_m_, map.origin().iy * cell_m_};
+  std::vector<std::uint8_t> hazard;
+  unseen_.reserve(static_cast<size_t>(cells_) * cells_);
+  hazard.reserve(unseen_.capacity());
+  map.for_each([&](CellIndex i, const GroundCell& cell) {
+    const bool is_hazard = memory.confirmed(cell) || (with_possible && cell.hits > 0);
+    if (is_hazard) hazards_.push_back({{map.center_x_m(i), map.center_y_m(i)}, memory.confirmed(cell)});
+    hazard.push_back(is_hazard ? 1 : 0);
+    unseen_.push_back(counts_as_seen(map, i) ? 0 : 1);
+  });
+  hazard_distance_ = distance_field(hazard, cells_, cells_, cell_m_);
+  unseen_distance_ = distance_field(unseen_, cells_, cells_, cell_m_);
+}
+
+bool Terrain::contains(Point2 p) const { return inside_m(p) > 0.0; }
+
+double Terrain::inside_m(Point2 p) const {
+  const double side = cells_ * cell_m_;
+  return std::min({p.x_m - corner_.x_m, p.y_m - corner_.y_m, corner_.x_m + side - p.x_m, corner_.y_m + side - p.y_m});
+}
+
+int Terrain::cell_of(Point2 p) const {
+  const int ix = std::clamp(static_cast<int>((p.x_m - corner_.x_m) / cell_m_), 0, cells_ - 1);
+  const int iy = std::clamp(static_cast<int>((p.y_m - corner_.y_m) / cell_m_), 0, cells_ - 1);
+  return iy * cells_ + ix;
+}
+
+Point2 Terrain::center_of(int cell) const {
+  return {corner_.x_m + (cell % cells_ + 0.5) * cell_m_, corner_.y_m + (cell / cells_ + 0.5) * cell_m_};
+}
+
+double Terrain::hazard_distance_smooth(Point2 p, Eigen::Vector2d& gradient) const {
+  constexpr double kMost = 5.0;
+  gradient.setZero();
+  const double gx = (p.x_m - corner_.x_m) / cell_m_ - 0.5;
+  const double gy = (p.y_m - corner_.y_m) / cell_m_ - 0.5;
+  if (!(gx >= 0.0 && gy >= 0.0 && gx < cells_ - 1 && gy < cells_ - 1)) return kMost;
+  const int ix = static_cast<int>(gx);
+  const int iy = static_cast<int>(gy);
+  const auto at = [&](int x, int y) { return std::min(hazard_distance_[static_cast<size_t>(y) * cells_ + x], kMost); };
+  const double u = gx - ix;
+  const double v = gy - iy;
+  const double a = at(ix, iy);
+  const double b = at(ix + 1, iy);
+  const double c = at(ix, iy + 1);
+  const double d = at(ix + 1, iy + 1);
+  gradient = Eigen::Vector2d((1.0 - v) * (b - a) + v * (d - c), (1.0 - u) * (c - a) + u * (d - b)) / cell_m_;
+  return (1.0 - v) * ((1.0 - u) * a + u * b) + v * ((1.0 - u) * c + u * d);
+}
+
+bool FootprintCheck::violates(const Pose2& pose, Point2 hazard) const {
+  const double d = footprint_.distance_m(pose, hazard);
+  if (d >= margin_m_) return false;
+  const double at_start = footprint_.distance_m(start_, hazard);
+  return d < std::min(margin_m_, std::max(at_start - kRelaxM, 0.0));
+}
+
+bool FootprintCheck::clear(const Pose2& pose) const {
+  const double reach = footprint_.radius_m() + margin_m_;
+  if (terrain_.hazard_distance_m(position(pose)) > reach + terrain_.cell_m()) return true;
+  return std::none_of(terrain_.hazards().begin(), terrain_.hazards().end(), [&](const HazardSpot& h) {
+    return std::abs(h.p.x_m - pose.x_m) <= reach && std::abs(h.p.y_m - pose.y_m) <= reach && violates(pose, h.p);
+  });
+}
+
+bool FootprintCheck::clear_of(const Pose2& pose, bool confirmed) const {
+  const double reach = footprint_.radius_m() + margin_m_;
+  if (terrain_.hazard_distance_m(position(pose)) > reach + terrain_.cell_m()) return true;
+  return std::none_of(terrain_.hazards().begin(), terrain_.hazards().end(), [&](const HazardSpot& h) {
+    return h.confirmed == confirmed && std::abs(h.p.x_m - pose.x_m) <= reach && violates(pose, h.p);
+  });
+}
+
+double FootprintCheck::clearance_m(const Pose2& pose, double most) const {
+  double least = most;
+  for (const HazardSpot& h : terrain_.hazards()) least = std::min(least, footprint_.distance_m(pose, h.p));
+  return least;
+}
+
+}  // namespace rover::planning

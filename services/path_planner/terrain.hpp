@@ -1,0 +1,99 @@
+// The ground around the rover at one moment, made ready for planning: hazards as points, distances to them, and what
+// was never seen. The exact test of the vehicle's rectangle against both.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "path_planner/geometry.hpp"
+#include "path_planner/hazard_memory.hpp"
+
+namespace rover::planning {
+
+struct HazardSpot {
+  Point2 p;  // a cell's centre
+  bool confirmed = false;
+};
+
+class Terrain {
+ public:
+  // `with_possible`: single hits stand as hazards too.
+  Terrain(const HazardMemory& memory, bool with_possible);
+
+  int cells() const { return cells_; }
+  double cell_m() const { return cell_m_; }
+  bool contains(Point2 p) const;
+  // Distance of the point to the map's border, negative outside.
+  double inside_m(Point2 p) const;
+  int cell_of(Point2 p) const;  // the point must lie inside
+  Point2 center_of(int cell) const;
+
+  const std::vector<HazardSpot>& hazards() const { return hazards_; }
+  bool unseen(Point2 p) const { return !contains(p) || unseen_[cell_of(p)] != 0; }
+  // To the nearest hazard's centre, by the cell; infinity outside.
+  double hazard_distance_m(Point2 p) const { return contains(p) ? hazard_distance_[cell_of(p)] : kInfinity; }
+  double hazard_distance_m(int cell) const { return hazard_distance_[cell]; }
+  bool unseen(int cell) const { return unseen_[cell] != 0; }
+  double unseen_distance_m(Point2 p) const { return contains(p) ? unseen_distance_[cell_of(p)] : 0.0; }
+  // Bilinear, with the gradient; far from hazards the value saturates.
+  double hazard_distance_smooth(Point2 p, Eigen::Vector2d& gradient) const;
+
+ private:
+  int cells_;
+  double cell_m_;
+  Point2 corner_;
+  std::vector<std::uint8_t> unseen_;
+  std::vector<HazardSpot> hazards_;
+  std::vector<double> hazard_distance_;
+  std::vector<double> unseen_distance_;
+};
+
+// Keeps the rectangle clear of hazards by a margin. A hazard that is nearer already at the start cannot be undone: the
+// rover may leave it, but not come closer.
+class FootprintCheck {
+ public:
+  FootprintCheck(const Terrain& terrain, const Footprint& footprint, double margin_m, const Pose2& start)
+      : terrain_(terrain), footprint_(footprint), margin_m_(margin_m), start_(start) {}
+
+  bool clear(const Pose2& pose) const;
+  // Only hazards of which `confirmed` is as asked.
+  bool clear_of(const Pose2& pose, bool confirmed) const;
+  // From the rectangle to the nearest hazard's centre; `most` where there is none as near.
+  double clearance_m(const Pose2& pose, double most) const;
+  // Calls f(point) for each unseen point under the rectangle until it returns false; false then.
+  template <class F>
+  bool all_unseen(const Pose2& pose, F&& f) const;
+
+  double margin_m() const { return margin_m_; }
+  const Footprint& footprint() const { return footprint_; }
+  const Terrain& terrain() const { return terrain_; }
+
+ private:
+  bool violates(const Pose2& pose, Point2 hazard) const;
+
+  const Terrain& terrain_;
+  Footprint footprint_;
+  double margin_m_;
+  Pose2 start_;
+};
+
+template <class F>
+bool FootprintCheck::all_unseen(const Pose2& pose, F&& f) const {
+  if (terrain_.unseen_distance_m(position(pose)) > footprint_.radius_m() + terrain_.cell_m()) return true;
+  const double step = terrain_.cell_m();
+  const int nx = static_cast<int>(std::ceil(2.0 * footprint_.half_length_m / step));
+  const int ny = static_cast<int>(std::ceil(2.0 * footprint_.half_width_m / step));
+  const double c = std::cos(pose.yaw_rad);
+  const double s = std::sin(pose.yaw_rad);
+  // From the nose backwards: what is not seen is ahead.
+  for (int ix = nx; ix >= 0; --ix)
+    for (int iy = 0; iy <= ny; ++iy) {
+      const double x = footprint_.half_length_m * (2.0 * ix / nx - 1.0);
+      const double y = footprint_.half_width_m * (2.0 * iy / ny - 1.0);
+      const Point2 p{pose.x_m + c * x - s * y, pose.y_m + s * x + c * y};
+      if (terrain_.unseen(p) && !f(p)) return false;
+    }
+  return true;
+}
+
+}  // namespace rover::planning

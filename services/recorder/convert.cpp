@@ -1,0 +1,54 @@
+#include "recorder/convert.hpp"
+
+#include <rover/fault_t.hpp>
+#include <rover/path_t.hpp>
+#include <rover/supervisor_state_t.hpp>
+
+namespace rover::recorder {
+namespace {
+
+template <class Message>
+bool decode(const RawMessage& raw, Message& message) {
+  const int size = static_cast<int>(raw.bytes.size());
+  return message.decode(raw.bytes.data(), 0, size) == size;
+}
+
+Event::Kind kind_of(const std::string& channel) {
+  if (channel == channel::kTick) return Event::Kind::kTick;
+  return channel == channel::kDone ? Event::Kind::kDone : Event::Kind::kData;
+}
+
+}  // namespace
+
+Event event_from(const RawMessage& raw) {
+  Event event;
+  event.release = raw.header.release_utime;
+  event.utime = raw.header.utime;
+  event.kind = kind_of(raw.channel);
+  event.channel = raw.channel;
+  event.publisher = raw.header.publisher;
+  event.boot_id = raw.header.boot_id;
+  event.seq = raw.header.seq;
+  event.bytes = raw.bytes;
+  return event;
+}
+
+bool TriggerFinder::is_trigger(const RawMessage& raw) {
+  if (raw.channel == channel::kState) {
+    supervisor_state_t state;
+    if (!decode(raw, state) || state.state == state_) return false;
+    state_ = state.state;
+    return state_ != supervisor_state_t::BOOT && state_ != supervisor_state_t::STANDBY;
+  }
+  if (raw.channel == channel::kPath) {
+    path_t path;
+    return decode(raw, path) && path.kind == path_t::REPAIR;
+  }
+  if (raw.channel == channel::kFault) {
+    fault_t fault;
+    return decode(raw, fault) && fault.standing != 0;
+  }
+  return false;
+}
+
+}  // namespace rover::recorder

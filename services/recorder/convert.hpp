@@ -1,0 +1,20 @@
+// From raw messages to the recorder's events.
+#pragma once
+
+#include "common/bus/node.hpp"
+#include "recorder/event_buffer.hpp"
+
+namespace rover::recorder {
+
+Event event_from(const RawMessage& raw);
+
+// Finds the moments whose images are worth keeping: a stop, a repaired path, a fault.
+class TriggerFinder {
+ public:
+  bool is_trigger(const RawMessage& raw);
+
+ private:
+  std::int8_t state_ = -1;
+};
+
+}  // namespace rover::recorder

@@ -1,0 +1,29 @@
+#include "recorder/keep_policy.hpp"
+
+#include <algorithm>
+
+namespace rover::recorder {
+namespace {
+
+// Triggers older than this concern no event that can still come: far above any latency of the bus.
+constexpr Utime kTriggerMemory = 60'000'000;
+
+}  // namespace
+
+KeepPolicy::KeepPolicy(KeepConfig config)
+    : config_(std::move(config)), before_(to_utime(config_.before_s)), after_(to_utime(config_.after_s)) {}
+
+void KeepPolicy::trigger(Utime time) {
+  triggers_.push_back(time);
+  while (triggers_.front() < time - kTriggerMemory) triggers_.pop_front();
+}
+
+bool KeepPolicy::keep(const Event& event) const {
+  if (!config_.reduced || !config_.bulk_channels.contains(event.channel)) return true;
+  if ((event.seq - 1) % config_.every == 0) return true;
+  return std::any_of(triggers_.begin(), triggers_.end(), [&](Utime trigger) {
+    return event.utime >= trigger - before_ && event.utime <= trigger + after_;
+  });
+}
+
+}  // namespace rover::recorder

@@ -1,0 +1,69 @@
+#include "recorder/node.hpp"
+
+namespace rover::recorder {
+namespace {
+
+constexpr double kBytesPerGb = 1e9;
+constexpr Utime kCheckPeriod = 1'000'000;
+
+}  // namespace
+
+RecorderNode::RecorderNode(Node& node, const RecorderConfig& config, const std::string& log_path, FreeBytes free_bytes)
+    : node_(node), config_(config), free_bytes_(std::move(free_bytes)), policy_(config.keep) {
+  const double free_gb = static_cast<double>(free_bytes_()) / kBytesPerGb;
+  if (free_gb < config_.min_free_start_gb)
+    throw ConfigError(log_path + ": " + std::to_string(free_gb) + " GB free on the disk, min_free_start_gb asks for " +
+                      std::to_string(config_.min_free_start_gb));
+  log_ = std::make_unique<LogFile>(log_path);
+  node_.subscribe_raw([this](const RawMessage& raw) { take(raw); });
+  node_.on_step([this](Utime now) { step(now); });
+}
+
+RecorderNode::~RecorderNode() {
+  if (log_) write(buffer_.take_all());
+}
+
+void RecorderNode::take(const RawMessage& raw) {
+  if (!log_) return;
+  if (triggers_.is_trigger(raw)) policy_.trigger(raw.header.release_utime);
+  buffer_.add(event_from(raw));
+}
+
+void RecorderNode::step(Utime now) {
+  if (!log_) return;
+  // All that is released before this tick has arrived, the answers to the tick before included.
+  write(buffer_.take_before(now - policy_.hold()));
+  if (checked_ != kNever && now - checked_ < kCheckPeriod) return;
+  checked_ = now;
+  check_disk();
+}
+
+void RecorderNode::write(const std::vector<Event>& events) {
+  for (const Event& event : events) {
+    if (!log_) return;
+    if (policy_.keep(event) && !log_->write(event)) stop_recording("write failed");
+  }
+}
+
+void RecorderNode::check_disk() {
+  if (!log_) return;
+  if (!log_->flush()) return stop_recording("write failed");
+  const double free_gb = static_cast<double>(free_bytes_()) / kBytesPerGb;
+  if (free_gb < config_.min_free_gb) stop_recording("free_gb=" + std::to_string(free_gb));
+}
+
+void RecorderNode::stop_recording(const std::string& why) {
+  log_.reset();
+  buffer_.take_all();
+  node_.set_status(heartbeat_t::DEGRADED, "disk full: recording stopped (" + why + ")");
+  node_.log("ERROR", "DISK_FULL recording stopped, " + why);
+}
+
+std::shared_ptr<RecorderNode> make_recorder(Node& node, const std::string& config_dir) {
+  const std::string run_dir = node.options().run_dir;
+  if (run_dir.empty()) throw ConfigError("--run-dir is required: the log goes there");
+  return std::make_shared<RecorderNode>(node, load_config(config_dir + "/recorder.yaml"), run_dir + "/traverse.lcm",
+                                        [run_dir] { return free_disk_bytes(run_dir); });
+}
+
+}  // namespace rover::recorder

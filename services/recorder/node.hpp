@@ -1,0 +1,44 @@
+// Writes the whole bus into the run's traverse.lcm. It reports DONE like every node, so the world never outruns it.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "common/bus/node.hpp"
+#include "recorder/config.hpp"
+#include "recorder/convert.hpp"
+#include "recorder/log_file.hpp"
+
+namespace rover::recorder {
+
+class RecorderNode {
+ public:
+  using FreeBytes = std::function<std::uintmax_t()>;
+
+  // Throws ConfigError where there is too little space or the log cannot be written.
+  RecorderNode(Node& node, const RecorderConfig& config, const std::string& log_path, FreeBytes free_bytes);
+  ~RecorderNode();
+  RecorderNode(const RecorderNode&) = delete;
+  RecorderNode& operator=(const RecorderNode&) = delete;
+
+ private:
+  void take(const RawMessage& raw);
+  void step(Utime now);
+  void write(const std::vector<Event>& events);
+  void check_disk();
+  void stop_recording(const std::string& why);
+
+  Node& node_;
+  RecorderConfig config_;
+  FreeBytes free_bytes_;
+  KeepPolicy policy_;
+  TriggerFinder triggers_;
+  EventBuffer buffer_;
+  std::unique_ptr<LogFile> log_;  // empty: recording has stopped
+  Utime checked_ = kNever;
+};
+
+std::shared_ptr<RecorderNode> make_recorder(Node& node, const std::string& config_dir);
+
+}  // namespace rover::recorder

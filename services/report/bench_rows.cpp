@@ -1,0 +1,81 @@
+#include "report/bench_rows.hpp"
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "common/bus/config.hpp"
+
+namespace rover::report {
+namespace {
+
+using nlohmann::json;
+
+double number(const json& row, const char* key) {
+  const auto it = row.find(key);
+  return it != row.end() && it->is_number() ? it->get<double>() : kNaN;
+}
+
+std::string text(const json& row, const char* key) {
+  const auto it = row.find(key);
+  return it != row.end() && it->is_string() ? it->get<std::string>() : std::string();
+}
+
+BenchRow row_from(const json& row) {
+  BenchRow out;
+  out.commit = text(row, "commit");
+  out.scenario = row.at("scenario").get<std::string>();
+  out.seed = row.at("seed").get<std::int64_t>();
+  out.deterministic = row.contains("deterministic") && row["deterministic"] == true;
+  out.outcome = text(row, "outcome");
+  out.planned_length_m = number(row, "planned_length_m");
+  out.driven_length_m = number(row, "driven_length_m");
+  out.path_ratio = number(row, "path_ratio");
+  out.replans = number(row, "replans");
+  out.hazard_stops = number(row, "hazard_stops");
+  out.collisions = number(row, "collisions");
+  out.rocks_missed = number(row, "rocks_missed");
+  out.rocks_encountered = number(row, "rocks_encountered");
+  out.false_stops = number(row, "false_stops");
+  out.odometry_drift_percent = number(row, "odometry_drift_percent");
+  out.cross_track_rms_m = number(row, "cross_track_rms_m");
+  out.final_error_m = number(row, "final_error_m");
+  out.mean_speed_m_per_h = number(row, "mean_speed_m_per_h");
+  out.duty = number(row, "duty");
+  out.realtime_factor = number(row, "realtime_factor");
+  return out;
+}
+
+}  // namespace
+
+std::vector<BenchRow> parse_rows(const std::string& text, const std::string& file) {
+  std::vector<BenchRow> rows;
+  std::istringstream in(text);
+  int number_of_line = 0;
+  for (std::string line; std::getline(in, line);) {
+    ++number_of_line;
+    if (line.empty()) continue;
+    try {
+      rows.push_back(row_from(json::parse(line)));
+    } catch (const json::exception& error) {
+      throw ConfigError(file + ":" + std::to_string(number_of_line) + ": " + error.what());
+    }
+  }
+  return rows;
+}
+
+BenchContext this_machine() {
+  BenchContext context;
+  context.cpu_model = "unknown";
+  context.cores = static_cast<int>(std::thread::hardware_concurrency());
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);)
+    if (line.rfind("model name", 0) == 0) {
+      context.cpu_model = line.substr(line.find(':') + 2);
+      break;
+    }
+  return context;
+}
+
+}  // namespace rover::report

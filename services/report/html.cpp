@@ -1,0 +1,219 @@
+#include "report/html.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "report/html_style.hpp"
+#include "report/map_layers.hpp"
+#include "report/svg.hpp"
+
+namespace rover::report {
+namespace {
+
+std::string shown(double value, int decimals, const char* unit = "") {
+  return std::isfinite(value) ? fmt::format("{:.{}f}{}{}", value, decimals, *unit != '\0' ? " " : "", unit) : "n/a";
+}
+std::string shown(const std::optional<int>& value) {
+  return value ? std::to_string(*value) : "n/a";
+}
+
+std::string verdict(bool known, bool good) {
+  return !known ? "" : good ? "good" : "bad";
+}
+
+std::string outcome_text(const std::string& outcome) {
+  if (outcome == "goal_reached") return "Goal reached";
+  if (outcome == "fault_stop") return "Fault stop";
+  if (outcome == "no_path") return "No path";
+  if (outcome == "collision") return "Collision";
+  return outcome == "timeout" ? "Timeout" : outcome;
+}
+
+std::string header(const Metrics& m) {
+  std::string meta;
+  const auto add = [&meta](const std::string& text) { meta += (meta.empty() ? "" : " &middot; ") + escaped(text); };
+  if (m.info.seed) add("seed " + std::to_string(*m.info.seed));
+  if (!m.info.level.empty()) add("level " + m.info.level);
+  if (!m.info.commit.empty()) add("commit " + m.info.commit);
+  if (m.info.deterministic) add(*m.info.deterministic ? "deterministic" : "not deterministic");
+  if (m.info.realtime && *m.info.realtime) add("real time");
+  return fmt::format(
+      "<header><div><h1>Traverse: {}</h1><div class=\"meta\">{}</div></div>"
+      "<div class=\"badge {}\">{}</div></header>\n",
+      escaped(m.info.scenario), meta, m.outcome == "goal_reached" ? "good" : "bad", escaped(outcome_text(m.outcome)));
+}
+
+std::string card(const std::string& value, const std::string& what, const std::string& kind = "") {
+  return fmt::format("<div class=\"card {}\"><b>{}</b><span>{}</span></div>\n", kind, value, what);
+}
+
+std::string cards(const Metrics& m) {
+  std::string out = "<section class=\"cards\">\n";
+  out += card(shown(m.driven_length_m, 1, "m"), fmt::format("driven, {} planned", shown(m.planned_length_m, 1, "m")));
+  out += card(shown(m.path_ratio, 3), "driven / planned");
+  out += card(shown(m.mean_speed_m_per_h, 0, "m/h"), fmt::format("mean speed, duty {}", shown(100.0 * m.duty, 0, "%")));
+  out += card(shown(m.duration_s, 0, "s"), fmt::format("{} times real time", shown(m.realtime_factor, 1)));
+  out += card(std::to_string(m.replans), fmt::format("repairs, {} hazard stops", m.hazard_stops));
+  out += card(std::to_string(m.collisions),
+              fmt::format("collisions, least clearance {}", shown(m.min_clearance_m, 2, "m")),
+              verdict(true, m.collisions == 0));
+  out += card(shown(m.rocks_missed), fmt::format("rocks missed of {} met", shown(m.rocks_encountered)),
+              verdict(m.rocks_missed.has_value(), m.rocks_missed == 0));
+  out += card(shown(m.false_stops), "stops or repairs without a cause",
+              verdict(m.false_stops.has_value(), m.false_stops == 0));
+  out += card(shown(m.odometry_drift_percent, 2, "%"), "odometry drift",
+              verdict(std::isfinite(m.odometry_drift_percent), m.odometry_drift_percent <= 1.0));
+  out += card(shown(m.final_error_m, 2, "m"), "from the goal, truly");
+  return out + "</section>\n";
+}
+
+struct Comparison {
+  std::string what;
+  std::string here;
+  std::string paper;
+  std::string best;
+};
+
+std::string paper_repairs(const Metrics& m) {
+  if (m.info.scenario == "seed_traverse_1") return "6 on 86 m";
+  if (m.info.scenario == "seed_traverse_2") return "10 on 62.2 m";
+  return "6 on 86 m, 10 on 62.2 m";
+}
+
+// Azkarate et al. 2020, and other figures with their source.
+std::string comparison_table(const Metrics& m) {
+  const std::vector<Comparison> rows = {
+      {"Driven / planned path", shown(m.path_ratio, 3), "1.19", ""},
+      {"Repairs", fmt::format("{} on {}", m.replans, shown(m.planned_length_m, 1, "m")), paper_repairs(m), ""},
+      {"Repairs per metre", shown(m.replans_per_m, 3), "0.11", ""},
+      {"Odometry drift", shown(m.odometry_drift_percent, 2, "%"), "1 - 2 %", "1.25 % over 100 m"},
+      {"Duty: driven / (0.2 m/s x time)", shown(100.0 * m.duty, 1, "%"), "", "62 %, Perseverance's best sol"},
+      {"Cross-track error, rms", shown(m.cross_track_rms_m, 3, "m"), "", ""},
+  };
+  std::string out =
+      "<h2>Beside the paper</h2><table><tr><th></th><th class=\"n\">this run</th><th class=\"n\">paper's field "
+      "test</th><th class=\"n\">best known elsewhere</th></tr>\n";
+  for (const Comparison& row : rows)
+    out += fmt::format(
+        "<tr><td>{}</td><td class=\"n\"><b>{}</b></td><td class=\"n\">{}</td><td class=\"n\">{}</td></tr>\n", row.what,
+        row.here, row.paper, row.best);
+  return out +
+         "</table><p class=\"meta\">Paper: Azkarate et al., A GNC Architecture for Planetary Rovers with "
+         "Autonomous Navigation Capabilities, 2020; both seed traverses, 148.2 m planned.</p>\n";
+}
+
+std::string figures_table(const Metrics& m) {
+  const std::vector<std::pair<std::string, std::string>> rows = {
+      {"Cross-track error, largest", shown(m.cross_track_max_m, 3, "m")},
+      {"True distance from the followed path, largest", shown(m.truth_deviation_max_m, 3, "m")},
+      {"Odometry error, largest", shown(m.odometry_drift_max_m, 3, "m")},
+      {"Estimate against truth at the end, in map", shown(m.final_estimate_error_m, 3, "m")},
+      {"Roll: largest, rms", shown(m.max_roll_deg, 1) + ", " + shown(m.rms_roll_deg, 1, "deg")},
+      {"Pitch: largest, rms", shown(m.max_pitch_deg, 1) + ", " + shown(m.rms_pitch_deg, 1, "deg")},
+      {"Wheel slip, mean", shown(100.0 * m.mean_slip, 1, "%")},
+      {"Drive current: mean, largest", shown(m.mean_abs_current_a, 2) + ", " + shown(m.max_current_a, 2, "A")},
+      {"Time in point turns", shown(m.point_turn_s, 1, "s")},
+      {"Stereo coverage of the region of interest, mean", shown(100.0 * m.hazard_coverage_mean, 1, "%")},
+      {"Hazard maps, blind ones", fmt::format("{}, {}", m.hazard_frames, m.hazard_frames_blind)},
+      {"Odometry frames, lost ones", fmt::format("{}, {}", m.vo_frames, m.vo_lost)},
+      {"Hazard rocks met, detected, missed",
+       shown(m.rocks_encountered) + ", " + shown(m.rocks_detected) + ", " + shown(m.rocks_missed)},
+      {"Bus messages, lost", fmt::format("{}, {}", m.bus.messages, m.bus_lost)},
+      {"Bus volume", shown(static_cast<double>(m.bus.bytes) / 1e6, 0, "MB")},
+      {"Damaged records in the log", std::to_string(m.bus.damaged_events)},
+  };
+  std::string left;
+  std::string right;
+  for (size_t i = 0; i < rows.size(); ++i)
+    (2 * i < rows.size() ? left : right) +=
+        fmt::format("<tr><td>{}</td><td class=\"n\">{}</td></tr>\n", rows[i].first, rows[i].second);
+  return "<h2>Further figures</h2><div class=\"two\"><table>" + left + "</table><table>" + right + "</table></div>\n";
+}
+
+std::string events_section(const Scene& scene, const Pictures& pictures) {
+  const std::vector<Incident>& incidents = scene.judgement.incidents;
+  std::string out = "<h2>Stops and repairs</h2>\n";
+  if (incidents.empty()) return out + "<p>None: nothing stood in the way.</p>\n";
+  out +=
+      "<p class=\"meta\">Each seen from above at the moment of the event, on the true ground: the path followed until "
+      "then (white), the repaired one (violet), the hazard cells that caused it (red), the track driven (blue).</p>"
+      "<div class=\"gallery\">\n";
+  for (const std::string& picture : pictures.incidents) out += "<figure style=\"margin:0\">" + picture + "</figure>\n";
+  out +=
+      "</div>\n<table style=\"margin-top:22px\"><tr><th>#</th><th class=\"n\">time [s]</th><th class=\"n\">driven "
+      "[m]</th><th>event</th><th class=\"n\">tallest rock [m]</th><th class=\"n\">hazard "
+      "cells</th><th>cause</th></tr>\n";
+  const TrueTrack truth(scene.run.truth);
+  const double begin_s = scene.judgement.metrics.window.begin_s;
+  for (size_t i = 0; i < incidents.size(); ++i) {
+    const Incident& incident = incidents[i];
+    const bool judged = scene.world.has_value() || incident.unseen;
+    const std::string cause = incident.unseen ? "ground not seen"
+                              : !judged       ? "not judged"
+                              : incident.real ? "real"
+                                              : "none";
+    out += fmt::format(
+        "<tr><td>{}</td><td class=\"n\">{:.1f}</td><td class=\"n\">{:.1f}</td><td>{}</td><td class=\"n\">{}</td>"
+        "<td class=\"n\">{}</td><td class=\"{}\">{}</td></tr>\n",
+        i + 1, incident.t_s - begin_s, truth.distance_m(incident.t_s) - truth.distance_m(begin_s),
+        escaped(incident_title(scene, i)), incident.tallest_rock_m > 0.0 ? shown(incident.tallest_rock_m, 2) : "",
+        incident.cells.size(), verdict(judged, !incident.is_false()), cause);
+  }
+  return out + "</table>\n";
+}
+
+std::string faults_section(const Metrics& m) {
+  if (m.fdir.empty()) return "";
+  std::string out =
+      "<h2>Faults</h2><table><tr><th class=\"n\">time [s]</th><th>id</th><th class=\"n\">value</th><th "
+      "class=\"n\">limit</th><th>response</th></tr>\n";
+  for (const FaultRecord& fault : m.fdir)
+    out += fmt::format(
+        "<tr><td class=\"n\">{:.2f}</td><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td>{}</td></tr>\n",
+        fault.t_s, escaped(fault.id), shown(fault.value, 3), shown(fault.limit, 3), fault.response);
+  return out + "</table>\n";
+}
+
+std::string services_section(const Metrics& m) {
+  std::string out =
+      "<h2>Services</h2><table><tr><th>service</th><th class=\"n\">CPU [s]</th><th class=\"n\">CPU per metre "
+      "[s/m]</th><th class=\"n\">memory [MB]</th><th class=\"n\">step, median [ms]</th><th class=\"n\">step, p99 "
+      "[ms]</th><th class=\"n\">restarts</th></tr>\n";
+  for (const auto& [name, s] : m.services)
+    out += fmt::format(
+        "<tr><td>{}</td><td class=\"n\">{:.1f}</td><td class=\"n\">{}</td><td class=\"n\">{:.0f}</td><td "
+        "class=\"n\">{:.2f}"
+        "</td><td class=\"n\">{:.2f}</td><td class=\"n\">{}</td></tr>\n",
+        escaped(name), s.cpu_s, shown(s.cpu_s_per_m, 3), s.rss_mb, s.p50_ms, s.p99_ms, s.restarts);
+  return out + "</table>\n";
+}
+
+std::string configuration_section(const std::vector<std::pair<std::string, std::string>>& configuration) {
+  if (configuration.empty()) return "";
+  std::string out = "<h2>Configuration</h2>\n";
+  for (size_t i = 0; i < configuration.size(); ++i)
+    out += fmt::format("<details{}><summary>{}</summary><pre>{}</pre></details>\n", i == 0 ? " open" : "",
+                       escaped(configuration[i].first), escaped(configuration[i].second));
+  return out;
+}
+
+}  // namespace
+
+std::string report_html(const Scene& scene, const Pictures& pictures,
+                        const std::vector<std::pair<std::string, std::string>>& configuration) {
+  const Metrics& m = scene.judgement.metrics;
+  std::string body = header(m) + cards(m) + "<section class=\"map\">" + pictures.map + "</section>\n";
+  body += comparison_table(m) + events_section(scene, pictures);
+  body += "<h2>Over the distance</h2><section class=\"plots\">\n";
+  for (const std::string& plot : pictures.plots) body += plot;
+  body += pictures.states + "</section>\n";
+  body += figures_table(m) + faults_section(m) + services_section(m) + configuration_section(configuration);
+  return fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
+      "content=\"width=device-width,initial-scale=1\"><title>Traverse: {}</title><style>{}</style></head>\n"
+      "<body><main>\n{}</main></body></html>\n",
+      escaped(m.info.scenario), kStyleSheet, body);
+}
+
+}  // namespace rover::report

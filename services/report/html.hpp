@@ -1,0 +1,22 @@
+// The report of a run as one HTML document that needs nothing beside itself.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "report/scene.hpp"
+
+namespace rover::report {
+
+struct Pictures {
+  std::string map;  // SVG documents
+  std::vector<std::string> incidents;
+  std::string states;
+  std::vector<std::string> plots;
+};
+
+std::string report_html(const Scene& scene, const Pictures& pictures,
+                        const std::vector<std::pair<std::string, std::string>>& configuration);
+
+}  // namespace rover::report

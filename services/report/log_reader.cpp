@@ -1,0 +1,136 @@
+#include "report/log_reader.hpp"
+
+#include <lcm/eventlog.h>
+
+#include <memory>
+#include <rover/slam_pose_t.hpp>
+#include <rover/vo_motion_t.hpp>
+#include <tuple>
+
+#include "common/bus/channels.hpp"
+#include "common/bus/config.hpp"
+#include "common/bus/streams.hpp"
+#include "report/convert.hpp"
+
+namespace rover::report {
+namespace {
+
+// Counts what was published on the bus; a reduced log leaves images out, their sequence numbers still tell.
+class BusCounter {
+ public:
+  void add(const LogEvent& event, const header_t& header) {
+    Stream& stream = streams_[{event.channel, header.publisher, header.boot_id}];
+    ++stream.recorded;
+    stream.bytes += event.size;
+    stream.last_seq = std::max(stream.last_seq, header.seq);
+  }
+  void total(BusRecord& bus) const {
+    for (const auto& [key, stream] : streams_) {
+      const std::int64_t published = std::max(stream.last_seq, stream.recorded);
+      bus.messages += published;
+      bus.bytes += stream.bytes / stream.recorded * published + stream.bytes % stream.recorded;
+    }
+  }
+
+ private:
+  struct Stream {
+    std::int64_t recorded = 0;
+    std::int64_t bytes = 0;
+    std::int64_t last_seq = 0;
+  };
+  std::map<std::tuple<std::string, std::string, std::int64_t>, Stream> streams_;
+};
+
+class Reader {
+ public:
+  Reader() {
+    take<truth_t>(channel::kTruth, [this](const truth_t& m) { run_.truth.push_back(truth_from(m)); });
+    take<pose_t>(channel::kPose, [this](const pose_t& m) { add_pose(m); });
+    take<control_status_t>(channel::kControlStatus,
+                           [this](const control_status_t& m) { run_.control.push_back(control_from(m)); });
+    take<wheel_state_t>(channel::kWheelState,
+                        [this](const wheel_state_t& m) { run_.wheels.push_back(wheels_from(m)); });
+    take<slip_t>(channel::kSlip, [this](const slip_t& m) { run_.slip.push_back(slip_from(m)); });
+    take<supervisor_state_t>(channel::kState, [this](const supervisor_state_t& m) { add_state(m); });
+    take<path_t>(channel::kGlobalPath, [this](const path_t& m) { run_.global_paths.push_back(path_from(m)); });
+    take<path_t>(channel::kPath, [this](const path_t& m) { run_.local_paths.push_back(path_from(m)); });
+    take<hazards_t>(channel::kHazards, [this](const hazards_t& m) { run_.hazards.push_back(hazards_from(m)); });
+    take<planner_status_t>(channel::kPlannerStatus,
+                           [this](const planner_status_t& m) { run_.planner.push_back(planner_from(m)); });
+    take<fault_t>(channel::kFault, [this](const fault_t& m) { run_.faults.push_back(fault_from(m)); });
+    take<correction_t>(channel::kCorrection,
+                       [this](const correction_t& m) { run_.corrections.push_back(correction_from(m)); });
+    take<heartbeat_t>(channel::kHeartbeat, [this](const heartbeat_t& m) { add_heartbeat(m, run_.services); });
+    take<slam_pose_t>(channel::kSlamPose, [this](const slam_pose_t&) { ++run_.slam_poses; });
+    take<vo_motion_t>(channel::kVo, [this](const vo_motion_t& m) {
+      ++run_.vo_frames;
+      run_.vo_lost += m.status == vo_motion_t::LOST ? 1 : 0;
+    });
+  }
+
+  void add(const LogEvent& event) {
+    header_t header;
+    if (!peek_header(event.data, event.size, header)) {
+      ++run_.bus.damaged_events;
+      return;
+    }
+    counter_.add(event, header);
+    const auto handler = handlers_.find(event.channel);
+    if (handler != handlers_.end() && !handler->second(event)) ++run_.bus.damaged_events;
+  }
+
+  RunRecord finish() {
+    counter_.total(run_.bus);
+    return std::move(run_);
+  }
+
+ private:
+  template <class Message>
+  void take(const std::string& channel, std::function<void(const Message&)> handler) {
+    handlers_[channel] = [handler = std::move(handler)](const LogEvent& event) {
+      Message message;
+      if (message.decode(event.data, 0, event.size) != event.size) return false;
+      handler(message);
+      return true;
+    };
+  }
+  void add_pose(const pose_t& message) {
+    if (message.status == pose_t::UNINITIALISED || message.status == pose_t::LOST) return;
+    const PoseSample sample = pose_from(message);
+    if (is_finite(sample.T_odom_body) && is_finite(sample.T_map_odom)) run_.poses.push_back(sample);
+  }
+  void add_state(const supervisor_state_t& message) {
+    const StateChange change = state_from(message);
+    if (run_.states.empty() || run_.states.back().state != change.state || run_.states.back().full != change.full)
+      run_.states.push_back(change);
+  }
+
+  RunRecord run_;
+  BusCounter counter_;
+  std::map<std::string, std::function<bool(const LogEvent&)>> handlers_;
+};
+
+}  // namespace
+
+std::int64_t for_each_event(const std::string& path, const std::function<void(const LogEvent&)>& take) {
+  const auto close = [](lcm_eventlog_t* log) { lcm_eventlog_destroy(log); };
+  const std::unique_ptr<lcm_eventlog_t, decltype(close)> log(lcm_eventlog_create(path.c_str(), "r"), close);
+  if (!log) throw ConfigError(path + ": no such log");
+  std::int64_t count = 0;
+  while (lcm_eventlog_event_t* event = lcm_eventlog_read_next_event(log.get())) {
+    take({std::string(event->channel, static_cast<size_t>(event->channellen)),
+          static_cast<const std::uint8_t*>(event->data), event->datalen});
+    lcm_eventlog_free_event(event);
+    ++count;
+  }
+  return count;
+}
+
+RunRecord read_log(const std::string& path) {
+  Reader reader;
+  if (for_each_event(path, [&](const LogEvent& event) { reader.add(event); }) == 0)
+    throw ConfigError(path + ": holds no messages");
+  return reader.finish();
+}
+
+}  // namespace rover::report

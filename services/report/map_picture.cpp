@@ -1,0 +1,240 @@
+#include "report/map_picture.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/map_layers.hpp"
+#include "report/palette.hpp"
+
+namespace rover::report {
+namespace {
+
+constexpr double kMapWidth = 1400.0;
+constexpr double kAxis = 34.0;  // room for the coordinates, left and below
+constexpr double kLegend = 64.0;
+constexpr double kCellM = 0.1;
+
+std::string stroke(const char* colour, double width, const std::string& more = "") {
+  return fmt::format("stroke:{};stroke-width:{};stroke-linejoin:round;stroke-linecap:round;{}", colour, width, more);
+}
+
+Points all_global_points(const Scene& scene) {
+  return scene.run.global_paths.empty() ? Points{} : scene.run.global_paths.back().points;
+}
+
+MapView map_view(const Scene& scene) {
+  const Box lines = bounds({true_line(scene), all_global_points(scene)});
+  const double margin = std::max(3.0, 0.06 * std::max(lines.width_m(), lines.height_m()));
+  MapView view;
+  view.box = with_aspect(lines.grown(margin), 0.36, 0.95);
+  view.left = kAxis + 8.0;
+  view.top = 8.0;
+  view.px_per_m = (kMapWidth - view.left - 8.0) / view.box.width_m();
+  return view;
+}
+
+void draw_ground(Svg& svg, const MapView& view, const HeightRaster& orbital) {
+  if (orbital.empty()) {
+    svg.rect(view.left, view.top, view.width(), view.height(), "fill:#e9d9c6");
+    return;
+  }
+  const auto pixels = [](double px) { return std::max(8, static_cast<int>(std::lround(px))); };
+  svg.jpeg(view.left, view.top, view.width(), view.height(),
+           relief_jpeg(orbital, view.box, pixels(view.width()), pixels(view.height()), ReliefStyle{}));
+}
+
+void draw_axes(Svg& svg, const MapView& view) {
+  const double step = view.box.width_m() > 60.0 ? 10.0 : 5.0;
+  const std::string style = fmt::format("fill:{}", palette::kMuted);
+  const std::string grid = "stroke:#5b4636;stroke-opacity:.16;stroke-width:1";
+  for (double x = std::ceil(view.box.x0_m / step) * step; x <= view.box.x1_m; x += step) {
+    const double u = view.px(Eigen::Vector2d(x, 0.0)).x();
+    svg.line(u, view.top, u, view.top + view.height(), grid);
+    svg.text(u, view.top + view.height() + 17.0, number_text(x), 12, style, Anchor::kMiddle);
+  }
+  for (double y = std::ceil(view.box.y0_m / step) * step; y <= view.box.y1_m; y += step) {
+    const double v = view.px(Eigen::Vector2d(0.0, y)).y();
+    svg.line(view.left, v, view.left + view.width(), v, grid);
+    svg.text(view.left - 6.0, v + 4.0, number_text(y), 12, style, Anchor::kEnd);
+  }
+  svg.text(view.left + view.width(), view.top + view.height() + 31.0, "x east, y north in the map frame [m]", 12, style,
+           Anchor::kEnd);
+}
+
+void draw_hazards(Svg& svg, const MapView& view, const Scene& scene) {
+  const TrueTrack truth(scene.run.truth);
+  if (truth.empty()) return;
+  Points obstacles;
+  Points holes;
+  for (const HazardMap& map : scene.run.hazards) {
+    if (map.cells.empty()) continue;
+    const Eigen::Isometry3d T_map_body = truth.at(map.t_s);
+    for (const HazardCell& cell : map.cells)
+      (cell.hole ? holes : obstacles).push_back(cell_in_map(cell, T_map_body, scene.footprint.origin_height_m));
+  }
+  draw_cells(svg, view, obstacles, kCellM, fmt::format("fill:{};fill-opacity:.5", palette::kHazard));
+  draw_cells(svg, view, holes, kCellM, fmt::format("fill:{};fill-opacity:.5", palette::kHole));
+}
+
+void draw_paths(Svg& svg, const MapView& view, const Scene& scene) {
+  const Points global = view.px(all_global_points(scene));
+  svg.polyline(global, stroke("#3b2a1e", 4.0, "stroke-opacity:.55"));
+  svg.polyline(global, stroke(palette::kGlobalPath, 2.4, "stroke-dasharray:9 6"));
+  for (const Incident& incident : scene.judgement.incidents)
+    if (!incident.new_path.empty())
+      svg.polyline(view.px(thinned(incident.new_path, 0.1)), stroke(palette::kRepair, 2.0, "stroke-opacity:.75"));
+  svg.polyline(view.px(true_line(scene)), stroke("#ffffff", 5.4, "stroke-opacity:.75"));
+  svg.polyline(view.px(true_line(scene)), stroke(palette::kTruth, 3.0));
+  svg.polyline(view.px(estimated_line(scene)), stroke(palette::kEstimate, 1.8, "stroke-dasharray:6 5"));
+}
+
+void draw_markers(Svg& svg, const MapView& view, const Scene& scene) {
+  const TrueTrack truth(scene.run.truth);
+  if (truth.empty()) return;
+  for (size_t i = 0; i < scene.judgement.incidents.size(); ++i) {
+    const Incident& incident = scene.judgement.incidents[i];
+    const Eigen::Vector2d p = view.px(Eigen::Vector2d(truth.at(incident.t_s).translation().head<2>()));
+    const char* colour = incident.stopped ? palette::kBad : palette::kRepair;
+    // Alternating sides keep the numbers of close incidents apart.
+    const double lift = i % 2 == 0 ? -26.0 : 26.0;
+    svg.line(p.x(), p.y(), p.x(), p.y() + lift, stroke(colour, 1.5));
+    svg.circle(p.x(), p.y(), 3.5, fmt::format("fill:{};stroke:#fff", colour));
+    svg.circle(p.x(), p.y() + lift, 11.0, fmt::format("fill:#fff;stroke:{};stroke-width:2", colour));
+    svg.text(p.x(), p.y() + lift + 4.5, std::to_string(i + 1), 12.5, fmt::format("font-weight:700;fill:{}", colour),
+             Anchor::kMiddle);
+  }
+}
+
+void draw_ends(Svg& svg, const MapView& view, const Scene& scene) {
+  const TrueTrack truth(scene.run.truth);
+  const Window& window = scene.judgement.metrics.window;
+  const std::string rover = fmt::format("fill:{0};fill-opacity:.25;stroke:{0};stroke-width:1.6", palette::kTruth);
+  if (!truth.empty()) {
+    draw_footprint(svg, view, truth.planar_at(window.begin_s), scene.footprint, rover);
+    draw_footprint(svg, view, truth.planar_at(window.end_s), scene.footprint, rover);
+  }
+  const Points global = all_global_points(scene);
+  if (global.empty()) return;
+  const auto label = [&](const Eigen::Vector2d& at, const std::string& text, const char* colour) {
+    const Eigen::Vector2d p = view.px(at);
+    const double w = 9.0 * static_cast<double>(text.size()) + 12.0;
+    svg.circle(p.x(), p.y(), 7.0, fmt::format("fill:{};stroke:#fff;stroke-width:2.4", colour));
+    svg.rect(p.x() - 0.5 * w, p.y() + 13.0, w, 20.0, "fill:#fff;fill-opacity:.85", 4.0);
+    svg.text(p.x(), p.y() + 27.5, text, 13.5, fmt::format("font-weight:700;fill:{}", colour), Anchor::kMiddle);
+  };
+  label(global.front(), "Start", palette::kInk);
+  label(global.back(), "Goal", palette::kGood);
+}
+
+struct LegendEntry {
+  std::string text;
+  double width;
+  std::function<void(double x, double y)> symbol;
+};
+
+void draw_legend(Svg& svg, double left, double top, double right) {
+  const auto bar = [&](const std::string& style) {
+    return [&svg, style](double x, double y) { svg.line(x, y, x + 30.0, y, style); };
+  };
+  const auto square = [&](const char* colour) {
+    const std::string style = fmt::format("fill:{};fill-opacity:.6", colour);
+    return [&svg, style](double x, double y) { svg.rect(x + 8.0, y - 7.0, 14.0, 14.0, style); };
+  };
+  const auto disc = [&](const std::string& style) {
+    return [&svg, style](double x, double y) { svg.circle(x + 15.0, y, 7.0, style); };
+  };
+  const std::vector<LegendEntry> entries = {
+      {"planned path", 128,
+       [&](double x, double y) {
+         svg.line(x, y, x + 30.0, y, stroke("#3b2a1e", 4.5));
+         svg.line(x, y, x + 30.0, y, stroke(palette::kGlobalPath, 2.4, "stroke-dasharray:9 6"));
+       }},
+      {"true track", 112, bar(stroke(palette::kTruth, 3.2))},
+      {"estimated track", 148, bar(stroke(palette::kEstimate, 2.2, "stroke-dasharray:6 5"))},
+      {"repaired path", 136, bar(stroke(palette::kRepair, 2.4))},
+      {"detected hazard", 150, square(palette::kHazard)},
+      {"detected hole", 136, square(palette::kHole)},
+      {"rock 0.15 m and taller", 190, disc(fmt::format("fill:{};stroke:#fff", palette::kRock))},
+      {"lower rock", 118, disc(fmt::format("fill:{};fill-opacity:.35", palette::kPebble))},
+      {"repair", 96, disc(fmt::format("fill:#fff;stroke:{};stroke-width:2", palette::kRepair))},
+      {"hazard stop", 122, disc(fmt::format("fill:#fff;stroke:{};stroke-width:2", palette::kBad))},
+  };
+  double x = left;
+  double y = top + 12.0;
+  for (const LegendEntry& entry : entries) {
+    if (x + entry.width > right) {
+      x = left;
+      y += 26.0;
+    }
+    entry.symbol(x, y);
+    svg.text(x + 38.0, y + 4.5, entry.text, 13, "");
+    x += entry.width + 14.0;
+  }
+}
+
+}  // namespace
+
+std::string draw_map(const Scene& scene) {
+  const MapView view = map_view(scene);
+  const double bottom = view.top + view.height() + kAxis + 6.0;
+  Svg svg(kMapWidth, bottom + kLegend);
+  svg.rect(0.0, 0.0, kMapWidth, bottom + kLegend, "fill:#fff");
+  svg.begin_clip("map-frame", view.left, view.top, view.width(), view.height());
+  draw_ground(svg, view, scene.orbital);
+  draw_rocks(svg, view, scene);
+  draw_hazards(svg, view, scene);
+  draw_paths(svg, view, scene);
+  draw_ends(svg, view, scene);
+  draw_markers(svg, view, scene);
+  svg.end();
+  draw_axes(svg, view);
+  svg.rect(view.left, view.top, view.width(), view.height(), "fill:none;stroke:#5b4636;stroke-width:1.2");
+  draw_scale_bar(svg, view);
+  draw_north(svg, view);
+  draw_legend(svg, view.left, bottom + 6.0, kMapWidth - 8.0);
+  return svg.str();
+}
+
+std::string draw_incident(const Scene& scene, size_t index) {
+  constexpr double kSide = 340.0;
+  constexpr double kBoxM = 7.0;
+  const Incident& incident = scene.judgement.incidents[index];
+  const TrueTrack truth(scene.run.truth);
+  if (truth.empty()) return {};
+  const Pose2 pose = truth.planar_at(incident.t_s);
+  const Eigen::Vector2d middle = transform(pose, {1.3, 0.0});
+  MapView view;
+  view.box = Box{middle.x(), middle.y(), middle.x(), middle.y()}.grown(0.5 * kBoxM);
+  view.top = 26.0;
+  view.px_per_m = kSide / kBoxM;
+  Svg svg(kSide, kSide + view.top);
+  const double distance = truth.distance_m(incident.t_s) - truth.distance_m(scene.judgement.metrics.window.begin_s);
+  svg.text(0.0, 16.0, fmt::format("{}", index + 1), 15,
+           fmt::format("font-weight:700;fill:{}", incident.stopped ? palette::kBad : palette::kRepair));
+  svg.text(24.0, 16.0, fmt::format("at {:.1f} m: {}", distance, incident_title(scene, index)), 13,
+           incident.is_false() && scene.world ? fmt::format("fill:{};font-weight:600", palette::kBad) : "");
+  svg.begin_clip(fmt::format("incident-{}", index), view.left, view.top, view.width(), view.height());
+  svg.rect(view.left, view.top, view.width(), view.height(), "fill:#e9d9c6");
+  if (scene.world && scene.world->height_m) {
+    constexpr int kPixels = 400;
+    const ReliefStyle style{1.0, 0.0, 0.0};
+    svg.jpeg(view.left, view.top, view.width(), view.height(),
+             relief_jpeg(scene.world->height_m, view.box, kPixels, kPixels, style));
+  }
+  draw_rocks(svg, view, scene);
+  draw_cells(svg, view, incident.cells, kCellM, fmt::format("fill:{};fill-opacity:.5", palette::kHazard));
+  svg.polyline(view.px(incident.old_path), stroke("#3b2a1e", 4.2, "stroke-opacity:.5"));
+  svg.polyline(view.px(incident.old_path), stroke(palette::kGlobalPath, 2.4, "stroke-dasharray:7 5"));
+  svg.polyline(view.px(incident.new_path), stroke(palette::kRepair, 3.0));
+  svg.polyline(view.px(true_line(scene)), stroke(palette::kTruth, 2.2));
+  draw_footprint(svg, view, pose, scene.footprint,
+                 fmt::format("fill:{0};fill-opacity:.18;stroke:{0};stroke-width:2", palette::kTruth));
+  svg.end();
+  svg.rect(view.left + 0.5, view.top, view.width() - 1.0, view.height() - 0.5, "fill:none;stroke:#5b4636");
+  draw_scale_bar(svg, view);
+  return svg.str();
+}
+
+}  // namespace rover::report

@@ -1,0 +1,11 @@
+// SVG to PNG, through librsvg.
+#pragma once
+
+#include <string>
+
+namespace rover::report {
+
+// Throws ConfigError where the picture is damaged or the file cannot be written.
+void write_png(const std::string& svg, double scale, const std::string& file);
+
+}  // namespace rover::report

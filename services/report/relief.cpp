@@ -1,0 +1,95 @@
+#include "report/relief.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "common/core/frames.hpp"
+
+namespace rover::report {
+namespace {
+
+// Sun from the north-west, as maps have it.
+constexpr double kSunAzimuth = 135.0;  // of the direction to the sun, counter-clockwise from east
+constexpr double kSunElevation = 40.0;
+const cv::Vec3d kShadow(92, 118, 146);  // BGR
+const cv::Vec3d kLight(222, 236, 247);
+const cv::Vec3d kContour(60, 84, 112);
+
+// z: rows from the north, one pixel each step_m.
+cv::Mat shade(const cv::Mat& z, double step_m, const ReliefStyle& style) {
+  cv::Mat dx;
+  cv::Mat dy;
+  cv::Sobel(z, dx, CV_32F, 1, 0, 3, 1.0 / (8.0 * step_m));
+  cv::Sobel(z, dy, CV_32F, 0, 1, 3, -1.0 / (8.0 * step_m));
+  const double elevation = to_rad(kSunElevation);
+  const double azimuth = to_rad(kSunAzimuth);
+  const double sx = std::cos(elevation) * std::cos(azimuth);
+  const double sy = std::cos(elevation) * std::sin(azimuth);
+  const double sz = std::sin(elevation);
+  cv::Mat picture(z.size(), CV_8UC3);
+  for (int v = 0; v < z.rows; ++v)
+    for (int u = 0; u < z.cols; ++u) {
+      const double gx = style.exaggeration * dx.at<float>(v, u);
+      const double gy = style.exaggeration * dy.at<float>(v, u);
+      const double light = (sz - gx * sx - gy * sy) / std::sqrt(1.0 + gx * gx + gy * gy);
+      cv::Vec3d colour = kShadow + (kLight - kShadow) * std::clamp(0.5 + 0.75 * (light - sz), 0.0, 1.0);
+      if (style.contour_interval_m > 0.0) {
+        // Distance in pixels to the nearest contour line, to first order.
+        const double level = z.at<float>(v, u) / style.contour_interval_m;
+        const double slope = std::hypot(dx.at<float>(v, u), dy.at<float>(v, u)) * step_m / style.contour_interval_m;
+        const double pixels = std::abs(level - std::round(level)) / std::max(slope, 1e-6);
+        colour += (kContour - colour) * (0.35 * std::clamp(1.2 - pixels, 0.0, 1.0));
+      }
+      picture.at<cv::Vec3b>(v, u) = cv::Vec3b(cv::saturate_cast<uchar>(colour[0]), cv::saturate_cast<uchar>(colour[1]),
+                                              cv::saturate_cast<uchar>(colour[2]));
+    }
+  return picture;
+}
+
+std::vector<std::uint8_t> jpeg_of(const cv::Mat& picture) {
+  std::vector<std::uint8_t> bytes;
+  cv::imencode(".jpg", picture, bytes, {cv::IMWRITE_JPEG_QUALITY, 88});
+  return bytes;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> relief_jpeg(const HeightRaster& raster, const Box& box, int width_px, int height_px,
+                                      const ReliefStyle& style) {
+  cv::Mat south_first(raster.rows, raster.columns, CV_32F, const_cast<float*>(raster.z_m.data()));
+  cv::Mat z;
+  cv::flip(south_first, z, 0);
+  const double sigma_px = style.smoothing_m / raster.resolution_m;
+  if (sigma_px > 0.0) cv::GaussianBlur(z, z, cv::Size(), sigma_px, sigma_px, cv::BORDER_REPLICATE);
+  // From picture pixels to raster pixels, centres at half integers in both.
+  const double step_m = box.width_m() / width_px;
+  cv::Mat map_x(height_px, width_px, CV_32F);
+  cv::Mat map_y(height_px, width_px, CV_32F);
+  for (int v = 0; v < height_px; ++v)
+    for (int u = 0; u < width_px; ++u) {
+      const double x = box.x0_m + (u + 0.5) * step_m;
+      const double y = box.y1_m - (v + 0.5) * box.height_m() / height_px;
+      map_x.at<float>(v, u) = static_cast<float>(x / raster.resolution_m - 0.5);
+      map_y.at<float>(v, u) = static_cast<float>(raster.rows - y / raster.resolution_m - 0.5);
+    }
+  cv::Mat picture;
+  cv::remap(z, picture, map_x, map_y, cv::INTER_CUBIC, cv::BORDER_REPLICATE);
+  const double blur_px = 0.5 * raster.resolution_m / step_m;  // hides the patches of the interpolation
+  cv::GaussianBlur(picture, picture, cv::Size(), blur_px, blur_px, cv::BORDER_REPLICATE);
+  return jpeg_of(shade(picture, step_m, style));
+}
+
+std::vector<std::uint8_t> relief_jpeg(const std::function<double(double, double)>& height_m, const Box& box,
+                                      int width_px, int height_px, const ReliefStyle& style) {
+  cv::Mat z(height_px, width_px, CV_32F);
+  const double step_m = box.width_m() / width_px;
+  for (int v = 0; v < height_px; ++v)
+    for (int u = 0; u < width_px; ++u)
+      z.at<float>(v, u) = static_cast<float>(
+          height_m(box.x0_m + (u + 0.5) * step_m, box.y1_m - (v + 0.5) * box.height_m() / height_px));
+  return jpeg_of(shade(z, step_m, style));
+}
+
+}  // namespace rover::report

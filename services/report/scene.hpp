@@ -1,0 +1,25 @@
+// What the pictures show.
+#pragma once
+
+#include <optional>
+
+#include "report/metrics.hpp"
+#include "report/relief.hpp"
+
+namespace rover::report {
+
+struct Scene {
+  const RunRecord& run;
+  const Judgement& judgement;
+  const Footprint& footprint;
+  const HeightRaster& orbital;  // empty: none in the run's folder
+  const std::optional<TrueWorld>& world;
+};
+
+// Thinned to points at least step_m apart; the last one stays.
+Points thinned(const Points& line, double step_m);
+Points true_line(const Scene& scene);
+// By the rover's own estimate, in map.
+Points estimated_line(const Scene& scene);
+
+}  // namespace rover::report

@@ -1,0 +1,64 @@
+#include "rover_simulator/barrier.hpp"
+
+#include <algorithm>
+
+namespace rover {
+
+Barrier::Barrier(const std::vector<std::string>& participants) : names_(participants) {
+  for (const std::string& name : participants) members_[name] = {};
+}
+
+void Barrier::ready(const std::string& name, std::int64_t boot_id, int pid) {
+  const auto it = members_.find(name);
+  if (it == members_.end() || it->second.state != State::kAbsent || boot_id <= it->second.boot_id) return;
+  it->second.state = State::kReady;
+  it->second.boot_id = boot_id;
+  it->second.pid = pid;
+}
+
+void Barrier::done(const std::string& name, std::int64_t boot_id, int pid, Utime tick, Utime promise) {
+  const auto it = members_.find(name);
+  if (it == members_.end() || boot_id != it->second.boot_id || it->second.state == State::kAbsent) return;
+  it->second.state = State::kWorking;
+  it->second.pid = pid;
+  it->second.clear_until = std::max({it->second.clear_until, tick + kTickUs, promise - kTickUs});
+}
+
+std::vector<std::string> Barrier::waiting_for(Utime t) const {
+  std::vector<std::string> missing;
+  for (const std::string& name : names_) {
+    const Member& member = members_.at(name);
+    const bool absent = member.state == State::kAbsent && t >= member.expected_from;
+    const bool late = member.state == State::kWorking && t > member.clear_until;
+    if (absent || late) missing.push_back(name);
+  }
+  return missing;
+}
+
+std::vector<std::string> Barrier::admit(Utime t) {
+  std::vector<std::string> taking_part;
+  for (const std::string& name : names_) {
+    Member& member = members_[name];
+    if (member.state == State::kReady && t >= member.expected_from) {
+      member.state = State::kWorking;
+      member.clear_until = t;
+    }
+    if (member.state == State::kWorking) taking_part.push_back(name);
+  }
+  return taking_part;
+}
+
+void Barrier::leave(const std::string& name, Utime now, Utime return_after) {
+  Member& member = members_.at(name);
+  member.state = State::kAbsent;
+  member.pid = 0;
+  member.clear_until = kNever;
+  member.expected_from = now + return_after;
+}
+
+int Barrier::pid_of(const std::string& name) const {
+  const auto it = members_.find(name);
+  return it == members_.end() ? 0 : it->second.pid;
+}
+
+}  // namespace rover

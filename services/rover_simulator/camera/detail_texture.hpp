@@ -1,0 +1,81 @@
+// The ground's fine texture: tileable noise, drawn once from the seed, laid on the world in layers of growing size.
+//
+// A layer covers two octaves of wavelength, and is faded out by the size of a pixel on the ground before it could
+// alias: the sum of band-limited layers is its own mip map, without seams. Texture coordinates are affine in world
+// coordinates, so a world point has one albedo, in both cameras and in all frames.
+#pragma once
+
+#include <smmintrin.h>
+
+#include <Eigen/Dense>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace rover {
+
+// Four channels at once (GCC and Clang vector type).
+using Float4 = float __attribute__((vector_size(16)));
+
+// One tile of noise: tone (unit variance in kUnit steps), and the two slopes of its relief (unit variance together).
+class DetailTexture {
+ public:
+  static constexpr int kSize = 512;
+  static constexpr float kUnit = 1.0F / 32.0F;  // value of one step; +-4 sigma fit into a byte
+  // Centre wavelength of the noise in texels.
+  static constexpr double kWavelengthTexels = 6.0;
+
+  // `grains`: rounded bright and dark pebbles on finer noise, instead of plain Gaussian noise.
+  DetailTexture(std::uint64_t seed, bool grains);
+
+  // Bilinear, periodic. u, v in texels, above -kOffset.
+  Float4 sample(float u, float v) const {
+    const float u_shifted = u + kOffset;
+    const float v_shifted = v + kOffset;
+    const int iu = static_cast<int>(u_shifted);
+    const int iv = static_cast<int>(v_shifted);
+    const float fu = u_shifted - static_cast<float>(iu);
+    const float fv = v_shifted - static_cast<float>(iv);
+    const int u0 = iu & kMask;
+    const int u1 = (iu + 1) & kMask;
+    const std::int32_t* row0 = &texels_[static_cast<size_t>(iv & kMask) * kSize];
+    const std::int32_t* row1 = &texels_[static_cast<size_t>((iv + 1) & kMask) * kSize];
+    const Float4 a = widen(row0[u0]) + (widen(row0[u1]) - widen(row0[u0])) * fu;
+    const Float4 b = widen(row1[u0]) + (widen(row1[u1]) - widen(row1[u0])) * fu;
+    return (a + (b - a) * fv) * kUnit;
+  }
+
+ private:
+  static constexpr int kMask = kSize - 1;
+  static constexpr float kOffset =
+      16384.0F;  // a multiple of kSize: makes coordinates positive, so that truncation floors
+  static Float4 widen(std::int32_t texel) { return _mm_cvtepi32_ps(_mm_cvtepi8_epi32(_mm_cvtsi32_si128(texel))); }
+
+  std::vector<std::int32_t> texels_;  // four signed bytes each
+};
+
+// Where a layer lies: texture coordinates = offset + axes * two map coordinates. Which two depends on where the ground
+// faces, so that steep rock faces are not smeared.
+struct DetailLayer {
+  double texel_m = 0.0;
+  Eigen::Matrix2d texels_per_m;
+  Eigen::Vector2d offset;
+  bool grains = false;
+};
+
+// Planes that textures are projected from: map coordinates kPlaneAxes[plane].
+inline constexpr int kPlanes = 3;
+inline constexpr std::array<std::array<int, 2>, kPlanes> kPlaneAxes = {{{0, 1}, {1, 2}, {0, 2}}};
+
+inline constexpr int kDetailLayers = 5;
+
+struct GroundTexture {
+  DetailTexture noise;
+  DetailTexture grains;
+  std::array<DetailLayer, kDetailLayers> layers;
+
+  explicit GroundTexture(std::uint64_t seed);
+  const DetailTexture& of(const DetailLayer& layer) const { return layer.grains ? grains : noise; }
+};
+
+}  // namespace rover

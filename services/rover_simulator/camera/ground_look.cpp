@@ -1,0 +1,89 @@
+#include "rover_simulator/camera/ground_look.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rover_simulator/camera/counter_hash.hpp"
+
+namespace rover {
+namespace {
+
+constexpr double kDustPatch_m = 1.5;  // lattice of the dust noise; patches come out one to two metres wide
+
+std::uint64_t lattice_hash(std::uint64_t seed, std::int64_t ix, std::int64_t iy) {
+  return hash64(hash64(seed, static_cast<std::uint64_t>(ix)), static_cast<std::uint64_t>(iy));
+}
+
+double smooth(double t) {
+  return t * t * (3.0 - 2.0 * t);
+}
+
+// Value noise in [0, 1].
+double value_noise(std::uint64_t seed, double x, double y) {
+  const double fx = std::floor(x);
+  const double fy = std::floor(y);
+  const auto ix = static_cast<std::int64_t>(fx);
+  const auto iy = static_cast<std::int64_t>(fy);
+  const double u = smooth(x - fx);
+  const double v = smooth(y - fy);
+  const auto corner = [&](int i, int j) { return unit_random(lattice_hash(seed, ix + i, iy + j)); };
+  return (1.0 - v) * ((1.0 - u) * corner(0, 0) + u * corner(1, 0)) + v * ((1.0 - u) * corner(0, 1) + u * corner(1, 1));
+}
+
+// Level below which value_noise stays with the given probability (cubic fit of its measured distribution's lower tail).
+double noise_quantile(double fraction) {
+  return 0.5 - 0.36 * std::cbrt(1.0 - 2.0 * std::clamp(fraction, 0.0, 1.0));
+}
+
+// Relative contrasts: deserts of mixed grain show 15-30 % rms at the scale of centimetres.
+VertexLook soil_look(Soil soil) {
+  switch (soil) {
+    case Soil::kSand:
+      return {0.30F, 0.13F, 0.06F, 0.10F};
+    case Soil::kFirm:
+      return {0.25F, 0.20F, 0.08F, 0.16F};
+    case Soil::kBedrock:
+      return {0.34F, 0.17F, 0.12F, 0.12F};
+  }
+  return {};
+}
+
+VertexLook rock_look(std::uint64_t seed, int rock_id) {
+  const auto tone = static_cast<float>(unit_random(hash64(hash64(seed, 31), static_cast<std::uint64_t>(rock_id))));
+  return {0.15F + 0.15F * tone, 0.17F, 0.13F, 0.16F};
+}
+
+void cover(VertexLook& look, double dust) {
+  constexpr float kDustAlbedo = 0.33F;
+  constexpr float kLeft = 0.04F;  // of the contrast
+  const auto d = static_cast<float>(dust);
+  look.albedo += d * (kDustAlbedo - look.albedo);
+  const float keep = 1.0F - d * (1.0F - kLeft);
+  look.fine_contrast *= keep;
+  look.coarse_contrast *= keep;
+  look.bump *= keep;
+}
+
+}  // namespace
+
+VertexLook GroundLook::at(double x, double y, const Material& material) const {
+  const bool rock = material.rock_id >= 0;
+  VertexLook look = rock ? rock_look(config_.texture_seed, material.rock_id) : soil_look(material.soil);
+  cover(look, rock ? dust_on_rock(material.rock_id) : dust_on_ground(x, y));
+  return look;
+}
+
+double GroundLook::dust_on_ground(double x, double y) const {
+  if (config_.textureless_fraction <= 0.0) return 0.0;
+  const double level = noise_quantile(config_.textureless_fraction);
+  const double noise = value_noise(hash64(config_.texture_seed, 41), x / kDustPatch_m, y / kDustPatch_m);
+  constexpr double kEdge = 0.03;  // soft rim
+  return smooth(std::clamp((level - noise) / kEdge + 0.5, 0.0, 1.0));
+}
+
+double GroundLook::dust_on_rock(int rock_id) const {
+  const std::uint64_t h = hash64(hash64(config_.texture_seed, 51), static_cast<std::uint64_t>(rock_id));
+  return unit_random(h) < config_.textureless_rock_fraction ? 1.0 : 0.0;
+}
+
+}  // namespace rover

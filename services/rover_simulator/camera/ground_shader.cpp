@@ -1,0 +1,167 @@
+#include "rover_simulator/camera/ground_shader.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rover {
+namespace {
+
+constexpr float kFineWavelength_m = 0.05F;
+// Half width of a shadow's edge as tangent of elevation: the sun's disc (0.003) and what scatters round it.
+constexpr float kPenumbra = 0.012F;
+// A layer is in full from three pixels a wave, and gone at 1.2.
+constexpr float kPixelsGone = 1.2F;
+constexpr float kPixelsFull = 3.0F;
+
+float smooth_step(float t) {
+  t = std::min(std::max(t, 0.0F), 1.0F);
+  return t * t * (3.0F - 2.0F * t);
+}
+
+}  // namespace
+
+// What is known of the eight points while the layers of texture are added.
+struct GroundShader::Point {
+  Lanes<float> slope_x, slope_y, sun_margin, albedo;
+  Lanes<float> fine_contrast, coarse_contrast, bump;
+  Lanes<float> normal_x, normal_y, normal_z;
+  Lanes<float> waves_per_m;  // the finest that a pixel can resolve
+  Lanes<int> plane;          // that the textures are projected from, and the point's coordinates in it
+  Lanes<float> a, b;
+  Lanes<float> tone;
+};
+
+namespace {
+
+// Bilinear between the tile's vertices. The skirt and rays that graze the rim take the rim's values.
+template <class Point>
+void interpolate(const GroundTile& tile, float x, float y, int k, Point& point) {
+  const TileLevel& level = kLevels[tile.key().level];
+  const auto cells_per_m = static_cast<float>(1.0 / level.spacing_m);
+  const float limit = static_cast<float>(level.cells) - 0.001F;
+  const float gx = std::min(std::max(x * cells_per_m, 0.0F), limit);
+  const float gy = std::min(std::max(y * cells_per_m, 0.0F), limit);
+  const int i = static_cast<int>(gx);
+  const int j = static_cast<int>(gy);
+  const float fx = gx - static_cast<float>(i);
+  const float fy = gy - static_cast<float>(j);
+  const Float4* a = &tile.vertices()[static_cast<size_t>(j) * (level.cells + 1) + i].surface;
+  const Float4* b = a + 2 * (level.cells + 1);
+  const auto blend = [&](int n) {
+    const Float4 low = a[n] + (a[n + 2] - a[n]) * fx;
+    const Float4 high = b[n] + (b[n + 2] - b[n]) * fx;
+    return low + (high - low) * fy;
+  };
+  const Float4 surface = blend(0);
+  const Float4 look = blend(1);
+  point.slope_x[k] = surface[0];
+  point.slope_y[k] = surface[1];
+  point.sun_margin[k] = surface[2];
+  point.albedo[k] = look[0];
+  point.fine_contrast[k] = look[1];
+  point.coarse_contrast[k] = look[2];
+  point.bump[k] = look[3];
+}
+
+}  // namespace
+
+GroundShader::GroundShader(const GroundLookConfig& config, const GroundTexture& texture)
+    : sun_x_(static_cast<float>(std::cos(config.sun_elevation_rad) * std::cos(config.sun_azimuth_rad))),
+      sun_y_(static_cast<float>(std::cos(config.sun_elevation_rad) * std::sin(config.sun_azimuth_rad))),
+      sun_z_(static_cast<float>(std::sin(config.sun_elevation_rad))),
+      sky_light_(static_cast<float>(config.sky_light)) {
+  for (int k = 0; k < kDetailLayers; ++k) {
+    const DetailLayer& from = texture.layers[k];
+    const auto texels_per_m = static_cast<float>(1.0 / from.texel_m);
+    const Eigen::Matrix2f rotation = (from.texels_per_m * from.texel_m).cast<float>();
+    const auto wavelength_m = static_cast<float>(DetailTexture::kWavelengthTexels * from.texel_m);
+    layers_[k] = {&texture.of(from), rotation(0, 0), rotation(0, 1),
+                  texels_per_m,      wavelength_m,   wavelength_m < kFineWavelength_m};
+  }
+}
+
+void GroundShader::face(const RayPacket& rays, const Hits& hits, Point& at) const {
+  for (int k = 0; k < kPacket; ++k) {
+    const float sx = at.slope_x[k];
+    const float sy = at.slope_y[k];
+    const float scale = 1.0F / std::sqrt(1.0F + sx * sx + sy * sy);
+    at.normal_x[k] = -sx * scale;
+    at.normal_y[k] = -sy * scale;
+    at.normal_z[k] = scale;
+    // A slanted pixel is longer than wide; its mean size decides which layers it can resolve.
+    const float facing = (sx * rays.dir_x[k] + sy * rays.dir_y[k] - rays.dir_z[k]) * scale;
+    at.waves_per_m[k] = std::sqrt(std::max(facing, 0.04F)) / (hits.range_m[k] * rays.pixel_m_per_m[k]);
+    at.tone[k] = 1.0F;
+    const bool steep = sx * sx + sy * sy > 1.0F;
+    const bool faces_x = sx * sx > sy * sy;
+    at.plane[k] = steep ? (faces_x ? 1 : 2) : 0;
+    at.a[k] = steep && faces_x ? hits.y[k] : hits.x[k];
+    at.b[k] = steep ? hits.z[k] : hits.y[k];
+  }
+}
+
+void GroundShader::add_layer(int index, const Hits& hits, Point& at) const {
+  const Layer& layer = layers_[index];
+  Lanes<float> weight;
+  float sum = 0.0F;
+  for (int k = 0; k < kPacket; ++k) {
+    constexpr float kSlope = 1.0F / (kPixelsFull - kPixelsGone);
+    weight[k] = smooth_step((layer.wavelength_m * at.waves_per_m[k] - kPixelsGone) * kSlope);
+  }
+  for (int k = 0; k < kPacket; ++k) sum += weight[k];
+  if (sum <= 0.0F) return;
+
+  Lanes<float> u, v;
+  for (int k = 0; k < kPacket; ++k) {
+    u[k] = layer.texels_per_m * (layer.cosine * at.a[k] + layer.sine * at.b[k]);
+    v[k] = layer.texels_per_m * (layer.cosine * at.b[k] - layer.sine * at.a[k]);
+  }
+  Lanes<float> tone{}, slope_u{}, slope_v{};
+  for (int k = 0; k < kPacket; ++k) {
+    if (hits.tile[k] == nullptr) continue;
+    const Eigen::Vector2f& origin = hits.tile[k]->texture_origin(index, at.plane[k]);
+    const Float4 detail = layer.texture->sample(origin.x() + u[k], origin.y() + v[k]);
+    tone[k] = detail[0];
+    slope_u[k] = detail[1];
+    slope_v[k] = detail[2];
+  }
+  const Lanes<float>& contrast = layer.fine ? at.fine_contrast : at.coarse_contrast;
+  for (int k = 0; k < kPacket; ++k) {
+    const float bump = weight[k] * at.bump[k];
+    const float bump_a = bump * (layer.cosine * slope_u[k] - layer.sine * slope_v[k]);
+    const float bump_b = bump * (layer.sine * slope_u[k] + layer.cosine * slope_v[k]);
+    at.tone[k] += weight[k] * contrast[k] * tone[k];
+    at.normal_x[k] -= at.plane[k] != 1 ? bump_a : 0.0F;
+    at.normal_y[k] -= at.plane[k] == 0 ? bump_b : at.plane[k] == 1 ? bump_a : 0.0F;
+    at.normal_z[k] -= at.plane[k] != 0 ? bump_b : 0.0F;
+  }
+}
+
+[[gnu::target_clones("avx2", "default")]]
+Lanes<float> GroundShader::radiance(const RayPacket& rays, const Hits& hits) const {
+  Point at{};
+  for (int k = 0; k < kPacket; ++k)
+    if (hits.tile[k] != nullptr) interpolate(*hits.tile[k], hits.x[k], hits.y[k], k, at);
+
+  face(rays, hits, at);
+  for (int layer = 0; layer < kDetailLayers; ++layer) add_layer(layer, hits, at);
+
+  Lanes<float> radiance;
+  for (int k = 0; k < kPacket; ++k) {
+    const float nx = at.normal_x[k];
+    const float ny = at.normal_y[k];
+    const float nz = at.normal_z[k];
+    const float scale = 1.0F / std::sqrt(nx * nx + ny * ny + nz * nz);
+    const float lambert = std::max((nx * sun_x_ + ny * sun_y_ + nz * sun_z_) * scale, 0.0F);
+    const float lit = smooth_step(at.sun_margin[k] * (0.5F / kPenumbra) + 0.5F);
+    const float light = lit * lambert + sky_light_ * (0.5F + 0.5F * nz * scale);
+    radiance[k] = at.albedo[k] * std::max(at.tone[k], 0.25F) * light;
+  }
+  for (int k = 0; k < kPacket; ++k) {
+    // Dusty sky: brighter towards the horizon, of the order of the ground it lights.
+    if (hits.tile[k] == nullptr) radiance[k] = sky_light_ * (0.9F - 0.4F * std::max(rays.dir_z[k], 0.0F));
+  }
+  return radiance;
+}
+
+}  // namespace rover

@@ -1,0 +1,41 @@
+// Light that the ground sends to the camera: Lambert, sun with shadow, sky.
+#pragma once
+
+#include <array>
+
+#include "rover_simulator/camera/ground_tile.hpp"
+#include "rover_simulator/camera/ray_packet.hpp"
+
+namespace rover {
+
+class GroundShader {
+ public:
+  GroundShader(const GroundLookConfig& config, const GroundTexture& texture);
+
+  // Where eight rays met the ground.
+  struct Hits {
+    Lanes<const GroundTile*> tile;  // null: the ray met nothing and sees the sky
+    Lanes<float> x, y, z;           // from the tile's origin
+    Lanes<float> range_m;
+  };
+  Lanes<float> radiance(const RayPacket& rays, const Hits& hits) const;
+
+ private:
+  struct Layer {
+    const DetailTexture* texture;
+    float cosine, sine;  // of its rotation
+    float texels_per_m;
+    float wavelength_m;
+    bool fine;
+  };
+  struct Point;
+  // Normals, resolvable wavelengths and texture planes.
+  [[gnu::always_inline]] inline void face(const RayPacket& rays, const Hits& hits, Point& point) const;
+  [[gnu::always_inline]] inline void add_layer(int index, const Hits& hits, Point& point) const;
+
+  std::array<Layer, kDetailLayers> layers_;
+  float sun_x_, sun_y_, sun_z_;
+  float sky_light_;
+};
+
+}  // namespace rover

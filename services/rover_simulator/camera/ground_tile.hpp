@@ -1,0 +1,63 @@
+// A tile ready for the cameras: its mesh in an Embree scene of its own, and what shading needs at each vertex.
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include <Eigen/Dense>
+#include <array>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "rover_simulator/camera/detail_texture.hpp"
+#include "rover_simulator/camera/ground_look.hpp"
+#include "rover_simulator/camera/height_tile.hpp"
+
+namespace rover {
+
+// What is interpolated between vertices.
+struct ShadingVertex {
+  // Slopes along x and y; tangent of the sun's elevation less that of the horizon towards it (negative in shadow).
+  Float4 surface;
+  Float4 look;  // a VertexLook
+};
+
+class GroundTile {
+ public:
+  // Height tiles of the same level: itself, and the neighbours towards the sun in x, in y and in both.
+  struct Heights {
+    std::shared_ptr<const HeightTile> self, next_x, next_y, next_xy;
+  };
+
+  GroundTile(RTCDevice device, const Heights& heights, const Surface& surface, const GroundLook& look,
+             const GroundTexture& texture);
+  ~GroundTile();
+  GroundTile(const GroundTile&) = delete;
+  GroundTile& operator=(const GroundTile&) = delete;
+
+  RTCScene scene() const { return scene_; }
+  const TileKey& key() const { return key_; }
+  // Its corner with the smallest x and y; mesh coordinates are relative to it.
+  const Eigen::Vector3d& origin() const { return origin_; }
+  // Texture coordinates of the origin.
+  const Eigen::Vector2f& texture_origin(int layer, int plane) const { return texture_origin_[layer][plane]; }
+  // Row by row, cells + 1 a side.
+  const std::vector<ShadingVertex>& vertices() const { return vertices_; }
+  size_t memory_bytes() const;
+
+ private:
+  void place_textures(const GroundTexture& texture);
+  void shade_vertices(const Heights& heights, const Surface& surface, const GroundLook& look);
+  void build_mesh(RTCDevice device, const HeightTile& heights);
+
+  TileKey key_;
+  Eigen::Vector3d origin_;
+  std::array<std::array<Eigen::Vector2f, kPlanes>, kDetailLayers> texture_origin_;
+  std::vector<ShadingVertex> vertices_;
+  RTCScene scene_ = nullptr;
+};
+
+// Signs of the direction towards the sun: +1 or -1 in x and y.
+Eigen::Vector2i sun_side(const GroundLookConfig& config);
+
+}  // namespace rover

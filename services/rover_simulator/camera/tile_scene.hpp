@@ -1,0 +1,85 @@
+// The ground around the rover as the cameras see it: fine tiles near it, coarser ones farther out, none beyond.
+//
+// Which tiles stand in the scene depends on the viewing position alone, so that pictures do not depend on where the
+// rover came from; which are kept in memory, or built ahead, is only a matter of speed.
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include <Eigen/Dense>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "rover_simulator/camera/ground_shader.hpp"
+#include "rover_simulator/camera/ground_tile.hpp"
+#include "rover_simulator/camera/ray_packet.hpp"
+#include "rover_simulator/camera/worker_pool.hpp"
+
+namespace rover {
+
+struct TileSceneConfig {
+  double fine_radius_m = 8.0;     // everything nearer is seen at 0.02 m,
+  double middle_radius_m = 20.0;  // then at 0.1 m,
+  double far_radius_m = 80.0;     // then at 0.8 m
+  double ahead_m = 2.0;           // tiles needed this much farther on are built ahead, one an image
+  double keep_m = 3.0;            // and kept until they are this much out of reach
+  int threads = 2;
+  GroundLookConfig look;
+};
+
+class TileScene {
+ public:
+  // `surface` must outlive the scene; its functions are called from several threads.
+  TileScene(const Surface& surface, const TileSceneConfig& config);
+  ~TileScene();
+  TileScene(const TileScene&) = delete;
+  TileScene& operator=(const TileScene&) = delete;
+
+  // Makes the scene around the point ready. Not while others trace.
+  void focus(double x_m, double y_m);
+
+  // Position of a camera relative to the parts of the scene; valid until the next focus().
+  struct View {
+    Eigen::Vector3f eye;                       // from the scene's anchor
+    std::vector<Eigen::Vector3f> eye_in_tile;  // from each tile's origin
+  };
+  View view(const Eigen::Vector3d& p_map_eye) const;
+
+  // Thread safe.
+  Lanes<float> radiance(const View& view, const RayPacket& rays) const;
+  Lanes<float> ranges_m(const View& view, const RayPacket& rays) const;
+
+  WorkerPool& pool() { return pool_; }
+  size_t tile_count() const { return tiles_.size(); }
+  size_t memory_bytes() const;
+
+ private:
+  std::vector<TileKey> tiles_around(double x_m, double y_m, double margin_m) const;
+  void build(const std::vector<TileKey>& keys);
+  void build_one_ahead(double x_m, double y_m);
+  GroundTile::Heights heights_of(const TileKey& key) const;
+  std::vector<TileKey> height_keys_of(const TileKey& key) const;
+  void forget_far(double x_m, double y_m);
+  struct Traced;
+  Traced intersect(const View& view, const RayPacket& rays) const;
+  void assemble(const std::vector<TileKey>& keys);
+
+  const Surface& surface_;
+  TileSceneConfig config_;
+  GroundLook look_;
+  GroundTexture texture_;
+  GroundShader shader_;
+  mutable WorkerPool pool_;
+  RTCDevice device_;
+  std::map<TileKey, std::shared_ptr<const HeightTile>> heights_;
+  std::map<TileKey, std::shared_ptr<const GroundTile>> tiles_;
+
+  RTCScene scene_ = nullptr;
+  Eigen::Vector3d anchor_ = Eigen::Vector3d::Zero();
+  std::vector<TileKey> shown_;
+  std::vector<std::shared_ptr<const GroundTile>> shown_tiles_;  // by instance
+};
+
+}  // namespace rover

@@ -1,0 +1,41 @@
+// A few threads that share the indices 0 .. count-1 of a loop. Whoever computes an index, the result is the same.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace rover {
+
+class WorkerPool {
+ public:
+  // The calling thread counts as one of them.
+  explicit WorkerPool(int threads);
+  ~WorkerPool();
+  WorkerPool(const WorkerPool&) = delete;
+  WorkerPool& operator=(const WorkerPool&) = delete;
+
+  // Returns when all indices are done. One caller at a time; `work` must not throw.
+  void run(int count, const std::function<void(int)>& work);
+
+ private:
+  void serve();
+  void take_indices();
+
+  std::mutex mutex_;
+  std::condition_variable started_;
+  std::condition_variable finished_;
+  const std::function<void(int)>* work_ = nullptr;
+  std::atomic<int> next_{0};
+  int count_ = 0;
+  int busy_ = 0;
+  std::uint64_t round_ = 0;
+  bool stop_ = false;
+  std::vector<std::thread> threads_;
+};
+
+}  // namespace rover

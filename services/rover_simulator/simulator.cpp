@@ -1,0 +1,240 @@
+#include "rover_simulator/simulator.hpp"
+
+#include <signal.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <rover/tick_t.hpp>
+#include <thread>
+
+#include "common/bus/channels.hpp"
+#include "rover_simulator/convert.hpp"
+
+namespace rover {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr Utime kStart = 1'000'000;            // the first tick; zero stays free for "never"
+constexpr Utime kFramePeriod = 400'000;
+constexpr Utime kCameraLatency = 60'000;       // exposure, read-out and transfer
+constexpr Utime kReturnAfter = 1'000'000;      // a service that left is waited for again from then on
+constexpr double kStartPatience_s = 60.0;
+constexpr double kAskAgain_s = 1.0;
+constexpr double kSilence_s = 10.0;
+
+double since_s(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+bool alive(int pid) { return pid > 0 && (kill(pid, 0) == 0 || errno == EPERM); }
+
+RoverPhase phase_of(const supervisor_state_t& state) {
+  switch (state.state) {
+    case supervisor_state_t::GOAL_REACHED: return RoverPhase::kArrived;
+    case supervisor_state_t::SAFE: return RoverPhase::kGivenUp;
+    case supervisor_state_t::FAULT_STOP:
+      return state.cause == "no_path" ? RoverPhase::kGivenUp : RoverPhase::kFaultStop;
+    default: return RoverPhase::kUnderWay;
+  }
+}
+
+}  // namespace
+
+Simulator::Simulator(const SimulatorOptions& options, SimulatedRover& rover, lcm::LCM& lcm)
+    : options_(options),
+      rover_(rover),
+      lcm_(lcm),
+      streams_("rover_simulator", options.boot_id),
+      barrier_(options.participants),
+      end_(options.end, kStart) {
+  const auto listen = [this](const char* channel, auto handler) {
+    auto* subscription = lcm_.subscribe(channel, handler, this);
+    subscription->setQueueCapacity(0);
+  };
+  listen(channel::kDone, &Simulator::on_done);
+  listen(channel::kWheelCommand, &Simulator::on_wheel_command);
+  listen(channel::kState, &Simulator::on_state);
+}
+
+template <class Message>
+void Simulator::publish(const char* channel, Message& message, Utime utime, Utime release) {
+  message.header = streams_.next(channel, utime, release);
+  lcm_.publish(channel, &message);
+}
+
+void Simulator::on_done(const lcm::ReceiveBuffer* buffer, const std::string&) {
+  done_t done;
+  if (!decode_message(buffer->data, static_cast<int>(buffer->data_size), done)) return;
+  const header_t& header = done.header;
+  if (done.tick_utime == kNever) return barrier_.ready(header.publisher, header.boot_id, done.pid);
+  barrier_.done(header.publisher, header.boot_id, done.pid, done.tick_utime, done.promise_utime);
+  dones_.push_back(done);
+}
+
+// What the others published until t. Which reports arrived by now depends on the machine's speed, which of them are
+// released by t does not.
+std::vector<stream_seq_t> Simulator::take_grown(Utime t) {
+  std::vector<stream_seq_t> grown;
+  std::erase_if(dones_, [&](const done_t& done) {
+    if (done.header.release_utime > t) return false;
+    grown.insert(grown.end(), done.streams.begin(), done.streams.end());
+    stream_seq_t own;
+    own.channel = channel::kDone;
+    own.publisher = done.header.publisher;
+    own.boot_id = done.header.boot_id;
+    own.seq = done.header.seq;
+    grown.push_back(own);
+    return true;
+  });
+  return grown;
+}
+
+void Simulator::on_wheel_command(const lcm::ReceiveBuffer* buffer, const std::string&) {
+  wheel_command_t command;
+  if (!decode_message(buffer->data, static_cast<int>(buffer->data_size), command)) return;
+  commands_.push_back(command);
+}
+
+void Simulator::on_state(const lcm::ReceiveBuffer* buffer, const std::string&) {
+  supervisor_state_t state;
+  if (decode_message(buffer->data, static_cast<int>(buffer->data_size), state)) states_.push_back(state);
+}
+
+SimulationSummary Simulator::run(const std::function<bool()>& running) {
+  if (!wait_for_start(running)) return summary_;
+  const auto started = Clock::now();
+  Utime t = kStart;
+  for (; running(); t += kTickUs) {
+    if (const auto over = end_.over(t)) {
+      summary_.outcome = *over;
+      break;
+    }
+    if (t > kStart) step_world(t);
+    publish_sensors(t);
+    if ((t - kStart) % kFramePeriod == 0) start_exposure(t);
+    publish_due_images(t);
+    if (options_.realtime)
+      std::this_thread::sleep_until(started + std::chrono::microseconds(t - kStart));
+    else
+      wait_for_barrier(t, running);
+    give_tick(t);
+    while (lcm_.handleTimeout(0) > 0) {
+    }
+    while (!states_.empty() && states_.front().header.release_utime <= t) {
+      end_.phase(phase_of(states_.front()), states_.front().header.utime);
+      states_.pop_front();
+    }
+  }
+  if (summary_.outcome.empty()) summary_.outcome = "stopped";
+  if (options_.realtime) summary_.deterministic = false;
+  summary_.simulated_s = to_seconds(t - kStart);
+  summary_.wall_s = since_s(started);
+  return summary_;
+}
+
+bool Simulator::wait_for_start(const std::function<bool()>& running) {
+  const auto started = Clock::now();
+  const auto absent = [&] { return barrier_.waiting_for(kStart); };
+  while (running() && !absent().empty() && since_s(started) < kStartPatience_s) lcm_.handleTimeout(20);
+  const std::vector<std::string> missing = absent();
+  if (missing.empty()) return running();
+  summary_.outcome = "not_started";
+  for (const std::string& name : missing) summary_.left.push_back(name + " did not start");
+  return false;
+}
+
+WheelCommand Simulator::command_at(Utime t) {
+  while (!commands_.empty() && commands_.front().header.release_utime <= t) {
+    command_ = commands_.front();
+    commands_.pop_front();
+  }
+  if (!command_ || command_->valid_until_utime < t) return rover_.hold_command();
+  return wheel_command_from(*command_);
+}
+
+void Simulator::step_world(Utime t) { rover_.advance(to_seconds(kTickUs), command_at(t - kTickUs)); }
+
+void Simulator::publish_sensors(Utime t) {
+  const bool expired = command_ && command_->valid_until_utime < t;
+  imu_t imu = imu_message(rover_.imu());
+  wheel_state_t wheels = wheel_state_message(rover_.wheels(), expired);
+  truth_t truth = truth_message(rover_.truth());
+  publish(channel::kImu, imu, t, t);
+  publish(channel::kWheelState, wheels, t, t);
+  publish(channel::kTruth, truth, t, t);
+}
+
+void Simulator::start_exposure(Utime t) {
+  if (exposure_) publish_due_images(exposure_->release);
+  PendingPair pending{t, t + kCameraLatency, {}};
+  pending.pair = std::async(std::launch::async, [this, T_map_body = rover_.T_map_body(), frame = frame_++] {
+    return rover_.expose_loccam(T_map_body, frame);
+  });
+  exposure_ = std::move(pending);
+}
+
+void Simulator::publish_due_images(Utime t) {
+  if (!exposure_ || exposure_->release > t) return;
+  const bool finished = exposure_->pair.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  if (options_.realtime && !finished) {
+    exposure_->release = t + kTickUs;  // late by the clock: released when it is there
+    return;
+  }
+  const StereoCameraSim::Pair pair = exposure_->pair.get();
+  publish_image(channel::kLocCamLeft, pair.left, pair.exposure_s, *exposure_);
+  publish_image(channel::kLocCamRight, pair.right, pair.exposure_s, *exposure_);
+  exposure_.reset();
+}
+
+void Simulator::publish_image(const char* channel, const GrayImage& image, double exposure_s,
+                              const PendingPair& pending) {
+  image_t message = image_message(image, exposure_s);
+  publish(channel, message, pending.utime, pending.release);
+}
+
+void Simulator::wait_for_barrier(Utime t, const std::function<bool()>& running) {
+  auto started = Clock::now();
+  double asked_at_s = 0.0;
+  for (auto missing = barrier_.waiting_for(t); !missing.empty() && running(); missing = barrier_.waiting_for(t)) {
+    if (lcm_.handleTimeout(5) > 0) continue;
+    const double waited_s = since_s(started);
+    deal_with_missing(missing, t, waited_s);
+    if (waited_s - asked_at_s < kAskAgain_s || last_tick_.empty()) continue;
+    asked_at_s = waited_s;
+    lcm_.publish(channel::kTick, last_tick_.data(), static_cast<unsigned int>(last_tick_.size()));
+  }
+}
+
+// A dead process leaves the barrier at once, a silent one after a while; both are waited for again later.
+void Simulator::deal_with_missing(const std::vector<std::string>& missing, Utime t, double waited_s) {
+  for (const std::string& name : missing) {
+    const bool dead = barrier_.pid_of(name) > 0 && !alive(barrier_.pid_of(name));
+    if (!dead && waited_s < kSilence_s) continue;
+    if (!dead) summary_.deterministic = false;
+    summary_.left.push_back(name + (dead ? " died at " : " silent at ") + std::to_string(to_seconds(t)) + " s");
+    std::printf("%lld WARN rover_simulator LEFT_BARRIER service=%s dead=%d\n", static_cast<long long>(t), name.c_str(),
+                dead);
+    std::fflush(stdout);
+    barrier_.leave(name, t, kReturnAfter);
+  }
+}
+
+void Simulator::give_tick(Utime t) {
+  tick_t tick;
+  tick.mode = options_.realtime ? tick_t::REALTIME : tick_t::LOCKSTEP;
+  tick.members = barrier_.admit(t);
+  tick.member_count = static_cast<std::int32_t>(tick.members.size());
+  tick.streams = streams_.take_grown();
+  const std::vector<stream_seq_t> grown = take_grown(t);
+  tick.streams.insert(tick.streams.end(), grown.begin(), grown.end());
+  std::sort(tick.streams.begin(), tick.streams.end(), [](const stream_seq_t& a, const stream_seq_t& b) {
+    return std::tie(a.channel, a.publisher, a.boot_id, a.seq) < std::tie(b.channel, b.publisher, b.boot_id, b.seq);
+  });
+  tick.stream_count = static_cast<std::int32_t>(tick.streams.size());
+  tick.header = streams_.next(channel::kTick, t, t);
+  last_tick_.resize(static_cast<size_t>(tick.getEncodedSize()));
+  tick.encode(last_tick_.data(), 0, static_cast<int>(last_tick_.size()));
+  lcm_.publish(channel::kTick, last_tick_.data(), static_cast<unsigned int>(last_tick_.size()));
+}
+
+}  // namespace rover

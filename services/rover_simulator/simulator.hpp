@@ -1,0 +1,84 @@
+// The world on the bus: steps vehicle and cameras, publishes what sensors and judges see, and gives the ticks.
+#pragma once
+
+#include <deque>
+#include <future>
+#include <lcm/lcm-cpp.hpp>
+#include <memory>
+#include <optional>
+#include <rover/done_t.hpp>
+#include <rover/supervisor_state_t.hpp>
+#include <rover/wheel_command_t.hpp>
+#include <string>
+#include <vector>
+
+#include "common/bus/streams.hpp"
+#include "rover_simulator/barrier.hpp"
+#include "rover_simulator/run_end.hpp"
+#include "rover_simulator/simulated_rover.hpp"
+
+namespace rover {
+
+struct SimulatorOptions {
+  std::vector<std::string> participants;  // nodes that the ticks wait for
+  std::int64_t boot_id = 1;
+  bool realtime = false;
+  RunEndConfig end;
+};
+
+// What a run leaves for the report.
+struct SimulationSummary {
+  std::string outcome;         // goal_reached, fault_stop, timeout, stopped, or what kept the run from starting
+  bool deterministic = true;
+  double simulated_s = 0.0;
+  double wall_s = 0.0;
+  std::vector<std::string> left;  // services that left the barrier, with the message time
+};
+
+class Simulator {
+ public:
+  Simulator(const SimulatorOptions& options, SimulatedRover& rover, lcm::LCM& lcm);
+  // Runs until the run is over or `running` is false.
+  SimulationSummary run(const std::function<bool()>& running);
+
+ private:
+  struct PendingPair {
+    Utime utime;
+    Utime release;
+    std::future<StereoCameraSim::Pair> pair;
+  };
+
+  bool wait_for_start(const std::function<bool()>& running);
+  void step_world(Utime t);
+  void publish_sensors(Utime t);
+  void start_exposure(Utime t);
+  void publish_due_images(Utime t);
+  void publish_image(const char* channel, const GrayImage& image, double exposure_s, const PendingPair& pending);
+  void wait_for_barrier(Utime t, const std::function<bool()>& running);
+  void deal_with_missing(const std::vector<std::string>& missing, Utime t, double waited_s);
+  void give_tick(Utime t);
+  std::vector<stream_seq_t> take_grown(Utime t);
+  WheelCommand command_at(Utime t);
+  void on_done(const lcm::ReceiveBuffer* buffer, const std::string& channel);
+  void on_wheel_command(const lcm::ReceiveBuffer* buffer, const std::string& channel);
+  void on_state(const lcm::ReceiveBuffer* buffer, const std::string& channel);
+  template <class Message>
+  void publish(const char* channel, Message& message, Utime utime, Utime release);
+
+  SimulatorOptions options_;
+  SimulatedRover& rover_;
+  lcm::LCM& lcm_;
+  StreamCounter streams_;
+  Barrier barrier_;
+  RunEnd end_;
+  std::vector<done_t> dones_;             // whose streams no tick has listed yet
+  std::deque<wheel_command_t> commands_;  // not yet in force
+  std::deque<supervisor_state_t> states_;
+  std::optional<wheel_command_t> command_;
+  std::optional<PendingPair> exposure_;
+  std::int64_t frame_ = 0;
+  std::vector<std::uint8_t> last_tick_;
+  SimulationSummary summary_;
+};
+
+}  // namespace rover

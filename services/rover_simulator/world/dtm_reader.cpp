@@ -1,0 +1,79 @@
+#include "rover_simulator/world/dtm_reader.hpp"
+
+#include <cpl_conv.h>
+#include <gdal_priv.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+namespace rover {
+namespace {
+
+// GDAL prints its errors on stderr by default; here they become the text of the exception.
+class QuietGdal {
+ public:
+  QuietGdal() {
+    GDALAllRegister();
+    CPLPushErrorHandler(CPLQuietErrorHandler);
+    CPLErrorReset();
+  }
+  ~QuietGdal() { CPLPopErrorHandler(); }
+  QuietGdal(const QuietGdal&) = delete;
+  QuietGdal& operator=(const QuietGdal&) = delete;
+};
+
+std::string last_gdal_error() {
+  std::string text = CPLGetLastErrorMsg();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text.empty() ? "" : " (" + text + ")";
+}
+
+std::array<double, 6> georeference(GDALDataset& dataset, const std::string& file) {
+  std::array<double, 6> t{};
+  if (dataset.GetGeoTransform(t.data()) != CE_None || std::string(dataset.GetProjectionRef()).empty())
+    throw DtmError(file + ": elevation model has no georeference");
+  if (t[2] != 0.0 || t[4] != 0.0 || t[1] <= 0.0 || std::abs(t[1] + t[5]) > 1e-6 * t[1])
+    throw DtmError(file + ": elevation model is not north-up with square pixels");
+  return t;
+}
+
+void check_heights(GDALRasterBand& band, const std::vector<float>& heights, const std::string& file) {
+  int has_void = 0;
+  const double void_value = band.GetNoDataValue(&has_void);
+  for (float z : heights)
+    if (!std::isfinite(z) || (has_void && static_cast<double>(z) == void_value))
+      throw DtmError(file + ": elevation model has voids");
+}
+
+}  // namespace
+
+ElevationRaster read_elevation(const std::string& file) {
+  if (!std::filesystem::is_regular_file(file)) throw DtmError(file + ": elevation model not found");
+  const QuietGdal quiet;
+  const std::unique_ptr<GDALDataset> dataset(GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
+  if (!dataset || dataset->GetRasterCount() < 1)
+    throw DtmError(file + ": not a readable elevation model" + last_gdal_error());
+  const std::array<double, 6> t = georeference(*dataset, file);
+  ElevationRaster raster;
+  raster.width = dataset->GetRasterXSize();
+  raster.height = dataset->GetRasterYSize();
+  raster.resolution_m = t[1];
+  raster.west_m = t[0];
+  raster.south_m = t[3] + t[5] * raster.height;
+  raster.projection_wkt = dataset->GetProjectionRef();
+  raster.z_m.resize(static_cast<size_t>(raster.width) * raster.height);
+  GDALRasterBand& band = *dataset->GetRasterBand(1);
+  // Rows from the south: start at the last line and step backwards.
+  float* last_row = raster.z_m.data() + static_cast<size_t>(raster.height - 1) * raster.width;
+  const CPLErr error = band.RasterIO(GF_Read, 0, 0, raster.width, raster.height, last_row, raster.width, raster.height,
+                                     GDT_Float32, sizeof(float),
+                                     -static_cast<GSpacing>(sizeof(float)) * raster.width, nullptr);
+  if (error != CE_None) throw DtmError(file + ": elevation model is cut short or damaged" + last_gdal_error());
+  check_heights(band, raster.z_m, file);
+  return raster;
+}
+
+}  // namespace rover

@@ -1,0 +1,199 @@
+#include "rover_simulator/world/rocks.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/core/check.hpp"
+#include "rover_simulator/world/noise.hpp"
+
+namespace rover {
+namespace {
+
+constexpr double kCellM = 1.0;
+constexpr int kQuantiles = 2048;
+constexpr int kIntegrationSteps = 400;
+constexpr double kMaxElongation = 1.6;  // long over short axis
+
+double q_of(double k) { return 1.79 + 0.152 / k; }
+
+int poisson(double mean, HashStream& stream) {
+  // Knuth's product of uniforms: the mean is a few rocks a cell.
+  const double limit = std::exp(-mean);
+  int count = 0;
+  for (double product = stream.unit(); product > limit; product *= stream.unit()) ++count;
+  return count;
+}
+
+bool is_kept_clear(const Rock& rock, std::span<const KeepClear> circles) {
+  const double reach = 0.5 * rock.diameter_m * std::sqrt(kMaxElongation);
+  return std::any_of(circles.begin(), circles.end(), [&](const KeepClear& circle) {
+    return rock.height_m >= circle.height_m &&
+           std::hypot(rock.x_m - circle.x_m, rock.y_m - circle.y_m) < circle.radius_m + reach;
+  });
+}
+
+}  // namespace
+
+double rock_density_above(const RockConfig& config, double diameter_m) {
+  if (config.k <= 0.0 || diameter_m >= config.max_diameter_m) return 0.0;
+  const double q = q_of(config.k);
+  // Trapezoids in log D, where the integrand k q exp(-q D) * 4 / (pi D^2) * D is smooth.
+  const double a = std::log(diameter_m), step = (std::log(config.max_diameter_m) - a) / kIntegrationSteps;
+  double sum = 0.0;
+  for (int i = 0; i <= kIntegrationSteps; ++i) {
+    const double d = std::exp(a + i * step);
+    const double value = config.k * q * std::exp(-q * d) * 4.0 / (M_PI * d);
+    sum += (i == 0 || i == kIntegrationSteps) ? 0.5 * value : value;
+  }
+  return sum * step;
+}
+
+RockField::RockField(const RockConfig& config, double width_m, double height_m, std::span<const KeepClear> keep_clear,
+                     std::uint64_t seed)
+    : config_(config), width_m_(width_m), height_m_(height_m) {
+  cells_x_ = static_cast<int>(std::ceil(width_m / kCellM));
+  cells_y_ = static_cast<int>(std::ceil(height_m / kCellM));
+  per_square_metre_ = rock_density_above(config, config.min_diameter_m);
+  if (per_square_metre_ > 0.0) {
+    // Inverse of the distribution of diameters, by walking down the density.
+    const double ratio = std::pow(config.max_diameter_m / config.min_diameter_m, 1.0 / kQuantiles);
+    double diameter = config.min_diameter_m, above = per_square_metre_;
+    for (int i = 0; i <= kQuantiles; ++i) {
+      const double wanted = per_square_metre_ * (1.0 - static_cast<double>(i) / kQuantiles);
+      while (above > wanted && diameter < config.max_diameter_m) {
+        const double next = diameter * ratio, mid = diameter * std::sqrt(ratio);
+        const double q = q_of(config.k);
+        above -= config.k * q * std::exp(-q * mid) * 4.0 / (M_PI * mid * mid) * (next - diameter);
+        diameter = next;
+      }
+      quantile_diameter_m_.push_back(diameter);
+    }
+    for (int cy = 0; cy < cells_y_; ++cy)
+      for (int cx = 0; cx < cells_x_; ++cx) draw_cell(cx, cy, keep_clear, seed);
+  }
+  index_rocks();
+}
+
+double RockField::draw_diameter_m(double u) const {
+  const double place = u * kQuantiles;
+  const int i = std::min(static_cast<int>(place), kQuantiles - 1);
+  return std::lerp(quantile_diameter_m_[i], quantile_diameter_m_[i + 1], place - i);
+}
+
+void RockField::draw_cell(int cx, int cy, std::span<const KeepClear> keep_clear, std::uint64_t seed) {
+  HashStream stream(hash_cell(seed, cx, cy));
+  const int count = poisson(per_square_metre_ * kCellM * kCellM, stream);
+  for (int i = 0; i < count; ++i) {
+    Rock rock;
+    rock.x_m = (cx + stream.unit()) * kCellM;
+    rock.y_m = (cy + stream.unit()) * kCellM;
+    rock.diameter_m = draw_diameter_m(stream.unit());
+    // Sum of two uniforms: most rocks near the mean ratio, none beyond the limits.
+    const double spread = 0.5 * (stream.unit() + stream.unit());
+    rock.height_m = rock.diameter_m * std::lerp(config_.min_height_ratio, config_.max_height_ratio, spread);
+    rock.shape_seed = stream.bits();
+    if (rock.x_m >= width_m_ || rock.y_m >= height_m_ || is_kept_clear(rock, keep_clear)) continue;
+    rock.id = static_cast<int>(rocks_.size());
+    rocks_.push_back(rock);
+  }
+}
+
+RockField::Shape RockField::shape_of(const Rock& rock) const {
+  HashStream stream(rock.shape_seed);
+  Shape shape{};
+  shape.x_m = static_cast<float>(rock.x_m);
+  shape.y_m = static_cast<float>(rock.y_m);
+  shape.height_m = static_cast<float>(rock.height_m);
+  const double elongation = stream.range(1.0, kMaxElongation), heading = stream.range(0.0, M_PI);
+  const double long_axis = 0.5 * rock.diameter_m * std::sqrt(elongation);
+  const double short_axis = 0.5 * rock.diameter_m / std::sqrt(elongation);
+  shape.reach_m = static_cast<float>(long_axis);
+  shape.axis_x = static_cast<float>(std::cos(heading));
+  shape.axis_y = static_cast<float>(std::sin(heading));
+  shape.inverse_long = static_cast<float>(1.0 / long_axis);
+  shape.inverse_short = static_cast<float>(1.0 / short_axis);
+  shape.dome = static_cast<float>(stream.range(0.05, 0.5));
+  const double tilt = stream.range(0.0, 0.5), tilt_heading = stream.range(0.0, 2.0 * M_PI);
+  shape.tilt_x = static_cast<float>(tilt * std::cos(tilt_heading));
+  shape.tilt_y = static_cast<float>(tilt * std::sin(tilt_heading));
+  for (int i = 0; i < kFlanks; ++i) {
+    const double angle = 2.0 * M_PI * (i + stream.range(0.15, 0.85)) / kFlanks;
+    const double offset = stream.range(0.72, 1.0);
+    // Flank slope 58-77 degrees, in units of height over semi-axis, and never too gentle to reach the top.
+    const double slope = stream.range(1.6, 4.3) * 0.5 * rock.diameter_m / rock.height_m;
+    shape.flank_x[i] = static_cast<float>(std::cos(angle));
+    shape.flank_y[i] = static_cast<float>(std::sin(angle));
+    shape.flank_offset[i] = static_cast<float>(offset);
+    shape.flank_rise[i] = static_cast<float>(std::max(slope, 1.1 / offset));
+  }
+  return shape;
+}
+
+// In the ellipse's own coordinates (u, v), |(u, v)| <= 1: the lowest of a dome, a tilted top, the flanks' planes and the
+// ellipse's own rim; 1 at the centre. Continuous, and zero from the rim outwards.
+float RockField::profile_m(const Shape& shape, float dx_m, float dy_m) {
+  const float u = (shape.axis_x * dx_m + shape.axis_y * dy_m) * shape.inverse_long;
+  const float v = (shape.axis_x * dy_m - shape.axis_y * dx_m) * shape.inverse_short;
+  const float r2 = u * u + v * v;
+  if (r2 >= 1.0f) return 0.0f;
+  constexpr float kTopMargin = 0.15f;  // the tilted top cuts away one side, not the summit
+  float top = std::min(1.0f - shape.dome * r2, 1.0f + kTopMargin * 0.5f - shape.tilt_x * u - shape.tilt_y * v);
+  top = std::min(top, (1.0f - r2) * 2.5f);
+  for (int i = 0; i < kFlanks; ++i)
+    top = std::min(top, (shape.flank_offset[i] - shape.flank_x[i] * u - shape.flank_y[i] * v) * shape.flank_rise[i]);
+  return top > 0.0f ? top * shape.height_m : 0.0f;
+}
+
+void RockField::index_rocks() {
+  std::vector<std::pair<int, int>> entries;  // cell, rock
+  shapes_.reserve(rocks_.size());
+  for (const Rock& rock : rocks_) {
+    const Shape shape = shape_of(rock);
+    shapes_.push_back(shape);
+    const auto cell = [](double m, int cells) {
+      return std::clamp(static_cast<int>(std::floor(m / kCellM)), 0, cells - 1);
+    };
+    for (int cy = cell(rock.y_m - shape.reach_m, cells_y_); cy <= cell(rock.y_m + shape.reach_m, cells_y_); ++cy)
+      for (int cx = cell(rock.x_m - shape.reach_m, cells_x_); cx <= cell(rock.x_m + shape.reach_m, cells_x_); ++cx)
+        entries.emplace_back(cy * cells_x_ + cx, rock.id);
+  }
+  std::sort(entries.begin(), entries.end());
+  cell_start_.assign(static_cast<size_t>(cells_x_) * cells_y_ + 1, 0);
+  for (const auto& [cell, rock] : entries) ++cell_start_[cell + 1];
+  for (size_t c = 1; c < cell_start_.size(); ++c) cell_start_[c] += cell_start_[c - 1];
+  for (const auto& entry : entries) cell_rocks_.push_back(entry.second);
+}
+
+RockField::Hit RockField::at(double x_m, double y_m) const {
+  Hit hit;
+  if (!(x_m >= 0.0 && y_m >= 0.0 && x_m < width_m_ && y_m < height_m_) || rocks_.empty()) return hit;
+  const int cell = static_cast<int>(y_m / kCellM) * cells_x_ + static_cast<int>(x_m / kCellM);
+  for (int i = cell_start_[cell]; i < cell_start_[cell + 1]; ++i) {
+    const Shape& shape = shapes_[cell_rocks_[i]];
+    const auto dx = static_cast<float>(x_m - shape.x_m), dy = static_cast<float>(y_m - shape.y_m);
+    if (dx * dx + dy * dy >= shape.reach_m * shape.reach_m) continue;
+    const double height = profile_m(shape, dx, dy);
+    if (height > hit.height_m) hit = {cell_rocks_[i], height};
+  }
+  return hit;
+}
+
+std::vector<Rock> RockField::in(double x0_m, double y0_m, double x1_m, double y1_m) const {
+  std::vector<Rock> found;
+  const int cx0 = std::max(0, static_cast<int>(std::floor(x0_m / kCellM)));
+  const int cy0 = std::max(0, static_cast<int>(std::floor(y0_m / kCellM)));
+  const int cx1 = std::min(cells_x_ - 1, static_cast<int>(std::floor(x1_m / kCellM)));
+  const int cy1 = std::min(cells_y_ - 1, static_cast<int>(std::floor(y1_m / kCellM)));
+  for (int cy = cy0; cy <= cy1; ++cy)
+    for (int cx = cx0; cx <= cx1; ++cx)
+      for (int i = cell_start_[cy * cells_x_ + cx]; i < cell_start_[cy * cells_x_ + cx + 1]; ++i) {
+        const Rock& rock = rocks_[cell_rocks_[i]];
+        const bool own_cell = static_cast<int>(rock.x_m / kCellM) == cx && static_cast<int>(rock.y_m / kCellM) == cy;
+        if (own_cell && rock.x_m >= x0_m && rock.x_m <= x1_m && rock.y_m >= y0_m && rock.y_m <= y1_m)
+          found.push_back(rock);
+      }
+  std::sort(found.begin(), found.end(), [](const Rock& a, const Rock& b) { return a.id < b.id; });
+  return found;
+}
+
+}  // namespace rover

@@ -1,0 +1,85 @@
+// Rocks by Golombek's size-frequency law, drawn cell by cell from hashes: a pure function of seed and place.
+// Law: cumulative fractional area covered by rocks of diameter >= D is F(D) = k exp(-q D), q = 1.79 + 0.152 / k
+// (Golombek and Rapp 1997). Shapes: convex blocks of steep flanks under a domed or tilted top.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace rover {
+
+struct Rock {
+  int id = -1;
+  double x_m = 0.0;
+  double y_m = 0.0;
+  double diameter_m = 0.0;
+  double height_m = 0.0;
+  std::uint64_t shape_seed = 0;
+};
+
+// Where no rock of this height or taller may stand.
+struct KeepClear {
+  double x_m = 0.0;
+  double y_m = 0.0;
+  double radius_m = 0.0;
+  double height_m = 0.12;
+};
+
+struct RockConfig {
+  double k = 0.08;               // cumulative fractional area of all rocks; 0: none
+  double min_diameter_m = 0.08;
+  double max_diameter_m = 1.5;
+  double min_height_ratio = 0.3;  // height over diameter: spread about Golombek's 1/2
+  double max_height_ratio = 0.7;
+};
+
+// Rocks per square metre of diameter >= D, from the law: the integral of -dF / (pi D^2 / 4).
+double rock_density_above(const RockConfig& config, double diameter_m);
+
+class RockField {
+ public:
+  RockField(const RockConfig& config, double width_m, double height_m, std::span<const KeepClear> keep_clear,
+            std::uint64_t seed);
+
+  struct Hit {
+    int rock_id = -1;
+    double height_m = 0.0;  // of the rock's surface over the ground
+  };
+  // The highest rock surface at this place.
+  Hit at(double x_m, double y_m) const;
+  // Rocks whose centre lies in the box, by growing id.
+  std::vector<Rock> in(double x0_m, double y0_m, double x1_m, double y1_m) const;
+  std::span<const Rock> all() const { return rocks_; }
+
+ private:
+  static constexpr int kFlanks = 6;
+  struct Shape {
+    float x_m, y_m, reach_m, height_m;
+    float axis_x, axis_y;              // direction of the long axis
+    float inverse_long, inverse_short;  // 1 / semi-axis [1/m]
+    float dome, tilt_x, tilt_y;
+    std::array<float, kFlanks> flank_x, flank_y, flank_offset, flank_rise;
+  };
+
+  Shape shape_of(const Rock& rock) const;
+  static float profile_m(const Shape& shape, float dx_m, float dy_m);
+  void draw_cell(int cx, int cy, std::span<const KeepClear> keep_clear, std::uint64_t seed);
+  double draw_diameter_m(double u) const;
+  void index_rocks();
+
+  RockConfig config_;
+  double width_m_;
+  double height_m_;
+  std::vector<double> quantile_diameter_m_;  // at equal steps of probability
+  double per_square_metre_ = 0.0;
+  std::vector<Rock> rocks_;
+  std::vector<Shape> shapes_;
+  int cells_x_ = 0;
+  int cells_y_ = 0;
+  std::vector<int> cell_start_;  // rocks that reach into a cell: cell_rocks_[cell_start_[c] .. cell_start_[c + 1])
+  std::vector<int> cell_rocks_;
+};
+
+}  // namespace rover

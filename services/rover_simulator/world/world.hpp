@@ -1,0 +1,78 @@
+// The fine world: a measured elevation model, refined below its resolution by fractal roughness, with rocks and soils.
+// A pure function of configuration, elevation model and seed; safe to read from several threads.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "rover_simulator/world/elevation_raster.hpp"
+#include "rover_simulator/world/rocks.hpp"
+#include "rover_simulator/world/soil.hpp"
+#include "rover_simulator/world/surface.hpp"
+
+namespace rover {
+
+struct RoughnessConfig {
+  double rms_m = 0.012;          // of the whole fractal on firm ground; 0: smooth
+  double longest_wave_m = 1.0;   // the elevation model's own resolution
+  int octaves = 5;               // each of half the wavelength of the one before
+  double hurst = 0.8;            // amplitude falls with wavelength^hurst (Mars at sub-metre scale: about 0.7-0.9)
+  double sand_factor = 0.5;
+  double bedrock_factor = 1.3;
+};
+
+// How the orbital map errs against the world.
+struct OrbitalConfig {
+  double smoothing_px = 0.7;          // Gaussian, standard deviation
+  double vertical_noise_m = 0.1;      // rms
+  double noise_correlation_px = 2.0;
+  double distortion_m = 0.3;          // rms, horizontal, per axis
+  double distortion_wave_m = 60.0;
+};
+
+struct WorldConfig {
+  RockConfig rocks;
+  RoughnessConfig roughness;
+  SoilConfig soil;
+  OrbitalConfig orbital;
+  std::vector<KeepClear> keep_clear;
+};
+
+class World : public Surface {
+ public:
+  World(const WorldConfig& config, const ElevationRaster& dtm, std::uint64_t seed);
+
+  // Heights over the elevation model's minimum; outside of the model its border goes on.
+  double height_m(double x_m, double y_m) const override;
+  Material material(double x_m, double y_m) const override;
+
+  // Rocks whose centre lies in the box.
+  std::vector<Rock> rocks_in(double x0_m, double y0_m, double x1_m, double y1_m) const;
+  // What a map maker in orbit would hand to the rover: same frame and datum, with the errors of OrbitalConfig.
+  ElevationRaster orbital_map(double resolution_m) const;
+
+  // Without rocks and roughness, and without rocks.
+  double smooth_height_m(double x_m, double y_m) const;
+  double ground_height_m(double x_m, double y_m) const;
+  double width_m() const { return dtm_.width_m(); }
+  double length_m() const { return dtm_.height_m(); }
+  bool contains(double x_m, double y_m) const;
+  double datum_m() const { return datum_m_; }  // what was subtracted from the elevation model
+
+ private:
+  struct Ground {
+    double height_m, slope_rad;
+  };
+  Ground smooth_ground(double x_m, double y_m) const;
+  double roughness_m(double x_m, double y_m) const;
+
+  WorldConfig config_;
+  ElevationRaster dtm_;
+  std::uint64_t seed_;
+  double datum_m_ = 0.0;
+  SoilZones soils_;
+  RockField rocks_;
+  std::vector<double> octave_rms_m_;
+};
+
+}  // namespace rover

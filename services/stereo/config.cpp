@@ -1,0 +1,39 @@
+#include "stereo/config.hpp"
+
+#include "common/bus/config.hpp"
+#include "common/bus/vehicle_config.hpp"
+
+namespace rover::stereo {
+namespace {
+
+void read_matcher(const Config& yaml, MatcherConfig& matcher) {
+  yaml.read("residual_min_px", matcher.residual_min_px, {-256, 256});
+  yaml.read("residual_count_px", matcher.residual_count_px, {16, 512});
+  yaml.read("block_px", matcher.block_px, {5, 51});
+  yaml.read("prefilter_cap", matcher.prefilter_cap, {1, 63});
+  yaml.read("texture_threshold", matcher.texture_threshold, {1, 1e5});
+  yaml.read("uniqueness_percent", matcher.uniqueness_percent, {1, 100});
+  yaml.read("left_right_max_px", matcher.left_right_max_px, {0, 16});
+  yaml.read("speckle_px", matcher.speckle_px, {0, 1e5});
+  yaml.read("speckle_step_px", matcher.speckle_step_px, {1, 16});
+  if (matcher.residual_count_px % 16 != 0) yaml.fail("residual_count_px", "must be a multiple of 16");
+  if (matcher.block_px % 2 == 0) yaml.fail("block_px", "must be odd");
+}
+
+}  // namespace
+
+NodeConfig load_config(const std::string& config_dir) {
+  NodeConfig config;
+  config.rig = load_stereo_rig(config_dir, "loccam");
+  config.ground_below_m = load_vehicle(config_dir).origin_height_m;
+  const Config yaml = Config::load(config_dir + "/stereo.yaml");
+  double latency_s = to_seconds(config.latency_us);
+  yaml.read("latency_s", latency_s, {0.02, 5.0});
+  config.latency_us = to_utime(latency_s);
+  yaml.read("ground_reference", config.core.ground_reference);
+  read_matcher(yaml.section("matcher"), config.core.matcher);
+  yaml.finish();
+  return config;
+}
+
+}  // namespace rover::stereo

@@ -1,0 +1,8 @@
+#include "common/bus/node_main.hpp"
+#include "stereo/node.hpp"
+
+int main(int argc, char** argv) {
+  return rover::node_main(argc, argv, "stereo", [](const rover::NodeContext& context) {
+    return rover::stereo::make_stereo(context.node, context.config_dir);
+  });
+}

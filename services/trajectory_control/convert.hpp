@@ -1,0 +1,19 @@
+// Between messages and the core's types.
+#pragma once
+
+#include <rover/control_status_t.hpp>
+#include <rover/motion_command_t.hpp>
+#include <rover/path_t.hpp>
+#include <rover/pose_t.hpp>
+
+#include "trajectory_control/trajectory_controller.hpp"
+
+namespace rover::control {
+
+// Without points where the message contradicts itself or is not in odom.
+PathInput path_from(const path_t& message);
+PoseInput pose_from(const pose_t& message);
+void status_to(const ControlOutput& output, control_status_t& message);
+void command_to(const MotionCommand& command, motion_command_t& message);
+
+}  // namespace rover::control

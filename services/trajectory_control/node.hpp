@@ -1,0 +1,27 @@
+// Trajectory control on the bus: PATH, POSE and DRIVE_PERMIT in, MOTION_COMMAND and CONTROL_STATUS out each tick.
+#pragma once
+
+#include <rover/path_t.hpp>
+
+#include "common/bus/node.hpp"
+#include "trajectory_control/trajectory_controller.hpp"
+
+namespace rover::control {
+
+class TrajectoryControlNode {
+ public:
+  TrajectoryControlNode(Node& node, const TrajectoryControlConfig& config);
+
+ private:
+  void on_path(const path_t& message);
+  void step(Utime now);
+  void report(const ControlOutput& output);
+
+  Node& node_;
+  TrajectoryController controller_;
+  PoseInput pose_;
+  DrivePermit permit_;
+  ControlState state_ = ControlState::kIdle;
+};
+
+}  // namespace rover::control

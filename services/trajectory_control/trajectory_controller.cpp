@@ -1,0 +1,168 @@
+#include "trajectory_control/trajectory_controller.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rover::control {
+namespace {
+
+constexpr double kMaxStepS = 0.1;
+constexpr double kSearchBackM = 0.3;
+constexpr double kSearchAheadM = 0.5;
+constexpr double kPredictionStepM = 0.1;
+constexpr double kSlipSpeedMps = 0.05;  // slower, the direction of the motion is noise
+constexpr double kMaxSideSlipRad = 0.35;
+
+Pose2 moved(const Pose2& pose, double way_m, double curvature_per_m, double side_slip_rad) {
+  const double middle = pose.yaw_rad + 0.5 * way_m * curvature_per_m;
+  return {pose.x_m + way_m * std::cos(middle + side_slip_rad), pose.y_m + way_m * std::sin(middle + side_slip_rad),
+          pose.yaw_rad + way_m * curvature_per_m};
+}
+
+Eigen::Vector2d position(const Pose2& pose) {
+  return {pose.x_m, pose.y_m};
+}
+
+double move_towards(double from, double to, double step) {
+  return from + std::clamp(to - from, -step, step);
+}
+
+}  // namespace
+
+bool TrajectoryController::set_path(const PathInput& input) {
+  if (path_ && input.id == input_.id && input.points == input_.points) return true;
+  input_ = input;
+  path_ = TrackedPath::build(input, config_.path);
+  relocate_ = true;
+  return path_.has_value();
+}
+
+ControlOutput TrajectoryController::step(Utime now, const PoseInput& pose, const DrivePermit& permit) {
+  const double dt_s = last_step_ == kNever ? 0.0 : std::min(to_seconds(now - last_step_), kMaxStepS);
+  last_step_ = now;
+  ControlOutput out;
+  out.command.utime = now;
+  out.command.valid_until = now;  // no command, unless all is well
+  if (path_) {
+    out.path_id = path_->id();
+    out.corridor_half_width_m = path_->corridor_half_width_m();
+  }
+  if (!is_fresh(pose, now)) {
+    out.state = ControlState::kStalePose;
+    return out;
+  }
+  update_side_slip(pose, dt_s);
+  if (!path_) return out;
+
+  const Projection here = advance_on_path(pose.odom);
+  out.arc_length_m = leg().start_m() + here.s_m;
+  out.remaining_m = path_->length_m() - out.arc_length_m - std::max(here.beyond_m, 0.0);
+  out.cross_track_m = leg().cross_track_m(position(pose.odom), here.s_m);
+  out.heading_error_rad = wrap_angle(pose.odom.yaw_rad - here.yaw_rad);
+  out.predicted_corridor_error_m = predict_corridor_error(pose.odom, here);
+  if (std::abs(out.cross_track_m) > path_->corridor_half_width_m()) {
+    out.state = ControlState::kOutOfCorridor;
+    return out;
+  }
+  const Utime valid_until = now + to_utime(config_.command_validity_s);
+  if (on_last_leg() && out.remaining_m <= config_.end_tolerance_m) {
+    out.state = ControlState::kPathEnd;
+    out.command.valid_until = valid_until;
+    return out;
+  }
+  if (!permits(permit, now, to_utime(config_.permit_max_age_s))) {
+    out.state = ControlState::kNoPermit;
+    return out;
+  }
+  out.command.valid_until = valid_until;
+  if (update_turning(out.heading_error_rad)) {
+    out.state = ControlState::kPointTurn;
+    turn(out.heading_error_rad, out.command);
+  } else {
+    out.state = ControlState::kFollowing;
+    follow(pose, here, dt_s, permit.max_speed_mps, out.command);
+  }
+  return out;
+}
+
+bool TrajectoryController::is_fresh(const PoseInput& pose, Utime now) const {
+  return pose.usable && pose.utime >= 0 && pose.utime <= now && now - pose.utime <= to_utime(config_.pose_max_age_s) &&
+         std::isfinite(pose.odom.x_m) && std::isfinite(pose.odom.y_m) && std::isfinite(pose.odom.yaw_rad) &&
+         std::isfinite(pose.forward_mps) && std::isfinite(pose.left_mps);
+}
+
+Projection TrajectoryController::advance_on_path(const Pose2& pose) {
+  if (relocate_) place_ = path_->locate(pose);
+  relocate_ = false;
+  Projection here = leg().project(position(pose), place_.s_m - kSearchBackM, place_.s_m + kSearchAheadM);
+  const double left_on_leg = leg().length_m() - here.s_m - std::max(here.beyond_m, 0.0);
+  if (!on_last_leg() && left_on_leg <= config_.end_tolerance_m) {
+    ++place_.leg;
+    turning_ = true;
+    here = leg().project(position(pose), 0.0, kSearchAheadM);
+  }
+  place_.s_m = here.s_m;
+  return here;
+}
+
+bool TrajectoryController::update_turning(double heading_error_rad) {
+  const double threshold = turning_ ? config_.turn_stop_rad : config_.turn_start_rad;
+  turning_ = std::abs(heading_error_rad) > threshold;
+  return turning_;
+}
+
+void TrajectoryController::turn(double heading_error_rad, MotionCommand& command) const {
+  const double rate = std::min(config_.max_turn_rate_radps,
+                               std::sqrt(2.0 * config_.turn_deceleration_radps2 * std::abs(heading_error_rad)));
+  command.mode = MotionMode::kPointTurn;
+  command.turn_rate_radps = -std::copysign(rate, heading_error_rad);
+}
+
+void TrajectoryController::follow(const PoseInput& pose, const Projection& here, double dt_s, double max_speed_mps,
+                                  MotionCommand& command) {
+  const double speed = std::clamp(pose.forward_mps, 0.0, config_.path.cruise_speed_mps);
+  const double ahead_m = speed * config_.response_delay_s;
+  const Pose2 soon = moved(pose.odom, ahead_m, curvature_per_m_, 0.0);
+  const Projection there = leg().project(position(soon), here.s_m - kSearchBackM, here.s_m + kSearchAheadM);
+  command.mode = MotionMode::kArc;
+  command.curvature_per_m = curvature_at(soon, there);
+  const double profile = std::max(leg().at(there.s_m).speed_mps, config_.creep_speed_mps);
+  command.speed_mps = std::min(profile, max_speed_mps);
+
+  curvature_per_m_ = move_towards(curvature_per_m_, command.curvature_per_m, config_.path.max_curvature_rate * dt_s);
+  const double limit = config_.steering.max_integral_per_m;
+  integral_per_m_ =
+      std::clamp(integral_per_m_ + config_.steering.integral_per_m3 * here.cross_track_m * speed * dt_s, -limit, limit);
+}
+
+double TrajectoryController::curvature_at(const Pose2& pose, const Projection& place) const {
+  const TrackError error{place.cross_track_m, wrap_angle(pose.yaw_rad - place.yaw_rad)};
+  return curvature_to(config_.steering, leg().at(place.s_m).curvature_per_m, error, integral_per_m_);
+}
+
+void TrajectoryController::update_side_slip(const PoseInput& pose, double dt_s) {
+  if (std::hypot(pose.forward_mps, pose.left_mps) < kSlipSpeedMps) return;
+  const double measured = std::clamp(std::atan2(pose.left_mps, pose.forward_mps), -kMaxSideSlipRad, kMaxSideSlipRad);
+  side_slip_rad_ += (measured - side_slip_rad_) * std::min(1.0, dt_s / config_.side_slip_time_s);
+}
+
+// Runs the control law ahead on a model of the rover: arcs, the steering's rate, the measured side slip.
+double TrajectoryController::predict_corridor_error(const Pose2& pose, const Projection& here) const {
+  Pose2 p = pose;
+  Projection place = here;
+  double curvature = curvature_per_m_;
+  double largest = std::abs(leg().cross_track_m(position(p), here.s_m));
+  // A point turn comes first and moves nothing.
+  if (turning_ || std::abs(wrap_angle(pose.yaw_rad - here.yaw_rad)) > config_.turn_start_rad) return largest;
+  for (double way = 0.0; way < config_.look_ahead_m && place.beyond_m <= 0.0; way += kPredictionStepM) {
+    const double speed = std::max(leg().at(place.s_m).speed_mps, kSlipSpeedMps);
+    const double rate = config_.path.max_curvature_rate * kPredictionStepM / speed;
+    curvature = move_towards(curvature, curvature_at(p, place), rate);
+    p = moved(p, kPredictionStepM, curvature, side_slip_rad_);
+    place = leg().project(position(p), place.s_m - kPredictionStepM, place.s_m + 3.0 * kPredictionStepM);
+    largest = std::max(largest, std::abs(leg().cross_track_m(position(p), place.s_m)));
+  }
+  return largest;
+}
+
+}  // namespace rover::control

@@ -1,0 +1,17 @@
+// Reads config/visual_odometry.yaml.
+#pragma once
+
+#include <string>
+
+#include "visual_odometry/odometry.hpp"
+
+namespace rover::vo {
+
+struct NodeConfig {
+  OdometryConfig odometry;
+  double gyro_history_s = 30.0;
+};
+
+NodeConfig load_config(const std::string& config_dir);
+
+}  // namespace rover::vo

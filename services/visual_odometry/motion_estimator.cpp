@@ -1,0 +1,184 @@
+#include "visual_odometry/motion_estimator.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+
+#include "visual_odometry/projection.hpp"
+
+namespace rover::vo {
+namespace {
+
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+using Matrix36d = Eigen::Matrix<double, 3, 6>;
+
+constexpr int kMinimalIterations = 6;
+constexpr int kRefineIterations = 15;
+constexpr double kSettled = 1e-9;
+
+// [translation, rotation], applied on the left.
+Eigen::Isometry3d moved(const Vector6d& step, const Eigen::Isometry3d& T) {
+  const Eigen::Matrix3d R = exp_so3(step.tail<3>());
+  return make_pose(R * T.linear(), R * T.translation() + step.head<3>());
+}
+
+Matrix36d jacobian(const StereoCamera& camera, const Eigen::Vector3d& p_cam) {
+  const Eigen::Matrix3d H = project_jacobian(camera, p_cam);
+  Matrix36d J;
+  J << H, -H * skew(p_cam);
+  return J;
+}
+
+double left_error_px(const Observation& o, const StereoCamera& camera, const Eigen::Isometry3d& T) {
+  const Eigen::Vector3d p = T * o.p_key;
+  if (p.z() < kMinDepthM) return kInfinity;
+  return (project(camera, p) - o.z).head<2>().norm();
+}
+
+// Three points, six equations, six unknowns: Newton from the start. False where it does not settle.
+bool solve_minimal(const std::array<const Observation*, 3>& points, const StereoCamera& camera, Eigen::Isometry3d& T) {
+  for (int i = 0; i < kMinimalIterations; ++i) {
+    Matrix6d J;
+    Vector6d r;
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d p = T * points[k]->p_key;
+      if (p.z() < kMinDepthM) return false;
+      J.middleRows<2>(2 * k) = jacobian(camera, p).topRows<2>();
+      r.segment<2>(2 * k) = (points[k]->z - project(camera, p)).head<2>();
+    }
+    const Vector6d step = J.partialPivLu().solve(r);
+    if (!step.allFinite() || step.norm() > 10.0) return false;
+    T = moved(step, T);
+    if (step.norm() < 1e-7) return true;
+  }
+  return false;
+}
+
+int count_inliers(const std::vector<Observation>& observations, const StereoCamera& camera, const Eigen::Isometry3d& T,
+                  double gate_px) {
+  return static_cast<int>(std::count_if(observations.begin(), observations.end(),
+                                        [&](const Observation& o) { return left_error_px(o, camera, T) < gate_px; }));
+}
+
+// Three different observations, by plain remainders: the same on every library.
+std::array<const Observation*, 3> draw(const std::vector<Observation>& observations, std::mt19937_64& random) {
+  std::array<size_t, 3> pick{};
+  const size_t n = observations.size();
+  pick[0] = random() % n;
+  do pick[1] = random() % n;
+  while (pick[1] == pick[0]);
+  do pick[2] = random() % n;
+  while (pick[2] == pick[0] || pick[2] == pick[1]);
+  return {&observations[pick[0]], &observations[pick[1]], &observations[pick[2]]};
+}
+
+// Draws needed to meet three good points once with the confidence, given the share of good points.
+double draws_needed(double share, double confidence) {
+  const double all_good = share * share * share;
+  if (all_good >= 1.0) return 0.0;
+  return std::log(1.0 - confidence) / std::log(1.0 - all_good);
+}
+
+// Residual of one observation, whitened later by `weight` = inverse covariance of the residual.
+struct Linearised {
+  Eigen::Vector3d r;
+  Matrix36d J;
+  Eigen::Matrix3d weight;
+  double chi2;
+  int size;
+};
+
+bool linearise(const Observation& o, const StereoCamera& camera, const Eigen::Isometry3d& T, const MotionConfig& config,
+               Linearised& out) {
+  const Eigen::Vector3d p = T * o.p_key;
+  if (p.z() < kMinDepthM) return false;
+  out.r = o.z - project(camera, p);
+  out.J = jacobian(camera, p);
+  // p_key = ray * f b / d, so the keyframe's disparity noise moves the point by -p_key / d.
+  const Eigen::Vector3d ray = T.linear() * o.p_key / o.disparity_px * config.disparity_sigma_px;
+  const Eigen::Vector3d a = project_jacobian(camera, p) * ray;
+  const double variance = config.pixel_sigma_px * config.pixel_sigma_px;
+  out.size = o.has_right ? 3 : 2;
+  out.weight.setZero();
+  if (o.has_right) {
+    out.weight = (variance * Eigen::Matrix3d::Identity() + a * a.transpose()).inverse();
+  } else {
+    const Eigen::Vector2d b = a.head<2>();
+    out.weight.topLeftCorner<2, 2>() = (variance * Eigen::Matrix2d::Identity() + b * b.transpose()).inverse();
+    out.r.z() = 0.0;
+    out.J.row(2).setZero();
+  }
+  out.chi2 = out.r.dot(out.weight * out.r);
+  return true;
+}
+
+// Cauchy's weight: points far out lose their pull, without a hard edge between two iterations.
+double robust_weight(double chi2, double gate_sigma) {
+  return 1.0 / (1.0 + chi2 / (gate_sigma * gate_sigma));
+}
+
+}  // namespace
+
+RansacResult ransac(const std::vector<Observation>& observations, const StereoCamera& camera,
+                    const Eigen::Isometry3d& T_guess, const MotionConfig& config, std::uint64_t seed) {
+  RansacResult best{T_guess, count_inliers(observations, camera, T_guess, config.coarse_gate_px)};
+  if (observations.size() < 3) return best;
+  std::mt19937_64 random(seed);
+  const auto total = static_cast<double>(observations.size());
+  double needed = config.ransac_iterations;
+  for (int i = 0; i < config.ransac_iterations && i < needed; ++i) {
+    RansacResult hypothesis{T_guess, 0};
+    if (!solve_minimal(draw(observations, random), camera, hypothesis.T_cur_key)) continue;
+    hypothesis.inliers = count_inliers(observations, camera, hypothesis.T_cur_key, config.coarse_gate_px);
+    if (hypothesis.inliers <= best.inliers) continue;
+    best = hypothesis;
+    needed = draws_needed(best.inliers / total, config.confidence);
+  }
+  return best;
+}
+
+MotionEstimate refine(const std::vector<Observation>& observations, const StereoCamera& camera,
+                      const Eigen::Isometry3d& T_start, const MotionConfig& config) {
+  MotionEstimate estimate;
+  Eigen::Isometry3d T = T_start;
+  Matrix6d H = Matrix6d::Zero();
+  Linearised l;
+  for (int i = 0; i < kRefineIterations; ++i) {
+    H.setZero();
+    Vector6d g = Vector6d::Zero();
+    for (const Observation& o : observations) {
+      if (!linearise(o, camera, T, config, l)) continue;
+      const double w = robust_weight(l.chi2, config.gate_sigma);
+      H.noalias() += w * l.J.transpose() * l.weight * l.J;
+      g.noalias() += w * l.J.transpose() * (l.weight * l.r);
+    }
+    const Vector6d step = H.ldlt().solve(g);
+    if (!step.allFinite()) return estimate;
+    T = moved(step, T);
+    if (step.squaredNorm() < kSettled * kSettled) break;
+  }
+  double chi2 = 0.0;
+  double square_px = 0.0;
+  int coordinates = 0;
+  estimate.inlier.assign(observations.size(), 0);
+  for (size_t i = 0; i < observations.size(); ++i) {
+    if (!linearise(observations[i], camera, T, config, l)) continue;
+    if (l.chi2 > config.gate_sigma * config.gate_sigma * l.size / 2.0) continue;
+    estimate.inlier[i] = 1;
+    ++estimate.inliers;
+    chi2 += l.chi2;
+    square_px += l.r.squaredNorm();
+    coordinates += l.size;
+  }
+  if (coordinates <= 6) return estimate;
+  estimate.T_cur_key = T;
+  // The spread that was met, where it is larger than the noise that was assumed.
+  estimate.cov = Matrix6d(H.inverse()) * std::max(1.0, chi2 / (coordinates - 6));
+  estimate.rms_px = std::sqrt(square_px / coordinates);
+  return estimate;
+}
+
+}  // namespace rover::vo

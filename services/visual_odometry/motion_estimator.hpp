@@ -1,0 +1,52 @@
+// Motion of the camera from points known in the keyframe and seen in the current pair.
+//   ransac  seeded: hypotheses from three points each by Gauss-Newton on the left image (as libviso2's idea, Geiger et
+//           al., IV 2011, with the predicted motion as start), scored by the number of points they explain
+//   refine  robust Gauss-Newton on (u_left, v, u_right); each residual is weighted by the image noise and by the depth
+//           noise of the keyframe's point, which acts along its ray (Matthies & Shafer, 1987)
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <vector>
+
+#include "common/core/frames.hpp"
+#include "common/core/image.hpp"
+
+namespace rover::vo {
+
+struct MotionConfig {
+  int ransac_iterations = 200;
+  double coarse_gate_px = 3.0;       // of the coarse tracks
+  double confidence = 0.9999;        // ends the search early
+  double pixel_sigma_px = 0.20;      // of a tracked position
+  double disparity_sigma_px = 0.15;  // of the keyframe's disparity
+  double gate_sigma = 3.5;           // fine residuals further out are no inliers
+};
+
+struct Observation {
+  Eigen::Vector3d p_key = Eigen::Vector3d::Zero();
+  double disparity_px = 0.0;                    // in the keyframe
+  Eigen::Vector3d z = Eigen::Vector3d::Zero();  // u_left, v, u_right
+  bool has_right = false;
+};
+
+struct RansacResult {
+  Eigen::Isometry3d T_cur_key = Eigen::Isometry3d::Identity();
+  int inliers = 0;
+};
+
+struct MotionEstimate {
+  Eigen::Isometry3d T_cur_key = nan_pose();
+  Matrix6d cov = nan_cov();  // of a small motion (translation, rotation) applied on the left of T_cur_key
+  std::vector<char> inlier;  // one for each observation
+  int inliers = 0;
+  double rms_px = kNaN;  // reprojection error of the inliers, per coordinate
+};
+
+RansacResult ransac(const std::vector<Observation>& observations, const StereoCamera& camera,
+                    const Eigen::Isometry3d& T_guess, const MotionConfig& config, std::uint64_t seed);
+
+MotionEstimate refine(const std::vector<Observation>& observations, const StereoCamera& camera,
+                      const Eigen::Isometry3d& T_start, const MotionConfig& config);
+
+}  // namespace rover::vo

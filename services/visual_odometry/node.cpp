@@ -1,0 +1,89 @@
+#include "visual_odometry/node.hpp"
+
+#include <opencv2/core.hpp>
+#include <rover/vo_motion_t.hpp>
+#include <string>
+
+#include "common/bus/convert.hpp"
+#include "visual_odometry/convert.hpp"
+
+namespace rover::vo {
+namespace {
+
+// Modelled time of the computer for one pair (design: 0.12 s).
+constexpr Utime kLatencyUs = 120'000;
+
+const char* text_of(Status status) {
+  if (status == Status::kOk) return "OK";
+  return status == Status::kDegraded ? "DEGRADED" : "LOST";
+}
+
+}  // namespace
+
+OdometryNode::OdometryNode(Node& node, const NodeConfig& config)
+    : node_(node), odometry_(config.odometry), gyro_(to_utime(config.gyro_history_s)) {
+  cv::setNumThreads(1);
+  node_.subscribe<imu_t>(channel::kImu, [this](const imu_t& m) { on_imu(m); });
+  node_.subscribe_slow<image_t>(channel::kLocCamRectLeft, kLatencyUs,
+                                [this](const image_t& m) { on_image(channel::kLocCamRectLeft, m, left_); });
+  node_.subscribe_slow<image_t>(channel::kLocCamRectRight, kLatencyUs,
+                                [this](const image_t& m) { on_image(channel::kLocCamRectRight, m, right_); });
+  node_.subscribe_slow<disparity_t>(channel::kDisparity, kLatencyUs, [this](const disparity_t& m) { on_disparity(m); });
+}
+
+void OdometryNode::on_imu(const imu_t& message) {
+  // A faulty or silent IMU leaves a hole in the gyro's history: then the images do without its prediction.
+  if (message.status != imu_t::OK) return;
+  if (!gyro_.add(gyro_from(message))) node_.reject(channel::kImu, "increment not finite, out of range or out of order");
+}
+
+void OdometryNode::on_image(const char* channel, const image_t& message, std::optional<Stamped<GrayImage>>& slot) {
+  GrayImage image = image_from(message);
+  if (image.data.empty()) return node_.reject(channel, "size or encoding contradicts itself");
+  slot = {message.header.utime, std::move(image)};
+  step_if_complete();
+}
+
+void OdometryNode::on_disparity(const disparity_t& message) {
+  Disparity disparity = disparity_from(message);
+  if (disparity.px16.empty()) return node_.reject(channel::kDisparity, "size contradicts itself");
+  const StereoCamera camera = camera_from(message);
+  if (!sound(camera)) return node_.reject(channel::kDisparity, "camera not finite or out of range");
+  disparity_ = {message.header.utime, {std::move(disparity), camera}};
+  step_if_complete();
+}
+
+void OdometryNode::step_if_complete() {
+  if (!left_ || !right_ || !disparity_) return;
+  const Utime utime = left_->utime;
+  if (right_->utime != utime || disparity_->utime != utime) return;
+  StereoFrame frame{utime,
+                    std::move(left_->content),
+                    std::move(right_->content),
+                    std::move(disparity_->content.disparity),
+                    disparity_->content.camera,
+                    std::nullopt};
+  left_.reset();
+  right_.reset();
+  disparity_.reset();
+  if (utime <= newest_utime_) return node_.reject(channel::kDisparity, "older than a pair already used");
+  if (!consistent(frame)) return node_.reject(channel::kDisparity, "not of the size of the images");
+  newest_utime_ = utime;
+  if (odometry_.previous_utime() != kNever) frame.R_prev_cur = gyro_.rotation(odometry_.previous_utime(), utime);
+  if (const auto result = odometry_.step(frame)) report(*result);
+}
+
+void OdometryNode::report(const OdometryResult& result) {
+  vo_motion_t message{};
+  motion_to(result, message);
+  node_.publish(channel::kVo, message, result.utime);
+  if (result.status == status_) return;
+  status_ = result.status;
+  node_.set_status(status_ == Status::kOk ? heartbeat_t::OK : heartbeat_t::DEGRADED,
+                   status_ == Status::kOk ? "" : std::string("odometry ") + text_of(status_));
+  node_.log(status_ == Status::kOk ? "info" : "warning", std::string("VO_STATUS status=") + text_of(status_) +
+                                                             " inliers=" + std::to_string(result.inliers) +
+                                                             " features=" + std::to_string(result.features));
+}
+
+}  // namespace rover::vo

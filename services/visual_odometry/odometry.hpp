@@ -1,0 +1,101 @@
+// Stereo visual odometry against keyframes.
+//
+// Each pair is aligned with the keyframe, not with the pair before, as long as enough of the keyframe's points are
+// seen. What is reported between two pairs is T_prev_cur = T_key_prev^-1 T_key_cur: the chain telescopes, so a rover
+// that stands still does not drift, and one that drives makes an error once a keyframe instead of once a pair.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <optional>
+
+#include "common/core/frames.hpp"
+#include "common/core/image.hpp"
+#include "common/core/time.hpp"
+#include "visual_odometry/keyframe.hpp"
+#include "visual_odometry/motion_estimator.hpp"
+#include "visual_odometry/tracker.hpp"
+
+namespace rover::vo {
+
+struct OdometryConfig {
+  int pyramid_levels = 4;
+  int min_inliers = 15;                // fewer: kLost
+  int ok_inliers = 40;                 // fewer: kDegraded
+  double ok_share = 0.35;              // inliers of the points tracked; less: kDegraded
+  double keep_share = 0.50;            // of the keyframe's points; fewer inliers: the next keyframe is due
+  int keep_inliers = 60;               // likewise, as a count
+  int min_keyframe_points = 40;        // a pair with fewer makes no keyframe
+  int lost_until_restart = 2;          // pairs in a row that do not fit the keyframe until a new one is made
+  double max_position_sigma_m = 0.05;  // a motion less certain than this is none
+  double gyro_tolerance_rad = 0.03;    // more between gyro and images: kDegraded
+  std::uint64_t seed = 1;
+  CornerConfig corners;
+  StereoMatchConfig stereo;
+  TrackerConfig tracker;
+  MotionConfig motion;
+};
+
+struct StereoFrame {
+  Utime utime = kNever;  // of the exposure
+  GrayImage left;
+  GrayImage right;
+  std::optional<Disparity> disparity;  // dense, of the left image: a start for the sub-pixel matches
+  StereoCamera camera;
+  // Rotation of the body from the last anchored exposure (Odometry::previous_utime) to this one, by gyro.
+  std::optional<Eigen::Matrix3d> R_prev_cur;
+};
+
+enum class Status { kOk, kDegraded, kLost };
+
+struct OdometryResult {
+  Status status = Status::kLost;
+  Utime previous_utime = kNever;  // the motion spans previous_utime .. utime
+  Utime utime = kNever;
+  Utime keyframe_utime = kNever;              // both ends were aligned with this exposure
+  Eigen::Isometry3d T_prev_cur = nan_pose();  // current body in the previous body
+  // Of (position, rotation) in previous body axes. Chained: the covariances of all motions since a keyframe add up to
+  // that of the motion since the keyframe, so a sum over the chain is right, standstill included; the noise of a single
+  // motion within a keyframe's life may be larger than its own entry.
+  Matrix6d cov = nan_cov();
+  int features = 0;  // tracked
+  int inliers = 0;
+  double rms_px = kNaN;
+};
+
+class Odometry {
+ public:
+  explicit Odometry(const OdometryConfig& config);
+
+  // Nothing for the first pair that can serve as keyframe: no motion ends there. Pairs must come in order of time.
+  std::optional<OdometryResult> step(const StereoFrame& frame);
+
+  // Exposure from which the next motion starts; kNever before the first keyframe.
+  Utime previous_utime() const { return previous_utime_; }
+
+ private:
+  struct Pair;
+  struct Registration;
+  bool start_from(const StereoFrame& frame, const Pair& pair);
+  Registration register_pair(const StereoFrame& frame, const Pair& pair) const;
+  Registration attempt(const StereoFrame& frame, const Pair& pair, const Eigen::Isometry3d& T_prev_cur_body) const;
+  bool trustworthy(const Registration& registration) const;
+  OdometryResult accept(const StereoFrame& frame, const Registration& registration);
+  Matrix6d chained_cov(const Registration& registration, const Eigen::Isometry3d& T_prev_cur,
+                       const StereoCamera& camera);
+  Status judge(const StereoFrame& frame, const OdometryResult& result) const;
+  OdometryResult lost(const StereoFrame& frame, const Registration& registration) const;
+
+  OdometryConfig config_;
+  std::optional<Keyframe> key_;
+  Utime key_utime_ = kNever;
+  Eigen::Isometry3d T_key_prev_ = Eigen::Isometry3d::Identity();  // camera axes
+  double cov_trace_prev_ = 0.0;                                   // of T_key_prev_
+  Utime previous_utime_ = kNever;
+  Utime newest_utime_ = kNever;
+  int lost_in_a_row_ = 0;
+  Eigen::Isometry3d last_motion_ = Eigen::Isometry3d::Identity();  // of the body
+  double last_motion_s_ = 0.0;
+};
+
+}  // namespace rover::vo

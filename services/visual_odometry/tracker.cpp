@@ -1,0 +1,110 @@
+#include "visual_odometry/tracker.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+#include <optional>
+
+#include "visual_odometry/patch_aligner.hpp"
+#include "visual_odometry/projection.hpp"
+
+namespace rover::vo {
+namespace {
+
+// Where a point of the keyframe should be seen, and how its surroundings are stretched there.
+struct Prediction {
+  Eigen::Vector3d z;
+  Eigen::Matrix2f A_key_left;
+  Eigen::Matrix2f A_key_right;
+};
+
+constexpr double kStencilPx = 4.0;
+// A patch stretched further than this has no likeness left.
+constexpr float kMaxStretch = 4.0F;
+
+std::optional<Eigen::Vector3d> seen_at(const Keyframe& key, const KeyPoint& point, const Eigen::Vector2d& offset,
+                                       const Eigen::Isometry3d& T_cur_key) {
+  const double d = point.disparity_px + point.disparity_gradient.dot(offset);
+  if (d <= 0.0) return std::nullopt;
+  const Eigen::Vector3d p = T_cur_key * key.camera.point(point.pixel.x() + offset.x(), point.pixel.y() + offset.y(), d);
+  if (p.z() < kMinDepthM) return std::nullopt;
+  return project(key.camera, p);
+}
+
+bool usable(const Eigen::Matrix2f& A) {
+  const float det = A.determinant();
+  return det > 1.0F / (kMaxStretch * kMaxStretch) && A.norm() < 2.0F * kMaxStretch && det < kMaxStretch * kMaxStretch;
+}
+
+std::optional<Prediction> predict(const Keyframe& key, const KeyPoint& point, const Eigen::Isometry3d& T_cur_key) {
+  const auto z = seen_at(key, point, {0.0, 0.0}, T_cur_key);
+  const auto zx = seen_at(key, point, {kStencilPx, 0.0}, T_cur_key);
+  const auto zy = seen_at(key, point, {0.0, kStencilPx}, T_cur_key);
+  if (!z || !zx || !zy) return std::nullopt;
+  Eigen::Matrix<double, 3, 2> A;
+  A << (*zx - *z) / kStencilPx, (*zy - *z) / kStencilPx;
+  const Eigen::Matrix2f A_left_key = A.topRows<2>().cast<float>();
+  Eigen::Matrix2f A_right_key;
+  A_right_key << A.row(2).cast<float>(), A.row(1).cast<float>();
+  if (!usable(A_left_key) || !usable(A_right_key)) return std::nullopt;
+  return Prediction{*z, A_left_key.inverse(), A_right_key.inverse()};
+}
+
+Track coarse(const Keyframe& key, const KeyPoint& point, const ImagePyramid& left, const Prediction& prediction,
+             const TrackerConfig& config) {
+  Track track;
+  Eigen::Vector2f p = prediction.z.head<2>().cast<float>();
+  Patch patch;
+  const int last = std::min(1, left.count() - 1);
+  for (int level = left.count() - 1; level >= last; --level) {
+    const auto scale = static_cast<float>(1 << level);
+    // A window that leaves a small image is not lost on the larger ones.
+    if (!make_patch(key.left.levels[level], point.pixel / scale, prediction.A_key_left, patch)) continue;
+    const Alignment a = align(patch, left.levels[level], p / scale, static_cast<float>(config.max_shift_coarse_px));
+    if (a.ok) p = a.position * scale;
+    if (level == last) track.left = a.ok && a.score > config.min_score_coarse;
+  }
+  track.z.head<2>() = p.cast<double>();
+  return track;
+}
+
+Track fine(const Keyframe& key, const KeyPoint& point, const ImagePyramid& left, const ImagePyramid& right,
+           const Prediction& prediction, const TrackerConfig& config) {
+  Track track;
+  const auto max_shift = static_cast<float>(config.max_shift_fine_px);
+  Patch patch;
+  if (!make_patch(key.left.base(), point.pixel, prediction.A_key_left, patch)) return track;
+  const Alignment l = align(patch, left.base(), prediction.z.head<2>().cast<float>(), max_shift);
+  track.left = l.ok && l.score > config.min_score_fine;
+  if (!track.left) return track;
+  track.z.head<2>() = l.position.cast<double>();
+  const double disparity = prediction.z.x() - prediction.z.z();
+  const Eigen::Vector2f guess = l.position - Eigen::Vector2f(static_cast<float>(disparity), 0.0F);
+  if (!make_patch(key.left.base(), point.pixel, prediction.A_key_right, patch)) return track;
+  const Alignment r = align(patch, right.base(), guess, max_shift);
+  track.right = r.ok && r.score > config.min_score_fine &&
+                std::abs(r.position.y() - l.position.y()) < static_cast<float>(config.max_row_offset_px);
+  track.z.z() = r.position.x();
+  return track;
+}
+
+}  // namespace
+
+std::vector<Track> track_coarse(const Keyframe& key, const ImagePyramid& left, const Eigen::Isometry3d& T_cur_key,
+                                const TrackerConfig& config) {
+  std::vector<Track> tracks(key.points.size());
+  for (size_t i = 0; i < tracks.size(); ++i)
+    if (const auto prediction = predict(key, key.points[i], T_cur_key))
+      tracks[i] = coarse(key, key.points[i], left, *prediction, config);
+  return tracks;
+}
+
+std::vector<Track> track_fine(const Keyframe& key, const ImagePyramid& left, const ImagePyramid& right,
+                              const Eigen::Isometry3d& T_cur_key, const TrackerConfig& config) {
+  std::vector<Track> tracks(key.points.size());
+  for (size_t i = 0; i < tracks.size(); ++i)
+    if (const auto prediction = predict(key, key.points[i], T_cur_key))
+      tracks[i] = fine(key, key.points[i], left, right, *prediction, config);
+  return tracks;
+}
+
+}  // namespace rover::vo

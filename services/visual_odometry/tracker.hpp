@@ -1,0 +1,34 @@
+// Finds the keyframe's points in a later pair. First coarsely in the left image, over the pyramid, from a predicted
+// motion; then, once the motion is known well, at full resolution in both images, with the patch warped to how the
+// ground looks from there.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "visual_odometry/image_pyramid.hpp"
+#include "visual_odometry/keyframe.hpp"
+
+namespace rover::vo {
+
+struct TrackerConfig {
+  double min_score_coarse = 0.60;
+  double min_score_fine = 0.75;
+  double max_shift_coarse_px = 5.0;  // on each level of the pyramid
+  double max_shift_fine_px = 3.0;    // from the place that the coarse motion gives
+  double max_row_offset_px = 1.5;    // between left and right
+};
+
+struct Track {
+  bool left = false;
+  bool right = false;
+  Eigen::Vector3d z = Eigen::Vector3d::Zero();  // u, v in the left image, u in the right
+};
+
+// One for each point of the keyframe.
+std::vector<Track> track_coarse(const Keyframe& key, const ImagePyramid& left, const Eigen::Isometry3d& T_cur_key,
+                                const TrackerConfig& config);
+std::vector<Track> track_fine(const Keyframe& key, const ImagePyramid& left, const ImagePyramid& right,
+                              const Eigen::Isometry3d& T_cur_key, const TrackerConfig& config);
+
+}  // namespace rover::vo

@@ -1,0 +1,31 @@
+// Between messages and the core's types.
+#pragma once
+
+#include <rover/control_status_t.hpp>
+#include <rover/drive_permit_t.hpp>
+#include <rover/fault_t.hpp>
+#include <rover/ground_command_t.hpp>
+#include <rover/hazards_t.hpp>
+#include <rover/planner_status_t.hpp>
+#include <rover/pose_t.hpp>
+#include <rover/slip_t.hpp>
+#include <rover/supervisor_state_t.hpp>
+
+#include "supervisor/supervisor.hpp"
+
+namespace rover::supervisor {
+
+PoseReport report_from(const pose_t& message);
+HazardsReport report_from(const hazards_t& message);
+PlannerReport report_from(const planner_status_t& message);
+ControlReport report_from(const control_status_t& message);
+SlipReport report_from(const slip_t& message);
+GroundCommand command_from(const ground_command_t& message);
+
+drive_permit_t message_of(const Permit& permit);
+fault_t message_of(const FaultChange& change);
+// `change`: the one that led to the state.
+supervisor_state_t state_message(const StateChange& change, Utime since, int hazard_stops,
+                                 const std::vector<std::string>& faults);
+
+}  // namespace rover::supervisor

@@ -1,0 +1,22 @@
+#!/usr/bin/env bash
+# Runs every micro benchmark one after the other and writes test/results/micro.md. Called by ./rover bench micro.
+set -euo pipefail
+cd "$(dirname "$(readlink -f "$0")")/.."
+BUILD=$1
+OUT=test/results/micro.md
+mkdir -p test/results
+{
+  echo "# Micro benchmarks"
+  echo
+  echo "Command: \`./rover bench micro\`; commit $(git describe --always --dirty --abbrev=12); $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1), $(nproc) cores; one core each, median of 5 repetitions."
+  echo
+  echo "| benchmark | time | CPU |"
+  echo "|---|---|---|"
+} >$OUT.new
+for program in "$BUILD"/bench/*; do
+  [ -x "$program" ] && [ -f "$program" ] || continue
+  "$program" --benchmark_repetitions=5 --benchmark_report_aggregates_only=true --benchmark_format=csv 2>/dev/null |
+    awk -F, '/_median"?,/ { gsub(/"/, "", $1); sub(/_median$/, "", $1); printf "| %s | %.3f %s | %.3f %s |\n", $1, $3, $5, $4, $5 }' >>$OUT.new
+done
+mv $OUT.new $OUT
+cat $OUT

@@ -1,0 +1,17 @@
+#!/usr/bin/env bash
+# Cores know no middleware, no YAML, no clock and no global randomness; GNC services know no truth and no true world.
+. "$(dirname "$0")/lib.sh"
+
+for core in $(find "$BUILD" -name 'lib*_core.a'); do
+  bad=$(nm -C --undefined-only "$core" 2>/dev/null |
+    grep -E ' (lcm_|lcm::|YAML::|std::chrono::_V2::(system|steady)_clock::now|time$|clock_gettime|gettimeofday|rand$|srand|cv::theRNG|printf|puts$|std::cout|std::random_device)' || true)
+  [ -z "$bad" ] || fail "$(basename "$core") uses: $bad"
+done
+
+for service in stereo visual_odometry localization hazard_detector path_planner trajectory_control locomotion supervisor mission_control; do
+  program=$BUILD/bin/$service
+  [ -x "$program" ] || fail "$service is not built"
+  ! nm -C "$program" | grep -qE 'rover::(World|RockField|VehicleSim|TileScene)::' || fail "$service links the simulated world"
+  ! strings "$program" | grep -qx TRUTH || fail "$service names the channel TRUTH"
+done
+echo "cores and services keep to themselves"

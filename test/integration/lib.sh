@@ -1,0 +1,23 @@
+# Sourced by the integration tests: a folder of their own, a bus of their own, and nothing left behind.
+set -euo pipefail
+SOURCE=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+BUILD=${ROVER_BUILD:-$SOURCE/build}
+WORK=$(mktemp -d /tmp/rover-test-XXXXXX)
+# Ports by process number, so that tests can run side by side.
+PORT=$((20000 + $$ % 20000))
+BUS="udpm://239.255.76.67:$PORT?ttl=0&recv_buf_size=4194304"
+
+cleanup() {
+  local pids
+  pids=$(jobs -p)
+  [ -z "$pids" ] || kill $pids 2>/dev/null || true
+  wait 2>/dev/null || true
+  rm -rf "$WORK" "/tmp/rover-bus-239.255.76.67-$PORT.lock"
+}
+trap cleanup EXIT
+
+fail() { echo "FAIL: $*" >&2; exit 1; }
+# drive OUT ARGS...: a run in lockstep on this test's bus.
+drive() { local out=$1; shift; (cd "$SOURCE" && "$BUILD/bin/rover_launcher" run "$@" --out "$out" --bus "$BUS"); }
+# metric RUN_DIR KEY
+metric() { jq -r ".$2" "$1/metrics.json"; }

@@ -1,0 +1,7 @@
+# The cameras' test and benchmark.
+rover_test(camera_test SOURCES camera_test.cpp LINK rover_camera_sim)
+
+find_package(benchmark REQUIRED)
+add_executable(camera_bench camera_bench.cpp)
+target_link_libraries(camera_bench PRIVATE rover_camera_sim benchmark::benchmark)
+set_target_properties(camera_bench PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bench)

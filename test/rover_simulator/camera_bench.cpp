@@ -1,0 +1,42 @@
+// Times of the simulator's cameras: a stereo pair of each, and a tile of ground.
+#include <benchmark/benchmark.h>
+
+#include "rover_simulator/camera/stereo_camera_sim.hpp"
+#include "camera_test_world.hpp"
+
+namespace rover::test {
+namespace {
+
+void render_pairs(benchmark::State& state, const StereoRig& rig) {
+  const RockySurface surface;
+  CameraSimConfig config;
+  config.scene.threads = static_cast<int>(state.range(0));
+  StereoCameraSim camera(rig, config, surface, 1);
+  const Eigen::Isometry3d T_map_body = body_at(surface, 100.0, 120.0);
+  std::int64_t frame = 0;
+  for (int i = 0; i < 10; ++i) camera.render(T_map_body, frame++);  // until nothing is left to build ahead
+  for (auto _ : state) benchmark::DoNotOptimize(camera.render(T_map_body, frame++));
+}
+
+void loccam_pair(benchmark::State& state) { render_pairs(state, loccam_rig()); }
+void navcam_pair(benchmark::State& state) { render_pairs(state, navcam_rig()); }
+BENCHMARK(loccam_pair)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+BENCHMARK(navcam_pair)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+
+// The first view of a place: 28 fine tiles and more coarse ones, the surface's own cost left out.
+void first_focus(benchmark::State& state) {
+  const PlaneSurface surface;
+  TileSceneConfig config;
+  config.threads = 1;
+  for (auto _ : state) {
+    TileScene scene(surface, config);
+    scene.focus(100.0, 120.0);
+    state.counters["tiles"] = static_cast<double>(scene.tile_count());
+  }
+}
+BENCHMARK(first_focus)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace rover::test
+
+BENCHMARK_MAIN();

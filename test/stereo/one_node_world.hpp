@@ -1,0 +1,72 @@
+// A world of one node for tests of the bus side: gives ticks and inputs, hears one output and the heartbeats.
+#pragma once
+
+#include <lcm/lcm-cpp.hpp>
+#include <rover/heartbeat_t.hpp>
+#include <string>
+#include <vector>
+
+#include "common/bus/node.hpp"
+#include "common/bus/streams.hpp"
+
+namespace rover::test {
+
+class OneNodeWorld {
+ public:
+  explicit OneNodeWorld(const std::string& service)
+      : bus_("memq://"), world_("world", 1), node_({.name = service}, bus_) {
+    bus_.subscribe(channel::kHeartbeat, &OneNodeWorld::on_heartbeat, this);
+  }
+
+  Node& node() { return node_; }
+  lcm::LCM& bus() { return bus_; }
+
+  // Collects what the node publishes on the channel.
+  template <class Message>
+  void hear(const std::string& channel, std::vector<Message>& out) {
+    bus_.subscribeFunction(
+        channel,
+        +[](const lcm::ReceiveBuffer* buffer, const std::string&, std::vector<Message>* messages) {
+          Message message;
+          if (message.decode(buffer->data, 0, static_cast<int>(buffer->data_size)) > 0) messages->push_back(message);
+        },
+        &out);
+  }
+
+  template <class Message>
+  void send(const std::string& channel, Message message, Utime utime) {
+    message.header = world_.next(channel, utime, utime);
+    bus_.publish(channel, &message);
+  }
+
+  void tick(Utime utime) {
+    tick_t tick;
+    tick.header = world_.next(channel::kTick, utime, utime);
+    tick.mode = tick_t::LOCKSTEP;
+    tick.members = {node_.options().name};
+    tick.member_count = 1;
+    tick.streams = world_.take_grown();
+    tick.stream_count = static_cast<std::int32_t>(tick.streams.size());
+    bus_.publish(channel::kTick, &tick);
+    while (bus_.handleTimeout(0) > 0) node_.handle(0);
+  }
+
+  // Malformed inputs of the channel by the newest heartbeat.
+  std::int64_t malformed(const std::string& channel) const {
+    for (const input_health_t& input : heartbeat_.inputs)
+      if (input.channel == channel) return input.malformed;
+    return -1;
+  }
+
+ private:
+  void on_heartbeat(const lcm::ReceiveBuffer*, const std::string&, const heartbeat_t* message) {
+    heartbeat_ = *message;
+  }
+
+  lcm::LCM bus_;
+  StreamCounter world_;
+  Node node_;
+  heartbeat_t heartbeat_{};
+};
+
+}  // namespace rover::test

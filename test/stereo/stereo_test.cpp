@@ -1,0 +1,223 @@
+#include "stereo/stereo.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/core.hpp>
+
+#include "common/core/frames.hpp"
+#include "test/stereo/synthetic_world.hpp"
+
+namespace rover::stereo {
+namespace {
+
+constexpr double kGroundBelow = 0.62;
+
+struct Errors {
+  double rms_px = 0.0;    // of the pixels within 1 px
+  double coverage = 0.0;  // measured share of what both cameras see
+  double outliers = 0.0;  // share of measured pixels that are off by more than 1 px
+};
+
+Errors compare(const Disparity& disparity, const std::vector<float>& exact, int from_row = 0) {
+  double squares = 0.0;
+  int seen = 0, measured = 0, wrong = 0;
+  for (int v = from_row; v < disparity.height; ++v)
+    for (int u = 0; u < disparity.width; ++u) {
+      const float truth = exact[static_cast<size_t>(v) * disparity.width + u];
+      if (truth <= 0.0f) continue;
+      ++seen;
+      if (!disparity.valid(u, v)) continue;
+      ++measured;
+      const double error = disparity.px(u, v) - truth;
+      if (std::abs(error) > 1.0)
+        ++wrong;
+      else
+        squares += error * error;
+    }
+  return {std::sqrt(squares / std::max(1, measured - wrong)), double(measured) / seen, double(wrong) / measured};
+}
+
+// Ground seen under a pitch of the body about its origin.
+test::World pitched(double pitch_deg) {
+  test::World world;
+  world.slope_x = std::tan(to_rad(pitch_deg));
+  return world;
+}
+
+class StereoTest : public testing::Test {
+ protected:
+  StereoTest() : rig_(test::loccam_rig()), stereo_({}, rig_, kGroundBelow) { cv::setNumThreads(1); }
+
+  StereoResult see(const test::World& world, double sigma_grey = 1.0, std::uint64_t seed = 5) {
+    const test::RawPair pair = test::render(world, rig_, sigma_grey, seed);
+    return *stereo_.step(pair.left, pair.right);
+  }
+
+  StereoRig rig_;
+  Stereo stereo_;
+};
+
+TEST_F(StereoTest, FlatGroundIsMeasuredDenselyAndToATenthOfAPixel) {
+  const auto exact = test::exact_disparity({}, stereo_.camera());
+  const StereoResult result = see({});
+  const Errors all = compare(result.disparity, exact);
+  EXPECT_GT(all.coverage, 0.95);
+  EXPECT_LT(all.outliers, 0.002);
+  // Ground from 0.4 to 1.8 m ahead, where the synthetic texture is well sampled.
+  EXPECT_LT(compare(result.disparity, exact, 128).rms_px, 0.10);
+  EXPECT_LT(all.rms_px, 0.20);
+}
+
+TEST_F(StereoTest, SlopesOfTenDegreesAreWithinTheSearch) {
+  for (double pitch_deg : {-10.0, 10.0}) {
+    const test::World world = pitched(pitch_deg);
+    const Errors errors = compare(see(world).disparity, test::exact_disparity(world, stereo_.camera()), 160);
+    EXPECT_GT(errors.coverage, 0.95) << pitch_deg;
+    EXPECT_LT(errors.rms_px, 0.12) << pitch_deg;
+    EXPECT_LT(errors.outliers, 0.005) << pitch_deg;
+  }
+}
+
+TEST_F(StereoTest, SubpixelErrorDoesNotFollowTheFraction) {
+  // A gentle slope runs through all fractions of a pixel.
+  const test::World world = pitched(3.0);
+  const auto exact = test::exact_disparity(world, stereo_.camera());
+  const StereoResult result = see(world);
+  std::vector<double> sum(10, 0.0), count(10, 0.0);
+  for (int v = 128; v < 384; ++v)
+    for (int u = 80; u < 512; ++u) {
+      const double truth = exact[static_cast<size_t>(v) * 512 + u], error = result.disparity.px(u, v) - truth;
+      if (!result.disparity.valid(u, v) || std::abs(error) > 1.0) continue;
+      const size_t bin = static_cast<size_t>(10.0 * (truth - std::floor(truth)));
+      sum[bin] += error;
+      count[bin] += 1.0;
+    }
+  for (size_t bin = 0; bin < sum.size(); ++bin) {
+    ASSERT_GT(count[bin], 1000.0);
+    EXPECT_LT(std::abs(sum[bin] / count[bin]), 0.06) << bin;
+  }
+}
+
+TEST_F(StereoTest, RocksHaveTheirHeight) {
+  test::World world;
+  world.rocks = {{1.5, 0.2, 0.25, 0.2}, {2.0, -0.3, 0.3, 0.3, true}};
+  const StereoCamera& camera = stereo_.camera();
+  const StereoResult result = see(world);
+  double top_round = 0.0, top_box = 0.0;
+  for (int v = 0; v < camera.height; ++v)
+    for (int u = 0; u < camera.width; ++u) {
+      if (!result.disparity.valid(u, v)) continue;
+      const Eigen::Vector3d p = camera.T_body_cam * camera.point(u, v, result.disparity.px(u, v));
+      const double height = p.z() + kGroundBelow;
+      if (std::hypot(p.x() - 1.5, p.y() - 0.2) < 0.1) top_round = std::max(top_round, height);
+      if (std::abs(p.x() - 2.0) < 0.2 && std::abs(p.y() + 0.3) < 0.2) top_box = std::max(top_box, height);
+    }
+  EXPECT_NEAR(top_round, 0.2, 0.02);
+  EXPECT_NEAR(top_box, 0.3, 0.03);
+}
+
+TEST_F(StereoTest, ARockWithoutTextureIsNotGuessed) {
+  test::World world;
+  world.rocks = {{1.8, 0.0, 0.25, 0.25, false, true}};
+  const StereoResult result = see(world, 1.5);
+  const StereoCamera& camera = stereo_.camera();
+  int inside = 0, measured = 0;
+  for (int v = 0; v < camera.height; ++v)
+    for (int u = 0; u < camera.width; ++u) {
+      const Eigen::Vector3d ray = camera.T_body_cam.linear() * camera.point(u, v, camera.focal_px * camera.baseline_m);
+      if (test::cast(world, camera.T_body_cam.translation(), ray).rock != 0) continue;
+      ++inside;
+      measured += result.disparity.valid(u, v);
+    }
+  ASSERT_GT(inside, 5000);
+  // The block reaches over the edge, so a rim half a block wide sees the ground's texture.
+  EXPECT_LT(measured, 0.15 * inside);
+}
+
+TEST_F(StereoTest, SensorNoiseAloneIsNotStereo) {
+  for (double sigma : {0.5, 1.0, 2.0, 4.0}) {
+    std::mt19937_64 random(3);
+    std::normal_distribution<double> grey(100.0, sigma);
+    GrayImage left(512, 384), right(512, 384);
+    for (auto* image : {&left, &right})
+      for (auto& pixel : image->data) pixel = static_cast<std::uint8_t>(std::lround(grey(random)));
+    const Disparity disparity = stereo_.step(left, right)->disparity;
+    EXPECT_LT(std::count_if(disparity.px16.begin(), disparity.px16.end(), [](int d) { return d > 0; }), 200) << sigma;
+  }
+}
+
+TEST_F(StereoTest, ABlankPairIsAllInvalid) {
+  const Disparity disparity = stereo_.step(GrayImage(512, 384, 0), GrayImage(512, 384, 0))->disparity;
+  EXPECT_TRUE(
+      std::all_of(disparity.px16.begin(), disparity.px16.end(), [](int d) { return d == Disparity::kInvalid; }));
+}
+
+TEST_F(StereoTest, TheReferencePlaneChangesTheSearchNotTheResult) {
+  StereoConfig plain;
+  plain.ground_reference = false;
+  plain.matcher.residual_min_px = 0;
+  plain.matcher.residual_count_px = 96;
+  const test::RawPair pair = test::render({}, rig_, 1.0, 5);
+  const Disparity a = stereo_.step(pair.left, pair.right)->disparity;
+  const Disparity b = Stereo(plain, rig_, kGroundBelow).step(pair.left, pair.right)->disparity;
+  std::vector<double> difference;
+  for (size_t i = 0; i < a.px16.size(); ++i)
+    if (a.px16[i] > 0 && b.px16[i] > 0) difference.push_back(std::abs(a.px16[i] - b.px16[i]) / 16.0);
+  ASSERT_GT(difference.size(), 100000u);
+  std::nth_element(difference.begin(), difference.begin() + difference.size() / 2, difference.end());
+  EXPECT_LT(difference[difference.size() / 2], 0.15);
+}
+
+TEST_F(StereoTest, RectifiedImagesShowAPointInTheSameRow) {
+  // The rectified pair itself, matched without the shear: rows must agree to a fraction of a pixel. A row error of
+  // 0.5 px would cost coverage and accuracy on the plane; here the images are compared along rows directly.
+  const StereoResult result = see({}, 0.0);
+  const auto exact = test::exact_disparity({}, stereo_.camera());
+  const auto mean_difference = [&](int row_shift) {
+    double sum = 0.0;
+    int count = 0;
+    for (int v = 200; v < 370; ++v)
+      for (int u = 100; u < 500; ++u) {
+        const double x = u - double(exact[static_cast<size_t>(v) * 512 + u]);
+        const int x0 = static_cast<int>(x);
+        const double w = x - x0;
+        const double right = (1 - w) * result.right.at(x0, v + row_shift) + w * result.right.at(x0 + 1, v + row_shift);
+        sum += std::abs(result.left.at(u, v) - right);
+        ++count;
+      }
+    return sum / count;
+  };
+  EXPECT_LT(mean_difference(0), 0.6 * mean_difference(1));
+  EXPECT_LT(mean_difference(0), 0.6 * mean_difference(-1));
+}
+
+TEST_F(StereoTest, AnImageOfAnotherSizeIsRefused) {
+  EXPECT_FALSE(stereo_.step(GrayImage(512, 384), GrayImage(511, 384)));
+  EXPECT_FALSE(stereo_.step(GrayImage(), GrayImage(512, 384)));
+}
+
+TEST_F(StereoTest, TheSamePairGivesTheSameBytes) {
+  const test::RawPair pair = test::render({}, rig_, 1.0, 5);
+  const Disparity first = stereo_.step(pair.left, pair.right)->disparity;
+  EXPECT_EQ(first.px16, stereo_.step(pair.left, pair.right)->disparity.px16);
+  EXPECT_EQ(first.px16, Stereo({}, rig_, kGroundBelow).step(pair.left, pair.right)->disparity.px16);
+}
+
+TEST(RectifierTest, AnIdealRigStaysAsItIs) {
+  StereoRig rig;
+  rig.width = 640;
+  rig.height = 400;
+  rig.left = rig.right = {339.532, 339.532, 318.834, 205.771, {}};
+  rig.T_left_right.translation().x() = 0.2675;
+  const Rectifier rectifier(rig, {}, std::nullopt);
+  EXPECT_NEAR(rectifier.camera().focal_px, 339.532, 0.01);
+  EXPECT_NEAR(rectifier.camera().cx_px, 318.834, 0.01);
+  EXPECT_NEAR(rectifier.camera().cy_px, 205.771, 0.01);
+  EXPECT_NEAR(rectifier.camera().baseline_m, 0.2675, 1e-6);
+  EXPECT_TRUE(rectifier.camera().T_body_cam.isApprox(rig.T_body_left, 1e-9));
+}
+
+}  // namespace
+}  // namespace rover::stereo
