@@ -5,6 +5,8 @@
 namespace rover::hazard {
 namespace {
 
+constexpr int kFewSamples = 20;  // of a cell, for which the count depends on where the image rows fall
+
 class States {
  public:
   States(const std::vector<CellEvidence>& evidence, const GridShape& shape, const HazardConfig& config)
@@ -35,13 +37,24 @@ class States {
     return state == Cell::kObstacle || state == Cell::kHole;
   }
 
+  bool ground_seen(int measured, int expected) const {
+    return measured >= config_.min_free_samples && measured >= config_.free_share * expected;
+  }
+
   // FREE needs measured ground in the cell: most of the samples that should see it must have. A rock without texture
-  // and the ground behind any rock fail this and stay UNSEEN.
+  // and the ground behind any rock fail this and stay UNSEEN. Far cells have few image rows, so how many samples fall
+  // into one is a matter of luck: such a cell counts together with its neighbours, but never without ground of its own.
   void mark_ground() {
     for (int i = 0; i < shape_.size(); ++i) {
       const CellEvidence& e = evidence(i);
-      const int ground = e.measured - e.high - e.low;
-      if (ground >= config_.min_free_samples && ground >= config_.free_share * e.expected) cell(i) = Cell::kFree;
+      const int own = e.measured - e.high - e.low;
+      int ground = own, expected = e.expected;
+      if (own > 0 && !ground_seen(own, e.expected) && e.expected < kFewSamples)
+        for_neighbours(i, 1, [&](int k) {
+          ground += evidence(k).measured - evidence(k).high - evidence(k).low;
+          expected += evidence(k).expected;
+        });
+      if (ground_seen(ground, expected)) cell(i) = Cell::kFree;
     }
   }
 

@@ -11,6 +11,7 @@ constexpr int kRollSteps = 6;         // 2 deg
 constexpr double kBin = 0.02;         // of the offsets' histogram [m]
 constexpr double kBelowWeight = 0.5;  // what a cell below the plane takes from its score
 constexpr int kRefinements = 4;
+constexpr size_t kSearchPoints = 250;  // enough for the search; the refinement takes all
 
 // Offsets of all points under the slopes, as a histogram over the bounded offsets and as far around as needed.
 class OffsetHistogram {
@@ -56,6 +57,13 @@ class OffsetHistogram {
   int below_ = 0;
 };
 
+GroundPoints thinned(const GroundPoints& points) {
+  const size_t step = std::max<size_t>(1, points.size() / kSearchPoints);
+  GroundPoints some;
+  for (size_t i = 0; i < points.size(); i += step) some.push_back(points[i]);
+  return some;
+}
+
 GroundPlane search(const GroundPoints& points, const PlanePrior& prior) {
   OffsetHistogram histogram(prior);
   GroundPlane plane;
@@ -100,7 +108,7 @@ void refine(const GroundPoints& points, const PlanePrior& prior, GroundPlane& pl
 
 GroundPlane fit_ground_plane(const GroundPoints& points, const PlanePrior& prior) {
   if (static_cast<int>(points.size()) < prior.min_cells) return {};
-  GroundPlane plane = search(points, prior);
+  GroundPlane plane = search(thinned(points), prior);
   for (int i = 0; i < kRefinements; ++i) refine(points, prior, plane);
   return plane;
 }

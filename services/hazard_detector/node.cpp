@@ -32,8 +32,8 @@ void HazardNode::report(const HazardResult& result) {
   node_.set_status(blind ? heartbeat_t::DEGRADED : heartbeat_t::OK, blind ? "too little stereo" : "");
   static constexpr const char* kNames[] = {"CLEAR", "HAZARD", "BLIND"};
   node_.log(blind ? "WARN" : "INFO", std::string(kNames[static_cast<int>(result.status)]) +
-                                            " coverage=" + std::to_string(result.coverage) +
-                                            " nearest_m=" + std::to_string(result.nearest_hazard_m));
+                                         " coverage=" + std::to_string(result.coverage) +
+                                         " nearest_m=" + std::to_string(result.nearest_hazard_m));
 }
 
 std::shared_ptr<HazardNode> make_hazard_detector(Node& node, const std::string& config_dir) {

@@ -6,8 +6,11 @@ namespace rover::loc {
 namespace {
 
 void read_filter(const Config& c, FilterConfig& f) {
-  c.read("gyro_noise_radps_rthz", f.gyro_noise_radps_rthz, {1e-7, 1});
+  c.read("gyro_noise_rad_rts", f.gyro_noise_rad_rts, {1e-7, 1});
+  c.read("fog_noise_rad_rts", f.fog_noise_rad_rts, {1e-7, 1});
+  c.read("no_fog_noise_rad_rts", f.no_fog_noise_rad_rts, {1e-7, 1});
   c.read("gyro_bias_sigma_radps", f.gyro_bias_sigma_radps, {0, 1});
+  c.read("fog_bias_sigma_radps", f.fog_bias_sigma_radps, {0, 1});
   c.read("gyro_bias_walk_radps_rts", f.gyro_bias_walk_radps_rts, {0, 1});
   c.read("standing_rate_sigma_radps", f.standing_rate_sigma_radps, {1e-7, 1});
   c.read("force_noise_mps2_rthz", f.force_noise_mps2_rthz, {1e-4, 10});

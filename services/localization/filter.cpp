@@ -51,7 +51,6 @@ GyroRotation integrate(const std::vector<MotionRecord>& records, const Vector3d&
     if (r.standing) continue;
     if (!r.gyro) {
       g.R = g.R * exp_so3({0.0, 0.0, r.wheel_motion.z()});
-      g.blind_s += r.dt_s();
       continue;
     }
     g.R = g.R * exp_so3(r.delta_angle_rad - bias * r.dt_s());
@@ -60,6 +59,7 @@ GyroRotation integrate(const std::vector<MotionRecord>& records, const Vector3d&
   return g;
 }
 
+constexpr double kSmallestVariance = 1e-12;  // rad^2, keeps the comparison of the two rotations regular
 constexpr int kVisualPosition = kErrorSize;
 constexpr int kVisualRotation = kErrorSize + 3;
 constexpr int kGyro = kErrorSize + 6;
@@ -76,7 +76,8 @@ FilterState Filter::start(Utime utime, const Matrix3d& R_odom_body, const Vector
   state.gyro_bias_radps = gyro_bias;
   constexpr double kLevelSigma = 0.005;  // rad, accelerometer bias of a few mg
   state.P.diagonal().segment<2>(kAttitude).setConstant(square(kLevelSigma));
-  state.P.diagonal().segment<3>(kBias).setConstant(square(config_.gyro_bias_sigma_radps));
+  state.P.diagonal().segment<2>(kBias).setConstant(square(config_.gyro_bias_sigma_radps));
+  state.P(kBias + 2, kBias + 2) = square(config_.fog_bias_sigma_radps);
   state.P(kScale, kScale) = square(config_.visual_scale_sigma);
   return state;
 }
@@ -92,10 +93,7 @@ FilterState Filter::advance(FilterState state, const MotionRecord& record, doubl
   if (gyro) F.block<3, 3>(kAttitude, kBias) = -R * dt;
   state.P = F * state.P * F.transpose();
   state.P.diagonal().segment<3>(kPosition).array() += square(config_.wheel_noise_m_rtm) * moved.norm();
-  if (turning) {
-    const double noise = gyro ? config_.gyro_noise_radps_rthz : config_.blind_rate_radps;
-    state.P.diagonal().segment<3>(kAttitude).array() += square(noise) * dt;
-  }
+  state.P.block<3, 3>(kAttitude, kAttitude) += R * angle_variance(record).asDiagonal() * R.transpose();
   state.P.diagonal().segment<3>(kBias).array() += square(config_.gyro_bias_walk_radps_rts) * dt;
   state.T_odom_body.translation() += moved;
   if (turning) {
@@ -107,6 +105,15 @@ FilterState Filter::advance(FilterState state, const MotionRecord& record, doubl
   if (record.standing && record.gyro) stand(state, record);
   if (record.force) level(state, R * record.delta_velocity_mps / dt, dt);
   return state;
+}
+
+// Of the rotation over a record, in body axes.
+Vector3d Filter::angle_variance(const MotionRecord& record) const {
+  if (record.standing) return Vector3d::Zero();
+  const double dt = record.dt_s();
+  if (!record.gyro) return Vector3d::Constant(square(config_.blind_rate_radps) * dt);
+  const double z = record.fog ? config_.fog_noise_rad_rts : config_.no_fog_noise_rad_rts;
+  return Vector3d(square(config_.gyro_noise_rad_rts), square(config_.gyro_noise_rad_rts), square(z)) * dt;
 }
 
 // At standstill the gyro measures its bias.
@@ -133,8 +140,8 @@ std::optional<FilterState> Filter::fuse_visual(const FilterState& at_from, const
   joint.topLeftCorner<kErrorSize, kErrorSize>() = at_from.P;
   joint.block<6, 6>(kVisualPosition, kVisualPosition) = visual.cov;
   joint.diagonal().segment<3>(kVisualPosition).array() += square(config_.visual_floor_m);
-  joint.diagonal().segment<3>(kGyro).setConstant(square(config_.gyro_noise_radps_rthz) * gyro.biased_s +
-                                                 square(config_.blind_rate_radps) * gyro.blind_s + 1e-10);
+  joint.diagonal().segment<3>(kGyro).setConstant(kSmallestVariance);
+  for (const MotionRecord& r : records) joint.diagonal().segment<3>(kGyro) += angle_variance(r);
 
   // What the two rotations differ by: visual error - gyro error; the latter is the bias's error times time, and noise.
   Eigen::Matrix<double, 3, kJoint> H = Eigen::Matrix<double, 3, kJoint>::Zero();

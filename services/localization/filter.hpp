@@ -19,9 +19,12 @@
 namespace rover::loc {
 
 struct FilterConfig {
-  double gyro_noise_radps_rthz = 1e-4;  // tactical grade with room (STIM300: 0.15 deg/sqrt(h) = 4.4e-5)
-  double gyro_bias_sigma_radps = 1e-4;  // at start, after levelling
-  double gyro_bias_walk_radps_rts = 2e-7;
+  double gyro_noise_rad_rts = 6e-5;     // angle random walk; STIM300: 0.15 deg/sqrt(h) = 4.4e-5
+  double fog_noise_rad_rts = 1e-5;      // of the fibre-optic gyro about z; KVH DSP-1760: 3.5e-6, misalignment
+  double no_fog_noise_rad_rts = 3e-4;   // of the gyro about z, its bias unknown, in place of a silent fibre-optic one
+  double gyro_bias_sigma_radps = 8e-5;  // after levelling
+  double fog_bias_sigma_radps = 1.5e-5;
+  double gyro_bias_walk_radps_rts = 1e-7;
   double standing_rate_sigma_radps = 5e-4;   // of one tick's rate at standstill
   double force_noise_mps2_rthz = 0.10;       // the rover's own acceleration, bumps included, averaged over 1 s
   double wheel_noise_m_rtm = 0.15;           // standard deviation after 1 m on wheels alone
@@ -71,6 +74,7 @@ class Filter {
                                          const VisualInterval& visual) const;
 
  private:
+  Eigen::Vector3d angle_variance(const MotionRecord& record) const;
   void level(FilterState& state, const Eigen::Vector3d& mean_force_odom, double duration_s) const;
   void stand(FilterState& state, const MotionRecord& record) const;
 

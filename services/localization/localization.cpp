@@ -146,12 +146,16 @@ std::optional<MotionRecord> Localization::next_record(Utime now) {
 
 void Localization::gather_imu(MotionRecord& record) {
   double covered_s = 0.0;
+  record.fog = true;
   while (!imu_waiting_.empty() && imu_waiting_.front().utime <= record.end) {
     const ImuSample& s = imu_waiting_.front();
     if (s.utime > record.start) {
       covered_s += s.dt_s;
       Eigen::Vector3d turned = s.delta_angle_rad;
-      if (std::isfinite(s.fog_delta_yaw_rad)) turned.z() = s.fog_delta_yaw_rad;
+      if (std::isfinite(s.fog_delta_yaw_rad))
+        turned.z() = s.fog_delta_yaw_rad;
+      else
+        record.fog = false;
       record.delta_angle_rad += turned;
       record.delta_velocity_mps += s.delta_velocity_mps;
     }

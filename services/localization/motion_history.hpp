@@ -16,6 +16,7 @@ struct MotionRecord {
   Utime start = kNever;
   Utime end = kNever;
   bool gyro = false;      // delta_angle_rad is measured
+  bool fog = false;       // its z is the fibre-optic gyro's
   bool force = false;     // delta_velocity_mps is measured
   bool wheels = false;    // turned_rad is measured
   bool standing = false;  // the wheels have stood for a while and the gyro sees no turning

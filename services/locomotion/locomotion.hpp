@@ -24,8 +24,8 @@ struct LocomotionConfig {
   double aligned_rad = 0.052;          // 3 deg: the steering has arrived, motion may start
   double steering_slow_rad = 0.07;     // 4 deg behind: slower
   double steering_stop_rad = 0.175;    // 10 deg behind: wait
-  double curvature_slow_per_m = 0.10;  // as above, of the commanded curvature not yet set
-  double curvature_stop_per_m = 0.60;
+  double curvature_slow_per_m = 0.20;  // as above, of the commanded curvature not yet set
+  double curvature_stop_per_m = 1.00;
 };
 
 struct WheelReading {

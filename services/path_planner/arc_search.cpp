@@ -234,7 +234,11 @@ class ArcSearch {
 
 bool SeenOnTheWay::covers(const Pose2& pose) const {
   return check_.all_unseen(pose, [&](Point2 p) {
-    return std::any_of(poses_.begin(), poses_.end(), [&](const Pose2& from) { return view_.sees(from, p); });
+    return std::any_of(views_.begin(), views_.end(), [&](const View& v) {
+      const double dx = p.x_m - v.from.x_m;
+      const double dy = p.y_m - v.from.y_m;
+      return view_.sees({v.cos_yaw * dx + v.sin_yaw * dy, v.cos_yaw * dy - v.sin_yaw * dx});
+    });
   });
 }
 

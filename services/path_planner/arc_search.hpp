@@ -23,7 +23,7 @@ struct ArcSearchConfig {
   double bend_cost_m = 0.15;         // for a change of curvature by the largest
   double turn_cost_m = 3.0;          // a point turn takes about 15 s, in which the rover could drive 3 m
   double turn_cost_per_rad_m = 0.5;
-  double look_ahead_m = 2.5;         // way within which ground must have been seen before the rover reaches it
+  double look_ahead_m = 20.0;
   int max_expansions = 2500;
   int further_expansions = 120;      // after the first way has been found, for a better one
 };
@@ -65,15 +65,20 @@ SearchResult search_arcs(const ArcSearchConfig& config, const SearchProblem& pro
 class SeenOnTheWay {
  public:
   SeenOnTheWay(const FootprintCheck& check, const ViewArea& view) : check_(check), view_(view) {}
-  void passed(const Pose2& pose) { poses_.push_back(pose); }
-  void clear() { poses_.clear(); }
+  void passed(const Pose2& pose) { views_.push_back({position(pose), std::cos(pose.yaw_rad), std::sin(pose.yaw_rad)}); }
+  void clear() { views_.clear(); }
   // The bare rectangle, without margin.
   bool covers(const Pose2& pose) const;
 
  private:
+  struct View {
+    Point2 from;
+    double cos_yaw;
+    double sin_yaw;
+  };
   const FootprintCheck& check_;
   ViewArea view_;
-  std::vector<Pose2> poses_;
+  std::vector<View> views_;
 };
 
 }  // namespace rover::planning

@@ -5,6 +5,7 @@ namespace {
 
 constexpr double kStepM = 0.05;
 constexpr double kTurnStepRad = 0.0524;
+constexpr double kBendM = 0.15;
 constexpr double kMergeM = 1.0;  // the controller takes a cross-track error out within about this way
 
 class BlockFinder {
@@ -16,12 +17,17 @@ class BlockFinder {
     const Pose2 here = query_.route.pose_at(query_.from_m);
     const double turn = wrap_angle(here.yaw_rad - query_.rover.yaw_rad);
     const bool turning = std::abs(turn) > query_.turn_threshold_rad;
-    if (turning) look_at_turn(turn);
+    if (turning) look_at_turn(query_.rover, turn, query_.from_m);
+    // After a point turn the camera has seen what lies ahead; until then nothing can be said of it.
+    bool known = !turning;
     for (double s = query_.from_m; s <= query_.route.length_m() && !complete(); s += kStepM) {
       const Pose2 pose = expected_pose(s, here, turning);
       if (!query_.terrain.contains(position(pose))) break;
-      // After a point turn the camera has seen what lies ahead; until then nothing can be said of it.
-      note(pose, s, !turning);
+      if (const double bend = bend_at(s); known && s > query_.from_m + kBendM && std::abs(bend) > query_.turn_threshold_rad) {
+        look_at_turn(query_.route.pose_at(s - kBendM), bend, s);
+        known = false;
+      }
+      note(pose, s, known);
     }
     return block_;
   }
@@ -29,12 +35,16 @@ class BlockFinder {
  private:
   bool complete() const { return std::isfinite(block_.confirmed_m) && std::isfinite(block_.unseen_m); }
 
-  void look_at_turn(double turn_rad) {
+  // Change of the route's heading about s within a way that no arc could do it.
+  double bend_at(double s_m) const {
+    return wrap_angle(query_.route.pose_at(s_m + kBendM).yaw_rad - query_.route.pose_at(s_m - kBendM).yaw_rad);
+  }
+
+  void look_at_turn(Pose2 pose, double turn_rad, double s_m) {
     const int steps = static_cast<int>(std::ceil(std::abs(turn_rad) / kTurnStepRad));
     for (int i = 0; i <= steps; ++i) {
-      Pose2 pose = query_.rover;
-      pose.yaw_rad += turn_rad * i / steps;
-      note(pose, query_.from_m, true);
+      note(pose, s_m, true);
+      pose.yaw_rad += turn_rad / steps;
     }
   }
 

@@ -51,13 +51,12 @@ struct Footprint {
 
 // The ground that the camera sees: a trapezoid ahead of the body origin.
 struct ViewArea {
-  double near_m = 1.0;
+  double near_m = 0.92;
   double far_m = 2.7;
-  double near_half_width_m = 0.42;
-  double far_half_width_m = 1.2;
+  double near_half_width_m = 0.36;
+  double far_half_width_m = 0.98;
 
-  bool sees(const Pose2& pose, Point2 p) const {
-    const Point2 b = to_body(pose, p);
+  bool sees(Point2 b) const {  // in body
     if (b.x_m < near_m || b.x_m > far_m) return false;
     const double u = (b.x_m - near_m) / (far_m - near_m);
     return std::abs(b.y_m) <= near_half_width_m + u * (far_half_width_m - near_half_width_m);

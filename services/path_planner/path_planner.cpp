@@ -97,20 +97,21 @@ void PathPlanner::take_start_area() {
   new_ground_ = true;
 }
 
-std::string PathPlanner::add_hazards(const HazardGrid& grid) {
-  if (const std::string fault = grid.fault(); !fault.empty()) return fault;
+bool PathPlanner::add_hazards(const HazardGrid& grid) {
   const std::optional<Eigen::Isometry3d> T = history_.at(grid.utime);
-  if (!T) return "no pose at the time of exposure";
+  if (!T || !grid.fault().empty()) return false;
   memory_.add(grid, *T, config_.ground_z_m);
   new_ground_ = true;
-  return "";
+  return true;
 }
 
-bool PathPlanner::ready() const { return global_ && !history_.empty(); }
+bool PathPlanner::ready(Utime now) const {
+  return global_ && !history_.empty() && now - history_.newest().utime <= to_utime(config_.pose_max_age_s);
+}
 
-PlannerOutput PathPlanner::step(Utime) {
+PlannerOutput PathPlanner::step(Utime now) {
   PlannerOutput out;
-  if (ready()) {
+  if (ready(now)) {
     if (global_odom_.empty()) lay_global_path();
     if (active_.route.empty()) {
       if (failures_ == 0 || new_ground_) begin(out);
@@ -122,7 +123,7 @@ PlannerOutput PathPlanner::step(Utime) {
     }
     new_ground_ = false;
   }
-  out.status = status();
+  out.status = status(now);
   return out;
 }
 
@@ -298,12 +299,12 @@ double PathPlanner::hazard_ahead_m() const {
   return std::min(block_.confirmed_m, block_.possible_m) - active_.progress_m;
 }
 
-PlannerStatus PathPlanner::status() const {
+PlannerStatus PathPlanner::status(Utime now) const {
   PlannerStatus status;
   status.replans = replans_;
   if (global_) status.global_path_id = global_->id;
-  if (!ready()) {
-    status.text = global_ ? "no usable pose" : "no global path";
+  if (!ready(now)) {
+    status.text = global_ ? "no fresh pose" : "no global path";
     return status;
   }
   if (!global_odom_.empty())

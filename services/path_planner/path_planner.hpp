@@ -27,6 +27,7 @@ struct PathPlannerConfig {
   double plan_extra_m = 0.06;         // repairs keep that much more, so that a hazard may grow by half a cell
   double sigma_gain = 1.0;            // of the deviation gained since a hazard was seen
   double most_sigma_margin_m = 0.10;
+  double pose_max_age_s = 0.5;
   double release_latency_s = 0.1;     // of the path, message time
   double trigger_m = 6.0;             // a block further ahead is left until it comes nearer
   double corridor_half_width_m = 0.75;
@@ -89,8 +90,8 @@ class PathPlanner {
   // The operator certifies a circle in map as clear; odom begins anew, so everything remembered in it goes.
   void set_start_area(Point2 center_map, double radius_m, Utime utime);
   void add_pose(const PoseSample& sample);
-  // Empty: taken; otherwise why not.
-  std::string add_hazards(const HazardGrid& grid);
+  // False where the frame cannot be laid: the grid contradicts itself, or no pose of its exposure is known.
+  bool add_hazards(const HazardGrid& grid);
   PlannerOutput step(Utime now);
 
   std::vector<std::uint8_t> save() const;
@@ -117,7 +118,7 @@ class PathPlanner {
     Utime utime = kNever;
   };
 
-  bool ready() const;
+  bool ready(Utime now) const;
   Pose2 rover() const { return planar(history_.newest().T_odom_body); }
   void take_start_area();
   void lay_global_path();
@@ -135,7 +136,7 @@ class PathPlanner {
   bool standing() const;
   double hazard_ahead_m() const;
   double unseen_ahead_m() const { return block_.unseen_m - active_.progress_m; }
-  PlannerStatus status() const;
+  PlannerStatus status(Utime now) const;
   void describe_block(PlannerStatus& status) const;
   double goal_distance_m() const;
 

@@ -75,6 +75,19 @@ double Terrain::hazard_distance_smooth(Point2 p, Eigen::Vector2d& gradient) cons
   return (1.0 - v) * ((1.0 - u) * a + u * b) + v * ((1.0 - u) * c + u * d);
 }
 
+FootprintCheck::FootprintCheck(const Terrain& terrain, const Footprint& footprint, double margin_m, const Pose2& start)
+    : terrain_(terrain), footprint_(footprint), margin_m_(margin_m), start_(start) {
+  const double step = terrain.cell_m();
+  const int nx = static_cast<int>(std::ceil(2.0 * footprint.half_length_m / step));
+  const int ny = static_cast<int>(std::ceil(2.0 * footprint.half_width_m / step));
+  for (const double end : {1.0, -1.0})
+    for (int i = 0; i <= ny; ++i)
+      rim_.push_back({end * footprint.half_length_m, footprint.half_width_m * (2.0 * i / ny - 1.0)});
+  for (const double side : {1.0, -1.0})
+    for (int i = 1; i < nx; ++i)
+      rim_.push_back({footprint.half_length_m * (1.0 - 2.0 * i / nx), side * footprint.half_width_m});
+}
+
 bool FootprintCheck::violates(const Pose2& pose, Point2 hazard) const {
   const double d = footprint_.distance_m(pose, hazard);
   if (d >= margin_m_) return false;

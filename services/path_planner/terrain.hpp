@@ -52,15 +52,15 @@ class Terrain {
 // rover may leave it, but not come closer.
 class FootprintCheck {
  public:
-  FootprintCheck(const Terrain& terrain, const Footprint& footprint, double margin_m, const Pose2& start)
-      : terrain_(terrain), footprint_(footprint), margin_m_(margin_m), start_(start) {}
+  FootprintCheck(const Terrain& terrain, const Footprint& footprint, double margin_m, const Pose2& start);
 
   bool clear(const Pose2& pose) const;
   // Only hazards of which `confirmed` is as asked.
   bool clear_of(const Pose2& pose, bool confirmed) const;
   // From the rectangle to the nearest hazard's centre; `most` where there is none as near.
   double clearance_m(const Pose2& pose, double most) const;
-  // Calls f(point) for each unseen point under the rectangle until it returns false; false then.
+  // Calls f(point) for each unseen point under the rectangle's rim until it returns false; false then. Whatever ground
+  // a moving rectangle comes to cover, its rim has passed.
   template <class F>
   bool all_unseen(const Pose2& pose, F&& f) const;
 
@@ -75,25 +75,18 @@ class FootprintCheck {
   Footprint footprint_;
   double margin_m_;
   Pose2 start_;
+  std::vector<Point2> rim_;  // points along the rectangle's edge, the front first
 };
 
 template <class F>
 bool FootprintCheck::all_unseen(const Pose2& pose, F&& f) const {
   if (terrain_.unseen_distance_m(position(pose)) > footprint_.radius_m() + terrain_.cell_m()) return true;
-  const double step = terrain_.cell_m();
-  const int nx = static_cast<int>(std::ceil(2.0 * footprint_.half_length_m / step));
-  const int ny = static_cast<int>(std::ceil(2.0 * footprint_.half_width_m / step));
   const double c = std::cos(pose.yaw_rad);
   const double s = std::sin(pose.yaw_rad);
-  // From the nose backwards: what is not seen is ahead.
-  for (int ix = nx; ix >= 0; --ix)
-    for (int iy = 0; iy <= ny; ++iy) {
-      const double x = footprint_.half_length_m * (2.0 * ix / nx - 1.0);
-      const double y = footprint_.half_width_m * (2.0 * iy / ny - 1.0);
-      const Point2 p{pose.x_m + c * x - s * y, pose.y_m + s * x + c * y};
-      if (terrain_.unseen(p) && !f(p)) return false;
-    }
-  return true;
+  return std::all_of(rim_.begin(), rim_.end(), [&](Point2 r) {
+    const Point2 p{pose.x_m + c * r.x_m - s * r.y_m, pose.y_m + s * r.x_m + c * r.y_m};
+    return !terrain_.unseen(p) || f(p);
+  });
 }
 
 }  // namespace rover::planning

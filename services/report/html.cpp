@@ -205,7 +205,7 @@ std::string report_html(const Scene& scene, const Pictures& pictures,
   const Metrics& m = scene.judgement.metrics;
   std::string body = header(m) + cards(m) + "<section class=\"map\">" + pictures.map + "</section>\n";
   body += comparison_table(m) + events_section(scene, pictures);
-  body += "<h2>Over the distance</h2><section class=\"plots\">\n";
+  body += "<h2>Over the distance driven, in metres</h2><section class=\"plots\">\n";
   for (const std::string& plot : pictures.plots) body += plot;
   body += pictures.states + "</section>\n";
   body += figures_table(m) + faults_section(m) + services_section(m) + configuration_section(configuration);

@@ -17,7 +17,7 @@ p{margin:6px 0}
 .meta{color:var(--muted);font-size:13.5px}
 .badge{white-space:nowrap;font-weight:700;font-size:16px;padding:9px 18px;border-radius:6px;color:#fff}
 .badge.good{background:var(--good)}.badge.bad{background:var(--bad)}
-.cards{display:grid;grid-template-columns:repeat(auto-fill,minmax(170px,1fr));gap:12px;margin:22px 0 0}
+.cards{display:grid;grid-template-columns:repeat(5,1fr);gap:12px;margin:22px 0 0}
 .card{background:var(--soft);border-left:4px solid #9aa5b1;padding:11px 14px 10px;border-radius:4px}
 .card.good{border-color:var(--good)}.card.bad{border-color:var(--bad)}
 .card b{display:block;font-size:23px;line-height:1.2;font-variant-numeric:tabular-nums}
@@ -31,12 +31,12 @@ table{border-collapse:collapse;width:100%;font-size:13.5px}
 th{text-align:left;font-weight:600;border-bottom:2px solid var(--ink);padding:5px 10px 5px 0}
 td{border-bottom:1px solid var(--line);padding:5px 10px 5px 0;vertical-align:top}
 td.n,th.n{text-align:right;font-variant-numeric:tabular-nums}
-td.good{color:var(--good);font-weight:600}td.bad{color:var(--bad);font-weight:600}
+td+td.good,td+td.bad,th:last-child:not(.n){padding-left:14px}td.good{color:var(--good);font-weight:600}td.bad{color:var(--bad);font-weight:600}
 .two{display:grid;grid-template-columns:1fr 1fr;gap:0 44px}
 details{margin:8px 0}summary{cursor:pointer;font-weight:600;font-size:14px}
 pre{background:var(--soft);padding:12px 14px;font-size:12px;line-height:1.45;overflow-x:auto;border-radius:4px;
  font-family:"DejaVu Sans Mono",Menlo,Consolas,monospace;white-space:pre-wrap}
-@media(max-width:820px){main{padding:22px 16px}.gallery{grid-template-columns:1fr 1fr}.two{grid-template-columns:1fr}
+@media(max-width:820px){.cards{grid-template-columns:repeat(2,1fr)}main{padding:22px 16px}.gallery{grid-template-columns:1fr 1fr}.two{grid-template-columns:1fr}
  header{flex-direction:column}}
 @media print{@page{size:A4;margin:12mm}body{background:#fff;font-size:11.5px}main{max-width:none;padding:0}
  .badge,.card,.cards *{-webkit-print-color-adjust:exact;print-color-adjust:exact}

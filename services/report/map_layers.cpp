@@ -54,7 +54,7 @@ Box with_aspect(Box box, double least, double most) {
   return {box.x0_m - grow_x, box.y0_m - grow_y, box.x1_m + grow_x, box.y1_m + grow_y};
 }
 
-void draw_rocks(Svg& svg, const MapView& view, const Scene& scene) {
+void draw_rocks(Svg& svg, const MapView& view, const Scene& scene, RockStyle style) {
   if (!scene.world) return;
   std::string pebbles;
   std::string hazards;
@@ -63,8 +63,12 @@ void draw_rocks(Svg& svg, const MapView& view, const Scene& scene) {
     if (rock.height_m < kPebbleM || !view.box.grown(rock.radius_m).contains(p)) continue;
     (rock.height_m >= kHazardRockM ? hazards : pebbles) += circle_path(view.px(p), rock.radius_m * view.px_per_m);
   }
-  svg.path(pebbles, fmt::format("fill:{};fill-opacity:.28", palette::kPebble));
-  svg.path(hazards, fmt::format("fill:{};stroke:#fff;stroke-width:.6", palette::kRock));
+  if (style == RockStyle::kFilled) {
+    svg.path(pebbles, fmt::format("fill:{};fill-opacity:.28", palette::kPebble));
+    svg.path(hazards, fmt::format("fill:{};stroke:#fff;stroke-width:.6", palette::kRock));
+  } else {
+    svg.path(hazards, fmt::format("fill:{0};fill-opacity:.3;stroke:{0};stroke-width:1.6", palette::kRock));
+  }
   for (const RockVerdict& verdict : scene.judgement.rocks) {
     const Eigen::Vector2d p(verdict.rock.x_m, verdict.rock.y_m);
     if (!verdict.missed() || !view.box.contains(p)) continue;
@@ -106,11 +110,19 @@ void draw_footprint(Svg& svg, const MapView& view, const Pose2& pose, const Foot
   svg.polyline(nose, style + ";fill:none");
 }
 
-void draw_scale_bar(Svg& svg, const MapView& view) {
+void draw_scale_bar(Svg& svg, const MapView& view, const Points& line) {
   const double length = round_length(0.22 * view.box.width_m());
   const double w = length * view.px_per_m;
-  const double x = view.left + 22.0;
   const double y = view.top + view.height() - 24.0;
+  const double left = view.left + 22.0;
+  const double right = view.left + view.width() - 22.0 - w;
+  const auto room = [&](double x) {
+    double least = kInfinity;
+    for (const Eigen::Vector2d& p : view.px(line))
+      least = std::min(least, (p - Eigen::Vector2d(x + 0.5 * w, y)).norm());
+    return least;
+  };
+  const double x = room(left) >= room(right) ? left : right;
   svg.rect(x - 12.0, y - 24.0, w + 24.0, 38.0, "fill:#fff;fill-opacity:.82", 5.0);
   svg.rect(x, y - 2.0, 0.5 * w, 5.0, fmt::format("fill:{}", palette::kInk));
   svg.rect(x + 0.5 * w, y - 2.0, 0.5 * w, 5.0, fmt::format("fill:#fff;stroke:{}", palette::kInk));

@@ -27,12 +27,14 @@ struct MapView {
 Box with_aspect(Box box, double least, double most);
 Box bounds(const std::vector<Points>& lines);
 
-void draw_rocks(Svg& svg, const MapView& view, const Scene& scene);
+enum class RockStyle { kFilled, kOutlined };  // outlined where the ground's own picture shows the rocks
+void draw_rocks(Svg& svg, const MapView& view, const Scene& scene, RockStyle style);
 // Squares of the lattice in which hazard cells were seen; each once.
 void draw_cells(Svg& svg, const MapView& view, const Points& cells, double cell_m, const std::string& style);
 void draw_footprint(Svg& svg, const MapView& view, const Pose2& pose, const Footprint& footprint,
                     const std::string& style);
-void draw_scale_bar(Svg& svg, const MapView& view);
+// In the lower corner that is farther from the line.
+void draw_scale_bar(Svg& svg, const MapView& view, const Points& line);
 void draw_north(Svg& svg, const MapView& view);
 std::string incident_title(const Scene& scene, size_t index);
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kMapWidth = 1400.0;
 constexpr double kAxis = 34.0;  // room for the coordinates, left and below
-constexpr double kLegend = 64.0;
+constexpr double kLegend = 40.0;
 constexpr double kCellM = 0.1;
 
 std::string stroke(const char* colour, double width, const std::string& more = "") {
@@ -146,20 +146,20 @@ void draw_legend(Svg& svg, double left, double top, double right) {
     return [&svg, style](double x, double y) { svg.circle(x + 15.0, y, 7.0, style); };
   };
   const std::vector<LegendEntry> entries = {
-      {"planned path", 128,
+      {"planned path", 118,
        [&](double x, double y) {
          svg.line(x, y, x + 30.0, y, stroke("#3b2a1e", 4.5));
          svg.line(x, y, x + 30.0, y, stroke(palette::kGlobalPath, 2.4, "stroke-dasharray:9 6"));
        }},
-      {"true track", 112, bar(stroke(palette::kTruth, 3.2))},
-      {"estimated track", 148, bar(stroke(palette::kEstimate, 2.2, "stroke-dasharray:6 5"))},
-      {"repaired path", 136, bar(stroke(palette::kRepair, 2.4))},
-      {"detected hazard", 150, square(palette::kHazard)},
-      {"detected hole", 136, square(palette::kHole)},
-      {"rock 0.15 m and taller", 190, disc(fmt::format("fill:{};stroke:#fff", palette::kRock))},
-      {"lower rock", 118, disc(fmt::format("fill:{};fill-opacity:.35", palette::kPebble))},
-      {"repair", 96, disc(fmt::format("fill:#fff;stroke:{};stroke-width:2", palette::kRepair))},
-      {"hazard stop", 122, disc(fmt::format("fill:#fff;stroke:{};stroke-width:2", palette::kBad))},
+      {"true track", 102, bar(stroke(palette::kTruth, 3.2))},
+      {"estimated track", 138, bar(stroke(palette::kEstimate, 2.2, "stroke-dasharray:6 5"))},
+      {"repaired path", 126, bar(stroke(palette::kRepair, 2.4))},
+      {"detected hazard", 136, square(palette::kHazard)},
+      {"detected hole", 122, square(palette::kHole)},
+      {"rock 0.15 m and taller", 182, disc(fmt::format("fill:{};stroke:#fff", palette::kRock))},
+      {"lower rock", 100, disc(fmt::format("fill:{};fill-opacity:.35", palette::kPebble))},
+      {"repair", 78, disc(fmt::format("fill:#fff;stroke:{};stroke-width:2", palette::kRepair))},
+      {"hazard stop", 112, disc(fmt::format("fill:#fff;stroke:{};stroke-width:2", palette::kBad))},
   };
   double x = left;
   double y = top + 12.0;
@@ -170,7 +170,7 @@ void draw_legend(Svg& svg, double left, double top, double right) {
     }
     entry.symbol(x, y);
     svg.text(x + 38.0, y + 4.5, entry.text, 13, "");
-    x += entry.width + 14.0;
+    x += entry.width + 12.0;
   }
 }
 
@@ -183,7 +183,7 @@ std::string draw_map(const Scene& scene) {
   svg.rect(0.0, 0.0, kMapWidth, bottom + kLegend, "fill:#fff");
   svg.begin_clip("map-frame", view.left, view.top, view.width(), view.height());
   draw_ground(svg, view, scene.orbital);
-  draw_rocks(svg, view, scene);
+  draw_rocks(svg, view, scene, RockStyle::kFilled);
   draw_hazards(svg, view, scene);
   draw_paths(svg, view, scene);
   draw_ends(svg, view, scene);
@@ -191,7 +191,7 @@ std::string draw_map(const Scene& scene) {
   svg.end();
   draw_axes(svg, view);
   svg.rect(view.left, view.top, view.width(), view.height(), "fill:none;stroke:#5b4636;stroke-width:1.2");
-  draw_scale_bar(svg, view);
+  draw_scale_bar(svg, view, true_line(scene));
   draw_north(svg, view);
   draw_legend(svg, view.left, bottom + 6.0, kMapWidth - 8.0);
   return svg.str();
@@ -217,13 +217,14 @@ std::string draw_incident(const Scene& scene, size_t index) {
            incident.is_false() && scene.world ? fmt::format("fill:{};font-weight:600", palette::kBad) : "");
   svg.begin_clip(fmt::format("incident-{}", index), view.left, view.top, view.width(), view.height());
   svg.rect(view.left, view.top, view.width(), view.height(), "fill:#e9d9c6");
-  if (scene.world && scene.world->height_m) {
+  const bool shaded = scene.world && scene.world->height_m;
+  if (shaded) {
     constexpr int kPixels = 400;
     const ReliefStyle style{1.0, 0.0, 0.0};
     svg.jpeg(view.left, view.top, view.width(), view.height(),
              relief_jpeg(scene.world->height_m, view.box, kPixels, kPixels, style));
   }
-  draw_rocks(svg, view, scene);
+  draw_rocks(svg, view, scene, shaded ? RockStyle::kOutlined : RockStyle::kFilled);
   draw_cells(svg, view, incident.cells, kCellM, fmt::format("fill:{};fill-opacity:.5", palette::kHazard));
   svg.polyline(view.px(incident.old_path), stroke("#3b2a1e", 4.2, "stroke-opacity:.5"));
   svg.polyline(view.px(incident.old_path), stroke(palette::kGlobalPath, 2.4, "stroke-dasharray:7 5"));
@@ -233,7 +234,7 @@ std::string draw_incident(const Scene& scene, size_t index) {
                  fmt::format("fill:{0};fill-opacity:.18;stroke:{0};stroke-width:2", palette::kTruth));
   svg.end();
   svg.rect(view.left + 0.5, view.top, view.width() - 1.0, view.height() - 0.5, "fill:none;stroke:#5b4636");
-  draw_scale_bar(svg, view);
+  draw_scale_bar(svg, view, true_line(scene));
   return svg.str();
 }
 

@@ -16,7 +16,7 @@ constexpr double kLeft = 58.0;
 constexpr double kRight = 14.0;
 constexpr double kTop = 34.0;
 constexpr double kHeight = 132.0;  // of the field
-constexpr double kBottom = 36.0;
+constexpr double kBottom = 22.0;
 constexpr int kColumns = 700;
 
 Axis value_axis(const Plot& plot) {
@@ -53,7 +53,6 @@ void draw_grid(Svg& svg, const Field& field, const Plot& plot) {
   const Axis ticks = round_axis(field.x.low, field.x.high, 10);
   for (double v = 0.0; v <= field.x.high + 1e-9; v += ticks.step)
     svg.text(field.px_x(v), kTop + kHeight + 17.0, number_text(v), 11.5, label, Anchor::kMiddle);
-  svg.text(kWidth - kRight, kTop + kHeight + 31.0, "distance driven [m]", 11.5, label, Anchor::kEnd);
   svg.text(kLeft, 16.0, plot.title, 14, "font-weight:600");
   svg.text(kLeft + 8.2 * static_cast<double>(plot.title.size()) + 6.0, 16.0, "[" + plot.unit + "]", 12, label);
 }

@@ -15,6 +15,7 @@ template <class T, auto destroy>
 struct Destroy {
   void operator()(T* object) const { destroy(object); }
 };
+using Stream = std::unique_ptr<GInputStream, Destroy<void, g_object_unref>>;
 using Handle = std::unique_ptr<RsvgHandle, Destroy<void, g_object_unref>>;
 using Surface = std::unique_ptr<cairo_surface_t, Destroy<cairo_surface_t, cairo_surface_destroy>>;
 using Context = std::unique_ptr<cairo_t, Destroy<cairo_t, cairo_destroy>>;
@@ -23,11 +24,12 @@ using Context = std::unique_ptr<cairo_t, Destroy<cairo_t, cairo_destroy>>;
 
 void write_png(const std::string& svg, double scale, const std::string& file) {
   GError* error = nullptr;
+  const Stream stream(g_memory_input_stream_new_from_data(svg.data(), static_cast<gssize>(svg.size()), nullptr));
   // Embedded pictures may be larger than the parser's default limit on one attribute.
-  const Handle handle(rsvg_handle_new_with_flags(RSVG_HANDLE_FLAG_UNLIMITED));
-  if (!rsvg_handle_write(handle.get(), reinterpret_cast<const guchar*>(svg.data()), svg.size(), &error) ||
-      !rsvg_handle_close(handle.get(), &error)) {
-    const std::string why = error != nullptr ? error->message : "not an SVG picture";
+  const Handle handle(
+      rsvg_handle_new_from_stream_sync(stream.get(), nullptr, RSVG_HANDLE_FLAG_UNLIMITED, nullptr, &error));
+  if (!handle) {
+    const std::string why = error->message;
     g_clear_error(&error);
     throw ConfigError(file + ": " + why);
   }

@@ -24,25 +24,34 @@ void read_optional(const json& from, const char* key, std::optional<T>& value) {
   if (const auto it = from.find(key); it != from.end() && !it->is_null()) value = it->get<T>();
 }
 
-RunInfo read_info(const std::string& path) {
-  RunInfo info;
-  if (!fs::exists(path)) return info;
+json read_json(const std::string& path) {
+  if (!fs::exists(path)) return json::object();
   try {
-    const json run = json::parse(read_file(path));
-    read_optional(run, "scenario", info.scenario);
-    read_optional(run, "seed", info.seed);
-    read_optional(run, "commit", info.commit);
-    read_optional(run, "level", info.level);
-    read_optional(run, "deterministic", info.deterministic);
-    read_optional(run, "realtime", info.realtime);
-    read_optional(run, "wall_s", info.wall_s);
-    read_optional(run, "sim_s", info.sim_s);
-    read_optional(run, "outcome_hint", info.outcome_hint);
-    if (const auto services = run.find("services"); services != run.end() && services->is_object())
-      for (const auto& [name, value] : services->items())
-        if (value.is_number_integer()) info.restarts[name] = value.get<int>();
+    return json::parse(read_file(path));
   } catch (const json::exception& error) {
     throw ConfigError(path + ": " + error.what());
+  }
+}
+
+// What the launcher (run.json) and the simulator (simulation.json) say of the run; the latter has the last word.
+RunInfo read_info(const std::string& dir) {
+  RunInfo info;
+  for (const char* name : {"/run.json", "/simulation.json"}) {
+    const json run = read_json(dir + name);
+    try {
+      read_optional(run, "scenario", info.scenario);
+      read_optional(run, "seed", info.seed);
+      read_optional(run, "commit", info.commit);
+      read_optional(run, "level", info.level);
+      read_optional(run, "deterministic", info.deterministic);
+      read_optional(run, "realtime", info.realtime);
+      read_optional(run, "wall_s", info.wall_s);
+      read_optional(run, "simulated_s", info.sim_s);
+      read_optional(run, "outcome", info.outcome_hint);
+      read_optional(run, "services", info.restarts);
+    } catch (const json::exception& error) {
+      throw ConfigError(dir + name + ": " + error.what());
+    }
   }
   return info;
 }
@@ -68,7 +77,7 @@ RunFolder open_run_folder(const std::string& dir, const std::string& default_con
   folder.dir = dir;
   folder.log = dir + "/traverse.lcm";
   if (!fs::is_regular_file(folder.log)) throw ConfigError(folder.log + ": missing");
-  folder.info = read_info(dir + "/run.json");
+  folder.info = read_info(dir);
   folder.scenario = first_existing(dir, {"config/scenario.yaml", "scenario.yaml"});
   folder.orbital_map = first_existing(dir, {"orbital_map.tif", "config/orbital_map.tif"});
   folder.config_dir = fs::is_directory(dir + "/config") ? dir + "/config" : dir;

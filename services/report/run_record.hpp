@@ -152,7 +152,7 @@ struct RunRecord {
   BusRecord bus;
 };
 
-// run.json and the configuration in the run's folder.
+// run.json, simulation.json and the configuration in the run's folder.
 struct RunInfo {
   std::string scenario;
   std::optional<std::int64_t> seed;

@@ -36,6 +36,7 @@ void read_steering(const Config& c, SteeringLawConfig& out) {
   c.read("damping", out.damping, {0.3, 3.0});
   c.read("integral_per_m3", out.integral_per_m3, {0.0, 5.0});
   c.read("max_integral_per_m", out.max_integral_per_m, {0.0, 1.0});
+  c.read("max_integrated_m", out.max_integrated_m, {0.0, 1.0});
   c.read("max_cross_track_m", out.max_cross_track_m, {0.05, 5.0});
 }
 

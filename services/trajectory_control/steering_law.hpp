@@ -13,7 +13,8 @@ struct SteeringLawConfig {
   double length_m = 0.7;  // of the return to the path
   double damping = 1.0;
   double integral_per_m3 = 0.3;      // of cross track over the way: settles within about 5 m
-  double max_integral_per_m = 0.15;  // of the curvature it may add
+  double max_integral_per_m = 0.35;  // of the curvature it may add
+  double max_integrated_m = 0.05;    // of cross track
   double max_cross_track_m = 0.5;    // errors beyond are approached under the same angle, 20 deg
   double max_curvature_per_m = 1.0;
 };

@@ -130,9 +130,15 @@ void TrajectoryController::follow(const PoseInput& pose, const Projection& here,
   command.speed_mps = std::min(profile, max_speed_mps);
 
   curvature_per_m_ = move_towards(curvature_per_m_, command.curvature_per_m, config_.path.max_curvature_rate * dt_s);
-  const double limit = config_.steering.max_integral_per_m;
-  integral_per_m_ =
-      std::clamp(integral_per_m_ + config_.steering.integral_per_m3 * here.cross_track_m * speed * dt_s, -limit, limit);
+  integrate(here.cross_track_m, speed * dt_s);
+}
+
+// Only small errors count, so that the way back to the path from afar leaves no overshoot behind.
+void TrajectoryController::integrate(double cross_track_m, double way_m) {
+  const SteeringLawConfig& c = config_.steering;
+  const double counted = std::clamp(cross_track_m, -c.max_integrated_m, c.max_integrated_m);
+  integral_per_m_ += c.integral_per_m3 * counted * way_m;
+  integral_per_m_ = std::clamp(integral_per_m_, -c.max_integral_per_m, c.max_integral_per_m);
 }
 
 double TrajectoryController::curvature_at(const Pose2& pose, const Projection& place) const {

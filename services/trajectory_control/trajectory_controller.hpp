@@ -79,6 +79,7 @@ class TrajectoryController {
   Projection advance_on_path(const Pose2& pose);
   bool update_turning(double heading_error_rad);
   void follow(const PoseInput& pose, const Projection& here, double dt_s, double max_speed_mps, MotionCommand& command);
+  void integrate(double cross_track_m, double way_m);
   void turn(double heading_error_rad, MotionCommand& command) const;
   void update_side_slip(const PoseInput& pose, double dt_s);
   double curvature_at(const Pose2& pose, const Projection& place) const;

@@ -75,7 +75,9 @@ TEST(SteepestSteering, IsTheLargestDifferenceQuotient) {
   }
 }
 
-TEST(PointTurnRadius, IsTheCornerWheels) { EXPECT_NEAR(point_turn_radius_m(kVehicle), std::hypot(0.75, 0.41), 1e-12); }
+TEST(PointTurnRadius, IsTheCornerWheels) {
+  EXPECT_NEAR(point_turn_radius_m(kVehicle), std::hypot(0.75, 0.41), 1e-12);
+}
 
 }  // namespace
 }  // namespace rover::locomotion

@@ -10,8 +10,12 @@ namespace {
 constexpr Utime kNow = 10'000'000;
 constexpr Utime kAge = 200'000;
 
-DrivePermit permit() { return {kNow - 20'000, kNow + 180'000, true, 0.2}; }
-MotionCommand command() { return {kNow - 20'000, kNow + 180'000, MotionMode::kArc, 0.1, 0.0, 0.0}; }
+DrivePermit permit() {
+  return {kNow - 20'000, kNow + 180'000, true, 0.2};
+}
+MotionCommand command() {
+  return {kNow - 20'000, kNow + 180'000, MotionMode::kArc, 0.1, 0.0, 0.0};
+}
 
 TEST(Lease, HoldsWhileFresh) {
   EXPECT_TRUE(permits(permit(), kNow, kAge));

@@ -1,8 +1,8 @@
 // Times of the simulator's cameras: a stereo pair of each, and a tile of ground.
 #include <benchmark/benchmark.h>
 
-#include "rover_simulator/camera/stereo_camera_sim.hpp"
 #include "camera_test_world.hpp"
+#include "rover_simulator/camera/stereo_camera_sim.hpp"
 
 namespace rover::test {
 namespace {
@@ -18,8 +18,12 @@ void render_pairs(benchmark::State& state, const StereoRig& rig) {
   for (auto _ : state) benchmark::DoNotOptimize(camera.render(T_map_body, frame++));
 }
 
-void loccam_pair(benchmark::State& state) { render_pairs(state, loccam_rig()); }
-void navcam_pair(benchmark::State& state) { render_pairs(state, navcam_rig()); }
+void loccam_pair(benchmark::State& state) {
+  render_pairs(state, loccam_rig());
+}
+void navcam_pair(benchmark::State& state) {
+  render_pairs(state, navcam_rig());
+}
 BENCHMARK(loccam_pair)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 BENCHMARK(navcam_pair)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 

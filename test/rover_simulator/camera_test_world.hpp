@@ -18,7 +18,7 @@ class PlaneSurface : public Surface {
   explicit PlaneSurface(double height_m = 0.0, double slope_x = 0.0, double slope_y = 0.0)
       : height_m_(height_m), slope_x_(slope_x), slope_y_(slope_y) {}
   double height_m(double x, double y) const override { return height_m_ + slope_x_ * x + slope_y_ * y; }
-  Material material(double, double) const override { return {Soil::kFirm, -1}; }
+  Material material(double, double) const override { return {Soil::kFirm, -1, 0.0}; }
 
  private:
   double height_m_, slope_x_, slope_y_;
@@ -32,7 +32,8 @@ class RockySurface : public Surface {
   Material material(double x, double y) const override {
     const double zone = std::sin(0.31 * x + 0.5) + std::cos(0.27 * y);
     const Soil soil = zone > 0.7 ? Soil::kSand : zone < -0.9 ? Soil::kBedrock : Soil::kFirm;
-    return {soil, rock_above_ground(x, y).id};
+    const Rock rock = rock_above_ground(x, y);
+    return {soil, rock.id, rock.height_m};
   }
 
  private:

@@ -24,7 +24,7 @@ image_t message_of(const GrayImage& image) {
 class StereoNodeTest : public testing::Test {
  protected:
   StereoNodeTest() : world_("stereo"), stereo_(make_stereo(world_.node(), kConfig)) {
-    const test::RawPair pair = test::render({}, test::loccam_rig(), 1.0, 5);
+    const synthetic::RawPair pair = synthetic::render({}, synthetic::loccam_rig(), 1.0, 5);
     left_ = message_of(pair.left);
     right_ = message_of(pair.right);
     world_.hear(channel::kDisparity, disparities_);

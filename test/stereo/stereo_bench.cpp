@@ -10,10 +10,10 @@ namespace {
 
 void rectification_and_disparity(benchmark::State& state) {
   cv::setNumThreads(1);
-  const rover::StereoRig rig = rover::test::loccam_rig();
-  rover::test::World world;
+  const rover::StereoRig rig = rover::synthetic::loccam_rig();
+  rover::synthetic::World world;
   world.rocks = {{1.5, 0.2, 0.25, 0.2}, {2.0, -0.3, 0.3, 0.3, true}};
-  const rover::test::RawPair pair = rover::test::render(world, rig, 1.0, 5);
+  const rover::synthetic::RawPair pair = rover::synthetic::render(world, rig, 1.0, 5);
   rover::stereo::Stereo stereo({}, rig, 0.62);
   for (auto _ : state) benchmark::DoNotOptimize(stereo.step(pair.left, pair.right));
 }

@@ -40,18 +40,18 @@ Errors compare(const Disparity& disparity, const std::vector<float>& exact, int 
 }
 
 // Ground seen under a pitch of the body about its origin.
-test::World pitched(double pitch_deg) {
-  test::World world;
+synthetic::World pitched(double pitch_deg) {
+  synthetic::World world;
   world.slope_x = std::tan(to_rad(pitch_deg));
   return world;
 }
 
 class StereoTest : public testing::Test {
  protected:
-  StereoTest() : rig_(test::loccam_rig()), stereo_({}, rig_, kGroundBelow) { cv::setNumThreads(1); }
+  StereoTest() : rig_(synthetic::loccam_rig()), stereo_({}, rig_, kGroundBelow) { cv::setNumThreads(1); }
 
-  StereoResult see(const test::World& world, double sigma_grey = 1.0, std::uint64_t seed = 5) {
-    const test::RawPair pair = test::render(world, rig_, sigma_grey, seed);
+  StereoResult see(const synthetic::World& world, double sigma_grey = 1.0, std::uint64_t seed = 5) {
+    const synthetic::RawPair pair = synthetic::render(world, rig_, sigma_grey, seed);
     return *stereo_.step(pair.left, pair.right);
   }
 
@@ -60,7 +60,7 @@ class StereoTest : public testing::Test {
 };
 
 TEST_F(StereoTest, FlatGroundIsMeasuredDenselyAndToATenthOfAPixel) {
-  const auto exact = test::exact_disparity({}, stereo_.camera());
+  const auto exact = synthetic::exact_disparity({}, stereo_.camera());
   const StereoResult result = see({});
   const Errors all = compare(result.disparity, exact);
   EXPECT_GT(all.coverage, 0.95);
@@ -72,8 +72,8 @@ TEST_F(StereoTest, FlatGroundIsMeasuredDenselyAndToATenthOfAPixel) {
 
 TEST_F(StereoTest, SlopesOfTenDegreesAreWithinTheSearch) {
   for (double pitch_deg : {-10.0, 10.0}) {
-    const test::World world = pitched(pitch_deg);
-    const Errors errors = compare(see(world).disparity, test::exact_disparity(world, stereo_.camera()), 160);
+    const synthetic::World world = pitched(pitch_deg);
+    const Errors errors = compare(see(world).disparity, synthetic::exact_disparity(world, stereo_.camera()), 160);
     EXPECT_GT(errors.coverage, 0.95) << pitch_deg;
     EXPECT_LT(errors.rms_px, 0.12) << pitch_deg;
     EXPECT_LT(errors.outliers, 0.005) << pitch_deg;
@@ -82,8 +82,8 @@ TEST_F(StereoTest, SlopesOfTenDegreesAreWithinTheSearch) {
 
 TEST_F(StereoTest, SubpixelErrorDoesNotFollowTheFraction) {
   // A gentle slope runs through all fractions of a pixel.
-  const test::World world = pitched(3.0);
-  const auto exact = test::exact_disparity(world, stereo_.camera());
+  const synthetic::World world = pitched(3.0);
+  const auto exact = synthetic::exact_disparity(world, stereo_.camera());
   const StereoResult result = see(world);
   std::vector<double> sum(10, 0.0), count(10, 0.0);
   for (int v = 128; v < 384; ++v)
@@ -101,7 +101,7 @@ TEST_F(StereoTest, SubpixelErrorDoesNotFollowTheFraction) {
 }
 
 TEST_F(StereoTest, RocksHaveTheirHeight) {
-  test::World world;
+  synthetic::World world;
   world.rocks = {{1.5, 0.2, 0.25, 0.2}, {2.0, -0.3, 0.3, 0.3, true}};
   const StereoCamera& camera = stereo_.camera();
   const StereoResult result = see(world);
@@ -119,7 +119,7 @@ TEST_F(StereoTest, RocksHaveTheirHeight) {
 }
 
 TEST_F(StereoTest, ARockWithoutTextureIsNotGuessed) {
-  test::World world;
+  synthetic::World world;
   world.rocks = {{1.8, 0.0, 0.25, 0.25, false, true}};
   const StereoResult result = see(world, 1.5);
   const StereoCamera& camera = stereo_.camera();
@@ -127,7 +127,7 @@ TEST_F(StereoTest, ARockWithoutTextureIsNotGuessed) {
   for (int v = 0; v < camera.height; ++v)
     for (int u = 0; u < camera.width; ++u) {
       const Eigen::Vector3d ray = camera.T_body_cam.linear() * camera.point(u, v, camera.focal_px * camera.baseline_m);
-      if (test::cast(world, camera.T_body_cam.translation(), ray).rock != 0) continue;
+      if (synthetic::cast(world, camera.T_body_cam.translation(), ray).rock != 0) continue;
       ++inside;
       measured += result.disparity.valid(u, v);
     }
@@ -159,7 +159,7 @@ TEST_F(StereoTest, TheReferencePlaneChangesTheSearchNotTheResult) {
   plain.ground_reference = false;
   plain.matcher.residual_min_px = 0;
   plain.matcher.residual_count_px = 96;
-  const test::RawPair pair = test::render({}, rig_, 1.0, 5);
+  const synthetic::RawPair pair = synthetic::render({}, rig_, 1.0, 5);
   const Disparity a = stereo_.step(pair.left, pair.right)->disparity;
   const Disparity b = Stereo(plain, rig_, kGroundBelow).step(pair.left, pair.right)->disparity;
   std::vector<double> difference;
@@ -174,7 +174,7 @@ TEST_F(StereoTest, RectifiedImagesShowAPointInTheSameRow) {
   // The rectified pair itself, matched without the shear: rows must agree to a fraction of a pixel. A row error of
   // 0.5 px would cost coverage and accuracy on the plane; here the images are compared along rows directly.
   const StereoResult result = see({}, 0.0);
-  const auto exact = test::exact_disparity({}, stereo_.camera());
+  const auto exact = synthetic::exact_disparity({}, stereo_.camera());
   const auto mean_difference = [&](int row_shift) {
     double sum = 0.0;
     int count = 0;
@@ -199,7 +199,7 @@ TEST_F(StereoTest, AnImageOfAnotherSizeIsRefused) {
 }
 
 TEST_F(StereoTest, TheSamePairGivesTheSameBytes) {
-  const test::RawPair pair = test::render({}, rig_, 1.0, 5);
+  const synthetic::RawPair pair = synthetic::render({}, rig_, 1.0, 5);
   const Disparity first = stereo_.step(pair.left, pair.right)->disparity;
   EXPECT_EQ(first.px16, stereo_.step(pair.left, pair.right)->disparity.px16);
   EXPECT_EQ(first.px16, Stereo({}, rig_, kGroundBelow).step(pair.left, pair.right)->disparity.px16);

@@ -5,7 +5,7 @@
 
 #include "common/core/frames.hpp"
 
-namespace rover::test {
+namespace rover::synthetic {
 namespace {
 
 using Eigen::Vector3d;
@@ -180,4 +180,4 @@ StereoCamera loccam_camera() {
   return {512, 384, 417.5, 255.5, 191.5, 0.12, make_pose(camera_rotation(to_rad(33.0)), {0.527, 0.074, 0.059})};
 }
 
-}  // namespace rover::test
+}  // namespace rover::synthetic

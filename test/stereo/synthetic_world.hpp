@@ -10,7 +10,7 @@
 #include "common/core/camera_rig.hpp"
 #include "common/core/image.hpp"
 
-namespace rover::test {
+namespace rover::synthetic {
 
 struct Rock {
   double x_m = 0.0;
@@ -66,4 +66,4 @@ RawPair render(const World& world, const StereoRig& rig, double sigma_grey, std:
 StereoRig loccam_rig();
 StereoCamera loccam_camera();
 
-}  // namespace rover::test
+}  // namespace rover::synthetic

@@ -14,7 +14,9 @@
 
 namespace rover::test {
 
-inline const char* config_dir() { return ROVER_SOURCE_DIR "/config"; }
+inline const char* config_dir() {
+  return ROVER_SOURCE_DIR "/config";
+}
 
 // A polyline from arcs: each a curvature and a length, sampled at `step_m`.
 struct ArcPiece {
@@ -85,8 +87,7 @@ class DriveLoop {
     command_ = control_output.command;
     output = control_output;
     wheel_output = wheel_command;
-    if (pose_alive)
-      pose_ = {now, true, rover.pose(), rover.twist().forward_mps, rover.twist().left_mps};
+    if (pose_alive) pose_ = {now, true, rover.pose(), rover.twist().forward_mps, rover.twist().left_mps};
     if (alter_pose) alter_pose(pose_);
     if (permit_alive) permit_ = {now, permitted ? now + to_utime(0.2) : now, permitted, max_speed_mps};
     if (!control_alive) command_ = last_command_;

@@ -68,6 +68,9 @@ inline constexpr int kPlanes = 3;
 inline constexpr std::array<std::array<int, 2>, kPlanes> kPlaneAxes = {{{0, 1}, {1, 2}, {0, 2}}};
 
 inline constexpr int kDetailLayers = 5;
+// From this layer on the waves are so long (0.3 m) that the finest tiles carry their tone in the albedo of the
+// vertices.
+inline constexpr int kFirstBakedLayer = 3;
 
 struct GroundTexture {
   DetailTexture noise;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 #include "rover_simulator/camera/counter_hash.hpp"
 
@@ -30,9 +32,16 @@ double value_noise(std::uint64_t seed, double x, double y) {
   return (1.0 - v) * ((1.0 - u) * corner(0, 0) + u * corner(1, 0)) + v * ((1.0 - u) * corner(0, 1) + u * corner(1, 1));
 }
 
-// Level below which value_noise stays with the given probability (cubic fit of its measured distribution's lower tail).
+// Level below which value_noise stays with the given probability.
 double noise_quantile(double fraction) {
-  return 0.5 - 0.36 * std::cbrt(1.0 - 2.0 * std::clamp(fraction, 0.0, 1.0));
+  constexpr int kSide = 150;
+  std::vector<double> values;
+  for (int j = 0; j < kSide; ++j)
+    for (int i = 0; i < kSide; ++i) values.push_back(value_noise(1, 0.618 * i, 0.618 * j));
+  const double place = std::clamp(fraction, 0.0, 1.0) * static_cast<double>(values.size() - 1);
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(place);
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
 }
 
 // Relative contrasts: deserts of mixed grain show 15-30 % rms at the scale of centimetres.
@@ -66,23 +75,26 @@ void cover(VertexLook& look, double dust) {
 
 }  // namespace
 
+GroundLook::GroundLook(const GroundLookConfig& config)
+    : config_(config), dust_below_(noise_quantile(config.textureless_fraction)) {}
+
 VertexLook GroundLook::at(double x, double y, const Material& material) const {
   const bool rock = material.rock_id >= 0;
-  VertexLook look = rock ? rock_look(config_.texture_seed, material.rock_id) : soil_look(material.soil);
+  VertexLook look = rock ? rock_look(config_.seed, material.rock_id) : soil_look(material.soil);
   cover(look, rock ? dust_on_rock(material.rock_id) : dust_on_ground(x, y));
   return look;
 }
 
 double GroundLook::dust_on_ground(double x, double y) const {
   if (config_.textureless_fraction <= 0.0) return 0.0;
-  const double level = noise_quantile(config_.textureless_fraction);
-  const double noise = value_noise(hash64(config_.texture_seed, 41), x / kDustPatch_m, y / kDustPatch_m);
+  if (config_.textureless_fraction >= 1.0) return 1.0;
+  const double noise = value_noise(hash64(config_.seed, 41), x / kDustPatch_m, y / kDustPatch_m);
   constexpr double kEdge = 0.03;  // soft rim
-  return smooth(std::clamp((level - noise) / kEdge + 0.5, 0.0, 1.0));
+  return smooth(std::clamp((dust_below_ - noise) / kEdge + 0.5, 0.0, 1.0));
 }
 
 double GroundLook::dust_on_rock(int rock_id) const {
-  const std::uint64_t h = hash64(hash64(config_.texture_seed, 51), static_cast<std::uint64_t>(rock_id));
+  const std::uint64_t h = hash64(hash64(config_.seed, 51), static_cast<std::uint64_t>(rock_id));
   return unit_random(h) < config_.textureless_rock_fraction ? 1.0 : 0.0;
 }
 

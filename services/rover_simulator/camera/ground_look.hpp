@@ -13,7 +13,7 @@ struct GroundLookConfig {
   double sky_light = 0.16;                  // diffuse over direct irradiance (dust opacity about 0.4)
   double textureless_fraction = 0.03;       // share of the ground under smooth dust
   double textureless_rock_fraction = 0.05;  // share of the rocks with a smooth, dusty skin
-  std::uint64_t texture_seed = 1;
+  std::uint64_t seed = 1;
 };
 
 // Look of one vertex; values between vertices are interpolated.
@@ -26,7 +26,7 @@ struct VertexLook {
 
 class GroundLook {
  public:
-  explicit GroundLook(const GroundLookConfig& config) : config_(config) {}
+  explicit GroundLook(const GroundLookConfig& config);
   VertexLook at(double x, double y, const Material& material) const;
   const GroundLookConfig& config() const { return config_; }
 
@@ -36,6 +36,7 @@ class GroundLook {
   double dust_on_rock(int rock_id) const;
 
   GroundLookConfig config_;
+  double dust_below_;  // level of the dust noise
 };
 
 }  // namespace rover

@@ -25,6 +25,7 @@ struct GroundShader::Point {
   Lanes<float> slope_x, slope_y, sun_margin, albedo;
   Lanes<float> fine_contrast, coarse_contrast, bump;
   Lanes<float> normal_x, normal_y, normal_z;
+  Lanes<float> unbaked;      // 0 where the vertices carry the long waves already
   Lanes<float> waves_per_m;  // the finest that a pixel can resolve
   Lanes<int> plane;          // that the textures are projected from, and the point's coordinates in it
   Lanes<float> a, b;
@@ -35,7 +36,7 @@ namespace {
 
 // Bilinear between the tile's vertices. The skirt and rays that graze the rim take the rim's values.
 template <class Point>
-void interpolate(const GroundTile& tile, float x, float y, int k, Point& point) {
+[[gnu::always_inline]] inline void interpolate(const GroundTile& tile, float x, float y, int k, Point& point) {
   const TileLevel& level = kLevels[tile.key().level];
   const auto cells_per_m = static_cast<float>(1.0 / level.spacing_m);
   const float limit = static_cast<float>(level.cells) - 0.001F;
@@ -54,6 +55,7 @@ void interpolate(const GroundTile& tile, float x, float y, int k, Point& point) 
   };
   const Float4 surface = blend(0);
   const Float4 look = blend(1);
+  point.unbaked[k] = tile.baked() ? 0.0F : 1.0F;
   point.slope_x[k] = surface[0];
   point.slope_y[k] = surface[1];
   point.sun_margin[k] = surface[2];
@@ -107,6 +109,7 @@ void GroundShader::add_layer(int index, const Hits& hits, Point& at) const {
   for (int k = 0; k < kPacket; ++k) {
     constexpr float kSlope = 1.0F / (kPixelsFull - kPixelsGone);
     weight[k] = smooth_step((layer.wavelength_m * at.waves_per_m[k] - kPixelsGone) * kSlope);
+    if (index >= kFirstBakedLayer) weight[k] *= at.unbaked[k];
   }
   for (int k = 0; k < kPacket; ++k) sum += weight[k];
   if (sum <= 0.0F) return;
@@ -137,8 +140,8 @@ void GroundShader::add_layer(int index, const Hits& hits, Point& at) const {
   }
 }
 
-[[gnu::target_clones("avx2", "default")]]
-Lanes<float> GroundShader::radiance(const RayPacket& rays, const Hits& hits) const {
+[[gnu::target_clones("avx2", "default")]] Lanes<float> GroundShader::radiance(const RayPacket& rays,
+                                                                              const Hits& hits) const {
   Point at{};
   for (int k = 0; k < kPacket; ++k)
     if (hits.tile[k] != nullptr) interpolate(*hits.tile[k], hits.x[k], hits.y[k], k, at);

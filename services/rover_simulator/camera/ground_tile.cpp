@@ -15,7 +15,7 @@ GroundTile::GroundTile(RTCDevice device, const Heights& heights, const Surface& 
                        const GroundTexture& texture)
     : key_(heights.self->key), origin_(key_.x_m(), key_.y_m(), heights.self->base_m) {
   place_textures(texture);
-  shade_vertices(heights, surface, look);
+  shade_vertices(heights, surface, look, texture);
   build_mesh(device, *heights.self);
 }
 
@@ -36,7 +36,8 @@ void GroundTile::place_textures(const GroundTexture& texture) {
   }
 }
 
-void GroundTile::shade_vertices(const Heights& heights, const Surface& surface, const GroundLook& look) {
+void GroundTile::shade_vertices(const Heights& heights, const Surface& surface, const GroundLook& look,
+                                const GroundTexture& texture) {
   const TileLevel& level = kLevels[key_.level];
   const std::vector<float> margins = sun_margins(heights, look.config());
   const auto slope_per_m = static_cast<float>(0.5 / level.spacing_m);
@@ -47,12 +48,27 @@ void GroundTile::shade_vertices(const Heights& heights, const Surface& surface, 
       const HeightTile& z = *heights.self;
       const double x = origin_.x() + i * level.spacing_m;
       const double y = origin_.y() + j * level.spacing_m;
-      const VertexLook vertex = look.at(x, y, surface.material(x, y));
+      VertexLook vertex = look.at(x, y, surface.material(x, y));
+      if (baked()) {
+        const float tone =
+            baked_tone(texture, static_cast<float>(x - origin_.x()), static_cast<float>(y - origin_.y()));
+        vertex.albedo *= std::max(1.0F + vertex.coarse_contrast * tone, 0.4F);
+      }
       vertices_[index].surface = Float4{slope_per_m * (z.at(i + 1, j) - z.at(i - 1, j)),
                                         slope_per_m * (z.at(i, j + 1) - z.at(i, j - 1)), margins[index], 0.0F};
       vertices_[index].look = Float4{vertex.albedo, vertex.fine_contrast, vertex.coarse_contrast, vertex.bump};
     }
   }
+}
+
+float GroundTile::baked_tone(const GroundTexture& texture, float x, float y) const {
+  float tone = 0.0F;
+  for (int k = kFirstBakedLayer; k < kDetailLayers; ++k) {
+    const DetailLayer& layer = texture.layers[k];
+    const Eigen::Vector2f uv = texture_origin(k, 0) + layer.texels_per_m.cast<float>() * Eigen::Vector2f(x, y);
+    tone += texture.of(layer).sample(uv.x(), uv.y())[0];
+  }
+  return tone;
 }
 
 // One Embree grid. Its outermost ring is a skirt: half a cell outside and below the rim, hidden under the neighbours.
@@ -84,6 +100,7 @@ void GroundTile::build_mesh(RTCDevice device, const HeightTile& heights) {
   *grid = {0, static_cast<unsigned>(side), static_cast<std::uint16_t>(side), static_cast<std::uint16_t>(side)};
   rtcCommitGeometry(geometry);
   scene_ = rtcNewScene(device);
+  rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);  // without it rays slip through between triangles
   rtcAttachGeometry(scene_, geometry);
   rtcReleaseGeometry(geometry);
   rtcCommitScene(scene_);

@@ -37,6 +37,8 @@ class GroundTile {
 
   RTCScene scene() const { return scene_; }
   const TileKey& key() const { return key_; }
+  // The long waves of the texture are in the vertices' albedo.
+  bool baked() const { return key_.level == 0; }
   // Its corner with the smallest x and y; mesh coordinates are relative to it.
   const Eigen::Vector3d& origin() const { return origin_; }
   // Texture coordinates of the origin.
@@ -47,7 +49,9 @@ class GroundTile {
 
  private:
   void place_textures(const GroundTexture& texture);
-  void shade_vertices(const Heights& heights, const Surface& surface, const GroundLook& look);
+  void shade_vertices(const Heights& heights, const Surface& surface, const GroundLook& look,
+                      const GroundTexture& texture);
+  float baked_tone(const GroundTexture& texture, float x, float y) const;
   void build_mesh(RTCDevice device, const HeightTile& heights);
 
   TileKey key_;

@@ -53,7 +53,7 @@ Patch assemble(const GroundTile::Heights& heights, const Eigen::Vector2i& side) 
 // Distances in cells: every cell at first, then in growing steps.
 std::vector<float> march_distances(int cells) {
   std::vector<float> distances;
-  for (float s = 1.0F; s < static_cast<float>(cells); s += std::max(1.0F, 0.06F * s)) distances.push_back(s);
+  for (float s = 1.0F; s < static_cast<float>(cells); s += std::max(1.0F, 0.04F * s)) distances.push_back(s);
   return distances;
 }
 

@@ -30,7 +30,7 @@ TileScene::TileScene(const Surface& surface, const TileSceneConfig& config)
     : surface_(surface),
       config_(config),
       look_(config.look),
-      texture_(config.look.texture_seed),
+      texture_(config.look.seed),
       shader_(config.look, texture_),
       pool_(config.threads),
       device_(rtcNewDevice(kDeviceConfig)) {
@@ -145,6 +145,7 @@ void TileScene::assemble(const std::vector<TileKey>& keys) {
   anchor_ = shown_tiles_.front()->origin();  // sorted by level: a fine tile
   if (scene_ != nullptr) rtcReleaseScene(scene_);
   scene_ = rtcNewScene(device_);
+  rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
   for (size_t i = 0; i < shown_tiles_.size(); ++i) {
     const Eigen::Vector3f offset = (shown_tiles_[i]->origin() - anchor_).cast<float>();
     const float transform[12] = {1, 0, 0, 0, 1, 0, 0, 0, 1, offset.x(), offset.y(), offset.z()};

@@ -55,8 +55,8 @@ class Writer {
     const Eigen::Vector3d at(0.5 * (v_.wheel_x_m[front] + v_.wheel_x_m[middle]), v_.wheel_y_m[front],
                              axle_z_m_ + c_.bogie_pivot_height_m);
     const double length = v_.wheel_x_m[front] - v_.wheel_x_m[middle];
-    return bogie_open(bogie, at, "0 1 0", box_inertia(c_.bogie_mass_kg, length, 0.05, 0.05)) + steered(bogie, front, at) +
-           wheel(middle, wheel_position(middle) - at, v_.wheel_mass_kg) + "</body>";
+    return bogie_open(bogie, at, "0 1 0", box_inertia(c_.bogie_mass_kg, length, 0.05, 0.05)) +
+           steered(bogie, front, at) + wheel(middle, wheel_position(middle) - at, v_.wheel_mass_kg) + "</body>";
   }
 
   std::string rear_bogie() const {

@@ -5,7 +5,9 @@
 namespace rover {
 namespace {
 
-double quantised(double value, double step) { return step > 0.0 ? step * std::round(value / step) : value; }
+double quantised(double value, double step) {
+  return step > 0.0 ? step * std::round(value / step) : value;
+}
 
 }  // namespace
 
@@ -41,8 +43,7 @@ ImuSample SensorSuite::sample_imu(const VehicleTruth& truth) {
   for (int axis = 0; axis < 3; ++axis) {
     wander(gyro_bias_[axis], dt);
     wander(accel_bias_[axis], dt);
-    sample.delta_angle_rad[axis] +=
-        gyro_bias_[axis].value() * dt + normal(config_.gyro_random_walk_rad_rts * root_dt);
+    sample.delta_angle_rad[axis] += gyro_bias_[axis].value() * dt + normal(config_.gyro_random_walk_rad_rts * root_dt);
     sample.delta_velocity_mps[axis] +=
         accel_bias_[axis].value() * dt + normal(config_.accel_random_walk_mps_rts * root_dt);
   }

@@ -14,21 +14,21 @@ namespace rover {
 // random walk 0.07 m/s/sqrt(h), accelerometer bias instability 0.05 mg); KVH DSP-1760 data sheet for the fibre-optic
 // gyro (0.012 deg/sqrt(h), 0.05 deg/h). Constant biases are what remains after calibration on ground [est].
 struct SensorConfig {
-  double gyro_random_walk_rad_rts = 4.4e-5;       // rad/sqrt(s) = 0.15 deg/sqrt(h)
-  double gyro_bias_radps = 2.4e-5;                // rms at start, each axis: 5 deg/h
-  double gyro_bias_instability_radps = 1.5e-6;    // 0.3 deg/h, first-order Markov
-  double accel_random_walk_mps_rts = 1.2e-3;      // m/s/sqrt(s) = 0.07 m/s/sqrt(h)
-  double accel_bias_mps2 = 7.4e-3;                // rms at start: 0.75 mg
-  double accel_bias_instability_mps2 = 4.9e-4;    // 0.05 mg
-  double fog_random_walk_rad_rts = 3.5e-6;        // 0.012 deg/sqrt(h)
-  double fog_bias_radps = 4.8e-6;                 // 1 deg/h
-  double fog_bias_instability_radps = 2.4e-7;     // 0.05 deg/h
+  double gyro_random_walk_rad_rts = 4.4e-5;     // rad/sqrt(s) = 0.15 deg/sqrt(h)
+  double gyro_bias_radps = 2.4e-5;              // rms at start, each axis: 5 deg/h
+  double gyro_bias_instability_radps = 1.5e-6;  // 0.3 deg/h, first-order Markov
+  double accel_random_walk_mps_rts = 1.2e-3;    // m/s/sqrt(s) = 0.07 m/s/sqrt(h)
+  double accel_bias_mps2 = 7.4e-3;              // rms at start: 0.75 mg
+  double accel_bias_instability_mps2 = 4.9e-4;  // 0.05 mg
+  double fog_random_walk_rad_rts = 3.5e-6;      // 0.012 deg/sqrt(h)
+  double fog_bias_radps = 4.8e-6;               // 1 deg/h
+  double fog_bias_instability_radps = 2.4e-7;   // 0.05 deg/h
   double bias_correlation_s = 600.0;
-  double imu_misalignment_rad = 5e-4;             // rms, each axis, of the mounting
-  double encoder_step_rad = 1.745e-3;             // wheel side: 0.1 deg
+  double imu_misalignment_rad = 5e-4;  // rms, each axis, of the mounting
+  double encoder_step_rad = 1.745e-3;  // wheel side: 0.1 deg
   double encoder_rate_noise_radps = 0.003;
   double steer_step_rad = 1.745e-3;
-  double steer_offset_rad = 2e-3;                 // rms of each wheel's zero
+  double steer_offset_rad = 2e-3;  // rms of each wheel's zero
   double bogie_noise_rad = 1e-3;
   double current_noise_a = 0.03;
 };

@@ -94,17 +94,14 @@ class VehicleSim::Impl {
     for (int i = 0; i < 6; ++i) {
       const double c = std::cos(start.yaw_rad), s = std::sin(start.yaw_rad);
       const double x = vehicle_.wheel_x_m[i], y = vehicle_.wheel_y_m[i];
-      A.row(i) << 1.0, x, y;
+      A.row(i) << 1.0, x, y;  // at the wheels' feet, about the point below the body origin
       z[i] = heights_.height_m(start.x_m + c * x - s * y, start.y_m + s * x + c * y);
     }
     const Eigen::Vector3d plane = A.colPivHouseholderQr().solve(z);
     const double rise = std::max(0.0, (z - A * plane).maxCoeff());
-    const Eigen::Matrix3d R =
-        rotation_from_rpy(std::atan(plane[2]), -std::atan(plane[1]), start.yaw_rad);
+    const Eigen::Matrix3d R = rotation_from_rpy(std::atan(plane[2]), -std::atan(plane[1]), start.yaw_rad);
     const Eigen::Quaterniond q(R);
-    const Eigen::Vector3d p =
-        Eigen::Vector3d(start.x_m, start.y_m, plane[0] + rise) +
-        R * Eigen::Vector3d(0.0, 0.0, vehicle_.origin_height_m);
+    const Eigen::Vector3d p(start.x_m, start.y_m, plane[0] + rise + vehicle_.origin_height_m / R(2, 2));
     const double values[7] = {p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z()};
     std::copy(std::begin(values), std::end(values), data_->qpos);
   }
@@ -130,18 +127,17 @@ class VehicleSim::Impl {
 
   void run_motors(const WheelCommand& command) {
     for (int i = 0; i < 6; ++i) {
-      const MotorOutput out = drive_motor_[i].step(config_.drive, vehicle_.drive_current_limit_a,
-                                                   command.drive_rate_radps[i], angle(drive_[i]), rate(drive_[i]),
-                                                   config_.step_s);
+      const MotorOutput out =
+          drive_motor_[i].step(config_.drive, vehicle_.drive_current_limit_a, command.drive_rate_radps[i],
+                               angle(drive_[i]), rate(drive_[i]), config_.step_s);
       apply(drive_[i], out.torque_nm);
       truth_.drive_current_a[i] = out.current_a;
     }
     for (int i = 0; i < 4; ++i) {
-      const double wanted =
-          std::clamp(command.steer_angle_rad[i], -vehicle_.steer_max_rad, vehicle_.steer_max_rad);
-      const MotorOutput out = steer_motor_[i].step(config_.steer, vehicle_.steer_current_limit_a,
-                                                   vehicle_.steer_rate_radps, wanted, angle(steer_[i]),
-                                                   rate(steer_[i]), config_.step_s);
+      const double wanted = std::clamp(command.steer_angle_rad[i], -vehicle_.steer_max_rad, vehicle_.steer_max_rad);
+      const MotorOutput out =
+          steer_motor_[i].step(config_.steer, vehicle_.steer_current_limit_a, vehicle_.steer_rate_radps, wanted,
+                               angle(steer_[i]), rate(steer_[i]), config_.step_s);
       apply(steer_[i], out.torque_nm);
       truth_.steer_current_a[i] = out.current_a;
     }
@@ -171,9 +167,8 @@ class VehicleSim::Impl {
     along_mps_[i] += velocity.dot(along);
 
     const double load = contact.load_n * damping_factor(velocity.dot(contact.normal));
-    const Eigen::Vector2d traction =
-        bristle_[i].step(config_.soil, contact.soil_share, load, velocity.dot(along), velocity.dot(across), rim_mps,
-                         config_.step_s);
+    const Eigen::Vector2d traction = bristle_[i].step(config_.soil, contact.soil_share, load, velocity.dot(along),
+                                                      velocity.dot(across), rim_mps, config_.step_s);
     truth_.wheel_load_n[i] = load;
     const Eigen::Vector3d rim_force = load * contact.normal + traction.x() * along + traction.y() * across;
     const Eigen::Vector3d axle_force =
@@ -234,7 +229,11 @@ VehicleSim::VehicleSim(const Vehicle& vehicle, const VehicleSimConfig& config, c
                        const Pose2& start)
     : impl_(std::make_unique<Impl>(vehicle, config, surface, start)) {}
 VehicleSim::~VehicleSim() = default;
-void VehicleSim::advance(double dt_s, const WheelCommand& command) { impl_->advance(dt_s, command); }
-const VehicleTruth& VehicleSim::truth() const { return impl_->truth(); }
+void VehicleSim::advance(double dt_s, const WheelCommand& command) {
+  impl_->advance(dt_s, command);
+}
+const VehicleTruth& VehicleSim::truth() const {
+  return impl_->truth();
+}
 
 }  // namespace rover

@@ -25,9 +25,9 @@ struct WheelCommand {
 struct VehicleSimConfig {
   double gravity_mps2 = 3.71;
   double step_s = 0.002;
-  double settle_s = 3.0;              // before the first tick, wheels at rest
-  double bogie_mass_kg = 2.0;         // each of the three
-  double bogie_pivot_height_m = 0.10; // over the wheels' axles
+  double settle_s = 3.0;               // before the first tick, wheels at rest
+  double bogie_mass_kg = 2.0;          // each of the three
+  double bogie_pivot_height_m = 0.10;  // over the wheels' axles
   double bogie_damping_nms = 8.0;
   double bogie_limit_rad = 0.6;
   ContactConfig contact;
@@ -41,24 +41,24 @@ enum class Collision : std::int8_t { kNone = 0, kBodyContact = 1, kWheelClimb = 
 // All of it at the end of the last advance(), in map and body axes; angles over the sensors' interval are increments.
 struct VehicleTruth {
   Eigen::Isometry3d T_map_body = Eigen::Isometry3d::Identity();
-  Eigen::Vector3d velocity_map_mps = Eigen::Vector3d::Zero();      // of the body origin
+  Eigen::Vector3d velocity_map_mps = Eigen::Vector3d::Zero();  // of the body origin
   Eigen::Vector3d rate_body_radps = Eigen::Vector3d::Zero();
   Eigen::Vector3d specific_force_body_mps2 = Eigen::Vector3d::Zero();  // at the IMU, mean over the interval
-  Eigen::Vector3d delta_angle_rad = Eigen::Vector3d::Zero();       // of the body over the interval, body axes
-  Eigen::Vector3d delta_velocity_mps = Eigen::Vector3d::Zero();    // integral of specific force at the IMU, body axes
+  Eigen::Vector3d delta_angle_rad = Eigen::Vector3d::Zero();           // of the body over the interval, body axes
+  Eigen::Vector3d delta_velocity_mps = Eigen::Vector3d::Zero();  // integral of specific force at the IMU, body axes
   double interval_s = 0.0;
-  std::array<double, 6> wheel_angle_rad{};                         // unwrapped, positive forward
+  std::array<double, 6> wheel_angle_rad{};  // unwrapped, positive forward
   std::array<double, 6> wheel_rate_radps{};
   std::array<double, 6> drive_current_a{};
   std::array<double, 4> steer_angle_rad{};
   std::array<double, 4> steer_current_a{};
   std::array<double, 3> bogie_angle_rad{};
   std::array<double, 6> wheel_load_n{};
-  std::array<double, 6> wheel_slip{};       // 1 - v / (w R); 0 where the wheel hardly turns
+  std::array<double, 6> wheel_slip{};  // 1 - v / (w R); 0 where the wheel hardly turns
   std::array<double, 6> wheel_sinkage_m{};
   std::array<Soil, 6> wheel_soil{};
-  double clearance_m = 0.0;                 // belly over ground and rock
-  double climb_m = 0.0;                     // highest rock surface under a wheel, over the ground
+  double clearance_m = 0.0;  // belly over ground and rock
+  double climb_m = 0.0;      // highest rock surface under a wheel, over the ground
   Collision collision = Collision::kNone;
 };
 

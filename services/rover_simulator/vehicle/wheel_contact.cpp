@@ -11,7 +11,7 @@ constexpr int kStrips = 3;
 // Sums over the segments of one wheel.
 struct Sums {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
-  double load = 0.0;             // of magnitudes
+  double load = 0.0;  // of magnitudes
   double load_times_across = 0.0;
   double load_times_depth = 0.0;
   std::array<double, 3> by_soil{};
@@ -45,8 +45,7 @@ void add_strip(const ContactConfig& config, const Vehicle& vehicle, HeightCache&
     const double distance_sq = x * x + z * z;
     if (i == 0 || distance_sq >= radius * radius || distance_sq < 1e-12) continue;
     const double distance = std::sqrt(distance_sq), depth = radius - distance;
-    const Material material =
-        heights.material(base.x() + x * plane.f.x(), base.y() + x * plane.f.y());
+    const Material material = heights.material(base.x() + x * plane.f.x(), base.y() + x * plane.f.y());
     const auto soil = static_cast<size_t>(material.soil);
     const double load = config.stiffness_npm2[soil] / kStrips * depth * length;
     sums.force -= load / distance * (x * plane.f + z * plane.u);
@@ -75,8 +74,8 @@ WheelContact find_contact(const ContactConfig& config, const Vehicle& vehicle, H
   contact.load_n = load;
   contact.normal = sums.force / load;
   const double depth = sums.load_times_depth / sums.load;
-  contact.point = p_map_axle + sums.load_times_across / sums.load * plane.axle -
-                  (vehicle.wheel_radius_m - depth) * contact.normal;
+  contact.point =
+      p_map_axle + sums.load_times_across / sums.load * plane.axle - (vehicle.wheel_radius_m - depth) * contact.normal;
   for (size_t soil = 0; soil < 3; ++soil) contact.soil_share[soil] = sums.by_soil[soil] / sums.load;
   return contact;
 }

@@ -15,30 +15,37 @@ struct Point {
   double slip, slope_deg;
 };
 
-// Slip against slope [project's table, estimates tied to Opportunity's 50 % in Endurance crater]; the last point of each
-// is the most the soil gives at full slip.
-constexpr Point kSand[] = {{0.05, 0}, {0.10, 5}, {0.22, 10}, {0.33, 12.5}, {0.50, 15}, {0.70, 17.5}, {0.95, 20},
-                           {1.0, 20.3}};
-constexpr Point kFirm[] = {{0.01, 0}, {0.03, 5}, {0.06, 10}, {0.09, 12.5}, {0.14, 15}, {0.20, 17.5}, {0.28, 20},
-                           {0.50, 25}, {0.80, 30}, {1.0, 32}};
-constexpr Point kBedrock[] = {{0.002, 0}, {0.01, 5}, {0.02, 10}, {0.03, 12.5}, {0.04, 15}, {0.05, 17.5}, {0.07, 20},
-                              {0.11, 25}, {0.20, 30}, {0.5, 38}, {1.0, 45}};
+// Slip against slope [project's table, estimates tied to Opportunity's 50 % in Endurance crater]; the last point of
+// each is the most the soil gives at full slip.
+constexpr Point kSand[] = {{0.05, 0},  {0.10, 5},    {0.22, 10}, {0.33, 12.5},
+                           {0.50, 15}, {0.70, 17.5}, {0.95, 20}, {1.0, 20.3}};
+constexpr Point kFirm[] = {{0.01, 0},    {0.03, 5},  {0.06, 10}, {0.09, 12.5}, {0.14, 15},
+                           {0.20, 17.5}, {0.28, 20}, {0.50, 25}, {0.80, 30},   {1.0, 32}};
+constexpr Point kBedrock[] = {{0.002, 0}, {0.01, 5},  {0.02, 10}, {0.03, 12.5}, {0.04, 15}, {0.05, 17.5},
+                              {0.07, 20}, {0.11, 25}, {0.20, 30}, {0.5, 38},    {1.0, 45}};
 constexpr std::array<double, 3> kRolling = {0.10, 0.03, 0.015};
 
 std::span<const Point> table_of(Soil soil) {
   switch (soil) {
-    case Soil::kSand: return kSand;
-    case Soil::kBedrock: return kBedrock;
-    case Soil::kFirm: break;
+    case Soil::kSand:
+      return kSand;
+    case Soil::kBedrock:
+      return kBedrock;
+    case Soil::kFirm:
+      break;
   }
   return kFirm;
 }
 
-double net_traction(const Point& point) { return std::tan(to_rad(point.slope_deg)); }
+double net_traction(const Point& point) {
+  return std::tan(to_rad(point.slope_deg));
+}
 
 }  // namespace
 
-double rolling_resistance(Soil soil) { return kRolling[static_cast<size_t>(soil)]; }
+double rolling_resistance(Soil soil) {
+  return kRolling[static_cast<size_t>(soil)];
+}
 
 double gross_traction(Soil soil, double slip) {
   const std::span<const Point> table = table_of(soil);

@@ -13,12 +13,12 @@
 namespace rover {
 
 struct WheelSoilConfig {
-  double relaxation_m = 0.02;       // sigma
-  double damping_spm = 4.0;         // c, per newton of load
-  double lateral_factor = 0.9;      // sideways force over lengthwise force at the same slip
-  double rolling_speed_mps = 0.01;  // below it rolling resistance fades to none
-  double scrub_arm_m = 0.03;        // a wheel that turns on the spot rubs with mu times this arm [est]
-  double scrub_rate_radps = 0.1;    // below it scrubbing fades
+  double relaxation_m = 0.02;        // sigma
+  double damping_spm = 4.0;          // c, per newton of load
+  double lateral_factor = 0.9;       // sideways force over lengthwise force at the same slip
+  double rolling_speed_mps = 0.002;  // below it rolling resistance fades to none
+  double scrub_arm_m = 0.03;         // a wheel that turns on the spot rubs with mu times this arm [est]
+  double scrub_rate_radps = 0.1;     // below it scrubbing fades
 };
 
 // Traction over load at this slip, rolling resistance included: mu, piecewise linear through the table's points.

@@ -68,9 +68,9 @@ ElevationRaster read_elevation(const std::string& file) {
   GDALRasterBand& band = *dataset->GetRasterBand(1);
   // Rows from the south: start at the last line and step backwards.
   float* last_row = raster.z_m.data() + static_cast<size_t>(raster.height - 1) * raster.width;
-  const CPLErr error = band.RasterIO(GF_Read, 0, 0, raster.width, raster.height, last_row, raster.width, raster.height,
-                                     GDT_Float32, sizeof(float),
-                                     -static_cast<GSpacing>(sizeof(float)) * raster.width, nullptr);
+  const CPLErr error =
+      band.RasterIO(GF_Read, 0, 0, raster.width, raster.height, last_row, raster.width, raster.height, GDT_Float32,
+                    sizeof(float), -static_cast<GSpacing>(sizeof(float)) * raster.width, nullptr);
   if (error != CE_None) throw DtmError(file + ": elevation model is cut short or damaged" + last_gdal_error());
   check_heights(band, raster.z_m, file);
   return raster;

@@ -14,8 +14,8 @@ class DtmError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Heights as the file has them. Throws DtmError where the file is missing, cut short, without georeference, not north-up
-// with square pixels, or has voids.
+// Heights as the file has them. Throws DtmError where the file is missing, cut short, without georeference, not
+// north-up with square pixels, or has voids.
 ElevationRaster read_elevation(const std::string& file);
 
 }  // namespace rover

@@ -1,5 +1,6 @@
-// A raster of heights with its georeference: pixel (0, 0) is the south-west one, columns grow eastwards, rows northwards.
-// In the map frame the raster's lower left corner is the origin, so pixel (i, j) is centred on (i + 1/2, j + 1/2) pixels.
+// A raster of heights with its georeference: pixel (0, 0) is the south-west one, columns grow eastwards, rows
+// northwards. In the map frame the raster's lower left corner is the origin, so pixel (i, j) is centred on (i + 1/2, j
+// + 1/2) pixels.
 #pragma once
 
 #include <string>
@@ -11,7 +12,7 @@ struct ElevationRaster {
   int width = 0;
   int height = 0;
   double resolution_m = 0.0;
-  double west_m = 0.0;   // of the lower left corner, in the projection
+  double west_m = 0.0;  // of the lower left corner, in the projection
   double south_m = 0.0;
   std::string projection_wkt;
   std::vector<float> z_m;  // row by row from the south
@@ -23,7 +24,6 @@ struct ElevationRaster {
 };
 
 // A plane that rises by the slope towards the given direction (0: east, counter-clockwise), lowest pixel at 0.
-ElevationRaster plane_raster(double width_m, double height_m, double resolution_m, double slope_rad,
-                             double toward_rad);
+ElevationRaster plane_raster(double width_m, double height_m, double resolution_m, double slope_rad, double toward_rad);
 
 }  // namespace rover

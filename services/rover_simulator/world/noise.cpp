@@ -31,7 +31,9 @@ std::uint64_t corner_key(std::uint64_t seed, std::int64_t ix, std::int64_t iy) {
   return h >> 60;
 }
 
-double fade(double t) { return t * t * t * (t * (t * 6.0 - 15.0) + 10.0); }
+double fade(double t) {
+  return t * t * t * (t * (t * 6.0 - 15.0) + 10.0);
+}
 
 // Standard deviation of the raw noise with unit gradients, from its integral over a cell and all directions:
 // 2 A B, A = int (1 - fade(t))^2 t^2 dt * 2 ..., evaluated once numerically and checked by the test.

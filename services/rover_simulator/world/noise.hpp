@@ -16,7 +16,9 @@ constexpr std::uint64_t hash_cell(std::uint64_t seed, std::int64_t ix, std::int6
   return mix64(mix64(seed ^ static_cast<std::uint64_t>(ix)) + static_cast<std::uint64_t>(iy));
 }
 // In [0, 1).
-constexpr double unit_of(std::uint64_t bits) { return static_cast<double>(bits >> 11) * 0x1p-53; }
+constexpr double unit_of(std::uint64_t bits) {
+  return static_cast<double>(bits >> 11) * 0x1p-53;
+}
 
 // A stream of numbers that starts from a hash.
 class HashStream {

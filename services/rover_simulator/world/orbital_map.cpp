@@ -84,8 +84,8 @@ ElevationRaster World::orbital_map(double resolution_m) const {
   for (int row = 0; row < map.height; ++row)
     for (int column = 0; column < map.width; ++column) {
       const size_t i = static_cast<size_t>(row) * map.width + column;
-      map.z_m[i] = static_cast<float>(
-          box_mean(*this, column * resolution_m + dx[i], row * resolution_m + dy[i], resolution_m));
+      map.z_m[i] =
+          static_cast<float>(box_mean(*this, column * resolution_m + dx[i], row * resolution_m + dy[i], resolution_m));
     }
   const std::vector<double> kernel = gaussian_kernel(config.smoothing_px);
   smooth_along(map, kernel, true);

@@ -14,7 +14,9 @@ constexpr int kQuantiles = 2048;
 constexpr int kIntegrationSteps = 400;
 constexpr double kMaxElongation = 1.6;  // long over short axis
 
-double q_of(double k) { return 1.79 + 0.152 / k; }
+double q_of(double k) {
+  return 1.79 + 0.152 / k;
+}
 
 int poisson(double mean, HashStream& stream) {
   // Knuth's product of uniforms: the mean is a few rocks a cell.
@@ -129,8 +131,8 @@ RockField::Shape RockField::shape_of(const Rock& rock) const {
   return shape;
 }
 
-// In the ellipse's own coordinates (u, v), |(u, v)| <= 1: the lowest of a dome, a tilted top, the flanks' planes and the
-// ellipse's own rim; 1 at the centre. Continuous, and zero from the rim outwards.
+// In the ellipse's own coordinates (u, v), |(u, v)| <= 1: the lowest of a dome, a tilted top, the flanks' planes and
+// the ellipse's own rim; 1 at the centre. Continuous, and zero from the rim outwards.
 float RockField::profile_m(const Shape& shape, float dx_m, float dy_m) {
   const float u = (shape.axis_x * dx_m + shape.axis_y * dy_m) * shape.inverse_long;
   const float v = (shape.axis_x * dy_m - shape.axis_y * dx_m) * shape.inverse_short;

@@ -28,7 +28,7 @@ struct KeepClear {
 };
 
 struct RockConfig {
-  double k = 0.08;               // cumulative fractional area of all rocks; 0: none
+  double k = 0.08;  // cumulative fractional area of all rocks; 0: none
   double min_diameter_m = 0.08;
   double max_diameter_m = 1.5;
   double min_height_ratio = 0.3;  // height over diameter: spread about Golombek's 1/2
@@ -57,7 +57,7 @@ class RockField {
   static constexpr int kFlanks = 6;
   struct Shape {
     float x_m, y_m, reach_m, height_m;
-    float axis_x, axis_y;              // direction of the long axis
+    float axis_x, axis_y;               // direction of the long axis
     float inverse_long, inverse_short;  // 1 / semi-axis [1/m]
     float dome, tilt_x, tilt_y;
     std::array<float, kFlanks> flank_x, flank_y, flank_offset, flank_rise;

@@ -12,7 +12,9 @@ namespace {
 
 // Each part of the world draws from a stream of its own.
 enum Stream : std::uint64_t { kRocks = 1, kSoil = 2, kRoughness = 3 };
-std::uint64_t stream_seed(std::uint64_t seed, Stream stream) { return hash_cell(seed, stream, 0); }
+std::uint64_t stream_seed(std::uint64_t seed, Stream stream) {
+  return hash_cell(seed, stream, 0);
+}
 
 // Cubic convolution (Keys 1981, a = -1/2): weights and their derivatives for the four neighbours.
 struct Cubic {
@@ -81,7 +83,9 @@ double World::roughness_m(double x_m, double y_m) const {
                 blend.bedrock * (config_.roughness.bedrock_factor - 1.0));
 }
 
-double World::smooth_height_m(double x_m, double y_m) const { return smooth_ground(x_m, y_m).height_m; }
+double World::smooth_height_m(double x_m, double y_m) const {
+  return smooth_ground(x_m, y_m).height_m;
+}
 
 double World::ground_height_m(double x_m, double y_m) const {
   return smooth_ground(x_m, y_m).height_m + roughness_m(x_m, y_m);

@@ -13,20 +13,20 @@
 namespace rover {
 
 struct RoughnessConfig {
-  double rms_m = 0.012;          // of the whole fractal on firm ground; 0: smooth
-  double longest_wave_m = 1.0;   // the elevation model's own resolution
-  int octaves = 5;               // each of half the wavelength of the one before
-  double hurst = 0.8;            // amplitude falls with wavelength^hurst (Mars at sub-metre scale: about 0.7-0.9)
+  double rms_m = 0.012;         // of the whole fractal on firm ground; 0: smooth
+  double longest_wave_m = 1.0;  // the elevation model's own resolution
+  int octaves = 5;              // each of half the wavelength of the one before
+  double hurst = 0.8;           // amplitude falls with wavelength^hurst (Mars at sub-metre scale: about 0.7-0.9)
   double sand_factor = 0.5;
   double bedrock_factor = 1.3;
 };
 
 // How the orbital map errs against the world.
 struct OrbitalConfig {
-  double smoothing_px = 0.7;          // Gaussian, standard deviation
-  double vertical_noise_m = 0.1;      // rms
+  double smoothing_px = 0.7;      // Gaussian, standard deviation
+  double vertical_noise_m = 0.1;  // rms
   double noise_correlation_px = 2.0;
-  double distortion_m = 0.3;          // rms, horizontal, per axis
+  double distortion_m = 0.3;  // rms, horizontal, per axis
   double distortion_wave_m = 60.0;
 };
 

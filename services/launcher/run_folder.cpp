@@ -1,0 +1,146 @@
+#include "launcher/run_folder.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+
+#include "common/bus/config.hpp"
+#include "rover_simulator/world/dtm_reader.hpp"
+#include "rover_simulator/world/geotiff_writer.hpp"
+#include "rover_simulator/world/scenario.hpp"
+
+namespace rover {
+namespace fs = std::filesystem;
+namespace {
+
+std::string time_stamp() {
+  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  char text[32];
+  std::strftime(text, sizeof text, "%Y%m%d-%H%M%S", std::localtime(&now));
+  return text;
+}
+
+fs::path folder_for(const RunArguments& arguments) {
+  if (!arguments.out.empty()) return fs::absolute(arguments.out);
+  return fs::absolute(fs::path(arguments.source_dir) / "logs" /
+                      (time_stamp() + "-" + scenario_name(arguments.scenario)));
+}
+
+void copy_configuration(const fs::path& from, const fs::path& to) {
+  for (const auto& entry : fs::directory_iterator(from))
+    if (entry.path().extension() == ".yaml") fs::copy_file(entry.path(), to / entry.path().filename());
+}
+
+void write_yaml(const fs::path& file, const YAML::Node& node) {
+  YAML::Emitter out;
+  out.SetDoublePrecision(17);
+  out << node;
+  std::ofstream stream(file);
+  stream << out.c_str() << "\n";
+  stream.close();
+  if (!stream) throw ConfigError(file.string() + ": cannot be written");
+}
+
+// The elevation model is named absolutely in the run's copy, which lies elsewhere.
+void copy_scenario(const std::string& file, const std::string& dtm_file, const fs::path& to) {
+  YAML::Node scenario = YAML::LoadFile(file);
+  if (!dtm_file.empty()) scenario["world"]["dtm"] = fs::absolute(dtm_file).lexically_normal().string();
+  write_yaml(to, scenario);
+}
+
+// One setting "file.key.key=value" in the run's copy of the configuration.
+void apply_setting(const std::string& setting, const fs::path& config_dir) {
+  static const std::regex form(R"(([A-Za-z0-9_]+)\.([A-Za-z0-9_.]+)=(.*))");
+  std::smatch match;
+  if (!std::regex_match(setting, match, form))
+    throw ConfigError("--set " + setting + ": file.key=value is expected, as in path_planner.margin_m=0.2");
+  const fs::path file = config_dir / (match[1].str() + ".yaml");
+  if (!fs::exists(file)) throw ConfigError("--set " + setting + ": there is no config/" + match[1].str() + ".yaml");
+  const YAML::Node root = YAML::LoadFile(file);
+  YAML::Node node = root;
+  std::string rest = match[2];
+  for (size_t dot = rest.find('.'); dot != std::string::npos; dot = rest.find('.')) {
+    YAML::Node child = node[rest.substr(0, dot)];
+    if (!child.IsDefined() || !child.IsMap())
+      throw ConfigError("--set " + setting + ": no section '" + rest.substr(0, dot) + "' in " + file.filename().string());
+    node.reset(child);
+    rest = rest.substr(dot + 1);
+  }
+  try {
+    node[rest] = YAML::Load(match[3]);
+  } catch (const YAML::Exception& error) {
+    throw ConfigError("--set " + setting + ": not a value: " + error.msg);
+  }
+  write_yaml(file, root);
+}
+
+// What the ground knows and orders: the start by its own belief, the height from the orbital map.
+void write_ground(const Scenario& scenario, const std::string& level, double start_z_m, const fs::path& file) {
+  const Pose2 start = scenario.start_pose();
+  YAML::Node ground;
+  ground["start"]["x_m"] = start.x_m;
+  ground["start"]["y_m"] = start.y_m;
+  ground["start"]["z_m"] = start_z_m;
+  ground["start"]["yaw_deg"] = to_deg(start.yaw_rad);
+  ground["start"]["sigma_m"] = std::max(0.01, scenario.start.sigma_m);
+  ground["start"]["sigma_yaw_deg"] = std::max(0.05, to_deg(scenario.start.sigma_yaw_rad));
+  ground["start"]["clear_radius_m"] = scenario.start.clear_radius_m;
+  ground["path"]["x_m"] = scenario.path.x_m;
+  ground["path"]["y_m"] = scenario.path.y_m;
+  std::vector<int> levels = scenario.path.level;
+  if (level != "auto") std::fill(levels.begin(), levels.end(), level == "full" ? 1 : 0);
+  ground["path"]["level"] = levels;
+  ground["path"]["corridor_half_width_m"] = scenario.path.corridor_half_width_m;
+  ground["path"]["goal_tolerance_m"] = scenario.path.goal_tolerance_m;
+  write_yaml(file, ground);
+}
+
+double height_at(const ElevationRaster& raster, double x_m, double y_m) {
+  const int column = std::clamp(static_cast<int>(x_m / raster.resolution_m), 0, raster.width - 1);
+  const int row = std::clamp(static_cast<int>(y_m / raster.resolution_m), 0, raster.height - 1);
+  return raster.at(column, row);
+}
+
+void create_folders(const fs::path& dir) {
+  std::error_code error;
+  if (fs::exists(dir) && !fs::is_empty(dir, error)) throw ConfigError(dir.string() + ": exists already and is not empty");
+  fs::create_directories(dir / "config", error);
+  fs::create_directories(dir / "service_logs", error);
+  if (error) throw ConfigError(dir.string() + ": cannot be made: " + error.message());
+}
+
+}  // namespace
+
+RunFolder make_run_folder(const RunArguments& given) {
+  RunArguments arguments = given;
+  const fs::path config_source = fs::path(arguments.source_dir) / "config";
+  if (arguments.scenario.empty()) arguments.scenario = (config_source / "scenarios" / "default.yaml").string();
+  const fs::path dir = folder_for(arguments);
+  if (!fs::is_regular_file(arguments.scenario)) throw ConfigError(arguments.scenario + ": no such file");
+  // Before anything is made, so that what is wrong is named in the user's own file.
+  const std::string dtm_file = load_scenario(arguments.scenario).dtm_file;
+  create_folders(dir);
+  RunFolder folder{dir, dir / "config", dir / "config" / "scenario.yaml", arguments.bus, 0};
+  copy_configuration(config_source, folder.config_dir);
+  copy_scenario(arguments.scenario, dtm_file, folder.scenario);
+  if (!arguments.record.empty()) apply_setting("recorder.record=" + arguments.record, folder.config_dir);
+  for (const std::string& setting : arguments.set) apply_setting(setting, folder.config_dir);
+  if (!folder.bus_url.empty()) apply_setting("bus.url=" + folder.bus_url, folder.config_dir);
+  folder.bus_url = Config::load(folder.config_dir + "/bus.yaml").text("url");
+
+  const Scenario scenario = load_scenario(folder.scenario);
+  folder.seed = arguments.seed >= 0 ? arguments.seed : static_cast<std::int64_t>(scenario.seed);
+  const World world(scenario.world, scenario.dtm, static_cast<std::uint64_t>(folder.seed));
+  const ElevationRaster orbital = world.orbital_map(scenario.orbital_resolution_m);
+  write_geotiff(folder.dir + "/orbital_map.tif", orbital);
+  const Pose2 start = scenario.start_pose();
+  write_ground(scenario, arguments.level, height_at(orbital, start.x_m, start.y_m), folder.config_dir + "/ground.yaml");
+  return folder;
+}
+
+}  // namespace rover

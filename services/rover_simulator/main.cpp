@@ -1,0 +1,91 @@
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "common/bus/vehicle_config.hpp"
+#include "rover_simulator/simulator.hpp"
+#include "rover_simulator/world/scenario.hpp"
+
+namespace {
+
+std::atomic<bool> running{true};
+
+struct Arguments {
+  std::string config_dir = "config";
+  std::string scenario;
+  std::string bus;
+  std::string run_dir;
+  std::uint64_t seed = 1;
+  rover::SimulatorOptions options;
+};
+
+rover::SimulatedRoverConfig rover_config(const rover::Scenario& scenario, std::uint64_t seed) {
+  rover::SimulatedRoverConfig config;
+  config.vehicle.gravity_mps2 = scenario.gravity_mps2;
+  config.loccam.calibration_error_px = scenario.calibration_error_px;
+  config.loccam.scene.look.sun_elevation_rad = scenario.sun_elevation_rad;
+  config.loccam.scene.look.sun_azimuth_rad = scenario.sun_azimuth_rad;
+  config.loccam.scene.look.seed = seed;
+  config.start_sigma_m = scenario.start.sigma_m;
+  config.start_sigma_yaw_rad = scenario.start.sigma_yaw_rad;
+  return config;
+}
+
+void write_summary(const std::string& run_dir, const rover::SimulationSummary& summary) {
+  const nlohmann::json json = {{"outcome", summary.outcome},
+                               {"deterministic", summary.deterministic},
+                               {"simulated_s", summary.simulated_s},
+                               {"wall_s", summary.wall_s},
+                               {"left", summary.left}};
+  std::ofstream(run_dir + "/simulation.json.new") << json.dump(2) << "\n";
+  std::filesystem::rename(run_dir + "/simulation.json.new", run_dir + "/simulation.json");
+}
+
+int simulate(Arguments& arguments) {
+  const rover::Scenario scenario = rover::load_scenario(arguments.scenario);
+  const rover::Vehicle vehicle = rover::load_vehicle(arguments.config_dir);
+  const rover::StereoRig loccam = rover::load_stereo_rig(arguments.config_dir, "loccam");
+  auto world = std::make_unique<rover::World>(scenario.world, scenario.dtm, arguments.seed);
+  rover::SimulatedRover rover_and_world(rover_config(scenario, arguments.seed), vehicle, loccam, std::move(world),
+                                        scenario.start_pose(), arguments.seed);
+  lcm::LCM lcm(arguments.bus);
+  if (!lcm.good()) throw rover::ConfigError("bus: cannot join " + arguments.bus);
+  arguments.options.end.timeout_s = scenario.timeout_s;
+  rover::Simulator simulator(arguments.options, rover_and_world, lcm);
+  const rover::SimulationSummary summary = simulator.run([] { return running.load(); });
+  for (const std::string& left : summary.left) std::printf("%s\n", left.c_str());
+  if (!arguments.run_dir.empty()) write_summary(arguments.run_dir, summary);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Arguments arguments;
+  CLI::App app("rover_simulator: the world, its vehicle and its clock");
+  app.add_option("--config", arguments.config_dir, "folder of the configuration")->capture_default_str();
+  app.add_option("--scenario", arguments.scenario, "scenario file")->required();
+  app.add_option("--bus", arguments.bus, "LCM URL")->required();
+  app.add_option("--run-dir", arguments.run_dir, "the run's folder, for the summary");
+  app.add_option("--seed", arguments.seed, "seed of everything random")->capture_default_str();
+  app.add_option("--participants", arguments.options.participants, "services that the ticks wait for")->delimiter(',');
+  app.add_option("--boot-id", arguments.options.boot_id, "start number");
+  app.add_flag("--realtime", arguments.options.realtime, "pace by the clock");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  std::signal(SIGTERM, [](int) { running = false; });
+  std::signal(SIGINT, [](int) { running = false; });
+  try {
+    return simulate(arguments);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "rover_simulator: %s\n", error.what());
+    return 2;
+  }
+}

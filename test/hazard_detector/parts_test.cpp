@@ -1,0 +1,168 @@
+// The parts of the hazard detector against oracles.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "hazard_detector/cell_states.hpp"
+#include "hazard_detector/disparity_table.hpp"
+#include "hazard_detector/ground_plane.hpp"
+#include "hazard_detector/local_ground.hpp"
+#include "test/hazard_detector/scene.hpp"
+
+namespace rover::hazard {
+namespace {
+
+TEST(DisparityTableTest, TableIsTheDisparityOfFlatGround) {
+  const StereoCamera camera = synthetic::loccam_camera();
+  const DisparityTable table(camera, HazardConfig{});
+  const auto exact = synthetic::exact_disparity({}, camera);
+  EXPECT_NEAR(table.height_m(), 0.679, 1e-12);
+  ASSERT_GT(table.samples().size(), 20000u);
+  for (const Sample& s : table.samples()) {
+    const float truth = exact[static_cast<size_t>(s.index)];
+    if (truth > 0.0f) ASSERT_NEAR(s.d_cal_px16, 16.0f * truth, 0.01f);
+    ASSERT_EQ(s.index, static_cast<int>(s.v) * camera.width + static_cast<int>(s.u));
+  }
+}
+
+TEST(DisparityTableTest, SamplesAreSpreadOverTheGround) {
+  const StereoCamera camera = synthetic::loccam_camera();
+  const DisparityTable table(camera, HazardConfig{});
+  const GridShape shape{GridConfig{}};
+  std::vector<int> count(static_cast<size_t>(shape.size()), 0);
+  for (const Sample& s : table.samples()) {
+    const Eigen::Vector3d p = camera.T_body_cam * camera.point(s.u, s.v, s.d_cal_px16 / 16.0);
+    const int ix = static_cast<int>((p.x() - shape.origin_x_m) / 0.1), iy = static_cast<int>((p.y() + 2.0) / 0.1);
+    if (shape.contains(ix, iy)) ++count[static_cast<size_t>(shape.at(ix, iy))];
+  }
+  for (double x = 1.15; x < 3.0; x += 0.1) {
+    const int ix = static_cast<int>((x - shape.origin_x_m) / 0.1);
+    EXPECT_GE(count[static_cast<size_t>(shape.at(ix, 20))], 10) << x;
+    EXPECT_LE(count[static_cast<size_t>(shape.at(ix, 20))], 220) << x;
+  }
+}
+
+GroundPoints plane_points(double offset, double sx, double sy, std::mt19937_64& random) {
+  std::normal_distribution<double> noise(0.0, 0.01);
+  GroundPoints points;
+  for (double x = 1.0; x < 3.5; x += 0.1)
+    for (double y = -0.5; y < 0.5; y += 0.1)
+      points.emplace_back(static_cast<float>(x), static_cast<float>(y),
+                          static_cast<float>(offset + sx * (x - 0.75) + sy * y + noise(random)));
+  return points;
+}
+
+TEST(GroundPlaneTest, FindsAnyPlaneWithinTheBounds) {
+  std::mt19937_64 random(3);
+  for (double offset : {-0.1, 0.0, 0.1})
+    for (double sx : {-0.18, 0.0, 0.18})
+      for (double sy : {-0.15, 0.0, 0.15}) {
+        const GroundPlane plane = fit_ground_plane(plane_points(offset, sx, sy, random), PlanePrior{});
+        EXPECT_TRUE(plane.measured);
+        EXPECT_NEAR(plane.offset_m, offset, 0.01);
+        EXPECT_NEAR(plane.slope_x, sx, 0.01);
+        EXPECT_NEAR(plane.slope_y, sy, 0.02);
+      }
+}
+
+TEST(GroundPlaneTest, FortyPercentOfTallCellsDoNotPullIt) {
+  std::mt19937_64 random(4);
+  GroundPoints points = plane_points(0.0, 0.05, 0.0, random);
+  for (size_t i = 0; i < points.size(); ++i)
+    if (i % 5 < 2) points[i].z() += 0.1f + 0.05f * static_cast<float>(i % 7);
+  const GroundPlane plane = fit_ground_plane(points, PlanePrior{});
+  EXPECT_NEAR(plane.offset_m, 0.0, 0.02);
+  EXPECT_NEAR(plane.slope_x, 0.05, 0.02);
+}
+
+TEST(GroundPlaneTest, StaysWithinTheBoundsAndNeedsCells) {
+  std::mt19937_64 random(5);
+  const PlanePrior prior;
+  const GroundPlane steep = fit_ground_plane(plane_points(0.4, 0.6, -0.6, random), prior);
+  EXPECT_LE(std::abs(steep.offset_m), prior.max_offset_m + 1e-12);
+  EXPECT_LE(std::abs(steep.slope_x), std::tan(prior.max_slope_rad) + 1e-12);
+  EXPECT_LE(std::abs(steep.slope_y), std::tan(prior.max_slope_rad) + 1e-12);
+  GroundPoints few = plane_points(0.1, 0.1, 0.1, random);
+  few.resize(static_cast<size_t>(prior.min_cells - 1));
+  const GroundPlane none = fit_ground_plane(few, prior);
+  EXPECT_FALSE(none.measured);
+  EXPECT_EQ(none.slope_x, 0.0);
+}
+
+TEST(LocalGroundTest, FollowsASmoothRiseButNotARock) {
+  const GridShape shape{GridConfig{}};
+  std::vector<float> heights(static_cast<size_t>(shape.size()));
+  for (int iy = 0; iy < shape.cells_y; ++iy)
+    for (int ix = 0; ix < shape.cells_x; ++ix) {
+      const double x = shape.x_m(ix), y = shape.y_m(iy);
+      heights[static_cast<size_t>(shape.at(ix, iy))] = static_cast<float>(
+          0.08 * std::exp(-(x - 2.5) * (x - 2.5) / 0.8) + (std::hypot(x - 2.0, y) < 0.2 ? 0.25 : 0.0));
+    }
+  const LocalGround ground = local_ground(heights, shape, ReliefConfig{}, 0.75);
+  const size_t rock = static_cast<size_t>(shape.at(15, 20)), crest = static_cast<size_t>(shape.at(20, 35));
+  EXPECT_LT(ground.low_m[rock], 0.08f);
+  EXPECT_GT(heights[rock] - ground.low_m[rock], 0.2f);
+  EXPECT_NEAR(ground.low_m[crest], 0.06f, 0.025f);
+}
+
+TEST(LocalGroundTest, IsBoundedByTheDistanceFromTheWheels) {
+  const GridShape shape{GridConfig{}};
+  const ReliefConfig config;
+  const std::vector<float> plateau(static_cast<size_t>(shape.size()), 0.5f), unseen(plateau.size(), NAN);
+  const LocalGround high = local_ground(plateau, shape, config, 0.75);
+  for (int ix = 0; ix < shape.cells_x; ++ix) {
+    const double ahead = std::max(0.0, shape.x_m(ix) + config.node_m - 0.75);
+    EXPECT_LE(high.low_m[static_cast<size_t>(shape.at(ix, 10))], config.bound_m + config.bound_per_m * ahead + 1e-6);
+  }
+  for (float height : local_ground(unseen, shape, config, 0.75).low_m) EXPECT_EQ(height, 0.0f);
+}
+
+class CellStatesTest : public testing::Test {
+ protected:
+  CellStatesTest() : evidence_(static_cast<size_t>(shape_.size())) {
+    for (CellEvidence& e : evidence_) e = {.measured = 25, .expected = 25};
+  }
+  CellEvidence& at(int ix, int iy) { return evidence_[static_cast<size_t>(shape_.at(ix, iy))]; }
+  Cell state(int ix, int iy) const {
+    return cell_states(evidence_, shape_, config_)[static_cast<size_t>(shape_.at(ix, iy))];
+  }
+
+  GridShape shape_{GridConfig{}};
+  HazardConfig config_;
+  std::vector<CellEvidence> evidence_;
+};
+
+TEST_F(CellStatesTest, FreeNeedsMostOfTheExpectedSamples) {
+  at(10, 10).measured = 13;
+  at(12, 10).measured = 12;
+  EXPECT_EQ(state(10, 10), Cell::kFree);
+  EXPECT_EQ(state(12, 10), Cell::kUnseen);
+}
+
+TEST_F(CellStatesTest, ACellWithoutAnySampleOfItsOwnIsNotFreeByItsNeighbours) {
+  at(10, 10) = {.measured = 0, .expected = 6};
+  at(14, 10) = {.measured = 1, .expected = 6};
+  EXPECT_EQ(state(10, 10), Cell::kUnseen);
+  EXPECT_EQ(state(14, 10), Cell::kFree);
+}
+
+TEST_F(CellStatesTest, AClusterNeedsEnoughSamplesTogether) {
+  at(10, 10).high = 11;
+  EXPECT_NE(state(10, 10), Cell::kObstacle);
+  at(11, 11).high = 3;
+  EXPECT_EQ(state(10, 10), Cell::kObstacle);
+  EXPECT_EQ(state(11, 11), Cell::kObstacle);
+  EXPECT_EQ(state(12, 12), Cell::kMargin);
+  EXPECT_EQ(state(13, 13), Cell::kFree);
+}
+
+TEST_F(CellStatesTest, FlanksBelongToTheRockAndHolesAreTold) {
+  at(10, 10).high = 20;
+  at(11, 10).raised = 5;
+  at(20, 20).low = 20;
+  EXPECT_EQ(state(11, 10), Cell::kObstacle);
+  EXPECT_EQ(state(20, 20), Cell::kHole);
+}
+
+}  // namespace
+}  // namespace rover::hazard

@@ -1,0 +1,117 @@
+#include "localization/filter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+
+namespace rover::loc {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+constexpr double kGravity = 3.71;
+
+MotionRecord record_at(Utime start, const Vector3d& rate, const Vector3d& force) {
+  MotionRecord r;
+  r.start = start;
+  r.end = start + kTickUs;
+  r.gyro = r.fog = r.force = true;
+  r.delta_angle_rad = rate * 0.02;
+  r.delta_velocity_mps = force * 0.02;
+  return r;
+}
+
+Filter make_filter() {
+  Filter filter({});
+  filter.set_gravity(kGravity);
+  return filter;
+}
+
+TEST(Filter, GravityMendsATiltAndNothingElse) {
+  const Filter filter = make_filter();
+  FilterState state = filter.start(0, rotation_from_rpy(0.008, -0.01, 0.5), Vector3d::Zero());
+  for (int i = 0; i < 50 * 600; ++i)
+    state = filter.advance(state, record_at(state.utime, Vector3d::Zero(), {0, 0, kGravity}), 1.0);
+  const Vector3d rpy = rpy_of(state.T_odom_body.linear());
+  EXPECT_NEAR(rpy.x(), 0.0, 1e-3);
+  EXPECT_NEAR(rpy.y(), 0.0, 1e-3);
+  EXPECT_NEAR(rpy.z(), 0.5, 2e-3);
+  EXPECT_EQ(state.T_odom_body.translation(), Vector3d::Zero());
+}
+
+TEST(Filter, StandingFindsTheGyroBias) {
+  const Filter filter = make_filter();
+  FilterState state = filter.start(0, Matrix3d::Identity(), Vector3d::Zero());
+  const Vector3d bias(5e-5, -3e-5, 1e-5);
+  for (int i = 0; i < 50 * 60; ++i) {
+    MotionRecord r = record_at(state.utime, bias, {0, 0, kGravity});
+    r.standing = true;
+    state = filter.advance(state, r, 1.0);
+  }
+  EXPECT_LT((state.gyro_bias_radps - bias).norm(), 5e-6);
+  EXPECT_TRUE(state.T_odom_body.linear().isIdentity(1e-12)) << "no turning while standing";
+}
+
+TEST(Filter, VisualMotionIsAppliedInTheAxesAtItsStart) {
+  const Filter filter = make_filter();
+  const FilterState state = filter.start(0, rotation_from_rpy(0.0, 0.0, kPi / 2), Vector3d::Zero());
+  std::vector<MotionRecord> records;
+  for (Utime t = 0; t < 400'000; t += kTickUs) records.push_back(record_at(t, Vector3d::Zero(), {0, 0, kGravity}));
+  VisualInterval visual{0, 400'000, make_pose(Matrix3d::Identity(), {0.08, 0.0, 0.0}), Matrix6d::Identity() * 1e-8};
+  const auto fused = filter.fuse_visual(state, records, visual);
+  ASSERT_TRUE(fused.has_value());
+  EXPECT_NEAR(fused->T_odom_body.translation().y(), 0.08, 1e-6);
+  EXPECT_NEAR(fused->T_odom_body.translation().x(), 0.0, 1e-6);
+  EXPECT_EQ(fused->utime, 400'000);
+}
+
+// A turn that only the images saw is an error of the images, and so is the sideways motion that went with it.
+TEST(Filter, GyroMendsThePositionThroughTheCovariance) {
+  const Filter filter = make_filter();
+  const FilterState state = filter.start(0, Matrix3d::Identity(), Vector3d::Zero());
+  std::vector<MotionRecord> records;
+  for (Utime t = 0; t < 400'000; t += kTickUs) records.push_back(record_at(t, Vector3d::Zero(), {0, 0, kGravity}));
+  constexpr double kYawError = 0.002;
+  constexpr double kLever = 1.5;  // m: a turn is taken for a sideways motion of points so far ahead
+  Matrix6d cov = Matrix6d::Identity() * 1e-10;
+  cov(5, 5) = kYawError * kYawError;
+  cov(1, 1) += kLever * kLever * cov(5, 5);
+  cov(1, 5) = cov(5, 1) = -kLever * cov(5, 5);
+  const Eigen::Isometry3d seen = make_pose(rotation_from_rpy(0.0, 0.0, kYawError), {0.08, -kLever * kYawError, 0.0});
+  const auto fused = filter.fuse_visual(state, records, {0, 400'000, seen, cov});
+  ASSERT_TRUE(fused.has_value());
+  EXPECT_NEAR(fused->T_odom_body.translation().y(), 0.0, 2e-4);
+  EXPECT_NEAR(yaw_of(fused->T_odom_body), 0.0, 1e-4);
+}
+
+TEST(Filter, GrossConflictOfRotationsIsRefused) {
+  const Filter filter = make_filter();
+  const FilterState state = filter.start(0, Matrix3d::Identity(), Vector3d::Zero());
+  std::vector<MotionRecord> records;
+  for (Utime t = 0; t < 400'000; t += kTickUs) records.push_back(record_at(t, Vector3d::Zero(), {0, 0, kGravity}));
+  const VisualInterval visual{0, 400'000, make_pose(rotation_from_rpy(0.0, 0.0, 0.1), {0.08, 0.0, 0.0}),
+                              Matrix6d::Identity() * 1e-8};
+  EXPECT_FALSE(filter.fuse_visual(state, records, visual).has_value());
+}
+
+TEST(Filter, CovarianceStaysSymmetricAndPositive) {
+  const Filter filter = make_filter();
+  FilterState state = filter.start(0, Matrix3d::Identity(), Vector3d::Zero());
+  for (int n = 0; n < 500; ++n) {
+    std::vector<MotionRecord> records;
+    for (int i = 0; i < 20; ++i)
+      records.push_back(record_at(state.utime + i * kTickUs, {0.0, 0.0, 0.1}, {0, 0, kGravity}));
+    const Matrix3d R = rotation_from_rpy(0.0, 0.0, 0.04);
+    const auto fused = filter.fuse_visual(
+        state, records,
+        {state.utime, state.utime + 400'000, make_pose(R, {0.08, 0.0, 0.0}), Matrix6d::Identity() * 1e-7});
+    ASSERT_TRUE(fused.has_value());
+    state = *fused;
+  }
+  EXPECT_LT((state.P - state.P.transpose()).norm(), 1e-12);
+  EXPECT_GT(Eigen::SelfAdjointEigenSolver<ErrorCov>(state.P).eigenvalues().minCoeff(), -1e-12);
+}
+
+}  // namespace
+}  // namespace rover::loc

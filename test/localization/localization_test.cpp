@@ -1,0 +1,430 @@
+// Behaviour of localization on synthetic drives: what is late, silent, frozen, wrong or standing.
+#include "localization/localization.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "synthetic_drive.hpp"
+
+namespace rover::loc {
+namespace {
+
+using Eigen::Vector3d;
+
+Twist arc(double t) {
+  return t < 1.5 ? Twist{} : Twist{0.2, 0.08 * std::sin(0.15 * t)};
+}
+Twist point_turn(double t) {
+  return t < 1.5 ? Twist{} : Twist{0.0, 0.2};
+}
+
+double position_error(const SyntheticDrive& drive) {
+  return (drive.localization.pose().T_odom_body.translation() - drive.truth_odom().translation()).norm();
+}
+
+double attitude_error(const SyntheticDrive& drive) {
+  return log_so3(drive.localization.pose().T_odom_body.linear().transpose() * drive.truth_odom().linear()).norm();
+}
+
+TEST(Localization, StaysUninitialisedUntilLevelAndPlaced) {
+  SyntheticDrive drive({}, 1);
+  drive.run(0.5);
+  EXPECT_EQ(drive.localization.pose().status, PoseStatus::kUninitialised);
+  EXPECT_FALSE(is_finite(drive.localization.pose().T_odom_body));
+  EXPECT_NE(drive.localization.take_start_pose({Vector3d::Zero(), 0.0, 0.1, 0.1}), "");
+  drive.run(1.5);
+  EXPECT_EQ(drive.localization.pose().status, PoseStatus::kUninitialised);
+  EXPECT_TRUE(is_finite(drive.localization.pose().T_odom_body));
+  EXPECT_EQ(drive.localization.take_start_pose({Vector3d(5.0, 6.0, 7.0), 1.0, 0.1, 0.1}), "");
+  drive.run(0.1);
+  EXPECT_EQ(drive.localization.pose().status, PoseStatus::kOk);
+  const Eigen::Isometry3d T_map_body = drive.localization.pose().T_map_odom * drive.localization.pose().T_odom_body;
+  EXPECT_LT((T_map_body.translation() - Vector3d(5.0, 6.0, 7.0)).norm(), 1e-3);
+  EXPECT_NEAR(yaw_of(T_map_body), 1.0, 1e-3);
+}
+
+TEST(Localization, IsNotLevelledWhileMoving) {
+  SyntheticDrive drive({}, 1);
+  drive.command = [](double) { return Twist{0.1, 0.0}; };
+  drive.run(5.0);
+  EXPECT_EQ(drive.localization.pose().status, PoseStatus::kUninitialised);
+  EXPECT_FALSE(is_finite(drive.localization.pose().T_odom_body));
+}
+
+TEST(Localization, LevelsToGravity) {
+  SyntheticDrive drive({}, 3);
+  drive.run(2.0);
+  EXPECT_LT(attitude_error(drive), 0.003);
+}
+
+TEST(Localization, FollowsADriveOverRollingGround) {
+  SyntheticDrive drive({}, 1);
+  drive.command = arc;
+  drive.begin();
+  drive.run(300.0);
+  EXPECT_GT(drive.driven_m(), 55.0);
+  EXPECT_LT(position_error(drive), 0.005 * drive.driven_m());
+  EXPECT_LT(attitude_error(drive), 0.01);
+  EXPECT_NEAR(drive.localization.pose().travelled_m, drive.driven_m(), 0.01 * drive.driven_m());
+  EXPECT_EQ(drive.localization.pose().status, PoseStatus::kOk);
+}
+
+TEST(Localization, VisualMotionReplacesSlippingWheels) {
+  SyntheticDrive drive({}, 1);
+  drive.command = arc;
+  drive.slip = [](double) { return 0.4; };
+  drive.begin();
+  drive.run(120.0);
+  EXPECT_LT(position_error(drive), 0.01 * drive.driven_m());
+}
+
+TEST(Localization, NoDriftAtStandstill) {
+  SyntheticDrive drive({}, 2);
+  drive.command = [](double t) { return t < 1.5 || t > 11.5 ? Twist{} : Twist{0.2, 0.05}; };
+  drive.begin();
+  drive.run(12.0);
+  const Eigen::Isometry3d stopped = drive.localization.pose().T_odom_body;
+  const double travelled = drive.localization.pose().travelled_m;
+  drive.run(600.0);
+  const Eigen::Isometry3d later = drive.localization.pose().T_odom_body;
+  // Within the noise of one alignment, however long it stands.
+  EXPECT_LT((later.translation() - stopped.translation()).norm(), 0.004);
+  EXPECT_LT(std::abs(wrap_angle(yaw_of(later) - yaw_of(stopped))), 0.0005);
+  EXPECT_NEAR(drive.localization.pose().travelled_m, travelled, 0.01);
+}
+
+TEST(Localization, PointTurnTurnsOnTheSpot) {
+  SyntheticDrive drive({}, 4);
+  drive.rolling_ground = false;
+  drive.command = point_turn;
+  drive.begin();
+  drive.run(31.4);
+  EXPECT_LT(position_error(drive), 0.01);
+  EXPECT_LT(attitude_error(drive), 0.005);
+  EXPECT_LT(drive.localization.pose().travelled_m, 0.1);
+}
+
+TEST(Localization, PoseNeverJumps) {
+  SyntheticDrive drive({}, 5);
+  drive.command = arc;
+  drive.slip = [](double t) { return 0.2 + 0.2 * std::sin(0.5 * t); };
+  drive.begin();
+  Vector3d last = drive.localization.pose().T_odom_body.translation();
+  double largest = 0.0;
+  drive.run(120.0, [&] {
+    const Vector3d p = drive.localization.pose().T_odom_body.translation();
+    largest = std::max(largest, (p - last).norm());
+    last = p;
+  });
+  // 0.2 m/s make 4 mm a tick.
+  EXPECT_LT(largest, 0.007);
+}
+
+// The original lost the motion of a failed frame silently.
+TEST(Localization, FailedFramesAreBridged) {
+  SyntheticDrive drive({}, 6);
+  drive.command = arc;
+  drive.begin();
+  drive.run(20.0);
+  for (int i = 0; i < 10; ++i) {
+    drive.visual_lost = true;
+    drive.run(1.6);
+    drive.visual_lost = false;
+    drive.run(2.4);
+  }
+  EXPECT_LT(position_error(drive), 0.01 * drive.driven_m());
+}
+
+TEST(Localization, MotionBetweenTwoKeyframesIsBridgedByWheels) {
+  SyntheticDrive drive({}, 6);
+  drive.command = arc;
+  drive.begin();
+  drive.run(20.0);
+  // Visual odometry began anew after a gap: nothing spans 20.4 .. 22.4 s.
+  drive.spoil_visual = [&](VisualMotion& m) {
+    if (m.previous_utime < 22'400'000 && m.utime > 20'400'000) m.status = VisualStatus::kLost;
+  };
+  drive.run(30.0);
+  EXPECT_LT(position_error(drive), 0.015 * drive.driven_m());
+}
+
+TEST(Localization, WithoutVisualOdometryDegradesThenGetsLost) {
+  SyntheticDrive drive({}, 7);
+  drive.command = arc;
+  drive.begin();
+  drive.run(10.0);
+  const double sigma_before = std::sqrt(drive.localization.pose().cov(0, 0));
+  drive.visual_on = false;
+  drive.run(2.5);
+  EXPECT_EQ(drive.localization.pose().status, PoseStatus::kDegraded);
+  EXPECT_GT(std::sqrt(drive.localization.pose().cov(0, 0)), sigma_before + 0.01);
+  drive.run(12.0);
+  EXPECT_EQ(drive.localization.pose().status, PoseStatus::kLost);
+  drive.visual_on = true;
+  drive.run(1.5);
+  EXPECT_EQ(drive.localization.pose().status, PoseStatus::kOk);
+  // The wheels were true, so the pose is still good, and it says how good.
+  EXPECT_LT(position_error(drive), 0.2);
+}
+
+// The original hung on a dead inertial unit.
+struct DeadImu {
+  const char* name;
+  std::function<void(SyntheticDrive&)> kill;
+};
+
+TEST(Localization, DeadImuDegradesAndNeverHangs) {
+  const std::vector<DeadImu> deaths = {
+      {"silent", [](SyntheticDrive& d) { d.imu_on = false; }},
+      {"frozen",
+       [](SyntheticDrive& d) {
+         d.spoil_imu = [](ImuSample& s) {
+           s.delta_angle_rad = Vector3d(0.001, 0.0, 0.002);
+           s.delta_velocity_mps = Vector3d(0.0, 0.0, 0.0742);
+         };
+       }},
+      {"nan", [](SyntheticDrive& d) { d.spoil_imu = [](ImuSample& s) { s.delta_angle_rad.x() = kNaN; }; }},
+      {"fault", [](SyntheticDrive& d) { d.spoil_imu = [](ImuSample& s) { s.healthy = false; }; }},
+  };
+  for (const DeadImu& death : deaths) {
+    SyntheticDrive drive({}, 8);
+    drive.command = arc;
+    drive.begin();
+    drive.run(20.0);
+    death.kill(drive);
+    drive.run(5.0);
+    const PoseEstimate& pose = drive.localization.pose();
+    EXPECT_EQ(pose.status, PoseStatus::kDegraded) << death.name;
+    EXPECT_EQ(pose.utime, drive.now()) << death.name;
+    EXPECT_LT(position_error(drive), 0.1) << death.name;
+    EXPECT_LT(attitude_error(drive), 0.03) << death.name;
+    drive.run(6.0);
+    EXPECT_EQ(pose.status, PoseStatus::kLost) << death.name;
+    drive.imu_on = true;
+    drive.spoil_imu = [](ImuSample&) {};
+    drive.run(1.0);
+    EXPECT_EQ(pose.status, PoseStatus::kOk) << death.name;
+  }
+}
+
+TEST(Localization, LyingGyroIsFoundOutByImages) {
+  SyntheticDrive drive({}, 9);
+  drive.command = arc;
+  drive.begin();
+  drive.run(20.0);
+  drive.spoil_imu = [](ImuSample& s) { s.fog_delta_yaw_rad += 0.1 * s.dt_s; };
+  drive.run(8.0);
+  EXPECT_EQ(drive.localization.pose().status, PoseStatus::kDegraded);
+  drive.run(20.0);
+  // Five conflicts of 0.4 s at 0.1 rad/s went by before.
+  EXPECT_LT(attitude_error(drive), 0.35);
+  const double lost_by_then = attitude_error(drive);
+  drive.run(20.0);
+  EXPECT_NEAR(attitude_error(drive), lost_by_then, 0.05);
+}
+
+TEST(Localization, OneOddVisualMotionIsRefused) {
+  SyntheticDrive drive({}, 10);
+  drive.command = arc;
+  drive.begin();
+  drive.run(20.0);
+  bool once = true;
+  drive.spoil_visual = [&](VisualMotion& m) {
+    if (!once) return;
+    once = false;
+    m.T_prev_cur.linear() = m.T_prev_cur.linear() * exp_so3(Vector3d(0.0, 0.0, 0.2));
+  };
+  drive.run(5.0);
+  EXPECT_EQ(drive.localization.conflicts(), 1);
+  EXPECT_LT(position_error(drive), 0.05);
+  EXPECT_LT(attitude_error(drive), 0.01);
+}
+
+TEST(Localization, WithoutWheelsLivesOnImages) {
+  SyntheticDrive drive({}, 11);
+  drive.command = arc;
+  drive.begin();
+  drive.run(20.0);
+  drive.wheels_on = false;
+  drive.run(20.0);
+  EXPECT_EQ(drive.localization.pose().status, PoseStatus::kDegraded);
+  EXPECT_LT(position_error(drive), 0.05);
+  drive.visual_on = false;
+  drive.run(2.0);
+  EXPECT_EQ(drive.localization.pose().status, PoseStatus::kLost);
+}
+
+TEST(Localization, UnusableInputIsRefusedAndChangesNothing) {
+  SyntheticDrive clean({}, 12);
+  SyntheticDrive dirty({}, 12);
+  for (SyntheticDrive* drive : {&clean, &dirty}) {
+    drive->command = arc;
+    drive->begin();
+    drive->run(5.0);
+  }
+  dirty.run(5.0, [&] {
+    ImuSample imu;
+    imu.utime = dirty.now() + 1;
+    imu.dt_s = kNaN;
+    EXPECT_NE(dirty.localization.take_imu(imu), "");
+    imu.dt_s = 0.02;
+    imu.utime = dirty.now();
+    EXPECT_NE(dirty.localization.take_imu(imu), "");  // not newer
+    imu.utime = dirty.now() + 3'600'000'000;
+    EXPECT_NE(dirty.localization.take_imu(imu), "");  // from the future
+    WheelSample wheels;
+    wheels.utime = dirty.now() + 1;
+    wheels.drive_angle_rad[3] = kInfinity;
+    EXPECT_NE(dirty.localization.take_wheels(wheels), "");
+    VisualMotion visual;
+    visual.utime = dirty.now();
+    visual.previous_utime = dirty.now() - 400'000;
+    visual.keyframe_utime = visual.previous_utime;
+    visual.status = VisualStatus::kOk;
+    EXPECT_NE(dirty.localization.take_visual(visual), "");  // NaN motion
+    EXPECT_NE(dirty.localization.take_start_pose({Vector3d(kNaN, 0.0, 0.0), 0.0, 0.1, 0.1}), "");
+  });
+  clean.run(5.0);
+  EXPECT_EQ(clean.localization.pose().T_odom_body.matrix(), dirty.localization.pose().T_odom_body.matrix());
+}
+
+TEST(Localization, LateVisualMotionGivesWhatAPromptOneGives) {
+  // The estimate long after a stop does not depend on how late the motions came.
+  SyntheticDrive drive({}, 13);
+  drive.command = [](double t) { return t < 1.5 || t > 21.5 ? Twist{} : Twist{0.2, 0.1}; };
+  drive.slip = [](double) { return 0.3; };
+  drive.begin();
+  drive.run(24.0);
+  EXPECT_LT(position_error(drive), 0.02);
+}
+
+TEST(Localization, SlipIsSeenInStraightDriveTurnAndStop) {
+  SyntheticDrive drive({}, 14);
+  drive.command = [](double t) {
+    if (t < 1.5 || (t > 20.0 && t < 30.0)) return Twist{};
+    return Twist{0.2, 0.05};
+  };
+  drive.slip = [](double) { return 0.3; };
+  drive.begin();
+  drive.run(15.0);
+  const Slip driving = drive.localization.slip();
+  EXPECT_TRUE(driving.valid);
+  EXPECT_NEAR(driving.slip_ratio, 0.3, 0.05);
+  EXPECT_NEAR(driving.wheel_mps, 0.2, 0.01);
+  EXPECT_NEAR(driving.visual_mps, 0.14, 0.01);
+  EXPECT_NEAR(driving.commanded_mps, 0.2, 0.01);
+  drive.run(11.0);  // stands for 7.5 s: the window holds no motion
+  const Slip standing = drive.localization.slip();
+  EXPECT_FALSE(standing.valid);
+  EXPECT_TRUE(std::isnan(standing.slip_ratio));
+  EXPECT_NEAR(standing.wheel_mps, 0.0, 1e-3);
+  drive.run(5.0);
+  EXPECT_TRUE(drive.localization.slip().valid);
+  EXPECT_NEAR(drive.localization.slip().slip_ratio, 0.3, 0.05);
+}
+
+TEST(Localization, SlipIsValidInAPointTurn) {
+  SyntheticDrive drive({}, 15);
+  drive.rolling_ground = false;
+  drive.command = point_turn;
+  drive.begin();
+  drive.run(10.0);
+  EXPECT_TRUE(drive.localization.slip().valid);
+  EXPECT_NEAR(drive.localization.slip().slip_ratio, 0.0, 0.05);
+}
+
+TEST(Localization, SlipBecomesInvalidWithoutVisualOdometry) {
+  SyntheticDrive drive({}, 16);
+  drive.command = arc;
+  drive.begin();
+  drive.run(10.0);
+  EXPECT_TRUE(drive.localization.slip().valid);
+  drive.visual_on = false;
+  drive.run(7.0);
+  EXPECT_FALSE(drive.localization.slip().valid);
+  EXPECT_TRUE(std::isnan(drive.localization.slip().slip_ratio));
+}
+
+TEST(Localization, CorrectionMovesMapAgainstOdom) {
+  SyntheticDrive drive({}, 17);
+  drive.command = arc;
+  drive.begin(0.5, 0.05);
+  drive.run(20.0);
+  const PoseEstimate before = drive.localization.pose();
+  MapMeasurement m;
+  m.utime = before.utime - 400'000;
+  m.T_map_odom = planar(before.T_map_odom);
+  m.T_map_odom.x_m += 0.4;
+  m.T_map_odom.yaw_rad += 0.02;
+  m.cov = Vector3d(0.01, 0.01, 1e-4).asDiagonal();
+  EXPECT_EQ(drive.localization.take_correction(m), "");
+  drive.run(0.02);
+  const PoseEstimate after = drive.localization.pose();
+  EXPECT_LT((after.T_odom_body.translation() - before.T_odom_body.translation()).norm(), 0.006);
+  EXPECT_GT((after.T_map_odom.translation() - before.T_map_odom.translation()).norm(), 0.2);
+  EXPECT_LT(after.cov(0, 0), before.cov(0, 0));
+  EXPECT_NE(drive.localization.take_correction(m), "") << "the same again";
+  m.utime += 200'000;
+  m.T_map_odom.x_m += 30.0;
+  EXPECT_NE(drive.localization.take_correction(m), "") << "beyond the gate";
+}
+
+TEST(Localization, SlamMovesTheMapSlowly) {
+  LocalizationConfig config;
+  SyntheticDrive drive(config, 18);
+  drive.command = arc;
+  drive.begin(0.5, 0.05);
+  drive.run(20.0);
+  const PoseEstimate before = drive.localization.pose();
+  MapMeasurement m;
+  m.utime = before.utime - 400'000;
+  m.T_map_odom = planar(before.T_map_odom);
+  m.T_map_odom.x_m += 0.3;
+  m.cov = Vector3d(1e-6, 1e-6, 1e-8).asDiagonal();
+  ASSERT_EQ(drive.localization.take_slam(m), "");
+  Eigen::Isometry3d last = before.T_map_odom * before.T_odom_body;
+  drive.run(20.0, [&] {
+    const PoseEstimate& pose = drive.localization.pose();
+    const Eigen::Isometry3d T = pose.T_map_odom * pose.T_odom_body;
+    EXPECT_LT((T.translation() - last.translation()).norm(), 0.007 + config.map.slam_rate_mps * 0.02);
+    last = T;
+  });
+  const Vector3d moved = drive.localization.pose().T_map_odom.translation() - before.T_map_odom.translation();
+  EXPECT_NEAR(moved.x(), 0.3, 0.02);
+}
+
+TEST(Localization, GoesOnFromItsCheckpoint) {
+  SyntheticDrive drive({}, 19);
+  drive.command = [](double t) { return t < 1.5 || t > 21.5 ? Twist{} : Twist{0.2, 0.05}; };
+  drive.begin();
+  drive.run(10.0);
+  const auto bytes = to_bytes(*drive.localization.checkpoint());
+  const PoseEstimate before = drive.localization.pose();
+  drive.run(1.0, [&] {});  // the process is dead
+  const auto checkpoint = from_bytes(bytes);
+  ASSERT_TRUE(checkpoint.has_value());
+  drive.localization = Localization(LocalizationConfig{}, test_vehicle());
+  drive.localization.restore(*checkpoint);
+  drive.run(5.0);
+  const PoseEstimate after = drive.localization.pose();
+  EXPECT_EQ(after.status, PoseStatus::kOk);
+  EXPECT_GT(after.travelled_m, before.travelled_m + 1.0);
+  EXPECT_LT((after.T_map_odom.matrix() - before.T_map_odom.matrix()).norm(), 1e-12);
+  EXPECT_LT(position_error(drive), 0.05);
+}
+
+TEST(Localization, SameInputsSameBytes) {
+  SyntheticDrive a({}, 20);
+  SyntheticDrive b({}, 20);
+  for (SyntheticDrive* drive : {&a, &b}) {
+    drive->command = arc;
+    drive->begin();
+    drive->run(20.0);
+  }
+  EXPECT_EQ(to_bytes(*a.localization.checkpoint()), to_bytes(*b.localization.checkpoint()));
+}
+
+}  // namespace
+}  // namespace rover::loc

@@ -1,0 +1,101 @@
+#include "localization/map_alignment.hpp"
+
+#include <gtest/gtest.h>
+
+namespace rover::loc {
+namespace {
+
+using Eigen::Vector3d;
+
+ErrorCov wide() {
+  ErrorCov P = ErrorCov::Identity() * 1e-4;
+  P(kPosition, kPosition) = P(kPosition + 1, kPosition + 1) = 1.0;
+  P(kAttitude + 2, kAttitude + 2) = 0.01;
+  return P;
+}
+
+TEST(MapAlignment, StartPosePutsTheBodyWhereTheGroundSays) {
+  MapAlignment map({});
+  const Eigen::Isometry3d T_odom_body = make_pose(rotation_from_rpy(0.1, 0.2, 0.7), {1.0, 2.0, 3.0});
+  map.set_start({{100.0, 50.0, 10.0}, -2.0, 0.1, 0.1}, T_odom_body);
+  const Eigen::Isometry3d T_map_body = map.T_map_odom() * T_odom_body;
+  EXPECT_LT((T_map_body.translation() - Vector3d(100.0, 50.0, 10.0)).norm(), 1e-12);
+  EXPECT_NEAR(yaw_of(T_map_body), -2.0, 1e-12);
+  const Vector3d rpy = rpy_of(T_map_body.linear());
+  EXPECT_NEAR(rpy.x(), 0.1, 1e-12);
+  EXPECT_NEAR(rpy.y(), 0.2, 1e-12);
+}
+
+// The original turned a correction in map by the rover's heading, and moved a perfect rover by 14 m.
+TEST(MapAlignment, CorrectionIsNotTurnedByTheHeading) {
+  for (double yaw : {0.0, 1.0, -2.5, 3.1}) {
+    MapAlignment map({});
+    const Eigen::Isometry3d T_odom_body = make_pose(rotation_from_rpy(0.0, 0.0, yaw), {20.0, -5.0, 0.0});
+    map.set_start({{100.0, 50.0, 0.0}, 0.3, 0.1, 0.1}, T_odom_body);
+    MapMeasurement m;
+    m.utime = 1;
+    m.T_map_odom = planar(map.T_map_odom());
+    m.cov = Vector3d(1e-9, 1e-9, 1e-11).asDiagonal();
+    ASSERT_EQ(map.take_correction(m, T_odom_body, wide()), "");
+    EXPECT_LT(((map.T_map_odom() * T_odom_body).translation() - Vector3d(100.0, 50.0, 0.0)).norm(), 1e-9)
+        << "nothing to correct";
+    m.utime = 2;
+    m.T_map_odom.x_m += 1.0;
+    m.T_map_odom.y_m -= 0.5;
+    ASSERT_EQ(map.take_correction(m, T_odom_body, wide()), "");
+    const Vector3d p = (map.T_map_odom() * T_odom_body).translation();
+    EXPECT_LT((p - Vector3d(101.0, 49.5, 0.0)).norm(), 1e-6);
+  }
+}
+
+TEST(MapAlignment, TakesAsMuchAsTheCovariancesSay) {
+  MapAlignment map({});
+  const Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  map.set_start({{0.0, 0.0, 0.0}, 0.0, 0.1, 0.1}, T);
+  MapMeasurement m;
+  m.utime = 1;
+  m.T_map_odom.x_m = 1.0;
+  m.cov = Vector3d(1.0, 1.0, 0.01).asDiagonal();
+  ASSERT_EQ(map.take_correction(m, T, wide()), "");
+  EXPECT_NEAR(map.T_map_odom().translation().x(), 0.5, 1e-9);
+  const ErrorCov P = map.updated(wide(), m.cov);
+  EXPECT_NEAR(P(kPosition, kPosition), 0.5, 1e-9);
+  EXPECT_NEAR(P(kBias, kBias), 1e-4, 1e-12);
+}
+
+TEST(MapAlignment, RefusesOutliersAndOldOnes) {
+  MapAlignment map({});
+  const Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  MapMeasurement m;
+  m.utime = 10;
+  m.cov = Vector3d(1e-4, 1e-4, 1e-4).asDiagonal();
+  EXPECT_NE(map.take_correction(m, T, wide()), "") << "no start pose";
+  map.set_start({{0.0, 0.0, 0.0}, 0.0, 0.1, 0.1}, T);
+  m.T_map_odom.x_m = 10.0;
+  EXPECT_NE(map.take_correction(m, T, wide()), "") << "ten sigma";
+  EXPECT_EQ(map.T_map_odom().translation().x(), 0.0);
+  m.T_map_odom.x_m = 0.1;
+  EXPECT_EQ(map.take_correction(m, T, wide()), "");
+  m.utime = 5;
+  EXPECT_NE(map.take_correction(m, T, wide()), "") << "older";
+  EXPECT_NE(map.take_slam(m, T, wide()), "") << "older than the correction";
+}
+
+TEST(MapAlignment, SlamMovesAtItsRate) {
+  MapAlignment map({});
+  const Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  map.set_start({{0.0, 0.0, 0.0}, 0.0, 0.1, 0.1}, T);
+  MapMeasurement m;
+  m.utime = 1;
+  m.T_map_odom.x_m = 0.1;
+  m.cov = Vector3d(1e-9, 1e-9, 1e-9).asDiagonal();
+  ASSERT_EQ(map.take_slam(m, T, wide()), "");
+  EXPECT_EQ(map.T_map_odom().translation().x(), 0.0);
+  map.step(1.0, T);
+  EXPECT_NEAR(map.T_map_odom().translation().x(), 0.02, 1e-9);
+  for (int i = 0; i < 10; ++i) map.step(1.0, T);
+  EXPECT_NEAR(map.T_map_odom().translation().x(), 0.1, 1e-6);
+}
+
+}  // namespace
+}  // namespace rover::loc

@@ -1,0 +1,236 @@
+// A rover that drives over rolling ground, with IMU, wheels and visual odometry made from its exact motion. Seeded.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <deque>
+#include <functional>
+#include <random>
+
+#include "common/core/frames.hpp"
+#include "localization/localization.hpp"
+
+namespace rover::loc {
+
+inline Vehicle test_vehicle() {
+  Vehicle v;
+  v.wheel_radius_m = 0.125;
+  v.wheel_x_m = {0.75, 0.75, 0.0, 0.0, -0.75, -0.75};
+  v.wheel_y_m = {0.41, -0.41, 0.41, -0.41, 0.41, -0.41};
+  return v;
+}
+
+struct DriveNoise {
+  double gyro = 4.4e-5;       // rad/sqrt(s)
+  double gyro_bias = 2.4e-5;  // rad/s, rms
+  double fog = 3.5e-6;
+  double fog_bias = 4.8e-6;
+  double force = 1.2e-3;   // m/s/sqrt(s)
+  double visual_m = 5e-4;  // of one keyframe's alignment
+  double visual_rad = 3e-4;
+  double visual_scale = 0.0;  // rms
+  double encoder_rad = 1e-4;
+};
+
+// What the driver wants at a time: forward speed [m/s] and turn rate [rad/s].
+struct Twist {
+  double speed_mps = 0.0;
+  double rate_radps = 0.0;
+};
+
+class SyntheticDrive {
+ public:
+  std::function<Twist(double)> command = [](double) { return Twist{}; };
+  std::function<double(double)> slip = [](double) { return 0.0; };  // of all wheels
+  bool rolling_ground = true;
+
+  // What reaches localization.
+  bool imu_on = true;
+  bool wheels_on = true;
+  bool visual_on = true;
+  bool visual_lost = false;  // pairs come, but none can be aligned
+  std::function<void(ImuSample&)> spoil_imu = [](ImuSample&) {};
+  std::function<void(VisualMotion&)> spoil_visual = [](VisualMotion&) {};
+
+  SyntheticDrive(const LocalizationConfig& config, std::uint64_t seed, const DriveNoise& noise = {})
+      : localization(config, test_vehicle()), noise_(noise), wheels_(test_vehicle()), random_(seed) {
+    gyro_bias_ = noise.gyro_bias * normal3();
+    gyro_bias_z_fog_ = noise.fog_bias * normal_(random_);
+    scale_ = noise.visual_scale * normal_(random_);
+    T_ = surface_pose(0.0, 0.0, 0.0);
+    start_ = T_;
+    key_pose_ = previous_pose_ = T_;
+  }
+
+  Localization localization;
+  Utime now() const { return now_; }
+  const Eigen::Isometry3d& truth() const { return T_; }
+  double driven_m() const { return driven_m_; }
+
+  // Truth in odom: odom is level at the start, with the rover's heading along x.
+  Eigen::Isometry3d truth_odom() const {
+    const Eigen::Isometry3d T_world_odom = make_pose(rotation_from_rpy(0.0, 0.0, yaw_of(start_)), start_.translation());
+    return T_world_odom.inverse() * T_;
+  }
+
+  // Stands for 1.5 s, is levelled, and gets its start pose.
+  void begin(double sigma_m = 0.1, double sigma_yaw = 0.01) {
+    run(1.5);
+    localization.take_start_pose({Eigen::Vector3d(100.0, 50.0, 3.0), 0.5, sigma_m, sigma_yaw});
+  }
+
+  void run(
+      double seconds, const std::function<void()>& each_tick = [] {}) {
+    const Utime until = now_ + to_utime(seconds);
+    while (now_ < until) {
+      tick();
+      each_tick();
+    }
+  }
+
+ private:
+  struct Late {
+    Utime release;
+    VisualMotion motion;
+  };
+
+  double normal() { return normal_(random_); }
+  Eigen::Vector3d normal3() { return {normal(), normal(), normal()}; }
+
+  Eigen::Isometry3d surface_pose(double x, double y, double yaw) const {
+    const double h = rolling_ground ? 1.0 : 0.0;
+    const double z = h * (0.3 * std::sin(0.35 * x) + 0.2 * std::cos(0.4 * y));
+    const double zx = h * 0.3 * 0.35 * std::cos(0.35 * x);
+    const double zy = -h * 0.2 * 0.4 * std::sin(0.4 * y);
+    const Eigen::Vector3d up = Eigen::Vector3d(-zx, -zy, 1.0).normalized();
+    const Eigen::Vector3d left = up.cross(Eigen::Vector3d(std::cos(yaw), std::sin(yaw), 0.0)).normalized();
+    Eigen::Matrix3d R;
+    R << left.cross(up), left, up;
+    return make_pose(R, {x, y, z});
+  }
+
+  void tick() {
+    constexpr double dt = 0.02;
+    const Eigen::Isometry3d before = T_;
+    const Twist twist = command(to_seconds(now_));
+    const double gained = twist.speed_mps * (1.0 - slip(to_seconds(now_)));
+    const double yaw = yaw_;
+    yaw_ += twist.rate_radps * dt;
+    const Eigen::Vector3d forward = T_.linear().col(0) * gained * dt;
+    T_ = surface_pose(T_.translation().x() + forward.x(), T_.translation().y() + forward.y(), yaw_);
+    driven_m_ += (T_.translation() - before.translation()).norm();
+    (void)yaw;
+    now_ += kTickUs;
+    make_imu(before, dt);
+    make_wheels(twist, dt);
+    if (now_ % 400'000 == 0) make_visual();
+    while (!late_.empty() && late_.front().release <= now_) {
+      localization.take_visual(late_.front().motion);
+      late_.pop_front();
+    }
+    localization.step(now_);
+  }
+
+  void make_imu(const Eigen::Isometry3d& before, double dt) {
+    ImuSample s;
+    s.utime = now_;
+    s.dt_s = dt;
+    const Eigen::Vector3d turned = log_so3(before.linear().transpose() * T_.linear());
+    s.delta_angle_rad = turned + gyro_bias_ * dt + noise_.gyro * std::sqrt(dt) * normal3();
+    s.fog_delta_yaw_rad = turned.z() + gyro_bias_z_fog_ * dt + noise_.fog * std::sqrt(dt) * normal();
+    const Eigen::Vector3d velocity = (T_.translation() - before.translation()) / dt;
+    const Eigen::Vector3d force = (velocity - velocity_) + Eigen::Vector3d(0.0, 0.0, 3.71 * dt);
+    velocity_ = velocity;
+    s.delta_velocity_mps = before.linear().transpose() * force + noise_.force * std::sqrt(dt) * normal3();
+    spoil_imu(s);
+    if (imu_on) localization.take_imu(s);
+  }
+
+  // Steering such that all wheels roll for the commanded twist.
+  void make_wheels(const Twist& twist, double dt) {
+    const Vehicle v = test_vehicle();
+    WheelSample s;
+    s.utime = now_;
+    for (size_t i = 0; i < 6; ++i) {
+      const double vx = twist.speed_mps - twist.rate_radps * v.wheel_y_m[i];
+      const double vy = twist.rate_radps * v.wheel_x_m[i];
+      const bool steered = v.wheel_x_m[i] != 0.0;
+      double angle = steered && std::hypot(vx, vy) > 1e-9 ? std::atan2(vy, vx) : 0.0;
+      double speed = steered ? std::hypot(vx, vy) : vx;
+      if (std::abs(angle) > 0.5 * kPi) {
+        angle = wrap_angle(angle + kPi);
+        speed = -speed;
+      }
+      drive_angle_[i] += speed / v.wheel_radius_m * dt;
+      s.drive_angle_rad[i] = drive_angle_[i] + noise_.encoder_rad * normal();
+      s.drive_rate_radps[i] = speed / v.wheel_radius_m;
+      if (steered) s.steer_angle_rad[i < 2 ? i : i - 2] = angle;
+    }
+    if (wheels_on) localization.take_wheels(s);
+    WheelCommand c{now_, now_ + 100'000, s.drive_rate_radps};
+    localization.take_wheel_command(c);
+  }
+
+  // As visual odometry makes it: errors of a keyframe telescope, and a keyframe lasts five pairs.
+  void make_visual() {
+    if (key_utime_ == kNever || pairs_ == 5) {
+      key_utime_ = previous_utime_ == kNever ? now_ : previous_utime_;
+      key_pose_ = previous_pose_;
+      key_error_ = previous_error_ = Eigen::Isometry3d::Identity();
+      pairs_ = 0;
+      if (previous_utime_ == kNever) {
+        previous_utime_ = now_;
+        key_pose_ = previous_pose_ = T_;
+        return;
+      }
+    }
+    if (!visual_on) return;
+    VisualMotion m;
+    m.utime = now_;
+    m.previous_utime = previous_utime_;
+    m.keyframe_utime = key_utime_;
+    if (!visual_lost) {
+      const Eigen::Isometry3d error = make_pose(exp_so3(noise_.visual_rad * normal3()), noise_.visual_m * normal3());
+      const Eigen::Isometry3d T_key_prev = key_pose_.inverse() * previous_pose_ * previous_error_;
+      Eigen::Isometry3d T_key_cur = key_pose_.inverse() * T_ * error;
+      m.T_prev_cur = T_key_prev.inverse() * T_key_cur;
+      m.T_prev_cur.translation() *= 1.0 + scale_;
+      const double share = pairs_ == 0 ? 1.0 : 1e-4;
+      m.cov.setZero();
+      m.cov.diagonal().head<3>().setConstant(share * noise_.visual_m * noise_.visual_m);
+      m.cov.diagonal().tail<3>().setConstant(share * noise_.visual_rad * noise_.visual_rad);
+      m.status = VisualStatus::kOk;
+      previous_error_ = error;
+      previous_pose_ = T_;
+      previous_utime_ = now_;
+      ++pairs_;
+    }
+    spoil_visual(m);
+    late_.push_back({now_ + 240'000, m});
+  }
+
+  DriveNoise noise_;
+  WheelOdometry wheels_;
+  std::mt19937_64 random_;
+  std::normal_distribution<double> normal_;
+  Eigen::Vector3d gyro_bias_;
+  double gyro_bias_z_fog_ = 0.0;
+  double scale_ = 0.0;
+  Utime now_ = 0;
+  double yaw_ = 0.0;
+  double driven_m_ = 0.0;
+  Eigen::Isometry3d T_;
+  Eigen::Isometry3d start_;
+  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
+  std::array<double, 6> drive_angle_{};
+  Utime key_utime_ = kNever;
+  Utime previous_utime_ = kNever;
+  int pairs_ = 0;
+  Eigen::Isometry3d key_pose_;
+  Eigen::Isometry3d previous_pose_;
+  Eigen::Isometry3d key_error_ = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d previous_error_ = Eigen::Isometry3d::Identity();
+  std::deque<Late> late_;
+};
+
+}  // namespace rover::loc

@@ -1,0 +1,35 @@
+// make_synthetic_run DIR: a run's folder with report, to look at the report's pictures without a simulator.
+#include <cmath>
+#include <filesystem>
+
+#include "report/log_reader.hpp"
+#include "report/make_report.hpp"
+#include "rover_simulator/world/world.hpp"
+#include "synthetic_run.hpp"
+
+using namespace rover::report;
+
+int main(int argc, char** argv) {
+  if (argc != 2) return 2;
+  std::filesystem::create_directories(argv[1]);
+  rover::ElevationRaster dtm = rover::plane_raster(120.0, 90.0, 1.0, 0.02, 0.7);
+  for (int j = 0; j < dtm.height; ++j)
+    for (int i = 0; i < dtm.width; ++i)
+      dtm.at(i, j) += static_cast<float>(1.5 * std::sin(0.07 * i + 0.05 * j) + 0.7 * std::sin(0.16 * j - 0.12 * i));
+  rover::WorldConfig config;
+  const rover::World world(config, dtm, 3);
+  SyntheticRun run;
+  run.planned = {{20, 30}, {40, 36}, {60, 52}, {95, 60}};
+  run.swerves_m = {12, 23, 24.5, 38, 51, 63, 75};
+  run.height_m = [&](double x, double y) { return world.smooth_height_m(x, y); };
+  TrueWorld truth;
+  for (const rover::Rock& rock : world.rocks_in(5, 15, 110, 75))
+    truth.rocks.push_back({rock.x_m, rock.y_m, 0.5 * rock.diameter_m, rock.height_m});
+  truth.height_m = [&](double x, double y) { return world.height_m(x, y); };
+  run.rocks = truth.rocks;
+  write_synthetic_run(run, argv[1]);
+  const RunFolder folder = open_run_folder(argv[1], ROVER_SOURCE_DIR "/config");
+  rover::ElevationRaster orbital = world.orbital_map(1.0);
+  const HeightRaster raster{orbital.width, orbital.height, orbital.resolution_m, orbital.z_m};
+  std::puts(write_report(folder, read_log(folder.log), truth, raster).c_str());
+}

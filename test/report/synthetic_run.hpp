@@ -1,0 +1,26 @@
+// A whole run's log made without a simulator: a rover that swerves around rocks on its planned path, with every error
+// known by construction.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "report/run_record.hpp"
+
+namespace rover::report {
+
+struct SyntheticRun {
+  std::vector<Eigen::Vector2d> planned;  // polyline in map
+  std::vector<Rock> rocks;               // those to swerve around stand on the planned path
+  std::vector<double> swerves_m;         // arc lengths along it
+  double speed_mps = 0.18;
+  double drift_percent = 0.5;  // of the odometry, sideways, linear in distance
+  double final_s = 2.0;        // after GOAL_REACHED
+  std::function<double(double, double)> height_m = [](double, double) { return 0.0; };
+};
+
+// Writes traverse.lcm, run.json and the scenario's text into the folder.
+void write_synthetic_run(const SyntheticRun& run, const std::string& dir);
+
+}  // namespace rover::report

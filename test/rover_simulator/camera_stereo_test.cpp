@@ -1,0 +1,153 @@
+// What stereo makes of the pictures: OpenCV's matcher on the rectified pair, against the traced ranges.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/calib3d.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "camera_test_world.hpp"
+#include "rover_simulator/camera/stereo_camera_sim.hpp"
+
+namespace rover {
+namespace {
+
+cv::Matx33d matrix_of(const PinholeCamera& camera) {
+  return {camera.fx_px, 0, camera.cx_px, 0, camera.fy_px, camera.cy_px, 0, 0, 1};
+}
+
+cv::Mat view_of(GrayImage& image) {
+  return {image.height, image.width, CV_8U, image.data.data()};
+}
+
+struct Rectified {
+  cv::Mat left, right;
+  Eigen::Matrix3d R_rect_left;
+  double focal_px, cx_px, cy_px, baseline_m;
+};
+
+Rectified rectify(const StereoRig& rig, StereoCameraSim::Pair& pair) {
+  const Eigen::Isometry3d T_right_left = rig.T_left_right.inverse();
+  cv::Matx33d R;
+  cv::Vec3d t;
+  for (int i = 0; i < 3; ++i) {
+    t[i] = T_right_left.translation()[i];
+    for (int j = 0; j < 3; ++j) R(i, j) = T_right_left.linear()(i, j);
+  }
+  cv::Matx33d R1, R2;
+  cv::Matx34d P1, P2;
+  cv::Mat Q;
+  const cv::Size size(rig.width, rig.height);
+  cv::stereoRectify(matrix_of(rig.left), rig.left.distortion, matrix_of(rig.right), rig.right.distortion, size, R, t,
+                    R1, R2, P1, P2, Q, cv::CALIB_ZERO_DISPARITY, 0);
+  Rectified out;
+  cv::Mat map_x, map_y;
+  cv::initUndistortRectifyMap(matrix_of(rig.left), rig.left.distortion, R1, P1, size, CV_32F, map_x, map_y);
+  cv::remap(view_of(pair.left), out.left, map_x, map_y, cv::INTER_LINEAR);
+  cv::initUndistortRectifyMap(matrix_of(rig.right), rig.right.distortion, R2, P2, size, CV_32F, map_x, map_y);
+  cv::remap(view_of(pair.right), out.right, map_x, map_y, cv::INTER_LINEAR);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) out.R_rect_left(i, j) = R1(i, j);
+  out.focal_px = P1(0, 0);
+  out.cx_px = P1(0, 2);
+  out.cy_px = P1(1, 2);
+  out.baseline_m = -P2(0, 3) / P2(0, 0);
+  return out;
+}
+
+struct StereoScore {
+  double dense = 0.0;
+  double median_error_px = 0.0;
+  double bias_px = 0.0;
+};
+
+StereoScore score(StereoCameraSim& camera, const Eigen::Isometry3d& T_map_body) {
+  const StereoRig& rig = camera.true_rig();
+  StereoCameraSim::Pair pair = camera.render(T_map_body, 0);
+  const std::vector<float> ranges = camera.left_ranges_m(T_map_body * rig.T_body_left);
+  const Rectified rectified = rectify(rig, pair);
+  cv::Mat disparity;
+  cv::StereoSGBM::create(0, 96, 7, 8 * 49, 32 * 49, 1, 63, 10, 100, 2, cv::StereoSGBM::MODE_SGBM)
+      ->compute(rectified.left, rectified.right, disparity);
+  std::vector<double> errors;
+  double sum = 0.0;
+  int count = 0;
+  for (int v = 20; v < 364; v += 2) {
+    for (int u = 110; u < 500; u += 2) {
+      const Eigen::Vector3d p =
+          rectified.R_rect_left * (ray_of_pixel(rig.left, {u, v}).normalized() * ranges[v * 512 + u]);
+      const int ru = static_cast<int>(std::lround(rectified.focal_px * p.x() / p.z() + rectified.cx_px));
+      const int rv = static_cast<int>(std::lround(rectified.focal_px * p.y() / p.z() + rectified.cy_px));
+      if (ru < 100 || rv < 8 || ru >= 504 || rv >= 376) continue;
+      ++count;
+      const std::int16_t found = disparity.at<std::int16_t>(rv, ru);
+      if (found <= 0) continue;
+      const double error = found / 16.0 - rectified.focal_px * rectified.baseline_m / p.z();
+      errors.push_back(std::abs(error));
+      if (std::abs(error) < 1.0) sum += error;
+    }
+  }
+  StereoScore result;
+  result.dense = static_cast<double>(errors.size()) / count;
+  result.bias_px = sum / static_cast<double>(errors.size());
+  std::nth_element(errors.begin(), errors.begin() + static_cast<long>(errors.size() / 2), errors.end());
+  result.median_error_px = errors[errors.size() / 2];
+  return result;
+}
+
+TEST(StereoOnPictures, IsDenseAndExactOnNormalGround) {
+  cv::setNumThreads(1);
+  const test::RockySurface surface;
+  for (double elevation_deg : {15.0, 35.0, 60.0}) {
+    CameraSimConfig config;
+    config.calibration_error_px = 0.0;
+    config.scene.look.textureless_fraction = 0.0;
+    config.scene.look.sun_elevation_rad = to_rad(elevation_deg);
+    StereoCameraSim camera(test::loccam_rig(), config, surface, 1);
+    const StereoScore found = score(camera, test::body_at(surface, 50.0, 60.0, 0.5));
+    EXPECT_GT(found.dense, 0.9) << elevation_deg;
+    EXPECT_LT(found.median_error_px, 0.25) << elevation_deg;
+    EXPECT_LT(std::abs(found.bias_px), 0.1) << elevation_deg;
+    RecordProperty("median_error_px", std::to_string(found.median_error_px));
+  }
+}
+
+// The albedo sticks to the ground: what one picture shows of a place, the next one shows too.
+TEST(StereoOnPictures, TextureDoesNotCrawl) {
+  const test::RockySurface surface;
+  CameraSimConfig config;
+  config.calibration_error_px = 0.0;
+  config.imager.full_well_e = 1e12;
+  config.imager.read_noise_e = 0.0;
+  config.imager.vignetting = 0.0;
+  config.imager.exposure_gain = 0.0;
+  StereoCameraSim camera(test::loccam_rig(), config, surface, 1);
+  const StereoRig& rig = camera.true_rig();
+  const Eigen::Isometry3d T_map_a = test::body_at(surface, 50.0, 60.0, 0.5) * rig.T_body_left;
+  const Eigen::Isometry3d T_map_b = test::body_at(surface, 50.03, 60.05, 0.52) * rig.T_body_left;
+  const StereoCameraSim::Pair a = camera.render_from(T_map_a, 0);
+  const StereoCameraSim::Pair b = camera.render_from(T_map_b, 1);
+  const std::vector<float> ranges = camera.left_ranges_m(T_map_a);
+  double ab = 0.0, aa = 0.0, bb = 0.0, sum_a = 0.0, sum_b = 0.0, n = 0.0;
+  for (int v = 100; v < 380; v += 3) {
+    for (int u = 60; u < 450; u += 3) {
+      const Eigen::Vector3d p =
+          T_map_a * Eigen::Vector3d(ray_of_pixel(rig.left, {u, v}).normalized() * ranges[v * 512 + u]);
+      const Eigen::Vector2d at = project(rig.left, T_map_b.inverse() * p);
+      if (at.x() < 1 || at.y() < 1 || at.x() > 509 || at.y() > 381) continue;
+      const int iu = static_cast<int>(at.x());
+      const int iv = static_cast<int>(at.y());
+      const double fu = at.x() - iu;
+      const double fv = at.y() - iv;
+      const double there = (1 - fv) * ((1 - fu) * b.left.at(iu, iv) + fu * b.left.at(iu + 1, iv)) +
+                           fv * ((1 - fu) * b.left.at(iu, iv + 1) + fu * b.left.at(iu + 1, iv + 1));
+      const double here = a.left.at(u, v);
+      ab += here * there, aa += here * here, bb += there * there, sum_a += here, sum_b += there, n += 1.0;
+    }
+  }
+  const double correlation = (ab - sum_a * sum_b / n) / std::sqrt((aa - sum_a * sum_a / n) * (bb - sum_b * sum_b / n));
+  EXPECT_GT(correlation, 0.9);
+}
+
+}  // namespace
+}  // namespace rover

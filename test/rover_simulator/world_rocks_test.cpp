@@ -1,0 +1,132 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "world_fixture.hpp"
+
+namespace rover {
+namespace {
+
+RockConfig rocks_of(double k) {
+  RockConfig config;
+  config.k = k;
+  return config;
+}
+
+// Rocks per hectare above 0.4 m, as the literature has them for these k.
+TEST(RockLaw, GivesTheKnownDensities) {
+  const std::pair<double, double> known[] = {{0.02, 26},  {0.05, 315},  {0.07, 575},
+                                             {0.10, 983}, {0.15, 1665}, {0.20, 2321}};
+  for (const auto& [k, per_hectare] : known)
+    EXPECT_NEAR(1e4 * rock_density_above(rocks_of(k), 0.4), per_hectare, 0.03 * per_hectare + 1.0) << k;
+}
+
+// Areas of the drawn rocks against F(D) = k exp(-q D), the rocks beyond both ends of the range left out of the law.
+TEST(RockField, CoversTheLawsArea) {
+  for (double k : {0.03, 0.08, 0.19}) {
+    const RockConfig config = rocks_of(k);
+    const RockField field(config, 300, 300, {}, 11);
+    const double q = 1.79 + 0.152 / k;
+    const auto law = [&](double d) { return k * (std::exp(-q * d) - std::exp(-q * config.max_diameter_m)); };
+    for (double above : {0.08, 0.2, 0.4, 0.6}) {
+      double area = 0.0;
+      for (const Rock& rock : field.all())
+        if (rock.diameter_m >= above) area += M_PI * rock.diameter_m * rock.diameter_m / 4.0;
+      EXPECT_NEAR(area / (300.0 * 300.0), law(above), 0.1 * law(above) + 2e-5) << k << " " << above;
+    }
+  }
+}
+
+TEST(RockField, KeepsHeightsWithinTheirSpread) {
+  const RockField field(rocks_of(0.1), 100, 100, {}, 3);
+  double mean = 0.0;
+  for (const Rock& rock : field.all()) {
+    const double ratio = rock.height_m / rock.diameter_m;
+    ASSERT_GE(ratio, 0.3);
+    ASSERT_LE(ratio, 0.7);
+    mean += ratio / static_cast<double>(field.all().size());
+  }
+  EXPECT_NEAR(mean, 0.5, 0.01);
+}
+
+TEST(RockField, EachRockStandsUpToItsHeight) {
+  const RockField field(rocks_of(0.05), 60, 60, {}, 4);
+  int alone = 0;
+  for (const Rock& rock : field.all()) {
+    const RockField::Hit summit = field.at(rock.x_m, rock.y_m);
+    ASSERT_GE(summit.height_m, 0.999 * rock.height_m);
+    if (summit.rock_id != rock.id) continue;  // a taller one covers it
+    ++alone;
+    EXPECT_NEAR(summit.height_m, rock.height_m, 1e-4);
+    double highest = 0.0;
+    for (double dx = -1.0; dx <= 1.0; dx += 0.05)
+      for (double dy = -1.0; dy <= 1.0; dy += 0.05) {
+        const RockField::Hit hit = field.at(rock.x_m + dx * rock.diameter_m, rock.y_m + dy * rock.diameter_m);
+        if (hit.rock_id == rock.id) highest = std::max(highest, hit.height_m);
+      }
+    EXPECT_LE(highest, rock.height_m * 1.0001);
+  }
+  EXPECT_GT(alone, 1000);
+}
+
+// Steep but no cliff: a step of 2 mm never rises by more than the steepest flank allows.
+TEST(RockField, IsContinuousWithSteepFlanks) {
+  const RockField field(rocks_of(0.1), 40, 40, {}, 9);
+  double steepest = 0.0;
+  for (double y : {10.03, 14.2, 21.7, 33.3}) {
+    double before = field.at(1.0, y).height_m;
+    for (double x = 1.002; x < 39.0; x += 0.002) {
+      const double height = field.at(x, y).height_m;
+      steepest = std::max(steepest, std::abs(height - before) / 0.002);
+      before = height;
+    }
+  }
+  EXPECT_GT(steepest, 1.7);  // 60 degrees
+  EXPECT_LT(steepest, 9.0);  // 84 degrees
+}
+
+TEST(RockField, IsAFunctionOfSeedAndPlace) {
+  const RockConfig config = rocks_of(0.1);
+  const RockField small(config, 50, 50, {}, 7), large(config, 90, 80, {}, 7), other(config, 50, 50, {}, 8);
+  const std::vector<Rock> a = small.in(10, 10, 40, 40), b = large.in(10, 10, 40, 40), c = other.in(10, 10, 40, 40);
+  ASSERT_EQ(a.size(), b.size());
+  ASSERT_GT(a.size(), 500u);
+  for (const Rock& rock : a)
+    EXPECT_TRUE(std::any_of(b.begin(), b.end(), [&](const Rock& twin) {
+      return twin.x_m == rock.x_m && twin.y_m == rock.y_m && twin.diameter_m == rock.diameter_m &&
+             twin.height_m == rock.height_m;
+    }));
+  EXPECT_NE(a.front().x_m, c.front().x_m);
+}
+
+TEST(RockField, BoxQueryEqualsBruteForce) {
+  const RockField field(rocks_of(0.15), 60, 60, {}, 5);
+  const std::vector<Rock> found = field.in(12.3, 20.1, 31.7, 22.9);
+  std::vector<int> expected;
+  for (const Rock& rock : field.all())
+    if (rock.x_m >= 12.3 && rock.x_m <= 31.7 && rock.y_m >= 20.1 && rock.y_m <= 22.9) expected.push_back(rock.id);
+  ASSERT_EQ(found.size(), expected.size());
+  for (size_t i = 0; i < found.size(); ++i) EXPECT_EQ(found[i].id, expected[i]);
+}
+
+TEST(RockField, LeavesCirclesClearAndNothingElse) {
+  const RockConfig config = rocks_of(0.19);
+  const std::vector<KeepClear> circles = {{20, 20, 1.5, 0.12}, {40, 30, 3.0, 0.12}};
+  const RockField free(config, 60, 60, {}, 2), kept(config, 60, 60, circles, 2);
+  for (const KeepClear& circle : circles)
+    for (double x = -circle.radius_m; x <= circle.radius_m; x += 0.02)
+      for (double y = -circle.radius_m; y <= circle.radius_m; y += 0.02)
+        if (std::hypot(x, y) <= circle.radius_m) ASSERT_LT(kept.at(circle.x_m + x, circle.y_m + y).height_m, 0.12);
+  EXPECT_LT(kept.all().size(), free.all().size());
+  EXPECT_GT(kept.all().size(), free.all().size() - 60);
+}
+
+TEST(RockField, IsEmptyForZeroK) {
+  const RockField field(rocks_of(0.0), 30, 30, {}, 1);
+  EXPECT_TRUE(field.all().empty());
+  EXPECT_EQ(field.at(10, 10).rock_id, -1);
+}
+
+}  // namespace
+}  // namespace rover

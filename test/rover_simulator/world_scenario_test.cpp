@@ -1,0 +1,179 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "common/bus/config.hpp"
+#include "rover_simulator/world/dtm_reader.hpp"
+#include "rover_simulator/world/scenario.hpp"
+
+namespace rover {
+namespace {
+
+namespace fs = std::filesystem;
+const std::string kScenarios = std::string(ROVER_SOURCE_DIR) + "/config/scenarios/";
+const std::string kTerrain = std::string(ROVER_SOURCE_DIR) + "/config/terrain/gale/gale_hirise_dtm_1m_348x337.tif";
+
+double slope_deg(const World& world, double x_m, double y_m) {
+  const double gx = (world.smooth_height_m(x_m + 1, y_m) - world.smooth_height_m(x_m - 1, y_m)) / 2.0;
+  const double gy = (world.smooth_height_m(x_m, y_m + 1) - world.smooth_height_m(x_m, y_m - 1)) / 2.0;
+  return to_deg(std::atan(std::hypot(gx, gy)));
+}
+
+double distance_to(const PlannedPath& path, double x_m, double y_m) {
+  double least = kInfinity;
+  for (size_t i = 1; i < path.x_m.size(); ++i) {
+    const double dx = path.x_m[i] - path.x_m[i - 1], dy = path.y_m[i] - path.y_m[i - 1];
+    const double along = ((x_m - path.x_m[i - 1]) * dx + (y_m - path.y_m[i - 1]) * dy) / (dx * dx + dy * dy);
+    const double t = std::clamp(along, 0.0, 1.0);
+    least = std::min(least, std::hypot(x_m - path.x_m[i - 1] - t * dx, y_m - path.y_m[i - 1] - t * dy));
+  }
+  return least;
+}
+
+double tightest_radius_m(const PlannedPath& path) {
+  double radius = kInfinity;
+  for (size_t i = 1; i + 1 < path.x_m.size(); ++i) {
+    const double ax = path.x_m[i] - path.x_m[i - 1], ay = path.y_m[i] - path.y_m[i - 1];
+    const double bx = path.x_m[i + 1] - path.x_m[i], by = path.y_m[i + 1] - path.y_m[i];
+    const double turn = std::abs(std::atan2(ax * by - ay * bx, ax * bx + ay * by));
+    if (turn > 0.0) radius = std::min(radius, 0.5 * (std::hypot(ax, ay) + std::hypot(bx, by)) / turn);
+  }
+  return radius;
+}
+
+// Rocks of hazard size that a vehicle one metre wide meets if it follows the path.
+double hazards_on_path(const Scenario& scenario, std::uint64_t seed) {
+  const World world(scenario.world, scenario.dtm, seed);
+  const std::vector<Rock> rocks = world.rocks_in(0, 0, world.width_m(), world.length_m());
+  return static_cast<double>(std::count_if(rocks.begin(), rocks.end(), [&](const Rock& rock) {
+    return rock.height_m >= 0.15 && distance_to(scenario.path, rock.x_m, rock.y_m) < 0.65;
+  }));
+}
+
+TEST(Scenarios, TheTraversesAreThePapersLength) {
+  EXPECT_NEAR(load_scenario(kScenarios + "seed_traverse_1.yaml").path_length_m(), 86.0, 0.01);
+  EXPECT_NEAR(load_scenario(kScenarios + "seed_traverse_2.yaml").path_length_m(), 62.2, 0.01);
+  EXPECT_NEAR(load_scenario(kScenarios + "default.yaml").path_length_m(), 25.0, 0.01);
+}
+
+// What a planner sees from orbit: gentle slopes and wide turns. Start and goal have room around them.
+TEST(Scenarios, PathsAreDrivable) {
+  for (const char* name : {"default", "seed_traverse_1", "seed_traverse_2", "flat", "slope"}) {
+    const Scenario scenario = load_scenario(kScenarios + name + ".yaml");
+    EXPECT_EQ(scenario.name, name);
+    const World world(scenario.world, scenario.dtm, scenario.seed);
+    EXPECT_GT(tightest_radius_m(scenario.path), 3.0) << name;
+    for (size_t i = 0; i < scenario.path.x_m.size(); ++i) {
+      const double x = scenario.path.x_m[i], y = scenario.path.y_m[i];
+      EXPECT_LT(slope_deg(world, x, y), scenario.name == "slope" ? 10.1 : 8.0) << name << " " << i;
+      EXPECT_TRUE(world.contains(x - 8, y - 8) && world.contains(x + 8, y + 8)) << name << " " << i;
+    }
+  }
+}
+
+TEST(Scenarios, RocksStandInTheWayAsOftenAsInThePaper) {
+  const auto mean = [](const Scenario& scenario) {
+    double sum = 0.0;
+    for (std::uint64_t seed = 1; seed <= 10; ++seed) sum += hazards_on_path(scenario, seed) / 10.0;
+    return sum;
+  };
+  const double first = mean(load_scenario(kScenarios + "seed_traverse_1.yaml"));
+  EXPECT_GT(first, 6.0);
+  EXPECT_LT(first, 11.0);
+  const double second = mean(load_scenario(kScenarios + "seed_traverse_2.yaml"));
+  EXPECT_GT(second, 9.0);
+  EXPECT_LT(second, 14.0);
+  EXPECT_EQ(hazards_on_path(load_scenario(kScenarios + "flat.yaml"), 1), 0.0);
+}
+
+class ScenarioFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    dir_ = fs::temp_directory_path() / ("rover_scenario_" + std::to_string(::getpid()));
+    fs::create_directories(dir_);
+  }
+  void TearDown() override { fs::remove_all(dir_); }
+
+  std::string write(const std::string& text) const {
+    std::ofstream(file()) << text;
+    return file();
+  }
+  std::string file() const { return (dir_ / "test.yaml").string(); }
+
+  // One line that names the file.
+  std::string complaint(const std::string& text) const {
+    write(text);
+    try {
+      load_scenario(file());
+    } catch (const std::runtime_error& error) {
+      const std::string what = error.what();
+      EXPECT_EQ(what.find('\n'), std::string::npos) << what;
+      return what;
+    }
+    ADD_FAILURE() << "accepted:\n" << text;
+    return "";
+  }
+
+  static std::string plane_world(const std::string& path) {
+    return "world: {plane: {width_m: 40, height_m: 30}}\npath: " + path + "\n";
+  }
+
+  fs::path dir_;
+};
+
+TEST_F(ScenarioFile, ReadsAPlane) {
+  write(plane_world("{x_m: [5, 5], y_m: [5, 20], level: [0, 1]}") + "start: {sigma_m: 0.3}\n");
+  const Scenario scenario = load_scenario(file());
+  EXPECT_EQ(scenario.dtm.width, 40);
+  EXPECT_EQ(scenario.dtm.height, 30);
+  EXPECT_NEAR(scenario.start_pose().yaw_rad, kPi / 2, 1e-9);
+  EXPECT_EQ(scenario.start.sigma_m, 0.3);
+  EXPECT_EQ(scenario.path.level[1], 1);
+  ASSERT_EQ(scenario.world.keep_clear.size(), 2u);
+  EXPECT_EQ(scenario.world.keep_clear[0].radius_m, 1.5);
+}
+
+TEST_F(ScenarioFile, BadPathsAreNamed) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"{x_m: [5], y_m: [5]}", "two points"},
+      {"{x_m: [], y_m: []}", "two points"},
+      {"{x_m: [5, .nan], y_m: [5, 6]}", "x_m"},
+      {"{x_m: [5, 6], y_m: [5, .inf]}", "y_m"},
+      {"{x_m: [5, 6], y_m: [5, 6, 7]}", "y_m"},
+      {"{x_m: [5, 41], y_m: [5, 6]}", "point 2 lies outside"},
+      {"{x_m: [-1, 6], y_m: [5, 6]}", "point 1 lies outside"},
+      {"{x_m: [5, 5], y_m: [6, 6]}", "same"},
+      {"{x_m: [5, 6]}", "y_m"},
+      {"{x_m: [5, 6], y_m: [5, 6], levels: [0, 0]}", "levels"},
+  };
+  for (const auto& [path, expected] : cases) {
+    const std::string what = complaint(plane_world(path));
+    EXPECT_NE(what.find(expected), std::string::npos) << what;
+    EXPECT_EQ(what.rfind(file(), 0), 0u) << what;
+  }
+}
+
+TEST_F(ScenarioFile, AnElevationModelSmallerThanThePathIsNamed) {
+  const std::string what = complaint("world: {dtm: " + kTerrain + "}\npath: {x_m: [100, 400], y_m: [100, 100]}\n");
+  EXPECT_NE(what.find("point 2 lies outside of the elevation model (348 x 337 m)"), std::string::npos) << what;
+}
+
+TEST_F(ScenarioFile, BadWorldsAreNamed) {
+  const std::string path = "path: {x_m: [5, 6], y_m: [5, 6]}\n";
+  EXPECT_NE(complaint("world: {dtm: none.tif}\n" + path).find("none.tif"), std::string::npos);
+  EXPECT_NE(complaint(path).find("world"), std::string::npos);
+  EXPECT_NE(complaint("world: {plane: {width_m: 40, height_m: 30}, rock_area_k: 7}\n" + path).find("rock_area_k"),
+            std::string::npos);
+  EXPECT_NE(complaint("world: {plane: {width_m: 40, height_m: 30}, rock_k: 0.1}\n" + path).find("rock_k"),
+            std::string::npos);
+  EXPECT_NE(complaint("world: {plane: {width_m: 40, height_m: 30}, soil: {everywhere: mud}}\n" + path).find("mud"),
+            std::string::npos);
+  EXPECT_NE(complaint("world: {plane: {width_m: 40, height_m: 30}}\nsun: {elevation: 40}\n" + path).find("elevation"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace rover

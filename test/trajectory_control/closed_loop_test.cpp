@@ -1,0 +1,283 @@
+// Trajectory control and locomotion with their shipped configuration drive a kinematic rover.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "test/trajectory_control/drive_loop.hpp"
+
+namespace rover::control {
+namespace {
+
+using test::ArcPiece;
+using test::DriveLoop;
+using test::polyline;
+
+struct Record {
+  double cross_track_rms_m = 0.0;
+  double cross_track_max_m = 0.0;
+  double predicted_max_m = 0.0;
+  double scrub_max_mps = 0.0;
+  double wheel_max_mps = 0.0;
+  double end_error_m = 0.0;
+  double seconds = 0.0;
+  bool ended = false;
+  bool point_turned = false;
+};
+
+Record drive(DriveLoop& loop, const std::vector<Eigen::Vector2d>& points, double corridor = 0.75,
+             double timeout_s = 900.0) {
+  EXPECT_TRUE(loop.controller.set_path({1, corridor, points}));
+  Record out;
+  double squares = 0.0;
+  int count = 0;
+  const Utime start = loop.now;
+  while (loop.now - start < to_utime(timeout_s) && loop.output.state != ControlState::kPathEnd) {
+    loop.tick();
+    out.point_turned |= loop.output.state == ControlState::kPointTurn;
+    out.scrub_max_mps = std::max(out.scrub_max_mps, loop.rover.twist().scrub_mps);
+    out.wheel_max_mps = std::max(out.wheel_max_mps, loop.rover.fastest_wheel_mps());
+    if (loop.output.state != ControlState::kFollowing) continue;
+    const double e = loop.output.cross_track_m;
+    squares += e * e;
+    ++count;
+    out.cross_track_max_m = std::max(out.cross_track_max_m, std::abs(e));
+    out.predicted_max_m = std::max(out.predicted_max_m, loop.output.predicted_corridor_error_m);
+  }
+  out.seconds = to_seconds(loop.now - start);
+  out.ended = loop.output.state == ControlState::kPathEnd;
+  loop.run(3.0);
+  EXPECT_LT(loop.speed(), 1e-3);
+  out.cross_track_rms_m = std::sqrt(squares / std::max(count, 1));
+  out.end_error_m = std::hypot(loop.rover.pose().x_m - points.back().x(), loop.rover.pose().y_m - points.back().y());
+  return out;
+}
+
+TEST(ClosedLoop, SeedTraverseWithSixRepairs) {
+  DriveLoop loop;
+  const Record r = drive(loop, polyline(test::seed_traverse()));
+  EXPECT_TRUE(r.ended);
+  EXPECT_LT(r.cross_track_rms_m, 0.05);
+  EXPECT_LT(r.cross_track_max_m, 0.10);
+  EXPECT_LT(r.predicted_max_m, 0.15);
+  EXPECT_LT(r.end_error_m, 0.05);
+  EXPECT_LT(r.scrub_max_mps, 0.01);
+  EXPECT_LT(r.wheel_max_mps, 0.30);
+  EXPECT_FALSE(r.point_turned);
+  EXPECT_GT(86.0 / (0.2 * r.seconds), 0.95);
+  RecordProperty("cross_track_rms_mm", static_cast<int>(1e3 * r.cross_track_rms_m));
+}
+
+TEST(ClosedLoop, JaggedPathsDriveAlmostAsWell) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise(0.0, 0.02);
+  auto points = polyline(test::seed_traverse());
+  for (auto& p : points) p += Eigen::Vector2d(noise(random), noise(random));
+  DriveLoop loop;
+  const Record r = drive(loop, points);
+  EXPECT_TRUE(r.ended);
+  EXPECT_LT(r.cross_track_rms_m, 0.06);
+  EXPECT_FALSE(r.point_turned);
+  EXPECT_GT(86.0 / (0.2 * r.seconds), 0.90);
+}
+
+TEST(ClosedLoop, NoisyPosesAreBorne) {
+  std::mt19937 random(4);
+  std::normal_distribution<double> noise;
+  DriveLoop loop;
+  loop.alter_pose = [&](PoseInput& pose) {
+    pose.odom.x_m += 0.005 * noise(random);
+    pose.odom.y_m += 0.005 * noise(random);
+    pose.odom.yaw_rad += 0.002 * noise(random);
+    pose.forward_mps += 0.02 * noise(random);
+    pose.left_mps += 0.02 * noise(random);
+  };
+  const Record r = drive(loop, polyline(test::seed_traverse()));
+  EXPECT_TRUE(r.ended);
+  EXPECT_LT(r.cross_track_rms_m, 0.05);
+}
+
+TEST(ClosedLoop, AStepAsideIsTakenBackWithoutOvershoot) {
+  DriveLoop loop;
+  loop.rover.put({0.0, 0.3, 0.0});
+  loop.controller.set_path({1, 0.75, {{0.0, 0.0}, {20.0, 0.0}}});
+  double lowest = 1.0;
+  while (loop.rover.pose().x_m < 10.0) {
+    loop.tick();
+    lowest = std::min(lowest, loop.rover.pose().y_m);
+    if (loop.rover.pose().x_m > 5.0) {
+      EXPECT_LT(std::abs(loop.rover.pose().y_m), 0.03);
+    }
+  }
+  EXPECT_GT(lowest, -0.04);
+}
+
+TEST(ClosedLoop, DriftOnASideSlopeIsTakenOut) {
+  DriveLoop loop;
+  loop.rover.side_slip = std::tan(to_rad(6.0));
+  loop.controller.set_path({1, 0.75, {{0.0, 0.0}, {40.0, 0.0}}});
+  double largest = 0.0;
+  while (loop.rover.pose().x_m < 35.0) {
+    loop.tick();
+    largest = std::max(largest, std::abs(loop.rover.pose().y_m));
+    if (loop.rover.pose().x_m > 25.0) {
+      EXPECT_LT(std::abs(loop.rover.pose().y_m), 0.05);
+    }
+  }
+  EXPECT_LT(largest, 0.15);
+}
+
+TEST(ClosedLoop, SlipAlongThePathIsBorne) {
+  DriveLoop loop;
+  loop.rover.slip_ratio = 0.4;
+  const Record r = drive(loop, polyline({{0.0, 3.0}, {0.7, 1.0}, {-0.7, 1.0}, {0.0, 3.0}}));
+  EXPECT_TRUE(r.ended);
+  EXPECT_LT(r.cross_track_max_m, 0.25);
+}
+
+TEST(ClosedLoop, StartsWithAPointTurnWhereThePathLeadsElsewhere) {
+  DriveLoop loop;
+  loop.rover.put({0.0, 0.0, to_rad(120.0)});
+  const Record r = drive(loop, {{0.0, 0.0}, {6.0, 0.0}});
+  EXPECT_TRUE(r.ended);
+  EXPECT_TRUE(r.point_turned);
+  EXPECT_LT(r.cross_track_max_m, 0.10);
+  EXPECT_LT(r.end_error_m, 0.05);
+}
+
+TEST(ClosedLoop, StartsWithAnArcWhereTheHeadingIsNearlyRight) {
+  DriveLoop loop;
+  loop.rover.put({0.0, 0.0, to_rad(30.0)});
+  const Record r = drive(loop, {{0.0, 0.0}, {10.0, 0.0}});
+  EXPECT_TRUE(r.ended);
+  EXPECT_FALSE(r.point_turned);
+  EXPECT_LT(r.cross_track_max_m, 0.35);
+}
+
+TEST(ClosedLoop, CornersArePointTurns) {
+  DriveLoop loop;
+  const Record r = drive(loop, {{0, 0}, {4, 0}, {4, 4}, {0, 4}});
+  EXPECT_TRUE(r.ended);
+  EXPECT_TRUE(r.point_turned);
+  EXPECT_LT(r.cross_track_max_m, 0.10);
+  EXPECT_LT(r.end_error_m, 0.05);
+}
+
+TEST(ClosedLoop, BendsBelowTheLeastRadiusStayInTheCorridor) {
+  for (const double radius : {0.2, 0.4, 0.6, 0.8}) {
+    DriveLoop loop;
+    const Record r = drive(loop, polyline({{0.0, 3.0}, {1.0 / radius, radius * kPi / 2.0}, {0.0, 3.0}}, 0.05));
+    EXPECT_TRUE(r.ended) << radius;
+    EXPECT_LT(r.cross_track_max_m, 0.4) << radius;
+    EXPECT_LT(r.end_error_m, 0.10) << radius;
+  }
+}
+
+struct Replacement {
+  double slowest_mps = kInfinity;
+  double cross_track_max_m = 0.0;
+};
+
+// At 0.2 m/s on a line a repair comes that begins where the rover was 0.1 s ago, bending after `straight_m`.
+Replacement replace_path_at_speed(double straight_m) {
+  DriveLoop loop;
+  loop.controller.set_path({1, 0.75, polyline({{0.0, 20.0}})});
+  loop.run(20.0);
+  EXPECT_NEAR(loop.speed(), 0.2, 0.01);
+  std::vector<ArcPiece> pieces = {{0.0, straight_m}};
+  test::append_repair(pieces, 1.0);
+  const auto repair = polyline(pieces, 0.1, loop.rover.pose());
+  loop.run(0.1);
+  loop.controller.set_path({2, 0.75, repair});
+  Replacement out;
+  while (loop.output.state != ControlState::kPathEnd && loop.now < to_utime(200.0)) {
+    loop.tick();
+    if (loop.output.remaining_m > 0.5) out.slowest_mps = std::min(out.slowest_mps, loop.speed());
+    out.cross_track_max_m = std::max(out.cross_track_max_m, std::abs(loop.output.cross_track_m));
+  }
+  EXPECT_EQ(loop.output.state, ControlState::kPathEnd);
+  EXPECT_EQ(loop.output.path_id, 2);
+  return out;
+}
+
+TEST(ClosedLoop, ANewPathAtSpeedIsTakenWithoutAStop) {
+  const Replacement r = replace_path_at_speed(0.5);
+  EXPECT_GT(r.slowest_mps, 0.09);
+  EXPECT_LT(r.cross_track_max_m, 0.08);
+}
+
+TEST(ClosedLoop, ANewPathThatBendsAtOnceIsReachedWithinTheSteeringsLimits) {
+  const Replacement r = replace_path_at_speed(0.1);
+  EXPECT_GT(r.slowest_mps, 0.03);
+  EXPECT_LT(r.cross_track_max_m, 0.20);
+}
+
+TEST(ClosedLoop, TheSamePathAgainChangesNothing) {
+  DriveLoop once;
+  DriveLoop again;
+  const auto points = polyline({{0.0, 3.0}, {0.6, 2.0}, {-0.6, 2.0}});
+  once.controller.set_path({1, 0.75, points});
+  again.controller.set_path({1, 0.75, points});
+  for (int i = 0; i < 1500; ++i) {
+    if (i % 20 == 0) again.controller.set_path({1, 0.75, points});
+    once.tick();
+    again.tick();
+    ASSERT_EQ(once.rover.pose().x_m, again.rover.pose().x_m);
+    ASSERT_EQ(once.rover.pose().y_m, again.rover.pose().y_m);
+  }
+}
+
+TEST(ClosedLoop, AStalePoseStopsTheRover) {
+  DriveLoop loop;
+  loop.controller.set_path({1, 0.75, {{0.0, 0.0}, {20.0, 0.0}}});
+  loop.run(10.0);
+  const double x = loop.rover.pose().x_m;
+  loop.pose_alive = false;
+  loop.run(1.0);
+  EXPECT_EQ(loop.output.state, ControlState::kStalePose);
+  EXPECT_LT(loop.speed(), 0.01);
+  EXPECT_LT(loop.rover.pose().x_m - x, 0.2 * 0.25 + 0.05 + 0.04);
+  loop.pose_alive = true;
+  loop.run(5.0);
+  EXPECT_GT(loop.speed(), 0.15);
+}
+
+TEST(ClosedLoop, AWithdrawnPermitStopsWithinAHandsBreadth) {
+  DriveLoop loop;
+  loop.controller.set_path({1, 0.75, {{0.0, 0.0}, {20.0, 0.0}}});
+  loop.run(10.0);
+  const double x = loop.rover.pose().x_m;
+  loop.permitted = false;
+  loop.run(1.0);
+  EXPECT_LT(loop.speed(), 0.01);
+  EXPECT_LT(loop.rover.pose().x_m - x, 0.10);
+}
+
+TEST(ClosedLoop, ALostLeaseStopsTheRover) {
+  for (const bool permit_dies : {true, false}) {
+    DriveLoop loop;
+    loop.controller.set_path({1, 0.75, {{0.0, 0.0}, {20.0, 0.0}}});
+    loop.run(10.0);
+    const double x = loop.rover.pose().x_m;
+    (permit_dies ? loop.permit_alive : loop.control_alive) = false;
+    loop.run(1.0);
+    EXPECT_LT(loop.speed(), 0.01) << permit_dies;
+    EXPECT_LT(loop.rover.pose().x_m - x, 0.2 * 0.25 + 0.05 + 0.04) << permit_dies;
+  }
+}
+
+TEST(ClosedLoop, PushedOutOfTheCorridorItStandsUntilANewPath) {
+  DriveLoop loop;
+  loop.controller.set_path({1, 0.5, {{0.0, 0.0}, {20.0, 0.0}}});
+  loop.run(10.0);
+  loop.rover.put({loop.rover.pose().x_m, 0.6, 0.0});
+  loop.run(3.0);
+  EXPECT_EQ(loop.output.state, ControlState::kOutOfCorridor);
+  EXPECT_LT(loop.speed(), 1e-3);
+  loop.controller.set_path({2, 0.5, {{loop.rover.pose().x_m, 0.6}, {20.0, 0.0}}});
+  loop.run(5.0);
+  EXPECT_EQ(loop.output.state, ControlState::kFollowing);
+  EXPECT_GT(loop.speed(), 0.15);
+}
+
+}  // namespace
+}  // namespace rover::control

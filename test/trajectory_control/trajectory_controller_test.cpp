@@ -1,0 +1,167 @@
+#include "trajectory_control/trajectory_controller.hpp"
+
+#include <gtest/gtest.h>
+
+#include "test/trajectory_control/drive_loop.hpp"
+
+namespace rover::control {
+namespace {
+
+constexpr Utime kNow = 5'000'000;
+
+// One step with all well, unless the test alters something first.
+class ControllerTest : public testing::Test {
+ protected:
+  ControllerTest() { controller_.set_path({7, 0.75, {{0.0, 0.0}, {20.0, 0.0}}}); }
+  ControlOutput step() { return controller_.step(kNow, pose_, permit_); }
+  void expect_no_command(ControlState state) {
+    const ControlOutput out = step();
+    EXPECT_EQ(out.state, state);
+    EXPECT_EQ(out.command.mode, MotionMode::kStop);
+    EXPECT_EQ(out.command.speed_mps, 0.0);
+    EXPECT_FALSE(locomotion::commands(out.command, kNow, 200'000));
+  }
+
+  TrajectoryController controller_{load_config(test::config_dir())};
+  PoseInput pose_{kNow - 20'000, true, {3.0, 0.1, 0.05}, 0.2, 0.0};
+  DrivePermit permit_{kNow - 20'000, kNow + 180'000, true, 0.2};
+};
+
+TEST_F(ControllerTest, DrivesWhenAllIsWell) {
+  const ControlOutput out = step();
+  EXPECT_EQ(out.state, ControlState::kFollowing);
+  EXPECT_EQ(out.command.mode, MotionMode::kArc);
+  EXPECT_NEAR(out.command.speed_mps, 0.2, 1e-9);
+  EXPECT_LT(out.command.curvature_per_m, 0.0);
+  EXPECT_EQ(out.command.valid_until, kNow + 200'000);
+  EXPECT_EQ(out.path_id, 7);
+  EXPECT_NEAR(out.arc_length_m, 3.0, 1e-6);
+  EXPECT_NEAR(out.remaining_m, 17.0, 1e-6);
+  EXPECT_NEAR(out.cross_track_m, 0.1, 1e-6);
+  EXPECT_NEAR(out.heading_error_rad, 0.05, 1e-6);
+  EXPECT_GE(out.predicted_corridor_error_m, 0.1 - 1e-6);
+  EXPECT_EQ(out.corridor_half_width_m, 0.75);
+}
+
+// The original drives on for ever on a stale pose (reference, fault 7).
+TEST_F(ControllerTest, AStalePoseIsNoCommand) {
+  pose_.utime = kNow - 200'000;
+  EXPECT_EQ(step().state, ControlState::kFollowing);
+  pose_.utime = kNow - 200'001;
+  expect_no_command(ControlState::kStalePose);
+}
+
+TEST_F(ControllerTest, APoseThatNeverCameIsNoCommand) {
+  pose_ = {};
+  expect_no_command(ControlState::kStalePose);
+}
+
+TEST_F(ControllerTest, APoseOfTheFutureIsNoCommand) {
+  pose_.utime = kNow + 1;
+  expect_no_command(ControlState::kStalePose);
+}
+
+TEST_F(ControllerTest, ALostPoseIsNoCommand) {
+  pose_.usable = false;
+  expect_no_command(ControlState::kStalePose);
+}
+
+TEST_F(ControllerTest, NotANumberIsNoCommand) {
+  const PoseInput good = pose_;
+  for (double* field : {&pose_.odom.x_m, &pose_.odom.y_m, &pose_.odom.yaw_rad, &pose_.forward_mps, &pose_.left_mps}) {
+    pose_ = good;
+    *field = kNaN;
+    expect_no_command(ControlState::kStalePose);
+  }
+}
+
+TEST_F(ControllerTest, NoPermitIsNoCommand) {
+  permit_.granted = false;
+  expect_no_command(ControlState::kNoPermit);
+  permit_ = {};
+  expect_no_command(ControlState::kNoPermit);
+}
+
+TEST_F(ControllerTest, AStalePermitIsNoCommand) {
+  permit_.valid_until = kNow + 10'000'000;
+  permit_.utime = kNow - 200'001;
+  expect_no_command(ControlState::kNoPermit);
+}
+
+TEST_F(ControllerTest, OutsideOfTheCorridorIsNoCommand) {
+  pose_.odom.y_m = -0.76;
+  expect_no_command(ControlState::kOutOfCorridor);
+  permit_.granted = false;  // the supervisor has to go on seeing it
+  expect_no_command(ControlState::kOutOfCorridor);
+}
+
+TEST_F(ControllerTest, WithoutAPathItIsIdle) {
+  TrajectoryController empty(load_config(test::config_dir()));
+  const ControlOutput out = empty.step(kNow, pose_, permit_);
+  EXPECT_EQ(out.state, ControlState::kIdle);
+  EXPECT_EQ(out.path_id, -1);
+  EXPECT_EQ(out.command.mode, MotionMode::kStop);
+}
+
+TEST_F(ControllerTest, ABrokenPathTakesTheOldOneAway) {
+  EXPECT_FALSE(controller_.set_path({8, 0.75, {{0.0, 0.0}}}));
+  const ControlOutput out = step();
+  EXPECT_EQ(out.state, ControlState::kIdle);
+  EXPECT_EQ(out.command.mode, MotionMode::kStop);
+}
+
+TEST_F(ControllerTest, SpeedIsBoundedByThePermit) {
+  permit_.max_speed_mps = 0.07;
+  EXPECT_DOUBLE_EQ(step().command.speed_mps, 0.07);
+}
+
+TEST_F(ControllerTest, ALargeHeadingErrorIsTurnedOnTheSpot) {
+  for (const double sign : {-1.0, 1.0}) {
+    pose_.odom.yaw_rad = sign * to_rad(41.0);
+    const ControlOutput out = step();
+    EXPECT_EQ(out.state, ControlState::kPointTurn);
+    EXPECT_EQ(out.command.mode, MotionMode::kPointTurn);
+    EXPECT_LT(out.command.turn_rate_radps * sign, 0.0);
+    EXPECT_EQ(out.command.speed_mps, 0.0);
+  }
+}
+
+TEST_F(ControllerTest, APointTurnGoesOnUntilTheHeadingFits) {
+  pose_.odom.yaw_rad = to_rad(41.0);
+  step();
+  pose_.odom.yaw_rad = to_rad(20.0);
+  EXPECT_EQ(step().state, ControlState::kPointTurn);
+  pose_.odom.yaw_rad = to_rad(1.5);
+  EXPECT_EQ(step().state, ControlState::kFollowing);
+  pose_.odom.yaw_rad = to_rad(20.0);
+  EXPECT_EQ(step().state, ControlState::kFollowing);
+}
+
+TEST_F(ControllerTest, SideSlipOnASlopeIsForeseen) {
+  pose_.odom = {3.0, 0.0, 0.0};
+  const double level = step().predicted_corridor_error_m;
+  pose_.left_mps = 0.06;
+  TrajectoryController slipping(load_config(test::config_dir()));
+  slipping.set_path({7, 0.75, {{0.0, 0.0}, {20.0, 0.0}}});
+  ControlOutput out;
+  for (Utime t = kNow; t < kNow + 3'000'000; t += kTickUs) {
+    pose_.utime = t;
+    permit_ = {t, t + 200'000, true, 0.2};
+    out = slipping.step(t, pose_, permit_);
+  }
+  EXPECT_LT(level, 0.01);
+  EXPECT_GT(out.predicted_corridor_error_m, 0.05);
+}
+
+TEST_F(ControllerTest, PathEndIsReportedAlsoWithoutPermit) {
+  pose_.odom = {19.99, 0.0, 0.0};
+  EXPECT_EQ(step().state, ControlState::kPathEnd);
+  permit_.granted = false;
+  EXPECT_EQ(step().state, ControlState::kPathEnd);
+  pose_.odom = {20.3, 0.0, 0.0};
+  EXPECT_EQ(step().state, ControlState::kPathEnd);
+  EXPECT_EQ(step().command.mode, MotionMode::kStop);
+}
+
+}  // namespace
+}  // namespace rover::control
