@@ -65,10 +65,6 @@ GroundCommand command_from(const ground_command_t& message) {
   out.id = message.command_id;
   out.kind = static_cast<CommandKind>(message.kind);
   out.target = message.target;
-  out.start_pose_sane = Eigen::Vector3d(message.position_map_m).allFinite() && std::isfinite(message.yaw_rad) &&
-                        std::isfinite(message.sigma_m) && message.sigma_m > 0.0 &&
-                        std::isfinite(message.sigma_yaw_rad) && message.sigma_yaw_rad > 0.0 &&
-                        std::isfinite(message.clear_radius_m) && message.clear_radius_m >= 0.0;
   return out;
 }
 

@@ -49,8 +49,10 @@ void SupervisorNode::subscribe() {
   node_.subscribe<control_status_t>(channel::kControlStatus,
                                     [this](const control_status_t& m) { supervisor_.on_control(report_from(m)); });
   node_.subscribe<slip_t>(channel::kSlip, [this](const slip_t& m) { supervisor_.on_slip(report_from(m)); });
-  node_.subscribe<ground_command_t>(channel::kGroundCommand,
-                                    [this](const ground_command_t& m) { supervisor_.on_command(command_from(m)); });
+  node_.subscribe<ground_command_t>(channel::kGroundCommand, [this](const ground_command_t& m) {
+    // Localization takes the start pose, and answers for it.
+    if (m.kind != ground_command_t::SET_START_POSE) supervisor_.on_command(command_from(m));
+  });
 }
 
 void SupervisorNode::step(Utime now) {

@@ -240,16 +240,15 @@ bool Supervisor::inputs_ready(Utime now) const {
   const auto fresh = [now](Utime utime, double limit_s) {
     return age_reading(utime, now, limit_s).condition == Condition::kFalse;
   };
-  return silent_services(now).empty() && pose_.usable && fresh(pose_.utime, config_.pose_max_age_s) &&
+  return services_alive(now) && pose_.usable && fresh(pose_.utime, config_.pose_max_age_s) &&
          fresh(hazards_.utime, config_.hazards_max_age_s) && fresh(planner_.utime, config_.planner_max_age_s) &&
          fresh(control_.utime, config_.control_max_age_s);
 }
 
-std::string Supervisor::silent_services(Utime now) const {
-  std::string out;
-  for (const Watch& w : watches_)
-    if (!w.service.empty() && read_heartbeat(w, now).condition != Condition::kFalse) out += " " + w.service;
-  return out;
+bool Supervisor::services_alive(Utime now) const {
+  return std::all_of(watches_.begin(), watches_.end(), [&](const Watch& w) {
+    return w.service.empty() || read_heartbeat(w, now).condition == Condition::kFalse;
+  });
 }
 
 bool Supervisor::standing_still() const {
@@ -267,13 +266,6 @@ double Supervisor::blocked_in_m() const {
 
 CommandAnswer Supervisor::answer(const GroundCommand& command, FactSet& facts, Utime now, SupervisorOutput& out) {
   if (command.kind == CommandKind::kClearFault) return clear_fault(command, facts, out);
-  if (command.kind == CommandKind::kSetStartPose) {
-    if (!command.start_pose_sane) return {command.id, false, "start pose is not finite or its deviation not positive"};
-    if (state_ != kBoot && state_ != kStandby)
-      return {command.id, false, std::string("not possible in ") + name(state_)};
-    const std::string missing = silent_services(now);
-    return {command.id, missing.empty(), missing.empty() ? "" : "not up yet:" + missing};
-  }
   const std::optional<Fact> fact = fact_of(command.kind);
   if (!fact) return {command.id, false, "command not known to this supervisor"};
   FactSet with_command = facts;

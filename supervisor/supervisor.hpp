@@ -79,8 +79,8 @@ struct SlipReport {
   double ratio = kNaN;
 };
 
+// SET_START_POSE is localization's to answer.
 enum class CommandKind : std::int8_t {
-  kSetStartPose = 0,
   kGo = 1,
   kStop = 2,
   kPause = 3,
@@ -96,8 +96,7 @@ enum class CommandKind : std::int8_t {
 struct GroundCommand {
   std::int64_t id = 0;
   CommandKind kind = CommandKind::kStop;
-  bool start_pose_sane = false;  // SET_START_POSE: finite, standard deviations positive
-  std::string target;            // CLEAR_FAULT
+  std::string target;  // CLEAR_FAULT
 };
 
 struct Evidence {
@@ -196,8 +195,7 @@ class Supervisor {
   void record(const Watch& watch, SupervisorOutput& out);
   FactSet facts(Utime now);
   bool inputs_ready(Utime now) const;
-  // Required services without a fresh heartbeat, each after a blank.
-  std::string silent_services(Utime now) const;
+  bool services_alive(Utime now) const;
   bool standing_still() const;
   double stop_distance_m() const;
   double blocked_in_m() const;

@@ -14,6 +14,7 @@ class States {
 
   std::vector<Cell> make() {
     mark_ground();
+    fill_single_gaps();
     mark_clusters(Cell::kObstacle, [](const CellEvidence& e) { return e.high; });
     mark_clusters(Cell::kHole, [](const CellEvidence& e) { return e.low; });
     grow_obstacles();
@@ -56,6 +57,19 @@ class States {
         });
       if (ground_seen(ground, expected)) cell(i) = Cell::kFree;
     }
+  }
+
+  // One unmeasured cell amid free ones cannot hide an obstacle: what stands T_near high hides more than one cell of
+  // ground behind it, T_near / (h - T_near) times its distance.
+  void fill_single_gaps() {
+    std::vector<int> gaps;
+    for (int i = 0; i < shape_.size(); ++i) {
+      if (cell(i) == Cell::kFree) continue;
+      int free = 0;
+      for_neighbours(i, 1, [&](int k) { free += cell(k) == Cell::kFree; });
+      if (free >= 7) gaps.push_back(i);
+    }
+    for (int i : gaps) cell(i) = Cell::kFree;
   }
 
   // Connected suspect cells are a hazard where they hold enough samples together; stereo's stray points are not.

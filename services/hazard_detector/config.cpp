@@ -26,6 +26,7 @@ void read_prior(const Config& yaml, PlanePrior& prior) {
   yaml.read("max_offset_m", prior.max_offset_m, {0.0, 0.5});
   yaml.read("inlier_m", prior.inlier_m, {0.01, 0.5});
   yaml.read("tukey_m", prior.tukey_m, {0.01, 1.0});
+  yaml.read("near_weight_m", prior.near_weight_m, {0.1, 100.0});
   yaml.read("min_cells", prior.min_cells, {3, 10000});
 }
 
@@ -37,6 +38,8 @@ void read_relief(const Config& yaml, ReliefConfig& relief) {
   yaml.read("bound_m", relief.bound_m, {0.0, 0.5});
   yaml.read("bound_per_m", relief.bound_per_m, {0.0, 0.5});
   yaml.read("min_cells", relief.min_cells, {3, 10000});
+  yaml.read("step_reach_m", relief.step_reach_m, {0.0, 1.0});
+  yaml.read("step_slack_m", relief.step_slack_m, {0.0, 0.5});
 }
 
 void read_limits(const Config& yaml, HazardConfig& core) {

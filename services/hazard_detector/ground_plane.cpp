@@ -13,24 +13,33 @@ constexpr double kBelowWeight = 0.5;  // what a cell below the plane takes from 
 constexpr int kRefinements = 4;
 constexpr size_t kSearchPoints = 250;  // enough for the search; the refinement takes all
 
+struct WeightedPoint {
+  float x_m, y_m, z_m, weight;
+};
+
+double weight_of(const GroundPoint& p, const PlanePrior& prior) {
+  const double ahead = std::max(0.0, p.x_m - prior.wheel_line_x_m) / prior.near_weight_m;
+  return 1.0 / (1.0 + ahead * ahead);
+}
+
 // Offsets of all points under the slopes, as a histogram over the bounded offsets and as far around as needed.
 class OffsetHistogram {
  public:
   explicit OffsetHistogram(const PlanePrior& prior)
       : reach_(prior.max_offset_m + 3.0 * prior.inlier_m), bins_(static_cast<size_t>(std::ceil(2.0 * reach_ / kBin))) {}
 
-  void fill(const GroundPoints& points, const PlanePrior& prior, double slope_x, double slope_y) {
-    std::fill(bins_.begin(), bins_.end(), 0);
-    below_ = 0;
+  void fill(const std::vector<WeightedPoint>& points, const PlanePrior& prior, double slope_x, double slope_y) {
+    std::fill(bins_.begin(), bins_.end(), 0.0f);
+    below_ = 0.0f;
     const float sx = static_cast<float>(slope_x), sy = static_cast<float>(slope_y);
     const float shift = static_cast<float>(reach_ + slope_x * prior.wheel_line_x_m);
     const float per_bin = static_cast<float>(1.0 / kBin);
-    for (const Eigen::Vector3f& p : points) {
-      const float bin = (p.z() - sx * p.x() - sy * p.y() + shift) * per_bin;
+    for (const WeightedPoint& p : points) {
+      const float bin = (p.z_m - sx * p.x_m - sy * p.y_m + shift) * per_bin;
       if (bin < 0.0f)
-        ++below_;
+        below_ += p.weight;
       else if (bin < static_cast<float>(bins_.size()))
-        ++bins_[static_cast<size_t>(bin)];
+        bins_[static_cast<size_t>(bin)] += p.weight;
     }
   }
 
@@ -38,7 +47,7 @@ class OffsetHistogram {
   std::pair<double, double> best(const PlanePrior& prior) const {
     const int half = std::max(1, static_cast<int>(std::lround(prior.inlier_m / kBin)));
     std::pair<double, double> best{-1e9, 0.0};
-    int below = below_, inside = 0;
+    double below = below_, inside = 0.0;
     for (int i = 0; i < std::min<int>(2 * half, static_cast<int>(bins_.size())); ++i)
       inside += bins_[static_cast<size_t>(i)];
     for (int centre = half; centre + half < static_cast<int>(bins_.size()); ++centre) {
@@ -53,18 +62,21 @@ class OffsetHistogram {
 
  private:
   double reach_;
-  std::vector<int> bins_;
-  int below_ = 0;
+  std::vector<float> bins_;  // sums of weights
+  float below_ = 0.0f;
 };
 
-GroundPoints thinned(const GroundPoints& points) {
+std::vector<WeightedPoint> thinned(const GroundPoints& points, const PlanePrior& prior) {
   const size_t step = std::max<size_t>(1, points.size() / kSearchPoints);
-  GroundPoints some;
-  for (size_t i = 0; i < points.size(); i += step) some.push_back(points[i]);
+  std::vector<WeightedPoint> some;
+  for (size_t i = 0; i < points.size(); i += step) {
+    const GroundPoint& p = points[i];
+    some.push_back({p.x_m, p.y_m, p.z_m, static_cast<float>(weight_of(p, prior))});
+  }
   return some;
 }
 
-GroundPlane search(const GroundPoints& points, const PlanePrior& prior) {
+GroundPlane search(const std::vector<WeightedPoint>& points, const PlanePrior& prior) {
   OffsetHistogram histogram(prior);
   GroundPlane plane;
   double best = -1e9;
@@ -88,12 +100,12 @@ GroundPlane search(const GroundPoints& points, const PlanePrior& prior) {
 void refine(const GroundPoints& points, const PlanePrior& prior, GroundPlane& plane) {
   Eigen::Matrix3d A = Eigen::Matrix3d::Identity() * 1e-3;
   Eigen::Vector3d b = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3f& p : points) {
-    const Eigen::Vector3d a(1.0, p.x() - prior.wheel_line_x_m, p.y());
-    const double residual = p.z() - a.dot(Eigen::Vector3d(plane.offset_m, plane.slope_x, plane.slope_y));
+  for (const GroundPoint& p : points) {
+    const Eigen::Vector3d a(1.0, p.x_m - prior.wheel_line_x_m, p.y_m);
+    const double residual = p.z_m - a.dot(Eigen::Vector3d(plane.offset_m, plane.slope_x, plane.slope_y));
     const double s = residual / prior.tukey_m;
     if (std::abs(s) >= 1.0) continue;
-    const double weight = (1.0 - s * s) * (1.0 - s * s);
+    const double weight = weight_of(p, prior) * (1.0 - s * s) * (1.0 - s * s);
     A += weight * a * a.transpose();
     b += weight * a * residual;
   }
@@ -108,7 +120,7 @@ void refine(const GroundPoints& points, const PlanePrior& prior, GroundPlane& pl
 
 GroundPlane fit_ground_plane(const GroundPoints& points, const PlanePrior& prior) {
   if (static_cast<int>(points.size()) < prior.min_cells) return {};
-  GroundPlane plane = search(thinned(points), prior);
+  GroundPlane plane = search(thinned(points, prior), prior);
   for (int i = 0; i < kRefinements; ++i) refine(points, prior, plane);
   return plane;
 }

@@ -24,8 +24,11 @@ struct GroundPlane {
   double roll_rad() const { return std::atan(slope_y); }
 };
 
-// Cell means in body axes, z counted from flat ground under the rover.
-using GroundPoints = std::vector<Eigen::Vector3f>;
+// Mean of a cell in body axes, z counted from flat ground under the rover.
+struct GroundPoint {
+  float x_m, y_m, z_m;
+};
+using GroundPoints = std::vector<GroundPoint>;
 
 GroundPlane fit_ground_plane(const GroundPoints& points, const PlanePrior& prior);
 

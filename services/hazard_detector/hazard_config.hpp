@@ -21,6 +21,7 @@ struct PlanePrior {
   double max_offset_m = 0.14;     // at the wheel line; 10 deg about the body origin make 0.13
   double inlier_m = 0.05;         // half band of a plane's supporters in the search
   double tukey_m = 0.12;          // residuals beyond do not pull the refined plane
+  double near_weight_m = 1.0;     // a cell this far ahead of the wheel line weighs half
   int min_cells = 40;             // with fewer measured cells the prior stands
 };
 
@@ -33,6 +34,8 @@ struct ReliefConfig {
   double bound_m = 0.05;        // at the wheel line
   double bound_per_m = 0.05;    // more for each metre ahead
   int min_cells = 12;
+  double step_reach_m = 0.2;   // obstacles also count from the lowest cell within this distance
+  double step_slack_m = 0.02;  // plus this: slope of the ground against the plane over that distance
 };
 
 struct HazardConfig {

@@ -105,8 +105,8 @@ GroundPlane HazardDetector::fit_plane() const {
     for (int ix = 0; ix < shape_.cells_x; ++ix) {
       const CellEvidence& e = evidence_[static_cast<size_t>(shape_.at(ix, iy))];
       if (e.measured < config_.min_free_samples) continue;
-      points.emplace_back(static_cast<float>(shape_.x_m(ix)), static_cast<float>(shape_.y_m(iy)),
-                          e.sum_z_m / static_cast<float>(e.measured));
+      points.push_back({static_cast<float>(shape_.x_m(ix)), static_cast<float>(shape_.y_m(iy)),
+                        e.sum_z_m / static_cast<float>(e.measured)});
     }
   return fit_ground_plane(points, config_.prior);
 }

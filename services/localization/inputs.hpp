@@ -43,7 +43,7 @@ struct VisualMotion {
   Utime previous_utime = kNever;
   Utime keyframe_utime = kNever;
   Eigen::Isometry3d T_prev_cur = nan_pose();
-  Matrix6d cov = nan_cov();  // position, rotation; in the previous body's axes
+  Matrix6d cov = nan_cov();  // of the end's alignment with the keyframe: position, rotation; previous body's axes
   VisualStatus status = VisualStatus::kLost;
 };
 

@@ -252,7 +252,7 @@ FilterState Localization::carried(FilterState state, Utime to) const {
 std::string_view Localization::use_visual(const VisualMotion& motion) {
   if (motion.previous_utime < latest_.utime) return "begins before the newest motion used";
   if (!history_.covers(motion.previous_utime, motion.utime)) return "of a time that is forgotten or to come";
-  if (!chain_.continues(motion)) chain_.restart(carried(latest_, motion.previous_utime), motion.keyframe_utime);
+  if (!chain_.continues(motion)) chain_.restart(carried(latest_, motion.previous_utime), motion);
   VisualChain longer = chain_;
   longer.extend(motion);
   const auto fused = fuse(longer);

@@ -15,7 +15,7 @@ class VisualChain {
   // True where the motion goes on from the chain's end, on its keyframe.
   bool continues(const VisualMotion& motion) const;
   // Begins at the state of the filter at motion.previous_utime.
-  void restart(const FilterState& anchor, Utime keyframe_utime);
+  void restart(const FilterState& anchor, const VisualMotion& first);
   void extend(const VisualMotion& motion);
   void clear() { anchor_.utime = kNever; }
 
@@ -27,6 +27,7 @@ class VisualChain {
   double max_duration_s_;
   FilterState anchor_;
   Utime keyframe_utime_ = kNever;
+  Matrix6d start_cov_ = Matrix6d::Zero();
   VisualInterval interval_;
 };
 

@@ -11,18 +11,20 @@ constexpr double kSampleM = 0.1;
 constexpr int kHeadings = 32;
 constexpr double kPlaceM = 0.15;  // two poses in one such square with one heading are the same
 constexpr double kTurnSampleRad = 0.0524;
+constexpr double kTurnViewRad = 0.4;
 constexpr std::array<double, 9> kCurvatures = {0.0, 0.25, -0.25, 0.5, -0.5, 0.75, -0.75, 1.0, -1.0};  // of the largest
 constexpr std::array<double, 4> kJoinAheadM = {0.8, 1.5, 2.4, 3.5};
 constexpr std::array<double, 2> kJoinRadii = {1.6, 1.0};  // of the least radius
-constexpr std::array<double, 9> kTurnsDeg = {45.0, 60.0, 75.0, 90.0, 105.0, 120.0, 140.0, 160.0, 180.0};
+constexpr std::array<double, 7> kTurnsDeg = {45.0, 60.0, 75.0, 95.0, 120.0, 150.0, 180.0};
 
 struct ArcNode {
   Pose2 pose;
   double curvature_per_m = 0.0;
   double cost = 0.0;
   double way_m = 0.0;
-  double turn_rad = 0.0;  // point turn before the first arc
   int parent = -1;
+  bool turned = false;      // by a point turn from the parent
+  bool to_be_turned = false;  // stands for the point turns from here, until they are worth looking at
 };
 
 class ArcSearch {
@@ -35,13 +37,17 @@ class ArcSearch {
   }
 
   SearchResult run() {
-    offer({problem_.start, problem_.start_curvature_per_m, 0.0, 0.0, 0.0, -1});
-    offer_turns(1.0);
-    offer_turns(-1.0);
+    offer({problem_.start, problem_.start_curvature_per_m, 0.0, 0.0, -1});
+    put({problem_.stopped, 0.0, config_.turn_cost_m, 0.0, -1, false, true});
     int left = config_.max_expansions;
     while (!open_.empty() && left-- > 0) {
       const auto [estimate, index] = pop();
       if (estimate >= result_.cost) break;
+      if (nodes_[index].to_be_turned) {
+        offer_turns(index, 1.0);
+        offer_turns(index, -1.0);
+        continue;
+      }
       if (nodes_[index].cost > best_cost_[key(nodes_[index].pose)]) continue;
       ++result_.expansions;
       const bool had = result_.found;
@@ -74,13 +80,16 @@ class ArcSearch {
   }
 
   void offer(const ArcNode& node) {
-    const double estimate = node.cost + travel_from(node.pose);
-    if (!(estimate < result_.cost)) return;
+    if (!(node.cost + travel_from(node.pose) < result_.cost)) return;
     double& best = best_cost_[key(node.pose)];
     if (node.cost >= best) return;
     best = node.cost;
+    put(node);
+  }
+
+  void put(const ArcNode& node) {
     nodes_.push_back(node);
-    open_.emplace_back(estimate, static_cast<int>(nodes_.size()) - 1);
+    open_.emplace_back(node.cost + config_.greed * travel_from(node.pose), static_cast<int>(nodes_.size()) - 1);
     std::push_heap(open_.begin(), open_.end(), std::greater<>());
   }
 
@@ -92,19 +101,22 @@ class ArcSearch {
   }
 
   // Point turns to one side, as far as the rectangle turns freely over seen ground.
-  void offer_turns(double side) {
-    seen_.clear();
+  void offer_turns(int index, double side) {
+    const ArcNode from = nodes_[index];
+    note_way_to(index);
     double turned = 0.0;
     for (const double turn_deg : kTurnsDeg) {
       const double turn = to_rad(turn_deg);
-      for (; turned < turn + 1e-9; turned += kTurnSampleRad) {
-        Pose2 pose = problem_.stopped;
-        pose.yaw_rad += side * turned;
-        if (!problem_.check.clear(pose) || !seen_.covers(pose)) return;
+      ArcNode next = from;
+      for (; turned < turn + kTurnSampleRad; turned += kTurnSampleRad) {
+        next.pose.yaw_rad = from.pose.yaw_rad + side * std::min(turned, turn);
+        if (!problem_.check.clear(next.pose) || !seen_.covers(next.pose)) return;
       }
-      Pose2 pose = problem_.stopped;
-      pose.yaw_rad += side * turn;
-      offer({pose, 0.0, config_.turn_cost_m + config_.turn_cost_per_rad_m * turn, 0.0, side * turn, -1});
+      next.cost += config_.turn_cost_per_rad_m * turn;
+      next.parent = index;
+      next.turned = true;
+      next.to_be_turned = false;
+      offer(next);
     }
   }
 
@@ -122,18 +134,29 @@ class ArcSearch {
       const Pose2 pose = advanced(from, step * i, arc.curvature_per_m);
       cost += step * ground_cost(pose);
       if (std::isinf(cost) || !problem_.check.clear(pose)) return kInfinity;
-      if (way_before_m + step * i > config_.look_ahead_m) continue;
-      if (!seen_.covers(pose)) {
+      if (seen_.covers(pose)) continue;
+      if (way_before_m + step * i <= problem_.sure_m) {
         result_.unseen_in_the_way = true;
         return kInfinity;
       }
+      cost += step * config_.unseen_way_cost;
     }
     return cost;
   }
 
   void note_way_to(int index) {
     seen_.clear();
-    for (int i = index; i >= 0; i = nodes_[i].parent) seen_.passed(nodes_[i].pose);
+    for (int i = index; i >= 0; i = nodes_[i].parent) {
+      seen_.passed(nodes_[i].pose);
+      if (nodes_[i].turned) note_turn(nodes_[nodes_[i].parent].pose, nodes_[i].pose);
+    }
+  }
+
+  // The camera sweeps all that lies between the two headings.
+  void note_turn(const Pose2& from, const Pose2& to) {
+    const int steps = static_cast<int>(std::abs(to.yaw_rad - from.yaw_rad) / kTurnViewRad);
+    for (int i = 1; i <= steps; ++i)
+      seen_.passed({to.x_m, to.y_m, from.yaw_rad + (to.yaw_rad - from.yaw_rad) * i / (steps + 1)});
   }
 
   void expand(int index) {
@@ -143,6 +166,7 @@ class ArcSearch {
       const ArcSegment arc{share * config_.max_curvature_per_m, config_.step_m};
       ArcNode next = from;
       next.parent = index;
+      next.turned = false;
       next.pose = advanced(from.pose, arc.length_m, arc.curvature_per_m);
       next.cost += bend_cost(from.curvature_per_m, arc.curvature_per_m);
       if (next.cost + arc.length_m + travel_from(next.pose) >= result_.cost) continue;
@@ -151,6 +175,14 @@ class ArcSearch {
       next.way_m += arc.length_m;
       offer(next);
     }
+    if (from.turned || from.parent < 0) return;
+    ArcNode halt = from;
+    halt.parent = index;
+    halt.curvature_per_m = 0.0;
+    halt.cost += config_.turn_cost_m;
+    halt.turned = false;
+    halt.to_be_turned = true;
+    put(halt);
   }
 
   void finish_from(int index) {
@@ -207,15 +239,22 @@ class ArcSearch {
     result_.found = true;
     result_.cost = cost;
     result_.target = target;
-    result_.segments.clear();
-    int i = index;
-    for (; nodes_[i].parent >= 0; i = nodes_[i].parent)
-      result_.segments.insert(result_.segments.begin(), {nodes_[i].curvature_per_m, config_.step_m});
-    result_.turn_rad = nodes_[i].turn_rad;
-    result_.start = nodes_[i].pose;
+    result_.sections.assign(1, {});
+    for (int i = index; i >= 0; i = nodes_[i].parent) {
+      const ArcNode& node = nodes_[i];
+      WaySection& section = result_.sections.front();
+      section.start = node.pose;
+      if (node.turned)
+        result_.sections.insert(result_.sections.begin(), WaySection{});
+      else if (node.parent >= 0 && !node.to_be_turned)
+        section.segments.insert(section.segments.begin(), {node.curvature_per_m, config_.step_m});
+    }
+    // A section that has no arc is the halt before the first turn.
+    result_.turns_first = result_.sections.front().segments.empty() && result_.sections.size() > 1;
+    if (result_.turns_first) result_.sections.erase(result_.sections.begin());
     if (join == nullptr) return;
     for (const ArcSegment& arc : join->segments)
-      if (arc.length_m >= 1e-6) result_.segments.push_back(arc);
+      if (arc.length_m >= 1e-6) result_.sections.back().segments.push_back(arc);
   }
 
   const ArcSearchConfig& config_;

@@ -7,7 +7,7 @@
 namespace rover::planning {
 
 struct BlockQuery {
-  const Terrain& terrain;  // with possible hazards
+  const Terrain& terrain;
   const Route& route;
   Footprint footprint;
   double from_m = 0.0;  // along the route: where the rover is

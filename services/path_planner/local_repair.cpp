@@ -11,11 +11,14 @@ constexpr double kBorderM = 0.5;         // of the map, where nothing is joined
 constexpr double kShortestJoinM = 0.5;   // ahead of the rover
 constexpr double kSoonM = 1.0;           // reach of "as soon as possible": what an arc needs to come in
 constexpr double kSoonFactor = 3.0;      // prices the global path, so that an early join is worth a longer way
-constexpr double kTightCost = 8.0;       // per metre where only a rectangle turned the right way may pass
+constexpr double kNearM = 1.2;           // the rover may stand closer to a hazard than it would go
+constexpr double kTightCost = 8.0;       // per metre there
 constexpr double kBareM = 0.05;          // nearer than the half width less this nothing passes
-constexpr double kMarchBeyond = 3.5;     // travel cost, as much as a point turn and a way round
+constexpr double kMarchBeyond = 6.0;      // travel cost, as much as a point turn and a way round
 constexpr double kMostClearanceM = 2.0;
 constexpr double kLeastSmoothM = 0.6;
+constexpr double kViewStepM = 0.2;
+constexpr double kViewStepRad = 0.4;
 
 // The stretch of the global path from `from_m` that lies inside the map.
 std::vector<double> stations(const Route& global, const Terrain& terrain, double from_m) {
@@ -26,6 +29,10 @@ std::vector<double> stations(const Route& global, const Terrain& terrain, double
   }
   if (terrain.inside_m(global.point_at(global.length_m())) >= kBorderM) out.push_back(global.length_m());
   return out;
+}
+
+void append(std::vector<Pose2>& way, const std::vector<Pose2>& section) {
+  way.insert(way.end(), section.begin(), section.end());
 }
 
 }  // namespace
@@ -65,7 +72,7 @@ RepairResult LocalRepair::plan(const RepairRequest& request) const {
   const std::vector<double> travel = march(cost, seeds, request.terrain.cell_of(position(request.start)), kMarchBeyond);
   const SearchResult way =
       search_arcs(config_.search, {check, cost, travel, config_.view, targets, goal, 0.6 * request.goal_tolerance_m,
-                                   request.start, request.start_curvature_per_m, request.stopped});
+                                   request.start, request.start_curvature_per_m, request.sure_m, request.stopped});
   result.expansions = way.expansions;
   if (!way.found) {
     result.status = way.unseen_in_the_way ? RepairStatus::kUnseen
@@ -76,7 +83,8 @@ RepairResult LocalRepair::plan(const RepairRequest& request) const {
   result.poses = best_poses(request, check, way, result.smoothed);
   if (result.poses.empty()) return result;
   result.status = RepairStatus::kFound;
-  result.turn_rad = way.turn_rad;
+  result.turns_first = way.turns_first;
+  result.halts = static_cast<int>(way.sections.size()) - 1;
   result.join_m = way.target >= 0 ? targets[way.target].way_m : request.global.length_m();
   result.clearance_m = kMostClearanceM;
   for (const Pose2& pose : result.poses) result.clearance_m = check.clearance_m(pose, result.clearance_m);
@@ -95,7 +103,7 @@ std::vector<JoinTarget> LocalRepair::join_targets(const RepairRequest& request, 
   const double reach_m = soon ? kSoonM : config_.rejoin_within_m;
   for (size_t i = first; i < way.size() && way[i] <= way[first] + reach_m; ++i) {
     JoinTarget target{request.global.pose_at(way[i]), way[i], 0.0};
-    if (std::isfinite(ground_cost(request.terrain, request.terrain.cell_of(position(target.pose)), request.margin_m)))
+    if (std::isfinite(ground_cost(request.terrain, request.terrain.cell_of(position(target.pose)), request.margin_m, false)))
       targets.push_back(target);
   }
   double ahead = 0.0;
@@ -104,15 +112,15 @@ std::vector<JoinTarget> LocalRepair::join_targets(const RepairRequest& request, 
     if (i == 0) break;
     const int cell = request.terrain.cell_of(position(targets[i].pose));
     ahead += (targets[i].way_m - targets[i - 1].way_m) * (soon ? kSoonFactor : 1.0) *
-             ground_cost(request.terrain, cell, request.margin_m);
+             ground_cost(request.terrain, cell, request.margin_m, false);
   }
   return targets;
 }
 
-double LocalRepair::ground_cost(const Terrain& terrain, int cell, double margin_m) const {
+double LocalRepair::ground_cost(const Terrain& terrain, int cell, double margin_m, bool near) const {
   const double room = terrain.hazard_distance_m(cell) - config_.footprint.half_width_m;
   if (room < -kBareM) return kInfinity;
-  if (room < margin_m) return kTightCost;
+  if (room < margin_m) return near ? kTightCost : kInfinity;
   const double lack = std::max(0.0, 1.0 - (room - margin_m) / config_.risk_distance_m);
   return 1.0 + config_.risk_cost * lack * lack + (terrain.unseen(cell) ? config_.unseen_cost : 0.0);
 }
@@ -129,27 +137,42 @@ MarchGrid LocalRepair::travel_costs(const RepairRequest& request, const Footprin
   const double at_start = off_path[terrain.cell_of(position(request.start))];
   const double most = std::max(config_.max_deviation_m, at_start + kSoonM);
   grid.cost_per_m.resize(count);
-  for (size_t i = 0; i < count; ++i)
-    grid.cost_per_m[i] = off_path[i] > most ? kInfinity : ground_cost(terrain, static_cast<int>(i), check.margin_m());
+  for (size_t i = 0; i < count; ++i) {
+    const int cell = static_cast<int>(i);
+    const bool near = distance(terrain.center_of(cell), position(request.start)) < kNearM;
+    grid.cost_per_m[i] = off_path[i] > most ? kInfinity : ground_cost(terrain, cell, check.margin_m(), near);
+  }
   return grid;
 }
 
 std::vector<Pose2> LocalRepair::best_poses(const RepairRequest& request, const FootprintCheck& check,
                                            const SearchResult& way, bool& smoothed) const {
-  double length = 0.0;
-  for (const ArcSegment& arc : way.segments) length += arc.length_m;
-  const double curvature = way.turn_rad == 0.0 ? request.start_curvature_per_m : 0.0;
-  if (length >= kLeastSmoothM) {
-    const SmoothProblem problem{request.terrain, config_.footprint, request.margin_m, way.start, curvature, way.segments};
-    const std::optional<std::vector<Pose2>> poses = smooth(config_.smoother, problem, kPoseStepM);
-    smoothed = poses && verified(*poses, check, config_.view, config_.search.look_ahead_m);
-    if (smoothed) return *poses;
+  std::vector<Pose2> rough;
+  std::vector<Pose2> fine;
+  for (const WaySection& section : way.sections) {
+    const std::vector<Pose2> arcs = sample(section.start, section.segments, kPoseStepM);
+    const bool moving = rough.empty() && !way.turns_first;
+    const std::vector<Pose2> curve = smoothed_section(request, section, moving ? request.start_curvature_per_m : 0.0);
+    append(rough, arcs);
+    append(fine, curve.empty() ? arcs : curve);
   }
-  std::vector<Pose2> rough = sample(way.start, way.segments, kPoseStepM);
-  return verified(rough, check, config_.view, config_.search.look_ahead_m) ? rough : std::vector<Pose2>{};
+  smoothed = verified(fine, check, config_.view, request.sure_m);
+  if (smoothed) return fine;
+  return verified(rough, check, config_.view, request.sure_m) ? rough : std::vector<Pose2>{};
 }
 
-bool verified(const std::vector<Pose2>& poses, const FootprintCheck& check, const ViewArea& view, double look_ahead_m) {
+std::vector<Pose2> LocalRepair::smoothed_section(const RepairRequest& request, const WaySection& section,
+                                                 double curvature_per_m) const {
+  double length = 0.0;
+  for (const ArcSegment& arc : section.segments) length += arc.length_m;
+  if (length < kLeastSmoothM) return {};
+  return smooth(config_.smoother,
+                {request.terrain, config_.footprint, request.margin_m, section.start, curvature_per_m, section.segments},
+                kPoseStepM)
+      .value_or(std::vector<Pose2>{});
+}
+
+bool verified(const std::vector<Pose2>& poses, const FootprintCheck& check, const ViewArea& view, double sure_m) {
   if (poses.size() < 2) return false;
   SeenOnTheWay seen(check, view);
   Pose2 noted = poses.front();
@@ -158,9 +181,10 @@ bool verified(const std::vector<Pose2>& poses, const FootprintCheck& check, cons
   for (size_t i = 0; i < poses.size(); ++i) {
     if (i > 0) way += distance(position(poses[i - 1]), position(poses[i]));
     if (!check.clear(poses[i])) return false;
-    if (i == 0 || way > look_ahead_m) continue;
+    if (i == 0 || way > sure_m) continue;
     if (!seen.covers(poses[i])) return false;
-    if (distance(position(noted), position(poses[i])) < 0.2) continue;
+    if (distance(position(noted), position(poses[i])) < kViewStepM && std::abs(poses[i].yaw_rad - noted.yaw_rad) < kViewStepRad)
+      continue;
     noted = poses[i];
     seen.passed(noted);
   }

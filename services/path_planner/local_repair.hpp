@@ -32,6 +32,7 @@ struct RepairRequest {
   double start_curvature_per_m = 0.0;
   Pose2 stopped;        // ... and where it would come to rest
   double margin_m = 0.0;
+  double sure_m = kInfinity;  // way that must lie over ground seen in time; further on it only costs more
   double goal_tolerance_m = 0.0;
 };
 
@@ -41,7 +42,8 @@ struct RepairResult {
   RepairStatus status = RepairStatus::kNoWay;
   std::vector<Pose2> poses;     // from the start, every 5 cm, to the global path or the goal
   double join_m = kNaN;         // along the global path
-  double turn_rad = 0.0;        // point turn at the start
+  bool turns_first = false;     // the path starts with a point turn
+  int halts = 0;                // for point turns on the way
   bool smoothed = false;
   double clearance_m = kNaN;    // least distance of the rectangle to a hazard's cell
   int expansions = 0;
@@ -57,14 +59,17 @@ class LocalRepair {
  private:
   std::vector<JoinTarget> join_targets(const RepairRequest& request, const FootprintCheck& check) const;
   MarchGrid travel_costs(const RepairRequest& request, const FootprintCheck& check) const;
-  double ground_cost(const Terrain& terrain, int cell, double margin_m) const;
+  double ground_cost(const Terrain& terrain, int cell, double margin_m, bool near) const;
   std::vector<Pose2> best_poses(const RepairRequest& request, const FootprintCheck& check, const SearchResult& way,
                                 bool& smoothed) const;
+
+  std::vector<Pose2> smoothed_section(const RepairRequest& request, const WaySection& section,
+                                      double curvature_per_m) const;
 
   LocalRepairConfig config_;
 };
 
 // Whether the rectangle stays clear along the poses and covers no ground that would not have been seen before.
-bool verified(const std::vector<Pose2>& poses, const FootprintCheck& check, const ViewArea& view, double look_ahead_m);
+bool verified(const std::vector<Pose2>& poses, const FootprintCheck& check, const ViewArea& view, double sure_m);
 
 }  // namespace rover::planning

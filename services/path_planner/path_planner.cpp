@@ -15,6 +15,7 @@ constexpr double kLongestPathM = 1e5;
 constexpr double kMaxCurvatureNow = 1.0;
 constexpr double kCorridorReserveM = 0.05;
 constexpr double kCellHalfM = 0.05;
+constexpr double kPoseStepM = 0.05;
 constexpr double kGoalNearM = 1.0;
 constexpr size_t kPosesPerPoint = 2;  // repairs are verified every 5 cm and published every 10 cm
 
@@ -116,6 +117,7 @@ PlannerOutput PathPlanner::step(Utime now) {
     if (active_.route.empty()) {
       if (failures_ == 0 || new_ground_) begin(out);
     } else {
+      if (resumed_) send_again(out);
       track_progress();
       leave_repair(out);
       follow_correction(out);
@@ -133,6 +135,15 @@ void PathPlanner::lay_global_path() {
   global_progress_m_ = global_odom_.closest(position(rover()));
 }
 
+void PathPlanner::send_again(PlannerOutput& out) {
+  resumed_ = false;
+  out.path = published();
+}
+
+LocalPath PathPlanner::published() const {
+  return {active_.id, active_.kind, active_.corridor_half_width_m, global_->goal_tolerance_m, active_.route.points()};
+}
+
 void PathPlanner::track_progress() {
   const Point2 p = position(rover());
   active_.progress_m = active_.route.closest(p, active_.progress_m - kSearchBackM, active_.progress_m + kSearchAheadM);
@@ -147,6 +158,7 @@ void PathPlanner::begin(PlannerOutput& out) {
     return;
   }
   active_.margin_m = config_.margin_m;
+  active_.provisional = false;
   active_.corridor_half_width_m = global_->corridor_half_width_m;
   std::vector<RoutePoint> points;
   const size_t next = global_odom_.vertex_after(global_progress_m_);
@@ -163,46 +175,76 @@ void PathPlanner::begin(PlannerOutput& out) {
 // A new frame: is the way still free, and if not, is there another?
 void PathPlanner::react(PlannerOutput& out) {
   judge();
-  const bool blocked = block_.confirmed_m - active_.progress_m < config_.trigger_m;
+  // A single hit that stays in the way without being seen again counts as a hazard in the end.
+  frames_before_possible_ = hazard_ahead_m() < config_.stop_hazard_m ? frames_before_possible_ + 1 : 0;
+  const bool blocked = block_.confirmed_m - active_.progress_m < config_.trigger_m ||
+                       frames_before_possible_ >= config_.patience_frames;
   const bool before_unseen = unseen_ahead_m() < config_.stop_unseen_m && standing();
   frames_before_unseen_ = before_unseen ? frames_before_unseen_ + 1 : 0;
   if (blocked || frames_before_unseen_ >= config_.patience_frames) {
     if (repair(blocked, out)) frames_before_unseen_ = 0;
   } else {
     failures_ = 0;
+    if (active_.provisional) firm_up(out);
   }
 }
 
+// A provisional path is replaced as soon as there is one over ground that will be seen in time.
+void PathPlanner::firm_up(PlannerOutput& out) {
+  active_.provisional = !seen_in_time();
+  double margin = 0.0;
+  if (active_.provisional && find_repair(Terrain(memory_), kInfinity, margin)) take_repair(margin, false, out);
+}
+
+bool PathPlanner::seen_in_time() const {
+  const Terrain terrain(memory_);
+  const FootprintCheck check(terrain, config_.footprint, active_.margin_m, rover());
+  std::vector<Pose2> poses = {rover()};
+  for (double s = active_.progress_m + kPoseStepM; s < active_.repair_end_m; s += kPoseStepM)
+    poses.push_back(active_.route.pose_at(s));
+  return poses.size() < 2 || verified(poses, check, config_.repair.view, kInfinity);
+}
+
 void PathPlanner::judge() {
-  const Terrain terrain(memory_, true);
+  const Terrain terrain(memory_);
   block_ = find_block({terrain, active_.route, config_.footprint, active_.progress_m, rover(),
                        active_.margin_m + sigma_margin_m(), config_.turn_threshold_rad});
 }
 
 bool PathPlanner::repair(bool because_of_hazard, PlannerOutput& out) {
-  double margin = config_.margin_m;
-  last_repair_ = plan_repair(margin, true);
-  if (last_repair_.status != RepairStatus::kFound) {
-    margin = config_.tight_margin_m;
-    last_repair_ = plan_repair(margin, false);
-  }
-  if (last_repair_.status != RepairStatus::kFound) {
+  const Terrain terrain(memory_);
+  double margin = 0.0;
+  const bool sure = find_repair(terrain, kInfinity, margin);
+  if (!sure && !find_repair(terrain, config_.sure_way_m, margin)) {
     ++failures_;
     return false;
   }
   failures_ = 0;
   if (because_of_hazard) ++replans_;
-  Route route = repaired_route(last_repair_);
-  active_.margin_m = margin;
-  active_.corridor_half_width_m =
-      std::clamp(last_repair_.clearance_m - kCellHalfM - kCorridorReserveM, config_.least_corridor_m,
-                 std::max(config_.least_corridor_m, global_->corridor_half_width_m));
-  adopt(std::move(route), PathKind::kRepair, out);
-  judge();
+  take_repair(margin, !sure, out);
   return true;
 }
 
-RepairResult PathPlanner::plan_repair(double margin_m, bool with_possible) const {
+bool PathPlanner::find_repair(const Terrain& terrain, double sure_m, double& margin_m) {
+  for (const double margin : {config_.margin_m, config_.tight_margin_m}) {
+    margin_m = margin;
+    last_repair_ = plan_repair(terrain, margin, sure_m);
+    if (last_repair_.status == RepairStatus::kFound) return true;
+  }
+  return false;
+}
+
+void PathPlanner::take_repair(double margin_m, bool provisional, PlannerOutput& out) {
+  active_.margin_m = margin_m;
+  active_.provisional = provisional;
+  active_.corridor_half_width_m =
+      std::clamp(last_repair_.clearance_m - kCellHalfM - kCorridorReserveM, config_.least_corridor_m,
+                 std::max(config_.least_corridor_m, global_->corridor_half_width_m));
+  adopt(repaired_route(last_repair_), PathKind::kRepair, out);
+  judge();
+}
+
+RepairResult PathPlanner::plan_repair(const Terrain& terrain, double margin_m, double sure_m) const {
   const PoseSample& now = history_.newest();
   const double speed = std::max(now.forward_mps, 0.0);
   const double moving = std::abs(now.forward_mps) > kStandingMps ? 1.0 : 0.0;
@@ -210,10 +252,9 @@ RepairResult PathPlanner::plan_repair(double margin_m, bool with_possible) const
       moving > 0.0 ? std::clamp(now.yaw_rate_radps / now.forward_mps, -kMaxCurvatureNow, kMaxCurvatureNow) : 0.0;
   const double lead = moving * speed * config_.release_latency_s;
   const double braking = moving * 0.5 * speed * speed / config_.deceleration_mps2;
-  const Terrain terrain(memory_, with_possible);
   return local_repair_.plan({terrain, global_odom_, global_progress_m_, advanced(rover(), lead, curvature), curvature,
                              advanced(rover(), lead + braking, curvature),
-                             margin_m + config_.plan_extra_m + sigma_margin_m(), global_->goal_tolerance_m});
+                             margin_m + config_.plan_extra_m + sigma_margin_m(), sure_m, global_->goal_tolerance_m});
 }
 
 Route PathPlanner::repaired_route(const RepairResult& repair) const {
@@ -239,8 +280,7 @@ void PathPlanner::adopt(Route route, PathKind kind, PlannerOutput& out) {
   active_.repair_end_m = 0.0;
   for (size_t i = 0; i < active_.route.points().size(); ++i)
     if (std::isnan(active_.route.points()[i].global_s_m)) active_.repair_end_m = active_.route.s_at(i);
-  out.path = LocalPath{active_.id, kind, active_.corridor_half_width_m, global_->goal_tolerance_m,
-                       active_.route.points()};
+  out.path = published();
 }
 
 // Past the place where the global path is joined the path is the global path again, with its own corridor.

@@ -22,12 +22,13 @@ struct PathPlannerConfig {
   HazardMemoryConfig memory;
   LocalRepairConfig repair;           // its footprint is taken from above
   RoundingConfig rounding;
-  double margin_m = 0.15;             // rectangle to the centre of a hazard's cell: 0.05 m of it is the cell
-  double tight_margin_m = 0.10;       // where the first finds no way
-  double plan_extra_m = 0.06;         // repairs keep that much more, so that a hazard may grow by half a cell
+  double margin_m = 0.12;             // rectangle to the centre of a hazard's cell: 0.05 m of it is the cell
+  double tight_margin_m = 0.09;       // where the first finds no way
+  double plan_extra_m = 0.05;         // repairs keep that much more, so that a hazard may grow by half a cell
   double sigma_gain = 1.0;            // of the deviation gained since a hazard was seen
   double most_sigma_margin_m = 0.10;
   double pose_max_age_s = 0.5;
+  double sure_way_m = 0.6;            // of a provisional path, over ground that is seen in time
   double release_latency_s = 0.1;     // of the path, message time
   double trigger_m = 6.0;             // a block further ahead is left until it comes nearer
   double corridor_half_width_m = 0.75;
@@ -37,7 +38,7 @@ struct PathPlannerConfig {
   double turn_threshold_rad = 0.7;    // as trajectory_control: larger heading errors are a point turn
   double stop_hazard_m = 0.6;         // nearer blocks stand in the way at once: no path if no repair is found
   double stop_unseen_m = 0.35;
-  int patience_frames = 5;            // standing before unseen ground or a blocked path, until it is called no path
+  int patience_frames = 4;            // standing before unseen ground, a single hit or a blocked path, until it counts
   double correction_m = 0.05;         // movement of map against odom that updates the path
 };
 
@@ -109,6 +110,7 @@ class PathPlanner {
     PathKind kind = PathKind::kGlobal;
     double repair_end_m = 0.0;
     double margin_m = 0.0;
+    bool provisional = false;  // leads over ground that may not be seen in time: a better one is sought
     double corridor_half_width_m = 0.0;
     double progress_m = 0.0;
   };
@@ -122,6 +124,8 @@ class PathPlanner {
   Pose2 rover() const { return planar(history_.newest().T_odom_body); }
   void take_start_area();
   void lay_global_path();
+  void send_again(PlannerOutput& out);
+  LocalPath published() const;
   void track_progress();
   void begin(PlannerOutput& out);
   void react(PlannerOutput& out);
@@ -129,7 +133,11 @@ class PathPlanner {
   void leave_repair(PlannerOutput& out);
   void judge();
   bool repair(bool because_of_hazard, PlannerOutput& out);
-  RepairResult plan_repair(double margin_m, bool with_possible) const;
+  void take_repair(double margin_m, bool provisional, PlannerOutput& out);
+  RepairResult plan_repair(const Terrain& terrain, double margin_m, double sure_m) const;
+  bool find_repair(const Terrain& terrain, double sure_m, double& margin_m);
+  bool seen_in_time() const;
+  void firm_up(PlannerOutput& out);
   void adopt(Route route, PathKind kind, PlannerOutput& out);
   Route repaired_route(const RepairResult& repair) const;
   double sigma_margin_m() const;
@@ -152,11 +160,13 @@ class PathPlanner {
   double global_progress_m_ = 0.0;
   Active active_;
   Block block_;
+  bool resumed_ = false;     // from a checkpoint: the active path has to be sent again
   bool new_ground_ = false;  // seen or certified since the last judgement
   std::int64_t next_path_id_;
   std::int32_t replans_ = 0;
   int failures_ = 0;
   int frames_before_unseen_ = 0;
+  int frames_before_possible_ = 0;
   RepairResult last_repair_;
 };
 

@@ -22,7 +22,7 @@ bool counts_as_seen(const GridMap<GroundCell>& map, CellIndex i) {
 
 }  // namespace
 
-Terrain::Terrain(const HazardMemory& memory, bool with_possible)
+Terrain::Terrain(const HazardMemory& memory)
     : cells_(memory.map().cells()), cell_m_(memory.map().cell_m()) {
   const GridMap<GroundCell>& map = memory.map();
   corner_ = {map.origin().ix * cell_m_, map.origin().iy * cell_m_};
@@ -30,7 +30,7 @@ Terrain::Terrain(const HazardMemory& memory, bool with_possible)
   unseen_.reserve(static_cast<size_t>(cells_) * cells_);
   hazard.reserve(unseen_.capacity());
   map.for_each([&](CellIndex i, const GroundCell& cell) {
-    const bool is_hazard = memory.confirmed(cell) || (with_possible && cell.hits > 0);
+    const bool is_hazard = cell.hits > 0;
     if (is_hazard) hazards_.push_back({{map.center_x_m(i), map.center_y_m(i)}, memory.confirmed(cell)});
     hazard.push_back(is_hazard ? 1 : 0);
     unseen_.push_back(counts_as_seen(map, i) ? 0 : 1);

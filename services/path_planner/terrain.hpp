@@ -12,13 +12,12 @@ namespace rover::planning {
 
 struct HazardSpot {
   Point2 p;  // a cell's centre
-  bool confirmed = false;
+  bool confirmed = false;  // else a possible one: a single hit
 };
 
 class Terrain {
  public:
-  // `with_possible`: single hits stand as hazards too.
-  Terrain(const HazardMemory& memory, bool with_possible);
+  explicit Terrain(const HazardMemory& memory);
 
   int cells() const { return cells_; }
   double cell_m() const { return cell_m_; }

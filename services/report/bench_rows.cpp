@@ -1,6 +1,7 @@
 #include "report/bench_rows.hpp"
 
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
@@ -44,6 +45,10 @@ BenchRow row_from(const json& row) {
   out.mean_speed_m_per_h = number(row, "mean_speed_m_per_h");
   out.duty = number(row, "duty");
   out.realtime_factor = number(row, "realtime_factor");
+  out.duration_s = number(row, "duration_s");
+  out.point_turn_s = number(row, "point_turn_s");
+  if (const auto states = row.find("time_in_state_s"); states != row.end() && states->is_object())
+    out.time_in_state_s = states->get<std::map<std::string, double>>();
   return out;
 }
 

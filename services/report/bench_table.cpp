@@ -153,6 +153,24 @@ std::string paper_table(const Rows& runs) {
                            shown(sum(runs, [](const BenchRow& r) { return r.replans; }), 0));
 }
 
+// What bounds the duty: shares of the drives' time, and what the driving itself loses to point turns and slow ground.
+std::string time_lines(const Rows& runs) {
+  std::map<std::string, double> spent;
+  double total = 0.0;
+  double turning = 0.0;
+  for (const BenchRow& row : runs) {
+    if (!std::isfinite(row.duration_s)) continue;
+    total += row.duration_s;
+    turning += std::isfinite(row.point_turn_s) ? row.point_turn_s : 0.0;
+    for (const auto& [state, seconds] : row.time_in_state_s) spent[state] += seconds;
+  }
+  if (total <= 0.0) return "";
+  std::string out = "\nWhere the time goes:";
+  for (const auto& [state, seconds] : spent)
+    if (seconds > 0.0) out += fmt::format(" {} {} %,", state, shown(100.0 * seconds / total, 1));
+  return out + fmt::format(" of it in point turns {} %.\n", shown(100.0 * turning / total, 1));
+}
+
 }  // namespace
 
 int least_repairs(const std::string& scenario) {
@@ -231,6 +249,7 @@ std::string bench_table(const BenchContext& context, const std::vector<BenchRow>
     out += fmt::format("| {} | {} | {} |\n", gate.demand, gate.measured, gate.met ? "yes" : "**no**");
   out += fmt::format("\nMean speed, median: {} m/h.\n",
                      shown(median(values(runs, [](const BenchRow& r) { return r.mean_speed_m_per_h; })), 0));
+  out += time_lines(runs);
   out += "\n## Beside the paper\n\n" + paper_table(runs) + "\n## Runs\n\n" + kHead;
   for (const BenchRow& row : runs) out += row_line(row);
   for (const auto& [scenario, paper] : kPaper) out += median_line(scenario, of_scenario(runs, scenario));

@@ -32,6 +32,9 @@ struct BenchRow {
   double mean_speed_m_per_h = kNaN;
   double duty = kNaN;
   double realtime_factor = kNaN;
+  double duration_s = kNaN;
+  double point_turn_s = kNaN;
+  std::map<std::string, double> time_in_state_s;
 };
 
 struct BenchContext {

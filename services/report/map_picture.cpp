@@ -131,6 +131,7 @@ void draw_ends(Svg& svg, const MapView& view, const Scene& scene) {
 struct LegendEntry {
   std::string text;
   double width;
+  double text_at;
   std::function<void(double x, double y)> symbol;
 };
 
@@ -140,26 +141,26 @@ void draw_legend(Svg& svg, double left, double top, double right) {
   };
   const auto square = [&](const char* colour) {
     const std::string style = fmt::format("fill:{};fill-opacity:.6", colour);
-    return [&svg, style](double x, double y) { svg.rect(x + 8.0, y - 7.0, 14.0, 14.0, style); };
+    return [&svg, style](double x, double y) { svg.rect(x + 2.0, y - 7.0, 14.0, 14.0, style); };
   };
   const auto disc = [&](const std::string& style) {
-    return [&svg, style](double x, double y) { svg.circle(x + 15.0, y, 7.0, style); };
+    return [&svg, style](double x, double y) { svg.circle(x + 9.0, y, 7.0, style); };
   };
   const std::vector<LegendEntry> entries = {
-      {"planned path", 118,
+      {"planned path", 122, 38,
        [&](double x, double y) {
          svg.line(x, y, x + 30.0, y, stroke("#3b2a1e", 4.5));
          svg.line(x, y, x + 30.0, y, stroke(palette::kGlobalPath, 2.4, "stroke-dasharray:9 6"));
        }},
-      {"true track", 102, bar(stroke(palette::kTruth, 3.2))},
-      {"estimated track", 138, bar(stroke(palette::kEstimate, 2.2, "stroke-dasharray:6 5"))},
-      {"repaired path", 126, bar(stroke(palette::kRepair, 2.4))},
-      {"detected hazard", 136, square(palette::kHazard)},
-      {"detected hole", 122, square(palette::kHole)},
-      {"rock 0.15 m and taller", 182, disc(fmt::format("fill:{};stroke:#fff", palette::kRock))},
-      {"lower rock", 100, disc(fmt::format("fill:{};fill-opacity:.35", palette::kPebble))},
-      {"repair", 78, disc(fmt::format("fill:#fff;stroke:{};stroke-width:2", palette::kRepair))},
-      {"hazard stop", 112, disc(fmt::format("fill:#fff;stroke:{};stroke-width:2", palette::kBad))},
+      {"true track", 106, 38, bar(stroke(palette::kTruth, 3.2))},
+      {"estimated track", 142, 38, bar(stroke(palette::kEstimate, 2.2, "stroke-dasharray:6 5"))},
+      {"repaired path", 130, 38, bar(stroke(palette::kRepair, 2.4))},
+      {"detected hazard", 132, 24, square(palette::kHazard)},
+      {"detected hole", 118, 24, square(palette::kHole)},
+      {"rock 0.15 m and taller", 176, 24, disc(fmt::format("fill:{};stroke:#fff", palette::kRock))},
+      {"lower rock", 94, 24, disc(fmt::format("fill:{};fill-opacity:.35", palette::kPebble))},
+      {"repair", 66, 24, disc(fmt::format("fill:#fff;stroke:{};stroke-width:2", palette::kRepair))},
+      {"hazard stop", 100, 24, disc(fmt::format("fill:#fff;stroke:{};stroke-width:2", palette::kBad))},
   };
   double x = left;
   double y = top + 12.0;
@@ -169,8 +170,8 @@ void draw_legend(Svg& svg, double left, double top, double right) {
       y += 26.0;
     }
     entry.symbol(x, y);
-    svg.text(x + 38.0, y + 4.5, entry.text, 13, "");
-    x += entry.width + 12.0;
+    svg.text(x + entry.text_at, y + 4.5, entry.text, 13, "");
+    x += entry.width + 16.0;
   }
 }
 

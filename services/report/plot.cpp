@@ -53,8 +53,7 @@ void draw_grid(Svg& svg, const Field& field, const Plot& plot) {
   const Axis ticks = round_axis(field.x.low, field.x.high, 10);
   for (double v = 0.0; v <= field.x.high + 1e-9; v += ticks.step)
     svg.text(field.px_x(v), kTop + kHeight + 17.0, number_text(v), 11.5, label, Anchor::kMiddle);
-  svg.text(kLeft, 16.0, plot.title, 14, "font-weight:600");
-  svg.text(kLeft + 8.2 * static_cast<double>(plot.title.size()) + 6.0, 16.0, "[" + plot.unit + "]", 12, label);
+  svg.text(kLeft, 16.0, plot.title + " [" + plot.unit + "]", 14, "font-weight:600");
 }
 
 void draw_marks(Svg& svg, const Field& field, const PlotMarks& marks) {

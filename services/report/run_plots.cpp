@@ -156,14 +156,18 @@ PlotMarks incident_marks(const Scene& scene) {
 
 std::string draw_state_timeline(const Scene& scene) {
   constexpr double kWidth = 1100.0;
+  constexpr double kLeft = 58.0;  // as the plots
+  constexpr double kRight = 1086.0;
   constexpr double kBandTop = 26.0;
   constexpr double kBand = 30.0;
   Svg svg(kWidth, 112.0);
   const std::vector<StateChange>& states = scene.run.states;
   const double end_s = std::max(scene.judgement.metrics.window.end_s + 1.0, states.empty() ? 1.0 : states.back().t_s);
   const double begin_s = states.empty() ? 0.0 : std::min(states.front().t_s, scene.judgement.metrics.window.begin_s);
-  const auto px = [&](double t) { return (std::min(t, end_s) - begin_s) / (end_s - begin_s) * kWidth; };
-  svg.text(0.0, 15.0, "States of the supervisor", 14, "font-weight:600");
+  const auto px = [&](double t) {
+    return (std::min(t, end_s) - begin_s) / (end_s - begin_s) * (kRight - kLeft) + kLeft;
+  };
+  svg.text(kLeft, 15.0, "States of the supervisor over time [s]", 14, "font-weight:600");
   std::map<State, double> spent;
   for (size_t i = 0; i < states.size(); ++i) {
     const double from = px(states[i].t_s);
@@ -175,8 +179,7 @@ std::string draw_state_timeline(const Scene& scene) {
   const Axis ticks = round_axis(begin_s, end_s, 10);
   for (double t = ticks.low; t <= end_s; t += ticks.step)
     if (t >= begin_s) svg.text(px(t), kBandTop + kBand + 16.0, number_text(t - begin_s), 11.5, label, Anchor::kMiddle);
-  svg.text(kWidth, 15.0, "time [s]", 11.5, label, Anchor::kEnd);
-  double x = 0.0;
+  double x = kLeft;
   for (const auto& [state, seconds] : spent) {
     const std::string text = fmt::format("{} {:.0f} s", state_name(state), seconds);
     svg.rect(x, 92.0, 12.0, 12.0, fmt::format("fill:{}", state_colour(state)), 2.0);

@@ -76,6 +76,16 @@ bool unseen_named(const RunRecord& run, double t_s) {
   });
 }
 
+// A path published again because the map moved against odom is no answer to a hazard: the planner does not count it.
+bool counted_as_replan(const RunRecord& run, const PathRecord& path) {
+  constexpr double kBeforeS = 0.3;  // the path is released some ticks after the planner has counted it
+  constexpr double kAfterS = 0.05;
+  if (run.planner.empty()) return true;
+  const PlannerSample* before = newest(run.planner, path.t_s - kBeforeS);
+  const PlannerSample* after = newest(run.planner, path.t_s + kAfterS);
+  return after != nullptr && (before == nullptr ? after->replans > 0 : after->replans != before->replans);
+}
+
 std::vector<Incident> find_incidents(const RunRecord& run, const TrueTrack& truth, const Window& window) {
   std::vector<Incident> incidents;
   for (const StateChange& change : run.states) {
@@ -86,7 +96,7 @@ std::vector<Incident> find_incidents(const RunRecord& run, const TrueTrack& trut
     incidents.push_back(incident);
   }
   for (const PathRecord& path : run.local_paths) {
-    if (!path.is_repair || !window.contains(path.t_s)) continue;
+    if (!path.is_repair || !window.contains(path.t_s) || !counted_as_replan(run, path)) continue;
     const Points placed = path_in_truth(run, truth, path, path.t_s);
     // The repair after a stop belongs to that stop until the rover drives again.
     const auto stop = std::find_if(incidents.begin(), incidents.end(), [&](const Incident& incident) {

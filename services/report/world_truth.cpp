@@ -37,8 +37,13 @@ std::optional<TrueWorld> load_true_world(const RunFolder& folder, const Box& aro
 
 HeightRaster load_orbital_map(const RunFolder& folder) {
   if (folder.orbital_map.empty()) return {};
-  ElevationRaster raster = read_elevation(folder.orbital_map);
-  return {raster.width, raster.height, raster.resolution_m, std::move(raster.z_m)};
+  try {
+    ElevationRaster raster = read_elevation(folder.orbital_map);
+    return {raster.width, raster.height, raster.resolution_m, std::move(raster.z_m)};
+  } catch (const DtmError& error) {
+    std::fprintf(stderr, "%s: the map has no relief\n", error.what());
+    return {};
+  }
 }
 
 }  // namespace rover::report

@@ -21,7 +21,7 @@ struct SteeringLawConfig {
 
 struct TrackError {
   double cross_track_m = 0.0;  // positive: left of the path
-  double heading_rad = 0.0;    // rover's minus path's
+  double heading_rad = 0.0;    // of the rover's motion minus the path's
 };
 
 double curvature_to(const SteeringLawConfig& config, double path_curvature_per_m, const TrackError& error,

@@ -122,7 +122,7 @@ void TrajectoryController::follow(const PoseInput& pose, const Projection& here,
                                   MotionCommand& command) {
   const double speed = std::clamp(pose.forward_mps, 0.0, config_.path.cruise_speed_mps);
   const double ahead_m = speed * config_.response_delay_s;
-  const Pose2 soon = moved(pose.odom, ahead_m, curvature_per_m_, 0.0);
+  const Pose2 soon = moved(pose.odom, ahead_m, curvature_per_m_, side_slip_rad_);
   const Projection there = leg().project(position(soon), here.s_m - kSearchBackM, here.s_m + kSearchAheadM);
   command.mode = MotionMode::kArc;
   command.curvature_per_m = curvature_at(soon, there);
@@ -141,8 +141,10 @@ void TrajectoryController::integrate(double cross_track_m, double way_m) {
   integral_per_m_ = std::clamp(integral_per_m_, -c.max_integral_per_m, c.max_integral_per_m);
 }
 
+// What has to come into line with the path is the direction of the motion: on a slope the rover drives a little
+// sideways.
 double TrajectoryController::curvature_at(const Pose2& pose, const Projection& place) const {
-  const TrackError error{place.cross_track_m, wrap_angle(pose.yaw_rad - place.yaw_rad)};
+  const TrackError error{place.cross_track_m, wrap_angle(pose.yaw_rad + side_slip_rad_ - place.yaw_rad)};
   return curvature_to(config_.steering, leg().at(place.s_m).curvature_per_m, error, integral_per_m_);
 }
 

@@ -27,6 +27,8 @@ void read_tracker(const Config& c, TrackerConfig& tracker) {
   c.read("min_score_coarse", tracker.min_score_coarse, {0, 1});
   c.read("min_score_fine", tracker.min_score_fine, {0, 1});
   c.read("max_shift_coarse_px", tracker.max_shift_coarse_px, {0.5, 20});
+  c.read("search_px", tracker.search_px, {1, 50});
+  c.read("search_points", tracker.search_points, {10, 10000});
   c.read("max_shift_fine_px", tracker.max_shift_fine_px, {0.5, 20});
   c.read("max_row_offset_px", tracker.max_row_offset_px, {0, 10});
 }

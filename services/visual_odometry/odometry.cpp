@@ -84,7 +84,6 @@ bool Odometry::start_from(const StereoFrame& frame, const Pair& pair) {
   key_ = std::move(key);
   key_utime_ = frame.utime;
   T_key_prev_ = Eigen::Isometry3d::Identity();
-  cov_trace_prev_ = 0.0;
   if (previous_utime_ != frame.utime) {
     last_motion_ = Eigen::Isometry3d::Identity();
     last_motion_s_ = 0.0;
@@ -98,13 +97,17 @@ Odometry::Registration Odometry::register_pair(const StereoFrame& frame, const P
   const double ratio = last_motion_s_ > 0.0 ? to_seconds(frame.utime - previous_utime_) / last_motion_s_ : 0.0;
   const Eigen::Isometry3d steady =
       make_pose(exp_so3(ratio * log_so3(last_motion_.linear())), ratio * last_motion_.translation());
-  std::vector<Eigen::Isometry3d> guesses;
-  if (frame.R_prev_cur) guesses.push_back(make_pose(*frame.R_prev_cur, steady.translation()));
-  guesses.push_back(steady);
-  guesses.push_back(Eigen::Isometry3d::Identity());
+  struct Guess {
+    Eigen::Isometry3d T_prev_cur;
+    bool search;
+  };
+  std::vector<Guess> guesses;
+  if (frame.R_prev_cur) guesses.push_back({make_pose(*frame.R_prev_cur, steady.translation()), false});
+  guesses.push_back({steady, false});
+  guesses.push_back({Eigen::Isometry3d::Identity(), true});
   Registration best;
-  for (const Eigen::Isometry3d& guess : guesses) {
-    Registration candidate = attempt(frame, pair, guess);
+  for (const Guess& guess : guesses) {
+    Registration candidate = attempt(frame, pair, guess.T_prev_cur, guess.search);
     if (candidate.motion.inliers > best.motion.inliers) best = std::move(candidate);
     if (trustworthy(best) && best.motion.inliers >= config_.ok_inliers) break;
   }
@@ -112,11 +115,11 @@ Odometry::Registration Odometry::register_pair(const StereoFrame& frame, const P
 }
 
 Odometry::Registration Odometry::attempt(const StereoFrame& frame, const Pair& pair,
-                                         const Eigen::Isometry3d& T_prev_cur_body) const {
+                                         const Eigen::Isometry3d& T_prev_cur_body, bool search) const {
   const Eigen::Isometry3d& T_body_cam = frame.camera.T_body_cam;
   const Eigen::Isometry3d T_prev_cur = T_body_cam.inverse() * T_prev_cur_body * T_body_cam;
   const Eigen::Isometry3d T_guess = (T_key_prev_ * T_prev_cur).inverse();
-  const auto coarse = observations_of(*key_, track_coarse(*key_, pair.left, T_guess, config_.tracker));
+  const auto coarse = observations_of(*key_, track_coarse(*key_, pair.left, T_guess, config_.tracker, search));
   if (static_cast<int>(coarse.size()) < config_.min_inliers) return {};
   const std::uint64_t seed = config_.seed ^ static_cast<std::uint64_t>(frame.utime);
   const RansacResult start = ransac(coarse, key_->camera, T_guess, config_.motion, seed);
@@ -140,7 +143,10 @@ OdometryResult Odometry::accept(const StereoFrame& frame, const Registration& re
   result.utime = frame.utime;
   result.keyframe_utime = key_utime_;
   result.T_prev_cur = T_body_cam * T_key_prev_.inverse() * T_key_cur * T_body_cam.inverse();
-  result.cov = chained_cov(registration, result.T_prev_cur, frame.camera);
+  // A small motion on the left of T_cur_key is one of the current camera; seen in the current, then in the previous
+  // body's axes.
+  const Matrix6d Ad = adjoint(T_body_cam);
+  result.cov = rotated(Ad * registration.motion.cov * Ad.transpose(), result.T_prev_cur.linear());
   result.features = registration.tracked;
   result.inliers = registration.motion.inliers;
   result.rms_px = registration.motion.rms_px;
@@ -151,19 +157,6 @@ OdometryResult Odometry::accept(const StereoFrame& frame, const Registration& re
   previous_utime_ = frame.utime;
   lost_in_a_row_ = 0;
   return result;
-}
-
-Matrix6d Odometry::chained_cov(const Registration& registration, const Eigen::Isometry3d& T_prev_cur,
-                               const StereoCamera& camera) {
-  // A small motion on the left of T_cur_key is one of the current camera; seen in the current, then in the previous
-  // body's axes.
-  const Matrix6d Ad = adjoint(camera.T_body_cam);
-  const Matrix6d cov = rotated(Ad * registration.motion.cov * Ad.transpose(), T_prev_cur.linear());
-  const double trace = registration.motion.cov.trace();
-  const double share = std::max(0.0, 1.0 - cov_trace_prev_ / trace);
-  cov_trace_prev_ = std::max(trace, cov_trace_prev_);
-  constexpr double kFloor = 1e-4;  // of the variance: keeps the matrix regular
-  return std::max(share, kFloor) * cov;
 }
 
 Status Odometry::judge(const StereoFrame& frame, const OdometryResult& result) const {

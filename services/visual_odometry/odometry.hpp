@@ -54,9 +54,9 @@ struct OdometryResult {
   Utime utime = kNever;
   Utime keyframe_utime = kNever;              // both ends were aligned with this exposure
   Eigen::Isometry3d T_prev_cur = nan_pose();  // current body in the previous body
-  // Of (position, rotation) in previous body axes. Chained: the covariances of all motions since a keyframe add up to
-  // that of the motion since the keyframe, so a sum over the chain is right, standstill included; the noise of a single
-  // motion within a keyframe's life may be larger than its own entry.
+  // Of (position, rotation) of the alignment with the keyframe, in previous body axes. Errors of one keyframe's motions
+  // telescope: this is the covariance of their sum. A motion that begins at the keyframe has just this covariance, one
+  // within its life the sum of this and that of the motion before.
   Matrix6d cov = nan_cov();
   int features = 0;  // tracked
   int inliers = 0;
@@ -78,11 +78,10 @@ class Odometry {
   struct Registration;
   bool start_from(const StereoFrame& frame, const Pair& pair);
   Registration register_pair(const StereoFrame& frame, const Pair& pair) const;
-  Registration attempt(const StereoFrame& frame, const Pair& pair, const Eigen::Isometry3d& T_prev_cur_body) const;
+  Registration attempt(const StereoFrame& frame, const Pair& pair, const Eigen::Isometry3d& T_prev_cur_body,
+                       bool search) const;
   bool trustworthy(const Registration& registration) const;
   OdometryResult accept(const StereoFrame& frame, const Registration& registration);
-  Matrix6d chained_cov(const Registration& registration, const Eigen::Isometry3d& T_prev_cur,
-                       const StereoCamera& camera);
   Status judge(const StereoFrame& frame, const OdometryResult& result) const;
   OdometryResult lost(const StereoFrame& frame, const Registration& registration) const;
 
@@ -90,7 +89,6 @@ class Odometry {
   std::optional<Keyframe> key_;
   Utime key_utime_ = kNever;
   Eigen::Isometry3d T_key_prev_ = Eigen::Isometry3d::Identity();  // camera axes
-  double cov_trace_prev_ = 0.0;                                   // of T_key_prev_
   Utime previous_utime_ = kNever;
   Utime newest_utime_ = kNever;
   int lost_in_a_row_ = 0;

@@ -49,8 +49,24 @@ std::optional<Prediction> predict(const Keyframe& key, const KeyPoint& point, co
   return Prediction{*z, A_left_key.inverse(), A_right_key.inverse()};
 }
 
+// The best place in the window, or the guess where none is good.
+Eigen::Vector2f searched(const Patch& patch, const cv::Mat& image, const Eigen::Vector2f& guess,
+                         const TrackerConfig& config) {
+  auto best_score = static_cast<float>(config.min_score_coarse);
+  Eigen::Vector2f best = guess;
+  for (int dy = -config.search_px; dy <= config.search_px; ++dy)
+    for (int dx = -config.search_px; dx <= config.search_px; ++dx) {
+      const Eigen::Vector2f p = guess + Eigen::Vector2f(static_cast<float>(dx), static_cast<float>(dy));
+      const float score = correlation(patch, image, p);
+      if (score <= best_score) continue;
+      best_score = score;
+      best = p;
+    }
+  return best;
+}
+
 Track coarse(const Keyframe& key, const KeyPoint& point, const ImagePyramid& left, const Prediction& prediction,
-             const TrackerConfig& config) {
+             const TrackerConfig& config, bool search) {
   Track track;
   Eigen::Vector2f p = prediction.z.head<2>().cast<float>();
   Patch patch;
@@ -59,6 +75,7 @@ Track coarse(const Keyframe& key, const KeyPoint& point, const ImagePyramid& lef
     const auto scale = static_cast<float>(1 << level);
     // A window that leaves a small image is not lost on the larger ones.
     if (!make_patch(key.left.levels[level], point.pixel / scale, prediction.A_key_left, patch)) continue;
+    if (search && level == left.count() - 1) p = searched(patch, left.levels[level], p / scale, config) * scale;
     const Alignment a = align(patch, left.levels[level], p / scale, static_cast<float>(config.max_shift_coarse_px));
     if (a.ok) p = a.position * scale;
     if (level == last) track.left = a.ok && a.score > config.min_score_coarse;
@@ -90,11 +107,12 @@ Track fine(const Keyframe& key, const KeyPoint& point, const ImagePyramid& left,
 }  // namespace
 
 std::vector<Track> track_coarse(const Keyframe& key, const ImagePyramid& left, const Eigen::Isometry3d& T_cur_key,
-                                const TrackerConfig& config) {
+                                const TrackerConfig& config, bool search) {
   std::vector<Track> tracks(key.points.size());
-  for (size_t i = 0; i < tracks.size(); ++i)
+  const size_t step = search ? 1 + tracks.size() / static_cast<size_t>(config.search_points) : 1;
+  for (size_t i = 0; i < tracks.size(); i += step)
     if (const auto prediction = predict(key, key.points[i], T_cur_key))
-      tracks[i] = coarse(key, key.points[i], left, *prediction, config);
+      tracks[i] = coarse(key, key.points[i], left, *prediction, config, search);
   return tracks;
 }
 

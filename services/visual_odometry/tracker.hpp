@@ -15,8 +15,10 @@ struct TrackerConfig {
   double min_score_coarse = 0.60;
   double min_score_fine = 0.75;
   double max_shift_coarse_px = 5.0;  // on each level of the pyramid
-  double max_shift_fine_px = 3.0;    // from the place that the coarse motion gives
-  double max_row_offset_px = 1.5;    // between left and right
+  int search_px = 8;                 // half side of the window searched in the smallest image
+  int search_points = 100;
+  double max_shift_fine_px = 3.0;  // from the place that the coarse motion gives
+  double max_row_offset_px = 1.5;  // between left and right
 };
 
 struct Track {
@@ -25,9 +27,10 @@ struct Track {
   Eigen::Vector3d z = Eigen::Vector3d::Zero();  // u, v in the left image, u in the right
 };
 
-// One for each point of the keyframe.
+// One for each point of the keyframe. `search`: for a motion that nothing predicts, the points are first looked for all
+// over a wide window of the smallest image; of many points only some, as it takes long.
 std::vector<Track> track_coarse(const Keyframe& key, const ImagePyramid& left, const Eigen::Isometry3d& T_cur_key,
-                                const TrackerConfig& config);
+                                const TrackerConfig& config, bool search);
 std::vector<Track> track_fine(const Keyframe& key, const ImagePyramid& left, const ImagePyramid& right,
                               const Eigen::Isometry3d& T_cur_key, const TrackerConfig& config);
 

@@ -51,21 +51,21 @@ TEST_F(HazardNodeTest, EachDisparityGivesAMapOfItsExposureReleasedAfterTheLatenc
   const hazards_t& h = hazards_[0];
   EXPECT_EQ(h.header.utime, 100'000);
   EXPECT_EQ(h.header.release_utime, 160'000);
-  EXPECT_EQ(h.state, hazards_t::HAZARD);
+  EXPECT_EQ(h.state, +hazards_t::HAZARD);
   EXPECT_NEAR(h.nearest_hazard_m, 1.65, 0.15);
   EXPECT_EQ(h.size, h.cells_x * h.cells_y);
   const int ix = static_cast<int>((1.8 - h.origin_x_m) / h.cell_m),
             iy = static_cast<int>((0.1 - h.origin_y_m) / h.cell_m);
-  EXPECT_EQ(h.cells[static_cast<size_t>(iy * h.cells_x + ix)], hazards_t::OBSTACLE);
+  EXPECT_EQ(h.cells[static_cast<size_t>(iy * h.cells_x + ix)], +hazards_t::OBSTACLE);
 }
 
 TEST_F(HazardNodeTest, ABlindFrameIsReportedAsBlind) {
   disparity_t message = disparity_of({});
-  std::fill(message.disparity_px16.begin(), message.disparity_px16.end(), disparity_t::INVALID);
+  std::fill(message.disparity_px16.begin(), message.disparity_px16.end(), +disparity_t::INVALID);
   give(message, 100'000);
   world_.tick(200'000);
   ASSERT_EQ(hazards_.size(), 1u);
-  EXPECT_EQ(hazards_[0].state, hazards_t::BLIND);
+  EXPECT_EQ(hazards_[0].state, +hazards_t::BLIND);
   EXPECT_TRUE(std::all_of(hazards_[0].cells.begin(), hazards_[0].cells.end(),
                           [](int cell) { return cell == hazards_t::UNSEEN; }));
 }
@@ -86,7 +86,7 @@ TEST_F(HazardNodeTest, UnusableMessagesAreCountedAndGiveNothing) {
   EXPECT_EQ(world_.malformed(channel::kDisparity), 6);
   give(disparity_of({}), t + 200'000);
   ASSERT_EQ(hazards_.size(), 1u);
-  EXPECT_EQ(hazards_[0].state, hazards_t::CLEAR);
+  EXPECT_EQ(hazards_[0].state, +hazards_t::CLEAR);
 }
 
 class HazardConfigTest : public testing::Test {

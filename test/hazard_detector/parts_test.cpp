@@ -20,7 +20,9 @@ TEST(DisparityTableTest, TableIsTheDisparityOfFlatGround) {
   ASSERT_GT(table.samples().size(), 20000u);
   for (const Sample& s : table.samples()) {
     const float truth = exact[static_cast<size_t>(s.index)];
-    if (truth > 0.0f) ASSERT_NEAR(s.d_cal_px16, 16.0f * truth, 0.01f);
+    if (truth > 0.0f) {
+      ASSERT_NEAR(s.d_cal_px16, 16.0f * truth, 0.01f);
+    }
     ASSERT_EQ(s.index, static_cast<int>(s.v) * camera.width + static_cast<int>(s.u));
   }
 }
@@ -47,8 +49,8 @@ GroundPoints plane_points(double offset, double sx, double sy, std::mt19937_64& 
   GroundPoints points;
   for (double x = 1.0; x < 3.5; x += 0.1)
     for (double y = -0.5; y < 0.5; y += 0.1)
-      points.emplace_back(static_cast<float>(x), static_cast<float>(y),
-                          static_cast<float>(offset + sx * (x - 0.75) + sy * y + noise(random)));
+      points.push_back({static_cast<float>(x), static_cast<float>(y),
+                        static_cast<float>(offset + sx * (x - 0.75) + sy * y + noise(random))});
   return points;
 }
 
@@ -69,7 +71,7 @@ TEST(GroundPlaneTest, FortyPercentOfTallCellsDoNotPullIt) {
   std::mt19937_64 random(4);
   GroundPoints points = plane_points(0.0, 0.05, 0.0, random);
   for (size_t i = 0; i < points.size(); ++i)
-    if (i % 5 < 2) points[i].z() += 0.1f + 0.05f * static_cast<float>(i % 7);
+    if (i % 5 < 2) points[i].z_m += 0.1f + 0.05f * static_cast<float>(i % 7);
   const GroundPlane plane = fit_ground_plane(points, PlanePrior{});
   EXPECT_NEAR(plane.offset_m, 0.0, 0.02);
   EXPECT_NEAR(plane.slope_x, 0.05, 0.02);
@@ -105,6 +107,24 @@ TEST(LocalGroundTest, FollowsASmoothRiseButNotARock) {
   EXPECT_NEAR(ground.low_m[crest], 0.06f, 0.025f);
 }
 
+TEST(LocalGroundTest, IsNoHigherThanTheLowestCellCloseBy) {
+  const GridShape shape{GridConfig{}};
+  std::mt19937_64 random(9);
+  std::uniform_real_distribution<float> height(-0.05f, 0.4f);
+  std::vector<float> heights(static_cast<size_t>(shape.size()));
+  for (float& h : heights) h = height(random);
+  const ReliefConfig config;
+  const LocalGround ground = local_ground(heights, shape, config, 0.75);
+  for (int iy = 0; iy < shape.cells_y; ++iy)
+    for (int ix = 0; ix < shape.cells_x; ++ix) {
+      float lowest = 1.0f;
+      for (int y = iy - 2; y <= iy + 2; ++y)
+        for (int x = ix - 2; x <= ix + 2; ++x)
+          if (shape.contains(x, y)) lowest = std::min(lowest, heights[static_cast<size_t>(shape.at(x, y))]);
+      ASSERT_LE(ground.low_m[static_cast<size_t>(shape.at(ix, iy))], lowest + config.step_slack_m + 1e-6);
+    }
+}
+
 TEST(LocalGroundTest, IsBoundedByTheDistanceFromTheWheels) {
   const GridShape shape{GridConfig{}};
   const ReliefConfig config;
@@ -133,17 +153,24 @@ class CellStatesTest : public testing::Test {
 };
 
 TEST_F(CellStatesTest, FreeNeedsMostOfTheExpectedSamples) {
-  at(10, 10).measured = 13;
-  at(12, 10).measured = 12;
+  for (int ix : {10, 11}) at(ix, 10).measured = 13;
+  for (int ix : {20, 21, 22}) at(ix, 10).measured = 12;
   EXPECT_EQ(state(10, 10), Cell::kFree);
-  EXPECT_EQ(state(12, 10), Cell::kUnseen);
+  EXPECT_EQ(state(21, 10), Cell::kUnseen);
 }
 
 TEST_F(CellStatesTest, ACellWithoutAnySampleOfItsOwnIsNotFreeByItsNeighbours) {
-  at(10, 10) = {.measured = 0, .expected = 6};
-  at(14, 10) = {.measured = 1, .expected = 6};
-  EXPECT_EQ(state(10, 10), Cell::kUnseen);
-  EXPECT_EQ(state(14, 10), Cell::kFree);
+  for (int ix : {10, 11, 12}) at(ix, 10) = {.measured = 0, .expected = 6};
+  for (int ix : {20, 21, 22}) at(ix, 10) = {.measured = 1, .expected = 6};
+  EXPECT_EQ(state(11, 10), Cell::kUnseen);
+  EXPECT_EQ(state(21, 10), Cell::kFree);
+}
+
+TEST_F(CellStatesTest, OnlyASingleGapIsFilled) {
+  at(10, 10).measured = 0;
+  for (int ix : {20, 21, 22}) at(ix, 10).measured = 0;
+  EXPECT_EQ(state(10, 10), Cell::kFree);
+  EXPECT_EQ(state(21, 10), Cell::kUnseen);
 }
 
 TEST_F(CellStatesTest, AClusterNeedsEnoughSamplesTogether) {

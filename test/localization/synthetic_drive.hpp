@@ -57,9 +57,6 @@ class SyntheticDrive {
     gyro_bias_ = noise.gyro_bias * normal3();
     gyro_bias_z_fog_ = noise.fog_bias * normal_(random_);
     scale_ = noise.visual_scale * normal_(random_);
-    T_ = surface_pose(0.0, 0.0, 0.0);
-    start_ = T_;
-    key_pose_ = previous_pose_ = T_;
   }
 
   Localization localization;
@@ -109,17 +106,21 @@ class SyntheticDrive {
     return make_pose(R, {x, y, z});
   }
 
+  void place() {
+    start_ = key_pose_ = previous_pose_ = T_ = surface_pose(0.0, 0.0, 0.0);
+    placed_ = true;
+  }
+
   void tick() {
+    if (!placed_) place();
     constexpr double dt = 0.02;
     const Eigen::Isometry3d before = T_;
     const Twist twist = command(to_seconds(now_));
     const double gained = twist.speed_mps * (1.0 - slip(to_seconds(now_)));
-    const double yaw = yaw_;
     yaw_ += twist.rate_radps * dt;
     const Eigen::Vector3d forward = T_.linear().col(0) * gained * dt;
     T_ = surface_pose(T_.translation().x() + forward.x(), T_.translation().y() + forward.y(), yaw_);
     driven_m_ += (T_.translation() - before.translation()).norm();
-    (void)yaw;
     now_ += kTickUs;
     make_imu(before, dt);
     make_wheels(twist, dt);
@@ -171,13 +172,17 @@ class SyntheticDrive {
     localization.take_wheel_command(c);
   }
 
-  // As visual odometry makes it: errors of a keyframe telescope, and a keyframe lasts five pairs.
+  bool key_left_behind() const {
+    const Eigen::Isometry3d moved = key_pose_.inverse() * previous_pose_;
+    return moved.translation().norm() > 0.35 || log_so3(moved.linear()).norm() > 0.3;
+  }
+
+  // As visual odometry makes it: the errors of a keyframe telescope.
   void make_visual() {
-    if (key_utime_ == kNever || pairs_ == 5) {
+    if (key_utime_ == kNever || key_left_behind()) {
       key_utime_ = previous_utime_ == kNever ? now_ : previous_utime_;
       key_pose_ = previous_pose_;
       key_error_ = previous_error_ = Eigen::Isometry3d::Identity();
-      pairs_ = 0;
       if (previous_utime_ == kNever) {
         previous_utime_ = now_;
         key_pose_ = previous_pose_ = T_;
@@ -195,15 +200,13 @@ class SyntheticDrive {
       Eigen::Isometry3d T_key_cur = key_pose_.inverse() * T_ * error;
       m.T_prev_cur = T_key_prev.inverse() * T_key_cur;
       m.T_prev_cur.translation() *= 1.0 + scale_;
-      const double share = pairs_ == 0 ? 1.0 : 1e-4;
       m.cov.setZero();
-      m.cov.diagonal().head<3>().setConstant(share * noise_.visual_m * noise_.visual_m);
-      m.cov.diagonal().tail<3>().setConstant(share * noise_.visual_rad * noise_.visual_rad);
+      m.cov.diagonal().head<3>().setConstant(noise_.visual_m * noise_.visual_m);
+      m.cov.diagonal().tail<3>().setConstant(noise_.visual_rad * noise_.visual_rad);
       m.status = VisualStatus::kOk;
       previous_error_ = error;
       previous_pose_ = T_;
       previous_utime_ = now_;
-      ++pairs_;
     }
     spoil_visual(m);
     late_.push_back({now_ + 240'000, m});
@@ -218,6 +221,7 @@ class SyntheticDrive {
   double scale_ = 0.0;
   Utime now_ = 0;
   double yaw_ = 0.0;
+  bool placed_ = false;
   double driven_m_ = 0.0;
   Eigen::Isometry3d T_;
   Eigen::Isometry3d start_;
@@ -225,7 +229,6 @@ class SyntheticDrive {
   std::array<double, 6> drive_angle_{};
   Utime key_utime_ = kNever;
   Utime previous_utime_ = kNever;
-  int pairs_ = 0;
   Eigen::Isometry3d key_pose_;
   Eigen::Isometry3d previous_pose_;
   Eigen::Isometry3d key_error_ = Eigen::Isometry3d::Identity();

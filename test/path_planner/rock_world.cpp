@@ -32,7 +32,7 @@ bool visible(const CameraModel& camera, Point2 b) {
   const double ahead = b.x_m - camera.position.x_m;
   const double depth = ahead * std::cos(camera.pitch_rad) + camera.height_m * std::sin(camera.pitch_rad);
   const double side = b.y_m - camera.position.y_m;
-  return side <= camera.left_tangent * depth && -side <= camera.right_tangent * depth;
+  return side <= camera.tangent * depth - camera.baseline_m && -side <= camera.tangent * depth;
 }
 
 // Whether a rock stands between the camera and the ground at b (both in body).
@@ -64,7 +64,8 @@ class Drive {
     planner_.set_global_path(global);
     planner_.set_start_area(path_.front(), 1.5, 0);
     // One step before motion, so that the start area is laid.
-    for (now_ = config_.step_us; to_seconds(now_) < config_.timeout_s && !result_.reached && !result_.collided;
+    for (now_ = config_.step_us; to_seconds(now_) < config_.timeout_s && !result_.reached && !result_.collided &&
+         no_path_s_ < config_.no_path_s;
          now_ += config_.step_us)
       step();
     result_.duration_s = to_seconds(now_);
@@ -86,6 +87,7 @@ class Drive {
     if (out.path) take_path(*out.path);
     result_.replans = out.status.replans;
     result_.text = out.status.text;
+    no_path_s_ = out.status.state == PlannerState::kNoPath ? no_path_s_ + to_seconds(config_.step_us) : 0.0;
     result_.reached = out.status.path_id >= 0 && out.status.goal_distance_m <= 0.5;
     if (getenv("TRACE") && now_ % 1000000 == 0) printf("%6.1f x %.2f %.2f %.2f state %d blocked %.2f kind %d goal %.2f off %.2f path %ld pts %zu %s exp %d\n", to_seconds(now_), odom_.x_m, odom_.y_m, odom_.yaw_rad, int(out.status.state), out.status.blocked_in_m, int(out.status.block_kind), out.status.goal_distance_m, out.status.corridor_offset_m, long(out.status.path_id), route_.points().size(), out.status.text.c_str(), planner_.last_repair().expansions);
     if (getenv("DUMP") && now_ == to_utime(atof(getenv("DUMP")))) {
@@ -228,6 +230,7 @@ class Drive {
   double rate_ = 0.0;
   double curvature_ = 0.0;
   double turn_wait_s_ = 0.0;
+  double no_path_s_ = 0.0;
   bool turning_ = false;
   bool going_ = false;
   std::int64_t stopped_path_ = -1;
@@ -256,7 +259,7 @@ std::vector<Rock> rock_field(double k, Point2 low, Point2 high, double least_dia
 
 HazardGrid observe(const CameraModel& camera, const std::vector<Rock>& rocks, const Pose2& pose, Utime utime,
                    std::mt19937_64& random) {
-  HazardGrid grid{utime, 0.1, 0.5, -2.0, 30, 40, std::vector<std::uint8_t>(1200, HazardGrid::kUnseen)};
+  HazardGrid grid{utime, 0.1, 0.5, -2.0, 35, 40, std::vector<std::uint8_t>(1400, HazardGrid::kUnseen)};
   std::vector<Rock> in_body = rocks;
   for (Rock& rock : in_body) rock.p = to_body(pose, rock.p);
   for (int iy = 0; iy < grid.cells_y; ++iy)

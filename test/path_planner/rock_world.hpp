@@ -24,10 +24,10 @@ struct CameraModel {
   Point2 position{0.527, 0.074};  // in body
   double height_m = 0.68;
   double pitch_rad = 0.576;       // down
-  double left_tangent = 0.42;     // of the half field of view; the left edge has no disparity
-  double right_tangent = 0.60;
+  double tangent = 0.60;          // of the half field of view
+  double baseline_m = 0.12;       // the right camera does not see the left edge
   double near_m = 0.97;           // from the body origin
-  double far_m = 3.0;
+  double far_m = 3.5;
   double false_hit_rate = 0.0;    // single false cells per frame
 };
 
@@ -47,6 +47,7 @@ struct DriveConfig {
   double turn_overhead_s = 8.0;   // steering to the point turn and back
   double hazard_stop_m = 0.5;     // as the supervisor
   double unseen_stop_m = 0.25;
+  double no_path_s = 20.0;        // then the drive is given up
   double timeout_s = 1500.0;
 };
 

@@ -38,6 +38,7 @@ int main(int argc, char** argv) {
     std::printf("seed %3d %s ratio %.3f replans %2d turns %d stops %2d stopped %5.1f s duty %.2f clearance %.2f %s\n", seed,
                 r.collided ? "COLLISION" : r.reached ? "goal" : "LOST", ratio, r.replans, r.point_turns, r.stops,
                 r.stopped_s, r.driven_m / (0.2 * r.duration_s), r.least_clearance_m, r.reached ? "" : r.text.c_str());
+    std::fflush(stdout);
     if (!r.reached)
       std::printf("    at %.2f %.2f yaw %.2f\n", r.track.back().x_m, r.track.back().y_m, r.track.back().yaw_rad);
   }

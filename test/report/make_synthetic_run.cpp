@@ -26,6 +26,10 @@ int main(int argc, char** argv) {
   for (const rover::Rock& rock : world.rocks_in(5, 15, 110, 75))
     truth.rocks.push_back({rock.x_m, rock.y_m, 0.5 * rock.diameter_m, rock.height_m});
   truth.height_m = [&](double x, double y) { return world.height_m(x, y); };
+  for (const double at : run.swerves_m) {
+    const Eigen::Vector2d p = part_ahead(run.planned, run.planned.front(), at).back();
+    truth.rocks.push_back({p.x(), p.y(), 0.2, 0.24});
+  }
   run.rocks = truth.rocks;
   write_synthetic_run(run, argv[1]);
   const RunFolder folder = open_run_folder(argv[1], ROVER_SOURCE_DIR "/config");

@@ -33,6 +33,9 @@ class MessageLog {
     put_bytes(channel, bytes, utime + latency);
   }
 
+  // A message that was published and not recorded.
+  void leave_out(const std::string& channel, const std::string& publisher) { ++seq_[channel + '/' + publisher + "/1"]; }
+
   void put_bytes(const std::string& channel, std::vector<std::uint8_t> bytes, Utime time) {
     lcm_eventlog_event_t event{};
     event.timestamp = time;

@@ -12,9 +12,15 @@ namespace {
 using test::body_at;
 using test::loccam_rig;
 
+CameraSimConfig small_config() {
+  CameraSimConfig config;
+  config.scene = test::small_scene();
+  return config;
+}
+
 // Without noise, calibration error and dust.
 CameraSimConfig quiet_config() {
-  CameraSimConfig config;
+  CameraSimConfig config = small_config();
   config.calibration_error_px = 0.0;
   config.imager.full_well_e = 1e12;
   config.imager.read_noise_e = 0.0;
@@ -34,7 +40,7 @@ double rms_difference(const GrayImage& a, const GrayImage& b) {
 
 TEST(StereoCameraSim, SameBytesWithAnyNumberOfThreads) {
   const test::RockySurface surface;
-  CameraSimConfig config;
+  CameraSimConfig config = small_config();
   config.scene.threads = 1;
   StereoCameraSim alone(loccam_rig(), config, surface, 7);
   config.scene.threads = 3;
@@ -47,7 +53,7 @@ TEST(StereoCameraSim, SameBytesWithAnyNumberOfThreads) {
 
 TEST(StereoCameraSim, PictureDoesNotDependOnTheWayThere) {
   const test::RockySurface surface;
-  const CameraSimConfig config;
+  const CameraSimConfig config = small_config();
   const auto travelled = std::make_shared<TileScene>(surface, config.scene);
   for (double x = 80.0; x < 100.0; x += 1.0) travelled->focus(x, 30.0);
   const auto fresh = std::make_shared<TileScene>(surface, config.scene);
@@ -113,7 +119,9 @@ TEST(StereoCameraSim, RangesAgreeWithMarchingTheSurfaceItself) {
 
 TEST(StereoCameraSim, GroundHasNoCracks) {
   const test::RockySurface surface;
-  StereoCameraSim camera(test::navcam_rig(), quiet_config(), surface, 1);
+  CameraSimConfig config = quiet_config();
+  config.scene.far_radius_m = 80.0;
+  StereoCameraSim camera(test::navcam_rig(), config, surface, 1);
   for (double yaw : {0.0, 1.1, 2.9, -2.0}) {
     const Eigen::Isometry3d T_map_left = body_at(surface, 212.0, 152.0, yaw) * camera.true_rig().T_body_left;
     const std::vector<float> ranges = camera.left_ranges_m(T_map_left);
@@ -168,7 +176,7 @@ TEST(StereoCameraSim, KnownPointsProjectWhereExpected) {
 
 TEST(StereoCameraSim, SeedAndFrameChangeNoiseOnly) {
   const test::RockySurface surface;
-  CameraSimConfig config;
+  CameraSimConfig config = small_config();
   config.calibration_error_px = 0.0;
   const auto scene = std::make_shared<TileScene>(surface, config.scene);
   StereoCameraSim a(loccam_rig(), config, scene, 1);
@@ -187,7 +195,7 @@ TEST(StereoCameraSim, ExposureFollowsTheSun) {
   const test::PlaneSurface surface;
   double exposure_s[2];
   for (int i = 0; i < 2; ++i) {
-    CameraSimConfig config;
+    CameraSimConfig config = small_config();
     config.scene.look.sun_elevation_rad = to_rad(i == 0 ? 15.0 : 60.0);
     StereoCameraSim camera(loccam_rig(), config, surface, 1);
     StereoCameraSim::Pair pair;
@@ -235,10 +243,9 @@ TEST(GroundLook, DustCoversTheShareAskedFor) {
 
 TEST(TileScene, MemoryStaysBoundedOnALongTraverse) {
   const test::PlaneSurface surface(0.0, 0.05, 0.02);
-  TileSceneConfig config;
-  config.fine_radius_m = 3.0;
-  config.middle_radius_m = 8.0;
-  config.far_radius_m = 40.0;
+  TileSceneConfig config = test::small_scene();
+  config.fine_radius_m = 1.0;
+  config.middle_radius_m = 4.0;
   TileScene scene(surface, config);
   size_t most_early = 0;
   size_t most_late = 0;

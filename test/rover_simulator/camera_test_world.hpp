@@ -8,6 +8,7 @@
 #include "common/core/camera_rig.hpp"
 #include "common/core/frames.hpp"
 #include "rover_simulator/camera/counter_hash.hpp"
+#include "rover_simulator/camera/tile_scene.hpp"
 #include "rover_simulator/world/surface.hpp"
 
 namespace rover::test {
@@ -63,6 +64,15 @@ class RockySurface : public Surface {
   }
   double base_m_;
 };
+
+// A scene wide enough for the LocCam, and quick to build.
+inline TileSceneConfig small_scene() {
+  TileSceneConfig config;
+  config.fine_radius_m = 4.5;
+  config.middle_radius_m = 8.0;
+  config.far_radius_m = 30.0;
+  return config;
+}
 
 // The LocCam of config/cameras.yaml.
 inline StereoRig loccam_rig() {

@@ -15,7 +15,7 @@ ElevationRaster hills() {
   raster.projection_wkt = "LOCAL_CS[\"test\"]";
   for (int row = 0; row < raster.height; ++row)
     for (int column = 0; column < raster.width; ++column)
-      raster.at(column, row) = static_cast<float>(3.0 * gradient_noise(3, column / 25.0, row / 25.0));
+      raster.at(column, row) = static_cast<float>(1.5 * gradient_noise(3, column / 25.0, row / 25.0));
   return raster;
 }
 

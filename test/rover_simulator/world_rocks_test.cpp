@@ -22,7 +22,8 @@ TEST(RockLaw, GivesTheKnownDensities) {
     EXPECT_NEAR(1e4 * rock_density_above(rocks_of(k), 0.4), per_hectare, 0.03 * per_hectare + 1.0) << k;
 }
 
-// Areas of the drawn rocks against F(D) = k exp(-q D), the rocks beyond both ends of the range left out of the law.
+// Areas of the drawn rocks against F(D) = k exp(-q D) without the rocks that are larger than the largest drawn; within
+// four deviations of a Poisson count.
 TEST(RockField, CoversTheLawsArea) {
   for (double k : {0.03, 0.08, 0.19}) {
     const RockConfig config = rocks_of(k);
@@ -30,10 +31,14 @@ TEST(RockField, CoversTheLawsArea) {
     const double q = 1.79 + 0.152 / k;
     const auto law = [&](double d) { return k * (std::exp(-q * d) - std::exp(-q * config.max_diameter_m)); };
     for (double above : {0.08, 0.2, 0.4, 0.6}) {
-      double area = 0.0;
+      double area = 0.0, squares = 0.0;
       for (const Rock& rock : field.all())
-        if (rock.diameter_m >= above) area += M_PI * rock.diameter_m * rock.diameter_m / 4.0;
-      EXPECT_NEAR(area / (300.0 * 300.0), law(above), 0.1 * law(above) + 2e-5) << k << " " << above;
+        if (rock.diameter_m >= above) {
+          const double own = M_PI * rock.diameter_m * rock.diameter_m / 4.0;
+          area += own;
+          squares += own * own;
+        }
+      EXPECT_NEAR(area / 9e4, law(above), 0.02 * law(above) + 4.0 * std::sqrt(squares) / 9e4) << k << " " << above;
     }
   }
 }
@@ -115,9 +120,9 @@ TEST(RockField, LeavesCirclesClearAndNothingElse) {
   const std::vector<KeepClear> circles = {{20, 20, 1.5, 0.12}, {40, 30, 3.0, 0.12}};
   const RockField free(config, 60, 60, {}, 2), kept(config, 60, 60, circles, 2);
   for (const KeepClear& circle : circles)
-    for (double x = -circle.radius_m; x <= circle.radius_m; x += 0.02)
-      for (double y = -circle.radius_m; y <= circle.radius_m; y += 0.02)
-        if (std::hypot(x, y) <= circle.radius_m) ASSERT_LT(kept.at(circle.x_m + x, circle.y_m + y).height_m, 0.12);
+    for (double r = 0.0; r <= circle.radius_m; r += 0.02)
+      for (double angle = 0.0; angle < 2.0 * M_PI; angle += 0.01)
+        ASSERT_LT(kept.at(circle.x_m + r * std::cos(angle), circle.y_m + r * std::sin(angle)).height_m, 0.12);
   EXPECT_LT(kept.all().size(), free.all().size());
   EXPECT_GT(kept.all().size(), free.all().size() - 60);
 }

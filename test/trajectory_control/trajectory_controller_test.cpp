@@ -115,6 +115,19 @@ TEST_F(ControllerTest, SpeedIsBoundedByThePermit) {
   EXPECT_DOUBLE_EQ(step().command.speed_mps, 0.07);
 }
 
+TEST_F(ControllerTest, SteersAheadOfABendByTheDelayOfItsAnswer) {
+  const TrajectoryControlConfig config = load_config(test::config_dir());
+  const auto points = test::polyline({{0.0, 5.0}, {0.5, 5.0}});
+  const auto curvature_at_speed = [&](double speed) {
+    TrajectoryController controller(config);
+    controller.set_path({1, 0.75, points});
+    pose_.odom = {4.9, 0.0, 0.0};
+    pose_.forward_mps = speed;
+    return controller.step(kNow, pose_, permit_).command.curvature_per_m;
+  };
+  EXPECT_GT(curvature_at_speed(0.2), curvature_at_speed(0.0) + 0.01);
+}
+
 TEST_F(ControllerTest, ALargeHeadingErrorIsTurnedOnTheSpot) {
   for (const double sign : {-1.0, 1.0}) {
     pose_.odom.yaw_rad = sign * to_rad(41.0);

@@ -103,6 +103,7 @@ void Node::subscribe_raw(std::function<void(const RawMessage&)> handler) {
 }
 
 void Node::receive(const lcm::ReceiveBuffer* buffer, const std::string& channel, Subscription& subscription) {
+  if (channel == "LCM_SELF_TEST") return;  // LCM's own, at each start of a process
   const int size = static_cast<int>(buffer->data_size);
   RawMessage message;
   message.channel = channel;
@@ -320,7 +321,7 @@ void Node::run(const std::function<bool()>& running) {
       announce();
       announced = Clock::now();
     }
-    if (!handle(kPollMs)) {
+    if (!handle(kPollMs) && running()) {  // a signal that ends the node also ends the wait
       log("ERROR", "BUS_FAILED");
       return;
     }

@@ -44,7 +44,7 @@ double noise_quantile(double fraction) {
   return *at;
 }
 
-// Relative contrasts: deserts of mixed grain show 15-30 % rms at the scale of centimetres.
+// Albedos and relative contrasts are chosen by eye, so that pictures look like those of Mars rovers.
 VertexLook soil_look(Soil soil) {
   switch (soil) {
     case Soil::kSand:

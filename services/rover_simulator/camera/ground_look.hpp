@@ -10,9 +10,9 @@ namespace rover {
 struct GroundLookConfig {
   double sun_elevation_rad = 0.7;
   double sun_azimuth_rad = 1.0;             // towards the sun, counter-clockwise from map x
-  double sky_light = 0.16;                  // diffuse over direct irradiance (dust opacity about 0.4)
+  double sky_light = 0.16;                  // diffuse over direct irradiance; an estimate for little dust in the air
   double textureless_fraction = 0.03;       // share of the ground under smooth dust
-  double textureless_rock_fraction = 0.05;  // share of the rocks with a smooth, dusty skin
+  double textureless_rock_fraction = 0.02;  // share of the rocks with a smooth, dusty skin
   std::uint64_t seed = 1;
 };
 

@@ -12,13 +12,13 @@ class GroundShader {
  public:
   GroundShader(const GroundLookConfig& config, const GroundTexture& texture);
 
-  // Where eight rays met the ground.
-  struct Hits {
-    Lanes<const GroundTile*> tile;  // null: the ray met nothing and sees the sky
+  // Where eight rays meet the ground.
+  struct Points {
+    Lanes<const GroundTile*> tile;  // null: the ray sees the sky
     Lanes<float> x, y, z;           // from the tile's origin
-    Lanes<float> range_m;
+    Lanes<float> pixel_m;           // width of a pixel there, across the ray
   };
-  Lanes<float> radiance(const RayPacket& rays, const Hits& hits) const;
+  Lanes<float> radiance(const RayPacket& rays, const Points& points) const;
 
  private:
   struct Layer {
@@ -28,10 +28,10 @@ class GroundShader {
     float wavelength_m;
     bool fine;
   };
-  struct Point;
+  struct State;
   // Normals, resolvable wavelengths and texture planes.
-  [[gnu::always_inline]] inline void face(const RayPacket& rays, const Hits& hits, Point& point) const;
-  [[gnu::always_inline]] inline void add_layer(int index, const Hits& hits, Point& point) const;
+  [[gnu::always_inline]] inline void face(const RayPacket& rays, const Points& points, State& state) const;
+  [[gnu::always_inline]] inline void add_layer(int index, const Points& points, State& state) const;
 
   std::array<Layer, kDetailLayers> layers_;
   float sun_x_, sun_y_, sun_z_;

@@ -18,10 +18,10 @@ struct TileLevel {
   double size_m() const { return cells * spacing_m; }
 };
 
-// Each size is a multiple of the one before: a tile is replaced by a whole block of finer ones.
+// Each size is a multiple of the one before (or the same): a tile is replaced by a whole block of finer ones.
 inline constexpr int kTileLevels = 3;
-inline constexpr std::array<TileLevel, kTileLevels> kLevels = {TileLevel{200, 0.02, 0.06}, TileLevel{80, 0.1, 0.3},
-                                                               TileLevel{40, 0.8, 2.0}};
+inline constexpr std::array<TileLevel, kTileLevels> kLevels = {TileLevel{200, 0.02, 0.06}, TileLevel{40, 0.1, 0.3},
+                                                               TileLevel{20, 0.8, 2.0}};
 
 // Tile (ix, iy) of a level covers [ix, ix + 1) x [iy, iy + 1) times the level's tile size.
 struct TileKey {

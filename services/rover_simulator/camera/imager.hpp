@@ -9,12 +9,12 @@
 namespace rover {
 
 struct ImagerConfig {
-  double full_well_e = 15000.0;  // electrons at the value 255 (CCDs of the Bumblebee's class)
+  double full_well_e = 15000.0;  // electrons at the value 255 (estimate for a small CCD)
   double read_noise_e = 25.0;
-  double vignetting = 0.12;        // loss of light in the corners
-  double blur_weight = 0.11;       // of each neighbour in the three-tap kernel: sigma 0.47 px
-  double exposure_target = 110.0;  // mean grey value that the exposure control seeks
-  double exposure_gain = 0.7;      // share of the (logarithmic) error removed from one image to the next
+  double vignetting = 0.12;       // loss of light in the corners
+  double blur_weight = 0.11;      // of each neighbour in the three-tap kernel: sigma 0.47 px
+  double exposure_target = 95.0;  // mean grey value that the exposure control seeks
+  double exposure_gain = 0.7;     // share of the (logarithmic) error removed from one image to the next
   double exposure_min_s = 0.0002;
   double exposure_max_s = 0.1;
   double radiance_per_second = 120.0;  // grey value / 255 = radiance x exposure x this

@@ -1,4 +1,4 @@
-// Eight rays at a time: what Embree traces at once and what loops over fixed arrays let the compiler vectorise.
+// Eight rays at a time: what Embree traces at once, and what lets the compiler vectorise loops over fixed arrays.
 #pragma once
 
 namespace rover {
@@ -12,9 +12,18 @@ struct alignas(32) Lanes {
   const T& operator[](int k) const { return lane[k]; }
 };
 
+// Viewing rays in map axes.
 struct RayPacket {
-  Lanes<float> dir_x, dir_y, dir_z;  // unit length, map axes
-  Lanes<float> pixel_m_per_m;        // width of a pixel at 1 m
+  Lanes<float> dir_x, dir_y, dir_z;  // unit length
+  Lanes<float> cosine;               // of the angle to the optical axis: depth = range x cosine
+};
+
+inline constexpr int kNoTile = -1;
+
+struct HitPacket {
+  Lanes<int> tile;                            // number in the scene; kNoTile: the ray meets nothing
+  Lanes<float> range_m;                       // infinite where it meets nothing
+  Lanes<float> normal_x, normal_y, normal_z;  // of the mesh there, of any length
 };
 
 }  // namespace rover

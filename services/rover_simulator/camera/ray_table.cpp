@@ -38,11 +38,12 @@ RayTable make_ray_table(const PinholeCamera& camera, int width, int height) {
   RayTable table;
   table.width = width;
   table.height = height;
+  table.stride = width + 1;
   table.pixel_angle_rad = static_cast<float>(1.0 / camera.fx_px);
-  table.x.reserve(static_cast<size_t>(width) * height);
-  table.y.reserve(static_cast<size_t>(width) * height);
-  for (int v = 0; v < height; ++v) {
-    for (int u = 0; u < width; ++u) {
+  table.x.reserve(static_cast<size_t>(width + 1) * (height + 1));
+  table.y.reserve(static_cast<size_t>(width + 1) * (height + 1));
+  for (int v = 0; v <= height; ++v) {
+    for (int u = 0; u <= width; ++u) {
       const Eigen::Vector3d ray = ray_of_pixel(camera, {u, v});
       table.x.push_back(static_cast<float>(ray.x()));
       table.y.push_back(static_cast<float>(ray.y()));

@@ -16,6 +16,7 @@ Eigen::Vector3d ray_of_pixel(const PinholeCamera& camera, const Eigen::Vector2d&
 struct RayTable {
   int width = 0;
   int height = 0;
+  int stride = 0;                // width + 1: one column and one row beyond the image are there too
   float pixel_angle_rad = 0.0F;  // at the image centre
   std::vector<float> x;          // ray = (x, y, 1) in camera axes; rows from the top
   std::vector<float> y;

@@ -1,6 +1,7 @@
 #include "rover_simulator/camera/stereo_camera_sim.hpp"
 
-#include <cmath>
+#include <algorithm>
+#include <cstddef>
 #include <utility>
 
 #include "common/core/check.hpp"
@@ -11,45 +12,23 @@
 namespace rover {
 namespace {
 
-// Packets are blocks of pixels, not strips: their rays stay together longer.
-constexpr int kBlockWidth = 4;
-constexpr int kBlockHeight = 2;
-constexpr int kRowsPerJob = 8;
-static_assert(kBlockWidth * kBlockHeight == kPacket && kRowsPerJob % kBlockHeight == 0);
+// In-between rays may be off by this much disparity.
+constexpr double kDisparityTolerance_px = 0.06;
 
-void aim(const RayTable& rays, const Eigen::Matrix3f& R_map_cam, int u0, int v0, RayPacket& packet) {
-  for (int k = 0; k < kPacket; ++k) {
-    const size_t index = static_cast<size_t>(v0 + k / kBlockWidth) * rays.width + u0 + k % kBlockWidth;
-    const float x = rays.x[index];
-    const float y = rays.y[index];
-    const float scale = 1.0F / std::sqrt(1.0F + x * x + y * y);
-    packet.dir_x[k] = scale * (R_map_cam(0, 0) * x + R_map_cam(0, 1) * y + R_map_cam(0, 2));
-    packet.dir_y[k] = scale * (R_map_cam(1, 0) * x + R_map_cam(1, 1) * y + R_map_cam(1, 2));
-    packet.dir_z[k] = scale * (R_map_cam(2, 0) * x + R_map_cam(2, 1) * y + R_map_cam(2, 2));
-    packet.pixel_m_per_m[k] = rays.pixel_angle_rad * scale;
-  }
-}
-
-struct CameraView {
-  const RayTable& rays;
-  Eigen::Matrix3f R_map_cam;
-  TileScene::View view;
-};
-
-CameraView view_from(const TileScene& scene, const RayTable& rays, const Eigen::Isometry3d& T_map_cam) {
-  return {rays, T_map_cam.linear().cast<float>(), scene.view(T_map_cam.translation())};
-}
-
-// `trace` takes a packet of rays to one value each.
-template <class Trace>
-void trace_rows(const CameraView& camera, int first_row, const Trace& trace, std::vector<float>& out) {
-  RayPacket rays;
-  for (int v = first_row; v < first_row + kRowsPerJob; v += kBlockHeight) {
-    for (int u = 0; u < camera.rays.width; u += kBlockWidth) {
-      aim(camera.rays, camera.R_map_cam, u, v, rays);
-      const Lanes<float> values = trace(rays);
-      for (int k = 0; k < kPacket; ++k)
-        out[static_cast<size_t>(v + k / kBlockWidth) * camera.rays.width + u + k % kBlockWidth] = values[k];
+void shade_band(const TileScene& scene, const CameraView& camera, const HitBand& band, std::vector<float>& radiance) {
+  const int width = camera.rays.width;
+  for (int row = 0; row < HitBand::kRows; ++row) {
+    for (int u = 0; u < width; u += kPacket) {
+      RayPacket rays;
+      Lanes<int> tile;
+      Lanes<float> range_m;
+      for (int k = 0; k < kPacket; ++k) {
+        aim(camera, u + k, band.first_row + row, k, rays);
+        tile[k] = band.tile[static_cast<size_t>(row) * width + u + k];
+        range_m[k] = band.range_m[static_cast<size_t>(row) * width + u + k];
+      }
+      const Lanes<float> light = scene.radiance(camera.view, rays, tile, range_m, camera.rays.pixel_angle_rad);
+      std::copy_n(light.lane, kPacket, &radiance[static_cast<size_t>(band.first_row + row) * width + u]);
     }
   }
 }
@@ -68,7 +47,7 @@ StereoCameraSim::StereoCameraSim(const StereoRig& nominal, const CameraSimConfig
       scene_(std::move(scene)),
       left_(make_eye(rig_.left)),
       right_(make_eye(rig_.right)) {
-  ROVER_CHECK(rig_.width % kBlockWidth == 0 && rig_.height % kRowsPerJob == 0, rig_.width, rig_.height);
+  ROVER_CHECK(rig_.width % (2 * kPacket) == 0 && rig_.height % HitBand::kRows == 0, rig_.width, rig_.height);
 }
 
 StereoCameraSim::Eye StereoCameraSim::make_eye(const PinholeCamera& camera) const {
@@ -87,39 +66,45 @@ StereoCameraSim::Pair StereoCameraSim::render_from(const Eigen::Isometry3d& T_ma
 
   Pair pair{GrayImage(rig_.width, rig_.height), GrayImage(rig_.width, rig_.height), exposure_s_};
   const std::uint64_t frame_key = hash64(seed_, static_cast<std::uint64_t>(frame));
-  const int jobs = rig_.height / kRowsPerJob;
+  const int jobs = rig_.height / HitBand::kRows;
   scene_->pool().run(2 * jobs, [&](int job) {
     const Eye& eye = job < jobs ? left_ : right_;
     GrayImage& image = job < jobs ? pair.left : pair.right;
     const std::uint64_t key = hash64(frame_key, job < jobs ? 0 : 1);
-    const int first = job % jobs * kRowsPerJob;
-    for (int v = first; v < first + kRowsPerJob; ++v)
+    const int first = job % jobs * HitBand::kRows;
+    for (int v = first; v < first + HitBand::kRows; ++v)
       eye.imager.expose_row(eye.radiance, pair.exposure_s, key, v, image);
   });
   exposure_s_ = next_exposure_s(config_.imager, exposure_s_, mean_grey(pair.left));
   return pair;
 }
 
+CameraView StereoCameraSim::view_from(const Eye& eye, const Eigen::Isometry3d& T_map_cam) const {
+  const double baseline_m = rig_.T_left_right.translation().norm();
+  const double tolerance = kDisparityTolerance_px / (rig_.left.fx_px * baseline_m);
+  return {eye.rays, T_map_cam.linear().cast<float>(), scene_->view(T_map_cam.translation()),
+          static_cast<float>(tolerance)};
+}
+
 void StereoCameraSim::trace_radiance(const Eigen::Isometry3d& T_map_left) {
   scene_->focus(T_map_left.translation().x(), T_map_left.translation().y());
-  const CameraView left = view_from(*scene_, left_.rays, T_map_left);
-  const CameraView right = view_from(*scene_, right_.rays, T_map_left * rig_.T_left_right);
-  const int jobs = rig_.height / kRowsPerJob;
-  scene_->pool().run(2 * jobs, [&](int job) {
-    const CameraView& camera = job < jobs ? left : right;
-    trace_rows(
-        camera, job % jobs * kRowsPerJob, [&](const RayPacket& rays) { return scene_->radiance(camera.view, rays); },
-        job < jobs ? left_.radiance.data : right_.radiance.data);
+  const CameraView left = view_from(left_, T_map_left);
+  const CameraView right = view_from(right_, T_map_left * rig_.T_left_right);
+  const int bands = rig_.height / HitBand::kRows;
+  scene_->pool().run(2 * bands, [&](int job) {
+    const CameraView& camera = job < bands ? left : right;
+    const HitBand band = find_hits(*scene_, camera, job % bands * HitBand::kRows);
+    shade_band(*scene_, camera, band, job < bands ? left_.radiance.data : right_.radiance.data);
   });
 }
 
 std::vector<float> StereoCameraSim::left_ranges_m(const Eigen::Isometry3d& T_map_left) {
   scene_->focus(T_map_left.translation().x(), T_map_left.translation().y());
-  const CameraView left = view_from(*scene_, left_.rays, T_map_left);
+  const CameraView left = view_from(left_, T_map_left);
   std::vector<float> ranges(static_cast<size_t>(rig_.width) * rig_.height);
-  scene_->pool().run(rig_.height / kRowsPerJob, [&](int job) {
-    trace_rows(
-        left, job * kRowsPerJob, [&](const RayPacket& rays) { return scene_->ranges_m(left.view, rays); }, ranges);
+  scene_->pool().run(rig_.height / HitBand::kRows, [&](int job) {
+    const HitBand band = find_hits(*scene_, left, job * HitBand::kRows);
+    std::copy(band.range_m.begin(), band.range_m.end(), ranges.begin() + std::ptrdiff_t{band.first_row} * rig_.width);
   });
   return ranges;
 }

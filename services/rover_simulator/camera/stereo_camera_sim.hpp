@@ -9,6 +9,7 @@
 
 #include "common/core/camera_rig.hpp"
 #include "common/core/image.hpp"
+#include "rover_simulator/camera/hit_band.hpp"
 #include "rover_simulator/camera/imager.hpp"
 #include "rover_simulator/camera/ray_table.hpp"
 #include "rover_simulator/camera/tile_scene.hpp"
@@ -50,6 +51,7 @@ class StereoCameraSim {
     Imager imager;
     RadianceImage radiance;
   };
+  CameraView view_from(const Eye& eye, const Eigen::Isometry3d& T_map_cam) const;
   void trace_radiance(const Eigen::Isometry3d& T_map_left);
   Eye make_eye(const PinholeCamera& camera) const;
 

@@ -9,8 +9,8 @@
 namespace rover {
 namespace {
 
-// AVX2 where the machine has it: the widest instructions that nearly all have, so that nearly all render the same
-// bytes. Embree's own threads are not used.
+// AVX2 at most: the last bits of a range change with the instruction set, so machines with more must not use it.
+// Embree's own threads are not used.
 constexpr const char* kDeviceConfig = "threads=1,isa=avx2";
 
 double distance(const TileKey& key, double x, double y) {
@@ -168,57 +168,54 @@ TileScene::View TileScene::view(const Eigen::Vector3d& p_map_eye) const {
   return view;
 }
 
-struct TileScene::Traced {
-  RTCRayHit8 embree;
-};
-
-TileScene::Traced TileScene::intersect(const View& view, const RayPacket& rays) const {
+HitPacket TileScene::intersect(const View& view, const RayPacket& rays) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   alignas(32) static constexpr int kAll[kPacket] = {-1, -1, -1, -1, -1, -1, -1, -1};
-  Traced traced;
-  RTCRay8& ray = traced.embree.ray;
+  RTCRayHit8 traced;
   for (int k = 0; k < kPacket; ++k) {
-    ray.org_x[k] = view.eye.x();
-    ray.org_y[k] = view.eye.y();
-    ray.org_z[k] = view.eye.z();
-    ray.dir_x[k] = rays.dir_x[k];
-    ray.dir_y[k] = rays.dir_y[k];
-    ray.dir_z[k] = rays.dir_z[k];
-    ray.tnear[k] = 0.0F;
-    ray.tfar[k] = std::numeric_limits<float>::infinity();
-    ray.time[k] = 0.0F;
-    ray.mask[k] = ~0U;
-    ray.flags[k] = 0;
-    traced.embree.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
-    traced.embree.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
+    traced.ray.org_x[k] = view.eye.x();
+    traced.ray.org_y[k] = view.eye.y();
+    traced.ray.org_z[k] = view.eye.z();
+    traced.ray.dir_x[k] = rays.dir_x[k];
+    traced.ray.dir_y[k] = rays.dir_y[k];
+    traced.ray.dir_z[k] = rays.dir_z[k];
+    traced.ray.tnear[k] = 0.0F;
+    traced.ray.tfar[k] = std::numeric_limits<float>::infinity();
+    traced.ray.time[k] = 0.0F;
+    traced.ray.mask[k] = ~0U;
+    traced.ray.flags[k] = 0;
+    traced.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
+    traced.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
   }
-  rtcIntersect8(kAll, scene_, &context, &traced.embree);
-  return traced;
+  rtcIntersect8(kAll, scene_, &context, &traced);
+  HitPacket hits;
+  static_assert(static_cast<int>(RTC_INVALID_GEOMETRY_ID) == kNoTile);
+  for (int k = 0; k < kPacket; ++k) {
+    hits.tile[k] = static_cast<int>(traced.hit.instID[0][k]);
+    hits.range_m[k] = traced.ray.tfar[k];
+    hits.normal_x[k] = traced.hit.Ng_x[k];
+    hits.normal_y[k] = traced.hit.Ng_y[k];
+    hits.normal_z[k] = traced.hit.Ng_z[k];
+  }
+  return hits;
 }
 
-Lanes<float> TileScene::ranges_m(const View& view, const RayPacket& rays) const {
-  const Traced traced = intersect(view, rays);
-  Lanes<float> ranges;
-  std::copy_n(traced.embree.ray.tfar, kPacket, ranges.lane);
-  return ranges;
-}
-
-Lanes<float> TileScene::radiance(const View& view, const RayPacket& rays) const {
-  const Traced traced = intersect(view, rays);
-  GroundShader::Hits hits;
+Lanes<float> TileScene::radiance(const View& view, const RayPacket& rays, const Lanes<int>& tile,
+                                 const Lanes<float>& range_m, float pixel_angle_rad) const {
+  GroundShader::Points points;
   for (int k = 0; k < kPacket; ++k) {
-    const unsigned instance = traced.embree.hit.instID[0][k];
-    const bool hit = instance != RTC_INVALID_GEOMETRY_ID;
-    hits.tile[k] = hit ? shown_tiles_[instance].get() : nullptr;
-    const Eigen::Vector3f& eye = view.eye_in_tile[hit ? instance : 0];
-    hits.range_m[k] = hit ? traced.embree.ray.tfar[k] : 1.0F;
-    hits.x[k] = eye.x() + hits.range_m[k] * rays.dir_x[k];
-    hits.y[k] = eye.y() + hits.range_m[k] * rays.dir_y[k];
-    hits.z[k] = eye.z() + hits.range_m[k] * rays.dir_z[k];
+    const bool hit = tile[k] != kNoTile;
+    const float range = hit ? range_m[k] : 1.0F;
+    const Eigen::Vector3f& eye = view.eye_in_tile[hit ? tile[k] : 0];
+    points.tile[k] = hit ? shown_tiles_[tile[k]].get() : nullptr;
+    points.x[k] = eye.x() + range * rays.dir_x[k];
+    points.y[k] = eye.y() + range * rays.dir_y[k];
+    points.z[k] = eye.z() + range * rays.dir_z[k];
+    points.pixel_m[k] = range * rays.cosine[k] * pixel_angle_rad;
   }
-  return shader_.radiance(rays, hits);
+  return shader_.radiance(rays, points);
 }
 
 size_t TileScene::memory_bytes() const {

@@ -20,8 +20,8 @@
 namespace rover {
 
 struct TileSceneConfig {
-  double fine_radius_m = 8.0;     // everything nearer is seen at 0.02 m,
-  double middle_radius_m = 20.0;  // then at 0.1 m,
+  double fine_radius_m = 7.0;     // everything nearer is seen at 0.02 m,
+  double middle_radius_m = 18.0;  // then at 0.1 m,
   double far_radius_m = 80.0;     // then at 0.8 m
   double ahead_m = 2.0;           // tiles needed this much farther on are built ahead, one an image
   double keep_m = 3.0;            // and kept until they are this much out of reach
@@ -47,9 +47,11 @@ class TileScene {
   };
   View view(const Eigen::Vector3d& p_map_eye) const;
 
-  // Thread safe.
-  Lanes<float> radiance(const View& view, const RayPacket& rays) const;
-  Lanes<float> ranges_m(const View& view, const RayPacket& rays) const;
+  // Both thread safe.
+  HitPacket intersect(const View& view, const RayPacket& rays) const;
+  // Light that comes back along rays that meet these tiles at these ranges. `pixel_angle_rad`: at the image centre.
+  Lanes<float> radiance(const View& view, const RayPacket& rays, const Lanes<int>& tile, const Lanes<float>& range_m,
+                        float pixel_angle_rad) const;
 
   WorkerPool& pool() { return pool_; }
   size_t tile_count() const { return tiles_.size(); }
@@ -62,8 +64,6 @@ class TileScene {
   GroundTile::Heights heights_of(const TileKey& key) const;
   std::vector<TileKey> height_keys_of(const TileKey& key) const;
   void forget_far(double x_m, double y_m);
-  struct Traced;
-  Traced intersect(const View& view, const RayPacket& rays) const;
   void assemble(const std::vector<TileKey>& keys);
 
   const Surface& surface_;

@@ -4,8 +4,8 @@
 namespace rover {
 
 struct DriveMotorConfig {
-  double torque_per_amp_nm = 1.4;    // at the wheel: gear 100 x 0.02 Nm/A x 0.7 efficiency [est]
-  double no_load_current_a = 0.7;    // turns motor and gear alone [est]
+  double torque_per_amp_nm = 1.0;    // at the wheel: gear 100 x 0.014 Nm/A x 0.7 efficiency [est]
+  double no_load_current_a = 0.5;    // turns motor and gear alone [est]
   double rotor_inertia_kgm2 = 0.05;  // at the wheel
   double rate_gain_nms = 4.0;
   double angle_gain_nm = 80.0;  // on the integral of the rate error

@@ -25,7 +25,7 @@ struct WheelCommand {
 struct VehicleSimConfig {
   double gravity_mps2 = 3.71;
   double step_s = 0.002;
-  double settle_s = 3.0;               // before the first tick, wheels at rest
+  double settle_s = 2.0;               // before the first tick, wheels at rest
   double bogie_mass_kg = 2.0;          // each of the three
   double bogie_pivot_height_m = 0.10;  // over the wheels' axles
   double bogie_damping_nms = 8.0;

@@ -1,35 +1,14 @@
 #include "rover_simulator/world/dtm_reader.hpp"
 
-#include <cpl_conv.h>
-#include <gdal_priv.h>
-
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
 #include <memory>
 
+#include "rover_simulator/world/gdal_session.hpp"
+
 namespace rover {
 namespace {
-
-// GDAL prints its errors on stderr by default; here they become the text of the exception.
-class QuietGdal {
- public:
-  QuietGdal() {
-    GDALAllRegister();
-    CPLPushErrorHandler(CPLQuietErrorHandler);
-    CPLErrorReset();
-  }
-  ~QuietGdal() { CPLPopErrorHandler(); }
-  QuietGdal(const QuietGdal&) = delete;
-  QuietGdal& operator=(const QuietGdal&) = delete;
-};
-
-std::string last_gdal_error() {
-  std::string text = CPLGetLastErrorMsg();
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text.empty() ? "" : " (" + text + ")";
-}
 
 std::array<double, 6> georeference(GDALDataset& dataset, const std::string& file) {
   std::array<double, 6> t{};
@@ -52,10 +31,10 @@ void check_heights(GDALRasterBand& band, const std::vector<float>& heights, cons
 
 ElevationRaster read_elevation(const std::string& file) {
   if (!std::filesystem::is_regular_file(file)) throw DtmError(file + ": elevation model not found");
-  const QuietGdal quiet;
+  const GdalSession gdal;
   const std::unique_ptr<GDALDataset> dataset(GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
   if (!dataset || dataset->GetRasterCount() < 1)
-    throw DtmError(file + ": not a readable elevation model" + last_gdal_error());
+    throw DtmError(file + ": not a readable elevation model" + gdal.last_error());
   const std::array<double, 6> t = georeference(*dataset, file);
   ElevationRaster raster;
   raster.width = dataset->GetRasterXSize();
@@ -71,7 +50,7 @@ ElevationRaster read_elevation(const std::string& file) {
   const CPLErr error =
       band.RasterIO(GF_Read, 0, 0, raster.width, raster.height, last_row, raster.width, raster.height, GDT_Float32,
                     sizeof(float), -static_cast<GSpacing>(sizeof(float)) * raster.width, nullptr);
-  if (error != CE_None) throw DtmError(file + ": elevation model is cut short or damaged" + last_gdal_error());
+  if (error != CE_None) throw DtmError(file + ": elevation model is cut short or damaged" + gdal.last_error());
   check_heights(band, raster.z_m, file);
   return raster;
 }

@@ -1,21 +1,19 @@
 #include "rover_simulator/world/geotiff_writer.hpp"
 
-#include <gdal_priv.h>
-
 #include <memory>
 
 #include "rover_simulator/world/dtm_reader.hpp"
+#include "rover_simulator/world/gdal_session.hpp"
 
 namespace rover {
 
 void write_geotiff(const std::string& file, const ElevationRaster& raster) {
-  GDALAllRegister();
-  CPLErrorReset();
+  const GdalSession gdal;
   GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GTiff");
   if (driver == nullptr) throw DtmError(file + ": GDAL has no GeoTIFF driver");
   const std::unique_ptr<GDALDataset> dataset(
       driver->Create(file.c_str(), raster.width, raster.height, 1, GDT_Float32, nullptr));
-  if (!dataset) throw DtmError(file + ": cannot write the map");
+  if (!dataset) throw DtmError(file + ": cannot write the map" + gdal.last_error());
   double transform[6] = {raster.west_m, raster.resolution_m, 0.0, raster.south_m + raster.height_m(),
                          0.0,           -raster.resolution_m};
   dataset->SetGeoTransform(transform);
@@ -26,7 +24,7 @@ void write_geotiff(const std::string& file, const ElevationRaster& raster) {
       GF_Write, 0, 0, raster.width, raster.height, last_row, raster.width, raster.height, GDT_Float32, sizeof(float),
       -static_cast<GSpacing>(sizeof(float)) * raster.width, nullptr);
   dataset->FlushCache();
-  if (error != CE_None || CPLGetLastErrorType() >= CE_Failure) throw DtmError(file + ": cannot write the map");
+  if (error != CE_None || gdal.failed()) throw DtmError(file + ": cannot write the map" + gdal.last_error());
 }
 
 }  // namespace rover

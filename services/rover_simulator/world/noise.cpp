@@ -35,9 +35,9 @@ double fade(double t) {
   return t * t * t * (t * (t * 6.0 - 15.0) + 10.0);
 }
 
-// Standard deviation of the raw noise with unit gradients, from its integral over a cell and all directions:
-// 2 A B, A = int (1 - fade(t))^2 t^2 dt * 2 ..., evaluated once numerically and checked by the test.
-constexpr double kInverseDeviation = 1.0 / 0.24995;
+// Variance of the raw noise, over the cell and all directions: 4 corners x |r|^2 / 2 = 4 A B with
+// A = int (1 - fade)^2 t^2 dt, B = int (1 - fade)^2 dt.
+constexpr double kInverseDeviation = 1.0 / 0.215711;
 
 }  // namespace
 

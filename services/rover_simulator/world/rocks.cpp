@@ -146,24 +146,28 @@ float RockField::profile_m(const Shape& shape, float dx_m, float dy_m) {
   return top > 0.0f ? top * shape.height_m : 0.0f;
 }
 
+// Calls f(cell) for each cell that the shape reaches into.
+template <class F>
+void RockField::for_cells_of(const Shape& shape, F&& f) const {
+  const auto cell = [](float m, int cells) {
+    return std::clamp(static_cast<int>(std::floor(m / static_cast<float>(kCellM))), 0, cells - 1);
+  };
+  const int x0 = cell(shape.x_m - shape.reach_m, cells_x_), x1 = cell(shape.x_m + shape.reach_m, cells_x_);
+  const int y0 = cell(shape.y_m - shape.reach_m, cells_y_), y1 = cell(shape.y_m + shape.reach_m, cells_y_);
+  for (int y = y0; y <= y1; ++y)
+    for (int x = x0; x <= x1; ++x) f(y * cells_x_ + x);
+}
+
 void RockField::index_rocks() {
-  std::vector<std::pair<int, int>> entries;  // cell, rock
   shapes_.reserve(rocks_.size());
-  for (const Rock& rock : rocks_) {
-    const Shape shape = shape_of(rock);
-    shapes_.push_back(shape);
-    const auto cell = [](double m, int cells) {
-      return std::clamp(static_cast<int>(std::floor(m / kCellM)), 0, cells - 1);
-    };
-    for (int cy = cell(rock.y_m - shape.reach_m, cells_y_); cy <= cell(rock.y_m + shape.reach_m, cells_y_); ++cy)
-      for (int cx = cell(rock.x_m - shape.reach_m, cells_x_); cx <= cell(rock.x_m + shape.reach_m, cells_x_); ++cx)
-        entries.emplace_back(cy * cells_x_ + cx, rock.id);
-  }
-  std::sort(entries.begin(), entries.end());
+  for (const Rock& rock : rocks_) shapes_.push_back(shape_of(rock));
   cell_start_.assign(static_cast<size_t>(cells_x_) * cells_y_ + 1, 0);
-  for (const auto& [cell, rock] : entries) ++cell_start_[cell + 1];
+  for (const Shape& shape : shapes_) for_cells_of(shape, [&](int cell) { ++cell_start_[cell + 1]; });
   for (size_t c = 1; c < cell_start_.size(); ++c) cell_start_[c] += cell_start_[c - 1];
-  for (const auto& entry : entries) cell_rocks_.push_back(entry.second);
+  cell_rocks_.resize(static_cast<size_t>(cell_start_.back()));
+  std::vector<int> next(cell_start_.begin(), cell_start_.end() - 1);
+  for (size_t i = 0; i < shapes_.size(); ++i)
+    for_cells_of(shapes_[i], [&](int cell) { cell_rocks_[next[cell]++] = static_cast<int>(i); });
 }
 
 RockField::Hit RockField::at(double x_m, double y_m) const {

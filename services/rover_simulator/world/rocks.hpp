@@ -68,6 +68,8 @@ class RockField {
   void draw_cell(int cx, int cy, std::span<const KeepClear> keep_clear, std::uint64_t seed);
   double draw_diameter_m(double u) const;
   void index_rocks();
+  template <class F>
+  void for_cells_of(const Shape& shape, F&& f) const;
 
   RockConfig config_;
   double width_m_;

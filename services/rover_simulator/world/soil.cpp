@@ -18,11 +18,12 @@ double smooth_step(double t) {
 }  // namespace
 
 SoilZones::SoilZones(const SoilConfig& config, std::uint64_t seed) : config_(config), seed_(seed) {
-  // The limits are quantiles of the noise itself, taken on a grid that is far larger than a zone.
+  // The limits are quantiles of the noise itself, on a grid far larger than a zone and out of step with its lattice.
   constexpr int kGrid = 96;
+  constexpr double kStep = 0.7239;
   std::vector<double> samples;
   for (int i = 0; i < kGrid; ++i)
-    for (int j = 0; j < kGrid; ++j) samples.push_back(zone((i + 0.37) * config.patch_m, (j + 0.61) * config.patch_m));
+    for (int j = 0; j < kGrid; ++j) samples.push_back(zone(i * kStep * config.patch_m, j * kStep * config.patch_m));
   std::sort(samples.begin(), samples.end());
   const auto quantile = [&](double p) {
     return samples[std::min(samples.size() - 1, static_cast<size_t>(p * static_cast<double>(samples.size())))];

@@ -1,0 +1,113 @@
+#include "path_planner/config.hpp"
+
+#include "common/bus/config.hpp"
+#include "common/bus/vehicle_config.hpp"
+
+namespace rover::planning {
+namespace {
+
+void read_memory(const Config& c, HazardMemoryConfig& out) {
+  double side_m = out.cells * out.cell_m;
+  c.read("cell_m", out.cell_m, {0.05, 0.2});
+  c.read("side_m", side_m, {6.0, 30.0});
+  out.cells = static_cast<int>(std::lround(side_m / out.cell_m));
+  c.read("confirm_hits", out.confirm_hits, {1, 10});
+  c.read("possible_clear", out.possible_clear, {1, 20});
+  c.read("confirmed_clear", out.confirmed_clear, {1, 100});
+  c.read("clear_range_m", out.clear_range_m, {0.5, 10.0});
+}
+
+void read_view(const Config& c, ViewArea& out) {
+  c.read("near_m", out.near_m, {0.0, 5.0});
+  c.read("far_m", out.far_m, {1.0, 20.0});
+  c.read("near_half_width_m", out.near_half_width_m, {0.1, 5.0});
+  c.read("far_half_width_m", out.far_half_width_m, {0.1, 20.0});
+  if (out.far_m <= out.near_m) c.fail("far_m", "must be larger than near_m");
+}
+
+void read_repair(const Config& c, LocalRepairConfig& out) {
+  c.read("rejoin_within_m", out.rejoin_within_m, {0.0, 10.0});
+  c.read("max_deviation_m", out.max_deviation_m, {0.5, 20.0});
+  c.read("risk_distance_m", out.risk_distance_m, {0.1, 5.0});
+  c.read("risk_cost", out.risk_cost, {0.0, 20.0});
+  c.read("unseen_cost", out.unseen_cost, {0.0, 20.0});
+}
+
+void read_search(const Config& c, ArcSearchConfig& out) {
+  c.read("step_m", out.step_m, {0.1, 1.0});
+  c.read("turn_cost_m", out.turn_cost_m, {0.0, 50.0});
+  c.read("turn_cost_per_rad_m", out.turn_cost_per_rad_m, {0.0, 50.0});
+  c.read("bend_cost_m", out.bend_cost_m, {0.0, 5.0});
+  c.read("curvature_cost", out.curvature_cost, {0.0, 5.0});
+  c.read("unseen_way_cost", out.unseen_way_cost, {0.0, 20.0});
+  c.read("greed", out.greed, {1.0, 5.0});
+  c.read("max_expansions", out.max_expansions, {10, 100000});
+  c.read("further_expansions", out.further_expansions, {0, 100000});
+}
+
+void read_smoother(const Config& c, SmootherConfig& out) {
+  c.read("knot_m", out.knot_m, {0.1, 2.0});
+  c.read("curvature_weight", out.curvature_weight, {0.0, 100.0});
+  c.read("bend_weight", out.bend_weight, {0.0, 100.0});
+  c.read("clearance_weight", out.clearance_weight, {0.0, 100.0});
+  c.read("risk_m", out.risk_m, {0.0, 5.0});
+  c.read("max_evaluations", out.max_evaluations, {5, 1000});
+}
+
+void read_margins(const Config& c, PathPlannerConfig& out) {
+  c.read("hazard_m", out.margin_m, {0.0, 1.0});
+  c.read("tight_m", out.tight_margin_m, {0.0, 1.0});
+  c.read("plan_extra_m", out.plan_extra_m, {0.0, 1.0});
+  c.read("sigma_gain", out.sigma_gain, {0.0, 10.0});
+  c.read("most_sigma_m", out.most_sigma_margin_m, {0.0, 1.0});
+  if (out.tight_margin_m > out.margin_m) c.fail("tight_m", "must not be larger than hazard_m");
+}
+
+void read_vehicle(const Vehicle& vehicle, PathPlannerConfig& out) {
+  out.footprint = {vehicle.footprint_half_length_m(), vehicle.footprint_half_width_m()};
+  out.ground_z_m = -vehicle.origin_height_m;
+  out.deceleration_mps2 = vehicle.deceleration_mps2;
+  out.rounding.min_radius_m = vehicle.min_turn_radius_m;
+}
+
+void read_radius(const Config& c, const Vehicle& vehicle, LocalRepairConfig& out) {
+  double radius_m = 1.0 / out.search.max_curvature_per_m;
+  c.read("least_radius_m", radius_m, {vehicle.min_turn_radius_m, 10.0});
+  out.search.max_curvature_per_m = 1.0 / radius_m;
+  // The smoothed curvature may pass the preferred one by a little, never the vehicle's.
+  out.smoother.max_curvature_per_m = std::min(1.06 / radius_m, 1.0 / vehicle.min_turn_radius_m);
+}
+
+}  // namespace
+
+PathPlannerConfig load_config(const std::string& config_dir) {
+  const Vehicle vehicle = load_vehicle(config_dir);
+  PathPlannerConfig out;
+  read_vehicle(vehicle, out);
+  const Config config = Config::load(config_dir + "/path_planner.yaml");
+  config.read("pose_max_age_s", out.pose_max_age_s, {0.02, 5.0});
+  config.read("release_latency_s", out.release_latency_s, {0.02, 1.0});
+  config.read("corridor_half_width_m", out.corridor_half_width_m, {0.1, 5.0});
+  config.read("least_corridor_m", out.least_corridor_m, {0.05, 1.0});
+  config.read("goal_tolerance_m", out.goal_tolerance_m, {0.05, 5.0});
+  config.read("max_start_offset_m", out.max_start_offset_m, {0.05, 5.0});
+  config.read_deg("point_turn_deg", out.turn_threshold_rad, {5.0, 90.0});
+  config.read("stop_hazard_m", out.stop_hazard_m, {0.1, 5.0});
+  config.read("stop_unseen_m", out.stop_unseen_m, {0.05, 5.0});
+  config.read("patience_frames", out.patience_frames, {1, 100});
+  config.read("sure_way_m", out.sure_way_m, {0.1, 5.0});
+  config.read("correction_m", out.correction_m, {0.005, 1.0});
+  read_margins(config.section("margin"), out);
+  read_memory(config.section("map"), out.memory);
+  read_view(config.section("view"), out.repair.view);
+  const Config repair = config.section("repair");
+  read_repair(repair, out.repair);
+  read_radius(repair, vehicle, out.repair);
+  read_search(repair.section("search"), out.repair.search);
+  read_smoother(repair.section("smoother"), out.repair.smoother);
+  config.finish();
+  out.repair.footprint = out.footprint;
+  return out;
+}
+
+}  // namespace rover::planning

@@ -1,0 +1,137 @@
+#include "path_planner/node.hpp"
+
+#include <cmath>
+#include <rover/command_ack_t.hpp>
+#include <rover/planner_status_t.hpp>
+#include <rover/pose_t.hpp>
+#include <rover/service_state_t.hpp>
+
+#include "common/bus/checkpoint.hpp"
+#include "path_planner/convert.hpp"
+
+namespace rover::planning {
+namespace {
+
+constexpr char kCheckpoint[] = "path_planner";
+constexpr Utime kSavePeriodUs = 1'000'000;
+constexpr std::int64_t kPathsPerBoot = 1'000'000;  // keeps the path ids of two processes apart
+constexpr double kMostClearRadiusM = 5.0;          // more than an operator would certify
+
+const char* text_of(PlannerState state) {
+  switch (state) {
+    case PlannerState::kIdle:
+      return "IDLE";
+    case PlannerState::kFollowing:
+      return "FOLLOWING";
+    case PlannerState::kRepairing:
+      return "REPAIRING";
+    case PlannerState::kNoPath:
+      return "NO_PATH";
+  }
+  return "?";
+}
+
+}  // namespace
+
+PathPlannerNode::PathPlannerNode(Node& node, const PathPlannerConfig& config)
+    : node_(node),
+      path_latency_(std::max<Utime>(0, to_utime(config.release_latency_s) - kTickUs)),
+      planner_(config, node.options().boot_id * kPathsPerBoot) {
+  node_.subscribe<path_t>(channel::kGlobalPath, [this](const path_t& m) { on_global_path(m); });
+  node_.subscribe<pose_t>(channel::kPose, [this](const pose_t& m) { planner_.add_pose(pose_from(m)); });
+  node_.subscribe<hazards_t>(channel::kHazards, [this](const hazards_t& m) { on_hazards(m); });
+  node_.subscribe<ground_command_t>(channel::kGroundCommand,
+                                    [this](const ground_command_t& m) { on_ground_command(m); });
+  node_.on_step([this](Utime now) { step(now); });
+  restore();
+}
+
+void PathPlannerNode::on_global_path(const path_t& message) {
+  GlobalPath path;
+  std::string refusal = global_path_from(message, path);
+  if (refusal.empty()) refusal = planner_.set_global_path(path);
+  command_ack_t ack{};
+  ack.command_id = message.path_id;
+  ack.accepted = refusal.empty() ? 1 : 0;
+  ack.reason = refusal;
+  node_.publish(channel::kCommandAck, ack, node_.now());
+  if (!refusal.empty()) node_.reject(channel::kGlobalPath, refusal);
+  node_.log(refusal.empty() ? "INFO" : "ERROR", "GLOBAL_PATH id=" + std::to_string(message.path_id) +
+                                                    " points=" + std::to_string(message.point_count) +
+                                                    (refusal.empty() ? "" : " refused: " + refusal));
+}
+
+void PathPlannerNode::on_hazards(const hazards_t& message) {
+  const HazardGrid grid = hazards_from(message);
+  if (const std::string fault = grid.fault(); !fault.empty()) return node_.reject(channel::kHazards, fault);
+  planner_.add_hazards(grid);
+}
+
+void PathPlannerNode::on_ground_command(const ground_command_t& message) {
+  if (message.kind != ground_command_t::SET_START_POSE) return;
+  const double radius = message.clear_radius_m;
+  const bool sane = std::isfinite(message.position_map_m[0]) && std::isfinite(message.position_map_m[1]) &&
+                    radius >= 0.0 && radius <= kMostClearRadiusM;
+  if (!sane) return node_.reject(channel::kGroundCommand, "start pose or clear radius out of range");
+  planner_.set_start_area({message.position_map_m[0], message.position_map_m[1]}, radius, message.header.utime);
+}
+
+void PathPlannerNode::step(Utime now) {
+  tell_restored(now);
+  const PlannerOutput output = planner_.step(now);
+  if (output.path) publish_path(*output.path, now);
+  planner_status_t status{};
+  status_to(output.status, status);
+  node_.publish(channel::kPlannerStatus, status, now);
+  report(output.status);
+  save(now, output.path.has_value());
+}
+
+void PathPlannerNode::publish_path(const LocalPath& path, Utime now) {
+  path_t message{};
+  path_to(path, message);
+  node_.publish(channel::kPath, message, now, path_latency_);
+  node_.log("INFO", "PATH id=" + std::to_string(path.id) +
+                        " kind=" + (path.kind == PathKind::kRepair ? "REPAIR" : "GLOBAL") +
+                        " points=" + std::to_string(path.points.size()) +
+                        " corridor_m=" + std::to_string(path.corridor_half_width_m));
+}
+
+void PathPlannerNode::report(const PlannerStatus& status) {
+  if (status.state == state_ && status.text == text_) return;
+  state_ = status.state;
+  text_ = status.text;
+  const bool no_path = state_ == PlannerState::kNoPath;
+  node_.set_status(no_path ? heartbeat_t::DEGRADED : heartbeat_t::OK, no_path ? text_ : "");
+  node_.log(no_path ? "WARNING" : "INFO", std::string("PLANNER state=") + text_of(state_) +
+                                              " blocked_in_m=" + std::to_string(status.blocked_in_m) +
+                                              (text_.empty() ? "" : " text=" + text_));
+}
+
+void PathPlannerNode::restore() {
+  if (node_.options().run_dir.empty()) return;
+  const auto bytes = load_checkpoint(node_.options().run_dir, kCheckpoint);
+  if (!bytes) return;
+  if (!planner_.restore(*bytes)) return node_.log("WARNING", "CHECKPOINT unusable");
+  restored_ = *bytes;
+  node_.log("INFO", "CHECKPOINT restored");
+}
+
+void PathPlannerNode::tell_restored(Utime now) {
+  if (restored_.empty()) return;
+  service_state_t state{};
+  state.service = node_.options().name;
+  state.size = static_cast<int32_t>(restored_.size());
+  state.data = restored_;
+  node_.publish(channel::kServiceState, state, now);
+  restored_.clear();
+}
+
+void PathPlannerNode::save(Utime now, bool at_once) {
+  if (node_.options().run_dir.empty() || (!at_once && now < next_save_)) return;
+  next_save_ = now + kSavePeriodUs;
+  if (!save_checkpoint(node_.options().run_dir, kCheckpoint, planner_.save()))
+    node_.log("WARNING", "CHECKPOINT not saved");
+}
+
+}  // namespace rover::planning

@@ -1,0 +1,39 @@
+// The path planner on the bus: GLOBAL_PATH, POSE, HAZARDS and the start pose in, PATH and PLANNER_STATUS out.
+#pragma once
+
+#include <rover/ground_command_t.hpp>
+#include <rover/hazards_t.hpp>
+#include <rover/path_t.hpp>
+#include <string>
+#include <vector>
+
+#include "common/bus/node.hpp"
+#include "path_planner/path_planner.hpp"
+
+namespace rover::planning {
+
+class PathPlannerNode {
+ public:
+  PathPlannerNode(Node& node, const PathPlannerConfig& config);
+
+ private:
+  void on_global_path(const path_t& message);
+  void on_hazards(const hazards_t& message);
+  void on_ground_command(const ground_command_t& message);
+  void step(Utime now);
+  void publish_path(const LocalPath& path, Utime now);
+  void report(const PlannerStatus& status);
+  void restore();
+  void tell_restored(Utime now);
+  void save(Utime now, bool at_once);
+
+  Node& node_;
+  Utime path_latency_;
+  PathPlanner planner_;
+  std::vector<std::uint8_t> restored_;  // until it has been told
+  Utime next_save_ = 0;
+  PlannerState state_ = PlannerState::kIdle;
+  std::string text_;
+};
+
+}  // namespace rover::planning

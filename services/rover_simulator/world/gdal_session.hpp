@@ -1,0 +1,32 @@
+// GDAL prints its errors on stderr by default; within a session they wait to become the text of an exception.
+#pragma once
+
+#include <cpl_conv.h>
+#include <gdal_priv.h>
+
+#include <algorithm>
+#include <string>
+
+namespace rover {
+
+class GdalSession {
+ public:
+  GdalSession() {
+    GDALAllRegister();
+    CPLPushErrorHandler(CPLQuietErrorHandler);
+    CPLErrorReset();
+  }
+  ~GdalSession() { CPLPopErrorHandler(); }
+  GdalSession(const GdalSession&) = delete;
+  GdalSession& operator=(const GdalSession&) = delete;
+
+  bool failed() const { return CPLGetLastErrorType() >= CE_Failure; }
+  // On one line in brackets; empty where there was none.
+  std::string last_error() const {
+    std::string text = CPLGetLastErrorMsg();
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text.empty() ? "" : " (" + text + ")";
+  }
+};
+
+}  // namespace rover

@@ -1,0 +1,230 @@
+// From a log on disk to the files of a report.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <regex>
+#include <rover/slip_t.hpp>
+#include <rover/truth_t.hpp>
+
+#include "common/bus/channels.hpp"
+#include "common/bus/config.hpp"
+#include "message_log.hpp"
+#include "report/log_reader.hpp"
+#include "report/make_report.hpp"
+#include "report/metrics_json.hpp"
+#include "synthetic_run.hpp"
+
+namespace rover::report {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr char kConfig[] = ROVER_SOURCE_DIR "/config";
+
+SyntheticRun short_run() {
+  SyntheticRun run;
+  run.planned = {{10.0, 10.0}, {22.0, 10.0}};
+  run.rocks = {{16.0, 10.0, 0.2, 0.25}, {20.0, 13.0, 0.3, 0.3}};
+  run.swerves_m = {6.0};
+  return run;
+}
+
+TrueWorld world_of(const SyntheticRun& run) {
+  return {run.rocks, run.height_m};
+}
+
+// One run, written once for all tests.
+class ReportTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    dir_ = testing::TempDir() + "/report_test";
+    fs::remove_all(dir_);
+    fs::create_directories(dir_);
+    write_synthetic_run(short_run(), dir_);
+    const RunFolder folder = open_run_folder(dir_, kConfig);
+    write_report(folder, read_log(folder.log), world_of(short_run()), {});
+  }
+  static nlohmann::json metrics() { return nlohmann::json::parse(read_file(dir_ + "/metrics.json")); }
+  static inline std::string dir_;
+};
+
+TEST_F(ReportTest, FiguresAreThoseOfTheConstruction) {
+  const nlohmann::json m = metrics();
+  EXPECT_EQ(m["scenario"], "synthetic");
+  EXPECT_EQ(m["seed"], 3);
+  EXPECT_EQ(m["outcome"], "goal_reached");
+  EXPECT_EQ(m["deterministic"], true);
+  EXPECT_NEAR(m["planned_length_m"], 12.0, 1e-9);
+  EXPECT_NEAR(m["odometry_drift_percent"], 0.5, 0.02);
+  EXPECT_NEAR(m["duration_s"], 12.0 / 0.18, 0.05);
+  EXPECT_EQ(m["replans"], 1);
+  EXPECT_EQ(m["rocks_missed"], 0);
+  EXPECT_EQ(m["false_stops"], 0);
+  EXPECT_EQ(m["realtime_factor"], 5.0);
+  EXPECT_NEAR(m["final_error_m"], 0.0, 0.01);
+  EXPECT_EQ(m["bus"]["lost"], 0);
+  EXPECT_GT(m["path_ratio"], 1.01);
+  EXPECT_LT(m["path_ratio"], 1.25);
+}
+
+TEST_F(ReportTest, NamesAreTheProjectsContract) {
+  const nlohmann::json m = metrics();
+  for (const char* name : {"scenario",
+                           "seed",
+                           "commit",
+                           "deterministic",
+                           "outcome",
+                           "planned_length_m",
+                           "driven_length_m",
+                           "path_ratio",
+                           "duration_s",
+                           "duty",
+                           "hazard_stops",
+                           "replans",
+                           "level_switches",
+                           "collisions",
+                           "min_clearance_m",
+                           "max_roll_deg",
+                           "max_pitch_deg",
+                           "cross_track_rms_m",
+                           "cross_track_max_m",
+                           "truth_deviation_max_m",
+                           "odometry_drift_percent",
+                           "slam_drift_percent",
+                           "final_error_m",
+                           "global_corrections",
+                           "rocks_encountered",
+                           "rocks_missed",
+                           "false_stops",
+                           "fdir",
+                           "services",
+                           "bus",
+                           "realtime_factor",
+                           "final_truth_pose"})
+    EXPECT_TRUE(m.contains(name)) << name;
+  for (const char* name : {"cpu_s", "cpu_s_per_m", "rss_mb", "restarts", "p50_ms", "p99_ms"})
+    EXPECT_TRUE(m["services"]["stereo"].contains(name)) << name;
+  for (const char* name : {"messages", "lost", "bytes"}) EXPECT_TRUE(m["bus"].contains(name)) << name;
+}
+
+TEST_F(ReportTest, ThePageNeedsNothingBesideItself) {
+  std::string html = read_file(dir_ + "/report.html");
+  html = std::regex_replace(html, std::regex("xmlns(:xlink)?=\"[^\"]*\""), "");
+  EXPECT_EQ(html.find("http"), std::string::npos);
+  EXPECT_EQ(html.find("src="), std::string::npos);
+  EXPECT_EQ(html.find("<script"), std::string::npos);
+  EXPECT_NE(html.find("Goal reached"), std::string::npos);
+  EXPECT_NE(html.find("Drive currents"), std::string::npos);
+  EXPECT_EQ(html.find("nan"), std::string::npos);
+}
+
+TEST_F(ReportTest, ThePictureDecodes) {
+  const cv::Mat picture = cv::imread(dir_ + "/traverse.png");
+  EXPECT_EQ(picture.cols, 1400);
+  EXPECT_GT(picture.rows, 400);
+  EXPECT_EQ(read_file(dir_ + "/traverse.svg").rfind("<?xml", 0), 0u);
+}
+
+TEST_F(ReportTest, MadeAgainItIsTheSame) {
+  const std::string html = read_file(dir_ + "/report.html");
+  const std::string figures = read_file(dir_ + "/metrics.json");
+  const RunFolder folder = open_run_folder(dir_, kConfig);
+  write_report(folder, read_log(folder.log), world_of(short_run()), {});
+  EXPECT_EQ(read_file(dir_ + "/report.html"), html);
+  EXPECT_EQ(read_file(dir_ + "/metrics.json"), figures);
+}
+
+TEST_F(ReportTest, WithoutTheWorldRocksAreNotJudged) {
+  const std::string other = testing::TempDir() + "/report_test_real";
+  fs::remove_all(other);
+  fs::create_directories(other);
+  fs::copy_file(dir_ + "/traverse.lcm", other + "/traverse.lcm");
+  make_report(other, kConfig);
+  const nlohmann::json m = nlohmann::json::parse(read_file(other + "/metrics.json"));
+  EXPECT_TRUE(m["rocks_missed"].is_null());
+  EXPECT_TRUE(m["false_stops"].is_null());
+  EXPECT_TRUE(m["seed"].is_null());
+  EXPECT_TRUE(m["deterministic"].is_null());
+  EXPECT_EQ(m["outcome"], "goal_reached");
+}
+
+TEST_F(ReportTest, ACutLogLosesItsEndOnly) {
+  const std::string cut = testing::TempDir() + "/cut.lcm";
+  const auto whole = read_log(dir_ + "/traverse.lcm");
+  for (const std::uintmax_t missing : {1u, 7u, 30u, 333u, 100'000u}) {
+    fs::copy_file(dir_ + "/traverse.lcm", cut, fs::copy_options::overwrite_existing);
+    fs::resize_file(cut, fs::file_size(cut) - missing);
+    const RunRecord run = read_log(cut);
+    EXPECT_LE(run.truth.size(), whole.truth.size());
+    EXPECT_GT(run.truth.size(), whole.truth.size() - 400);
+    EXPECT_EQ(run.bus.damaged_events, 0);
+  }
+}
+
+TEST_F(ReportTest, DamagedRecordsAreCountedAndSkipped) {
+  const std::string file = testing::TempDir() + "/damaged.lcm";
+  {
+    MessageLog log(file);
+    log.put(channel::kTruth, truth_t{}, 0, "rover_simulator");
+    log.put(channel::kTruth, slip_t{}, 20'000, "rover_simulator");  // foreign fingerprint
+    log.put_bytes(channel::kTruth, {1, 2, 3}, 40'000);
+    log.put_bytes("SOMETHING_ELSE", std::vector<std::uint8_t>(200, 0xff), 50'000);
+    log.put(channel::kTruth, truth_t{}, 60'000, "rover_simulator");
+  }
+  const RunRecord run = read_log(file);
+  EXPECT_EQ(run.truth.size(), 2u);
+  EXPECT_GE(run.bus.damaged_events, 2);
+}
+
+TEST_F(ReportTest, MessagesLeftOutOfAReducedLogStillCount) {
+  const std::string file = testing::TempDir() + "/reduced.lcm";
+  {
+    MessageLog log(file);
+    for (int i = 0; i < 9; ++i) log.leave_out("SLIP", "localization");
+    log.put("SLIP", slip_t{}, 180'000, "localization");
+    log.put("POSE", slip_t{}, 180'000, "localization");
+  }
+  const BusRecord bus = read_log(file).bus;
+  EXPECT_EQ(bus.messages, 11);
+  slip_t message{};
+  message.header.publisher = "localization";
+  EXPECT_EQ(bus.bytes, 11 * message.getEncodedSize());
+}
+
+TEST(RunFolder, EachFaultIsOneLineThatNamesTheFile) {
+  const auto message = [](const std::string& dir) -> std::string {
+    try {
+      make_report(dir, kConfig);
+    } catch (const ConfigError& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  EXPECT_EQ(message("/nowhere"), "/nowhere: no such folder");
+  const std::string dir = testing::TempDir() + "/faulty_run";
+  fs::remove_all(dir);
+  fs::create_directories(dir);
+  EXPECT_EQ(message(dir), dir + "/traverse.lcm: missing");
+  std::ofstream(dir + "/traverse.lcm") << "";
+  EXPECT_EQ(message(dir), dir + "/traverse.lcm: holds no messages");
+  std::ofstream(dir + "/run.json") << "{\"seed\": ";
+  EXPECT_EQ(message(dir).rfind(dir + "/run.json: ", 0), 0u);
+  std::ofstream(dir + "/run.json") << "{\"seed\": \"three\"}";
+  EXPECT_EQ(message(dir).rfind(dir + "/run.json: ", 0), 0u);
+}
+
+TEST(MetricsJson, TheFinalPoseReadsBackDigitByDigit) {
+  Metrics m;
+  m.final_truth_pose = make_pose(rotation_from_rpy(0.1, 0.2, 0.3), {1.0 / 3.0, 1e-17, 123456.789012345678});
+  const auto json = nlohmann::json::parse(metrics_json(m).dump());
+  EXPECT_EQ(json["final_truth_pose"]["x_m"].get<double>(), 1.0 / 3.0);
+  EXPECT_EQ(json["final_truth_pose"]["y_m"].get<double>(), 1e-17);
+  EXPECT_EQ(json["final_truth_pose"]["z_m"].get<double>(), 123456.789012345678);
+}
+
+}  // namespace
+}  // namespace rover::report

@@ -1,0 +1,129 @@
+#include <gtest/gtest.h>
+
+#include "rover_simulator/vehicle/height_cache.hpp"
+#include "rover_simulator/vehicle/wheel_contact.hpp"
+#include "rover_simulator/world/world.hpp"
+#include "vehicle_fixture.hpp"
+#include "world_fixture.hpp"
+
+namespace rover {
+namespace {
+
+WheelContact contact_at(const Surface& surface, const Eigen::Vector3d& axle) {
+  HeightCache heights(surface);
+  return find_contact({}, test_vehicle(), heights, axle, Eigen::Matrix3d::Identity());
+}
+
+TEST(HeightCache, EqualsTheSurfaceUpToItsSampling) {
+  WorldConfig config;
+  const World world(config, level_raster(40), 3);
+  HeightCache heights(world);
+  double squares = 0.0;
+  int count = 0;
+  for (double x = 10; x < 16; x += 0.0173)
+    for (double y = 10; y < 16; y += 0.0311, ++count)
+      squares += std::pow(heights.height_m(x, y) - world.height_m(x, y), 2);
+  EXPECT_LT(std::sqrt(squares / count), 0.002);
+  EXPECT_NEAR(heights.height_m(10.25, -3.17), world.height_m(10.25, -3.17), 1e-5);  // a sample, south of the origin
+}
+
+TEST(HeightCache, DoesNotDependOnTheOrderOfQuestions) {
+  const World world(WorldConfig{}, level_raster(40), 3);
+  HeightCache first(world), second(world);
+  (void)second.height_m(30.0, 30.0);  // shares a slot with other places
+  (void)second.height_m(14.88, 14.88);
+  for (double x = 9; x < 20; x += 0.31) EXPECT_EQ(first.height_m(x, x), second.height_m(x, x));
+}
+
+TEST(WheelContact, OnLevelGroundPushesStraightUp) {
+  const PlaneSurface level(Soil::kFirm, 0.0);
+  const WheelContact contact = contact_at(level, {5.0, 5.0, 0.122});
+  EXPECT_NEAR(contact.load_n, 62.0, 8.0);  // 3 mm deep
+  EXPECT_NEAR(contact.normal.z(), 1.0, 1e-3);
+  EXPECT_NEAR(contact.sinkage_m, 0.003, 2e-4);
+  EXPECT_EQ(contact.soil_share[1], 1.0);
+  EXPECT_EQ(contact_at(level, {5.0, 5.0, 0.126}).load_n, 0.0);
+}
+
+TEST(WheelContact, OnASlopePushesAlongItsNormal) {
+  const double slope = to_rad(20);
+  const PlaneSurface plane(Soil::kFirm, slope);
+  const Eigen::Vector3d normal(-std::sin(slope), 0.0, std::cos(slope));
+  const WheelContact contact = contact_at(plane, Eigen::Vector3d(2.0, 0.0, std::tan(slope) * 2.0) + 0.122 * normal);
+  EXPECT_GT(contact.normal.dot(normal), std::cos(to_rad(1.0)));
+}
+
+TEST(WheelContact, AWallPushesBack) {
+  const FeatureSurface wall([](double x, double) { return x > 5.11 ? 0.5 : 0.0; });
+  const WheelContact contact = contact_at(wall, {5.0, 5.0, 0.125});
+  EXPECT_GT(contact.load_n, 0.0);
+  EXPECT_LT(contact.normal.x(), -0.7);
+  EXPECT_NEAR(contact.climb_m, 0.5, 1e-9);
+}
+
+// Drives over a bump across the whole width; returns the highest climb and whether it came across.
+struct Crossing {
+  double climb_m = 0.0;
+  bool across = false;
+  Collision collision = Collision::kNone;
+  double least_clearance_m = 1.0;
+};
+
+Crossing cross(const std::function<double(double, double)>& feature, double seconds) {
+  const FeatureSurface surface(feature);
+  VehicleSim sim(test_vehicle(), {}, surface, {0, 0, 0});
+  Crossing crossing;
+  for (int tick = 0; tick < seconds * 50; ++tick) {
+    sim.advance(0.02, straight(0.1));
+    const VehicleTruth& truth = sim.truth();
+    crossing.climb_m = std::max(crossing.climb_m, truth.climb_m);
+    crossing.least_clearance_m = std::min(crossing.least_clearance_m, truth.clearance_m);
+    if (truth.collision != Collision::kNone) crossing.collision = truth.collision;
+    EXPECT_TRUE(is_finite(truth.T_map_body));
+    EXPECT_LT(truth.velocity_map_mps.norm(), 1.0);
+  }
+  crossing.across = sim.truth().T_map_body.translation().x() > 2.5;
+  return crossing;
+}
+
+// A block with flanks of 63 degrees, as tall as given, under the left wheels.
+std::function<double(double, double)> block(double height_m) {
+  return [height_m](double x, double y) {
+    const double edge = std::min({x - 1.3, 1.8 - x, y - 0.2, 0.7 - y});
+    return std::clamp(2.0 * edge, 0.0, height_m);
+  };
+}
+
+TEST(VehicleClimb, WheelsGoOverRocksOfTenCentimetres) {
+  const Crossing crossing = cross(block(0.10), 40.0);
+  EXPECT_TRUE(crossing.across);
+  EXPECT_NEAR(crossing.climb_m, 0.10, 0.005);
+  EXPECT_EQ(crossing.collision, Collision::kNone);
+}
+
+TEST(VehicleClimb, ATallerRockThanAllowedIsACollision) {
+  EXPECT_EQ(cross(block(0.28), 30.0).collision, Collision::kWheelClimb);
+}
+
+TEST(VehicleClimb, ARockUnderTheBellyIsACollision) {
+  const Crossing crossing =
+      cross([](double x, double y) { return std::clamp(3.0 * (0.2 - std::hypot(x - 1.5, y)), 0.0, 0.35); }, 20.0);
+  EXPECT_EQ(crossing.collision, Collision::kBodyContact);
+  EXPECT_LT(crossing.least_clearance_m, 0.0);
+  EXPECT_EQ(crossing.climb_m, 0.0);
+}
+
+TEST(VehicleClimb, AStoneBetweenTheWheelsLowersTheClearance) {
+  const Crossing crossing =
+      cross([](double x, double y) { return std::clamp(3.0 * (0.1 - std::hypot(x - 1.5, y)), 0.0, 0.15); }, 20.0);
+  EXPECT_EQ(crossing.collision, Collision::kNone);
+  EXPECT_NEAR(crossing.least_clearance_m, 0.147, 0.01);
+}
+
+TEST(VehicleClimb, DrivingIntoAWallIsACollision) {
+  EXPECT_EQ(cross([](double x, double) { return std::clamp((x - 1.5) * 20.0, 0.0, 1.0); }, 15.0).collision,
+            Collision::kWheelClimb);
+}
+
+}  // namespace
+}  // namespace rover

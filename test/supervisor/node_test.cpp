@@ -1,0 +1,134 @@
+#include "supervisor/node.hpp"
+
+#include <gtest/gtest.h>
+
+#include <rover/command_ack_t.hpp>
+#include <rover/control_status_t.hpp>
+#include <rover/drive_permit_t.hpp>
+#include <rover/ground_command_t.hpp>
+#include <rover/hazards_t.hpp>
+#include <rover/planner_status_t.hpp>
+#include <rover/pose_t.hpp>
+#include <rover/supervisor_state_t.hpp>
+
+#include "common/bus/convert.hpp"
+#include "supervisor/config.hpp"
+#include "supervisor/convert.hpp"
+#include "test/trajectory_control/bus_world.hpp"
+
+namespace rover::supervisor {
+namespace {
+
+class SupervisorNodeTest : public testing::Test {
+ protected:
+  SupervisorNodeTest() : node_({.name = "supervisor"}, world_.bus), service_(node_, config_) {
+    permits_ = world_.listen<drive_permit_t>(channel::kDrivePermit);
+    states_ = world_.listen<supervisor_state_t>(channel::kState);
+    acks_ = world_.listen<command_ack_t>(channel::kCommandAck);
+    pose_to(Eigen::Isometry3d::Identity(), pose_.position_odom_body_m, pose_.quat_odom_body_wxyz);
+    pose_to(Eigen::Isometry3d::Identity(), pose_.position_map_odom_m, pose_.quat_map_odom_wxyz);
+    planner_.path_id = 3;
+    planner_.state = planner_status_t::FOLLOWING;
+    planner_.blocked_in_m = kInfinity;
+    planner_.goal_distance_m = 10.0;
+    control_.path_id = 3;
+    control_.state = control_status_t::FOLLOWING;
+    hazards_.coverage = 0.9f;
+  }
+
+  void tick() {
+    world_.send(channel::kPose, pose_);
+    world_.send(channel::kPlannerStatus, planner_);
+    world_.send(channel::kControlStatus, control_);
+    world_.send(channel::kHazards, hazards_);
+    for (const std::string& service : config_.required_services)
+      world_.send(channel::kHeartbeat, heartbeat_t{}, service);
+    world_.tick(node_);
+    world_.bus.handleTimeout(0);
+  }
+  void command(std::int8_t kind, std::int64_t id) {
+    ground_command_t message{};
+    message.kind = kind;
+    message.command_id = id;
+    world_.send(channel::kGroundCommand, message);
+    tick();
+  }
+
+  SupervisorConfig config_ = load_config(ROVER_SOURCE_DIR "/config");
+  test::BusWorld world_;
+  Node node_;
+  SupervisorNode service_;
+  std::shared_ptr<std::vector<drive_permit_t>> permits_;
+  std::shared_ptr<std::vector<supervisor_state_t>> states_;
+  std::shared_ptr<std::vector<command_ack_t>> acks_;
+  pose_t pose_{};
+  planner_status_t planner_{};
+  control_status_t control_{};
+  hazards_t hazards_{};
+};
+
+TEST_F(SupervisorNodeTest, GrantsAfterGoAndReportsStates) {
+  for (int i = 0; i < 10; ++i) tick();
+  ASSERT_EQ(permits_->size(), 10u);
+  EXPECT_EQ(permits_->back().granted, 0);
+  EXPECT_LE(permits_->back().valid_until_utime, permits_->back().header.utime);
+  EXPECT_EQ(permits_->back().reason, "STANDBY");
+  command(ground_command_t::GO, 12);
+  ASSERT_EQ(acks_->size(), 1u);
+  EXPECT_EQ(acks_->back().command_id, 12);
+  EXPECT_EQ(acks_->back().accepted, 1);
+  EXPECT_EQ(permits_->back().granted, 1);
+  EXPECT_EQ(permits_->back().valid_until_utime - permits_->back().header.utime, 200'000);
+  ASSERT_FALSE(states_->empty());
+  EXPECT_EQ(states_->back().state, +supervisor_state_t::DRIVING);
+  EXPECT_EQ(states_->back().cause, "go");
+  const size_t before = states_->size();
+  for (int i = 0; i < 50; ++i) tick();
+  EXPECT_NEAR(static_cast<double>(states_->size() - before), 10.0, 1.0);
+}
+
+TEST_F(SupervisorNodeTest, NotANumberInThePoseEndsTheDrive) {
+  for (int i = 0; i < 10; ++i) tick();
+  command(ground_command_t::GO, 1);
+  for (double* field : {&pose_.position_odom_body_m[1], &pose_.quat_map_odom_wxyz[2], &pose_.velocity_body_mps[0],
+                        &pose_.rate_body_radps[2]}) {
+    const double good = *field;
+    EXPECT_TRUE(report_from(pose_).usable);
+    *field = kNaN;
+    EXPECT_FALSE(report_from(pose_).usable);
+    *field = good;
+  }
+  pose_.velocity_body_mps[0] = kNaN;
+  tick();
+  EXPECT_EQ(permits_->back().granted, 0);
+  EXPECT_EQ(states_->back().state, +supervisor_state_t::FAULT_STOP);
+  EXPECT_EQ(states_->back().faults, std::vector<std::string>{"pose_status"});
+}
+
+TEST_F(SupervisorNodeTest, LeavesTheStartPoseToLocalization) {
+  tick();
+  command(ground_command_t::SET_START_POSE, 5);
+  EXPECT_TRUE(acks_->empty());
+}
+
+TEST_F(SupervisorNodeTest, RefusesWithAReason) {
+  tick();
+  command(77, 5);
+  ASSERT_EQ(acks_->size(), 1u);
+  EXPECT_EQ(acks_->back().accepted, 0);
+  EXPECT_FALSE(acks_->back().reason.empty());
+}
+
+TEST(Convert, WhatIsNotKnownToBeGoodIsBad) {
+  hazards_t hazards{};
+  hazards.state = 17;
+  EXPECT_TRUE(report_from(hazards).blind);
+  hazards.state = hazards_t::CLEAR;
+  EXPECT_FALSE(report_from(hazards).blind);
+  pose_t pose{};
+  pose.status = pose_t::UNINITIALISED;
+  EXPECT_FALSE(report_from(pose).usable);
+}
+
+}  // namespace
+}  // namespace rover::supervisor
