@@ -12,12 +12,17 @@ constexpr int kNeighboursThatFill = 6;
 
 constexpr double kRelaxM = 0.02;  // leaves room for rounding where the rover stands close to a hazard
 
-bool counts_as_seen(const GridMap<GroundCell>& map, CellIndex i) {
-  if (map.at(i).seen) return true;
-  int seen = 0;
-  for (int dy = -1; dy <= 1; ++dy)
-    for (int dx = -1; dx <= 1; ++dx) seen += map.get({i.ix + dx, i.iy + dy}).seen ? 1 : 0;
-  return seen >= kNeighboursThatFill;
+// Marks unseen cells that are enough surrounded by seen ones as seen.
+std::vector<std::uint8_t> closed(const std::vector<std::uint8_t>& unseen, int cells) {
+  std::vector<std::uint8_t> out = unseen;
+  for (int y = 1; y + 1 < cells; ++y)
+    for (int x = 1; x + 1 < cells; ++x) {
+      const size_t i = static_cast<size_t>(y) * cells + x;
+      if (!unseen[i]) continue;
+      const auto row = [&](size_t j) { return unseen[j - 1] + unseen[j] + unseen[j + 1]; };
+      if (9 - row(i - cells) - row(i) - row(i + cells) >= kNeighboursThatFill) out[i] = 0;
+    }
+  return out;
 }
 
 }  // namespace
@@ -33,8 +38,9 @@ Terrain::Terrain(const HazardMemory& memory)
     const bool is_hazard = cell.hits > 0;
     if (is_hazard) hazards_.push_back({{map.center_x_m(i), map.center_y_m(i)}, memory.confirmed(cell)});
     hazard.push_back(is_hazard ? 1 : 0);
-    unseen_.push_back(counts_as_seen(map, i) ? 0 : 1);
+    unseen_.push_back(cell.seen ? 0 : 1);
   });
+  unseen_ = closed(unseen_, cells_);
   hazard_distance_ = distance_field(hazard, cells_, cells_, cell_m_);
   unseen_distance_ = distance_field(unseen_, cells_, cells_, cell_m_);
 }

@@ -54,7 +54,7 @@ std::string cards(const Metrics& m) {
   out += card(shown(m.path_ratio, 3), "driven / planned");
   out += card(shown(m.mean_speed_m_per_h, 0, "m/h"), fmt::format("mean speed, duty {}", shown(100.0 * m.duty, 0, "%")));
   out += card(shown(m.duration_s, 0, "s"), fmt::format("{} times real time", shown(m.realtime_factor, 1)));
-  out += card(std::to_string(m.replans), fmt::format("repairs, {} hazard stops", m.hazard_stops));
+  out += card(std::to_string(m.replans), fmt::format("repairs; hazard stops: {}", m.hazard_stops));
   out += card(std::to_string(m.collisions),
               fmt::format("collisions, least clearance {}", shown(m.min_clearance_m, 2, "m")),
               verdict(true, m.collisions == 0));
@@ -171,7 +171,7 @@ std::string faults_section(const Metrics& m) {
   for (const FaultRecord& fault : m.fdir)
     out += fmt::format(
         "<tr><td class=\"n\">{:.2f}</td><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td>{}</td></tr>\n",
-        fault.t_s, escaped(fault.id), shown(fault.value, 3), shown(fault.limit, 3), fault.response);
+        fault.t_s - m.window.begin_s, escaped(fault.id), shown(fault.value, 3), shown(fault.limit, 3), fault.response);
   return out + "</table>\n";
 }
 

@@ -167,7 +167,7 @@ std::string draw_state_timeline(const Scene& scene) {
   const auto px = [&](double t) {
     return (std::min(t, end_s) - begin_s) / (end_s - begin_s) * (kRight - kLeft) + kLeft;
   };
-  svg.text(kLeft, 15.0, "States of the supervisor over time [s]", 14, "font-weight:600");
+  svg.text(kLeft, 15.0, "States of the supervisor, by time since the start of the drive [s]", 14, "font-weight:600");
   std::map<State, double> spent;
   for (size_t i = 0; i < states.size(); ++i) {
     const double from = px(states[i].t_s);
@@ -176,9 +176,10 @@ std::string draw_state_timeline(const Scene& scene) {
     spent[states[i].state] += (i + 1 < states.size() ? states[i + 1].t_s : end_s) - states[i].t_s;
   }
   const std::string label = fmt::format("fill:{}", palette::kMuted);
-  const Axis ticks = round_axis(begin_s, end_s, 10);
-  for (double t = ticks.low; t <= end_s; t += ticks.step)
-    if (t >= begin_s) svg.text(px(t), kBandTop + kBand + 16.0, number_text(t - begin_s), 11.5, label, Anchor::kMiddle);
+  const double start_s = scene.judgement.metrics.window.begin_s;
+  const Axis ticks = round_axis(0.0, end_s - start_s, 10);
+  for (double t = 0.0; t <= end_s - start_s; t += ticks.step)
+    svg.text(px(start_s + t), kBandTop + kBand + 16.0, number_text(t), 11.5, label, Anchor::kMiddle);
   double x = kLeft;
   for (const auto& [state, seconds] : spent) {
     const std::string text = fmt::format("{} {:.0f} s", state_name(state), seconds);

@@ -30,12 +30,13 @@ TrueTrack::TrueTrack(const std::vector<TruthSample>& truth) : truth_(truth) {
   if (!truth.empty()) counted = truth.front().T_map_body.translation();
   for (const TruthSample& sample : truth_) {
     const Eigen::Vector3d p = sample.T_map_body.translation();
-    const double step = (p - counted).head<2>().norm();
+    double step = (p - counted).head<2>().norm();
     if (step >= kStepM) {
       distance += step;
       counted = p;
+      step = 0.0;
     }
-    distance_m_.push_back(distance);
+    distance_m_.push_back(distance + step);
   }
 }
 

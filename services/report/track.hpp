@@ -27,7 +27,7 @@ class TrueTrack {
   // Interpolated, held at the ends. Needs a sample.
   Eigen::Isometry3d at(double t_s) const;
   Pose2 planar_at(double t_s) const;
-  // Horizontal way from the first sample. Steps below 2 cm are not counted: a rover that shakes does not drive.
+  // Horizontal way from the first sample. Steps below 2 cm do not add up: a rover that shakes does not drive.
   double distance_m(double t_s) const;
 
  private:

@@ -13,7 +13,7 @@ TEST(TrueTrack, ARoverThatShakesDoesNotDrive) {
     truth[i].t_s = 0.02 * static_cast<double>(i);
     truth[i].T_map_body = pose_at(i % 2 == 0 ? 0.0 : 0.005, 0.0);
   }
-  EXPECT_EQ(TrueTrack(truth).distance_m(100.0), 0.0);
+  EXPECT_LE(TrueTrack(truth).distance_m(100.0), 0.005);
 }
 
 TEST(TrueTrack, InterpolatesAndHoldsItsEnds) {
