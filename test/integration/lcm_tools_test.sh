@@ -1,0 +1,34 @@
+#!/usr/bin/env bash
+# LCM's own tools work on a run: the logger beside the recorder, the player in front of services, the jar for the spy.
+. "$(dirname "$0")/lib.sh"
+
+lcm-logger --lcm-url="$BUS" "$WORK/beside.lcm" >/dev/null 2>&1 &
+logger=$!
+drive "$WORK/run" config/scenarios/flat.yaml --seed 2 --record full || true
+sleep 1
+kill -INT $logger
+wait $logger || true
+for log in "$WORK/beside.lcm" "$WORK/run/traverse.lcm"; do
+  [ "$(stat -c %s "$log")" -gt 1000000 ] || fail "$log is too small"
+done
+
+lcm-logger --lcm-url="$BUS" "$WORK/answers.lcm" >/dev/null 2>&1 &
+logger=$!
+for service in stereo visual_odometry hazard_detector; do
+  "$BUILD/bin/$service" --config "$WORK/run/config" --bus "$BUS" >/dev/null 2>&1 &
+done
+sleep 1
+timeout 8 lcm-logplayer --lcm-url="$BUS" -e 'LOCCAM_(LEFT|RIGHT)|IMU|WHEEL_STATE|TICK' "$WORK/run/traverse.lcm" >/dev/null 2>&1 || true
+kill -INT $logger
+wait $logger || true
+for channel in DISPARITY VO HAZARDS; do
+  answers=$(grep -ac "$channel" "$WORK/answers.lcm" || true)
+  [ "$answers" -ge 3 ] || fail "$channel: $answers answers to the replayed log"
+done
+
+"$SOURCE/lcmtypes/make_jar.sh" "$WORK/types.jar"
+for type in "$SOURCE"/lcmtypes/*.lcm; do
+  name=$(basename "$type" .lcm)
+  unzip -l "$WORK/types.jar" | grep -q "rover/$name.class" || fail "the jar lacks $name"
+done
+echo "logger, player and jar work"
