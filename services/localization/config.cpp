@@ -16,6 +16,7 @@ void read_filter(const Config& c, FilterConfig& f) {
   c.read("force_noise_mps2_rthz", f.force_noise_mps2_rthz, {1e-4, 10});
   c.read("wheel_noise_m_rtm", f.wheel_noise_m_rtm, {1e-3, 10});
   c.read("blind_rate_radps", f.blind_rate_radps, {1e-4, 10});
+  c.read("visual_cov_factor", f.visual_cov_factor, {1, 1000});
   c.read("visual_scale_sigma", f.visual_scale_sigma, {0, 0.2});
   c.read("visual_floor_m", f.visual_floor_m, {0, 0.1});
   c.read("max_rotation_conflict_sigma", f.max_rotation_conflict_sigma, {1, 100});

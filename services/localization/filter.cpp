@@ -2,7 +2,6 @@
 
 #include <Eigen/Cholesky>
 #include <cmath>
-#include <cstdlib>
 
 namespace rover::loc {
 namespace {
@@ -139,7 +138,7 @@ std::optional<FilterState> Filter::fuse_visual(const FilterState& at_from, const
   const GyroRotation gyro = integrate(records, at_from.gyro_bias_radps);
   JointCov joint = JointCov::Zero();
   joint.topLeftCorner<kErrorSize, kErrorSize>() = at_from.P;
-  joint.block<6, 6>(kVisualPosition, kVisualPosition) = (getenv("INF")?atof(getenv("INF")):1.0)*visual.cov; if(getenv("FL")) joint.diagonal().segment<3>(kVisualRotation).array() += square(atof(getenv("FL")));
+  joint.block<6, 6>(kVisualPosition, kVisualPosition) = config_.visual_cov_factor * visual.cov;
   joint.diagonal().segment<3>(kVisualPosition).array() += square(config_.visual_floor_m);
   joint.diagonal().segment<3>(kGyro).setConstant(kSmallestVariance);
   for (const MotionRecord& r : records) joint.diagonal().segment<3>(kGyro) += angle_variance(r);

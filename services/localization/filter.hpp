@@ -25,10 +25,13 @@ struct FilterConfig {
   double gyro_bias_sigma_radps = 8e-5;  // after levelling
   double fog_bias_sigma_radps = 1.5e-5;
   double gyro_bias_walk_radps_rts = 1e-7;
-  double standing_rate_sigma_radps = 5e-4;   // of one tick's rate at standstill
-  double force_noise_mps2_rthz = 0.10;       // the rover's own acceleration, bumps included, averaged over 1 s
-  double wheel_noise_m_rtm = 0.15;           // standard deviation after 1 m on wheels alone
-  double blind_rate_radps = 0.05;            // per sqrt(s): attitude without a gyro, on wheels alone
+  double standing_rate_sigma_radps = 5e-4;  // of one tick's rate at standstill
+  double force_noise_mps2_rthz = 0.10;      // the rover's own acceleration, bumps included, averaged over 1 s
+  double wheel_noise_m_rtm = 0.15;          // standard deviation after 1 m on wheels alone
+  double blind_rate_radps = 0.05;           // per sqrt(s): attitude without a gyro, on wheels alone
+  // Visual odometry knows its noise, not the error of calibration, which follows the same weak directions: with 0.2 px
+  // of it, motions over rendered ground are off by 3 to 6 of its sigma.
+  double visual_cov_factor = 10.0;
   double visual_scale_sigma = 0.005;         // 0.2 px of 60 px disparity and less
   double visual_floor_m = 1e-4;              // never trust one visual motion better than this
   double max_rotation_conflict_sigma = 6.0;  // gyro against images

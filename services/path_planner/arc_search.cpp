@@ -7,13 +7,13 @@
 namespace rover::planning {
 namespace {
 
-constexpr double kSampleM = 0.1;
+constexpr double kSampleM = 0.05;  // as the verification, so that both judge the same poses
 constexpr int kHeadings = 32;
 constexpr double kPlaceM = 0.15;  // two poses in one such square with one heading are the same
 constexpr double kTurnSampleRad = 0.0524;
 constexpr double kTurnViewRad = 0.4;
 constexpr std::array<double, 9> kCurvatures = {0.0, 0.25, -0.25, 0.5, -0.5, 0.75, -0.75, 1.0, -1.0};  // of the largest
-constexpr std::array<double, 4> kJoinAheadM = {0.8, 1.5, 2.4, 3.5};
+constexpr std::array<double, 5> kJoinAheadM = {0.8, 1.5, 2.4, 3.5, 4.8};
 constexpr std::array<double, 2> kJoinRadii = {1.6, 1.0};  // of the least radius
 constexpr std::array<double, 7> kTurnsDeg = {45.0, 60.0, 75.0, 95.0, 120.0, 150.0, 180.0};
 

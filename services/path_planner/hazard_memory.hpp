@@ -13,7 +13,7 @@
 namespace rover::planning {
 
 struct HazardMemoryConfig {
-  int cells = 120;
+  int cells = 160;
   double cell_m = 0.1;
   int confirm_hits = 2;        // frames that saw an obstacle in the cell
   int possible_clear = 2;      // frames in a row that saw it free end a possible hazard

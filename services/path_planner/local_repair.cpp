@@ -17,7 +17,8 @@ constexpr double kBareM = 0.05;          // nearer than the half width less this
 constexpr double kMarchBeyond = 6.0;      // travel cost, as much as a point turn and a way round
 constexpr double kMostClearanceM = 2.0;
 constexpr double kLeastSmoothM = 0.6;
-constexpr double kViewStepM = 0.2;
+constexpr double kViewReserveM = 0.06;
+constexpr double kViewStepM = 0.1;
 constexpr double kViewStepRad = 0.4;
 
 // The stretch of the global path from `from_m` that lies inside the map.
@@ -29,6 +30,14 @@ std::vector<double> stations(const Route& global, const Terrain& terrain, double
   }
   if (terrain.inside_m(global.point_at(global.length_m())) >= kBorderM) out.push_back(global.length_m());
   return out;
+}
+
+// What the search counts on, so that the finer samples of the verification and the smoothing still hold.
+ViewArea narrowed(ViewArea view) {
+  view.near_half_width_m -= kViewReserveM;
+  view.far_half_width_m -= kViewReserveM;
+  view.far_m -= kViewReserveM;
+  return view;
 }
 
 void append(std::vector<Pose2>& way, const std::vector<Pose2>& section) {
@@ -71,7 +80,7 @@ RepairResult LocalRepair::plan(const RepairRequest& request) const {
   }
   const std::vector<double> travel = march(cost, seeds, request.terrain.cell_of(position(request.start)), kMarchBeyond);
   const SearchResult way =
-      search_arcs(config_.search, {check, cost, travel, config_.view, targets, goal, 0.6 * request.goal_tolerance_m,
+      search_arcs(config_.search, {check, cost, travel, narrowed(config_.view), targets, goal, 0.6 * request.goal_tolerance_m,
                                    request.start, request.start_curvature_per_m, request.sure_m, request.stopped});
   result.expansions = way.expansions;
   if (!way.found) {
@@ -81,7 +90,10 @@ RepairResult LocalRepair::plan(const RepairRequest& request) const {
     return result;
   }
   result.poses = best_poses(request, check, way, result.smoothed);
-  if (result.poses.empty()) return result;
+  if (result.poses.empty()) {
+    result.status = RepairStatus::kUnseen;
+    return result;
+  }
   result.status = RepairStatus::kFound;
   result.turns_first = way.turns_first;
   result.halts = static_cast<int>(way.sections.size()) - 1;
@@ -172,23 +184,29 @@ std::vector<Pose2> LocalRepair::smoothed_section(const RepairRequest& request, c
       .value_or(std::vector<Pose2>{});
 }
 
-bool verified(const std::vector<Pose2>& poses, const FootprintCheck& check, const ViewArea& view, double sure_m) {
-  if (poses.size() < 2) return false;
+double seen_way_m(const std::vector<Pose2>& poses, const FootprintCheck& check, const ViewArea& view) {
   SeenOnTheWay seen(check, view);
   Pose2 noted = poses.front();
   seen.passed(noted);
   double way = 0.0;
-  for (size_t i = 0; i < poses.size(); ++i) {
-    if (i > 0) way += distance(position(poses[i - 1]), position(poses[i]));
-    if (!check.clear(poses[i])) return false;
-    if (i == 0 || way > sure_m) continue;
-    if (!seen.covers(poses[i])) return false;
-    if (distance(position(noted), position(poses[i])) < kViewStepM && std::abs(poses[i].yaw_rad - noted.yaw_rad) < kViewStepRad)
-      continue;
+  for (size_t i = 1; i < poses.size(); ++i) {
+    way += distance(position(poses[i - 1]), position(poses[i]));
+    if (!seen.covers(poses[i])) return way;
+    const bool near = distance(position(noted), position(poses[i])) < kViewStepM &&
+                      std::abs(poses[i].yaw_rad - noted.yaw_rad) < kViewStepRad;
+    if (near) continue;
+    // A jump of the heading is a point turn, and the camera sweeps what lies between.
+    const double turn = poses[i].yaw_rad - noted.yaw_rad;
+    const int views = std::max(1, static_cast<int>(std::ceil(std::abs(turn) / kViewStepRad)));
+    for (int k = 1; k <= views; ++k) seen.passed({poses[i].x_m, poses[i].y_m, noted.yaw_rad + turn * k / views});
     noted = poses[i];
-    seen.passed(noted);
   }
-  return true;
+  return kInfinity;
+}
+
+bool verified(const std::vector<Pose2>& poses, const FootprintCheck& check, const ViewArea& view, double sure_m) {
+  return poses.size() >= 2 && std::all_of(poses.begin(), poses.end(), [&](const Pose2& p) { return check.clear(p); }) &&
+         seen_way_m(poses, check, view) > sure_m;
 }
 
 }  // namespace rover::planning

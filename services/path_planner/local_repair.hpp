@@ -69,7 +69,10 @@ class LocalRepair {
   LocalRepairConfig config_;
 };
 
-// Whether the rectangle stays clear along the poses and covers no ground that would not have been seen before.
+// Whether the rectangle stays clear along the poses and covers, for the first `sure_m`, no ground that would not have
+// been seen before.
 bool verified(const std::vector<Pose2>& poses, const FootprintCheck& check, const ViewArea& view, double sure_m);
+// Way along the poses until ground is covered that would not have been seen before; infinity: none.
+double seen_way_m(const std::vector<Pose2>& poses, const FootprintCheck& check, const ViewArea& view);
 
 }  // namespace rover::planning

@@ -158,7 +158,6 @@ void PathPlanner::begin(PlannerOutput& out) {
     return;
   }
   active_.margin_m = config_.margin_m;
-  active_.provisional = false;
   active_.corridor_half_width_m = global_->corridor_half_width_m;
   std::vector<RoutePoint> points;
   const size_t next = global_odom_.vertex_after(global_progress_m_);
@@ -185,24 +184,25 @@ void PathPlanner::react(PlannerOutput& out) {
     if (repair(blocked, out)) frames_before_unseen_ = 0;
   } else {
     failures_ = 0;
-    if (active_.provisional) firm_up(out);
+    if (active_.kind == PathKind::kRepair) firm_up(out);
   }
 }
 
-// A provisional path is replaced as soon as there is one over ground that will be seen in time.
+// Repairs are sure for their first metres only. Where the rest does not become so on approach, another way is sought
+// while there is room.
 void PathPlanner::firm_up(PlannerOutput& out) {
-  active_.provisional = !seen_in_time();
+  if (seen_in_time_m() >= config_.firm_way_m) return;
   double margin = 0.0;
-  if (active_.provisional && find_repair(Terrain(memory_), kInfinity, margin)) take_repair(margin, false, out);
+  if (find_repair(Terrain(memory_), config_.sure_way_m, margin)) take_repair(margin, out);
 }
 
-bool PathPlanner::seen_in_time() const {
+double PathPlanner::seen_in_time_m() const {
   const Terrain terrain(memory_);
   const FootprintCheck check(terrain, config_.footprint, active_.margin_m, rover());
   std::vector<Pose2> poses = {rover()};
   for (double s = active_.progress_m + kPoseStepM; s < active_.repair_end_m; s += kPoseStepM)
     poses.push_back(active_.route.pose_at(s));
-  return poses.size() < 2 || verified(poses, check, config_.repair.view, kInfinity);
+  return seen_way_m(poses, check, config_.repair.view);
 }
 
 void PathPlanner::judge() {
@@ -214,14 +214,13 @@ void PathPlanner::judge() {
 bool PathPlanner::repair(bool because_of_hazard, PlannerOutput& out) {
   const Terrain terrain(memory_);
   double margin = 0.0;
-  const bool sure = find_repair(terrain, kInfinity, margin);
-  if (!sure && !find_repair(terrain, config_.sure_way_m, margin)) {
+  if (!find_repair(terrain, config_.sure_way_m, margin) && !find_repair(terrain, config_.least_sure_way_m, margin)) {
     ++failures_;
     return false;
   }
   failures_ = 0;
   if (because_of_hazard) ++replans_;
-  take_repair(margin, !sure, out);
+  take_repair(margin, out);
   return true;
 }
 
@@ -234,9 +233,8 @@ bool PathPlanner::find_repair(const Terrain& terrain, double sure_m, double& mar
   return false;
 }
 
-void PathPlanner::take_repair(double margin_m, bool provisional, PlannerOutput& out) {
+void PathPlanner::take_repair(double margin_m, PlannerOutput& out) {
   active_.margin_m = margin_m;
-  active_.provisional = provisional;
   active_.corridor_half_width_m =
       std::clamp(last_repair_.clearance_m - kCellHalfM - kCorridorReserveM, config_.least_corridor_m,
                  std::max(config_.least_corridor_m, global_->corridor_half_width_m));

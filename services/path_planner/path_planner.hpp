@@ -28,7 +28,9 @@ struct PathPlannerConfig {
   double sigma_gain = 1.0;            // of the deviation gained since a hazard was seen
   double most_sigma_margin_m = 0.10;
   double pose_max_age_s = 0.5;
-  double sure_way_m = 0.6;            // of a provisional path, over ground that is seen in time
+  double sure_way_m = 2.5;            // of a repair, over ground that is seen in time
+  double least_sure_way_m = 0.6;      // where that leaves no way
+  double firm_way_m = 2.0;            // a path whose ground is seen in time for less is replaced where that is possible
   double release_latency_s = 0.1;     // of the path, message time
   double trigger_m = 6.0;             // a block further ahead is left until it comes nearer
   double corridor_half_width_m = 0.75;
@@ -110,7 +112,6 @@ class PathPlanner {
     PathKind kind = PathKind::kGlobal;
     double repair_end_m = 0.0;
     double margin_m = 0.0;
-    bool provisional = false;  // leads over ground that may not be seen in time: a better one is sought
     double corridor_half_width_m = 0.0;
     double progress_m = 0.0;
   };
@@ -133,10 +134,10 @@ class PathPlanner {
   void leave_repair(PlannerOutput& out);
   void judge();
   bool repair(bool because_of_hazard, PlannerOutput& out);
-  void take_repair(double margin_m, bool provisional, PlannerOutput& out);
+  void take_repair(double margin_m, PlannerOutput& out);
   RepairResult plan_repair(const Terrain& terrain, double margin_m, double sure_m) const;
   bool find_repair(const Terrain& terrain, double sure_m, double& margin_m);
-  bool seen_in_time() const;
+  double seen_in_time_m() const;
   void firm_up(PlannerOutput& out);
   void adopt(Route route, PathKind kind, PlannerOutput& out);
   Route repaired_route(const RepairResult& repair) const;

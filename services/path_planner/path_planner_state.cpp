@@ -67,7 +67,6 @@ std::vector<std::uint8_t> PathPlanner::save() const {
   put_points(out, active_.route.points());
   out.put(active_.id);
   out.put(active_.kind);
-  out.put(active_.provisional);
   out.put(active_.repair_end_m);
   out.put(active_.margin_m);
   out.put(active_.corridor_half_width_m);
@@ -93,7 +92,6 @@ bool PathPlanner::restore(const std::vector<std::uint8_t>& bytes) {
   fresh.active_.route = Route(get_points(in));
   fresh.active_.id = in.get<std::int64_t>();
   fresh.active_.kind = in.get<PathKind>();
-  fresh.active_.provisional = in.get<bool>();
   fresh.active_.repair_end_m = in.get<double>();
   fresh.active_.margin_m = in.get<double>();
   fresh.active_.corridor_half_width_m = in.get<double>();

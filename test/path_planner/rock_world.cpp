@@ -90,7 +90,8 @@ class Drive {
     no_path_s_ = out.status.state == PlannerState::kNoPath ? no_path_s_ + to_seconds(config_.step_us) : 0.0;
     result_.reached = out.status.path_id >= 0 && out.status.goal_distance_m <= 0.5;
     if (getenv("TRACE") && now_ % 1000000 == 0) printf("%6.1f x %.2f %.2f %.2f state %d blocked %.2f kind %d goal %.2f off %.2f path %ld pts %zu %s exp %d\n", to_seconds(now_), odom_.x_m, odom_.y_m, odom_.yaw_rad, int(out.status.state), out.status.blocked_in_m, int(out.status.block_kind), out.status.goal_distance_m, out.status.corridor_offset_m, long(out.status.path_id), route_.points().size(), out.status.text.c_str(), planner_.last_repair().expansions);
-    if (getenv("DUMP") && now_ == to_utime(atof(getenv("DUMP")))) {
+    if (getenv("DUMP") && (now_ == to_utime(atof(getenv("DUMP"))) || (atof(getenv("DUMP")) < 0 && no_path_s_ > 19.85) || (atof(getenv("DUMP")) < -1 && to_seconds(now_) > config_.timeout_s - 0.15))) {
+      std::printf("DUMP t %.1f blocked %.2f kind %d text %s pose %.2f %.2f %.2f\n", to_seconds(now_), out.status.blocked_in_m, int(out.status.block_kind), out.status.text.c_str(), odom_.x_m, odom_.y_m, odom_.yaw_rad);
       const auto& map = planner_.memory().map();
       Route active = planner_.active_route();
       for (int iy = map.origin().iy + map.cells() - 1; iy >= map.origin().iy; --iy) {
@@ -100,6 +101,7 @@ class Drive {
           char ch = c.hits >= 2 ? '#' : c.hits ? '+' : c.seen ? '.' : ' ';
           if (config_.planner.footprint.distance_m(odom_, p) < 0) ch = 'R';
           if (!active.empty() && distance(active.point_at(active.closest(p)), p) < 0.05) ch = 'o';
+          for (const Rock& r : rocks_) { const Pose2 T = start_; Point2 q{T.x_m + std::cos(T.yaw_rad) * p.x_m - std::sin(T.yaw_rad) * p.y_m, T.y_m + std::sin(T.yaw_rad) * p.x_m + std::cos(T.yaw_rad) * p.y_m}; if (ch == ' ' && r.height_m >= 0.15 && distance(r.p, q) < r.radius_m) ch = '?'; }
           putchar(ch);
         }
         putchar('\n');

@@ -33,8 +33,8 @@ class World {
  public:
   World(const std::string& path, const RecorderConfig& config, RecorderNode::FreeBytes free_bytes)
       : bus_("memq://"), streams_("world", 1), node_({.name = "recorder"}, bus_) {
-    bus_.subscribe(channel::kHeartbeat, &World::on_heartbeat, this);
-    bus_.subscribe(channel::kDone, &World::on_done, this);
+    bus_.subscribeFunction(channel::kHeartbeat, &World::on_heartbeat, this);
+    bus_.subscribeFunction(channel::kDone, &World::on_done, this);
     recorder_ = std::make_unique<RecorderNode>(node_, config, path, std::move(free_bytes));
   }
 
@@ -63,10 +63,11 @@ class World {
   std::int64_t dones_ = 0;
 
  private:
-  void on_heartbeat(const lcm::ReceiveBuffer*, const std::string&, const heartbeat_t* heartbeat) {
-    heartbeats_.push_back(*heartbeat);
+  // Plain functions: GCC 12's sanitizers misread LCM's calls through pointers to members.
+  static void on_heartbeat(const lcm::ReceiveBuffer*, const std::string&, const heartbeat_t* heartbeat, World* world) {
+    world->heartbeats_.push_back(*heartbeat);
   }
-  void on_done(const lcm::ReceiveBuffer*, const std::string&, const done_t*) { ++dones_; }
+  static void on_done(const lcm::ReceiveBuffer*, const std::string&, const done_t*, World* world) { ++world->dones_; }
 
   lcm::LCM bus_;
   StreamCounter streams_;

@@ -6,7 +6,6 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
-#include <regex>
 #include <rover/slip_t.hpp>
 #include <rover/truth_t.hpp>
 
@@ -112,9 +111,10 @@ TEST_F(ReportTest, NamesAreTheProjectsContract) {
 }
 
 TEST_F(ReportTest, ThePageNeedsNothingBesideItself) {
-  std::string html = read_file(dir_ + "/report.html");
-  html = std::regex_replace(html, std::regex("xmlns(:xlink)?=\"[^\"]*\""), "");
-  EXPECT_EQ(html.find("http"), std::string::npos);
+  const std::string html = read_file(dir_ + "/report.html");
+  // The only addresses are the names of SVG's namespaces.
+  for (size_t at = html.find("http"); at != std::string::npos; at = html.find("http", at + 1))
+    EXPECT_EQ(html.compare(at, 18, "http://www.w3.org/"), 0) << html.substr(at, 60);
   EXPECT_EQ(html.find("src="), std::string::npos);
   EXPECT_EQ(html.find("<script"), std::string::npos);
   EXPECT_NE(html.find("Goal reached"), std::string::npos);
