@@ -1,5 +1,6 @@
 #include "launcher/arguments.hpp"
 
+#include <cstdio>
 #include <filesystem>
 #include <regex>
 #include <sstream>
@@ -9,6 +10,18 @@
 namespace rover {
 
 std::string scenario_name(const std::string& file) { return std::filesystem::path(file).stem().string(); }
+
+std::string commit_of(const std::string& source_dir) {
+  const std::string command = "git -C '" + source_dir + "' describe --always --dirty --abbrev=12 2>/dev/null";
+  std::string commit;
+  if (FILE* pipe = popen(command.c_str(), "r")) {
+    char line[128] = {};
+    if (fgets(line, sizeof line, pipe) != nullptr) commit = line;
+    pclose(pipe);
+  }
+  while (!commit.empty() && commit.back() == '\n') commit.pop_back();
+  return commit.empty() ? "unknown" : commit;
+}
 
 std::vector<std::int64_t> parse_seeds(const std::string& text) {
   static const std::regex range(R"((\d{1,9})\.\.(\d{1,9}))");

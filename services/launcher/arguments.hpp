@@ -10,7 +10,7 @@ namespace rover {
 struct RunArguments {
   std::string source_dir = ".";   // holds config/ and logs/
   std::string bin_dir;            // holds the services' executables
-  std::string scenario;           // file; empty: config/scenarios/default.yaml
+  std::string scenario;           // file; empty for run(): config/scenarios/default.yaml
   std::int64_t seed = -1;         // -1: the scenario's own
   std::string level = "auto";
   std::vector<std::string> set;   // file.key.key=value
@@ -24,6 +24,8 @@ struct RunArguments {
 
 // Name of a scenario file without folder and ending.
 std::string scenario_name(const std::string& file);
+// The sources' commit, with -dirty where they differ from it; "unknown" outside of a checkout.
+std::string commit_of(const std::string& source_dir);
 // "1..10" or "3" or "1,4,7". Throws ConfigError.
 std::vector<std::int64_t> parse_seeds(const std::string& text);
 

@@ -27,18 +27,6 @@ struct Job {
   std::int64_t seed;
 };
 
-std::string commit_of(const std::string& source_dir) {
-  const std::string command = "git -C '" + source_dir + "' describe --always --dirty --abbrev=12 2>/dev/null";
-  std::string commit;
-  if (FILE* pipe = popen(command.c_str(), "r")) {
-    char line[128] = {};
-    if (fgets(line, sizeof line, pipe) != nullptr) commit = line;
-    pclose(pipe);
-  }
-  while (!commit.empty() && commit.back() == '\n') commit.pop_back();
-  return commit.empty() ? "unknown" : commit;
-}
-
 // Rows of one suite and commit: one JSON object a line, appended as runs end, so that a bench can go on later.
 class Rows {
  public:

@@ -72,6 +72,7 @@ nlohmann::json read_json(const std::string& file) {
 void write_run_json(const RunArguments& arguments, const RunFolder& folder) {
   const nlohmann::json facts = {{"scenario", scenario_name(arguments.scenario)},
                                 {"seed", folder.seed},
+                                {"commit", commit_of(arguments.source_dir)},
                                 {"level", arguments.level},
                                 {"realtime", arguments.realtime},
                                 {"interrupted", interrupted != 0}};
@@ -98,7 +99,9 @@ void print_result(const RunFolder& folder, const nlohmann::json& metrics) {
 
 }  // namespace
 
-RunResult run(const RunArguments& arguments) {
+RunResult run(const RunArguments& given) {
+  RunArguments arguments = given;
+  if (arguments.scenario.empty()) arguments.scenario = arguments.source_dir + "/config/scenarios/default.yaml";
   RunResult result;
   RunFolder folder;
   try {

@@ -116,10 +116,8 @@ void create_folders(const fs::path& dir) {
 
 }  // namespace
 
-RunFolder make_run_folder(const RunArguments& given) {
-  RunArguments arguments = given;
+RunFolder make_run_folder(const RunArguments& arguments) {
   const fs::path config_source = fs::path(arguments.source_dir) / "config";
-  if (arguments.scenario.empty()) arguments.scenario = (config_source / "scenarios" / "default.yaml").string();
   const fs::path dir = folder_for(arguments);
   if (!fs::is_regular_file(arguments.scenario)) throw ConfigError(arguments.scenario + ": no such file");
   // Before anything is made, so that what is wrong is named in the user's own file.

@@ -5,7 +5,6 @@ namespace {
 
 constexpr double kStepM = 0.05;
 constexpr double kTurnStepRad = 0.0524;
-constexpr double kBendM = 0.15;
 constexpr double kMergeM = 1.0;  // the controller takes a cross-track error out within about this way
 
 class BlockFinder {
@@ -20,13 +19,15 @@ class BlockFinder {
     if (turning) look_at_turn(query_.rover, turn, query_.from_m);
     // After a point turn the camera has seen what lies ahead; until then nothing can be said of it.
     bool known = !turning;
+    size_t kink = 0;
+    const std::vector<size_t>& kinks = query_.route.kinks();
     for (double s = query_.from_m; s <= query_.route.length_m() && !complete(); s += kStepM) {
+      while (kink < kinks.size() && query_.route.s_at(kinks[kink]) < s) {
+        if (query_.route.s_at(kinks[kink]) > query_.from_m && look_at_kink(kinks[kink], s)) known = false;
+        ++kink;
+      }
       const Pose2 pose = expected_pose(s, here, turning);
       if (!query_.terrain.contains(position(pose))) break;
-      if (const double bend = bend_at(s); known && s > query_.from_m + kBendM && std::abs(bend) > query_.turn_threshold_rad) {
-        look_at_turn(query_.route.pose_at(s - kBendM), bend, s);
-        known = false;
-      }
       note(pose, s, known);
     }
     return block_;
@@ -35,9 +36,13 @@ class BlockFinder {
  private:
   bool complete() const { return std::isfinite(block_.confirmed_m) && std::isfinite(block_.unseen_m); }
 
-  // Change of the route's heading about s within a way that no arc could do it.
-  double bend_at(double s_m) const {
-    return wrap_angle(query_.route.pose_at(s_m + kBendM).yaw_rad - query_.route.pose_at(s_m - kBendM).yaw_rad);
+  // False where the bend is so small that the rover does not halt for it.
+  bool look_at_kink(size_t i, double s_m) {
+    const double turn = wrap_angle(query_.route.yaw_out_of(i) - query_.route.yaw_into(i));
+    if (std::abs(turn) <= query_.turn_threshold_rad) return false;
+    const Point2 p = query_.route.points()[i].p;
+    look_at_turn({p.x_m, p.y_m, query_.route.yaw_into(i)}, turn, s_m);
+    return true;
   }
 
   void look_at_turn(Pose2 pose, double turn_rad, double s_m) {

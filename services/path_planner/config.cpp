@@ -97,6 +97,7 @@ PathPlannerConfig load_config(const std::string& config_dir) {
   config.read("patience_frames", out.patience_frames, {1, 100});
   config.read("sure_way_m", out.sure_way_m, {0.1, 20.0});
   config.read("least_sure_way_m", out.least_sure_way_m, {0.1, 20.0});
+  config.read("firm_gain_m", out.firm_gain_m, {0.0, 20.0});
   config.read("firm_way_m", out.firm_way_m, {0.0, 20.0});
   config.read("correction_m", out.correction_m, {0.005, 1.0});
   read_margins(config.section("margin"), out);

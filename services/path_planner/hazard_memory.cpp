@@ -75,25 +75,29 @@ void HazardMemory::add(const HazardGrid& grid, const Eigen::Isometry3d& T_odom_b
 void HazardMemory::note_obstacle(CellIndex index) {
   if (!map_.contains(index)) return;
   GroundCell& cell = map_.at(index);
-  cell.seen = true;
-  cell.contrary = 0;
-  if (cell.frame != frame_ && cell.hits < kMostHits) ++cell.hits;
+  if (cell.frame == frame_) return;
   cell.frame = frame_;
+  cell.seen = true;
+  const bool doubtful = cell.hits == 0 && cell.contrary >= config_.possible_clear;
+  cell.contrary = 0;
+  if (!doubtful && cell.hits < kMostHits) ++cell.hits;
 }
 
 void HazardMemory::note_free(GroundCell& cell, bool close) const {
   cell.seen = true;
-  if (cell.hits == 0 || (confirmed(cell) && !close)) return;
+  if (confirmed(cell) && !close) return;
   const int enough = confirmed(cell) ? config_.confirmed_clear : config_.possible_clear;
-  if (++cell.contrary < enough) return;
-  cell.hits = 0;
-  cell.contrary = 0;
+  if (cell.contrary < enough) ++cell.contrary;
+  if (cell.contrary >= enough) cell.hits = 0;
 }
 
 void HazardMemory::mark_driven(const Pose2& pose, const Footprint& footprint) {
-  const double r = footprint.radius_m();
+  const double rim = 0.5 * std::numbers::sqrt2 * config_.cell_m;  // cells that the rectangle's edge passes through
+  const double r = footprint.radius_m() + rim;
   for_cells_in(map_, {pose.x_m - r, pose.y_m - r}, {pose.x_m + r, pose.y_m + r}, [&](GroundCell& cell, Point2 p) {
-    if (footprint.distance_m(pose, p) <= 0.0) cell = GroundCell{.seen = true};
+    const double d = footprint.distance_m(pose, p);
+    if (d <= 0.0) cell = GroundCell{};
+    if (d <= rim) cell.seen = true;
   });
 }
 

@@ -178,7 +178,7 @@ void PathPlanner::react(PlannerOutput& out) {
   frames_before_possible_ = hazard_ahead_m() < config_.stop_hazard_m ? frames_before_possible_ + 1 : 0;
   const bool blocked = block_.confirmed_m - active_.progress_m < config_.trigger_m ||
                        frames_before_possible_ >= config_.patience_frames;
-  const bool before_unseen = unseen_ahead_m() < config_.stop_unseen_m && standing();
+  const bool before_unseen = unseen_ahead_m() < config_.stop_unseen_m && standing() && !turn_pending();
   frames_before_unseen_ = before_unseen ? frames_before_unseen_ + 1 : 0;
   if (blocked || frames_before_unseen_ >= config_.patience_frames) {
     if (repair(blocked, out)) frames_before_unseen_ = 0;
@@ -189,20 +189,27 @@ void PathPlanner::react(PlannerOutput& out) {
 }
 
 // Repairs are sure for their first metres only. Where the rest does not become so on approach, another way is sought
-// while there is room.
+// while there is room; not during a point turn, which shows new ground by itself.
 void PathPlanner::firm_up(PlannerOutput& out) {
-  if (seen_in_time_m() >= config_.firm_way_m) return;
-  double margin = 0.0;
-  if (find_repair(Terrain(memory_), config_.sure_way_m, margin)) take_repair(margin, out);
-}
-
-double PathPlanner::seen_in_time_m() const {
+  if (turn_pending()) return;
   const Terrain terrain(memory_);
-  const FootprintCheck check(terrain, config_.footprint, active_.margin_m, rover());
   std::vector<Pose2> poses = {rover()};
   for (double s = active_.progress_m + kPoseStepM; s < active_.repair_end_m; s += kPoseStepM)
     poses.push_back(active_.route.pose_at(s));
-  return seen_way_m(poses, check, config_.repair.view);
+  const double sure = seen_way(terrain, poses);
+  if (sure >= config_.firm_way_m) return;
+  double margin = 0.0;
+  if (!find_repair(terrain, config_.sure_way_m, margin)) return;
+  if (seen_way(terrain, last_repair_.poses) > sure + config_.firm_gain_m) take_repair(margin, out);
+}
+
+double PathPlanner::seen_way(const Terrain& terrain, const std::vector<Pose2>& poses) const {
+  return seen_way_m(poses, FootprintCheck(terrain, config_.footprint, active_.margin_m, rover()), config_.repair.view);
+}
+
+bool PathPlanner::turn_pending() const {
+  const double error = wrap_angle(active_.route.pose_at(active_.progress_m).yaw_rad - rover().yaw_rad);
+  return std::abs(error) > config_.turn_threshold_rad;
 }
 
 void PathPlanner::judge() {

@@ -31,6 +31,7 @@ struct PathPlannerConfig {
   double sure_way_m = 2.5;            // of a repair, over ground that is seen in time
   double least_sure_way_m = 0.6;      // where that leaves no way
   double firm_way_m = 2.0;            // a path whose ground is seen in time for less is replaced where that is possible
+  double firm_gain_m = 0.7;           // ... by one that is sure for that much more
   double release_latency_s = 0.1;     // of the path, message time
   double trigger_m = 6.0;             // a block further ahead is left until it comes nearer
   double corridor_half_width_m = 0.75;
@@ -137,7 +138,8 @@ class PathPlanner {
   void take_repair(double margin_m, PlannerOutput& out);
   RepairResult plan_repair(const Terrain& terrain, double margin_m, double sure_m) const;
   bool find_repair(const Terrain& terrain, double sure_m, double& margin_m);
-  double seen_in_time_m() const;
+  double seen_way(const Terrain& terrain, const std::vector<Pose2>& poses) const;
+  bool turn_pending() const;
   void firm_up(PlannerOutput& out);
   void adopt(Route route, PathKind kind, PlannerOutput& out);
   Route repaired_route(const RepairResult& repair) const;

@@ -3,7 +3,7 @@
 namespace rover::planning {
 namespace {
 
-constexpr double kChordM = 0.1;  // to either side, for headings
+constexpr double kKinkRad = 0.35;  // between two pieces of the route; an arc of 1 m sampled every 0.1 m makes 0.1
 
 double heading(Point2 from, Point2 to) { return std::atan2(to.y_m - from.y_m, to.x_m - from.x_m); }
 
@@ -65,6 +65,31 @@ Route::Route(std::vector<RoutePoint> points) : points_(std::move(points)) {
   s_m_.reserve(points_.size());
   for (size_t i = 0; i < points_.size(); ++i)
     s_m_.push_back(i == 0 ? 0.0 : s_m_.back() + distance(points_[i - 1].p, points_[i].p));
+  if (points_.size() >= 2) set_headings();
+}
+
+void Route::set_headings() {
+  const size_t last = points_.size() - 1;
+  std::vector<double> piece(last);
+  for (size_t i = 0; i < last; ++i) {
+    piece[i] = heading(points_[i].p, points_[i + 1].p);
+    if (i > 0) piece[i] = piece[i - 1] + wrap_angle(piece[i] - piece[i - 1]);
+  }
+  yaw_in_rad_.assign(last + 1, piece.front());
+  yaw_out_rad_ = yaw_in_rad_;
+  yaw_in_rad_[last] = yaw_out_rad_[last] = piece.back();
+  for (size_t i = 1; i < last; ++i) {
+    const bool kink = std::abs(piece[i] - piece[i - 1]) > kKinkRad;
+    const double middle = 0.5 * (piece[i - 1] + piece[i]);
+    yaw_in_rad_[i] = kink ? piece[i - 1] : middle;
+    yaw_out_rad_[i] = kink ? piece[i] : middle;
+    if (kink) kinks_.push_back(i);
+  }
+  // The ends continue the bend of their neighbours.
+  if (last >= 2) {
+    yaw_out_rad_[0] = yaw_in_rad_[0] = 2.0 * piece[0] - yaw_in_rad_[1];
+    yaw_in_rad_[last] = yaw_out_rad_[last] = 2.0 * piece[last - 1] - yaw_out_rad_[last - 1];
+  }
 }
 
 size_t Route::vertex_after(double s_m) const {
@@ -80,8 +105,11 @@ Point2 Route::point_at(double s_m) const {
 
 Pose2 Route::pose_at(double s_m) const {
   const Point2 p = point_at(s_m);
-  const double yaw = heading(point_at(std::max(s_m - kChordM, 0.0)), point_at(std::min(s_m + kChordM, length_m())));
-  return {p.x_m, p.y_m, yaw};
+  const auto at_or_after = std::lower_bound(s_m_.begin(), s_m_.end(), s_m) - s_m_.begin();
+  const size_t next = std::clamp<size_t>(static_cast<size_t>(at_or_after), 1, points_.size() - 1);
+  const double span = s_m_[next] - s_m_[next - 1];
+  const double u = span > 0.0 ? std::clamp((s_m - s_m_[next - 1]) / span, 0.0, 1.0) : 0.0;
+  return {p.x_m, p.y_m, (1.0 - u) * yaw_out_rad_[next - 1] + u * yaw_in_rad_[next]};
 }
 
 std::int8_t Route::level_at(double s_m) const {

@@ -7,9 +7,11 @@
 namespace rover::report {
 namespace {
 
-constexpr double kMemoryS = 30.0;       // hazards seen longer ago lie behind the rover
-constexpr double kAheadM = 5.0;         // of the old path, looked at for a cause
-constexpr double kBesideM = 0.35;       // beyond the footprint's half width: margins and the corridor's error
+constexpr double kMemoryS = 30.0;  // hazards seen longer ago lie behind the rover
+constexpr double kAheadM = 5.0;    // of the old path, looked at for a cause
+// From the footprint on its way to the middle of a cell in it. A path is laid about 0.2 m clear of what was known, so
+// what is nearer was new; where nothing is, margins had grown with the rover's uncertainty.
+constexpr double kInTheWayM[] = {0.20, 0.35};
 constexpr double kUnseenWindowS = 1.0;  // in which the planner must have named unseen ground as the cause
 
 const PathRecord* path_by_id(const RunRecord& run, std::int64_t id, double t_s) {
@@ -43,6 +45,26 @@ Points known_cells(const RunRecord& run, const TrueTrack& truth, const Footprint
     }
   }
   return cells;
+}
+
+// Those of the cells that the footprint would come near to on its way along the line.
+Points cells_in_the_way(const Points& line, const Points& cells, const Footprint& footprint, double clearance_m) {
+  constexpr double kStepM = 0.1;
+  Points hit;
+  for (const Eigen::Vector2d& cell : cells) {
+    bool in_the_way = false;
+    for (size_t i = 0; i + 1 < line.size() && !in_the_way; ++i) {
+      const Eigen::Vector2d step = line[i + 1] - line[i];
+      const double yaw = std::atan2(step.y(), step.x());
+      for (double s = 0.0; s <= step.norm() && !in_the_way; s += kStepM) {
+        const Eigen::Vector2d p = line[i] + step.normalized() * s;
+        const Eigen::Vector2d seen = transform(inverse(Pose2{p.x(), p.y(), yaw}), cell);
+        in_the_way = distance_to_box_m(seen, footprint.half_length_m, footprint.half_width_m) <= clearance_m;
+      }
+    }
+    if (in_the_way) hit.push_back(cell);
+  }
+  return hit;
 }
 
 // Largest deviation of the surface from its own plane, within 0.4 m.
@@ -145,8 +167,9 @@ std::vector<Incident> judge_stops(const RunRecord& run, const TrueTrack& truth, 
     const Eigen::Vector2d here =
         truth.empty() ? Eigen::Vector2d::Zero() : Eigen::Vector2d(truth.at(incident.t_s).translation().head<2>());
     const Points ahead = part_ahead(incident.old_path, here, kAheadM);
-    for (const Eigen::Vector2d& cell : known_cells(run, truth, footprint, incident.t_s))
-      if (distance_m(ahead, cell) <= footprint.half_width_m + kBesideM) incident.cells.push_back(cell);
+    const Points known = known_cells(run, truth, footprint, incident.t_s);
+    for (const double clearance : kInTheWayM)
+      if (incident.cells.empty()) incident.cells = cells_in_the_way(ahead, known, footprint, clearance);
     incident.unseen = incident.cells.empty() && unseen_named(run, incident.t_s);
     judge_cause(incident, rocks, world);
   }

@@ -42,6 +42,12 @@ void read_motion(const Config& c, MotionConfig& motion) {
   c.read("gate_sigma", motion.gate_sigma, {1, 10});
 }
 
+void read_offset(const Config& c, DisparityOffsetConfig& offset) {
+  c.read("prior_sigma_px", offset.prior_sigma_px, {1e-3, 10});
+  c.read("max_px", offset.max_px, {0, 10});
+  c.read("believed_share", offset.believed_share, {0, 1});
+}
+
 void read_odometry(const Config& c, OdometryConfig& o) {
   c.read("pyramid_levels", o.pyramid_levels, {1, 8});
   c.read("min_inliers", o.min_inliers, {6, 1000});
@@ -66,6 +72,7 @@ NodeConfig load_config(const std::string& config_dir) {
   read_stereo(config.section("stereo"), out.odometry.stereo);
   read_tracker(config.section("tracker"), out.odometry.tracker);
   read_motion(config.section("motion"), out.odometry.motion);
+  read_offset(config.section("disparity_offset"), out.odometry.offset);
   config.finish();
   return out;
 }

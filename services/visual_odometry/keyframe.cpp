@@ -3,13 +3,15 @@
 namespace rover::vo {
 
 Keyframe make_keyframe(const ImagePyramid& left, const ImagePyramid& right, const Disparity* seed,
-                       const StereoCamera& camera, const CornerConfig& corners, const StereoMatchConfig& stereo) {
+                       const StereoCamera& camera, const CornerConfig& corners, const StereoMatchConfig& stereo,
+                       double offset_px) {
   Keyframe key{left, camera, {}};
   for (const Eigen::Vector2f& corner : detect_corners(left.base(), corners)) {
     const auto match = match_corner(left, right, seed, corner, stereo);
     if (!match) continue;
-    key.points.push_back(
-        {corner, match->disparity_px, match->gradient, camera.point(corner.x(), corner.y(), match->disparity_px)});
+    const double disparity = match->disparity_px + offset_px;
+    if (disparity < stereo.min_disparity_px) continue;
+    key.points.push_back({corner, disparity, match->gradient, camera.point(corner.x(), corner.y(), disparity)});
   }
   return key;
 }

@@ -14,7 +14,7 @@ namespace rover::vo {
 
 struct KeyPoint {
   Eigen::Vector2f pixel;
-  double disparity_px;
+  double disparity_px;  // calibration's offset removed
   Eigen::Vector2d disparity_gradient;
   Eigen::Vector3d p_key;  // in the keyframe's camera axes
 };
@@ -25,8 +25,9 @@ struct Keyframe {
   std::vector<KeyPoint> points;
 };
 
-// `seed` may be null: the dense disparity of the pair.
+// `seed` may be null: the dense disparity of the pair. `offset_px` is added to what is measured.
 Keyframe make_keyframe(const ImagePyramid& left, const ImagePyramid& right, const Disparity* seed,
-                       const StereoCamera& camera, const CornerConfig& corners, const StereoMatchConfig& stereo);
+                       const StereoCamera& camera, const CornerConfig& corners, const StereoMatchConfig& stereo,
+                       double offset_px);
 
 }  // namespace rover::vo

@@ -87,6 +87,7 @@ struct Linearised {
   Eigen::Vector3d r;
   Matrix36d J;
   Eigen::Matrix3d weight;
+  Eigen::Vector3d by_offset;  // derivative of the prediction by an offset of all disparities
   double chi2;
   int size;
 };
@@ -101,6 +102,7 @@ bool linearise(const Observation& o, const StereoCamera& camera, const Eigen::Is
   const Eigen::Vector3d ray = T.linear() * o.p_key / o.disparity_px * config.disparity_sigma_px;
   const Eigen::Vector3d a = project_jacobian(camera, p) * ray;
   const double variance = config.pixel_sigma_px * config.pixel_sigma_px;
+  out.by_offset = -project_jacobian(camera, p) * (T.linear() * o.p_key / o.disparity_px) + Eigen::Vector3d::UnitZ();
   out.size = o.has_right ? 3 : 2;
   out.weight.setZero();
   if (o.has_right) {
@@ -110,6 +112,7 @@ bool linearise(const Observation& o, const StereoCamera& camera, const Eigen::Is
     out.weight.topLeftCorner<2, 2>() = (variance * Eigen::Matrix2d::Identity() + b * b.transpose()).inverse();
     out.r.z() = 0.0;
     out.J.row(2).setZero();
+    out.by_offset.z() = 0.0;
   }
   out.chi2 = out.r.dot(out.weight * out.r);
   return true;
@@ -118,6 +121,23 @@ bool linearise(const Observation& o, const StereoCamera& camera, const Eigen::Is
 // Cauchy's weight: points far out lose their pull, without a hard edge between two iterations.
 double robust_weight(double chi2, double gate_sigma) {
   return 1.0 / (1.0 + chi2 / (gate_sigma * gate_sigma));
+}
+
+// What the observations say of the disparity's offset once the motion, with Hessian H, is free to follow it.
+OffsetEvidence offset_evidence(const std::vector<Observation>& observations, const StereoCamera& camera,
+                               const Eigen::Isometry3d& T, const MotionConfig& config, const Matrix6d& H) {
+  OffsetEvidence evidence;
+  Vector6d coupling = Vector6d::Zero();
+  Linearised l;
+  for (const Observation& o : observations) {
+    if (!linearise(o, camera, T, config, l)) continue;
+    const Eigen::Vector3d weighted = robust_weight(l.chi2, config.gate_sigma) * (l.weight * l.by_offset);
+    evidence.gradient += weighted.dot(l.r);
+    evidence.information += weighted.dot(l.by_offset);
+    coupling.noalias() += l.J.transpose() * weighted;
+  }
+  evidence.information -= coupling.dot(H.ldlt().solve(coupling));
+  return evidence;
 }
 
 }  // namespace
@@ -177,6 +197,7 @@ MotionEstimate refine(const std::vector<Observation>& observations, const Stereo
   estimate.T_cur_key = T;
   // The spread that was met, where it is larger than the noise that was assumed.
   estimate.cov = Matrix6d(H.inverse()) * std::max(1.0, chi2 / (coordinates - 6));
+  estimate.offset = offset_evidence(observations, camera, T, config, H);
   estimate.rms_px = std::sqrt(square_px / coordinates);
   return estimate;
 }

@@ -11,6 +11,7 @@
 
 #include "common/core/frames.hpp"
 #include "common/core/image.hpp"
+#include "visual_odometry/disparity_offset.hpp"
 
 namespace rover::vo {
 
@@ -40,6 +41,7 @@ struct MotionEstimate {
   Matrix6d cov = nan_cov();  // of a small motion (translation, rotation) applied on the left of T_cur_key
   std::vector<char> inlier;  // one for each observation
   int inliers = 0;
+  OffsetEvidence offset;
   double rms_px = kNaN;  // reprojection error of the inliers, per coordinate
 };
 

@@ -22,11 +22,12 @@ bool same_camera(const StereoCamera& a, const StereoCamera& b) {
          a.cy_px == b.cy_px && a.baseline_m == b.baseline_m && a.T_body_cam.isApprox(b.T_body_cam, 1e-12);
 }
 
-std::vector<Observation> observations_of(const Keyframe& key, const std::vector<Track>& tracks) {
+std::vector<Observation> observations_of(const Keyframe& key, const std::vector<Track>& tracks, double offset_px) {
   std::vector<Observation> observations;
   for (size_t i = 0; i < tracks.size(); ++i)
     if (tracks[i].left)
-      observations.push_back({key.points[i].p_key, key.points[i].disparity_px, tracks[i].z, tracks[i].right});
+      observations.push_back({key.points[i].p_key, key.points[i].disparity_px,
+                              tracks[i].z - Eigen::Vector3d(0.0, 0.0, offset_px), tracks[i].right});
   return observations;
 }
 
@@ -52,7 +53,7 @@ Matrix6d rotated(const Matrix6d& cov, const Eigen::Matrix3d& R) {
 
 }  // namespace
 
-Odometry::Odometry(const OdometryConfig& config) : config_(config) {}
+Odometry::Odometry(const OdometryConfig& config) : config_(config), offset_(config.offset) {}
 
 std::optional<OdometryResult> Odometry::step(const StereoFrame& frame) {
   ROVER_CHECK(frame.utime > newest_utime_, frame.utime, newest_utime_);
@@ -73,15 +74,17 @@ std::optional<OdometryResult> Odometry::step(const StereoFrame& frame) {
   const OdometryResult result = accept(frame, registration);
   const int wanted =
       std::max(config_.keep_inliers, static_cast<int>(config_.keep_share * static_cast<double>(key_->points.size())));
-  if (registration.motion.inliers < wanted) start_from(frame, pair);
+  const double used_px = key_offset_px_;
+  if (registration.motion.inliers < wanted && start_from(frame, pair)) offset_.add(registration.motion.offset, used_px);
   return result;
 }
 
 bool Odometry::start_from(const StereoFrame& frame, const Pair& pair) {
   Keyframe key = make_keyframe(pair.left, pair.right, frame.disparity ? &*frame.disparity : nullptr, frame.camera,
-                               config_.corners, config_.stereo);
+                               config_.corners, config_.stereo, offset_.px());
   if (static_cast<int>(key.points.size()) < config_.min_keyframe_points) return false;
   key_ = std::move(key);
+  key_offset_px_ = offset_.px();
   key_utime_ = frame.utime;
   T_key_prev_ = Eigen::Isometry3d::Identity();
   if (previous_utime_ != frame.utime) {
@@ -119,12 +122,14 @@ Odometry::Registration Odometry::attempt(const StereoFrame& frame, const Pair& p
   const Eigen::Isometry3d& T_body_cam = frame.camera.T_body_cam;
   const Eigen::Isometry3d T_prev_cur = T_body_cam.inverse() * T_prev_cur_body * T_body_cam;
   const Eigen::Isometry3d T_guess = (T_key_prev_ * T_prev_cur).inverse();
-  const auto coarse = observations_of(*key_, track_coarse(*key_, pair.left, T_guess, config_.tracker, search));
+  const auto coarse =
+      observations_of(*key_, track_coarse(*key_, pair.left, T_guess, config_.tracker, search), key_offset_px_);
   if (static_cast<int>(coarse.size()) < config_.min_inliers) return {};
   const std::uint64_t seed = config_.seed ^ static_cast<std::uint64_t>(frame.utime);
   const RansacResult start = ransac(coarse, key_->camera, T_guess, config_.motion, seed);
   if (start.inliers < config_.min_inliers) return {};
-  const auto fine = observations_of(*key_, track_fine(*key_, pair.left, pair.right, start.T_cur_key, config_.tracker));
+  const auto fine = observations_of(*key_, track_fine(*key_, pair.left, pair.right, start.T_cur_key, config_.tracker),
+                                    key_offset_px_);
   if (static_cast<int>(fine.size()) < config_.min_inliers) return {};
   return {refine(fine, key_->camera, start.T_cur_key, config_.motion), static_cast<int>(fine.size())};
 }

@@ -12,6 +12,7 @@
 #include "common/core/frames.hpp"
 #include "common/core/image.hpp"
 #include "common/core/time.hpp"
+#include "visual_odometry/disparity_offset.hpp"
 #include "visual_odometry/keyframe.hpp"
 #include "visual_odometry/motion_estimator.hpp"
 #include "visual_odometry/tracker.hpp"
@@ -34,6 +35,7 @@ struct OdometryConfig {
   StereoMatchConfig stereo;
   TrackerConfig tracker;
   MotionConfig motion;
+  DisparityOffsetConfig offset;
 };
 
 struct StereoFrame {
@@ -72,6 +74,8 @@ class Odometry {
 
   // Exposure from which the next motion starts; kNever before the first keyframe.
   Utime previous_utime() const { return previous_utime_; }
+  // Estimated calibration error of the disparity.
+  const DisparityOffset& offset() const { return offset_; }
 
  private:
   struct Pair;
@@ -86,6 +90,8 @@ class Odometry {
   OdometryResult lost(const StereoFrame& frame, const Registration& registration) const;
 
   OdometryConfig config_;
+  DisparityOffset offset_;
+  double key_offset_px_ = 0.0;  // the offset in use: changes with the keyframe only, so that its motions telescope
   std::optional<Keyframe> key_;
   Utime key_utime_ = kNever;
   Eigen::Isometry3d T_key_prev_ = Eigen::Isometry3d::Identity();  // camera axes

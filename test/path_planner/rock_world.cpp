@@ -53,7 +53,7 @@ class Drive {
   Drive(const DriveConfig& config, const std::vector<Rock>& rocks, const std::vector<Point2>& path, std::uint64_t seed)
       : config_(config), rocks_(rocks), path_(path), random_(seed), planner_(config.planner, 1) {
     scale_ = 1.0 + config.odometry_drift * gauss(random_);
-    bend_ = 0.2 * config.odometry_drift * gauss(random_);
+    bend_ = 0.02 * config.odometry_drift * gauss(random_);
     start_ = {path[0].x_m, path[0].y_m, std::atan2(path[1].y_m - path[0].y_m, path[1].x_m - path[0].x_m)};
     truth_ = start_;
   }

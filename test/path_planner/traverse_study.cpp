@@ -28,7 +28,7 @@ int main(int argc, char** argv) {
     for (size_t i = 1; i < path.size(); ++i) planned += distance(path[i - 1], path[i]);
     DriveConfig config;
     config.planner = planner_config();
-    config.camera.false_hit_rate = 0.02;
+    config.camera.false_hit_rate = 0.01;
     const DriveResult r = drive(config, rocks, path, static_cast<std::uint64_t>(seed));
     const double ratio = r.driven_m / planned;
     if (r.reached) ratios.push_back(ratio);

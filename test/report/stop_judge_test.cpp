@@ -54,6 +54,17 @@ TEST(StopJudge, ARockBesideThePathIsNoCause) {
   EXPECT_TRUE(incidents(run, {{{4.45, 1.5, 0.3, 0.4}}, {}})[0].is_false());
 }
 
+TEST(StopJudge, ARockThatThePathKeptClearOfIsNoExcuse) {
+  RunRecord run = repaired_run();
+  // A real rock 0.3 m beside the footprint's way, and a ghost in the middle of it.
+  run.hazards.push_back(hazard_at(kRepairS - 0.5, 2.0, 0.77));
+  const TrueWorld world{{{4.45, 0.97, 0.2, 0.4}}, {}};
+  EXPECT_TRUE(incidents(run, world)[0].is_false());
+  // Alone, it is what the grown margin met.
+  run.hazards.erase(run.hazards.begin());
+  EXPECT_TRUE(incidents(run, world)[0].real);
+}
+
 TEST(StopJudge, UnseenGroundIsACauseOfItsOwn) {
   RunRecord run = repaired_run();
   run.hazards.clear();

@@ -198,7 +198,7 @@ class Writer {
     for (const Eigen::Vector2d& p : points) {
       m.x_m.push_back(p.x());
       m.y_m.push_back(p.y());
-      m.level.push_back(path_t::EFFICIENT);
+      m.level.push_back(std::int8_t{path_t::EFFICIENT});
     }
     log_.put(channel, m, t, publisher);
   }

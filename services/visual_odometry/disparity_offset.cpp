@@ -1,0 +1,23 @@
+#include "visual_odometry/disparity_offset.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rover::vo {
+
+DisparityOffset::DisparityOffset(const DisparityOffsetConfig& config)
+    : config_(config), information_(1.0 / (config.prior_sigma_px * config.prior_sigma_px)) {}
+
+double DisparityOffset::sigma_px() const {
+  return 1.0 / std::sqrt(information_);
+}
+
+void DisparityOffset::add(const OffsetEvidence& evidence, double used_px) {
+  if (!std::isfinite(evidence.gradient) || !(evidence.information > 0.0)) return;
+  information_ += config_.believed_share * evidence.information;
+  const double gradient = evidence.gradient + evidence.information * (used_px - px_);
+  px_ += config_.believed_share * gradient / information_;
+  px_ = std::clamp(px_, -config_.max_px, config_.max_px);
+}
+
+}  // namespace rover::vo
