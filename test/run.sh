@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds and runs the tests: first the unit tests under AddressSanitizer and UndefinedBehaviorSanitizer, then every
-# test of the normal build. `unit`: only the unit tests of the normal build. Called by ./rover test.
+# Builds and runs every test. `unit`: only the unit tests; `sanitize`: the unit tests under AddressSanitizer and
+# UndefinedBehaviorSanitizer. Called by ./rover test.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
 
@@ -12,11 +12,15 @@ configure_and_build() {
   ninja -C "$1" --quiet "$2"
 }
 
+# The sanitized build has the unit tests alone, in a folder of its own.
+if [ "${1:-}" = sanitize ]; then
+  configure_and_build build-sanitize unit_tests -DROVER_SANITIZE=ON
+  run_ctest build-sanitize -L unit
+  exit
+fi
 configure_and_build build all
 if [ "${1:-}" = unit ]; then
   run_ctest build -L unit
-  exit
+else
+  run_ctest build
 fi
-configure_and_build build-sanitize unit_tests -DROVER_SANITIZE=ON
-run_ctest build-sanitize -L unit
-run_ctest build

@@ -106,7 +106,7 @@ RunResult run(const RunArguments& given) {
   RunFolder folder;
   try {
     folder = make_run_folder(arguments);
-  } catch (const ConfigError& error) {
+  } catch (const std::exception& error) {  // ConfigError, DtmError, the file system's
     std::fprintf(stderr, "%s\n", error.what());
     result.exit_status = 2;
     return result;

@@ -35,17 +35,17 @@ Event event_from(const RawMessage& raw) {
 
 bool TriggerFinder::is_trigger(const RawMessage& raw) {
   if (raw.channel == channel::kState) {
-    supervisor_state_t state;
+    supervisor_state_t state{};
     if (!decode(raw, state) || state.state == state_) return false;
     state_ = state.state;
     return state_ != supervisor_state_t::BOOT && state_ != supervisor_state_t::STANDBY;
   }
   if (raw.channel == channel::kPath) {
-    path_t path;
+    path_t path{};
     return decode(raw, path) && path.kind == path_t::REPAIR;
   }
   if (raw.channel == channel::kFault) {
-    fault_t fault;
+    fault_t fault{};
     return decode(raw, fault) && fault.standing != 0;
   }
   return false;

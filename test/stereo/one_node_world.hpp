@@ -15,7 +15,7 @@ class OneNodeWorld {
  public:
   explicit OneNodeWorld(const std::string& service)
       : bus_("memq://"), world_("world", 1), node_({.name = service}, bus_) {
-    bus_.subscribe(channel::kHeartbeat, &OneNodeWorld::on_heartbeat, this);
+    hear(channel::kHeartbeat, heartbeats_);
   }
 
   Node& node() { return node_; }
@@ -28,7 +28,7 @@ class OneNodeWorld {
         channel,
         +[](const lcm::ReceiveBuffer* buffer, const std::string&, std::vector<Message>* messages) {
           Message message;
-          if (message.decode(buffer->data, 0, static_cast<int>(buffer->data_size)) > 0) messages->push_back(message);
+          if (decode_message(buffer->data, static_cast<int>(buffer->data_size), message)) messages->push_back(message);
         },
         &out);
   }
@@ -53,20 +53,17 @@ class OneNodeWorld {
 
   // Malformed inputs of the channel by the newest heartbeat.
   std::int64_t malformed(const std::string& channel) const {
-    for (const input_health_t& input : heartbeat_.inputs)
+    if (heartbeats_.empty()) return -1;
+    for (const input_health_t& input : heartbeats_.back().inputs)
       if (input.channel == channel) return input.malformed;
     return -1;
   }
 
  private:
-  void on_heartbeat(const lcm::ReceiveBuffer*, const std::string&, const heartbeat_t* message) {
-    heartbeat_ = *message;
-  }
-
   lcm::LCM bus_;
   StreamCounter world_;
   Node node_;
-  heartbeat_t heartbeat_{};
+  std::vector<heartbeat_t> heartbeats_;
 };
 
 }  // namespace rover::test
