@@ -32,10 +32,10 @@ struct FilterConfig {
   // Visual odometry knows its noise, not the error of calibration, which follows the same weak directions: with 0.2 px
   // of it, motions over rendered ground are off by 3 to 6 of its sigma.
   double visual_cov_factor = 10.0;
-  double visual_scale_sigma = 0.005;         // 0.2 px of 60 px disparity and less
-  double visual_floor_m = 1e-4;              // never trust one visual motion better than this
-  double max_rotation_conflict_sigma = 6.0;  // gyro against images
-  double max_rotation_conflict_rad = 0.01;   // smaller conflicts are never one
+  double visual_scale_sigma = 0.003;               // what is left of a calibration error of 0.2 px
+  double visual_floor_m = 1e-4;                    // never trust one visual motion better than this
+  double max_rotation_conflict_sigma = 6.0;        // gyro against images
+  double max_rotation_conflict_rad = to_rad(0.6);  // smaller conflicts are never one
 };
 
 constexpr int kPosition = 0;

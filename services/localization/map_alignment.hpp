@@ -15,7 +15,7 @@ namespace rover::loc {
 struct MapAlignmentConfig {
   double gate_chi2 = 16.3;      // 99.9 % of three degrees of freedom
   double slam_rate_mps = 0.02;  // how fast SLAM may move map against odom
-  double slam_rate_radps = 0.005;
+  double slam_rate_radps = to_rad(0.3);
 };
 
 // A measurement that was taken: gain and noise for the filter's covariances.

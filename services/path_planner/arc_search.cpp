@@ -110,7 +110,7 @@ class ArcSearch {
       ArcNode next = from;
       for (; turned < turn + kTurnSampleRad; turned += kTurnSampleRad) {
         next.pose.yaw_rad = from.pose.yaw_rad + side * std::min(turned, turn);
-        if (!problem_.check.clear(next.pose) || !seen_.covers(next.pose)) return;
+        if (!problem_.turn_check.clear(next.pose) || !seen_.covers(next.pose)) return;
       }
       next.cost += config_.turn_cost_per_rad_m * turn;
       next.parent = index;

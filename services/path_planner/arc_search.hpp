@@ -38,6 +38,7 @@ struct JoinTarget {
 
 struct SearchProblem {
   const FootprintCheck& check;
+  const FootprintCheck& turn_check;  // for point turns: the rover does not halt exactly
   const MarchGrid& cost;
   const std::vector<double>& travel;  // the fast-marching field of `cost` from the targets
   ViewArea view;

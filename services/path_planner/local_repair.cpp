@@ -17,6 +17,7 @@ constexpr double kBareM = 0.05;          // nearer than the half width less this
 constexpr double kMarchBeyond = 6.0;      // travel cost, as much as a point turn and a way round
 constexpr double kMostClearanceM = 2.0;
 constexpr double kLeastSmoothM = 0.6;
+constexpr double kSeenMarginM = 0.04;    // the rover follows a path within centimetres
 constexpr double kViewReserveM = 0.06;
 constexpr double kViewStepM = 0.1;
 constexpr double kViewStepRad = 0.4;
@@ -61,7 +62,9 @@ const char* text_of(RepairStatus status) {
 }
 
 RepairResult LocalRepair::plan(const RepairRequest& request) const {
-  const FootprintCheck check(request.terrain, config_.footprint, request.margin_m, request.start);
+  const FootprintCheck check(request.terrain, config_.footprint, request.margin_m, kSeenMarginM, request.start);
+  const FootprintCheck turn_check(request.terrain, config_.footprint, request.margin_m + config_.turn_extra_m,
+                                  kSeenMarginM, request.start);
   RepairResult result;
   std::vector<JoinTarget> targets = join_targets(request, check);
   MarchGrid cost = travel_costs(request, check);
@@ -80,7 +83,7 @@ RepairResult LocalRepair::plan(const RepairRequest& request) const {
   }
   const std::vector<double> travel = march(cost, seeds, request.terrain.cell_of(position(request.start)), kMarchBeyond);
   const SearchResult way =
-      search_arcs(config_.search, {check, cost, travel, narrowed(config_.view), targets, goal, 0.6 * request.goal_tolerance_m,
+      search_arcs(config_.search, {check, turn_check, cost, travel, narrowed(config_.view), targets, goal, 0.6 * request.goal_tolerance_m,
                                    request.start, request.start_curvature_per_m, request.sure_m, request.stopped});
   result.expansions = way.expansions;
   if (!way.found) {
@@ -206,7 +209,7 @@ double seen_way_m(const std::vector<Pose2>& poses, const FootprintCheck& check, 
 
 bool verified(const std::vector<Pose2>& poses, const FootprintCheck& check, const ViewArea& view, double sure_m) {
   return poses.size() >= 2 && std::all_of(poses.begin(), poses.end(), [&](const Pose2& p) { return check.clear(p); }) &&
-         seen_way_m(poses, check, view) > sure_m;
+         seen_way_m(poses, check, view) >= sure_m;
 }
 
 }  // namespace rover::planning

@@ -16,6 +16,7 @@ struct LocalRepairConfig {
   Footprint footprint;
   ViewArea view;
   double rejoin_within_m = 4.0;      // past the first place where the global path is clear; 0: as soon as possible
+  double turn_extra_m = 0.04;        // of the margin, for point turns: the rover does not halt exactly
   double max_deviation_m = 4.0;      // from the global path
   double risk_distance_m = 1.0;      // clearance below which ground costs more
   double risk_cost = 1.5;            // per metre more, at the margin

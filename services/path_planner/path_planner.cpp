@@ -178,7 +178,7 @@ void PathPlanner::react(PlannerOutput& out) {
   frames_before_possible_ = hazard_ahead_m() < config_.stop_hazard_m ? frames_before_possible_ + 1 : 0;
   const bool blocked = block_.confirmed_m - active_.progress_m < config_.trigger_m ||
                        frames_before_possible_ >= config_.patience_frames;
-  const bool before_unseen = unseen_ahead_m() < config_.stop_unseen_m && standing() && !turn_pending();
+  const bool before_unseen = unseen_ahead_m() < config_.stop_unseen_m && standing();
   frames_before_unseen_ = before_unseen ? frames_before_unseen_ + 1 : 0;
   if (blocked || frames_before_unseen_ >= config_.patience_frames) {
     if (repair(blocked, out)) frames_before_unseen_ = 0;
@@ -199,12 +199,12 @@ void PathPlanner::firm_up(PlannerOutput& out) {
   const double sure = seen_way(terrain, poses);
   if (sure >= config_.firm_way_m) return;
   double margin = 0.0;
-  if (!find_repair(terrain, config_.sure_way_m, margin)) return;
+  if (!find_repair(terrain, kInfinity, margin) && !find_repair(terrain, config_.sure_way_m, margin)) return;
   if (seen_way(terrain, last_repair_.poses) > sure + config_.firm_gain_m) take_repair(margin, out);
 }
 
 double PathPlanner::seen_way(const Terrain& terrain, const std::vector<Pose2>& poses) const {
-  return seen_way_m(poses, FootprintCheck(terrain, config_.footprint, active_.margin_m, rover()), config_.repair.view);
+  return seen_way_m(poses, FootprintCheck(terrain, config_.footprint, active_.margin_m, 0.0, rover()), config_.repair.view);
 }
 
 bool PathPlanner::turn_pending() const {
@@ -221,7 +221,7 @@ void PathPlanner::judge() {
 bool PathPlanner::repair(bool because_of_hazard, PlannerOutput& out) {
   const Terrain terrain(memory_);
   double margin = 0.0;
-  if (!find_repair(terrain, config_.sure_way_m, margin) && !find_repair(terrain, config_.least_sure_way_m, margin)) {
+  if (!find_repair(terrain, kInfinity, margin) && !find_repair(terrain, config_.sure_way_m, margin) && !find_repair(terrain, config_.least_sure_way_m, margin)) {
     ++failures_;
     return false;
   }

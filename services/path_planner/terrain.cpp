@@ -81,17 +81,17 @@ double Terrain::hazard_distance_smooth(Point2 p, Eigen::Vector2d& gradient) cons
   return (1.0 - v) * ((1.0 - u) * a + u * b) + v * ((1.0 - u) * c + u * d);
 }
 
-FootprintCheck::FootprintCheck(const Terrain& terrain, const Footprint& footprint, double margin_m, const Pose2& start)
+FootprintCheck::FootprintCheck(const Terrain& terrain, const Footprint& footprint, double margin_m,
+                               double seen_margin_m, const Pose2& start)
     : terrain_(terrain), footprint_(footprint), margin_m_(margin_m), start_(start) {
-  const double step = terrain.cell_m();
-  const int nx = static_cast<int>(std::ceil(2.0 * footprint.half_length_m / step));
-  const int ny = static_cast<int>(std::ceil(2.0 * footprint.half_width_m / step));
+  const double x = footprint.half_length_m + seen_margin_m;
+  const double y = footprint.half_width_m + seen_margin_m;
+  const int nx = static_cast<int>(std::ceil(2.0 * x / terrain.cell_m()));
+  const int ny = static_cast<int>(std::ceil(2.0 * y / terrain.cell_m()));
   for (const double end : {1.0, -1.0})
-    for (int i = 0; i <= ny; ++i)
-      rim_.push_back({end * footprint.half_length_m, footprint.half_width_m * (2.0 * i / ny - 1.0)});
+    for (int i = 0; i <= ny; ++i) rim_.push_back({end * x, y * (2.0 * i / ny - 1.0)});
   for (const double side : {1.0, -1.0})
-    for (int i = 1; i < nx; ++i)
-      rim_.push_back({footprint.half_length_m * (1.0 - 2.0 * i / nx), side * footprint.half_width_m});
+    for (int i = 1; i < nx; ++i) rim_.push_back({x * (1.0 - 2.0 * i / nx), side * y});
 }
 
 bool FootprintCheck::violates(const Pose2& pose, Point2 hazard) const {

@@ -51,7 +51,9 @@ class Terrain {
 // rover may leave it, but not come closer.
 class FootprintCheck {
  public:
-  FootprintCheck(const Terrain& terrain, const Footprint& footprint, double margin_m, const Pose2& start);
+  // `seen_margin_m`: how far around the rectangle ground must have been seen.
+  FootprintCheck(const Terrain& terrain, const Footprint& footprint, double margin_m, double seen_margin_m,
+                 const Pose2& start);
 
   bool clear(const Pose2& pose) const;
   // Only hazards of which `confirmed` is as asked.

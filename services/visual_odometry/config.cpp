@@ -66,6 +66,7 @@ void read_odometry(const Config& c, OdometryConfig& o) {
 NodeConfig load_config(const std::string& config_dir) {
   const Config config = Config::load(config_dir + "/visual_odometry.yaml");
   NodeConfig out;
+  config.read("latency_s", out.latency_s, {0, 5});
   config.read("gyro_history_s", out.gyro_history_s, {1, 600});
   read_odometry(config.section("odometry"), out.odometry);
   read_corners(config.section("corners"), out.odometry.corners);

@@ -10,9 +10,6 @@
 namespace rover::vo {
 namespace {
 
-// Modelled time of the computer for one pair (design: 0.12 s).
-constexpr Utime kLatencyUs = 120'000;
-
 const char* text_of(Status status) {
   if (status == Status::kOk) return "OK";
   return status == Status::kDegraded ? "DEGRADED" : "LOST";
@@ -23,12 +20,13 @@ const char* text_of(Status status) {
 OdometryNode::OdometryNode(Node& node, const NodeConfig& config)
     : node_(node), odometry_(config.odometry), gyro_(to_utime(config.gyro_history_s)) {
   cv::setNumThreads(1);
+  const Utime latency = to_utime(config.latency_s);
   node_.subscribe<imu_t>(channel::kImu, [this](const imu_t& m) { on_imu(m); });
-  node_.subscribe_slow<image_t>(channel::kLocCamRectLeft, kLatencyUs,
+  node_.subscribe_slow<image_t>(channel::kLocCamRectLeft, latency,
                                 [this](const image_t& m) { on_image(channel::kLocCamRectLeft, m, left_); });
-  node_.subscribe_slow<image_t>(channel::kLocCamRectRight, kLatencyUs,
+  node_.subscribe_slow<image_t>(channel::kLocCamRectRight, latency,
                                 [this](const image_t& m) { on_image(channel::kLocCamRectRight, m, right_); });
-  node_.subscribe_slow<disparity_t>(channel::kDisparity, kLatencyUs, [this](const disparity_t& m) { on_disparity(m); });
+  node_.subscribe_slow<disparity_t>(channel::kDisparity, latency, [this](const disparity_t& m) { on_disparity(m); });
 }
 
 void OdometryNode::on_imu(const imu_t& message) {

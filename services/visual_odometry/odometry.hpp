@@ -21,15 +21,15 @@ namespace rover::vo {
 
 struct OdometryConfig {
   int pyramid_levels = 4;
-  int min_inliers = 15;                // fewer: kLost
-  int ok_inliers = 40;                 // fewer: kDegraded
-  double ok_share = 0.35;              // inliers of the points tracked; less: kDegraded
-  double keep_share = 0.50;            // of the keyframe's points; fewer inliers: the next keyframe is due
-  int keep_inliers = 60;               // likewise, as a count
-  int min_keyframe_points = 40;        // a pair with fewer makes no keyframe
-  int lost_until_restart = 2;          // pairs in a row that do not fit the keyframe until a new one is made
-  double max_position_sigma_m = 0.05;  // a motion less certain than this is none
-  double gyro_tolerance_rad = 0.03;    // more between gyro and images: kDegraded
+  int min_inliers = 15;                     // fewer: kLost
+  int ok_inliers = 40;                      // fewer: kDegraded
+  double ok_share = 0.35;                   // inliers of the points tracked; less: kDegraded
+  double keep_share = 0.50;                 // of the keyframe's points; fewer inliers: the next keyframe is due
+  int keep_inliers = 60;                    // likewise, as a count
+  int min_keyframe_points = 40;             // a pair with fewer makes no keyframe
+  int lost_until_restart = 2;               // pairs in a row that do not fit the keyframe until a new one is made
+  double max_position_sigma_m = 0.05;       // a motion less certain than this is none
+  double gyro_tolerance_rad = to_rad(1.7);  // more between gyro and images: kDegraded
   std::uint64_t seed = 1;
   CornerConfig corners;
   StereoMatchConfig stereo;

@@ -4,7 +4,7 @@
 
 lcm-logger --lcm-url="$BUS" "$WORK/beside.lcm" >/dev/null 2>&1 &
 logger=$!
-drive "$WORK/run" config/scenarios/flat.yaml --seed 2 --record full || true
+drive "$WORK/run" config/scenarios/flat.yaml --seed 5 --record full || true
 sleep 1
 kill -INT $logger
 wait $logger || true

@@ -6,6 +6,8 @@ namespace rover::planning::testing {
 namespace {
 
 constexpr double kHazardHeightM = 0.15;
+constexpr double kTurnStartRad = 0.7;
+constexpr double kTurnStopRad = 0.035;
 
 double uniform(std::mt19937_64& random, double low, double high) {
   return low + (high - low) * static_cast<double>(random() >> 11) * 0x1.0p-53;
@@ -134,9 +136,14 @@ class Drive {
   void take_path(const LocalPath& path) {
     route_ = Route(path.points);
     progress_ = route_.closest(position(odom_), 0.0, 1.0);
-    const double turn = wrap_angle(route_.pose_at(progress_).yaw_rad - odom_.yaw_rad);
-    turning_ = std::abs(turn) > 0.7;
-    if (!turning_) return;
+    const double error = wrap_angle(route_.pose_at(progress_).yaw_rad - odom_.yaw_rad);
+    const bool turn = std::abs(error) > (turning_ ? kTurnStopRad : kTurnStartRad);
+    if (turn && !turning_) begin_turn();
+    turning_ = turn;
+  }
+
+  void begin_turn() {
+    turning_ = true;
     ++result_.point_turns;
     turn_wait_s_ = config_.turn_overhead_s;
   }
@@ -154,15 +161,25 @@ class Drive {
     }
     going_ = true;
     const double dt = to_seconds(config_.step_us);
-    progress_ = route_.closest(position(odom_), progress_ - 0.3, progress_ + 0.5);
-    const double error = wrap_angle(route_.pose_at(progress_).yaw_rad - odom_.yaw_rad);
-    if (std::abs(error) > 0.7 && !turning_) {
-      turning_ = true;
-      ++result_.point_turns;
-      turn_wait_s_ = config_.turn_overhead_s;
+    follow_leg(dt);
+  }
+
+  // As trajectory_control: legs between kinks, a halt and a point turn at each.
+  void follow_leg(double dt) {
+    const auto& kinks = route_.kinks();
+    const auto next = std::find_if(kinks.begin(), kinks.end(), [&](size_t i) { return route_.s_at(i) > progress_; });
+    const auto before = next == kinks.begin() ? kinks.end() : std::prev(next);
+    const double leg_begin = before == kinks.end() ? 0.0 : route_.s_at(*before) + 1e-6;
+    const double leg_end = next == kinks.end() ? route_.length_m() : route_.s_at(*next);
+    progress_ = route_.closest(position(odom_), std::max(progress_ - 0.3, leg_begin), std::min(progress_ + 0.5, leg_end));
+    if (next != kinks.end() && leg_end - progress_ < 0.03 && !turning_) {
+      progress_ = leg_end + 1e-3;
+      begin_turn();
     }
+    const double error = wrap_angle(route_.pose_at(progress_).yaw_rad - odom_.yaw_rad);
+    if (std::abs(error) > kTurnStartRad && !turning_) begin_turn();
     if (turning_) return turn(error, dt);
-    follow(error, dt);
+    follow(error, std::sqrt(2.0 * 0.1 * std::max(leg_end - progress_, 0.002)), dt);
   }
 
   void halt() {
@@ -181,11 +198,11 @@ class Drive {
     rate_ = step / dt;
     truth_.yaw_rad += step;
     odom_.yaw_rad += step;
-    if (std::abs(error) < 0.035) turning_ = false;
+    if (std::abs(error) < kTurnStopRad) turning_ = false;
   }
 
   // Feedback of cross-track and heading errors around the path's curvature, with the steering's rate.
-  void follow(double error, double dt) {
+  void follow(double error, double most_mps, double dt) {
     const Pose2 here = route_.pose_at(progress_);
     const Point2 off = to_body(here, position(odom_));
     const double ahead = progress_ + 0.1;
@@ -195,7 +212,7 @@ class Drive {
     const double change = 0.185 * dt;
     curvature_ += std::clamp(wanted - curvature_, -change, change);
     // As trajectory_control: slower where the steering must swing fast.
-    speed_ = std::abs(wanted - curvature_) > 0.15 ? 0.08 : config_.speed_mps;
+    speed_ = std::min(most_mps, std::abs(wanted - curvature_) > 0.15 ? 0.08 : config_.speed_mps);
     rate_ = speed_ * curvature_;
     truth_ = advanced(truth_, speed_ * dt, curvature_);
     odom_ = advanced(odom_, scale_ * speed_ * dt, (curvature_ + bend_) / scale_);

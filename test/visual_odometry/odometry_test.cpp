@@ -251,6 +251,27 @@ TEST(Odometry, SameInputsSameNumbers) {
   EXPECT_EQ(a.T_world_body.matrix(), b.T_world_body.matrix());
 }
 
+TEST(Odometry, FindsTheDisparityOffsetWhileDriving) {
+  double drift[2];
+  for (const bool enabled : {false, true}) {
+    OdometryConfig config;
+    config.offset.believed_share = enabled ? 0.1 : 0.0;
+    Drive drive(17, config);
+    drive.ground.right_shift_px = 0.3;  // measured disparities are 0.3 px too small
+    for (int i = 0; i <= 60; ++i) drive.go(along_arc(0.08 * i));
+    drift[enabled] = drive.error_m();
+    EXPECT_NEAR(drive.odometry.offset().px(), enabled ? 0.3 : 0.0, 0.12);
+  }
+  EXPECT_LT(drift[1], 0.6 * drift[0]);
+}
+
+TEST(Odometry, StandstillSaysNothingOfTheOffset) {
+  Drive drive(18);
+  drive.ground.right_shift_px = 0.3;
+  for (int i = 0; i <= 20; ++i) drive.go(along_arc(0.0));
+  EXPECT_EQ(drive.odometry.offset().px(), 0.0);
+}
+
 // Error against covariance over one keyframe's life, many times.
 TEST(Odometry, CovarianceIsHonest) {
   double nees = 0.0;

@@ -202,6 +202,34 @@ TEST(MotionEstimator, CovarianceMatchesTheSpread) {
   EXPECT_NEAR(nees, 6.0, 1.5);
 }
 
+// Points and pictures made with an offset: the evidence leads to it, and back to none from there.
+TEST(MotionEstimator, EvidenceLeadsToTheOffset) {
+  constexpr double kOffset = 0.2;
+  Scene s = scene(6, 200, 0, 0.0);
+  for (Observation& o : s.observations) {
+    o.has_right = true;
+    o.p_key *= o.disparity_px / (o.disparity_px - kOffset);  // measured too small by the offset
+    o.disparity_px -= kOffset;
+    o.z.z() += kOffset;
+  }
+  const MotionEstimate e = refine(s.observations, loccam(), s.T_cur_key, {});
+  EXPECT_GT(e.offset.information, 0.0);
+  EXPECT_NEAR(e.offset.gradient / e.offset.information, kOffset, 0.03);
+}
+
+TEST(DisparityOffset, WeighsEvidenceAgainstThePriorAndIsBounded) {
+  DisparityOffsetConfig config;
+  config.believed_share = 1.0;
+  DisparityOffset offset(config);
+  offset.add({25.0 * 0.2, 25.0}, 0.0);  // says 0.2 px, as firmly as the prior says 0
+  EXPECT_NEAR(offset.px(), 0.1, 1e-12);
+  offset.add({kNaN, 1e9}, 0.0);
+  offset.add({1.0, -5.0}, 0.0);
+  EXPECT_NEAR(offset.px(), 0.1, 1e-12);
+  offset.add({1e9 * 5.0, 1e9}, 0.0);
+  EXPECT_EQ(offset.px(), config.max_px);
+}
+
 TEST(MotionEstimator, TooFewPointsGiveNoNumbers) {
   Scene s = scene(5, 2, 0, 0.0);
   const MotionEstimate e = refine(s.observations, loccam(), Isometry3d::Identity(), {});

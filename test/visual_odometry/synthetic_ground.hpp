@@ -40,6 +40,7 @@ class SyntheticGround {
   double gain = 1.0;        // exposure
   double blur_px = 0.0;
   bool textureless = false;
+  double right_shift_px = 0.0;  // calibration error: the right picture lies this much further right than believed
   StereoCamera camera = loccam();
 
   explicit SyntheticGround(std::uint64_t seed, bool rocks = true) : random_(seed), rng_(seed + 1) {
@@ -63,7 +64,9 @@ class SyntheticGround {
     Eigen::Isometry3d T_world_right = T_world_left;
     T_world_right.translation() += T_world_left.linear().col(0) * camera.baseline_m;
     f.left = picture(T_world_left);
+    camera.cx_px += right_shift_px;
     f.right = picture(T_world_right);
+    camera.cx_px -= right_shift_px;
     return f;
   }
 

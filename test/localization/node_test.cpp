@@ -1,0 +1,229 @@
+#include "localization/node.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <random>
+#include <rover/command_ack_t.hpp>
+#include <rover/imu_t.hpp>
+#include <rover/pose_t.hpp>
+#include <rover/service_state_t.hpp>
+#include <rover/slip_t.hpp>
+#include <rover/vo_motion_t.hpp>
+#include <rover/wheel_state_t.hpp>
+
+#include "common/bus/vehicle_config.hpp"
+#include "localization/config.hpp"
+#include "test/stereo/one_node_world.hpp"
+
+namespace rover::loc {
+namespace {
+
+const std::string kConfig = std::string(ROVER_SOURCE_DIR) + "/config";
+
+class LocalizationNodeTest : public testing::Test {
+ protected:
+  LocalizationNodeTest() : world_("localization"), node_(world_.node(), load_config(kConfig), load_vehicle(kConfig)) {
+    world_.hear(channel::kPose, poses_);
+    world_.hear(channel::kSlip, slips_);
+    world_.hear(channel::kCommandAck, acks_);
+  }
+
+  void run(double seconds, double speed_mps = 0.0) {
+    for (const Utime until = now_ + to_utime(seconds); now_ < until;) {
+      now_ += kTickUs;
+      imu_t imu{};
+      imu.dt_s = 0.02;
+      for (double& angle : imu.delta_angle_rad) angle = 1e-6 * normal_(random_);
+      imu.delta_velocity_mps[2] = 3.71 * 0.02 + 1e-5 * normal_(random_);
+      if (imu_on_) world_.send(channel::kImu, imu, now_);
+      wheel_state_t wheels{};
+      angle_ += speed_mps * 0.02 / 0.125;
+      for (double& a : wheels.drive_angle_rad) a = angle_;
+      world_.send(channel::kWheelState, wheels, now_);
+      world_.tick(now_);
+    }
+  }
+
+  void start_pose(double x = 10.0) {
+    ground_command_t command{};
+    command.command_id = 7;
+    command.kind = ground_command_t::SET_START_POSE;
+    command.position_map_m[0] = x;
+    command.sigma_m = 0.1;
+    command.sigma_yaw_rad = 0.01;
+    world_.send(channel::kGroundCommand, command, now_);
+  }
+
+  test::OneNodeWorld world_;
+  LocalizationNode node_;
+  std::vector<pose_t> poses_;
+  std::vector<slip_t> slips_;
+  std::vector<command_ack_t> acks_;
+  std::mt19937_64 random_{1};
+  std::normal_distribution<double> normal_;
+  Utime now_ = 0;
+  double angle_ = 0.0;
+  bool imu_on_ = true;
+};
+
+TEST_F(LocalizationNodeTest, PublishesPoseAndSlipEachTick) {
+  run(2.0);
+  EXPECT_EQ(poses_.size(), 100U);
+  EXPECT_EQ(slips_.size(), 100U);
+  EXPECT_EQ(poses_.back().status, int{pose_t::UNINITIALISED});
+  start_pose();
+  run(0.5);
+  ASSERT_EQ(acks_.size(), 1U);
+  EXPECT_EQ(acks_[0].accepted, 1);
+  EXPECT_EQ(acks_[0].command_id, 7);
+  EXPECT_EQ(poses_.back().status, int{pose_t::OK});
+  EXPECT_EQ(poses_.back().header.utime, now_);
+  EXPECT_NEAR(poses_.back().position_map_odom_m[0], 10.0, 1e-6);
+  EXPECT_GT(poses_.back().covariance[0], 0.0);
+}
+
+TEST_F(LocalizationNodeTest, RefusedStartPoseSaysWhy) {
+  start_pose();
+  run(0.1);
+  ASSERT_EQ(acks_.size(), 1U);
+  EXPECT_EQ(acks_[0].accepted, 0);
+  EXPECT_FALSE(acks_[0].reason.empty());
+  run(2.0);
+  start_pose(kNaN);
+  run(0.1);
+  ASSERT_EQ(acks_.size(), 2U);
+  EXPECT_EQ(acks_[1].accepted, 0);
+}
+
+TEST_F(LocalizationNodeTest, ASilentImuStopsNothing) {
+  run(2.0);
+  start_pose();
+  imu_on_ = false;
+  const size_t before = poses_.size();
+  run(1.0, 0.1);
+  EXPECT_EQ(poses_.size(), before + 50);
+  EXPECT_EQ(poses_.back().status, int{pose_t::DEGRADED});
+  EXPECT_NEAR(poses_.back().position_odom_body_m[0], 0.1, 0.01);
+}
+
+TEST_F(LocalizationNodeTest, UnusableInputIsCounted) {
+  run(2.0);
+  imu_t imu{};
+  imu.dt_s = kNaN;
+  world_.send(channel::kImu, imu, now_ + 1);
+  vo_motion_t motion{};
+  motion.position_m[0] = kNaN;
+  world_.send(channel::kVo, motion, now_ + 1);
+  run(0.2);
+  EXPECT_EQ(world_.malformed(channel::kImu), 1);
+  EXPECT_EQ(world_.malformed(channel::kVo), 1);
+}
+
+// A process of the service on a bus of its own, with a run folder.
+class Process {
+ public:
+  Process(const std::string& folder, std::int64_t boot_id, Utime now, double angle)
+      : bus_("memq://"),
+        world_("world", 1),
+        now_(now),
+        angle_(angle),
+        node_({.name = "localization", .boot_id = boot_id, .run_dir = folder}, bus_) {
+    hear(channel::kPose, poses);
+    hear(channel::kServiceState, states);
+    service_ = std::make_unique<LocalizationNode>(node_, load_config(kConfig), load_vehicle(kConfig));
+  }
+
+  void run(double seconds, double speed_mps = 0.0) {
+    for (const Utime until = now_ + to_utime(seconds); now_ < until;) {
+      now_ += kTickUs;
+      imu_t imu{};
+      imu.dt_s = 0.02;
+      imu.delta_velocity_mps[2] = 3.71 * 0.02 + 1e-5 * normal_(random_);
+      send(channel::kImu, imu);
+      wheel_state_t wheels{};
+      angle_ += speed_mps * 0.02 / 0.125;
+      for (double& a : wheels.drive_angle_rad) a = angle_;
+      send(channel::kWheelState, wheels);
+      tick_t tick{};
+      tick.header = world_.next(channel::kTick, now_, now_);
+      tick.members = {"localization"};
+      tick.member_count = 1;
+      tick.streams = world_.take_grown();
+      tick.stream_count = static_cast<std::int32_t>(tick.streams.size());
+      bus_.publish(channel::kTick, &tick);
+      while (bus_.handleTimeout(0) > 0) node_.handle(0);
+    }
+  }
+
+  template <class Message>
+  void send(const char* channel, Message message) {
+    message.header = world_.next(channel, now_, now_);
+    bus_.publish(channel, &message);
+  }
+
+  std::vector<pose_t> poses;
+  std::vector<service_state_t> states;
+  Utime now() const { return now_; }
+  double angle() const { return angle_; }
+
+ private:
+  template <class Message>
+  void hear(const char* channel, std::vector<Message>& out) {
+    bus_.subscribeFunction(
+        channel,
+        +[](const lcm::ReceiveBuffer* buffer, const std::string&, std::vector<Message>* messages) {
+          Message message;
+          if (decode_message(buffer->data, static_cast<int>(buffer->data_size), message)) messages->push_back(message);
+        },
+        &out);
+  }
+
+  lcm::LCM bus_;
+  StreamCounter world_;
+  Utime now_;
+  double angle_;
+  Node node_;
+  std::unique_ptr<LocalizationNode> service_;
+  std::mt19937_64 random_{1};
+  std::normal_distribution<double> normal_;
+};
+
+TEST(LocalizationCheckpoint, ANewProcessGoesOnWhereTheOldOneStopped) {
+  const std::string folder = testing::TempDir() + "/localization_checkpoint";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  Process first(folder, 1, 0, 0.0);
+  first.run(2.0);
+  ground_command_t command{};
+  command.kind = ground_command_t::SET_START_POSE;
+  command.position_map_m[0] = 10.0;
+  command.sigma_m = 0.1;
+  command.sigma_yaw_rad = 0.01;
+  first.send(channel::kGroundCommand, command);
+  first.run(5.0, 0.2);
+  ASSERT_TRUE(first.states.empty());
+  // Dead for a second, in which the rover rolls on for 0.1 m.
+  Process second(folder, 2, first.now() + 1'000'000, first.angle() + 0.1 / 0.125);
+  second.run(1.0);
+  ASSERT_EQ(second.states.size(), 1U);
+  EXPECT_EQ(second.states[0].service, "localization");
+  EXPECT_EQ(second.poses.back().status, int{pose_t::DEGRADED}) << "without images";
+  EXPECT_EQ(second.poses.back().position_map_odom_m[0], first.poses.back().position_map_odom_m[0]);
+  EXPECT_NEAR(second.poses.back().position_odom_body_m[0], first.poses.back().position_odom_body_m[0] + 0.1, 0.01);
+}
+
+TEST(LocalizationConfigFile, HasTheStructsDefaults) {
+  const LocalizationConfig file = load_config(kConfig);
+  const LocalizationConfig defaults;
+  EXPECT_EQ(file.filter.visual_scale_sigma, defaults.filter.visual_scale_sigma);
+  EXPECT_EQ(file.filter.visual_cov_factor, defaults.filter.visual_cov_factor);
+  EXPECT_EQ(file.standing_rate_radps, defaults.standing_rate_radps);
+  EXPECT_EQ(file.slip.window_s, defaults.slip.window_s);
+  EXPECT_EQ(file.blind_distance_m, defaults.blind_distance_m);
+}
+
+}  // namespace
+}  // namespace rover::loc
