@@ -65,7 +65,7 @@ void LocalizationNode::on_ground_command(const ground_command_t& command) {
   ack.accepted = refusal.empty() ? 1 : 0;
   ack.reason = std::string(refusal);
   node_.publish(channel::kCommandAck, ack, node_.now());
-  node_.log(refusal.empty() ? "info" : "warning",
+  node_.log(refusal.empty() ? "INFO" : "WARN",
             "START_POSE accepted=" + std::to_string(ack.accepted) + " reason=" + ack.reason);
 }
 
@@ -102,7 +102,7 @@ void LocalizationNode::tell_status() {
   told_reason_ = std::string(pose.reason);
   const bool ok = told_ == PoseStatus::kOk;
   node_.set_status(ok ? heartbeat_t::OK : heartbeat_t::DEGRADED, told_reason_);
-  node_.log(ok ? "info" : "warning", std::string("POSE_STATUS status=") + text_of(told_) + " reason=" + told_reason_);
+  node_.log(ok ? "INFO" : "WARN", std::string("POSE_STATUS status=") + text_of(told_) + " reason=" + told_reason_);
 }
 
 void LocalizationNode::restore() {
@@ -110,10 +110,10 @@ void LocalizationNode::restore() {
   const auto bytes = load_checkpoint(node_.options().run_dir, kCheckpoint);
   if (!bytes) return;
   const auto checkpoint = from_bytes(*bytes);
-  if (!checkpoint) return node_.log("warning", "CHECKPOINT unusable");
+  if (!checkpoint) return node_.log("WARN", "CHECKPOINT unusable");
   localization_.restore(*checkpoint);
   restored_ = *bytes;
-  node_.log("info", "CHECKPOINT restored utime=" + std::to_string(checkpoint->utime));
+  node_.log("INFO", "CHECKPOINT restored utime=" + std::to_string(checkpoint->utime));
 }
 
 void LocalizationNode::save() {
@@ -122,7 +122,7 @@ void LocalizationNode::save() {
   const auto checkpoint = localization_.checkpoint();
   if (!checkpoint) return;
   if (!save_checkpoint(node_.options().run_dir, kCheckpoint, to_bytes(*checkpoint)))
-    node_.log("warning", "CHECKPOINT not saved");
+    node_.log("WARN", "CHECKPOINT not saved");
 }
 
 void LocalizationNode::check(const char* channel, std::string_view refusal) {

@@ -52,9 +52,9 @@ struct Footprint {
 // The ground that the camera sees: a trapezoid ahead of the body origin.
 struct ViewArea {
   double near_m = 0.92;
-  double far_m = 3.2;
+  double far_m = 3.9;
   double near_half_width_m = 0.37;
-  double far_half_width_m = 1.45;
+  double far_half_width_m = 1.8;
 
   bool sees(Point2 b) const {  // in body
     if (b.x_m < near_m || b.x_m > far_m) return false;

@@ -17,6 +17,7 @@ constexpr double kCorridorReserveM = 0.05;
 constexpr double kCellHalfM = 0.05;
 constexpr double kPoseStepM = 0.05;
 constexpr double kGoalNearM = 1.0;
+constexpr double kSamePlaceM = 1e-6;
 constexpr size_t kPosesPerPoint = 2;  // repairs are verified every 5 cm and published every 10 cm
 
 Pose2 inverse(const Pose2& T) {
@@ -266,7 +267,9 @@ Route PathPlanner::repaired_route(const RepairResult& repair) const {
   std::vector<RoutePoint> points;
   const std::vector<Pose2>& poses = repair.poses;
   for (size_t i = 0; i < poses.size(); ++i) {
-    if (i % kPosesPerPoint != 0 && i + 1 != poses.size()) continue;
+    const bool halt = i > 0 && distance(position(poses[i - 1]), position(poses[i])) < kSamePlaceM;
+    const bool halt_next = i + 1 < poses.size() && distance(position(poses[i]), position(poses[i + 1])) < kSamePlaceM;
+    if (halt || (i % kPosesPerPoint != 0 && !halt_next && i + 1 != poses.size())) continue;
     const double share = static_cast<double>(i) / static_cast<double>(poses.size() - 1);
     const double along = global_progress_m_ + share * (repair.join_m - global_progress_m_);
     points.push_back({position(poses[i]), kNaN, global_odom_.level_at(along)});

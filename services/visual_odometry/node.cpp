@@ -79,7 +79,7 @@ void OdometryNode::report(const OdometryResult& result) {
   status_ = result.status;
   node_.set_status(status_ == Status::kOk ? heartbeat_t::OK : heartbeat_t::DEGRADED,
                    status_ == Status::kOk ? "" : std::string("odometry ") + text_of(status_));
-  node_.log(status_ == Status::kOk ? "info" : "warning", std::string("VO_STATUS status=") + text_of(status_) +
+  node_.log(status_ == Status::kOk ? "INFO" : "WARN", std::string("VO_STATUS status=") + text_of(status_) +
                                                              " inliers=" + std::to_string(result.inliers) +
                                                              " features=" + std::to_string(result.features));
 }

@@ -27,8 +27,9 @@ for channel in DISPARITY VO HAZARDS; do
 done
 
 "$SOURCE/lcmtypes/make_jar.sh" "$WORK/types.jar"
+unzip -l "$WORK/types.jar" >"$WORK/types.txt"
 for type in "$SOURCE"/lcmtypes/*.lcm; do
   name=$(basename "$type" .lcm)
-  unzip -l "$WORK/types.jar" | grep -q "rover/$name.class" || fail "the jar lacks $name"
+  grep -q "rover/$name.class" "$WORK/types.txt" || fail "the jar lacks $name"
 done
 echo "logger, player and jar work"

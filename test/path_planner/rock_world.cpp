@@ -176,6 +176,7 @@ class Drive {
       progress_ = leg_end + 1e-3;
       begin_turn();
     }
+    if (route_.length_m() - progress_ < 0.02) return halt();
     const double error = wrap_angle(route_.pose_at(progress_).yaw_rad - odom_.yaw_rad);
     if (std::abs(error) > kTurnStartRad && !turning_) begin_turn();
     if (turning_) return turn(error, dt);

@@ -27,7 +27,7 @@ struct CameraModel {
   double tangent = 0.60;          // of the half field of view
   double baseline_m = 0.12;       // the right camera does not see the left edge
   double near_m = 0.97;           // from the body origin
-  double far_m = 3.5;
+  double far_m = 4.0;
   double false_hit_rate = 0.0;    // single false cells per frame
 };
 

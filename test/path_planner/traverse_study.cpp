@@ -23,7 +23,7 @@ int main(int argc, char** argv) {
     std::vector<Rock> rocks = rock_field(k, {-5.0, -15.0}, {length + 5.0, 15.0}, 0.2, random);
     const std::vector<Point2> path = {{0.0, 0.0}, {0.3 * length, 2.0}, {0.6 * length, -2.0}, {length, 0.0}};
     std::erase_if(rocks, [&](const Rock& r) { return distance(r.p, path.front()) < 2.0 + r.radius_m; });
-    std::erase_if(rocks, [&](const Rock& r) { return distance(r.p, path.back()) < 1.5 + r.radius_m; });
+    std::erase_if(rocks, [&](const Rock& r) { return distance(r.p, path.back()) < 3.0 + r.radius_m; });
     double planned = 0.0;
     for (size_t i = 1; i < path.size(); ++i) planned += distance(path[i - 1], path[i]);
     DriveConfig config;
