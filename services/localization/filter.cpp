@@ -21,12 +21,20 @@ void correct(FilterState& state, const ErrorVector& error) {
   state.gyro_bias_radps += error.segment<3>(kBias);
 }
 
+// Part of the error state that a measurement may correct; the rest is only considered (Schmidt).
+struct Part {
+  int first;
+  int count;
+};
+
 // Kalman update with residual r = H error + noise.
 template <int N>
 void update(FilterState& state, const Eigen::Matrix<double, N, kErrorSize>& H, const Eigen::Matrix<double, N, 1>& r,
-            const Eigen::Matrix<double, N, N>& R) {
+            const Eigen::Matrix<double, N, N>& R, Part part) {
   const Eigen::Matrix<double, N, N> S = H * state.P * H.transpose() + R;
-  const Eigen::Matrix<double, kErrorSize, N> K = state.P * H.transpose() * S.inverse();
+  Eigen::Matrix<double, kErrorSize, N> K = state.P * H.transpose() * S.inverse();
+  K.topRows(part.first).setZero();
+  K.bottomRows(kErrorSize - part.first - part.count).setZero();
   const ErrorCov I_KH = ErrorCov::Identity() - K * H;
   state.P = I_KH * state.P * I_KH.transpose() + K * R * K.transpose();
   correct(state, K * r);
@@ -116,12 +124,13 @@ Vector3d Filter::angle_variance(const MotionRecord& record) const {
   return Vector3d(square(config_.gyro_noise_rad_rts), square(config_.gyro_noise_rad_rts), square(z)) * dt;
 }
 
-// At standstill the gyro measures its bias.
+// At standstill the gyro measures its bias. Place and heading stay: what the bias did to them on a long drive shows up
+// as metres by correlation, and a rover at rest must not move.
 void Filter::stand(FilterState& state, const MotionRecord& record) const {
   Eigen::Matrix<double, 3, kErrorSize> H = Eigen::Matrix<double, 3, kErrorSize>::Zero();
   H.block<3, 3>(0, kBias).setIdentity();
   const Vector3d r = record.delta_angle_rad / record.dt_s() - state.gyro_bias_radps;
-  update<3>(state, H, r, square(config_.standing_rate_sigma_radps) * Matrix3d::Identity());
+  update<3>(state, H, r, square(config_.standing_rate_sigma_radps) * Matrix3d::Identity(), {kBias, 3});
 }
 
 // Gravity points down on average: R_true f = (1 + [d]x) R f has to be (0, 0, g), and d x g z = (d_y g, -d_x g).
@@ -130,7 +139,7 @@ void Filter::level(FilterState& state, const Vector3d& mean_force_odom, double d
   H(0, kAttitude + 1) = gravity_mps2_;
   H(1, kAttitude) = -gravity_mps2_;
   const Eigen::Matrix2d R = square(config_.force_noise_mps2_rthz) / duration_s * Eigen::Matrix2d::Identity();
-  update<2>(state, H, -mean_force_odom.head<2>(), R);
+  update<2>(state, H, -mean_force_odom.head<2>(), R, {kAttitude, 6});
 }
 
 std::optional<FilterState> Filter::fuse_visual(const FilterState& at_from, const std::vector<MotionRecord>& records,

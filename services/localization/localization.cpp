@@ -207,11 +207,15 @@ void Localization::gather_command(MotionRecord& record) const {
 void Localization::judge_standing(MotionRecord& record) {
   if (!record.wheels || !record.gyro) return;
   for (size_t i = 0; i < 6; ++i) still_turned_rad_[i] += record.turned_rad[i];
-  const bool moved = std::any_of(still_turned_rad_.begin(), still_turned_rad_.end(),
-                                 [](double turned) { return std::abs(turned) > kStillRad; });
+  bool moved = std::any_of(still_turned_rad_.begin(), still_turned_rad_.end(),
+                           [](double turned) { return std::abs(turned) > kStillRad; });
+  // Wheels that steer on the spot turn the body a little, slower than the gyro's threshold.
+  for (size_t i = 0; i < still_steer_rad_.size(); ++i)
+    moved = moved || std::abs(wrap_angle(record.steer_rad[i] - still_steer_rad_[i])) > kStillRad;
   const Eigen::Vector3d rate = record.delta_angle_rad / record.dt_s() - tip_.gyro_bias_radps;
   if (moved || rate.norm() > config_.standing_rate_radps) {
     still_turned_rad_ = {};
+    still_steer_rad_ = record.steer_rad;
     still_s_ = 0.0;
     return;
   }

@@ -37,7 +37,7 @@ struct LocalizationConfig {
   double blind_distance_m = 2.0;             // so far on wheels without visual odometry: LOST
   double imu_lost_s = 10.0;                  // without IMU: LOST
   double nothing_lost_s = 1.0;               // without wheels and visual odometry: LOST
-  double standing_rate_radps = to_rad(0.4);  // gyro below, wheels still: the rover stands
+  double standing_rate_radps = to_rad(0.15);  // gyro below, wheels still: the rover stands
   double standing_s = 0.4;                   // after so long
   double smoothing_s = 0.4;                  // time constant with which the pose takes up late corrections
   int conflicts_until_imu_suspect = 5;       // visual motions in a row that contradict the gyro
@@ -133,6 +133,7 @@ class Localization {
   Utime imu_alive_utime_ = kNever;
   double still_s_ = 0.0;                      // how long the wheels have stood
   std::array<double, 6> still_turned_rad_{};  // what they turned since
+  std::array<double, 4> still_steer_rad_{};   // how they were steered then
 
   bool initialised_ = false;
   FilterState latest_;  // at the newest visual motion, or where the wheels took over

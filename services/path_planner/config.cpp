@@ -15,9 +15,12 @@ void read_memory(const Config& c, HazardMemoryConfig& out) {
   c.read("possible_clear", out.possible_clear, {1, 20});
   c.read("confirmed_clear", out.confirmed_clear, {1, 100});
   c.read("clear_range_m", out.clear_range_m, {0.5, 10.0});
+  c.read("blind_looks", out.blind_looks, {1, 200});
 }
 
 void read_view(const Config& c, ViewArea& out) {
+  c.read("camera_x_m", out.camera.x_m, {-5.0, 5.0});
+  c.read("camera_y_m", out.camera.y_m, {-5.0, 5.0});
   c.read("near_m", out.near_m, {0.0, 5.0});
   c.read("far_m", out.far_m, {1.0, 20.0});
   c.read("near_half_width_m", out.near_half_width_m, {0.1, 5.0});
@@ -100,10 +103,14 @@ PathPlannerConfig load_config(const std::string& config_dir) {
   config.read("least_sure_way_m", out.least_sure_way_m, {0.1, 20.0});
   config.read("firm_gain_m", out.firm_gain_m, {0.0, 20.0});
   config.read("firm_way_m", out.firm_way_m, {0.0, 20.0});
+  config.read("retreat_m", out.retreat_m, {0.5, 5.0});
+  config.read("most_retreats", out.most_retreats, {0, 100});
+  config.read("retreat_corridor_m", out.retreat_corridor_m, {0.05, 1.0});
   config.read("correction_m", out.correction_m, {0.005, 1.0});
   read_margins(config.section("margin"), out);
   read_memory(config.section("map"), out.memory);
   read_view(config.section("view"), out.repair.view);
+  out.memory.view = out.repair.view;
   const Config repair = config.section("repair");
   read_repair(repair, out.repair);
   read_radius(repair, vehicle, out.repair);

@@ -6,6 +6,22 @@
 
 namespace rover::planning {
 
+namespace {
+
+std::int8_t kind_of(PathKind kind) {
+  switch (kind) {
+    case PathKind::kGlobal:
+      return path_t::GLOBAL;
+    case PathKind::kRepair:
+      return path_t::REPAIR;
+    case PathKind::kRetreat:
+      return path_t::RETREAT;
+  }
+  return path_t::GLOBAL;
+}
+
+}  // namespace
+
 PoseSample pose_from(const pose_t& message) {
   PoseSample out;
   out.utime = message.header.utime;
@@ -54,7 +70,7 @@ std::string global_path_from(const path_t& message, GlobalPath& path) {
 void path_to(const LocalPath& path, path_t& message) {
   message.path_id = path.id;
   message.frame = path_t::ODOM;
-  message.kind = path.kind == PathKind::kRepair ? path_t::REPAIR : path_t::GLOBAL;
+  message.kind = kind_of(path.kind);
   message.corridor_half_width_m = path.corridor_half_width_m;
   message.goal_tolerance_m = path.goal_tolerance_m;
   message.point_count = static_cast<std::int32_t>(path.points.size());

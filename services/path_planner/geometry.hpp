@@ -51,6 +51,7 @@ struct Footprint {
 
 // The ground that the camera sees: a trapezoid ahead of the body origin.
 struct ViewArea {
+  Point2 camera{0.53, 0.07};  // what lies behind an obstacle from here is hidden
   double near_m = 0.92;
   double far_m = 3.9;
   double near_half_width_m = 0.37;

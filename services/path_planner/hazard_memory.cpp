@@ -6,6 +6,7 @@ namespace rover::planning {
 namespace {
 
 constexpr int kMostHits = 10;
+constexpr double kViewRimM = 0.15;  // of the view, where pitch and roll decide whether ground is in the picture
 constexpr int kMostCells = 1 << 20;
 
 // Cells of the map whose centres lie in the box.
@@ -30,7 +31,32 @@ struct PlaneMap {
   Eigen::Vector2d operator()(double x_m, double y_m) const { return A * Eigen::Vector2d(x_m, y_m) + b; }
 };
 
+// The part of the view that is in the picture at any attitude the vehicle may have.
+bool surely_in_view(const ViewArea& view, double range_m, Point2 in_body) {
+  return in_body.x_m <= range_m && view.sees({in_body.x_m - kViewRimM, in_body.y_m}) &&
+         view.sees({in_body.x_m, std::abs(in_body.y_m) + kViewRimM});
+}
+
+// Whether an obstacle of the frame stands between the camera and the point.
+bool hidden(const HazardGrid& grid, Point2 camera, Point2 in_body) {
+  const double length = distance(camera, in_body);
+  const int steps = static_cast<int>(length / (0.5 * grid.cell_m));
+  for (int i = 1; i < steps; ++i) {
+    const double u = static_cast<double>(i) / steps;
+    const int value = grid.at(camera.x_m + u * (in_body.x_m - camera.x_m), camera.y_m + u * (in_body.y_m - camera.y_m));
+    if (value == HazardGrid::kObstacle || value == HazardGrid::kHole) return true;
+  }
+  return false;
+}
+
 }  // namespace
+
+int HazardGrid::at(double x_m, double y_m) const {
+  const int ix = static_cast<int>(std::floor((x_m - origin_x_m) / cell_m));
+  const int iy = static_cast<int>(std::floor((y_m - origin_y_m) / cell_m));
+  if (ix < 0 || iy < 0 || ix >= cells_x || iy >= cells_y) return kOutside;
+  return cells[static_cast<size_t>(iy) * cells_x + ix];
+}
 
 std::string HazardGrid::fault() const {
   if (cells_x <= 0 || cells_y <= 0 || cells_x > kMostCells / cells_y) return "grid has no sensible size";
@@ -53,10 +79,8 @@ void HazardMemory::add(const HazardGrid& grid, const Eigen::Isometry3d& T_odom_b
 
   for_cells_in(map_, {box.min().x(), box.min().y()}, {box.max().x(), box.max().y()}, [&](GroundCell& cell, Point2 p) {
     const Eigen::Vector2d in_body = to_grid * (Eigen::Vector2d(p.x_m, p.y_m) - to_odom.b);
-    const int ix = static_cast<int>(std::floor((in_body.x() - grid.origin_x_m) / grid.cell_m));
-    const int iy = static_cast<int>(std::floor((in_body.y() - grid.origin_y_m) / grid.cell_m));
-    if (ix < 0 || iy < 0 || ix >= grid.cells_x || iy >= grid.cells_y) return;
-    const std::uint8_t value = grid.cells[static_cast<size_t>(iy) * grid.cells_x + ix];
+    const int value = grid.at(in_body.x(), in_body.y());
+    if (value == HazardGrid::kUnseen) note_unseen(cell, grid, {in_body.x(), in_body.y()});
     if (value == HazardGrid::kFree) note_free(cell, in_body.norm() <= config_.clear_range_m);
     // The margin about a hazard is ground that was seen; this service keeps margins of its own.
     if (value == HazardGrid::kMargin) cell.seen = true;
@@ -89,6 +113,12 @@ void HazardMemory::note_free(GroundCell& cell, bool close) const {
   const int enough = confirmed(cell) ? config_.confirmed_clear : config_.possible_clear;
   if (cell.contrary < enough) ++cell.contrary;
   if (cell.contrary >= enough) cell.hits = 0;
+}
+
+void HazardMemory::note_unseen(GroundCell& cell, const HazardGrid& grid, Point2 in_body) const {
+  if (cell.seen || cell.looks >= config_.blind_looks) return;
+  if (!surely_in_view(config_.view, config_.clear_range_m, in_body) || hidden(grid, config_.view.camera, in_body)) return;
+  ++cell.looks;
 }
 
 void HazardMemory::mark_driven(const Pose2& pose, const Footprint& footprint) {

@@ -19,6 +19,8 @@ struct HazardMemoryConfig {
   int possible_clear = 2;      // frames in a row that saw it free end a possible hazard, or make the next hit a doubtful one
   int confirmed_clear = 5;     // ... from close by a confirmed one
   double clear_range_m = 2.0;  // what counts as close by, from the body origin
+  ViewArea view;
+  int blind_looks = 6;         // frames that should have seen a cell close by and did not, until it counts as a hazard
 };
 
 // HAZARDS as the detector sends it, in the body frame of the exposure.
@@ -32,6 +34,9 @@ struct HazardGrid {
   int cells_y = 0;
   std::vector<std::uint8_t> cells;  // iy * cells_x + ix
 
+  static constexpr int kOutside = -1;
+  // The value at a point in body axes.
+  int at(double x_m, double y_m) const;
   // Why the grid is not usable; empty where it is.
   std::string fault() const;
 };
@@ -40,6 +45,7 @@ struct GroundCell {
   bool seen = false;
   std::uint8_t hits = 0;      // frames that saw an obstacle here
   std::uint8_t contrary = 0;  // frames in a row that saw it free since the last hit
+  std::uint8_t looks = 0;     // frames that looked at it in vain: ground without texture or light, or a drop
   std::uint16_t frame = 0;    // the last that counted as a hit: two grid cells may fall into one cell here
 };
 
@@ -57,12 +63,15 @@ class HazardMemory {
   void mark_seen(Point2 center, double radius_m);
 
   bool confirmed(const GroundCell& cell) const { return cell.hits >= config_.confirm_hits; }
+  // Looked at again and again from close by and never seen: no longer ground that another view will show.
+  bool blind(const GroundCell& cell) const { return !cell.seen && cell.looks >= config_.blind_looks; }
   const GridMap<GroundCell>& map() const { return map_; }
   GridMap<GroundCell>& map() { return map_; }
 
  private:
   void note_obstacle(CellIndex index);
   void note_free(GroundCell& cell, bool close) const;
+  void note_unseen(GroundCell& cell, const HazardGrid& grid, Point2 in_body) const;
 
   HazardMemoryConfig config_;
   GridMap<GroundCell> map_;

@@ -31,6 +31,18 @@ const char* text_of(PlannerState state) {
   return "?";
 }
 
+const char* text_of(PathKind kind) {
+  switch (kind) {
+    case PathKind::kGlobal:
+      return "GLOBAL";
+    case PathKind::kRepair:
+      return "REPAIR";
+    case PathKind::kRetreat:
+      return "RETREAT";
+  }
+  return "?";
+}
+
 }  // namespace
 
 PathPlannerNode::PathPlannerNode(Node& node, const PathPlannerConfig& config)
@@ -92,7 +104,7 @@ void PathPlannerNode::publish_path(const LocalPath& path, Utime now) {
   path_to(path, message);
   node_.publish(channel::kPath, message, now, path_latency_);
   node_.log("INFO", "PATH id=" + std::to_string(path.id) +
-                        " kind=" + (path.kind == PathKind::kRepair ? "REPAIR" : "GLOBAL") +
+                        " kind=" + text_of(path.kind) +
                         " points=" + std::to_string(path.points.size()) +
                         " corridor_m=" + std::to_string(path.corridor_half_width_m));
 }

@@ -17,6 +17,9 @@ constexpr double kCorridorReserveM = 0.05;
 constexpr double kCellHalfM = 0.05;
 constexpr double kPoseStepM = 0.05;
 constexpr double kGoalNearM = 1.0;
+constexpr double kGainM = 1.0;           // of the global path, with which an attempt counts as a success
+constexpr double kLeastRetreatM = 0.4;
+constexpr double kRetreatEndM = 0.1;
 constexpr double kSamePlaceM = 1e-6;
 constexpr size_t kPosesPerPoint = 2;  // repairs are verified every 5 cm and published every 10 cm
 
@@ -66,6 +69,8 @@ std::string PathPlanner::set_global_path(const GlobalPath& path) {
   global_odom_ = Route();
   active_ = Active();
   failures_ = 0;
+  retreats_ = 0;
+  furthest_m_ = 0.0;
   return "";
 }
 
@@ -76,12 +81,21 @@ void PathPlanner::set_start_area(Point2 center_map, double radius_m, Utime utime
 void PathPlanner::add_pose(const PoseSample& sample) {
   if (!sample.usable) {
     history_.clear();  // what comes after need not fit to what was before
+    driven_.clear();
     return;
   }
   history_.add(sample);
   take_start_area();
   memory_.move_to(position(rover()));
   memory_.mark_driven(rover(), config_.footprint);
+  track_driven_way();
+}
+
+void PathPlanner::track_driven_way() {
+  if (active_.kind == PathKind::kRetreat)
+    driven_.retrace(position(rover()));
+  else
+    driven_.extend(position(rover()));
 }
 
 void PathPlanner::take_start_area() {
@@ -90,6 +104,7 @@ void PathPlanner::take_start_area() {
   history_.clear();
   history_.add(newest);
   memory_.clear();
+  driven_.clear();
   memory_.move_to(position(rover()));
   const Point2 center = apply(inverse(planar(newest.T_map_odom)), start_area_->center_map);
   if (start_area_->radius_m > 0.0) memory_.mark_seen(center, start_area_->radius_m);
@@ -149,7 +164,10 @@ void PathPlanner::track_progress() {
   const Point2 p = position(rover());
   active_.progress_m = active_.route.closest(p, active_.progress_m - kSearchBackM, active_.progress_m + kSearchAheadM);
   global_progress_m_ =
-      global_odom_.closest(p, global_progress_m_ - kSearchBackM, global_progress_m_ + 3.0 * kSearchAheadM);
+      global_odom_.closest(p, global_progress_m_ - 3.0 * kSearchAheadM, global_progress_m_ + 3.0 * kSearchAheadM);
+  if (global_progress_m_ < furthest_m_ + kGainM) return;
+  furthest_m_ = global_progress_m_;
+  retreats_ = 0;
 }
 
 void PathPlanner::begin(PlannerOutput& out) {
@@ -174,12 +192,13 @@ void PathPlanner::begin(PlannerOutput& out) {
 
 // A new frame: is the way still free, and if not, is there another?
 void PathPlanner::react(PlannerOutput& out) {
+  if (active_.kind == PathKind::kRetreat) return look_from_retreat(out);
   judge();
   // A single hit that stays in the way without being seen again counts as a hazard in the end.
   frames_before_possible_ = hazard_ahead_m() < config_.stop_hazard_m ? frames_before_possible_ + 1 : 0;
   const bool blocked = block_.confirmed_m - active_.progress_m < config_.trigger_m ||
                        frames_before_possible_ >= config_.patience_frames;
-  const bool before_unseen = unseen_ahead_m() < config_.stop_unseen_m && standing();
+  const bool before_unseen = (unseen_ahead_m() < config_.stop_unseen_m || strayed()) && standing();
   frames_before_unseen_ = before_unseen ? frames_before_unseen_ + 1 : 0;
   if (blocked || frames_before_unseen_ >= config_.patience_frames) {
     if (repair(blocked, out)) frames_before_unseen_ = 0;
@@ -187,6 +206,38 @@ void PathPlanner::react(PlannerOutput& out) {
     failures_ = 0;
     if (active_.kind == PathKind::kRepair) firm_up(out);
   }
+  if (stuck() && standing()) retreat(out);
+}
+
+bool PathPlanner::stuck() const {
+  const bool in_the_way = hazard_ahead_m() < config_.stop_hazard_m || unseen_ahead_m() < config_.stop_unseen_m;
+  return (in_the_way || strayed()) && failures_ >= config_.patience_frames;
+}
+
+// Outside the corridor the rover is not let on (supervisor): only another path helps.
+bool PathPlanner::strayed() const {
+  return distance(active_.route.point_at(active_.progress_m), position(rover())) > active_.corridor_half_width_m;
+}
+
+// No way leads on from here, but one led here: back over ground that carried the rover, to where more can be seen and
+// there is room to turn. False where there is no track, or where that has been tried enough.
+bool PathPlanner::retreat(PlannerOutput& out) {
+  const std::vector<Point2> back = driven_.back(position(rover()), config_.retreat_m);
+  if (retreats_ >= config_.most_retreats || distance(back.front(), back.back()) < kLeastRetreatM) return false;
+  ++retreats_;
+  failures_ = 0;
+  std::vector<RoutePoint> points;
+  for (const Point2& p : back) points.push_back({p, kNaN, global_odom_.level_at(global_progress_m_)});
+  active_.corridor_half_width_m = config_.retreat_corridor_m;
+  adopt(Route(std::move(points)), PathKind::kRetreat, out);
+  block_ = Block();
+  return true;
+}
+
+void PathPlanner::look_from_retreat(PlannerOutput& out) {
+  if (active_.route.length_m() - active_.progress_m > kRetreatEndM || !standing()) return;
+  if (repair(true, out) || failures_ < config_.patience_frames) return;
+  retreat(out);
 }
 
 // Repairs are sure for their first metres only. Where the rest does not become so on approach, another way is sought
@@ -233,12 +284,25 @@ bool PathPlanner::repair(bool because_of_hazard, PlannerOutput& out) {
 }
 
 bool PathPlanner::find_repair(const Terrain& terrain, double sure_m, double& margin_m) {
-  for (const double margin : {config_.margin_m, config_.tight_margin_m}) {
-    margin_m = margin;
-    last_repair_ = plan_repair(terrain, margin, sure_m);
-    if (last_repair_.status == RepairStatus::kFound) return true;
-  }
+  for (const double margin : {config_.margin_m, config_.tight_margin_m})
+    for (const LeadIn& lead : lead_ins()) {
+      margin_m = margin;
+      last_lead_ = lead;
+      last_repair_ = plan_repair(terrain, lead, margin, sure_m);
+      if (last_repair_.status == RepairStatus::kFound) return true;
+    }
   return false;
+}
+
+// At speed the wheels need time to steer: the repair bends where the rover can have slowed down. Only where that leaves
+// no way it bends at once.
+std::vector<PathPlanner::LeadIn> PathPlanner::lead_ins() const {
+  const PoseSample& now = history_.newest();
+  if (now.forward_mps < kStandingMps) return {{}};
+  const double curvature = std::clamp(now.yaw_rate_radps / now.forward_mps, -kMaxCurvatureNow, kMaxCurvatureNow);
+  const double reaction = now.forward_mps * config_.release_latency_s;
+  const double braking = 0.5 * now.forward_mps * now.forward_mps / config_.deceleration_mps2;
+  return {{reaction + braking, curvature}, {reaction, curvature}};
 }
 
 void PathPlanner::take_repair(double margin_m, PlannerOutput& out) {
@@ -250,22 +314,21 @@ void PathPlanner::take_repair(double margin_m, PlannerOutput& out) {
   judge();
 }
 
-RepairResult PathPlanner::plan_repair(const Terrain& terrain, double margin_m, double sure_m) const {
-  const PoseSample& now = history_.newest();
-  const double speed = std::max(now.forward_mps, 0.0);
-  const double moving = std::abs(now.forward_mps) > kStandingMps ? 1.0 : 0.0;
-  const double curvature =
-      moving > 0.0 ? std::clamp(now.yaw_rate_radps / now.forward_mps, -kMaxCurvatureNow, kMaxCurvatureNow) : 0.0;
-  const double lead = moving * speed * config_.release_latency_s;
-  const double braking = moving * 0.5 * speed * speed / config_.deceleration_mps2;
-  return local_repair_.plan({terrain, global_odom_, global_progress_m_, advanced(rover(), lead, curvature), curvature,
-                             advanced(rover(), lead + braking, curvature),
+RepairResult PathPlanner::plan_repair(const Terrain& terrain, const LeadIn& lead, double margin_m,
+                                      double sure_m) const {
+  const double halt_m = lead_ins().front().way_m;
+  return local_repair_.plan({terrain, global_odom_, global_progress_m_,
+                             advanced(rover(), lead.way_m, lead.curvature_per_m), lead.curvature_per_m,
+                             advanced(rover(), halt_m, lead.curvature_per_m),
                              margin_m + config_.plan_extra_m + sigma_margin_m(), sure_m, global_->goal_tolerance_m});
 }
 
 Route PathPlanner::repaired_route(const RepairResult& repair) const {
   std::vector<RoutePoint> points;
   const std::vector<Pose2>& poses = repair.poses;
+  for (double way = 0.0; way < last_lead_.way_m - kPoseStepM; way += 2.0 * kPoseStepM)
+    points.push_back({position(advanced(rover(), way, last_lead_.curvature_per_m)), kNaN,
+                      global_odom_.level_at(global_progress_m_)});
   for (size_t i = 0; i < poses.size(); ++i) {
     const bool halt = i > 0 && distance(position(poses[i - 1]), position(poses[i])) < kSamePlaceM;
     const bool halt_next = i + 1 < poses.size() && distance(position(poses[i]), position(poses[i + 1])) < kSamePlaceM;
@@ -364,7 +427,7 @@ PlannerStatus PathPlanner::status(Utime now) const {
   }
   status.path_id = active_.id;
   status.goal_distance_m = goal_distance_m();
-  status.state = active_.kind == PathKind::kRepair ? PlannerState::kRepairing : PlannerState::kFollowing;
+  status.state = active_.kind == PathKind::kGlobal ? PlannerState::kFollowing : PlannerState::kRepairing;
   describe_block(status);
   return status;
 }
@@ -378,11 +441,12 @@ void PathPlanner::describe_block(PlannerStatus& status) const {
                                                       : BlockKind::kUnseen;
   if (failures_ == 0) return;
   status.text = text_of(last_repair_.status);
-  const bool in_the_way = hazard < config_.stop_hazard_m || unseen < config_.stop_unseen_m;
-  if (in_the_way && failures_ >= config_.patience_frames) status.state = PlannerState::kNoPath;
+  const bool no_way = active_.kind == PathKind::kRetreat ? failures_ >= config_.patience_frames : stuck();
+  if (no_way) status.state = PlannerState::kNoPath;
 }
 
 double PathPlanner::goal_distance_m() const {
+  if (active_.kind == PathKind::kRetreat) return global_odom_.length_m() - global_progress_m_;
   const double along = active_.route.length_m() - active_.progress_m;
   const double straight = distance(active_.route.points().back().p, position(rover()));
   return along < kGoalNearM ? std::max(along, straight) : along;

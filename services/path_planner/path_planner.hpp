@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "path_planner/block_finder.hpp"
+#include "path_planner/driven_track.hpp"
 #include "path_planner/hazard_memory.hpp"
 #include "path_planner/local_repair.hpp"
 #include "path_planner/pose_history.hpp"
@@ -42,6 +43,9 @@ struct PathPlannerConfig {
   double stop_hazard_m = 0.6;         // nearer blocks stand in the way at once: no path if no repair is found
   double stop_unseen_m = 0.35;
   int patience_frames = 4;            // standing before unseen ground, a single hit or a blocked path, until it counts
+  double retreat_m = 1.2;             // backwards along the driven track, where no way leads on
+  int most_retreats = 5;              // one after the other, without new ground gained
+  double retreat_corridor_m = 0.25;
   double correction_m = 0.05;         // movement of map against odom that updates the path
 };
 
@@ -57,7 +61,7 @@ struct GlobalPath {
 
 enum class PlannerState : std::int8_t { kIdle = 0, kFollowing = 1, kRepairing = 2, kNoPath = 3 };
 enum class BlockKind : std::int8_t { kNone = 0, kHazard = 1, kUnseen = 2 };
-enum class PathKind : std::int8_t { kGlobal = 0, kRepair = 1 };
+enum class PathKind : std::int8_t { kGlobal = 0, kRepair = 1, kRetreat = 2 };  // kRetreat: driven backwards
 
 struct PlannerStatus {
   PlannerState state = PlannerState::kIdle;
@@ -116,6 +120,11 @@ class PathPlanner {
     double corridor_half_width_m = 0.0;
     double progress_m = 0.0;
   };
+  // What the rover drives of its own accord before a repair bends away.
+  struct LeadIn {
+    double way_m = 0.0;
+    double curvature_per_m = 0.0;
+  };
   struct StartArea {
     Point2 center_map;
     double radius_m = 0.0;
@@ -132,12 +141,18 @@ class PathPlanner {
   void begin(PlannerOutput& out);
   void react(PlannerOutput& out);
   void follow_correction(PlannerOutput& out);
+  bool stuck() const;
+  bool strayed() const;
+  bool retreat(PlannerOutput& out);
+  void look_from_retreat(PlannerOutput& out);
+  void track_driven_way();
   void leave_repair(PlannerOutput& out);
   void judge();
   bool repair(bool because_of_hazard, PlannerOutput& out);
   void take_repair(double margin_m, PlannerOutput& out);
-  RepairResult plan_repair(const Terrain& terrain, double margin_m, double sure_m) const;
+  RepairResult plan_repair(const Terrain& terrain, const LeadIn& lead, double margin_m, double sure_m) const;
   bool find_repair(const Terrain& terrain, double sure_m, double& margin_m);
+  std::vector<LeadIn> lead_ins() const;
   double seen_way(const Terrain& terrain, const std::vector<Pose2>& poses) const;
   bool turn_pending() const;
   void firm_up(PlannerOutput& out);
@@ -155,6 +170,7 @@ class PathPlanner {
   LocalRepair local_repair_;
   HazardMemory memory_;
   PoseHistory history_;
+  DrivenTrack driven_;
   std::optional<StartArea> start_area_;
   std::optional<GlobalPath> global_;
   Route global_map_;   // rounded, in map
@@ -168,9 +184,12 @@ class PathPlanner {
   std::int64_t next_path_id_;
   std::int32_t replans_ = 0;
   int failures_ = 0;
+  int retreats_ = 0;             // since the rover last got further along the global path than ever
+  double furthest_m_ = 0.0;      // along the global path
   int frames_before_unseen_ = 0;
   int frames_before_possible_ = 0;
   RepairResult last_repair_;
+  LeadIn last_lead_;  // of the last repair
 };
 
 }  // namespace rover::planning

@@ -5,7 +5,7 @@
 namespace rover::planning {
 namespace {
 
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 
 void put_points(StateWriter& out, const std::vector<RoutePoint>& points) {
   out.put(static_cast<std::uint64_t>(points.size()));
@@ -33,6 +33,7 @@ void put_map(StateWriter& out, const GridMap<GroundCell>& map) {
     out.put(static_cast<std::uint8_t>(cell.seen));
     out.put(cell.hits);
     out.put(cell.contrary);
+    out.put(cell.looks);
   });
 }
 
@@ -46,6 +47,7 @@ bool get_map(StateReader& in, GridMap<GroundCell>& map) {
     cell.seen = in.get<std::uint8_t>() != 0;
     cell.hits = in.get<std::uint8_t>();
     cell.contrary = in.get<std::uint8_t>();
+    cell.looks = in.get<std::uint8_t>();
   });
   return true;
 }
@@ -71,6 +73,8 @@ std::vector<std::uint8_t> PathPlanner::save() const {
   out.put(active_.margin_m);
   out.put(active_.corridor_half_width_m);
   out.put(active_.progress_m);
+  out.put(static_cast<std::uint64_t>(driven_.points().size()));
+  for (const Point2& p : driven_.points()) out.put(p);
   put_map(out, memory_.map());
   return out.take();
 }
@@ -96,6 +100,9 @@ bool PathPlanner::restore(const std::vector<std::uint8_t>& bytes) {
   fresh.active_.margin_m = in.get<double>();
   fresh.active_.corridor_half_width_m = in.get<double>();
   fresh.active_.progress_m = in.get<double>();
+  std::deque<Point2> driven(in.count(sizeof(Point2)));
+  for (Point2& p : driven) p = in.get<Point2>();
+  fresh.driven_.restore(std::move(driven));
   if (!get_map(in, fresh.memory_.map()) || !in.finished()) return false;
   const bool sound = fresh.active_.route.empty() || (fresh.global_ && fresh.active_.route.points().size() >= 2);
   if (!sound) return false;

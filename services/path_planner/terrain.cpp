@@ -31,16 +31,17 @@ Terrain::Terrain(const HazardMemory& memory)
     : cells_(memory.map().cells()), cell_m_(memory.map().cell_m()) {
   const GridMap<GroundCell>& map = memory.map();
   corner_ = {map.origin().ix * cell_m_, map.origin().iy * cell_m_};
-  std::vector<std::uint8_t> hazard;
   unseen_.reserve(static_cast<size_t>(cells_) * cells_);
-  hazard.reserve(unseen_.capacity());
-  map.for_each([&](CellIndex i, const GroundCell& cell) {
-    const bool is_hazard = cell.hits > 0;
-    if (is_hazard) hazards_.push_back({{map.center_x_m(i), map.center_y_m(i)}, memory.confirmed(cell)});
-    hazard.push_back(is_hazard ? 1 : 0);
-    unseen_.push_back(cell.seen ? 0 : 1);
-  });
+  map.for_each([&](CellIndex, const GroundCell& cell) { unseen_.push_back(cell.seen ? 0 : 1); });
   unseen_ = closed(unseen_, cells_);
+  std::vector<std::uint8_t> hazard;
+  hazard.reserve(unseen_.size());
+  map.for_each([&](CellIndex i, const GroundCell& cell) {
+    const bool blind = unseen_[hazard.size()] != 0 && memory.blind(cell);
+    const bool is_hazard = cell.hits > 0 || blind;
+    if (is_hazard) hazards_.push_back({{map.center_x_m(i), map.center_y_m(i)}, blind || memory.confirmed(cell)});
+    hazard.push_back(is_hazard ? 1 : 0);
+  });
   hazard_distance_ = distance_field(hazard, cells_, cells_, cell_m_);
   unseen_distance_ = distance_field(unseen_, cells_, cells_, cell_m_);
 }

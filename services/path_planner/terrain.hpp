@@ -12,7 +12,7 @@ namespace rover::planning {
 
 struct HazardSpot {
   Point2 p;  // a cell's centre
-  bool confirmed = false;  // else a possible one: a single hit
+  bool confirmed = false;  // or blind ground; else a possible one: a single hit
 };
 
 class Terrain {

@@ -61,6 +61,7 @@ TrajectoryControlConfig load_config(const std::string& config_dir) {
   config.read("response_delay_s", out.response_delay_s, {0.0, 2.0});
   config.read("end_tolerance_m", out.end_tolerance_m, {0.005, 0.5});
   config.read("creep_speed_mps", out.creep_speed_mps, {0.005, 0.1});
+  config.read("steering_way_m", out.steering_way_m, {0.02, 2.0});
   config.read("look_ahead_m", out.look_ahead_m, {0.1, 10.0});
   config.read("side_slip_time_s", out.side_slip_time_s, {0.05, 20.0});
   read_path(config.section("path"), vehicle, out.path);

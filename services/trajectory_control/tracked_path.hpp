@@ -20,6 +20,7 @@ struct PathInput {
   std::int64_t id = -1;
   double corridor_half_width_m = 0.0;
   std::vector<Eigen::Vector2d> points;  // in odom
+  bool backwards = false;               // the rover drives it stern first
 };
 
 struct TrackedPathConfig {

@@ -23,6 +23,14 @@ Eigen::Vector2d position(const Pose2& pose) {
   return {pose.x_m, pose.y_m};
 }
 
+// A rover that drives backwards is one that drives ahead with bow and stern exchanged.
+PoseInput reversed(PoseInput pose) {
+  pose.odom.yaw_rad = wrap_angle(pose.odom.yaw_rad + kPi);
+  pose.forward_mps = -pose.forward_mps;
+  pose.left_mps = -pose.left_mps;
+  return pose;
+}
+
 double move_towards(double from, double to, double step) {
   return from + std::clamp(to - from, -step, step);
 }
@@ -30,14 +38,31 @@ double move_towards(double from, double to, double step) {
 }  // namespace
 
 bool TrajectoryController::set_path(const PathInput& input) {
-  if (path_ && input.id == input_.id && input.points == input_.points) return true;
+  if (path_ && input.id == input_.id && input.backwards == input_.backwards && input.points == input_.points) return true;
   input_ = input;
   path_ = TrackedPath::build(input, config_.path);
+  set_direction(input.backwards);
   relocate_ = true;
   return path_.has_value();
 }
 
+void TrajectoryController::set_direction(bool backwards) {
+  if (backwards == backwards_) return;
+  backwards_ = backwards;
+  curvature_per_m_ = -curvature_per_m_;
+  integral_per_m_ = -integral_per_m_;
+  side_slip_rad_ = -side_slip_rad_;
+}
+
 ControlOutput TrajectoryController::step(Utime now, const PoseInput& pose, const DrivePermit& permit) {
+  if (!backwards_) return step_ahead(now, pose, permit);
+  ControlOutput out = step_ahead(now, reversed(pose), permit);
+  out.command.speed_mps = -out.command.speed_mps;
+  out.command.curvature_per_m = -out.command.curvature_per_m;
+  return out;
+}
+
+ControlOutput TrajectoryController::step_ahead(Utime now, const PoseInput& pose, const DrivePermit& permit) {
   const double dt_s = last_step_ == kNever ? 0.0 : std::min(to_seconds(now - last_step_), kMaxStepS);
   last_step_ = now;
   ControlOutput out;
@@ -127,10 +152,16 @@ void TrajectoryController::follow(const PoseInput& pose, const Projection& here,
   command.mode = MotionMode::kArc;
   command.curvature_per_m = curvature_at(soon, there);
   const double profile = std::max(leg().at(there.s_m).speed_mps, config_.creep_speed_mps);
-  command.speed_mps = std::min(profile, max_speed_mps);
+  command.speed_mps = std::min({profile, max_speed_mps, speed_while_steering(command.curvature_per_m)});
 
   curvature_per_m_ = move_towards(curvature_per_m_, command.curvature_per_m, config_.path.max_curvature_rate * dt_s);
   integrate(here.cross_track_m, speed * dt_s);
+}
+
+// The steering is slow: while it turns the rover passes only a little way.
+double TrajectoryController::speed_while_steering(double wanted_per_m) const {
+  const double left = std::abs(wanted_per_m - curvature_per_m_) / config_.path.max_curvature_rate;
+  return std::max(config_.steering_way_m / std::max(left, 1e-3), config_.creep_speed_mps);
 }
 
 // Only small errors count, so that the way back to the path from afar leaves no overshoot behind.

@@ -25,6 +25,7 @@ struct TrajectoryControlConfig {
   double response_delay_s = 0.2;  // from pose to the wheels' answer: three ticks and the steering's lag
   double end_tolerance_m = 0.03;  // a stop from the speed there takes about this way
   double creep_speed_mps = 0.02;  // to the very end
+  double steering_way_m = 0.25;   // passed at most while the steering comes to the wanted curvature
   double turn_start_rad = 0.698;  // 40 deg: heading error that calls for a point turn
   double turn_stop_rad = 0.035;   // 2 deg
   double max_turn_rate_radps = 0.2;
@@ -73,12 +74,15 @@ class TrajectoryController {
   ControlOutput step(Utime now, const PoseInput& pose, const DrivePermit& permit);
 
  private:
+  ControlOutput step_ahead(Utime now, const PoseInput& pose, const DrivePermit& permit);
+  void set_direction(bool backwards);
   bool is_fresh(const PoseInput& pose, Utime now) const;
   const Leg& leg() const { return path_->legs()[place_.leg]; }
   bool on_last_leg() const { return place_.leg + 1 == path_->legs().size(); }
   Projection advance_on_path(const Pose2& pose);
   bool update_turning(double heading_error_rad);
   void follow(const PoseInput& pose, const Projection& here, double dt_s, double max_speed_mps, MotionCommand& command);
+  double speed_while_steering(double wanted_per_m) const;
   void integrate(double cross_track_m, double way_m);
   void turn(double heading_error_rad, MotionCommand& command) const;
   void update_side_slip(const PoseInput& pose, double dt_s);
@@ -94,6 +98,7 @@ class TrajectoryController {
   double curvature_per_m_ = 0.0;  // the steering's, as the commands and its rate make it
   double integral_per_m_ = 0.0;
   double side_slip_rad_ = 0.0;
+  bool backwards_ = false;  // curvature, integral and side slip are those of a rover whose stern is its bow
   Utime last_step_ = kNever;
 };
 

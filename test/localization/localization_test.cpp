@@ -95,6 +95,24 @@ TEST(Localization, NoDriftAtStandstill) {
   EXPECT_NEAR(drive.localization.pose().travelled_m, travelled, 0.01);
 }
 
+// Slow rotation below the standstill's threshold once taught the gyro a wrong bias, and the bias moved the resting rover
+// by metres through what it is correlated with.
+TEST(Localization, WheelsThatSteerOnTheSpotAreNoStandstill) {
+  SyntheticDrive drive({}, 7);
+  drive.command = [](double t) { return t < 1.5 || t > 501.5 ? Twist{} : Twist{0.2, 0.02 * std::sin(0.05 * t)}; };
+  drive.scrub = [](double t) { return t > 505.0 && t < 510.0 ? to_rad(0.12) : 0.0; };
+  drive.begin();
+  drive.run(502.0);
+  const Eigen::Isometry3d before = drive.localization.pose().T_odom_body;
+  const double yaw_truth = yaw_of(drive.truth_odom());
+  drive.run(100.0);
+  const Eigen::Isometry3d after = drive.localization.pose().T_odom_body;
+  const double turned = wrap_angle(yaw_of(drive.truth_odom()) - yaw_truth);
+  EXPECT_NEAR(turned, to_rad(0.6), 0.001);
+  EXPECT_NEAR(wrap_angle(yaw_of(after) - yaw_of(before)), turned, 0.002);
+  EXPECT_LT((after.translation() - before.translation()).norm(), 0.01);
+}
+
 TEST(Localization, PointTurnTurnsOnTheSpot) {
   SyntheticDrive drive({}, 4);
   drive.rolling_ground = false;

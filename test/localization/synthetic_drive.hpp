@@ -42,6 +42,7 @@ class SyntheticDrive {
  public:
   std::function<Twist(double)> command = [](double) { return Twist{}; };
   std::function<double(double)> slip = [](double) { return 0.0; };  // of all wheels
+  std::function<double(double)> scrub = [](double) { return 0.0; };  // turn rate while the wheels steer on the spot
   bool rolling_ground = true;
 
   // What reaches localization.
@@ -117,7 +118,9 @@ class SyntheticDrive {
     const Eigen::Isometry3d before = T_;
     const Twist twist = command(to_seconds(now_));
     const double gained = twist.speed_mps * (1.0 - slip(to_seconds(now_)));
-    yaw_ += twist.rate_radps * dt;
+    const double scrubbed = scrub(to_seconds(now_));
+    yaw_ += (twist.rate_radps + scrubbed) * dt;
+    if (scrubbed != 0.0) scrub_steer_rad_ += 0.2 * dt;
     const Eigen::Vector3d forward = T_.linear().col(0) * gained * dt;
     T_ = surface_pose(T_.translation().x() + forward.x(), T_.translation().y() + forward.y(), yaw_);
     driven_m_ += (T_.translation() - before.translation()).norm();
@@ -165,7 +168,7 @@ class SyntheticDrive {
       drive_angle_[i] += speed / v.wheel_radius_m * dt;
       s.drive_angle_rad[i] = drive_angle_[i] + noise_.encoder_rad * normal();
       s.drive_rate_radps[i] = speed / v.wheel_radius_m;
-      if (steered) s.steer_angle_rad[i < 2 ? i : i - 2] = angle;
+      if (steered) s.steer_angle_rad[i < 2 ? i : i - 2] = angle + scrub_steer_rad_;
     }
     if (wheels_on) localization.take_wheels(s);
     WheelCommand c{now_, now_ + 100'000, s.drive_rate_radps};
@@ -221,6 +224,7 @@ class SyntheticDrive {
   double scale_ = 0.0;
   Utime now_ = 0;
   double yaw_ = 0.0;
+  double scrub_steer_rad_ = 0.0;
   bool placed_ = false;
   double driven_m_ = 0.0;
   Eigen::Isometry3d T_;

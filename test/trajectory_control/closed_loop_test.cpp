@@ -207,8 +207,32 @@ TEST(ClosedLoop, ANewPathAtSpeedIsTakenWithoutAStop) {
 
 TEST(ClosedLoop, ANewPathThatBendsAtOnceIsReachedWithinTheSteeringsLimits) {
   const Replacement r = replace_path_at_speed(0.1);
-  EXPECT_GT(r.slowest_mps, 0.03);
-  EXPECT_LT(r.cross_track_max_m, 0.20);
+  EXPECT_GT(r.slowest_mps, 0.02);  // it creeps while the wheels steer, but does not stop
+  EXPECT_LT(r.cross_track_max_m, 0.15);
+}
+
+// The planner's way back out of a dead end: the driven track, stern first, on the same controller.
+TEST(ClosedLoop, ARetreatIsDrivenBackwardsAlongTheTrack) {
+  DriveLoop loop;
+  const auto track = polyline({{0.0, 1.0}, {0.7, 2.0}, {-0.7, 1.0}});
+  ASSERT_TRUE(drive(loop, track).ended);
+  std::vector<Eigen::Vector2d> back(track.rbegin(), track.rend());
+  loop.controller.set_path({2, 0.25, back, true});
+  double largest = 0.0;
+  bool turned = false;
+  for (loop.tick(); loop.output.state != ControlState::kPathEnd && loop.now < to_utime(200.0); loop.tick()) {
+    largest = std::max(largest, std::abs(loop.output.cross_track_m));
+    turned |= loop.output.state == ControlState::kPointTurn;
+    EXPECT_LE(loop.output.command.speed_mps, 0.0);
+  }
+  EXPECT_EQ(loop.output.state, ControlState::kPathEnd);
+  loop.run(3.0);
+  EXPECT_LT(loop.speed(), 1e-3);
+  EXPECT_FALSE(turned);
+  EXPECT_LT(largest, 0.08);
+  EXPECT_NEAR(loop.rover.pose().x_m, 0.0, 0.06);
+  EXPECT_NEAR(loop.rover.pose().y_m, 0.0, 0.06);
+  EXPECT_NEAR(loop.rover.pose().yaw_rad, 0.0, 0.15);
 }
 
 TEST(ClosedLoop, TheSamePathAgainChangesNothing) {

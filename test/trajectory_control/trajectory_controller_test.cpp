@@ -31,8 +31,8 @@ TEST_F(ControllerTest, DrivesWhenAllIsWell) {
   const ControlOutput out = step();
   EXPECT_EQ(out.state, ControlState::kFollowing);
   EXPECT_EQ(out.command.mode, MotionMode::kArc);
-  EXPECT_NEAR(out.command.speed_mps, 0.2, 1e-9);
   EXPECT_LT(out.command.curvature_per_m, 0.0);
+  EXPECT_GT(out.command.speed_mps, 0.1);
   EXPECT_EQ(out.command.valid_until, kNow + 200'000);
   EXPECT_EQ(out.path_id, 7);
   EXPECT_NEAR(out.arc_length_m, 3.0, 1e-6);
@@ -113,6 +113,20 @@ TEST_F(ControllerTest, ABrokenPathTakesTheOldOneAway) {
 TEST_F(ControllerTest, SpeedIsBoundedByThePermit) {
   permit_.max_speed_mps = 0.07;
   EXPECT_DOUBLE_EQ(step().command.speed_mps, 0.07);
+}
+
+TEST_F(ControllerTest, OnThePathItDrivesAtFullSpeed) {
+  pose_.odom = {3.0, 0.0, 0.0};
+  EXPECT_NEAR(step().command.speed_mps, 0.2, 1e-9);
+}
+
+TEST_F(ControllerTest, PassesLittleWayWhileTheWheelsSteer) {
+  pose_.odom = {3.0, 0.0, to_rad(-30.0)};
+  const ControlOutput out = step();
+  EXPECT_EQ(out.state, ControlState::kFollowing);
+  EXPECT_GT(out.command.curvature_per_m, 0.5);
+  EXPECT_LT(out.command.speed_mps, 0.1);
+  EXPECT_GT(out.command.speed_mps, 0.0);
 }
 
 TEST_F(ControllerTest, SteersAheadOfABendByTheDelayOfItsAnswer) {

@@ -1,0 +1,31 @@
+#include "path_planner/driven_track.hpp"
+
+namespace rover::planning {
+
+void DrivenTrack::extend(Point2 rover) {
+  if (!points_.empty() && distance(points_.back(), rover) < kStepM) return;
+  points_.push_back(rover);
+  if (static_cast<double>(points_.size()) * kStepM > kLongestM) points_.pop_front();
+}
+
+void DrivenTrack::retrace(Point2 rover) {
+  while (points_.size() >= 2) {
+    const Point2 before = points_[points_.size() - 2];
+    if (distance(before, rover) > distance(before, points_.back())) return;
+    points_.pop_back();
+  }
+}
+
+std::vector<Point2> DrivenTrack::back(Point2 rover, double way_m) const {
+  std::vector<Point2> out = {rover};
+  double way = 0.0;
+  for (size_t i = points_.size(); i-- > 0 && way < way_m;) {
+    const double step = distance(out.back(), points_[i]);
+    if (step < 0.5 * kStepM) continue;
+    way += step;
+    out.push_back(points_[i]);
+  }
+  return out;
+}
+
+}  // namespace rover::planning
