@@ -8,6 +8,7 @@
 
 #include "common/bus/channels.hpp"
 #include "common/bus/convert.hpp"
+#include "common/bus/streams.hpp"
 #include "common/bus/vehicle_config.hpp"
 #include "common/core/frames.hpp"
 #include "hazard_detector/calibrate.hpp"
@@ -27,13 +28,17 @@ CalibrationFrames read_frames(const std::string& file) {
   lcm::LogFile log(file, "r");
   if (!log.good()) throw ConfigError(file + ": cannot be read");
   CalibrationFrames frames{CalibrateConfig{}};
+  int left_out = 0;
   while (const lcm::LogEvent* event = log.readNextEvent()) {
+    if (event->channel != channel::kDisparity) continue;
     disparity_t message;
-    if (event->channel != channel::kDisparity || message.decode(event->data, 0, event->datalen) != event->datalen)
-      continue;
-    if (fault_of(message).empty()) frames.add(disparity_from(message), camera_from(message));
+    if (decode_message(event->data, event->datalen, message) && fault_of(message).empty())
+      frames.add(disparity_from(message), camera_from(message));
+    else
+      ++left_out;
   }
   if (frames.frames() == 0) throw ConfigError(file + ": holds no usable DISPARITY");
+  if (left_out > 0) std::cerr << file << ": " << left_out << " unusable DISPARITY left out\n";
   return frames;
 }
 

@@ -57,9 +57,7 @@ void read_coverage(const Config& yaml, HazardConfig& core) {
   yaml.read("min_coverage", core.min_coverage, {0.05, 1.0});
   yaml.read("roi_near_m", core.roi_near_m, {0.0, 10.0});
   yaml.read("roi_far_m", core.roi_far_m, {0.1, 20.0});
-  yaml.read("roi_stop_m", core.roi_stop_m, {0.1, 20.0});
-  if (core.roi_stop_m <= core.roi_near_m) yaml.fail("roi_stop_m", "must be beyond roi_near_m");
-  if (core.roi_far_m < core.roi_stop_m) yaml.fail("roi_far_m", "must not be nearer than roi_stop_m");
+  if (core.roi_far_m <= core.roi_near_m) yaml.fail("roi_far_m", "must be beyond roi_near_m");
 }
 
 GroundCalibration read_calibration(const std::string& file) {

@@ -44,7 +44,7 @@ void DisparityTable::add_row(int v, int step_u, const HazardConfig& config) {
                         std::abs(aside) <= config.grid.half_width_m;
     samples_.push_back({v * camera_.width + u, static_cast<float>(u), static_cast<float>(v),
                         static_cast<float>(16.0 * d_cal), static_cast<float>(ray.x()), static_cast<float>(ray.y()),
-                        static_cast<float>(ray.z()), in_roi, in_roi && ahead <= config.roi_stop_m});
+                        static_cast<float>(ray.z()), in_roi});
   }
 }
 

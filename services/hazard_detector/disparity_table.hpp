@@ -16,7 +16,6 @@ struct Sample {
   float d_cal_px16;           // 1/16 px
   float ray_x, ray_y, ray_z;  // body axes, per unit of depth
   bool in_roi;                // seen by both cameras and within the region of interest on flat ground
-  bool in_stop_roi;
 };
 
 class DisparityTable {

@@ -54,8 +54,7 @@ struct HazardConfig {
   double margin_m = 0.10;
   double roi_near_m = 0.4;  // region of interest: ground ahead of the camera
   double roi_far_m = 3.0;
-  double roi_stop_m = 1.3;    // nearer part, whose coverage counts by itself
-  double min_coverage = 0.4;  // of either part, below: BLIND
+  double min_coverage = 0.4;  // of its samples, below: BLIND
   int samples_per_cell = 5;   // along each side of a cell, where the image resolves them
   int max_step_px = 4;
 };

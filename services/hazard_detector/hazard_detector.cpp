@@ -50,13 +50,12 @@ HazardResult HazardDetector::step(const Disparity& disparity, const StereoCamera
   ROVER_CHECK(disparity.width == camera.width && disparity.height == camera.height, disparity.width, camera.width);
   prepare(camera);
   HazardResult result;
-  const Coverage coverage = locate(disparity);
+  result.coverage = locate(disparity);
   result.plane = fit_plane();
   judge(disparity, result.plane, bend(result.plane));
   result.cells = cell_states(evidence_, shape_, config_);
-  result.coverage = coverage.whole;
   summarize(result);
-  if (std::min(coverage.whole, coverage.stop) < config_.min_coverage) result.status = Status::kBlind;
+  if (result.coverage < config_.min_coverage) result.status = Status::kBlind;
   return result;
 }
 
@@ -70,23 +69,21 @@ void HazardDetector::prepare(const StereoCamera& camera) {
 }
 
 // Puts every measured sample into its cell, and counts the region of interest.
-HazardDetector::Coverage HazardDetector::locate(const Disparity& disparity) {
+double HazardDetector::locate(const Disparity& disparity) {
   const StereoCamera& camera = table_->camera();
   const CellLookup lookup(shape_);
   const Eigen::Vector3f p_cam = camera.T_body_cam.translation().cast<float>();
   const float ground_z = p_cam.z() + static_cast<float>(config_.ground_below_m);
   const float depth_px16 = static_cast<float>(16.0 * camera.focal_px * camera.baseline_m);
   const std::vector<Sample>& samples = table_->samples();
-  int roi = 0, roi_measured = 0, stop = 0, stop_measured = 0;
+  int roi = 0, roi_measured = 0;
   for (size_t k = 0; k < samples.size(); ++k) {
     const Sample& s = samples[k];
     const int d = disparity.px16[static_cast<size_t>(s.index)];
     roi += s.in_roi;
-    stop += s.in_stop_roi;
     cell_of_sample_[k] = -1;
     if (d <= 0) continue;
     roi_measured += s.in_roi;
-    stop_measured += s.in_stop_roi;
     const float depth = depth_px16 / static_cast<float>(d);
     const int cell = lookup(p_cam.x() + depth * s.ray_x, p_cam.y() + depth * s.ray_y);
     if (cell < 0) continue;
@@ -95,8 +92,7 @@ HazardDetector::Coverage HazardDetector::locate(const Disparity& disparity) {
     ++e.measured;
     e.sum_z_m += ground_z + depth * s.ray_z;
   }
-  return {roi > 0 ? static_cast<double>(roi_measured) / roi : 0.0,
-          stop > 0 ? static_cast<double>(stop_measured) / stop : 0.0};
+  return roi > 0 ? static_cast<double>(roi_measured) / roi : 0.0;
 }
 
 GroundPlane HazardDetector::fit_plane() const {

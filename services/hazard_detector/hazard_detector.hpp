@@ -36,13 +36,8 @@ class HazardDetector {
   HazardResult step(const Disparity& disparity, const StereoCamera& camera);
 
  private:
-  struct Coverage {
-    double whole = 0.0;
-    double stop = 0.0;
-  };
-
   void prepare(const StereoCamera& camera);
-  Coverage locate(const Disparity& disparity);
+  double locate(const Disparity& disparity);
   GroundPlane fit_plane() const;
   LocalGround bend(const GroundPlane& plane) const;
   void judge(const Disparity& disparity, const GroundPlane& plane, const LocalGround& ground);

@@ -6,11 +6,14 @@
 #include <cmath>
 #include <cstdio>
 
+#include "common/bus/channels.hpp"
+#include "common/bus/streams.hpp"
+
 namespace rover {
 namespace {
 
-constexpr std::array kStateNames = {"BOOT",   "STANDBY",      "DRIVING",    "HAZARD_STOP", "REPAIRING", "SWEEPING",
-                                    "CORRECTING", "PAUSED", "GOAL_REACHED", "FAULT_STOP",  "SAFE",      "TELEOP"};
+constexpr std::array kStateNames = {"BOOT",       "STANDBY", "DRIVING",      "HAZARD_STOP", "REPAIRING", "SWEEPING",
+                                    "CORRECTING", "PAUSED",  "GOAL_REACHED", "FAULT_STOP",  "SAFE",      "TELEOP"};
 constexpr double kTopSpeed = 0.2;
 
 }  // namespace
@@ -20,29 +23,28 @@ std::string state_name(std::int8_t state) {
   return index < kStateNames.size() ? kStateNames[index] : "?";
 }
 
-std::string level_name(std::int8_t level) { return level == supervisor_state_t::FULL ? "FULL" : "EFFICIENT"; }
+std::string level_name(std::int8_t level) {
+  return level == supervisor_state_t::FULL ? "FULL" : "EFFICIENT";
+}
 
 Progress::Progress(lcm::LCM& lcm, bool enabled) : enabled_(enabled), terminal_(isatty(STDOUT_FILENO) == 1) {
+  pose_.header.utime = -1;
   state_.state = -1;
-  lcm.subscribe("POSE", &Progress::on_pose, this);
-  lcm.subscribe("PLANNER_STATUS", &Progress::on_planner, this);
-  lcm.subscribe("STATE", &Progress::on_state, this);
+  listen(lcm, channel::kPose, pose_);
+  listen(lcm, channel::kPlannerStatus, planner_);
+  listen(lcm, channel::kState, state_);
 }
 
-void Progress::on_pose(const lcm::ReceiveBuffer*, const std::string&, const pose_t* message) {
-  pose_ = *message;
-  if (first_utime_ < 0) {
-    first_utime_ = pose_.header.utime;
-    started_ = Clock::now();
-  }
-}
-
-void Progress::on_planner(const lcm::ReceiveBuffer*, const std::string&, const planner_status_t* message) {
-  planner_ = *message;
-}
-
-void Progress::on_state(const lcm::ReceiveBuffer*, const std::string&, const supervisor_state_t* message) {
-  state_ = *message;
+// What does not decode is left to the services to count and name.
+template <class Message>
+void Progress::listen(lcm::LCM& lcm, const char* channel, Message& newest) {
+  lcm.subscribeFunction(
+      channel,
+      +[](const lcm::ReceiveBuffer* buffer, const std::string&, Message* out) {
+        Message message;
+        if (decode_message(buffer->data, static_cast<int>(buffer->data_size), message)) *out = message;
+      },
+      &newest);
 }
 
 std::string Progress::line() const {
@@ -56,14 +58,19 @@ std::string Progress::line() const {
     std::snprintf(expected, sizeof expected, "%5.0f s", planner_.goal_distance_m / mean_speed / factor);
   }
   char text[256];
-  std::snprintf(text, sizeof text,
-                "%7.1f m driven  %6.1f m to go  %5.2f m/s  %-12s %-9s  %2d repairs  %2d hazard stops  %4.1fx  end in %s",
-                pose_.travelled_m, planner_.goal_distance_m, speed, state_name(state_.state).c_str(),
-                level_name(state_.level).c_str(), planner_.replans, state_.hazard_stops, factor, expected);
+  std::snprintf(
+      text, sizeof text,
+      "%7.1f m driven  %6.1f m to go  %5.2f m/s  %-12s %-9s  %2d repairs  %2d hazard stops  %4.1fx  end in %s",
+      pose_.travelled_m, planner_.goal_distance_m, speed, state_name(state_.state).c_str(),
+      level_name(state_.level).c_str(), planner_.replans, state_.hazard_stops, factor, expected);
   return text;
 }
 
 void Progress::show() {
+  if (first_utime_ < 0 && started()) {
+    first_utime_ = pose_.header.utime;
+    started_ = Clock::now();
+  }
   if (!enabled_ || first_utime_ < 0) return;
   const auto period = terminal_ ? std::chrono::milliseconds(250) : std::chrono::milliseconds(10'000);
   const bool changed = state_.state != shown_state_;

@@ -23,13 +23,13 @@ class Progress {
   void show();
   // Leaves the terminal on a fresh line.
   void finish();
-  bool moved() const { return pose_.travelled_m > 0.05; }
+  // Whether the rover has been heard: the world has begun.
+  bool started() const { return pose_.header.utime >= 0; }
 
  private:
   using Clock = std::chrono::steady_clock;
-  void on_pose(const lcm::ReceiveBuffer* buffer, const std::string& channel, const pose_t* message);
-  void on_planner(const lcm::ReceiveBuffer* buffer, const std::string& channel, const planner_status_t* message);
-  void on_state(const lcm::ReceiveBuffer* buffer, const std::string& channel, const supervisor_state_t* message);
+  template <class Message>
+  void listen(lcm::LCM& lcm, const char* channel, Message& newest);
   std::string line() const;
 
   bool enabled_;

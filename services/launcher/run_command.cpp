@@ -43,7 +43,9 @@ std::vector<ServiceCommand> service_commands(const RunArguments& arguments, cons
   return commands;
 }
 
-bool wait_for_end(const RunArguments& arguments, const RunFolder& folder, S6Session& session) {
+enum class End { kOver, kFailed, kNeverBegun };
+
+End wait_for_end(const RunArguments& arguments, const RunFolder& folder, S6Session& session) {
   lcm::LCM lcm(folder.bus_url);
   Progress progress(lcm, !arguments.quiet);
   const std::string end_file = folder.dir + "/simulation.json";
@@ -51,16 +53,14 @@ bool wait_for_end(const RunArguments& arguments, const RunFolder& folder, S6Sess
     lcm.handleTimeout(100);
     progress.show();
     if (fs::exists(end_file)) break;
-    const auto failed = failed_services(folder.dir);
-    for (const std::string& line : failed) std::fprintf(stderr, "%s\n", line.c_str());
-    if (!failed.empty()) return false;
+    if (!failed_services(folder.dir).empty()) return progress.started() ? End::kFailed : End::kNeverBegun;
     if (!session.running()) {
       std::fprintf(stderr, "s6-svscan has ended; see %s/service_logs/s6.log\n", folder.dir.c_str());
-      return false;
+      return End::kFailed;
     }
   }
   progress.finish();
-  return true;
+  return End::kOver;
 }
 
 nlohmann::json read_json(const std::string& file) {
@@ -111,7 +111,6 @@ RunResult run(const RunArguments& given) {
     result.exit_status = 2;
     return result;
   }
-  result.dir = folder.dir;
   const auto problems = bus_problems(folder.bus_url);
   for (const std::string& problem : problems) std::fprintf(stderr, "%s\n", problem.c_str());
   const BusLock lock(folder.bus_url);
@@ -119,21 +118,30 @@ RunResult run(const RunArguments& given) {
     std::fprintf(stderr, "bus: another rover runs on %s. Stop it, or give this one a bus: --bus udpm://...\n",
                  folder.bus_url.c_str());
   if (!problems.empty() || !lock.held()) {
+    remove_run_folder(folder);
     result.exit_status = 2;
     return result;
   }
+  result.dir = folder.dir;
   std::signal(SIGINT, interrupt);
   std::signal(SIGTERM, interrupt);
   if (!arguments.quiet) std::printf("run: %s\n", folder.dir.c_str());
   write_s6_tree(folder.dir, service_commands(arguments, folder));
-  bool ended = false;
+  End end = End::kFailed;
   {
     S6Session session(folder.dir);
-    ended = wait_for_end(arguments, folder, session);
+    end = wait_for_end(arguments, folder, session);
     session.stop();
   }
-  if (!ended) {
-    result.exit_status = failed_services(folder.dir).empty() ? 1 : 2;
+  if (end != End::kOver) {
+    // Several services may stumble over the same value: the first is told, now that all logs are written.
+    const auto failed = failed_services(folder.dir);
+    if (!failed.empty()) std::fprintf(stderr, "%s\n", in_users_files(failed.front(), folder, arguments).c_str());
+    if (end == End::kNeverBegun) {
+      remove_run_folder(folder);
+      result.dir.clear();
+    }
+    result.exit_status = failed.empty() ? 1 : 2;
     return result;
   }
   write_run_json(arguments, folder);

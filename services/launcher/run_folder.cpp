@@ -53,6 +53,15 @@ void copy_scenario(const std::string& file, const std::string& dtm_file, const f
   write_yaml(to, scenario);
 }
 
+// A file that is not YAML at all is named here, before any service reads it.
+YAML::Node load_yaml(const fs::path& file) {
+  try {
+    return YAML::LoadFile(file);
+  } catch (const YAML::Exception& error) {
+    throw ConfigError(file.string() + ":" + std::to_string(error.mark.line + 1) + ": not valid YAML: " + error.msg);
+  }
+}
+
 // One setting "file.key.key=value" in the run's copy of the configuration.
 void apply_setting(const std::string& setting, const fs::path& config_dir) {
   static const std::regex form(R"(([A-Za-z0-9_]+)\.([A-Za-z0-9_.]+)=(.*))");
@@ -61,7 +70,7 @@ void apply_setting(const std::string& setting, const fs::path& config_dir) {
     throw ConfigError("--set " + setting + ": file.key=value is expected, as in path_planner.margin_m=0.2");
   const fs::path file = config_dir / (match[1].str() + ".yaml");
   if (!fs::exists(file)) throw ConfigError("--set " + setting + ": there is no config/" + match[1].str() + ".yaml");
-  const YAML::Node root = YAML::LoadFile(file);
+  const YAML::Node root = load_yaml(file);
   YAML::Node node = root;
   std::string rest = match[2];
   for (size_t dot = rest.find('.'); dot != std::string::npos; dot = rest.find('.')) {
@@ -114,17 +123,8 @@ void create_folders(const fs::path& dir) {
   if (error) throw ConfigError(dir.string() + ": cannot be made: " + error.message());
 }
 
-}  // namespace
-
-RunFolder make_run_folder(const RunArguments& arguments) {
-  const fs::path config_source = fs::path(arguments.source_dir) / "config";
-  const fs::path dir = folder_for(arguments);
-  if (!fs::is_regular_file(arguments.scenario)) throw ConfigError(arguments.scenario + ": no such file");
-  // Before anything is made, so that what is wrong is named in the user's own file.
-  const std::string dtm_file = load_scenario(arguments.scenario).dtm_file;
-  create_folders(dir);
-  RunFolder folder{dir, dir / "config", dir / "config" / "scenario.yaml", arguments.bus, 0};
-  copy_configuration(config_source, folder.config_dir);
+void fill_run_folder(const RunArguments& arguments, const std::string& dtm_file, RunFolder& folder) {
+  copy_configuration(fs::path(arguments.source_dir) / "config", folder.config_dir);
   copy_scenario(arguments.scenario, dtm_file, folder.scenario);
   if (!arguments.record.empty()) apply_setting("recorder.record=" + arguments.record, folder.config_dir);
   for (const std::string& setting : arguments.set) apply_setting(setting, folder.config_dir);
@@ -138,7 +138,41 @@ RunFolder make_run_folder(const RunArguments& arguments) {
   write_geotiff(folder.dir + "/orbital_map.tif", orbital);
   const Pose2 start = scenario.start_pose();
   write_ground(scenario, arguments.level, height_at(orbital, start.x_m, start.y_m), folder.config_dir + "/ground.yaml");
+}
+
+}  // namespace
+
+RunFolder make_run_folder(const RunArguments& arguments) {
+  const fs::path dir = folder_for(arguments);
+  if (!fs::is_regular_file(arguments.scenario)) throw ConfigError(arguments.scenario + ": no such file");
+  // Before anything is made, so that what is wrong is named in the user's own file.
+  const std::string dtm_file = load_scenario(arguments.scenario).dtm_file;
+  RunFolder folder{dir, dir / "config", dir / "config" / "scenario.yaml", arguments.bus, 0, !fs::exists(dir)};
+  create_folders(dir);
+  try {
+    fill_run_folder(arguments, dtm_file, folder);
+  } catch (const std::exception& error) {
+    remove_run_folder(folder);
+    throw ConfigError(in_users_files(error.what(), folder, arguments));
+  }
   return folder;
+}
+
+std::string in_users_files(std::string message, const RunFolder& folder, const RunArguments& arguments) {
+  const std::string own = (fs::path(arguments.source_dir) / "config").lexically_normal().string();
+  size_t at = message.find(folder.config_dir);
+  for (; at != std::string::npos; at = message.find(folder.config_dir, at + own.size()))
+    message.replace(at, folder.config_dir.size(), own);
+  return message;
+}
+
+void remove_run_folder(const RunFolder& folder) {
+  std::error_code ignored;
+  if (folder.is_new) {
+    fs::remove_all(folder.dir, ignored);
+    return;
+  }
+  for (const auto& entry : fs::directory_iterator(folder.dir, ignored)) fs::remove_all(entry.path(), ignored);
 }
 
 }  // namespace rover

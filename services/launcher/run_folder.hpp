@@ -13,9 +13,15 @@ struct RunFolder {
   std::string scenario;     // dir/config/scenario.yaml
   std::string bus_url;
   std::int64_t seed = 0;
+  bool is_new = true;       // false: an empty folder was there already
 };
 
-// Throws ConfigError with one line where the scenario, a key or a value is not right, or the folder is not writable.
+// Throws ConfigError with one line where the scenario, a key or a value is not right, or the folder is not writable;
+// nothing is left of the folder then.
 RunFolder make_run_folder(const RunArguments& arguments);
+// A message that names files of the run's own configuration, with the names of the user's instead.
+std::string in_users_files(std::string message, const RunFolder& folder, const RunArguments& arguments);
+// Takes back what make_run_folder made, for a run that never began.
+void remove_run_folder(const RunFolder& folder);
 
 }  // namespace rover

@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
@@ -104,9 +105,11 @@ std::vector<std::string> failed_services(const std::string& run_dir) {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(fs::path(run_dir) / "exits", error)) {
     const std::string name = entry.path().filename();
-    if (last_line(entry.path()).rfind("2 ", 0) == 0)
-      failed.push_back(name + ": " + last_line(fs::path(run_dir) / "service_logs" / name / "current"));
+    if (last_line(entry.path()).rfind("2 ", 0) != 0) continue;
+    const std::string said = last_line(fs::path(run_dir) / "service_logs" / name / "current");
+    failed.push_back(said.empty() ? name + ": ended with exit status 2" : said);
   }
+  std::sort(failed.begin(), failed.end());
   return failed;
 }
 

@@ -30,7 +30,8 @@ class S6Session {
   int pid_ = -1;
 };
 
-// Services that ended for good with an error, as "name: last line of its log"; empty where none has.
+// The last line of the log of each service that ended for good with an error, "name: what"; empty where none has. All
+// logs are written only when the session has stopped.
 std::vector<std::string> failed_services(const std::string& run_dir);
 
 }  // namespace rover

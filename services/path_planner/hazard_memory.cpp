@@ -83,7 +83,7 @@ void HazardMemory::add(const HazardGrid& grid, const Eigen::Isometry3d& T_odom_b
     if (value == HazardGrid::kUnseen) note_unseen(cell, grid, {in_body.x(), in_body.y()});
     if (value == HazardGrid::kFree) note_free(cell, in_body.norm() <= config_.clear_range_m);
     // The margin about a hazard is ground that was seen; this service keeps margins of its own.
-    if (value == HazardGrid::kMargin) cell.seen = true;
+    if (value == HazardGrid::kMargin) cell.seen = true, cell.looks = 0;
   });
   // From the obstacle's side, so that none falls between the cells of the turned grid.
   for (int iy = 0; iy < grid.cells_y; ++iy)
@@ -102,6 +102,7 @@ void HazardMemory::note_obstacle(CellIndex index) {
   if (cell.frame == frame_) return;
   cell.frame = frame_;
   cell.seen = true;
+  cell.looks = 0;
   const bool doubtful = cell.hits == 0 && cell.contrary >= config_.possible_clear;
   cell.contrary = 0;
   if (!doubtful && cell.hits < kMostHits) ++cell.hits;
@@ -109,6 +110,7 @@ void HazardMemory::note_obstacle(CellIndex index) {
 
 void HazardMemory::note_free(GroundCell& cell, bool close) const {
   cell.seen = true;
+  if (close) cell.looks = 0;
   if (confirmed(cell) && !close) return;
   const int enough = confirmed(cell) ? config_.confirmed_clear : config_.possible_clear;
   if (cell.contrary < enough) ++cell.contrary;
@@ -116,7 +118,7 @@ void HazardMemory::note_free(GroundCell& cell, bool close) const {
 }
 
 void HazardMemory::note_unseen(GroundCell& cell, const HazardGrid& grid, Point2 in_body) const {
-  if (cell.seen || cell.looks >= config_.blind_looks) return;
+  if (cell.looks >= config_.blind_looks) return;
   if (!surely_in_view(config_.view, config_.clear_range_m, in_body) || hidden(grid, config_.view.camera, in_body)) return;
   ++cell.looks;
 }
@@ -127,7 +129,7 @@ void HazardMemory::mark_driven(const Pose2& pose, const Footprint& footprint) {
   for_cells_in(map_, {pose.x_m - r, pose.y_m - r}, {pose.x_m + r, pose.y_m + r}, [&](GroundCell& cell, Point2 p) {
     const double d = footprint.distance_m(pose, p);
     if (d <= 0.0) cell = GroundCell{};
-    if (d <= rim) cell.seen = true;
+    if (d <= rim) cell.seen = true, cell.looks = 0;
   });
 }
 

@@ -20,7 +20,7 @@ struct HazardMemoryConfig {
   int confirmed_clear = 5;     // ... from close by a confirmed one
   double clear_range_m = 2.0;  // what counts as close by, from the body origin
   ViewArea view;
-  int blind_looks = 6;         // frames that should have seen a cell close by and did not, until it counts as a hazard
+  int blind_looks = 6;         // frames in a row that should have seen a cell close by and did not: it is a hazard
 };
 
 // HAZARDS as the detector sends it, in the body frame of the exposure.
@@ -45,7 +45,7 @@ struct GroundCell {
   bool seen = false;
   std::uint8_t hits = 0;      // frames that saw an obstacle here
   std::uint8_t contrary = 0;  // frames in a row that saw it free since the last hit
-  std::uint8_t looks = 0;     // frames that looked at it in vain: ground without texture or light, or a drop
+  std::uint8_t looks = 0;     // frames in a row that looked at it from close by in vain: no texture, no light, or a drop
   std::uint16_t frame = 0;    // the last that counted as a hit: two grid cells may fall into one cell here
 };
 
@@ -63,8 +63,9 @@ class HazardMemory {
   void mark_seen(Point2 center, double radius_m);
 
   bool confirmed(const GroundCell& cell) const { return cell.hits >= config_.confirm_hits; }
-  // Looked at again and again from close by and never seen: no longer ground that another view will show.
-  bool blind(const GroundCell& cell) const { return !cell.seen && cell.looks >= config_.blind_looks; }
+  // Looked at again and again from close by in vain: no longer ground that another view will show. Smooth dust is seen
+  // from afar, where the picture is coarse, and not from near.
+  bool blind(const GroundCell& cell) const { return cell.looks >= config_.blind_looks; }
   const GridMap<GroundCell>& map() const { return map_; }
   GridMap<GroundCell>& map() { return map_; }
 

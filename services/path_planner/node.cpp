@@ -14,6 +14,7 @@ namespace {
 
 constexpr char kCheckpoint[] = "path_planner";
 constexpr Utime kSavePeriodUs = 1'000'000;
+constexpr Utime kRepeatPeriodUs = 1'000'000;  // of PATH: a restarted controller has none
 constexpr std::int64_t kPathsPerBoot = 1'000'000;  // keeps the path ids of two processes apart
 constexpr double kMostClearRadiusM = 5.0;          // more than an operator would certify
 
@@ -91,7 +92,8 @@ void PathPlannerNode::on_ground_command(const ground_command_t& message) {
 void PathPlannerNode::step(Utime now) {
   tell_restored(now);
   const PlannerOutput output = planner_.step(now);
-  if (output.path) publish_path(*output.path, now);
+  if (output.path) tell_path(*output.path);
+  if (output.status.path_id == path_.path_id) repeat_path(now, output.path.has_value());
   planner_status_t status{};
   status_to(output.status, status);
   node_.publish(channel::kPlannerStatus, status, now);
@@ -99,10 +101,15 @@ void PathPlannerNode::step(Utime now) {
   save(now, output.path.has_value());
 }
 
-void PathPlannerNode::publish_path(const LocalPath& path, Utime now) {
-  path_t message{};
-  path_to(path, message);
-  node_.publish(channel::kPath, message, now, path_latency_);
+void PathPlannerNode::repeat_path(Utime now, bool at_once) {
+  if (path_.point_count == 0 || (!at_once && now < next_repeat_)) return;
+  next_repeat_ = now + kRepeatPeriodUs;
+  node_.publish(channel::kPath, path_, now, path_latency_);
+}
+
+void PathPlannerNode::tell_path(const LocalPath& path) {
+  path_ = path_t{};
+  path_to(path, path_);
   node_.log("INFO", "PATH id=" + std::to_string(path.id) +
                         " kind=" + text_of(path.kind) +
                         " points=" + std::to_string(path.points.size()) +

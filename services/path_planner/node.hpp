@@ -21,7 +21,8 @@ class PathPlannerNode {
   void on_hazards(const hazards_t& message);
   void on_ground_command(const ground_command_t& message);
   void step(Utime now);
-  void publish_path(const LocalPath& path, Utime now);
+  void tell_path(const LocalPath& path);
+  void repeat_path(Utime now, bool at_once);
   void report(const PlannerStatus& status);
   void restore();
   void tell_restored(Utime now);
@@ -32,6 +33,8 @@ class PathPlannerNode {
   PathPlanner planner_;
   std::vector<std::uint8_t> restored_;  // until it has been told
   Utime next_save_ = 0;
+  path_t path_{};  // the newest; no points: none
+  Utime next_repeat_ = 0;
   PlannerState state_ = PlannerState::kIdle;
   std::string text_;
 };

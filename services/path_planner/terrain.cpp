@@ -25,6 +25,29 @@ std::vector<std::uint8_t> closed(const std::vector<std::uint8_t>& unseen, int ce
   return out;
 }
 
+// Ground that was seen from afar and is blind from near is trusted as long as it is narrow: only where the camera sees
+// hardly anything over half a metre could it miss what lies there.
+constexpr int kWideCells = 5;
+constexpr int kWideCount = 20;  // of 25
+
+std::vector<std::uint8_t> wide_parts(const std::vector<std::uint8_t>& mask, int cells) {
+  const int n = cells + 1;
+  std::vector<int> sum(static_cast<size_t>(n) * n, 0);
+  for (int y = 0; y < cells; ++y)
+    for (int x = 0; x < cells; ++x)
+      sum[(y + 1) * n + x + 1] = mask[y * cells + x] + sum[y * n + x + 1] + sum[(y + 1) * n + x] - sum[y * n + x];
+  std::vector<std::uint8_t> out(mask.size(), 0);
+  for (int y = 0; y + kWideCells <= cells; ++y)
+    for (int x = 0; x + kWideCells <= cells; ++x) {
+      const int x1 = x + kWideCells;
+      const int y1 = y + kWideCells;
+      if (sum[y1 * n + x1] - sum[y * n + x1] - sum[y1 * n + x] + sum[y * n + x] < kWideCount) continue;
+      for (int v = y; v < y1; ++v)
+        for (int u = x; u < x1; ++u) out[v * cells + u] = mask[v * cells + u];
+    }
+  return out;
+}
+
 }  // namespace
 
 Terrain::Terrain(const HazardMemory& memory)
@@ -32,14 +55,20 @@ Terrain::Terrain(const HazardMemory& memory)
   const GridMap<GroundCell>& map = memory.map();
   corner_ = {map.origin().ix * cell_m_, map.origin().iy * cell_m_};
   unseen_.reserve(static_cast<size_t>(cells_) * cells_);
-  map.for_each([&](CellIndex, const GroundCell& cell) { unseen_.push_back(cell.seen ? 0 : 1); });
+  std::vector<std::uint8_t> blind;
+  blind.reserve(unseen_.capacity());
+  map.for_each([&](CellIndex, const GroundCell& cell) { blind.push_back(memory.blind(cell) ? 1 : 0); });
+  const std::vector<std::uint8_t> widely_blind = wide_parts(blind, cells_);
+  map.for_each([&](CellIndex, const GroundCell& cell) {
+    unseen_.push_back(cell.seen && !widely_blind[unseen_.size()] ? 0 : 1);
+  });
   unseen_ = closed(unseen_, cells_);
   std::vector<std::uint8_t> hazard;
   hazard.reserve(unseen_.size());
   map.for_each([&](CellIndex i, const GroundCell& cell) {
-    const bool blind = unseen_[hazard.size()] != 0 && memory.blind(cell);
-    const bool is_hazard = cell.hits > 0 || blind;
-    if (is_hazard) hazards_.push_back({{map.center_x_m(i), map.center_y_m(i)}, blind || memory.confirmed(cell)});
+    const bool stays_unseen = unseen_[hazard.size()] != 0 && blind[hazard.size()] != 0;
+    const bool is_hazard = cell.hits > 0 || stays_unseen;
+    if (is_hazard) hazards_.push_back({{map.center_x_m(i), map.center_y_m(i)}, stays_unseen || memory.confirmed(cell)});
     hazard.push_back(is_hazard ? 1 : 0);
   });
   hazard_distance_ = distance_field(hazard, cells_, cells_, cell_m_);

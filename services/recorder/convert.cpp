@@ -3,14 +3,14 @@
 #include <rover/fault_t.hpp>
 #include <rover/path_t.hpp>
 #include <rover/supervisor_state_t.hpp>
+#include <utility>
 
 namespace rover::recorder {
 namespace {
 
 template <class Message>
 bool decode(const RawMessage& raw, Message& message) {
-  const int size = static_cast<int>(raw.bytes.size());
-  return message.decode(raw.bytes.data(), 0, size) == size;
+  return decode_message(raw.bytes.data(), static_cast<int>(raw.bytes.size()), message);
 }
 
 Event::Kind kind_of(const std::string& channel) {
@@ -42,7 +42,8 @@ bool TriggerFinder::is_trigger(const RawMessage& raw) {
   }
   if (raw.channel == channel::kPath) {
     path_t path{};
-    return decode(raw, path) && path.kind == path_t::REPAIR;
+    // Repeated each second, and a trigger once.
+    return decode(raw, path) && path.kind != path_t::GLOBAL && std::exchange(path_id_, path.path_id) != path.path_id;
   }
   if (raw.channel == channel::kFault) {
     fault_t fault{};

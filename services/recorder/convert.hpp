@@ -15,6 +15,7 @@ class TriggerFinder {
 
  private:
   std::int8_t state_ = -1;
+  std::int64_t path_id_ = -1;
 };
 
 }  // namespace rover::recorder

@@ -15,7 +15,7 @@ RecorderNode::RecorderNode(Node& node, const RecorderConfig& config, const std::
     throw ConfigError(log_path + ": " + std::to_string(free_gb) + " GB free on the disk, min_free_start_gb asks for " +
                       std::to_string(config_.min_free_start_gb));
   log_ = std::make_unique<LogFile>(log_path);
-  node_.subscribe_raw([this](const RawMessage& raw) { take(raw); });
+  node_.subscribe_raw([this](const RawMessage& raw) { take(raw); }, find_channel_type);
   node_.on_step([this](Utime now) { step(now); });
 }
 

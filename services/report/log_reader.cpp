@@ -2,6 +2,8 @@
 
 #include <lcm/eventlog.h>
 
+#include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <rover/slam_pose_t.hpp>
 #include <rover/vo_motion_t.hpp>
@@ -53,7 +55,7 @@ class Reader {
     take<slip_t>(channel::kSlip, [this](const slip_t& m) { run_.slip.push_back(slip_from(m)); });
     take<supervisor_state_t>(channel::kState, [this](const supervisor_state_t& m) { add_state(m); });
     take<path_t>(channel::kGlobalPath, [this](const path_t& m) { run_.global_paths.push_back(path_from(m)); });
-    take<path_t>(channel::kPath, [this](const path_t& m) { run_.local_paths.push_back(path_from(m)); });
+    take<path_t>(channel::kPath, [this](const path_t& m) { add_path(path_from(m)); });
     take<hazards_t>(channel::kHazards, [this](const hazards_t& m) { run_.hazards.push_back(hazards_from(m)); });
     take<planner_status_t>(channel::kPlannerStatus,
                            [this](const planner_status_t& m) { run_.planner.push_back(planner_from(m)); });
@@ -79,6 +81,8 @@ class Reader {
     if (handler != handlers_.end() && !handler->second(event)) ++run_.bus.damaged_events;
   }
 
+  void count_damaged() { ++run_.bus.damaged_events; }
+
   RunRecord finish() {
     counter_.total(run_.bus);
     return std::move(run_);
@@ -89,7 +93,7 @@ class Reader {
   void take(const std::string& channel, std::function<void(const Message&)> handler) {
     handlers_[channel] = [handler = std::move(handler)](const LogEvent& event) {
       Message message;
-      if (message.decode(event.data, 0, event.size) != event.size) return false;
+      if (!decode_message(event.data, event.size, message)) return false;
       handler(message);
       return true;
     };
@@ -98,6 +102,10 @@ class Reader {
     if (message.status == pose_t::UNINITIALISED || message.status == pose_t::LOST) return;
     const PoseSample sample = pose_from(message);
     if (is_finite(sample.T_odom_body) && is_finite(sample.T_map_odom)) run_.poses.push_back(sample);
+  }
+  // A path is repeated each second.
+  void add_path(PathRecord path) {
+    if (run_.local_paths.empty() || run_.local_paths.back().id != path.id) run_.local_paths.push_back(std::move(path));
   }
   void add_state(const supervisor_state_t& message) {
     const StateChange change = state_from(message);
@@ -112,24 +120,32 @@ class Reader {
 
 }  // namespace
 
-std::int64_t for_each_event(const std::string& path, const std::function<void(const LogEvent&)>& take) {
+LogLength for_each_event(const std::string& path, const std::function<void(const LogEvent&)>& take) {
   const auto close = [](lcm_eventlog_t* log) { lcm_eventlog_destroy(log); };
   const std::unique_ptr<lcm_eventlog_t, decltype(close)> log(lcm_eventlog_create(path.c_str(), "r"), close);
   if (!log) throw ConfigError(path + ": no such log");
-  std::int64_t count = 0;
+  LogLength length;
+  std::int64_t end = 0;
   while (lcm_eventlog_event_t* event = lcm_eventlog_read_next_event(log.get())) {
     take({std::string(event->channel, static_cast<size_t>(event->channellen)),
           static_cast<const std::uint8_t*>(event->data), event->datalen});
     lcm_eventlog_free_event(event);
-    ++count;
+    ++length.records;
+    end = ftell(log->f);
   }
-  return count;
+  length.left_bytes = static_cast<std::int64_t>(std::filesystem::file_size(path)) - end;
+  return length;
 }
 
 RunRecord read_log(const std::string& path) {
   Reader reader;
-  if (for_each_event(path, [&](const LogEvent& event) { reader.add(event); }) == 0)
-    throw ConfigError(path + ": holds no messages");
+  const LogLength length = for_each_event(path, [&](const LogEvent& event) { reader.add(event); });
+  if (length.records == 0) throw ConfigError(path + ": holds no messages");
+  if (length.left_bytes > 0) {
+    std::fprintf(stderr, "%s: cut short or damaged after %lld messages; the %lld bytes behind them are left out\n",
+                 path.c_str(), static_cast<long long>(length.records), static_cast<long long>(length.left_bytes));
+    reader.count_damaged();
+  }
   return reader.finish();
 }
 

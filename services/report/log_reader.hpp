@@ -14,10 +14,15 @@ struct LogEvent {
   int size = 0;
 };
 
-// Calls `take` for each whole record; a cut last one ends the log. Throws ConfigError where there is no log.
-// Returns the number of records.
-std::int64_t for_each_event(const std::string& path, const std::function<void(const LogEvent&)>& take);
+struct LogLength {
+  std::int64_t records = 0;     // whole ones
+  std::int64_t left_bytes = 0;  // after the last of them: the log has been cut
+};
 
+// Calls `take` for each whole record; a cut last one ends the log. Throws ConfigError where there is no log.
+LogLength for_each_event(const std::string& path, const std::function<void(const LogEvent&)>& take);
+
+// Of a log that was cut, what is whole; one line on stderr says so. Throws ConfigError where nothing is.
 RunRecord read_log(const std::string& path);
 
 }  // namespace rover::report

@@ -16,25 +16,32 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr Utime kStart = 1'000'000;            // the first tick; zero stays free for "never"
+constexpr Utime kStart = 1'000'000;  // the first tick; zero stays free for "never"
 constexpr Utime kFramePeriod = 400'000;
-constexpr Utime kCameraLatency = 60'000;       // exposure, read-out and transfer
-constexpr Utime kReturnAfter = 1'000'000;      // a service that left is waited for again from then on
+constexpr Utime kCameraLatency = 60'000;   // exposure, read-out and transfer
+constexpr Utime kReturnAfter = 1'000'000;  // a service that left is waited for again from then on
 constexpr double kStartPatience_s = 60.0;
 constexpr double kAskAgain_s = 1.0;
 constexpr double kSilence_s = 10.0;
 
-double since_s(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double since_s(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
-bool alive(int pid) { return pid > 0 && (kill(pid, 0) == 0 || errno == EPERM); }
+bool alive(int pid) {
+  return pid > 0 && (kill(pid, 0) == 0 || errno == EPERM);
+}
 
 RoverPhase phase_of(const supervisor_state_t& state) {
   switch (state.state) {
-    case supervisor_state_t::GOAL_REACHED: return RoverPhase::kArrived;
-    case supervisor_state_t::SAFE: return RoverPhase::kGivenUp;
+    case supervisor_state_t::GOAL_REACHED:
+      return RoverPhase::kArrived;
+    case supervisor_state_t::SAFE:
+      return RoverPhase::kGivenUp;
     case supervisor_state_t::FAULT_STOP:
       return state.cause == "no_path" ? RoverPhase::kGivenUp : RoverPhase::kFaultStop;
-    default: return RoverPhase::kUnderWay;
+    default:
+      return RoverPhase::kUnderWay;
   }
 }
 
@@ -48,6 +55,7 @@ Simulator::Simulator(const SimulatorOptions& options, SimulatedRover& rover, lcm
       barrier_(options.participants),
       end_(options.end, kStart) {
   const auto listen = [this](const char* channel, auto handler) {
+    malformed_[channel] = 0;
     auto* subscription = lcm_.subscribe(channel, handler, this);
     subscription->setQueueCapacity(0);
   };
@@ -57,14 +65,26 @@ Simulator::Simulator(const SimulatorOptions& options, SimulatedRover& rover, lcm
 }
 
 template <class Message>
+bool Simulator::decode(const lcm::ReceiveBuffer* buffer, const std::string& channel, Message& message) {
+  if (decode_message(buffer->data, static_cast<int>(buffer->data_size), message)) return true;
+  const std::int64_t count = ++malformed_[channel];
+  if ((count & (count - 1)) == 0) {
+    std::printf("%lld WARN rover_simulator BAD_MESSAGE channel=%s count=%lld\n", static_cast<long long>(now_),
+                channel.c_str(), static_cast<long long>(count));
+    std::fflush(stdout);
+  }
+  return false;
+}
+
+template <class Message>
 void Simulator::publish(const char* channel, Message& message, Utime utime, Utime release) {
   message.header = streams_.next(channel, utime, release);
   lcm_.publish(channel, &message);
 }
 
-void Simulator::on_done(const lcm::ReceiveBuffer* buffer, const std::string&) {
+void Simulator::on_done(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
   done_t done;
-  if (!decode_message(buffer->data, static_cast<int>(buffer->data_size), done)) return;
+  if (!decode(buffer, channel, done)) return;
   const header_t& header = done.header;
   if (done.tick_utime == kNever) return barrier_.ready(header.publisher, header.boot_id, done.pid);
   barrier_.done(header.publisher, header.boot_id, done.pid, done.tick_utime, done.promise_utime);
@@ -89,15 +109,14 @@ std::vector<stream_seq_t> Simulator::take_grown(Utime t) {
   return grown;
 }
 
-void Simulator::on_wheel_command(const lcm::ReceiveBuffer* buffer, const std::string&) {
+void Simulator::on_wheel_command(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
   wheel_command_t command;
-  if (!decode_message(buffer->data, static_cast<int>(buffer->data_size), command)) return;
-  commands_.push_back(command);
+  if (decode(buffer, channel, command)) commands_.push_back(command);
 }
 
-void Simulator::on_state(const lcm::ReceiveBuffer* buffer, const std::string&) {
+void Simulator::on_state(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
   supervisor_state_t state;
-  if (decode_message(buffer->data, static_cast<int>(buffer->data_size), state)) states_.push_back(state);
+  if (decode(buffer, channel, state)) states_.push_back(state);
 }
 
 SimulationSummary Simulator::run(const std::function<bool()>& running) {
@@ -105,6 +124,7 @@ SimulationSummary Simulator::run(const std::function<bool()>& running) {
   const auto started = Clock::now();
   Utime t = kStart;
   for (; running(); t += kTickUs) {
+    now_ = t;
     if (const auto over = end_.over(t)) {
       summary_.outcome = *over;
       break;
@@ -152,7 +172,9 @@ WheelCommand Simulator::command_at(Utime t) {
   return wheel_command_from(*command_);
 }
 
-void Simulator::step_world(Utime t) { rover_.advance(to_seconds(kTickUs), command_at(t - kTickUs)); }
+void Simulator::step_world(Utime t) {
+  rover_.advance(to_seconds(kTickUs), command_at(t - kTickUs));
+}
 
 void Simulator::publish_sensors(Utime t) {
   const bool expired = command_ && command_->valid_until_utime < t;

@@ -4,6 +4,7 @@
 #include <deque>
 #include <future>
 #include <lcm/lcm-cpp.hpp>
+#include <map>
 #include <memory>
 #include <optional>
 #include <rover/done_t.hpp>
@@ -28,7 +29,7 @@ struct SimulatorOptions {
 
 // What a run leaves for the report.
 struct SimulationSummary {
-  std::string outcome;         // goal_reached, fault_stop, timeout, stopped, or what kept the run from starting
+  std::string outcome;  // goal_reached, fault_stop, timeout, stopped, or what kept the run from starting
   bool deterministic = true;
   double simulated_s = 0.0;
   double wall_s = 0.0;
@@ -40,6 +41,8 @@ class Simulator {
   Simulator(const SimulatorOptions& options, SimulatedRover& rover, lcm::LCM& lcm);
   // Runs until the run is over or `running` is false.
   SimulationSummary run(const std::function<bool()>& running);
+  // Messages dropped because they do not decode, by channel; every channel taken is listed.
+  const std::map<std::string, std::int64_t>& malformed() const { return malformed_; }
 
  private:
   struct PendingPair {
@@ -63,6 +66,8 @@ class Simulator {
   void on_wheel_command(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void on_state(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   template <class Message>
+  bool decode(const lcm::ReceiveBuffer* buffer, const std::string& channel, Message& message);
+  template <class Message>
   void publish(const char* channel, Message& message, Utime utime, Utime release);
 
   SimulatorOptions options_;
@@ -77,6 +82,8 @@ class Simulator {
   std::optional<wheel_command_t> command_;
   std::optional<PendingPair> exposure_;
   std::int64_t frame_ = 0;
+  Utime now_ = kNever;
+  std::map<std::string, std::int64_t> malformed_;
   std::vector<std::uint8_t> last_tick_;
   SimulationSummary summary_;
 };

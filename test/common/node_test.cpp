@@ -14,7 +14,8 @@ namespace {
 class NodeTest : public testing::Test {
  protected:
   NodeTest() : bus_("memq://"), world_("world", 1) {
-    // Not subscribe() with a member function: GCC 12's UndefinedBehaviorSanitizer takes LCM's call of it for a null one.
+    // Not subscribe() with a member function: GCC 12's UndefinedBehaviorSanitizer takes LCM's call of it for a null
+    // one.
     collect(channel::kDone, dones_);
     collect(channel::kPose, poses_);
   }
@@ -141,9 +142,11 @@ TEST_F(NodeTest, GapsRepeatsAndOldMessagesAreCountedAndNotTaken) {
   bus_.publish(channel::kSlip, &lost);
   tick(node, 100'000);
   EXPECT_EQ(taken, 2);
-  ASSERT_EQ(heartbeat.input_count, 1);
+  ASSERT_EQ(heartbeat.input_count, 2);
   EXPECT_EQ(heartbeat.inputs[0].gaps, 1);
   EXPECT_EQ(heartbeat.inputs[0].out_of_order, 2);
+  EXPECT_EQ(heartbeat.inputs[1].channel, channel::kTick);
+  EXPECT_EQ(heartbeat.inputs[1].received, 2);
 }
 
 TEST_F(NodeTest, GarbageIsCountedAndChangesNothing) {
@@ -167,6 +170,35 @@ TEST_F(NodeTest, GarbageIsCountedAndChangesNothing) {
   bus_.publish(channel::kSlip, &next);
   tick(node, 40'000);
   EXPECT_EQ(taken, 1);
+}
+
+TEST_F(NodeTest, ADamagedCopyDoesNotStandInForTheMessage) {
+  Node node({.name = "node"}, bus_);
+  std::vector<double> taken;
+  node.subscribe<slip_t>(channel::kSlip, [&](const slip_t& message) { taken.push_back(message.wheel_mps); });
+  slip_t good = slip(1.0, 0, 20'000);
+  slip_t next = slip(2.0, 10, 20'000);
+  std::vector<std::uint8_t> cut(static_cast<size_t>(good.getEncodedSize()));
+  good.encode(cut.data(), 0, static_cast<int>(cut.size()));
+  bus_.publish(channel::kSlip, cut.data(), static_cast<unsigned int>(cut.size() - 4));
+  bus_.publish(channel::kSlip, &good);
+  bus_.publish(channel::kSlip, &next);
+  tick(node, 20'000, world_.take_grown());
+  EXPECT_EQ(taken, (std::vector<double>{1.0, 2.0}));
+}
+
+TEST_F(NodeTest, AMessageWithoutSequenceNumberIsNotTaken) {
+  Node node({.name = "node"}, bus_);
+  int taken = 0;
+  node.subscribe<slip_t>(channel::kSlip, [&](const slip_t&) { ++taken; });
+  slip_t message = slip(1.0, 0, 20'000);
+  message.header.seq = 0;
+  bus_.publish(channel::kSlip, &message);
+  testing::internal::CaptureStdout();
+  tick(node, 20'000);
+  EXPECT_EQ(taken, 0);
+  EXPECT_NE(testing::internal::GetCapturedStdout().find("BAD_MESSAGE channel=SLIP count=1 why=no sequence number"),
+            std::string::npos);
 }
 
 TEST_F(NodeTest, AnswersATickThatIsGivenAgain) {

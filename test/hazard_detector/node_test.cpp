@@ -122,7 +122,7 @@ TEST_F(HazardConfigTest, TheCalibrationIsReadWhereThereIsOne) {
 TEST_F(HazardConfigTest, WrongKeysAndRangesStopTheStart) {
   const std::string sections = "grid: {}\nplane: {}\nrelief: {}\n";
   for (const char* bad : {"limits: {near: 0.1}\ncoverage: {}\n", "limits: {far_m: -1}\ncoverage: {}\n",
-                          "limits: {}\ncoverage: {roi_stop_m: 0.3}\n", "limits: {}\n"}) {
+                          "limits: {}\ncoverage: {roi_far_m: 0.3}\n", "limits: {}\n"}) {
     write("hazard_detector.yaml", sections + bad);
     EXPECT_THROW(load_config(dir_.string()), ConfigError) << bad;
   }

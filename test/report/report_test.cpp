@@ -1,6 +1,7 @@
 // From a log on disk to the files of a report.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -158,11 +159,16 @@ TEST_F(ReportTest, ACutLogLosesItsEndOnly) {
   for (const std::uintmax_t missing : {1u, 7u, 30u, 333u, 100'000u}) {
     fs::copy_file(dir_ + "/traverse.lcm", cut, fs::copy_options::overwrite_existing);
     fs::resize_file(cut, fs::file_size(cut) - missing);
+    testing::internal::CaptureStderr();
     const RunRecord run = read_log(cut);
+    const std::string said = testing::internal::GetCapturedStderr();
+    EXPECT_EQ(said.rfind(cut + ": cut short", 0), 0u) << said;
+    EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
     EXPECT_LE(run.truth.size(), whole.truth.size());
     EXPECT_GT(run.truth.size(), whole.truth.size() - 400);
-    EXPECT_EQ(run.bus.damaged_events, 0);
+    EXPECT_EQ(run.bus.damaged_events, 1);
   }
+  EXPECT_EQ(whole.bus.damaged_events, 0);
 }
 
 TEST_F(ReportTest, DamagedRecordsAreCountedAndSkipped) {

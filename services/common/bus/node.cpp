@@ -20,7 +20,17 @@ constexpr Utime kHeartbeatPeriod = 5 * kTickUs;
 constexpr auto kPatience = std::chrono::seconds(2);
 constexpr auto kPatienceUnknown = std::chrono::milliseconds(50);
 
-bool is_power_of_two(std::int64_t n) { return (n & (n - 1)) == 0; }
+bool is_power_of_two(std::int64_t n) {
+  return (n & (n - 1)) == 0;
+}
+
+input_health_t nothing_yet(const std::string& channel) {
+  input_health_t health;
+  health.channel = channel;
+  health.last_utime = kNever;
+  health.received = health.gaps = health.malformed = health.out_of_order = 0;
+  return health;
+}
 
 }  // namespace
 
@@ -33,8 +43,9 @@ struct Node::Subscription {
   };
   std::string channel;  // ".*" for the raw one
   std::int64_t fingerprint = 0;
+  FindChannelType types = nullptr;  // of the raw one: by channel, not by fingerprint
   Utime slow = 0;
-  DecodeAndCall call;
+  Decode decode;
   input_health_t health;
   std::map<std::string, Progress> progress;  // by channel and publisher
 };
@@ -42,7 +53,9 @@ struct Node::Subscription {
 struct Node::Pending {
   Utime release = 0;
   Subscription* subscription = nullptr;
-  RawMessage message;
+  std::string channel;
+  header_t header;
+  Deliver deliver;  // empty: the tap has damaged it
 };
 
 struct Node::QueuedTick {
@@ -51,7 +64,10 @@ struct Node::QueuedTick {
 };
 
 Node::Node(NodeOptions options, lcm::LCM& lcm)
-    : options_(std::move(options)), lcm_(lcm), streams_(options_.name, options_.boot_id) {
+    : options_(std::move(options)),
+      lcm_(lcm),
+      streams_(options_.name, options_.boot_id),
+      ticks_health_(nothing_yet(channel::kTick)) {
   if (options_.allow_injection || !options_.muted.empty()) {
     tap_ = std::make_unique<Tap>(std::hash<std::string>{}(options_.name));
     for (const std::string& channel : options_.muted) tap_->mute(channel);
@@ -70,16 +86,14 @@ Node::Node(NodeOptions options, lcm::LCM& lcm)
 Node::~Node() = default;
 
 Node::Subscription& Node::add_subscription(const std::string& channel, std::int64_t fingerprint, Utime slow,
-                                           DecodeAndCall call) {
+                                           Decode decode) {
   auto owned = std::make_unique<Subscription>();
   Subscription& added = *owned;
   added.channel = channel;
   added.fingerprint = fingerprint;
   added.slow = slow;
-  added.call = std::move(call);
-  added.health.channel = channel;
-  added.health.last_utime = kNever;
-  added.health.received = added.health.gaps = added.health.malformed = added.health.out_of_order = 0;
+  added.decode = std::move(decode);
+  added.health = nothing_yet(channel);
   subscriptions_.push_back(std::move(owned));
   struct Context {
     Node* node;
@@ -95,54 +109,66 @@ Node::Subscription& Node::add_subscription(const std::string& channel, std::int6
   return added;
 }
 
-void Node::subscribe_raw(std::function<void(const RawMessage&)> handler) {
-  add_subscription(".*", 0, 0, [handler = std::move(handler)](const RawMessage& raw) {
-    handler(raw);
-    return true;
+void Node::subscribe_raw(std::function<void(const RawMessage&)> handler, FindChannelType types) {
+  const auto shared = std::make_shared<const std::function<void(const RawMessage&)>>(std::move(handler));
+  Subscription& added = add_subscription(".*", 0, 0, [shared, types](RawMessage raw) -> Deliver {
+    const ChannelType* type = types(raw.channel);
+    if (type != nullptr && !type->decodes(raw.bytes.data(), static_cast<int>(raw.bytes.size()))) return nullptr;
+    const auto message = std::make_shared<const RawMessage>(std::move(raw));
+    return [shared, message] { (*shared)(*message); };
   });
+  added.types = types;
 }
 
+std::int64_t Node::fingerprint_of(const Subscription& subscription, const std::string& channel) {
+  if (subscription.types == nullptr) return subscription.fingerprint;
+  const ChannelType* type = subscription.types(channel);
+  return type == nullptr ? 0 : type->fingerprint;
+}
+
+// A message is noted in the ledger only when all of it is sound: a damaged copy must not stand in for the sound one.
 void Node::receive(const lcm::ReceiveBuffer* buffer, const std::string& channel, Subscription& subscription) {
   if (channel == "LCM_SELF_TEST") return;  // LCM's own, at each start of a process
   const int size = static_cast<int>(buffer->data_size);
-  RawMessage message;
-  message.channel = channel;
-  if (!peek_header(buffer->data, size, message.header)) return count_malformed(subscription, "truncated");
-  if (subscription.fingerprint != 0 && peek_fingerprint(buffer->data, size) != subscription.fingerprint)
-    return count_malformed(subscription, "foreign fingerprint");
-  // Announcements (seq 0) are outside of the order of ticks.
-  if (message.header.seq <= 0) return;
-  if (!ledger_.arrived(channel, message.header)) {
+  const auto* begin = static_cast<const std::uint8_t*>(buffer->data);
+  const auto drop = [&](const char* why) { count_malformed(subscription.health, channel, why); };
+  const std::int64_t fingerprint = fingerprint_of(subscription, channel);
+  if (size < kFingerprintBytes) return drop("truncated");
+  if (fingerprint != 0 && peek_fingerprint(begin, size) != fingerprint) return drop("foreign fingerprint");
+  Pending pending;
+  if (!peek_header(begin, size, pending.header)) return drop("truncated");
+  pending.deliver = subscription.decode({channel, pending.header, {begin, begin + size}});
+  if (!pending.deliver) return drop("truncated or damaged");
+  // Announcements (DONE with seq 0) are outside of the order of ticks.
+  if (pending.header.seq <= 0) return channel == channel::kDone ? void() : drop("no sequence number");
+  if (!ledger_.arrived(channel, pending.header)) {
     ++subscription.health.out_of_order;
     return;
   }
-  const auto* begin = static_cast<const std::uint8_t*>(buffer->data);
-  if (!tap_) {
-    message.bytes.assign(begin, begin + size);
-    return enqueue(subscription, std::move(message), 0);
-  }
-  for (Tap::Passed& passed : tap_->pass(channel, message.header.utime, buffer->data, size)) {
-    RawMessage tapped;
+  pending.channel = channel;
+  if (!tap_) return enqueue(subscription, std::move(pending), 0);
+  for (const Tap::Passed& passed : tap_->pass(channel, pending.header.utime, begin, size)) {
+    Pending tapped;
     tapped.channel = channel;
+    // A header that cannot be read has no release either: lost.
     if (!peek_header(passed.bytes.data(), static_cast<int>(passed.bytes.size()), tapped.header)) continue;
-    tapped.bytes = std::move(passed.bytes);
+    tapped.deliver = subscription.decode({channel, tapped.header, passed.bytes});
     enqueue(subscription, std::move(tapped), passed.delay);
   }
 }
 
-void Node::enqueue(Subscription& subscription, RawMessage message, Utime delay) {
-  Pending pending;
-  pending.release = message.header.release_utime + delay;
+void Node::enqueue(Subscription& subscription, Pending pending, Utime delay) {
+  pending.release = pending.header.release_utime + delay;
   pending.subscription = &subscription;
-  pending.message = std::move(message);
   pending_.push_back(std::move(pending));
 }
 
 void Node::receive_tick(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
+  const int size = static_cast<int>(buffer->data_size);
   QueuedTick queued{{}, Clock::now()};
-  if (!decode_message(buffer->data, static_cast<int>(buffer->data_size), queued.tick)) {
-    log("WARN", "BAD_MESSAGE channel=" + channel + " why=malformed");
-    return;
+  if (!decode_message(buffer->data, size, queued.tick)) {
+    const bool foreign = size >= kFingerprintBytes && peek_fingerprint(buffer->data, size) != tick_t::getHash();
+    return count_malformed(ticks_health_, channel, foreign ? "foreign fingerprint" : "truncated or damaged");
   }
   const auto& members = queued.tick.members;
   if (std::find(members.begin(), members.end(), options_.name) == members.end()) return;
@@ -184,8 +210,7 @@ std::vector<Node::Pending> Node::take_released(Utime until) {
   pending_.erase(split, pending_.end());
   std::stable_sort(released.begin(), released.end(), [](const Pending& a, const Pending& b) {
     const auto key = [](const Pending& p) {
-      return std::tie(p.release, p.message.channel, p.message.header.publisher, p.message.header.boot_id,
-                      p.message.header.seq);
+      return std::tie(p.release, p.channel, p.header.publisher, p.header.boot_id, p.header.seq);
     };
     return key(a) < key(b);
   });
@@ -193,7 +218,8 @@ std::vector<Node::Pending> Node::take_released(Utime until) {
 }
 
 void Node::process(const tick_t& tick) {
-  now_ = tick.header.utime;
+  now_ = ticks_health_.last_utime = tick.header.utime;
+  ++ticks_health_.received;
   const std::vector<Pending> released = take_released(now_);
   Utime slow = 0;
   for (const Pending& pending : released) slow = std::max(slow, pending.subscription->slow);
@@ -209,9 +235,8 @@ void Node::process(const tick_t& tick) {
   publish_done(now_);
 }
 
-bool Node::in_order(Subscription& subscription, const RawMessage& message) {
-  const header_t& header = message.header;
-  auto& progress = subscription.progress[message.channel + '/' + header.publisher];
+bool Node::in_order(Subscription& subscription, const std::string& channel, const header_t& header) {
+  auto& progress = subscription.progress[channel + '/' + header.publisher];
   if (header.boot_id < progress.boot_id) return false;
   if (header.boot_id > progress.boot_id) progress = {header.boot_id, 0, kNever};
   if (header.seq <= progress.seq || header.utime < progress.utime) return false;
@@ -222,29 +247,26 @@ bool Node::in_order(Subscription& subscription, const RawMessage& message) {
 
 void Node::dispatch(const Pending& pending) {
   Subscription& subscription = *pending.subscription;
-  if (!in_order(subscription, pending.message)) {
+  if (!pending.deliver) return count_malformed(subscription.health, pending.channel, "truncated or damaged");
+  if (!in_order(subscription, pending.channel, pending.header)) {
     ++subscription.health.out_of_order;
     return;
   }
-  const Utime before = subscription.health.last_utime;
-  subscription.health.last_utime = pending.message.header.utime;
+  subscription.health.last_utime = pending.header.utime;
   ++subscription.health.received;
-  if (!subscription.call(pending.message)) {
-    subscription.health.last_utime = before;
-    count_malformed(subscription, "truncated");
-  }
+  pending.deliver();
 }
 
-void Node::count_malformed(Subscription& subscription, const std::string& why) {
-  ++subscription.health.malformed;
-  if (is_power_of_two(subscription.health.malformed))
-    log("WARN", "BAD_MESSAGE channel=" + subscription.channel + " count=" +
-                    std::to_string(subscription.health.malformed) + " why=" + why);
+void Node::count_malformed(input_health_t& health, const std::string& channel, const std::string& why) {
+  ++health.malformed;
+  const std::int64_t count = ++malformed_[{health.channel, channel}];
+  if (is_power_of_two(count))
+    log("WARN", "BAD_MESSAGE channel=" + channel + " count=" + std::to_string(count) + " why=" + why);
 }
 
 void Node::reject(const std::string& channel, const std::string& why) {
   for (const auto& subscription : subscriptions_)
-    if (subscription->channel == channel) return count_malformed(*subscription, why);
+    if (subscription->channel == channel) return count_malformed(subscription->health, channel, why);
 }
 
 double Node::age_s(const std::string& channel) const {
@@ -275,6 +297,7 @@ void Node::publish_heartbeat() {
   heartbeat.step_p50_ms = timer_.quantile_ms(0.5);
   heartbeat.step_p99_ms = timer_.quantile_ms(0.99);
   for (const auto& subscription : subscriptions_) heartbeat.inputs.push_back(subscription->health);
+  heartbeat.inputs.push_back(ticks_health_);
   heartbeat.input_count = static_cast<std::int32_t>(heartbeat.inputs.size());
   publish(channel::kHeartbeat, heartbeat, now_);
 }

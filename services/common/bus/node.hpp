@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "common/bus/channel_types.hpp"
 #include "common/bus/channels.hpp"
 #include "common/bus/config.hpp"
 #include "common/bus/health.hpp"
@@ -57,8 +58,10 @@ class Node {
   template <class Message>
   void subscribe_slow(const std::string& channel, Utime latency, std::function<void(const Message&)> handler);
 
-  // Every message of every channel, undecoded, in the same order (recorder).
-  void subscribe_raw(std::function<void(const RawMessage&)> handler);
+  // Every message of every channel, undecoded, in the same order (recorder). What is not of the type that `types` gives
+  // for its channel is dropped like any malformed input. The table is handed in: it names TRUTH, which no other service
+  // may.
+  void subscribe_raw(std::function<void(const RawMessage&)> handler, FindChannelType types);
 
   // Called once each tick, after the inputs.
   void on_step(std::function<void(Utime now)> step) { step_ = std::move(step); }
@@ -93,18 +96,22 @@ class Node {
   struct Pending;
   struct QueuedTick;
 
-  using DecodeAndCall = std::function<bool(const RawMessage&)>;
-  Subscription& add_subscription(const std::string& channel, std::int64_t fingerprint, Utime slow, DecodeAndCall call);
+  // Calls the handler with a decoded message.
+  using Deliver = std::function<void()>;
+  // Empty where the bytes are not a message of the type.
+  using Decode = std::function<Deliver(RawMessage)>;
+  Subscription& add_subscription(const std::string& channel, std::int64_t fingerprint, Utime slow, Decode decode);
+  static std::int64_t fingerprint_of(const Subscription& subscription, const std::string& channel);
   void receive(const lcm::ReceiveBuffer* buffer, const std::string& channel, Subscription& subscription);
-  void enqueue(Subscription& subscription, RawMessage message, Utime delay);
+  void enqueue(Subscription& subscription, Pending pending, Utime delay);
   void receive_tick(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void process_ready_ticks();
   bool holds_all_for(QueuedTick& tick);
   void process(const tick_t& tick);
   std::vector<Pending> take_released(Utime until);
-  bool in_order(Subscription& subscription, const RawMessage& message);
+  bool in_order(Subscription& subscription, const std::string& channel, const header_t& header);
   void dispatch(const Pending& pending);
-  void count_malformed(Subscription& subscription, const std::string& why);
+  void count_malformed(input_health_t& health, const std::string& channel, const std::string& why);
   void publish_heartbeat();
   void publish_done(Utime tick);
   void publish_bytes(const std::string& channel, const std::vector<std::uint8_t>& bytes);
@@ -119,6 +126,8 @@ class Node {
   StepTimer timer_;
   std::function<void(Utime)> step_;
   std::vector<std::unique_ptr<Subscription>> subscriptions_;
+  input_health_t ticks_health_;
+  std::map<std::pair<std::string, std::string>, std::int64_t> malformed_;  // by subscription and channel
   std::vector<Pending> pending_;
   std::deque<QueuedTick> ticks_;
   done_t last_done_;
@@ -135,11 +144,11 @@ void Node::subscribe(const std::string& channel, std::function<void(const Messag
 
 template <class Message>
 void Node::subscribe_slow(const std::string& channel, Utime latency, std::function<void(const Message&)> handler) {
-  add_subscription(channel, Message::getHash(), latency, [handler = std::move(handler)](const RawMessage& raw) {
-    Message message;
-    if (!decode_message(raw.bytes.data(), static_cast<int>(raw.bytes.size()), message)) return false;
-    handler(message);
-    return true;
+  const auto shared = std::make_shared<const std::function<void(const Message&)>>(std::move(handler));
+  add_subscription(channel, Message::getHash(), latency, [shared](const RawMessage& raw) -> Deliver {
+    const auto message = std::make_shared<Message>();
+    if (!decode_message(raw.bytes.data(), static_cast<int>(raw.bytes.size()), *message)) return nullptr;
+    return [shared, message] { (*shared)(*message); };
   });
 }
 

@@ -66,7 +66,6 @@ void ArrivalLedger::give_up(const stream_seq_t& stream) {
 }
 
 bool peek_header(const void* data, int size, header_t& header) {
-  constexpr int kFingerprintBytes = 8;
   if (size <= kFingerprintBytes) return false;
   try {
     return header._decodeNoHash(data, kFingerprintBytes, size - kFingerprintBytes) > 0;

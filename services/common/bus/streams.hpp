@@ -53,6 +53,9 @@ class ArrivalLedger {
   std::map<Key, Arrival> arrivals_;
 };
 
+// In front of every message.
+inline constexpr int kFingerprintBytes = 8;
+
 // Reads the header of any message without knowing its type. False where the bytes are too short for one.
 bool peek_header(const void* data, int size, header_t& header);
 // Decodes a whole message. False where it is truncated, of another type or has trailing bytes.

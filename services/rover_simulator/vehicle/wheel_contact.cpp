@@ -39,12 +39,12 @@ void add_strip(const ContactConfig& config, const Vehicle& vehicle, HeightCache&
     const double px = base.x() + x1 * plane.f.x(), py = base.y() + x1 * plane.f.y();
     // Above the axle the column is a wall, whose nearest point is level with the axle.
     const double z1 = std::min(0.0, (heights.height_m(px, py) - center.z()) * plane.u.z());
-    const double x = 0.5 * (x0 + x1), z = 0.5 * (z0 + z1), length = std::hypot(x1 - x0, z1 - z0);
+    const double x = 0.5 * (x0 + x1), z = 0.5 * (z0 + z1), rise = z1 - z0;
     x0 = x1;
     z0 = z1;
     const double distance_sq = x * x + z * z;
     if (i == 0 || distance_sq >= radius * radius || distance_sq < 1e-12) continue;
-    const double distance = std::sqrt(distance_sq), depth = radius - distance;
+    const double distance = std::sqrt(distance_sq), depth = radius - distance, length = std::sqrt(dx * dx + rise * rise);
     const Material material = heights.material(base.x() + x * plane.f.x(), base.y() + x * plane.f.y());
     const auto soil = static_cast<size_t>(material.soil);
     const double load = config.stiffness_npm2[soil] / kStrips * depth * length;

@@ -1,0 +1,74 @@
+// The planner in a closed loop with a rover of imperfect odometry, among rocks.
+#include <gtest/gtest.h>
+
+#include "test/path_planner/rock_drive.hpp"
+
+namespace rover::planning {
+namespace {
+
+using testing_support::drive;
+using testing_support::DriveConfig;
+using testing_support::DriveResult;
+using testing_support::planner_config;
+using testing_support::Rock;
+using testing_support::rock_field;
+
+constexpr double kLengthM = 18.0;
+
+std::vector<Rock> rocks_for(std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::vector<Rock> rocks = rock_field(0.07, {-4.0, -8.0}, {kLengthM + 4.0, 8.0}, 0.3, random);
+  std::erase_if(rocks, [](const Rock& r) {
+    return distance(r.p, {0.0, 0.0}) < 2.0 + r.radius_m || distance(r.p, {kLengthM, 0.0}) < 2.5 + r.radius_m;
+  });
+  return rocks;
+}
+
+class ClosedLoop : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(ClosedLoop, ReachesTheGoalWithoutCollision) {
+  std::vector<Rock> rocks = rocks_for(GetParam());
+  rocks.push_back({{7.0, 0.1}, 0.3, 0.3});  // at least one repair
+  DriveConfig config;
+  config.planner = planner_config();
+  config.camera.false_hit_rate = 0.01;
+  config.timeout_s = 400.0;
+  const DriveResult r = drive(config, rocks, {{0.0, 0.0}, {6.0, 0.8}, {kLengthM, 0.0}}, GetParam());
+  EXPECT_TRUE(r.reached) << r.text;
+  EXPECT_FALSE(r.collided);
+  EXPECT_GT(r.least_clearance_m, 0.0);
+  EXPECT_GE(r.replans, 1);
+  EXPECT_LT(r.driven_m / kLengthM, 1.35);
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, ClosedLoop, testing::Values(1, 2, 3, 4));
+
+TEST(ClosedLoop, SurroundedByRocksItStandsAndSaysWhy) {
+  std::vector<Rock> rocks;
+  for (int deg = 0; deg < 360; deg += 6)
+    rocks.push_back({{2.0 * std::cos(to_rad(deg)), 2.0 * std::sin(to_rad(deg))}, 0.2, 0.3});
+  DriveConfig config;
+  config.planner = planner_config();
+  config.no_path_s = 8.0;
+  config.timeout_s = 90.0;
+  const DriveResult r = drive(config, rocks, {{0.0, 0.0}, {10.0, 0.0}}, 1);
+  EXPECT_FALSE(r.reached);
+  EXPECT_FALSE(r.collided);
+  EXPECT_LT(r.driven_m, 1.5);
+  EXPECT_NE(r.text, "");
+}
+
+TEST(ClosedLoop, TheSameSeedGivesTheSameDrive) {
+  DriveConfig config;
+  config.planner = planner_config();
+  const std::vector<Rock> rocks = {{{4.0, 0.1}, 0.3, 0.3}};
+  const DriveResult a = drive(config, rocks, {{0.0, 0.0}, {8.0, 0.0}}, 5);
+  const DriveResult b = drive(config, rocks, {{0.0, 0.0}, {8.0, 0.0}}, 5);
+  EXPECT_TRUE(a.reached);
+  EXPECT_EQ(a.driven_m, b.driven_m);
+  EXPECT_EQ(a.duration_s, b.duration_s);
+  EXPECT_EQ(a.track.back().y_m, b.track.back().y_m);
+}
+
+}  // namespace
+}  // namespace rover::planning

@@ -1,0 +1,279 @@
+// The planner on an in-process bus: commands are answered, unusable input is counted, paths go out as they are adopted.
+#include "path_planner/node.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <rover/command_ack_t.hpp>
+#include <rover/hazards_t.hpp>
+#include <rover/heartbeat_t.hpp>
+#include <rover/planner_status_t.hpp>
+#include <rover/pose_t.hpp>
+#include <rover/service_state_t.hpp>
+
+#include "common/bus/convert.hpp"
+#include "path_planner/config.hpp"
+#include "test/path_planner/rock_world.hpp"
+#include "test/trajectory_control/bus_world.hpp"
+
+namespace rover::planning {
+namespace {
+
+using testing_support::CameraModel;
+using testing_support::observe;
+using testing_support::Rock;
+
+path_t ahead() {
+  path_t out{};
+  out.path_id = 5;
+  out.frame = path_t::MAP;
+  out.corridor_half_width_m = 0.75;
+  out.goal_tolerance_m = 0.5;
+  out.x_m = {0.0, 20.0};
+  out.y_m = {0.0, 0.0};
+  out.level = {path_t::EFFICIENT, path_t::EFFICIENT};
+  out.point_count = 2;
+  return out;
+}
+
+pose_t pose_at(const Pose2& pose) {
+  pose_t out{};
+  pose_to(from_planar(pose), out.position_odom_body_m, out.quat_odom_body_wxyz);
+  pose_to(from_planar({0.0, 0.0, 0.0}), out.position_map_odom_m, out.quat_map_odom_wxyz);
+  return out;
+}
+
+hazards_t frame_of(const std::vector<Rock>& rocks) {
+  std::mt19937_64 random(1);
+  const HazardGrid grid = observe(CameraModel{}, rocks, {0.0, 0.0, 0.0}, 0, random);
+  hazards_t out{};
+  out.cell_m = grid.cell_m;
+  out.origin_x_m = grid.origin_x_m;
+  out.origin_y_m = grid.origin_y_m;
+  out.cells_x = static_cast<std::int16_t>(grid.cells_x);
+  out.cells_y = static_cast<std::int16_t>(grid.cells_y);
+  out.cells = grid.cells;
+  out.size = static_cast<std::int32_t>(out.cells.size());
+  return out;
+}
+
+class PlannerNodeTest : public testing::Test {
+ protected:
+  explicit PlannerNodeTest(const std::string& run_dir = "")
+      : node_({.name = "path_planner", .run_dir = run_dir}, world_.bus),
+        service_(node_, load_config(ROVER_SOURCE_DIR "/config")) {
+    acks_ = world_.listen<command_ack_t>(channel::kCommandAck);
+    paths_ = world_.listen<path_t>(channel::kPath);
+    statuses_ = world_.listen<planner_status_t>(channel::kPlannerStatus);
+    heartbeats_ = world_.listen<heartbeat_t>(channel::kHeartbeat);
+  }
+
+  void tick(int times = 1) {
+    for (int i = 0; i < times; ++i) {
+      if (posed_) world_.send(channel::kPose, pose_);
+      world_.tick(node_);
+      while (world_.bus.handleTimeout(0) > 0) {
+      }
+    }
+  }
+
+  void certify_start() {
+    ground_command_t command{};
+    command.kind = ground_command_t::SET_START_POSE;
+    command.clear_radius_m = 2.0;
+    world_.send(channel::kGroundCommand, command, "mission_control");
+    tick(3);
+  }
+
+  std::int64_t malformed(const std::string& channel) const {
+    if (heartbeats_->empty()) return -1;
+    for (const input_health_t& input : heartbeats_->back().inputs)
+      if (input.channel == channel) return input.malformed;
+    return -1;
+  }
+
+  test::BusWorld world_;
+  Node node_;
+  PathPlannerNode service_;
+  std::shared_ptr<std::vector<command_ack_t>> acks_;
+  std::shared_ptr<std::vector<path_t>> paths_;
+  std::shared_ptr<std::vector<planner_status_t>> statuses_;
+  std::shared_ptr<std::vector<heartbeat_t>> heartbeats_;
+  pose_t pose_ = pose_at({0.0, 0.0, 0.0});
+  bool posed_ = true;
+};
+
+TEST_F(PlannerNodeTest, AGlobalPathIsAcknowledgedAndBecomesAPathInOdom) {
+  certify_start();
+  world_.send(channel::kGlobalPath, ahead(), "mission_control");
+  tick(3);
+  ASSERT_EQ(acks_->size(), 1u);
+  EXPECT_EQ(acks_->back().command_id, 5);
+  EXPECT_EQ(acks_->back().accepted, 1);
+  EXPECT_EQ(acks_->back().reason, "");
+  ASSERT_EQ(paths_->size(), 1u);
+  const path_t& path = paths_->back();
+  EXPECT_EQ(path.frame, +path_t::ODOM);
+  EXPECT_EQ(path.kind, +path_t::GLOBAL);
+  EXPECT_EQ(path.corridor_half_width_m, 0.75);
+  EXPECT_EQ(path.goal_tolerance_m, 0.5);
+  ASSERT_GE(path.point_count, 2);
+  EXPECT_EQ(path.x_m.size(), static_cast<size_t>(path.point_count));
+  EXPECT_NEAR(path.x_m.back(), 20.0, 1e-6);
+  EXPECT_EQ(statuses_->back().path_id, path.path_id);
+  EXPECT_EQ(statuses_->back().global_path_id, 5);
+}
+
+// The promise of the README: a path is released 0.1 s and a tick after the frame that made it.
+TEST_F(PlannerNodeTest, APathIsReleasedAfterItsLatency) {
+  certify_start();
+  world_.send(channel::kGlobalPath, ahead(), "mission_control");
+  tick(3);
+  ASSERT_EQ(paths_->size(), 1u);
+  EXPECT_GE(paths_->back().header.release_utime - paths_->back().header.utime, 100'000);
+}
+
+TEST_F(PlannerNodeTest, WhatIsNoPathIsRefusedWithAReasonAndTheOldOneStays) {
+  certify_start();
+  world_.send(channel::kGlobalPath, ahead(), "mission_control");
+  std::vector<path_t> bad(6, ahead());
+  bad[0].x_m[1] = kNaN;
+  bad[1].x_m = {1.0};
+  bad[1].y_m = {1.0};
+  bad[1].level = {0};
+  bad[1].point_count = 1;
+  bad[2].frame = path_t::ODOM;
+  bad[3].level[1] = 9;
+  bad[4].goal_tolerance_m = -1.0;
+  bad[5].x_m = bad[5].y_m = {};
+  bad[5].level = {};
+  bad[5].point_count = 0;
+  for (size_t i = 0; i < bad.size(); ++i) {
+    bad[i].path_id = 10 + static_cast<std::int64_t>(i);
+    world_.send(channel::kGlobalPath, bad[i], "mission_control");
+  }
+  tick(12);
+  ASSERT_EQ(acks_->size(), 1 + bad.size());
+  for (size_t i = 0; i < bad.size(); ++i) {
+    const command_ack_t& ack = (*acks_)[i + 1];
+    EXPECT_EQ(ack.command_id, 10 + static_cast<std::int64_t>(i));
+    EXPECT_EQ(ack.accepted, 0) << i;
+    EXPECT_NE(ack.reason, "") << i;
+  }
+  EXPECT_EQ(malformed(channel::kGlobalPath), 6);
+  EXPECT_EQ(statuses_->back().global_path_id, 5);
+  EXPECT_EQ(statuses_->back().state, +planner_status_t::FOLLOWING);
+}
+
+TEST_F(PlannerNodeTest, ARockInTwoFramesMakesARepair) {
+  certify_start();
+  world_.send(channel::kGlobalPath, ahead(), "mission_control");
+  tick(3);
+  for (int i = 0; i < 2; ++i) {
+    world_.send(channel::kHazards, frame_of({{{3.0, 0.1}, 0.25, 0.3}}), "hazard_detector");
+    tick(2);
+  }
+  ASSERT_GE(paths_->size(), 2u);
+  EXPECT_EQ(paths_->back().kind, +path_t::REPAIR);
+  EXPECT_EQ(statuses_->back().state, +planner_status_t::REPAIRING);
+  EXPECT_EQ(statuses_->back().replans, 1);
+  EXPECT_GT(paths_->back().path_id, paths_->front().path_id);
+}
+
+TEST_F(PlannerNodeTest, UnusableMessagesAreCountedAndChangeNothing) {
+  certify_start();
+  world_.send(channel::kGlobalPath, ahead(), "mission_control");
+  tick(3);
+  std::vector<hazards_t> bad(5, frame_of({}));
+  bad[0].cells_x = 0;
+  bad[1].cells_y = static_cast<std::int16_t>(bad[1].cells_y + 1);
+  bad[2].cell_m = kNaN;
+  bad[3].origin_x_m = kInfinity;
+  bad[4].cells[3] = 77;
+  for (const hazards_t& message : bad) world_.send(channel::kHazards, message, "hazard_detector");
+  ground_command_t start{};
+  start.kind = ground_command_t::SET_START_POSE;
+  start.position_map_m[0] = kNaN;
+  world_.send(channel::kGroundCommand, start, "mission_control");
+  start.position_map_m[0] = 0.0;
+  start.clear_radius_m = 100.0;
+  world_.send(channel::kGroundCommand, start, "mission_control");
+  const std::uint8_t foreign[] = {1, 2, 3, 4, 5, 6, 7, 8, 9};
+  world_.bus.publish(channel::kHazards, foreign, sizeof(foreign));
+  tick(12);
+  EXPECT_EQ(malformed(channel::kHazards), 6);
+  EXPECT_EQ(malformed(channel::kGroundCommand), 2);
+  EXPECT_EQ(paths_->size(), 1u);
+  EXPECT_EQ(statuses_->back().state, +planner_status_t::FOLLOWING);
+}
+
+TEST_F(PlannerNodeTest, PoseStatusAndAgeDecide) {
+  certify_start();
+  world_.send(channel::kGlobalPath, ahead(), "mission_control");
+  tick(3);
+  pose_.status = pose_t::DEGRADED;
+  tick();
+  EXPECT_EQ(statuses_->back().state, +planner_status_t::FOLLOWING);
+  for (const std::int8_t status : {pose_t::LOST, pose_t::UNINITIALISED, static_cast<std::int8_t>(99)}) {
+    pose_.status = status;
+    tick();
+    EXPECT_EQ(statuses_->back().state, +planner_status_t::IDLE) << int(status);
+    EXPECT_EQ(statuses_->back().path_id, -1);
+  }
+  pose_.status = pose_t::OK;
+  pose_.velocity_body_mps[0] = kNaN;
+  tick();
+  EXPECT_EQ(statuses_->back().state, +planner_status_t::IDLE);
+  pose_.velocity_body_mps[0] = 0.0;
+  tick();
+  EXPECT_EQ(statuses_->back().state, +planner_status_t::FOLLOWING);
+  posed_ = false;
+  tick(30);
+  EXPECT_EQ(statuses_->back().state, +planner_status_t::IDLE);
+  EXPECT_EQ(statuses_->back().text, "no fresh pose");
+}
+
+TEST_F(PlannerNodeTest, AStatusGoesOutEachTick) {
+  tick(10);
+  EXPECT_EQ(statuses_->size(), 10u);
+  EXPECT_EQ(statuses_->back().state, +planner_status_t::IDLE);
+}
+
+std::string fresh_folder() {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "path_planner_node";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  return folder.string();
+}
+
+class PlannerRestartTest : public PlannerNodeTest {
+ protected:
+  PlannerRestartTest() : PlannerNodeTest(fresh_folder()) {}
+};
+
+TEST_F(PlannerRestartTest, ARestartedNodeTellsItsStateAndSendsItsPathAgain) {
+  certify_start();
+  world_.send(channel::kGlobalPath, ahead(), "mission_control");
+  tick(60);  // a checkpoint each second
+  ASSERT_EQ(paths_->size(), 1u);
+  test::BusWorld world;
+  world.now = world_.now;
+  Node node({.name = "path_planner", .boot_id = 2, .run_dir = node_.options().run_dir}, world.bus);
+  const PathPlannerNode restarted(node, load_config(ROVER_SOURCE_DIR "/config"));
+  const auto paths = world.listen<path_t>(channel::kPath);
+  const auto states = world.listen<service_state_t>(channel::kServiceState);
+  for (int i = 0; i < 3; ++i) {
+    world.send(channel::kPose, pose_);
+    world.tick(node);
+    while (world.bus.handleTimeout(0) > 0) {
+    }
+  }
+  ASSERT_EQ(states->size(), 1u);
+  EXPECT_EQ(states->back().service, "path_planner");
+  EXPECT_GT(states->back().size, 0);
+  ASSERT_EQ(paths->size(), 1u);
+  EXPECT_EQ(paths->back().path_id, paths_->back().path_id);
+}
+
+}  // namespace
+}  // namespace rover::planning

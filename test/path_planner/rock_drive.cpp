@@ -1,0 +1,272 @@
+#include "test/path_planner/rock_drive.hpp"
+
+#include <deque>
+
+namespace rover::planning::testing_support {
+namespace {
+
+constexpr double kTurnStartRad = 0.7;
+constexpr double kTurnStopRad = 0.035;
+constexpr double kAtTheEndM = 0.02;
+constexpr double kMostCurvature = 1.0;
+constexpr double kSteeringRate = 0.185;  // of the curvature [1/(m s)]
+constexpr double kDecelerationMps2 = 0.1;
+constexpr double kCreepMps = 0.08;  // while the steering swings far
+constexpr double kGoOnM = 0.15;     // what a block must recede after a stop
+
+// Odometry that errs in scale and bend.
+struct Drift {
+  double scale = 1.0;
+  double bend_per_m = 0.0;
+};
+
+// As trajectory_control: legs between kinks, a halt and a point turn at each; retreats are driven stern first.
+class Follower {
+ public:
+  Follower(const DriveConfig& config, const Pose2& start, const Drift& drift)
+      : config_(config), drift_(drift), truth_(start) {}
+
+  const Pose2& truth() const { return truth_; }  // in map
+  const Pose2& odom() const { return odom_; }
+  double forward_mps() const { return direction_ * speed_; }
+  double yaw_rate_radps() const { return rate_; }
+  double driven_m() const { return driven_m_; }
+  int point_turns() const { return point_turns_; }
+  bool has_path() const { return !route_.empty(); }
+
+  void take(const LocalPath& path) {
+    const double direction = path.kind == PathKind::kRetreat ? -1.0 : 1.0;
+    if (direction != direction_) curvature_ = -curvature_;
+    direction_ = direction;
+    route_ = Route(path.points);
+    progress_m_ = route_.closest(position(odom_), 0.0, 1.0);
+    const bool turn = std::abs(heading_error()) > (turning_ ? kTurnStopRad : kTurnStartRad);
+    if (turn && !turning_) begin_turn();
+    turning_ = turn;
+  }
+
+  void halt() {
+    speed_ = 0.0;
+    rate_ = 0.0;
+  }
+
+  // False where the rover stands at the end of its path.
+  bool move() {
+    const double leg_end = advance();
+    if (route_.length_m() - progress_m_ < kAtTheEndM) {
+      halt();
+      return false;
+    }
+    if (std::abs(heading_error()) > kTurnStartRad && !turning_) begin_turn();
+    if (turning_)
+      turn();
+    else
+      follow(std::sqrt(2.0 * kDecelerationMps2 * std::max(leg_end - progress_m_, 0.002)));
+    return true;
+  }
+
+ private:
+  double step_s() const { return to_seconds(config_.step_us); }
+
+  // The way that the rover's bow points, of two ends the one that goes ahead.
+  Pose2 bow() const { return {odom_.x_m, odom_.y_m, odom_.yaw_rad + (direction_ < 0.0 ? kPi : 0.0)}; }
+  double heading_error() const { return wrap_angle(route_.pose_at(progress_m_).yaw_rad - bow().yaw_rad); }
+
+  void begin_turn() {
+    turning_ = true;
+    ++point_turns_;
+    turn_wait_s_ = config_.turn_overhead_s;
+  }
+
+  // Along the leg between two kinks; returns where it ends.
+  double advance() {
+    const auto& kinks = route_.kinks();
+    const auto next = std::find_if(kinks.begin(), kinks.end(), [&](size_t i) { return route_.s_at(i) > progress_m_; });
+    const double begin = next == kinks.begin() ? 0.0 : route_.s_at(*std::prev(next)) + 1e-6;
+    const double end = next == kinks.end() ? route_.length_m() : route_.s_at(*next);
+    progress_m_ = route_.closest(position(odom_), std::max(progress_m_ - 0.3, begin), std::min(progress_m_ + 0.5, end));
+    if (next != kinks.end() && end - progress_m_ < 0.03 && !turning_) {
+      progress_m_ = end + 1e-3;
+      begin_turn();
+    }
+    return end;
+  }
+
+  void turn() {
+    halt();
+    turn_wait_s_ -= step_s();
+    if (turn_wait_s_ > 0.0) return;
+    const double error = heading_error();
+    const double most = config_.turn_rate_radps * step_s();
+    const double step = std::clamp(error, -most, most);
+    rate_ = step / step_s();
+    truth_.yaw_rad += step;
+    odom_.yaw_rad += step;
+    if (std::abs(error) < kTurnStopRad) turning_ = false;
+  }
+
+  // Feedback of cross-track and heading errors around the path's curvature, with the steering's rate.
+  double wanted_curvature() const {
+    const Point2 off = to_body(route_.pose_at(progress_m_), position(odom_));
+    const double ahead = progress_m_ + 0.1;
+    const double bend = wrap_angle(route_.pose_at(ahead + 0.15).yaw_rad - route_.pose_at(ahead - 0.15).yaw_rad);
+    const double wanted = bend / 0.3 + 2.0 / 0.6 * heading_error() - off.y_m / 0.36;
+    return std::clamp(wanted, -kMostCurvature, kMostCurvature);
+  }
+
+  void follow(double most_mps) {
+    const double wanted = wanted_curvature();
+    const double change = kSteeringRate * step_s();
+    curvature_ += std::clamp(wanted - curvature_, -change, change);
+    speed_ = std::min(most_mps, std::abs(wanted - curvature_) > 0.15 ? kCreepMps : config_.speed_mps);
+    rate_ = speed_ * curvature_;
+    const double way = speed_ * step_s();
+    truth_ = advanced(truth_, direction_ * way, direction_ * curvature_);
+    odom_ =
+        advanced(odom_, direction_ * drift_.scale * way, (direction_ * curvature_ + drift_.bend_per_m) / drift_.scale);
+    driven_m_ += way;
+  }
+
+  const DriveConfig& config_;
+  Drift drift_;
+  Pose2 truth_;
+  Pose2 odom_;
+  Route route_;
+  double direction_ = 1.0;
+  double progress_m_ = 0.0;
+  double speed_ = 0.0;
+  double rate_ = 0.0;
+  double curvature_ = 0.0;
+  double turn_wait_s_ = 0.0;
+  double driven_m_ = 0.0;
+  int point_turns_ = 0;
+  bool turning_ = false;
+};
+
+Pose2 start_of(const std::vector<Point2>& path) {
+  return {path[0].x_m, path[0].y_m, std::atan2(path[1].y_m - path[0].y_m, path[1].x_m - path[0].x_m)};
+}
+
+Drift random_drift(double deviation, std::mt19937_64& random) {
+  const double scale = 1.0 + deviation * gauss(random);
+  return {scale, 0.02 * deviation * gauss(random)};
+}
+
+class Drive {
+ public:
+  Drive(const DriveConfig& config, const std::vector<Rock>& rocks, const std::vector<Point2>& path, std::uint64_t seed)
+      : config_(config),
+        rocks_(rocks),
+        random_(seed),
+        start_(start_of(path)),
+        planner_(config.planner, 1),
+        rover_(config_, start_, random_drift(config.odometry_drift, random_)) {
+    GlobalPath global{1, {}, 0.75, 0.5};
+    for (const Point2& p : path) global.points.push_back({p, kNaN, 0});
+    planner_.set_global_path(global);
+    planner_.set_start_area(path.front(), 1.5, 0);
+  }
+
+  DriveResult run() {
+    for (now_ = config_.step_us; !over(); now_ += config_.step_us) step();
+    result_.duration_s = to_seconds(now_);
+    result_.driven_m = rover_.driven_m();
+    result_.point_turns = rover_.point_turns();
+    if (!result_.reached && result_.text.empty()) result_.text = result_.collided ? "collision" : "timeout";
+    return result_;
+  }
+
+ private:
+  bool over() const {
+    return result_.reached || result_.collided || no_path_s_ >= config_.no_path_s ||
+           to_seconds(now_) >= config_.timeout_s;
+  }
+
+  void step() {
+    planner_.add_pose(sample());
+    look();
+    const PlannerOutput out = planner_.step(now_);
+    if (out.path) {
+      rover_.take(*out.path);
+      if (out.path->kind == PathKind::kRetreat) ++result_.retreats;
+    }
+    result_.replans = out.status.replans;
+    result_.text = out.status.text;
+    no_path_s_ = out.status.state == PlannerState::kNoPath ? no_path_s_ + to_seconds(config_.step_us) : 0.0;
+    result_.reached = out.status.path_id >= 0 && out.status.goal_distance_m <= 0.5;
+    move(out.status);
+    judge();
+  }
+
+  PoseSample sample() const {
+    PoseSample s;
+    s.utime = now_;
+    s.usable = true;
+    s.T_odom_body = from_planar(rover_.odom());
+    s.T_map_odom = from_planar(start_);
+    s.position_variance_m2 = std::pow(config_.odometry_drift * rover_.driven_m(), 2);
+    s.forward_mps = rover_.forward_mps();
+    s.yaw_rate_radps = rover_.yaw_rate_radps();
+    s.travelled_m = rover_.driven_m();
+    return s;
+  }
+
+  void look() {
+    if (now_ % config_.frame_us == 0)
+      frames_.emplace_back(now_ + config_.frame_latency_us,
+                           observe(config_.camera, rocks_, rover_.truth(), now_, random_));
+    while (!frames_.empty() && frames_.front().first <= now_) {
+      planner_.add_hazards(frames_.front().second);
+      frames_.pop_front();
+    }
+  }
+
+  // As the supervisor: stops before a block, and goes on when it has receded or the path is another.
+  bool permitted(const PlannerStatus& status) const {
+    const double stop = status.block_kind == BlockKind::kUnseen ? config_.unseen_stop_m : config_.hazard_stop_m;
+    if (status.path_id < 0 || status.blocked_in_m <= stop || !rover_.has_path()) return false;
+    return going_ || status.path_id != stopped_path_ || status.blocked_in_m > stop + kGoOnM;
+  }
+
+  void move(const PlannerStatus& status) {
+    const bool go = permitted(status);
+    if (going_ && !go) {
+      ++result_.stops;
+      stopped_path_ = status.path_id;
+    }
+    going_ = go && rover_.move();
+    if (going_) return;
+    rover_.halt();
+    result_.stopped_s += to_seconds(config_.step_us);
+  }
+
+  void judge() {
+    const double clearance = clearance_m(config_.planner.footprint, rover_.truth(), rocks_);
+    result_.least_clearance_m = std::min(result_.least_clearance_m, clearance);
+    result_.collided = clearance < 0.0;
+    if (result_.track.empty() || distance(position(result_.track.back()), position(rover_.truth())) > 0.2)
+      result_.track.push_back(rover_.truth());
+  }
+
+  const DriveConfig& config_;
+  const std::vector<Rock>& rocks_;
+  std::mt19937_64 random_;
+  Pose2 start_;
+  PathPlanner planner_;
+  Follower rover_;
+  DriveResult result_;
+  Utime now_ = 0;
+  std::deque<std::pair<Utime, HazardGrid>> frames_;  // with the time at which the planner gets them
+  double no_path_s_ = 0.0;
+  bool going_ = false;
+  std::int64_t stopped_path_ = -1;
+};
+
+}  // namespace
+
+DriveResult drive(const DriveConfig& config, const std::vector<Rock>& rocks, const std::vector<Point2>& path,
+                  std::uint64_t seed) {
+  return Drive(config, rocks, path, seed).run();
+}
+
+}  // namespace rover::planning::testing_support

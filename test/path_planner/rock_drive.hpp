@@ -1,0 +1,46 @@
+// A rover with imperfect odometry that follows the planner's paths by arcs and point turns through a field of rocks, as
+// trajectory_control and supervisor would let it: closes the loop around the planner.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "test/path_planner/rock_world.hpp"
+
+namespace rover::planning::testing_support {
+
+struct DriveConfig {
+  PathPlannerConfig planner;
+  CameraModel camera;
+  double odometry_drift = 0.01;  // deviation of the scale; 0.02 of it is the curvature that is not felt [1/m]
+  Utime step_us = 100'000;
+  Utime frame_us = 400'000;
+  Utime frame_latency_us = 240'000;
+  double speed_mps = 0.2;
+  double turn_rate_radps = 0.2;
+  double turn_overhead_s = 8.0;  // steering to the point turn and back
+  double hazard_stop_m = 0.5;    // as the supervisor
+  double unseen_stop_m = 0.25;
+  double no_path_s = 20.0;  // then the drive is given up
+  double timeout_s = 1500.0;
+};
+
+struct DriveResult {
+  bool reached = false;
+  bool collided = false;
+  double driven_m = 0.0;
+  double duration_s = 0.0;
+  int replans = 0;
+  int retreats = 0;
+  int point_turns = 0;
+  int stops = 0;
+  double stopped_s = 0.0;
+  double least_clearance_m = kInfinity;  // rectangle to rocks
+  std::string text;                      // why it ended where it did
+  std::vector<Pose2> track;              // true, in map
+};
+
+DriveResult drive(const DriveConfig& config, const std::vector<Rock>& rocks, const std::vector<Point2>& path,
+                  std::uint64_t seed);
+
+}  // namespace rover::planning::testing_support

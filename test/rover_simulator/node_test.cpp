@@ -1,0 +1,145 @@
+// The simulator on a bus in memory, with one participant.
+#include <gtest/gtest.h>
+
+#include <rover/tick_t.hpp>
+#include <rover/truth_t.hpp>
+
+#include "common/bus/channels.hpp"
+#include "common/bus/vehicle_config.hpp"
+#include "rover_simulator/simulator.hpp"
+
+namespace rover {
+namespace {
+
+const std::string kConfig = std::string(ROVER_SOURCE_DIR) + "/config";
+using Bytes = std::vector<std::uint8_t>;
+
+template <class Message>
+Bytes encoded(const Message& message) {
+  Bytes bytes(static_cast<size_t>(message.getEncodedSize()));
+  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  return bytes;
+}
+
+// Answers each tick with all that the simulator listens to; on demand with bad copies in front.
+class Participant {
+ public:
+  Participant(lcm::LCM& bus, bool disturbs) : bus_(bus), disturbs_(disturbs), streams_("participant", 1) {
+    bus_.subscribeFunction(
+        channel::kTick,
+        +[](const lcm::ReceiveBuffer* buffer, const std::string&, Participant* participant) {
+          tick_t tick;
+          if (decode_message(buffer->data, static_cast<int>(buffer->data_size), tick))
+            participant->answer(tick.header.utime);
+        },
+        this);
+    say_done(kNever);
+  }
+  const std::map<std::string, std::int64_t>& sent() const { return sent_; }
+
+ private:
+  void answer(Utime t) {
+    wheel_command_t command{};
+    command.valid_until_utime = t + 10 * kTickUs;
+    for (double& rate : command.drive_rate_radps) rate = 1.0;
+    send(channel::kWheelCommand, command, t);
+    supervisor_state_t state{};
+    state.state = supervisor_state_t::DRIVING;
+    send(channel::kState, state, t);
+    say_done(t);
+  }
+
+  void say_done(Utime t) {
+    done_t done{};
+    done.tick_utime = t;
+    done.promise_utime = kNever;
+    done.pid = getpid();
+    send(channel::kDone, done, t);
+  }
+
+  template <class Message>
+  void send(const char* channel, Message& message, Utime t) {
+    message.header = streams_.next(channel, t, t + kTickUs);
+    const Bytes good = encoded(message);
+    if (disturbs_) {
+      put_bad(channel, {});
+      put_bad(channel, Bytes(100, 0xA5));
+      put_bad(channel, {good.begin(), good.begin() + 20});
+      put_bad(channel, {good.begin(), good.end() - 1});
+      tick_t foreign{};
+      foreign.header = message.header;
+      put_bad(channel, encoded(foreign));
+    }
+    put(channel, good);
+  }
+
+  void put_bad(const char* channel, const Bytes& bytes) {
+    ++sent_[channel];
+    put(channel, bytes);
+  }
+  void put(const char* channel, const Bytes& bytes) {
+    bus_.publish(channel, bytes.data(), static_cast<unsigned int>(bytes.size()));
+  }
+
+  lcm::LCM& bus_;
+  bool disturbs_;
+  StreamCounter streams_;
+  std::map<std::string, std::int64_t> sent_;
+};
+
+struct Drive {
+  SimulationSummary summary;
+  std::vector<Bytes> truth;
+  std::map<std::string, std::int64_t> malformed, sent;
+  std::string log;
+};
+
+// One second on a plane.
+Drive drive(bool disturbed) {
+  SimulatedRoverConfig config;
+  config.loccam.scene.fine_radius_m = 4.5;
+  config.loccam.scene.middle_radius_m = 8.0;
+  config.loccam.scene.far_radius_m = 30.0;
+  auto world = std::make_unique<World>(WorldConfig{}, plane_raster(40.0, 40.0, 1.0, 0.0, 0.0), 1);
+  SimulatedRover rover(config, load_vehicle(kConfig), load_stereo_rig(kConfig, "loccam"), std::move(world),
+                       {20.0, 20.0, 0.0}, 1);
+  SimulatorOptions options;
+  options.participants = {"participant"};
+  options.end.timeout_s = 1.0;
+  Drive drive;
+  lcm::LCM bus("memq://");
+  bus.subscribeFunction(
+      channel::kTruth,
+      +[](const lcm::ReceiveBuffer* buffer, const std::string&, std::vector<Bytes>* truth) {
+        const auto* begin = static_cast<const std::uint8_t*>(buffer->data);
+        truth->emplace_back(begin, begin + buffer->data_size);
+      },
+      &drive.truth);
+  testing::internal::CaptureStdout();
+  Simulator simulator(options, rover, bus);
+  const Participant participant(bus, disturbed);
+  drive.summary = simulator.run([] { return true; });
+  drive.log = testing::internal::GetCapturedStdout();
+  drive.malformed = simulator.malformed();
+  drive.sent = participant.sent();
+  return drive;
+}
+
+TEST(SimulatorNode, BadMessagesAreCountedAndNamedAndChangeNothing) {
+  const Drive calm = drive(false);
+  const Drive disturbed = drive(true);
+  EXPECT_EQ(calm.summary.outcome, "timeout");
+  EXPECT_EQ(disturbed.summary.outcome, "timeout");
+  EXPECT_TRUE(disturbed.summary.left.empty());
+  ASSERT_GE(calm.truth.size(), 50u);
+  EXPECT_TRUE(disturbed.truth == calm.truth);
+  ASSERT_GE(disturbed.malformed.size(), 3u);
+  // Every channel that the simulator takes, also one that comes later, must be among those disturbed here.
+  EXPECT_EQ(disturbed.malformed, disturbed.sent);
+  for (const auto& [channel, count] : disturbed.malformed)
+    EXPECT_NE(disturbed.log.find("BAD_MESSAGE channel=" + channel + " count=1\n"), std::string::npos) << disturbed.log;
+  for (const auto& [channel, count] : calm.malformed) EXPECT_EQ(count, 0) << channel;
+}
+
+}  // namespace
+}  // namespace rover
