@@ -1,10 +1,13 @@
 #!/usr/bin/env bash
-# Builds and runs every test. `unit`: only the unit tests; `sanitize`: the unit tests under AddressSanitizer and
-# UndefinedBehaviorSanitizer. Called by ./rover test.
+# Builds and runs every test, then the tests of the cores once more under AddressSanitizer and
+# UndefinedBehaviorSanitizer. `unit`: only the unit tests; `sanitize`: only those under the sanitizers. Called by
+# ./rover test.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
 
 JOBS=$(nproc)
+# The services whose cores decide over the rover; what only draws, records or starts things is left out.
+CORES="rover_simulator;stereo;visual_odometry;localization;hazard_detector;path_planner;trajectory_control;locomotion"
 run_ctest() { ctest --test-dir "$1" --output-on-failure -j "$JOBS" "${@:2}"; }
 
 configure_and_build() {
@@ -12,15 +15,24 @@ configure_and_build() {
   ninja -C "$1" --quiet "$2"
 }
 
-# The sanitized build has the unit tests alone, in a folder of its own.
-if [ "${1:-}" = sanitize ]; then
-  configure_and_build build-sanitize unit_tests -DROVER_SANITIZE=ON
+sanitized() {
+  configure_and_build build-sanitize unit_tests -DROVER_SANITIZE=ON -DROVER_SERVICES="$CORES"
   run_ctest build-sanitize -L unit
-  exit
-fi
-configure_and_build build all
-if [ "${1:-}" = unit ]; then
-  run_ctest build -L unit
-else
-  run_ctest build
-fi
+}
+
+case "${1:-all}" in
+  sanitize) sanitized ;;
+  unit)
+    configure_and_build build unit_tests
+    run_ctest build -L unit
+    ;;
+  all)
+    configure_and_build build all
+    sanitized
+    run_ctest build
+    ;;
+  *)
+    echo "rover test: '$1' is not a part of the tests; there are: unit, sanitize" >&2
+    exit 2
+    ;;
+esac

@@ -30,17 +30,17 @@ struct LocalizationConfig {
   LevellingConfig levelling;
   MapAlignmentConfig map;
   SlipConfig slip;
-  double history_s = 60.0;                   // a visual motion may reach so far back
-  double chain_s = 20.0;                     // longest run of visual motions taken as one
-  double wheel_silence_s = 0.1;              // longer: the wheels are dead
-  double visual_degraded_s = 1.5;            // without visual odometry: DEGRADED
-  double blind_distance_m = 2.0;             // so far on wheels without visual odometry: LOST
-  double imu_lost_s = 10.0;                  // without IMU: LOST
-  double nothing_lost_s = 1.0;               // without wheels and visual odometry: LOST
+  double history_s = 60.0;                    // a visual motion may reach so far back
+  double chain_s = 20.0;                      // longest run of visual motions taken as one
+  double wheel_silence_s = 0.1;               // longer: the wheels are dead
+  double visual_degraded_s = 1.5;             // without visual odometry: DEGRADED
+  double blind_distance_m = 2.0;              // so far on wheels without visual odometry: LOST
+  double imu_lost_s = 10.0;                   // without IMU: LOST
+  double nothing_lost_s = 1.0;                // without wheels and visual odometry: LOST
   double standing_rate_radps = to_rad(0.15);  // gyro below, wheels still: the rover stands
-  double standing_s = 0.4;                   // after so long
-  double smoothing_s = 0.4;                  // time constant with which the pose takes up late corrections
-  int conflicts_until_imu_suspect = 5;       // visual motions in a row that contradict the gyro
+  double standing_s = 0.4;                    // after so long
+  double smoothing_s = 0.4;                   // time constant with which the pose takes up late corrections
+  int conflicts_until_imu_suspect = 5;        // visual motions in a row that contradict the gyro
 };
 
 enum class PoseStatus { kOk, kDegraded, kLost, kUninitialised };

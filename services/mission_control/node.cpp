@@ -26,8 +26,8 @@ MissionControlNode::MissionControlNode(Node& node, MissionPlan plan) : node_(nod
 
 void MissionControlNode::on_ack(const command_ack_t& ack) {
   if (!orders_.acknowledge(ack.command_id, ack.accepted != 0, ack.reason)) return;
-  node_.log(ack.accepted ? "INFO" : "WARN", "ORDER id=" + std::to_string(ack.command_id) +
-                                                (ack.accepted ? " accepted" : " refused: " + ack.reason));
+  node_.log(ack.accepted ? "INFO" : "WARN",
+            "ORDER id=" + std::to_string(ack.command_id) + (ack.accepted ? " accepted" : " refused: " + ack.reason));
   node_.set_status(ack.accepted ? heartbeat_t::OK : heartbeat_t::DEGRADED, orders_.refusal());
 }
 
@@ -37,9 +37,12 @@ void MissionControlNode::step(Utime now) {
 
 void MissionControlNode::give(const Orders::Given& given) {
   switch (given.order) {
-    case Order::kStartPose: return publish_start_pose(given.command_id);
-    case Order::kPath: return publish_path(given.command_id);
-    case Order::kGo: return publish_go(given.command_id);
+    case Order::kStartPose:
+      return publish_start_pose(given.command_id);
+    case Order::kPath:
+      return publish_path(given.command_id);
+    case Order::kGo:
+      return publish_go(given.command_id);
   }
 }
 

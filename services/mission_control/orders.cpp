@@ -5,7 +5,9 @@ namespace {
 
 constexpr Utime kRepeatAfter = 1'000'000;
 
-Order after(Order order) { return static_cast<Order>(static_cast<int>(order) + 1); }
+Order after(Order order) {
+  return static_cast<Order>(static_cast<int>(order) + 1);
+}
 
 }  // namespace
 

@@ -18,11 +18,11 @@ struct StartPose {
   double z_m = 0.0;
   double sigma_m = 0.1;
   double sigma_yaw_rad = 0.02;
-  double clear_radius_m = 1.5;   // certified as free of hazards: the ground under the rover is never seen
+  double clear_radius_m = 1.5;  // certified as free of hazards: the ground under the rover is never seen
 };
 
 struct GlobalPath {
-  std::vector<double> x_m;       // map
+  std::vector<double> x_m;  // map
   std::vector<double> y_m;
   std::vector<std::int8_t> level;
   double corridor_half_width_m = 1.5;

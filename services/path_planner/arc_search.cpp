@@ -23,7 +23,7 @@ struct ArcNode {
   double cost = 0.0;
   double way_m = 0.0;
   int parent = -1;
-  bool turned = false;      // by a point turn from the parent
+  bool turned = false;        // by a point turn from the parent
   bool to_be_turned = false;  // stands for the point turns from here, until they are worth looking at
 };
 
@@ -207,7 +207,8 @@ class ArcSearch {
   int nearest_target(Point2 p) const {
     int best = 0;
     for (int i = 1; i < static_cast<int>(problem_.targets.size()); ++i)
-      if (distance(position(problem_.targets[i].pose), p) < distance(position(problem_.targets[best].pose), p)) best = i;
+      if (distance(position(problem_.targets[i].pose), p) < distance(position(problem_.targets[best].pose), p))
+        best = i;
     return best;
   }
 

@@ -23,10 +23,10 @@ struct ArcSearchConfig {
   double bend_cost_m = 0.15;         // for a change of curvature by the largest
   double turn_cost_m = 3.0;          // a point turn takes about 15 s, in which the rover could drive 3 m
   double turn_cost_per_rad_m = 0.5;
-  double unseen_way_cost = 2.0;      // per metre beyond sure_m over ground that would not be seen in time
-  double greed = 1.3;                // weight of what is left against what was done
+  double unseen_way_cost = 2.0;  // per metre beyond sure_m over ground that would not be seen in time
+  double greed = 1.3;            // weight of what is left against what was done
   int max_expansions = 2500;
-  int further_expansions = 60;       // after the first way has been found, for a better one
+  int further_expansions = 60;  // after the first way has been found, for a better one
 };
 
 // A pose at which a way may end, with what the rest of the way costs from there.
@@ -48,7 +48,7 @@ struct SearchProblem {
   Pose2 start;
   double start_curvature_per_m = 0.0;
   double sure_m = kInfinity;  // way within which all ground must be seen before the rover reaches it
-  Pose2 stopped;  // where the rover stands if it brakes now: point turns start there
+  Pose2 stopped;              // where the rover stands if it brakes now: point turns start there
 };
 
 // Arcs without a halt between them.
@@ -62,7 +62,7 @@ struct SearchResult {
   bool unseen_in_the_way = false;    // ways were dropped because their ground would not be seen in time
   bool turns_first = false;          // starts with a point turn
   std::vector<WaySection> sections;  // a point turn between each two
-  int target = -1;                 // -1: ends near the goal
+  int target = -1;                   // -1: ends near the goal
   double cost = kInfinity;
   int expansions = 0;
 };

@@ -77,6 +77,8 @@ class BlockFinder {
 
 }  // namespace
 
-Block find_block(const BlockQuery& query) { return BlockFinder(query).run(); }
+Block find_block(const BlockQuery& query) {
+  return BlockFinder(query).run();
+}
 
 }  // namespace rover::planning

@@ -36,9 +36,7 @@ class LineTransform {
   }
 
  private:
-  double crossing(int q, int v) const {
-    return 0.5 * ((value_[q] - value_[v]) / (q - v) + static_cast<double>(q + v));
-  }
+  double crossing(int q, int v) const { return 0.5 * ((value_[q] - value_[v]) / (q - v) + static_cast<double>(q + v)); }
 
   std::vector<int> vertex_;
   std::vector<double> border_;

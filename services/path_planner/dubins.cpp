@@ -31,8 +31,7 @@ std::optional<Word> other_side(double d, double alpha, double beta, double side)
   const double p2 = -2.0 + d * d + 2.0 * std::cos(a - b) + 2.0 * d * (std::sin(a) + std::sin(b));
   if (p2 < 0.0) return std::nullopt;
   const double p = std::sqrt(p2);
-  const double direction =
-      std::atan2(-std::cos(a) - std::cos(b), d + std::sin(a) + std::sin(b)) - std::atan2(-2.0, p);
+  const double direction = std::atan2(-std::cos(a) - std::cos(b), d + std::sin(a) + std::sin(b)) - std::atan2(-2.0, p);
   return Word{turn_of(direction - a), p, turn_of(direction - b)};
 }
 

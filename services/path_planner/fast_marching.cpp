@@ -67,8 +67,8 @@ class Front {
     const double low = std::min(a, b);
     const double high = std::max(a, b);
     const bool one_sided = high - low >= step;  // also where high is infinite
-    offer(cell, one_sided ? low + step
-                          : 0.5 * (low + high + std::sqrt(2.0 * step * step - (high - low) * (high - low))));
+    offer(cell,
+          one_sided ? low + step : 0.5 * (low + high + std::sqrt(2.0 * step * step - (high - low) * (high - low))));
   }
 
   const MarchGrid& grid_;

@@ -13,8 +13,12 @@ struct Point2 {
   double y_m = 0.0;
 };
 
-inline double distance(Point2 a, Point2 b) { return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m); }
-inline Point2 position(const Pose2& pose) { return {pose.x_m, pose.y_m}; }
+inline double distance(Point2 a, Point2 b) {
+  return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m);
+}
+inline Point2 position(const Pose2& pose) {
+  return {pose.x_m, pose.y_m};
+}
 
 inline Point2 to_body(const Pose2& pose, Point2 p) {
   const double c = std::cos(pose.yaw_rad);

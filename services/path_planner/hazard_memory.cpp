@@ -60,7 +60,8 @@ int HazardGrid::at(double x_m, double y_m) const {
 
 std::string HazardGrid::fault() const {
   if (cells_x <= 0 || cells_y <= 0 || cells_x > kMostCells / cells_y) return "grid has no sensible size";
-  if (cells.size() != static_cast<size_t>(cells_x) * static_cast<size_t>(cells_y)) return "grid size contradicts itself";
+  if (cells.size() != static_cast<size_t>(cells_x) * static_cast<size_t>(cells_y))
+    return "grid size contradicts itself";
   if (!(cell_m >= 0.01 && cell_m <= 1.0)) return "cell size out of range";
   if (!std::isfinite(origin_x_m) || !std::isfinite(origin_y_m)) return "grid origin is not finite";
   if (std::any_of(cells.begin(), cells.end(), [](std::uint8_t c) { return c > kMargin; })) return "unknown cell value";
@@ -119,7 +120,8 @@ void HazardMemory::note_free(GroundCell& cell, bool close) const {
 
 void HazardMemory::note_unseen(GroundCell& cell, const HazardGrid& grid, Point2 in_body) const {
   if (cell.looks >= config_.blind_looks) return;
-  if (!surely_in_view(config_.view, config_.clear_range_m, in_body) || hidden(grid, config_.view.camera, in_body)) return;
+  if (!surely_in_view(config_.view, config_.clear_range_m, in_body) || hidden(grid, config_.view.camera, in_body))
+    return;
   ++cell.looks;
 }
 

@@ -15,12 +15,13 @@ namespace rover::planning {
 struct HazardMemoryConfig {
   int cells = 160;
   double cell_m = 0.1;
-  int confirm_hits = 2;        // frames that saw an obstacle in the cell
-  int possible_clear = 2;      // frames in a row that saw it free end a possible hazard, or make the next hit a doubtful one
+  int confirm_hits = 2;  // frames that saw an obstacle in the cell
+  int possible_clear =
+      2;  // frames in a row that saw it free end a possible hazard, or make the next hit a doubtful one
   int confirmed_clear = 5;     // ... from close by a confirmed one
   double clear_range_m = 2.0;  // what counts as close by, from the body origin
   ViewArea view;
-  int blind_looks = 6;         // frames in a row that should have seen a cell close by and did not: it is a hazard
+  int blind_looks = 6;  // frames in a row that should have seen a cell close by and did not: it is a hazard
 };
 
 // HAZARDS as the detector sends it, in the body frame of the exposure.
@@ -45,8 +46,8 @@ struct GroundCell {
   bool seen = false;
   std::uint8_t hits = 0;      // frames that saw an obstacle here
   std::uint8_t contrary = 0;  // frames in a row that saw it free since the last hit
-  std::uint8_t looks = 0;     // frames in a row that looked at it from close by in vain: no texture, no light, or a drop
-  std::uint16_t frame = 0;    // the last that counted as a hit: two grid cells may fall into one cell here
+  std::uint8_t looks = 0;   // frames in a row that looked at it from close by in vain: no texture, no light, or a drop
+  std::uint16_t frame = 0;  // the last that counted as a hit: two grid cells may fall into one cell here
 };
 
 class HazardMemory {

@@ -7,17 +7,17 @@ namespace {
 
 constexpr double kPoseStepM = 0.05;
 constexpr double kPathStepM = 0.1;
-constexpr double kBorderM = 0.5;         // of the map, where nothing is joined
-constexpr double kShortestJoinM = 0.5;   // ahead of the rover
-constexpr double kSoonM = 1.0;           // reach of "as soon as possible": what an arc needs to come in
-constexpr double kSoonFactor = 3.0;      // prices the global path, so that an early join is worth a longer way
-constexpr double kNearM = 1.2;           // the rover may stand closer to a hazard than it would go
-constexpr double kTightCost = 8.0;       // per metre there
-constexpr double kBareM = 0.05;          // nearer than the half width less this nothing passes
-constexpr double kMarchBeyond = 6.0;      // travel cost, as much as a point turn and a way round
+constexpr double kBorderM = 0.5;        // of the map, where nothing is joined
+constexpr double kShortestJoinM = 0.5;  // ahead of the rover
+constexpr double kSoonM = 1.0;          // reach of "as soon as possible": what an arc needs to come in
+constexpr double kSoonFactor = 3.0;     // prices the global path, so that an early join is worth a longer way
+constexpr double kNearM = 1.2;          // the rover may stand closer to a hazard than it would go
+constexpr double kTightCost = 8.0;      // per metre there
+constexpr double kBareM = 0.05;         // nearer than the half width less this nothing passes
+constexpr double kMarchBeyond = 6.0;    // travel cost, as much as a point turn and a way round
 constexpr double kMostClearanceM = 2.0;
 constexpr double kLeastSmoothM = 0.6;
-constexpr double kSeenMarginM = 0.04;    // the rover follows a path within centimetres
+constexpr double kSeenMarginM = 0.04;  // the rover follows a path within centimetres
 constexpr double kViewReserveM = 0.06;
 constexpr double kViewStepM = 0.1;
 constexpr double kViewStepRad = 0.4;
@@ -69,7 +69,8 @@ RepairResult LocalRepair::plan(const RepairRequest& request) const {
   std::vector<JoinTarget> targets = join_targets(request, check);
   MarchGrid cost = travel_costs(request, check);
   std::vector<Seed> seeds;
-  for (JoinTarget& target : targets) seeds.push_back({request.terrain.cell_of(position(target.pose)), target.travel_cost});
+  for (JoinTarget& target : targets)
+    seeds.push_back({request.terrain.cell_of(position(target.pose)), target.travel_cost});
 
   const Point2 end = request.global.point_at(request.global.length_m());
   std::optional<Point2> goal;
@@ -83,8 +84,9 @@ RepairResult LocalRepair::plan(const RepairRequest& request) const {
   }
   const std::vector<double> travel = march(cost, seeds, request.terrain.cell_of(position(request.start)), kMarchBeyond);
   const SearchResult way =
-      search_arcs(config_.search, {check, turn_check, cost, travel, narrowed(config_.view), targets, goal, 0.6 * request.goal_tolerance_m,
-                                   request.start, request.start_curvature_per_m, request.sure_m, request.stopped});
+      search_arcs(config_.search, {check, turn_check, cost, travel, narrowed(config_.view), targets, goal,
+                                   0.6 * request.goal_tolerance_m, request.start, request.start_curvature_per_m,
+                                   request.sure_m, request.stopped});
   result.expansions = way.expansions;
   if (!way.found) {
     result.status = way.unseen_in_the_way ? RepairStatus::kUnseen
@@ -118,7 +120,8 @@ std::vector<JoinTarget> LocalRepair::join_targets(const RepairRequest& request, 
   const double reach_m = soon ? kSoonM : config_.rejoin_within_m;
   for (size_t i = first; i < way.size() && way[i] <= way[first] + reach_m; ++i) {
     JoinTarget target{request.global.pose_at(way[i]), way[i], 0.0};
-    if (std::isfinite(ground_cost(request.terrain, request.terrain.cell_of(position(target.pose)), request.margin_m, false)))
+    if (std::isfinite(
+            ground_cost(request.terrain, request.terrain.cell_of(position(target.pose)), request.margin_m, false)))
       targets.push_back(target);
   }
   double ahead = 0.0;
@@ -181,9 +184,10 @@ std::vector<Pose2> LocalRepair::smoothed_section(const RepairRequest& request, c
   double length = 0.0;
   for (const ArcSegment& arc : section.segments) length += arc.length_m;
   if (length < kLeastSmoothM) return {};
-  return smooth(config_.smoother,
-                {request.terrain, config_.footprint, request.margin_m, section.start, curvature_per_m, section.segments},
-                kPoseStepM)
+  return smooth(
+             config_.smoother,
+             {request.terrain, config_.footprint, request.margin_m, section.start, curvature_per_m, section.segments},
+             kPoseStepM)
       .value_or(std::vector<Pose2>{});
 }
 

@@ -15,12 +15,12 @@ namespace rover::planning {
 struct LocalRepairConfig {
   Footprint footprint;
   ViewArea view;
-  double rejoin_within_m = 4.0;      // past the first place where the global path is clear; 0: as soon as possible
-  double turn_extra_m = 0.04;        // of the margin, for point turns: the rover does not halt exactly
-  double max_deviation_m = 4.0;      // from the global path
-  double risk_distance_m = 1.0;      // clearance below which ground costs more
-  double risk_cost = 1.5;            // per metre more, at the margin
-  double unseen_cost = 0.6;          // per metre more
+  double rejoin_within_m = 4.0;  // past the first place where the global path is clear; 0: as soon as possible
+  double turn_extra_m = 0.04;    // of the margin, for point turns: the rover does not halt exactly
+  double max_deviation_m = 4.0;  // from the global path
+  double risk_distance_m = 1.0;  // clearance below which ground costs more
+  double risk_cost = 1.5;        // per metre more, at the margin
+  double unseen_cost = 0.6;      // per metre more
   ArcSearchConfig search;
   SmootherConfig smoother;
 };
@@ -31,7 +31,7 @@ struct RepairRequest {
   double from_m = 0.0;  // along it: where the rover is
   Pose2 start;          // where the rover will be when the path is released
   double start_curvature_per_m = 0.0;
-  Pose2 stopped;        // ... and where it would come to rest
+  Pose2 stopped;  // ... and where it would come to rest
   double margin_m = 0.0;
   double sure_m = kInfinity;  // way that must lie over ground seen in time; further on it only costs more
   double goal_tolerance_m = 0.0;
@@ -41,12 +41,12 @@ enum class RepairStatus { kFound, kNoTarget, kNoWay, kUnseen };
 
 struct RepairResult {
   RepairStatus status = RepairStatus::kNoWay;
-  std::vector<Pose2> poses;     // from the start, every 5 cm, to the global path or the goal
-  double join_m = kNaN;         // along the global path
-  bool turns_first = false;     // the path starts with a point turn
-  int halts = 0;                // for point turns on the way
+  std::vector<Pose2> poses;  // from the start, every 5 cm, to the global path or the goal
+  double join_m = kNaN;      // along the global path
+  bool turns_first = false;  // the path starts with a point turn
+  int halts = 0;             // for point turns on the way
   bool smoothed = false;
-  double clearance_m = kNaN;    // least distance of the rectangle to a hazard's cell
+  double clearance_m = kNaN;  // least distance of the rectangle to a hazard's cell
   int expansions = 0;
 };
 

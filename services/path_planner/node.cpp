@@ -14,7 +14,7 @@ namespace {
 
 constexpr char kCheckpoint[] = "path_planner";
 constexpr Utime kSavePeriodUs = 1'000'000;
-constexpr Utime kRepeatPeriodUs = 1'000'000;  // of PATH: a restarted controller has none
+constexpr Utime kRepeatPeriodUs = 1'000'000;       // of PATH: a restarted controller has none
 constexpr std::int64_t kPathsPerBoot = 1'000'000;  // keeps the path ids of two processes apart
 constexpr double kMostClearRadiusM = 5.0;          // more than an operator would certify
 
@@ -110,8 +110,7 @@ void PathPlannerNode::repeat_path(Utime now, bool at_once) {
 void PathPlannerNode::tell_path(const LocalPath& path) {
   path_ = path_t{};
   path_to(path, path_);
-  node_.log("INFO", "PATH id=" + std::to_string(path.id) +
-                        " kind=" + text_of(path.kind) +
+  node_.log("INFO", "PATH id=" + std::to_string(path.id) + " kind=" + text_of(path.kind) +
                         " points=" + std::to_string(path.points.size()) +
                         " corridor_m=" + std::to_string(path.corridor_half_width_m));
 }

@@ -17,7 +17,7 @@ constexpr double kCorridorReserveM = 0.05;
 constexpr double kCellHalfM = 0.05;
 constexpr double kPoseStepM = 0.05;
 constexpr double kGoalNearM = 1.0;
-constexpr double kGainM = 1.0;           // of the global path, with which an attempt counts as a success
+constexpr double kGainM = 1.0;  // of the global path, with which an attempt counts as a success
 constexpr double kLeastRetreatM = 0.4;
 constexpr double kRetreatEndM = 0.1;
 constexpr double kSamePlaceM = 1e-6;
@@ -196,8 +196,8 @@ void PathPlanner::react(PlannerOutput& out) {
   judge();
   // A single hit that stays in the way without being seen again counts as a hazard in the end.
   frames_before_possible_ = hazard_ahead_m() < config_.stop_hazard_m ? frames_before_possible_ + 1 : 0;
-  const bool blocked = block_.confirmed_m - active_.progress_m < config_.trigger_m ||
-                       frames_before_possible_ >= config_.patience_frames;
+  const bool blocked =
+      block_.confirmed_m - active_.progress_m < config_.trigger_m || frames_before_possible_ >= config_.patience_frames;
   const bool before_unseen = (unseen_ahead_m() < config_.stop_unseen_m || strayed()) && standing();
   frames_before_unseen_ = before_unseen ? frames_before_unseen_ + 1 : 0;
   if (blocked || frames_before_unseen_ >= config_.patience_frames) {
@@ -256,7 +256,8 @@ void PathPlanner::firm_up(PlannerOutput& out) {
 }
 
 double PathPlanner::seen_way(const Terrain& terrain, const std::vector<Pose2>& poses) const {
-  return seen_way_m(poses, FootprintCheck(terrain, config_.footprint, active_.margin_m, 0.0, rover()), config_.repair.view);
+  return seen_way_m(poses, FootprintCheck(terrain, config_.footprint, active_.margin_m, 0.0, rover()),
+                    config_.repair.view);
 }
 
 bool PathPlanner::turn_pending() const {
@@ -273,7 +274,8 @@ void PathPlanner::judge() {
 bool PathPlanner::repair(bool because_of_hazard, PlannerOutput& out) {
   const Terrain terrain(memory_);
   double margin = 0.0;
-  if (!find_repair(terrain, kInfinity, margin) && !find_repair(terrain, config_.sure_way_m, margin) && !find_repair(terrain, config_.least_sure_way_m, margin)) {
+  if (!find_repair(terrain, kInfinity, margin) && !find_repair(terrain, config_.sure_way_m, margin) &&
+      !find_repair(terrain, config_.least_sure_way_m, margin)) {
     ++failures_;
     return false;
   }

@@ -1,5 +1,5 @@
-// Keeps the rover on the global path and leads it around what the cameras find: hazard memory, block test, local repair.
-// Two triggers make a path: a hazard on the active path, and a change of map against odom.
+// Keeps the rover on the global path and leads it around what the cameras find: hazard memory, block test, local
+// repair. Two triggers make a path: a hazard on the active path, and a change of map against odom.
 #pragma once
 
 #include <cstdint>
@@ -18,35 +18,35 @@ namespace rover::planning {
 
 struct PathPlannerConfig {
   Footprint footprint;
-  double ground_z_m = 0.0;            // of flat ground in body axes
+  double ground_z_m = 0.0;  // of flat ground in body axes
   double deceleration_mps2 = 0.1;
   HazardMemoryConfig memory;
-  LocalRepairConfig repair;           // its footprint is taken from above
+  LocalRepairConfig repair;  // its footprint is taken from above
   RoundingConfig rounding;
-  double margin_m = 0.12;             // rectangle to the centre of a hazard's cell: 0.05 m of it is the cell
-  double tight_margin_m = 0.09;       // where the first finds no way
-  double plan_extra_m = 0.05;         // repairs keep that much more, so that a hazard may grow by half a cell
-  double sigma_gain = 1.0;            // of the deviation gained since a hazard was seen
+  double margin_m = 0.12;        // rectangle to the centre of a hazard's cell: 0.05 m of it is the cell
+  double tight_margin_m = 0.09;  // where the first finds no way
+  double plan_extra_m = 0.05;    // repairs keep that much more, so that a hazard may grow by half a cell
+  double sigma_gain = 1.0;       // of the deviation gained since a hazard was seen
   double most_sigma_margin_m = 0.10;
   double pose_max_age_s = 0.5;
-  double sure_way_m = 2.5;            // of a repair, over ground that is seen in time
-  double least_sure_way_m = 0.6;      // where that leaves no way
-  double firm_way_m = 2.0;            // a path whose ground is seen in time for less is replaced where that is possible
-  double firm_gain_m = 0.7;           // ... by one that is sure for that much more
-  double release_latency_s = 0.1;     // of the path, message time
-  double trigger_m = 6.0;             // a block further ahead is left until it comes nearer
+  double sure_way_m = 2.5;         // of a repair, over ground that is seen in time
+  double least_sure_way_m = 0.6;   // where that leaves no way
+  double firm_way_m = 2.0;         // a path whose ground is seen in time for less is replaced where that is possible
+  double firm_gain_m = 0.7;        // ... by one that is sure for that much more
+  double release_latency_s = 0.1;  // of the path, message time
+  double trigger_m = 6.0;          // a block further ahead is left until it comes nearer
   double corridor_half_width_m = 0.75;
   double least_corridor_m = 0.20;
-  double goal_tolerance_m = 0.4;      // where the global path names none
-  double max_start_offset_m = 0.5;    // from the global path; further away a way to it is planned
-  double turn_threshold_rad = 0.7;    // as trajectory_control: larger heading errors are a point turn
-  double stop_hazard_m = 0.6;         // nearer blocks stand in the way at once: no path if no repair is found
+  double goal_tolerance_m = 0.4;    // where the global path names none
+  double max_start_offset_m = 0.5;  // from the global path; further away a way to it is planned
+  double turn_threshold_rad = 0.7;  // as trajectory_control: larger heading errors are a point turn
+  double stop_hazard_m = 0.6;       // nearer blocks stand in the way at once: no path if no repair is found
   double stop_unseen_m = 0.35;
-  int patience_frames = 4;            // standing before unseen ground, a single hit or a blocked path, until it counts
-  double retreat_m = 1.2;             // backwards along the driven track, where no way leads on
-  int most_retreats = 5;              // one after the other, without new ground gained
+  int patience_frames = 4;  // standing before unseen ground, a single hit or a blocked path, until it counts
+  double retreat_m = 1.2;   // backwards along the driven track, where no way leads on
+  int most_retreats = 5;    // one after the other, without new ground gained
   double retreat_corridor_m = 0.25;
-  double correction_m = 0.05;         // movement of map against odom that updates the path
+  double correction_m = 0.05;  // movement of map against odom that updates the path
 };
 
 struct GlobalPath {
@@ -184,8 +184,8 @@ class PathPlanner {
   std::int64_t next_path_id_;
   std::int32_t replans_ = 0;
   int failures_ = 0;
-  int retreats_ = 0;             // since the rover last got further along the global path than ever
-  double furthest_m_ = 0.0;      // along the global path
+  int retreats_ = 0;         // since the rover last got further along the global path than ever
+  double furthest_m_ = 0.0;  // along the global path
   int frames_before_unseen_ = 0;
   int frames_before_possible_ = 0;
   RepairResult last_repair_;

@@ -5,9 +5,13 @@ namespace {
 
 constexpr double kKinkRad = 0.35;  // between two pieces of the route; an arc of 1 m sampled every 0.1 m makes 0.1
 
-double heading(Point2 from, Point2 to) { return std::atan2(to.y_m - from.y_m, to.x_m - from.x_m); }
+double heading(Point2 from, Point2 to) {
+  return std::atan2(to.y_m - from.y_m, to.x_m - from.x_m);
+}
 
-Point2 between(Point2 a, Point2 b, double u) { return {a.x_m + u * (b.x_m - a.x_m), a.y_m + u * (b.y_m - a.y_m)}; }
+Point2 between(Point2 a, Point2 b, double u) {
+  return {a.x_m + u * (b.x_m - a.x_m), a.y_m + u * (b.y_m - a.y_m)};
+}
 
 struct Fillet {
   double tangent_m = 0.0;  // 0: the corner stays

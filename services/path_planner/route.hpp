@@ -42,15 +42,15 @@ class Route {
 
   std::vector<RoutePoint> points_;
   std::vector<double> s_m_;
-  std::vector<double> yaw_in_rad_;   // continuous along the route, but for kinks
+  std::vector<double> yaw_in_rad_;  // continuous along the route, but for kinks
   std::vector<double> yaw_out_rad_;
   std::vector<size_t> kinks_;
 };
 
 // The route seen from another frame.
 Route transformed(const Route& route, const Pose2& T);
-// Points at steps of `step_m`, corners rounded with a radius of at least `min_radius_m` and at most `max_radius_m` where
-// that keeps within `tolerance_m` of the corner; sharper ones stay, for a point turn.
+// Points at steps of `step_m`, corners rounded with a radius of at least `min_radius_m` and at most `max_radius_m`
+// where that keeps within `tolerance_m` of the corner; sharper ones stay, for a point turn.
 struct RoundingConfig {
   double step_m = 0.1;
   double min_radius_m = 1.0;

@@ -7,7 +7,8 @@
 namespace rover::planning {
 namespace {
 
-// A single unseen cell among seen ones hides nothing that matters: a hazard 0.15 m tall is wider than one cell of 0.1 m.
+// A single unseen cell among seen ones hides nothing that matters: a hazard 0.15 m tall is wider than one cell of 0.1
+// m.
 constexpr int kNeighboursThatFill = 6;
 
 constexpr double kRelaxM = 0.02;  // leaves room for rounding where the rover stands close to a hazard
@@ -50,8 +51,7 @@ std::vector<std::uint8_t> wide_parts(const std::vector<std::uint8_t>& mask, int 
 
 }  // namespace
 
-Terrain::Terrain(const HazardMemory& memory)
-    : cells_(memory.map().cells()), cell_m_(memory.map().cell_m()) {
+Terrain::Terrain(const HazardMemory& memory) : cells_(memory.map().cells()), cell_m_(memory.map().cell_m()) {
   const GridMap<GroundCell>& map = memory.map();
   corner_ = {map.origin().ix * cell_m_, map.origin().iy * cell_m_};
   unseen_.reserve(static_cast<size_t>(cells_) * cells_);
@@ -75,7 +75,9 @@ Terrain::Terrain(const HazardMemory& memory)
   unseen_distance_ = distance_field(unseen_, cells_, cells_, cell_m_);
 }
 
-bool Terrain::contains(Point2 p) const { return inside_m(p) > 0.0; }
+bool Terrain::contains(Point2 p) const {
+  return inside_m(p) > 0.0;
+}
 
 double Terrain::inside_m(Point2 p) const {
   const double side = cells_ * cell_m_;

@@ -11,7 +11,7 @@
 namespace rover::planning {
 
 struct HazardSpot {
-  Point2 p;  // a cell's centre
+  Point2 p;                // a cell's centre
   bool confirmed = false;  // or blind ground; else a possible one: a single hit
 };
 

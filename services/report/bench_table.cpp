@@ -219,10 +219,6 @@ std::vector<Gate> seed_gates(const std::vector<BenchRow>& all) {
       [](const BenchRow& r, double v) { return v <= 0.02 * r.planned_length_m; }));
   gates.push_back(least_gate(
       rows, "duty at least 0.75, stops included", 3, [](const BenchRow& r) { return r.duty; }, 0.75));
-  const Rows first = of_scenario(rows, "seed_traverse_1");
-  gates.push_back(least_gate(
-      first, "at least 3 times real time on seed_traverse_1", 1, [](const BenchRow& r) { return r.realtime_factor; },
-      3.0));
   const bool deterministic =
       !rows.empty() && std::all_of(rows.begin(), rows.end(), [](const BenchRow& r) { return r.deterministic; });
   gates.push_back({"every run deterministic", deterministic ? "yes" : "no", deterministic});
@@ -250,6 +246,7 @@ std::string bench_table(const BenchContext& context, const std::vector<BenchRow>
   out += fmt::format("\nMean speed, median: {} m/h.\n",
                      shown(median(values(runs, [](const BenchRow& r) { return r.mean_speed_m_per_h; })), 0));
   out += time_lines(runs);
+  out += "\nRuns share the machine when there is more than one at a time; real time is measured by `./rover bench speed`.\n";
   out += "\n## Beside the paper\n\n" + paper_table(runs) + "\n## Runs\n\n" + kHead;
   for (const BenchRow& row : runs) out += row_line(row);
   for (const auto& [scenario, paper] : kPaper) out += median_line(scenario, of_scenario(runs, scenario));

@@ -40,8 +40,8 @@ class Barrier {
     State state = State::kAbsent;
     std::int64_t boot_id = 0;
     int pid = 0;
-    Utime clear_until = kNever;     // TICK(t) may be given for t up to here
-    Utime expected_from = kNever;   // while absent: ticks from here on wait for it
+    Utime clear_until = kNever;    // TICK(t) may be given for t up to here
+    Utime expected_from = kNever;  // while absent: ticks from here on wait for it
   };
   std::vector<std::string> names_;
   std::map<std::string, Member> members_;

@@ -7,7 +7,9 @@
 namespace rover {
 namespace {
 
-void copy3(const Eigen::Vector3d& from, double to[3]) { std::copy(from.data(), from.data() + 3, to); }
+void copy3(const Eigen::Vector3d& from, double to[3]) {
+  std::copy(from.data(), from.data() + 3, to);
+}
 
 template <size_t N>
 void copy(const std::array<double, N>& from, double (&to)[N]) {

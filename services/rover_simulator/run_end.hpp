@@ -9,9 +9,9 @@
 namespace rover {
 
 struct RunEndConfig {
-  double linger_s = 2.0;        // after the rover says that it has arrived, or that it will not go on
-  double stuck_s = 120.0;       // standing in one fault stop for so long ends the run
-  double timeout_s = 3600.0;    // of message time since the first tick
+  double linger_s = 2.0;      // after the rover says that it has arrived, or that it will not go on
+  double stuck_s = 120.0;     // standing in one fault stop for so long ends the run
+  double timeout_s = 3600.0;  // of message time since the first tick
 };
 
 // What the supervisor last said of itself, in the words of supervisor_state_t.

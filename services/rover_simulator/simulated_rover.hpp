@@ -17,7 +17,7 @@ struct SimulatedRoverConfig {
   VehicleSimConfig vehicle;
   SensorConfig sensors;
   CameraSimConfig loccam;
-  double start_sigma_m = 0.0;        // the true start differs from the ground's belief by this much
+  double start_sigma_m = 0.0;  // the true start differs from the ground's belief by this much
   double start_sigma_yaw_rad = 0.0;
 };
 

@@ -38,7 +38,8 @@ double move_towards(double from, double to, double step) {
 }  // namespace
 
 bool TrajectoryController::set_path(const PathInput& input) {
-  if (path_ && input.id == input_.id && input.backwards == input_.backwards && input.points == input_.points) return true;
+  if (path_ && input.id == input_.id && input.backwards == input_.backwards && input.points == input_.points)
+    return true;
   input_ = input;
   path_ = TrackedPath::build(input, config_.path);
   set_direction(input.backwards);

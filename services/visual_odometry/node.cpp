@@ -80,8 +80,8 @@ void OdometryNode::report(const OdometryResult& result) {
   node_.set_status(status_ == Status::kOk ? heartbeat_t::OK : heartbeat_t::DEGRADED,
                    status_ == Status::kOk ? "" : std::string("odometry ") + text_of(status_));
   node_.log(status_ == Status::kOk ? "INFO" : "WARN", std::string("VO_STATUS status=") + text_of(status_) +
-                                                             " inliers=" + std::to_string(result.inliers) +
-                                                             " features=" + std::to_string(result.features));
+                                                          " inliers=" + std::to_string(result.inliers) +
+                                                          " features=" + std::to_string(result.features));
 }
 
 }  // namespace rover::vo

@@ -37,7 +37,9 @@ TEST_F(Checkpoint, DamageIsSeen) {
   EXPECT_FALSE(load_checkpoint(dir_, "pose").has_value());
 }
 
-TEST_F(Checkpoint, AFolderThatIsNotThereIsReported) { EXPECT_FALSE(save_checkpoint(dir_ / "none", "pose", {1})); }
+TEST_F(Checkpoint, AFolderThatIsNotThereIsReported) {
+  EXPECT_FALSE(save_checkpoint(dir_ / "none", "pose", {1}));
+}
 
 }  // namespace
 }  // namespace rover

@@ -29,7 +29,8 @@ TEST(Frames, CameraLooksForwardAndDown) {
 }
 
 TEST(Frames, ExpAndLogAreInverse) {
-  for (const Eigen::Vector3d& w : {Eigen::Vector3d(0.1, -0.2, 0.3), Eigen::Vector3d(0, 0, 3.0), Eigen::Vector3d(0, 0, 0)})
+  for (const Eigen::Vector3d& w :
+       {Eigen::Vector3d(0.1, -0.2, 0.3), Eigen::Vector3d(0, 0, 3.0), Eigen::Vector3d(0, 0, 0)})
     EXPECT_LT((log_so3(exp_so3(w)) - w).norm(), 1e-9);
 }
 
@@ -51,7 +52,9 @@ TEST(Frames, InterpolationMeetsItsEnds) {
   EXPECT_NEAR(yaw_of(interpolate(a, b, 0.5)), 0.8, 1e-12);
 }
 
-TEST(Frames, NanIsSeen) { EXPECT_FALSE(is_finite(nan_pose())); }
+TEST(Frames, NanIsSeen) {
+  EXPECT_FALSE(is_finite(nan_pose()));
+}
 
 }  // namespace
 }  // namespace rover

@@ -18,13 +18,16 @@ TEST(GridMap, MovesLikeAWindowOverTheWorld) {
   double y = 0.0;
   grid.move_to(x, y);
   for (int round = 0; round < 200; ++round) {
-    const CellIndex at{grid.origin().ix + static_cast<int>(random() % 16), grid.origin().iy + static_cast<int>(random() % 16)};
+    const CellIndex at{grid.origin().ix + static_cast<int>(random() % 16),
+                       grid.origin().iy + static_cast<int>(random() % 16)};
     grid.at(at) = round;
     world[{at.ix, at.iy}] = round;
     x += step(random);
     y += step(random);
     grid.move_to(x, y);
-    std::erase_if(world, [&](const auto& cell) { return !grid.contains(CellIndex{cell.first.first, cell.first.second}); });
+    std::erase_if(world, [&](const auto& cell) {
+      return !grid.contains(CellIndex{cell.first.first, cell.first.second});
+    });
     grid.for_each([&](CellIndex index, int value) {
       const auto it = world.find({index.ix, index.iy});
       EXPECT_EQ(value, it == world.end() ? -1 : it->second);

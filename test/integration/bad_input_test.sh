@@ -104,5 +104,5 @@ report_refused "report on an empty log" "$run" "$run/traverse.lcm: holds no mess
 printf 'no log at all\n' >"$run/traverse.lcm"
 report_refused "report on a foreign file" "$run" "$run/traverse.lcm: holds no messages"
 
-! pgrep -f "$PORT" >/dev/null || fail "a process is left: $(pgrep -af "$PORT")"
+! pgrep -f ":$PORT[?]" >/dev/null || fail "a process is left: $(pgrep -af ":$PORT[?]")"
 echo "bad input is refused in one line"

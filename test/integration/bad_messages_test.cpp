@@ -5,6 +5,7 @@
 // from the node's own heartbeat, so a new subscription is covered from its first day.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -16,6 +17,7 @@
 #include <rover/imu_t.hpp>
 #include <rover/injection_t.hpp>
 #include <rover/slam_pose_t.hpp>
+#include <rover/supervisor_state_t.hpp>
 #include <rover/wheel_state_t.hpp>
 #include <set>
 #include <sstream>
@@ -378,7 +380,7 @@ Traces run_alone(const std::string& name, const std::vector<Event>& all, Disturb
   return traces;
 }
 
-class BadMessages : public testing::TestWithParam<std::string> {
+class BadMessages : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     if (!all_.empty()) return;
@@ -390,6 +392,8 @@ class BadMessages : public testing::TestWithParam<std::string> {
 
   static inline std::vector<Event> all_;
 };
+
+class EachNode : public BadMessages, public testing::WithParamInterface<std::string> {};
 
 // The channels of a node's subscriptions, as its heartbeat names them; ".*": all there are.
 std::set<std::string> inputs_of(const Traces& traces, const std::vector<Event>& all, const std::string& name) {
@@ -405,7 +409,7 @@ std::set<std::string> inputs_of(const Traces& traces, const std::vector<Event>& 
   return channels;
 }
 
-TEST_P(BadMessages, AreCountedAndNamedAndChangeNothing) {
+TEST_P(EachNode, CountsAndNamesBadMessagesAndNothingElseChanges) {
   const std::string name = GetParam();
   const Traces calm = run_alone(name, all_, nullptr);
   ASSERT_FALSE(calm.heartbeats.empty()) << calm.log;
@@ -454,8 +458,19 @@ TEST_P(BadMessages, AreCountedAndNamedAndChangeNothing) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryNode, BadMessages, testing::ValuesIn(names_of_all()),
+INSTANTIATE_TEST_SUITE_P(Stack, EachNode, testing::ValuesIn(names_of_all()),
                          [](const auto& test) { return test.param; });
+
+// What the nodes are given alone has all of a drive in it.
+TEST_F(BadMessages, AreSentWhileTheRoverDrives) {
+  const auto drives = [](const Event& event) {
+    supervisor_state_t state;
+    return event.channel == channel::kState &&
+           decode_message(event.bytes.data(), static_cast<int>(event.bytes.size()), state) &&
+           state.state == supervisor_state_t::DRIVING;
+  };
+  EXPECT_TRUE(std::any_of(all_.begin(), all_.end(), drives));
+}
 
 // The build says which nodes there are.
 TEST(BadMessagesTable, HoldsEveryNode) {

@@ -11,7 +11,9 @@ done
 for service in stereo visual_odometry localization hazard_detector path_planner trajectory_control locomotion supervisor mission_control; do
   program=$BUILD/bin/$service
   [ -x "$program" ] || fail "$service is not built"
-  ! nm -C "$program" | grep -qE 'rover::(World|RockField|VehicleSim|TileScene)::' || fail "$service links the simulated world"
-  ! strings "$program" | grep -qx TRUTH || fail "$service names the channel TRUTH"
+  nm -C "$program" >"$WORK/symbols"
+  strings "$program" >"$WORK/strings"
+  ! grep -qE 'rover::(World|RockField|VehicleSim|TileScene)::' "$WORK/symbols" || fail "$service links the simulated world"
+  ! grep -qx TRUTH "$WORK/strings" || fail "$service names the channel TRUTH"
 done
 echo "cores and services keep to themselves"

@@ -95,8 +95,8 @@ TEST(Localization, NoDriftAtStandstill) {
   EXPECT_NEAR(drive.localization.pose().travelled_m, travelled, 0.01);
 }
 
-// Slow rotation below the standstill's threshold once taught the gyro a wrong bias, and the bias moved the resting rover
-// by metres through what it is correlated with.
+// Slow rotation below the standstill's threshold once taught the gyro a wrong bias, and the bias moved the resting
+// rover by metres through what it is correlated with.
 TEST(Localization, WheelsThatSteerOnTheSpotAreNoStandstill) {
   SyntheticDrive drive({}, 7);
   drive.command = [](double t) { return t < 1.5 || t > 501.5 ? Twist{} : Twist{0.2, 0.02 * std::sin(0.05 * t)}; };

@@ -41,7 +41,7 @@ struct Twist {
 class SyntheticDrive {
  public:
   std::function<Twist(double)> command = [](double) { return Twist{}; };
-  std::function<double(double)> slip = [](double) { return 0.0; };  // of all wheels
+  std::function<double(double)> slip = [](double) { return 0.0; };   // of all wheels
   std::function<double(double)> scrub = [](double) { return 0.0; };  // turn rate while the wheels steer on the spot
   bool rolling_ground = true;
 

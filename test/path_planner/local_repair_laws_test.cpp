@@ -4,6 +4,7 @@
 
 #include <queue>
 
+#include "path_planner/distance_field.hpp"
 #include "test/path_planner/repair_field.hpp"
 
 namespace rover::planning {
@@ -229,6 +230,13 @@ TEST(LocalRepairLaws, StaysWithinTheDeviationAndTheMap) {
   EXPECT_GT(found, 30);
 }
 
+std::vector<Point2> unseen_cells(const Terrain& terrain) {
+  std::vector<Point2> out;
+  for (int cell = 0; cell < terrain.cells() * terrain.cells(); ++cell)
+    if (terrain.unseen(cell)) out.push_back(terrain.center_of(cell));
+  return out;
+}
+
 // Every unseen cell that the rectangle comes to cover on the sure way was in the view from an earlier pose.
 TEST(LocalRepairLaws, CoversNoGroundThatWasNotSeenInTime) {
   const LocalRepairConfig config = quick_config();
@@ -241,14 +249,14 @@ TEST(LocalRepairLaws, CoversNoGroundThatWasNotSeenInTime) {
   for_each_found([&](const Case& c) {
     if (std::isinf(c.field.sure_m)) return;
     ++partly_seen;
+    const std::vector<Point2> unseen = unseen_cells(c.terrain);
     std::vector<Pose2> passed = {c.result.poses.front()};
     double way = 0.0;
     for (size_t i = 1; i < c.result.poses.size() && way < c.field.sure_m - 0.05; ++i) {
       const Pose2& pose = c.result.poses[i];
       way += distance(position(passed.back()), position(pose));
-      for (int cell = 0; cell < c.terrain.cells() * c.terrain.cells(); ++cell) {
-        const Point2 p = c.terrain.center_of(cell);
-        if (!c.terrain.unseen(cell) || brute_clearance_m(config.footprint, pose, p) > 0.0) continue;
+      for (const Point2& p : unseen) {
+        if (brute_clearance_m(config.footprint, pose, p) > 0.0) continue;
         const auto sees = [&](const Pose2& from) { return view.sees(to_body(from, p)); };
         ASSERT_TRUE(std::any_of(passed.begin(), passed.end(), sees)) << "pose " << i << " " << p.x_m << " " << p.y_m;
       }
@@ -264,7 +272,7 @@ TEST(LocalRepairLaws, CoversNoGroundThatWasNotSeenInTime) {
 class DiscReach {
  public:
   DiscReach(const Case& c, double radius_m, double most_off_path_m)
-      : case_(c), radius_m_(radius_m), most_off_path_m_(most_off_path_m) {
+      : case_(c), radius_m_(radius_m), most_off_path_m_(most_off_path_m), off_path_m_(off_path(c)) {
     reached_.assign(static_cast<size_t>(c.terrain.cells()) * c.terrain.cells(), 0);
     spread();
   }
@@ -273,10 +281,14 @@ class DiscReach {
 
  private:
   bool free(int cell) const {
-    if (case_.terrain.hazard_distance_m(cell) < radius_m_) return false;
-    if (std::isinf(most_off_path_m_)) return true;
-    const Point2 p = case_.terrain.center_of(cell);
-    return distance(case_.field.route.point_at(case_.field.route.closest(p)), p) <= most_off_path_m_;
+    return case_.terrain.hazard_distance_m(cell) >= radius_m_ && off_path_m_[cell] <= most_off_path_m_;
+  }
+
+  static std::vector<double> off_path(const Case& c) {
+    std::vector<std::uint8_t> path(static_cast<size_t>(c.terrain.cells()) * c.terrain.cells(), 0);
+    for (double s = 0.0; s < c.field.route.length_m(); s += 0.05)
+      if (const Point2 p = c.field.route.point_at(s); c.terrain.contains(p)) path[c.terrain.cell_of(p)] = 1;
+    return distance_field(path, c.terrain.cells(), c.terrain.cells(), c.terrain.cell_m());
   }
 
   void spread() {
@@ -305,6 +317,7 @@ class DiscReach {
   const Case& case_;
   double radius_m_;
   double most_off_path_m_;
+  std::vector<double> off_path_m_;
   std::vector<std::uint8_t> reached_;
 };
 

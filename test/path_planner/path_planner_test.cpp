@@ -271,7 +271,7 @@ TEST(PathPlanner, WithRoomToTurnItTurnsToLookButNotAtOnce) {
   rig.send_path(kAhead);
   rig.camera.far_m = 0.0;
   rig.step();
-  rig.odom.x_m = 1.0;
+  rig.odom.x_m = 0.8;
   rig.look(3);
   EXPECT_EQ(rig.paths.size(), 1u);
   const PlannerOutput out = rig.look(2);
@@ -280,6 +280,25 @@ TEST(PathPlanner, WithRoomToTurnItTurnsToLookButNotAtOnce) {
   const double turn = Route(rig.paths.back().points).pose_at(0.0).yaw_rad;
   EXPECT_GT(std::abs(wrap_angle(turn)), 0.7);
   EXPECT_EQ(out.status.replans, 0) << "no hazard was the reason";
+}
+
+// No way leads on and there is no room to turn, but one way led here.
+TEST(PathPlanner, WhereNoWayLeadsOnItGoesBackOverItsTrack) {
+  PlannerRig rig;
+  rig.send_path(kAhead);
+  rig.camera.far_m = 0.0;
+  for (rig.odom.x_m = 0.0; rig.odom.x_m < 1.0; rig.odom.x_m += 0.05) rig.step();
+  rig.look(20);
+  const auto retreat =
+      std::find_if(rig.paths.begin(), rig.paths.end(), [](const LocalPath& p) { return p.kind == PathKind::kRetreat; });
+  ASSERT_NE(retreat, rig.paths.end());
+  EXPECT_NEAR(distance(retreat->points.front().p, position(rig.odom)), 0.0, 0.01);
+  for (const RoutePoint& point : retreat->points) {
+    EXPECT_NEAR(point.p.y_m, 0.0, 1e-9);
+    EXPECT_GE(point.p.x_m, -1e-9);
+    EXPECT_LE(point.p.x_m, rig.odom.x_m + 1e-9);
+  }
+  EXPECT_LT(retreat->points.back().p.x_m, rig.odom.x_m - 0.4);
 }
 
 TEST(PathPlanner, AStartAreaBeginsAnew) {

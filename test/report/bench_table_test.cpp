@@ -68,7 +68,6 @@ TEST(BenchTable, EachFigureFailsItsOwnDemand) {
                                                               [](BenchRow& r) { r.cross_track_rms_m = 0.11; },
                                                               [](BenchRow& r) { r.final_error_m = 1.8; },
                                                               [](BenchRow& r) { r.duty = 0.74; },
-                                                              [](BenchRow& r) { r.realtime_factor = 2.9; },
                                                               [](BenchRow& r) { r.deterministic = false; }};
   for (size_t i = 0; i < faults.size(); ++i) {
     std::vector<BenchRow> rows = full_bench();

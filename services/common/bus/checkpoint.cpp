@@ -23,7 +23,9 @@ std::uint64_t checksum(const std::vector<std::uint8_t>& bytes) {
   return hash;
 }
 
-std::string path_of(const std::string& run_dir, const std::string& name) { return run_dir + "/" + name + ".ckpt"; }
+std::string path_of(const std::string& run_dir, const std::string& name) {
+  return run_dir + "/" + name + ".ckpt";
+}
 
 }  // namespace
 

@@ -52,7 +52,9 @@ Config Config::parse(const std::string& text, const std::string& name) {
   }
 }
 
-bool Config::has(const std::string& key) const { return static_cast<bool>(node_[key]); }
+bool Config::has(const std::string& key) const {
+  return static_cast<bool>(node_[key]);
+}
 
 std::vector<std::string> Config::keys() const {
   std::vector<std::string> names;
@@ -88,7 +90,9 @@ std::string range_text(Range range) {
   return text.str();
 }
 
-bool outside(double value, Range range) { return !std::isfinite(value) || value < range.min || value > range.max; }
+bool outside(double value, Range range) {
+  return !std::isfinite(value) || value < range.min || value > range.max;
+}
 
 }  // namespace
 
@@ -108,9 +112,13 @@ int Config::integer(const std::string& key, Range range) const {
   return static_cast<int>(integer64(key, {std::max(range.min, -2147483648.0), std::min(range.max, 2147483647.0)}));
 }
 
-bool Config::boolean(const std::string& key) const { return value<bool>(key, "true or false"); }
+bool Config::boolean(const std::string& key) const {
+  return value<bool>(key, "true or false");
+}
 
-std::string Config::text(const std::string& key) const { return value<std::string>(key, "a text"); }
+std::string Config::text(const std::string& key) const {
+  return value<std::string>(key, "a text");
+}
 
 std::string Config::one_of(const std::string& key, const std::vector<std::string>& choices) const {
   const std::string choice = text(key);
@@ -149,8 +157,7 @@ std::vector<Config> Config::list(const std::string& key) const {
   if (!node.IsSequence()) fail(key, "not a list");
   std::vector<Config> items;
   for (const YAML::Node& item : node) {
-    items.push_back(
-        Config(checked_map(item, file_), file_, prefix_ + key + "[" + std::to_string(items.size()) + "]."));
+    items.push_back(Config(checked_map(item, file_), file_, prefix_ + key + "[" + std::to_string(items.size()) + "]."));
     seen_->children.push_back(items.back());
   }
   return items;
@@ -179,7 +186,8 @@ void Config::read_deg(const std::string& key, double& value_rad, Range range_deg
 void Config::finish() const {
   for (const auto& entry : node_) {
     const auto key = entry.first.as<std::string>();
-    if (!seen_->keys.contains(key)) throw ConfigError(where(file_, entry.first) + ": " + prefix_ + key + ": unknown key");
+    if (!seen_->keys.contains(key))
+      throw ConfigError(where(file_, entry.first) + ": " + prefix_ + key + ": unknown key");
   }
   for (const Config& child : seen_->children) child.finish();
 }

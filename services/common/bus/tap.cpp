@@ -32,7 +32,9 @@ bool Tap::inject(const injection_t& injection) {
   return true;
 }
 
-bool Tap::chance(double share) { return std::uniform_real_distribution<double>(0.0, 1.0)(random_) < share; }
+bool Tap::chance(double share) {
+  return std::uniform_real_distribution<double>(0.0, 1.0)(random_) < share;
+}
 
 std::vector<Tap::Passed> Tap::pass(const std::string& channel, Utime utime, const void* data, int size) {
   if (muted_.contains(channel)) return {};

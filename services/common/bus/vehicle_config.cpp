@@ -95,10 +95,10 @@ StereoRig load_stereo_rig(const std::string& config_dir, const std::string& came
   rig.T_left_right =
       make_pose(rotation_from_rpy(rpy.x(), rpy.y(), rpy.z()), vector3(right, "position_m", kSignedMetres));
   const Config mount = rig_config.section("left_in_body");
-  rig.T_body_left = make_pose(camera_rotation(to_rad(mount.number("pitch_down_deg", {-90, 90})),
-                                              to_rad(mount.number("roll_deg", {-180, 180})),
-                                              to_rad(mount.number("yaw_deg", {-180, 180}))),
-                              vector3(mount, "position_m", kSignedMetres));
+  rig.T_body_left = make_pose(
+      camera_rotation(to_rad(mount.number("pitch_down_deg", {-90, 90})), to_rad(mount.number("roll_deg", {-180, 180})),
+                      to_rad(mount.number("yaw_deg", {-180, 180}))),
+      vector3(mount, "position_m", kSignedMetres));
   rig_config.finish();
   return rig;
 }

@@ -18,8 +18,8 @@ std::string values_text(const Values&... values) {
 }  // namespace rover
 
 // ROVER_CHECK(condition, values...): prints the values and aborts where the condition does not hold.
-#define ROVER_CHECK(condition, ...)                                                                         \
-  do {                                                                                                      \
-    if (!(condition)) [[unlikely]]                                                                          \
-      ::rover::check_failed(#condition, __FILE__, __LINE__, ::rover::values_text(__VA_ARGS__));             \
+#define ROVER_CHECK(condition, ...)                                                             \
+  do {                                                                                          \
+    if (!(condition)) [[unlikely]]                                                              \
+      ::rover::check_failed(#condition, __FILE__, __LINE__, ::rover::values_text(__VA_ARGS__)); \
   } while (false)

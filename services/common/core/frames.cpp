@@ -22,9 +22,13 @@ Eigen::Matrix3d rotation_from_rpy(double roll_rad, double pitch_rad, double yaw_
       .toRotationMatrix();
 }
 
-double yaw_of(const Eigen::Isometry3d& T) { return std::atan2(T.linear()(1, 0), T.linear()(0, 0)); }
+double yaw_of(const Eigen::Isometry3d& T) {
+  return std::atan2(T.linear()(1, 0), T.linear()(0, 0));
+}
 
-Pose2 planar(const Eigen::Isometry3d& T) { return {T.translation().x(), T.translation().y(), yaw_of(T)}; }
+Pose2 planar(const Eigen::Isometry3d& T) {
+  return {T.translation().x(), T.translation().y(), yaw_of(T)};
+}
 
 Eigen::Isometry3d from_planar(const Pose2& pose) {
   return make_pose(rotation_from_rpy(0.0, 0.0, pose.yaw_rad), {pose.x_m, pose.y_m, 0.0});
@@ -58,9 +62,13 @@ Eigen::Isometry3d nan_pose() {
   return make_pose(Eigen::Matrix3d::Constant(kNaN), Eigen::Vector3d::Constant(kNaN));
 }
 
-Matrix6d nan_cov() { return Matrix6d::Constant(kNaN); }
+Matrix6d nan_cov() {
+  return Matrix6d::Constant(kNaN);
+}
 
-bool is_finite(const Eigen::Isometry3d& T) { return T.matrix().allFinite(); }
+bool is_finite(const Eigen::Isometry3d& T) {
+  return T.matrix().allFinite();
+}
 
 Eigen::Isometry3d interpolate(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, double u) {
   const Eigen::Quaterniond q = Eigen::Quaterniond(a.linear()).slerp(u, Eigen::Quaterniond(b.linear()));

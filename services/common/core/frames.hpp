@@ -21,8 +21,12 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kPi = std::numbers::pi;
 
-constexpr double to_rad(double deg) { return deg * kPi / 180.0; }
-constexpr double to_deg(double rad) { return rad * 180.0 / kPi; }
+constexpr double to_rad(double deg) {
+  return deg * kPi / 180.0;
+}
+constexpr double to_deg(double rad) {
+  return rad * 180.0 / kPi;
+}
 
 // Into (-pi, pi].
 double wrap_angle(double angle_rad);

@@ -86,8 +86,8 @@ class GridMap {
     const int first = to > from ? from : from + cells_ - moved;
     for (int line = first; line < first + moved; ++line)
       for (int k = 0; k < cells_; ++k)
-        data_[columns ? static_cast<size_t>(k) * cells_ + wrap(line)
-                      : static_cast<size_t>(wrap(line)) * cells_ + k] = empty_;
+        data_[columns ? static_cast<size_t>(k) * cells_ + wrap(line) : static_cast<size_t>(wrap(line)) * cells_ + k] =
+            empty_;
   }
 
   int cells_;

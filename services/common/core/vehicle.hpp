@@ -12,7 +12,7 @@ namespace rover {
 inline constexpr std::array<int, 4> kSteeredWheels = {0, 1, 4, 5};
 
 struct Vehicle {
-  double origin_height_m = 0.0;   // body origin above flat ground
+  double origin_height_m = 0.0;  // body origin above flat ground
   double body_mass_kg = 0.0;
   double body_half_length_m = 0.0;
   double body_half_width_m = 0.0;

@@ -44,7 +44,8 @@ void add_strip(const ContactConfig& config, const Vehicle& vehicle, HeightCache&
     z0 = z1;
     const double distance_sq = x * x + z * z;
     if (i == 0 || distance_sq >= radius * radius || distance_sq < 1e-12) continue;
-    const double distance = std::sqrt(distance_sq), depth = radius - distance, length = std::sqrt(dx * dx + rise * rise);
+    const double distance = std::sqrt(distance_sq), depth = radius - distance,
+                 length = std::sqrt(dx * dx + rise * rise);
     const Material material = heights.material(base.x() + x * plane.f.x(), base.y() + x * plane.f.y());
     const auto soil = static_cast<size_t>(material.soil);
     const double load = config.stiffness_npm2[soil] / kStrips * depth * length;
