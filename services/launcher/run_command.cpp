@@ -19,12 +19,14 @@ namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
 
-void interrupt(int) { interrupted = 1; }
+void interrupt(int) {
+  interrupted = 1;
+}
 
 // The stack of the Efficient level, in the order of its flow.
-const std::vector<std::string> kServices = {"recorder",     "stereo",       "visual_odometry",    "localization",
-                                            "hazard_detector", "path_planner", "trajectory_control", "locomotion",
-                                            "supervisor",   "mission_control"};
+const std::vector<std::string> kServices = {"recorder",        "stereo",         "visual_odometry",    "localization",
+                                            "hazard_detector", "path_planner",   "trajectory_control", "locomotion",
+                                            "supervisor",      "mission_control"};
 
 std::vector<ServiceCommand> service_commands(const RunArguments& arguments, const RunFolder& folder) {
   const std::string common =
@@ -49,11 +51,16 @@ End wait_for_end(const RunArguments& arguments, const RunFolder& folder, S6Sessi
   lcm::LCM lcm(folder.bus_url);
   Progress progress(lcm, !arguments.quiet);
   const std::string end_file = folder.dir + "/simulation.json";
+  // On a busy machine a service may end before the logger of its words has started.
+  constexpr int kSilentLooks = 100;
+  int silent_looks = 0;
   while (!interrupted) {
     lcm.handleTimeout(100);
     progress.show();
     if (fs::exists(end_file)) break;
-    if (!failed_services(folder.dir).empty()) return progress.started() ? End::kFailed : End::kNeverBegun;
+    const auto failed = failed_services(folder.dir);
+    if (!failed.empty() && (!failed.front().said.empty() || ++silent_looks > kSilentLooks))
+      return progress.started() ? End::kFailed : End::kNeverBegun;
     if (!session.running()) {
       std::fprintf(stderr, "s6-svscan has ended; see %s/service_logs/s6.log\n", folder.dir.c_str());
       return End::kFailed;
@@ -61,6 +68,12 @@ End wait_for_end(const RunArguments& arguments, const RunFolder& folder, S6Sessi
   }
   progress.finish();
   return End::kOver;
+}
+
+// Several services may stumble over the same value: one is told.
+void tell(const FailedService& failed, const RunArguments& arguments, const RunFolder& folder) {
+  const std::string line = failed.said.empty() ? failed.name + ": ended with exit status 2" : failed.said;
+  std::fprintf(stderr, "%s\n", in_users_files(line, folder, arguments).c_str());
 }
 
 nlohmann::json read_json(const std::string& file) {
@@ -89,11 +102,12 @@ void print_result(const RunFolder& folder, const nlohmann::json& metrics) {
   const auto number = [&](const char* key) {
     return metrics.contains(key) && metrics[key].is_number() ? metrics[key].get<double>() : 0.0;
   };
-  std::printf("%s: %.1f m driven for %.1f m planned in %.0f s, %.0f repairs, %.0f hazard stops, %.0f collisions, "
-              "drift %.2f %%, %.1f times real time\n",
-              metrics.value("outcome", "unknown").c_str(), number("driven_length_m"), number("planned_length_m"),
-              number("duration_s"), number("replans"), number("hazard_stops"), number("collisions"),
-              number("odometry_drift_percent"), number("realtime_factor"));
+  std::printf(
+      "%s: %.1f m driven for %.1f m planned in %.0f s, %.0f repairs, %.0f hazard stops, %.0f collisions, "
+      "drift %.2f %%, %.1f times real time\n",
+      metrics.value("outcome", "unknown").c_str(), number("driven_length_m"), number("planned_length_m"),
+      number("duration_s"), number("replans"), number("hazard_stops"), number("collisions"),
+      number("odometry_drift_percent"), number("realtime_factor"));
   std::printf("report: %s/report.html\n", folder.dir.c_str());
 }
 
@@ -134,9 +148,8 @@ RunResult run(const RunArguments& given) {
     session.stop();
   }
   if (end != End::kOver) {
-    // Several services may stumble over the same value: the first is told, now that all logs are written.
     const auto failed = failed_services(folder.dir);
-    if (!failed.empty()) std::fprintf(stderr, "%s\n", in_users_files(failed.front(), folder, arguments).c_str());
+    if (!failed.empty()) tell(failed.front(), arguments, folder);
     if (end == End::kNeverBegun) {
       remove_run_folder(folder);
       result.dir.clear();

@@ -76,7 +76,8 @@ void apply_setting(const std::string& setting, const fs::path& config_dir) {
   for (size_t dot = rest.find('.'); dot != std::string::npos; dot = rest.find('.')) {
     YAML::Node child = node[rest.substr(0, dot)];
     if (!child.IsDefined() || !child.IsMap())
-      throw ConfigError("--set " + setting + ": no section '" + rest.substr(0, dot) + "' in " + file.filename().string());
+      throw ConfigError("--set " + setting + ": no section '" + rest.substr(0, dot) + "' in " +
+                        file.filename().string());
     node.reset(child);
     rest = rest.substr(dot + 1);
   }
@@ -117,7 +118,8 @@ double height_at(const ElevationRaster& raster, double x_m, double y_m) {
 
 void create_folders(const fs::path& dir) {
   std::error_code error;
-  if (fs::exists(dir) && !fs::is_empty(dir, error)) throw ConfigError(dir.string() + ": exists already and is not empty");
+  if (fs::exists(dir) && !fs::is_empty(dir, error))
+    throw ConfigError(dir.string() + ": exists already and is not empty");
   fs::create_directories(dir / "config", error);
   fs::create_directories(dir / "service_logs", error);
   if (error) throw ConfigError(dir.string() + ": cannot be made: " + error.message());

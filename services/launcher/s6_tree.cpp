@@ -29,8 +29,8 @@ void write_script(const fs::path& file, const std::string& text) {
 // Each start gets a larger boot number, which tells the streams of one process from those of the next.
 std::string run_script(const std::string& run_dir, const ServiceCommand& service) {
   const std::string boots = "boots/" + service.name;
-  return "cd '" + run_dir + "' || exit 1\nexec 2>&1\nBOOT=$(( $(cat " + boots + " 2>/dev/null || echo 0) + 1 ))\necho $BOOT > " +
-         boots + "\nexec " + service.command + " --boot-id $BOOT\n";
+  return "cd '" + run_dir + "' || exit 1\nexec 2>&1\nBOOT=$(( $(cat " + boots +
+         " 2>/dev/null || echo 0) + 1 ))\necho $BOOT > " + boots + "\nexec " + service.command + " --boot-id $BOOT\n";
 }
 
 // s6 starts a service again unless its finish script exits with 125: after bad configuration (2), and after a clean end
@@ -59,7 +59,8 @@ void write_s6_tree(const std::string& run_dir, const std::vector<ServiceCommand>
     fs::create_directories(dir / "log");
     write_script(dir / "run", run_script(run_dir, service));
     write_script(dir / "finish", finish_script(run_dir, service));
-    write_script(dir / "log" / "run", "exec s6-log -b n3 s2000000 '" + run_dir + "/service_logs/" + service.name + "'\n");
+    write_script(dir / "log" / "run",
+                 "exec s6-log -b n3 s2000000 '" + run_dir + "/service_logs/" + service.name + "'\n");
     fs::create_directories(root / "service_logs" / service.name);
   }
 }
@@ -80,9 +81,13 @@ S6Session::S6Session(const std::string& run_dir) : run_dir_(run_dir) {
   if (pid_ < 0) throw ConfigError("s6-svscan: cannot be started");
 }
 
-S6Session::~S6Session() { stop(); }
+S6Session::~S6Session() {
+  stop();
+}
 
-bool S6Session::running() { return pid_ > 0 && waitpid(pid_, nullptr, WNOHANG) == 0; }
+bool S6Session::running() {
+  return pid_ > 0 && waitpid(pid_, nullptr, WNOHANG) == 0;
+}
 
 void S6Session::stop() {
   if (pid_ <= 0) return;
@@ -100,16 +105,17 @@ void S6Session::stop() {
   pid_ = -1;
 }
 
-std::vector<std::string> failed_services(const std::string& run_dir) {
-  std::vector<std::string> failed;
+std::vector<FailedService> failed_services(const std::string& run_dir) {
+  std::vector<FailedService> failed;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(fs::path(run_dir) / "exits", error)) {
     const std::string name = entry.path().filename();
     if (last_line(entry.path()).rfind("2 ", 0) != 0) continue;
-    const std::string said = last_line(fs::path(run_dir) / "service_logs" / name / "current");
-    failed.push_back(said.empty() ? name + ": ended with exit status 2" : said);
+    failed.push_back({name, last_line(fs::path(run_dir) / "service_logs" / name / "current")});
   }
-  std::sort(failed.begin(), failed.end());
+  std::sort(failed.begin(), failed.end(), [](const FailedService& a, const FailedService& b) {
+    return std::pair(a.said.empty(), a.name) < std::pair(b.said.empty(), b.name);
+  });
   return failed;
 }
 

@@ -8,8 +8,8 @@ namespace rover {
 
 struct ServiceCommand {
   std::string name;
-  std::string command;    // executed by sh, in the run's folder
-  bool once = false;      // not started again after a clean exit
+  std::string command;  // executed by sh, in the run's folder
+  bool once = false;    // not started again after a clean exit
 };
 
 void write_s6_tree(const std::string& run_dir, const std::vector<ServiceCommand>& services);
@@ -30,8 +30,12 @@ class S6Session {
   int pid_ = -1;
 };
 
-// The last line of the log of each service that ended for good with an error, "name: what"; empty where none has. All
-// logs are written only when the session has stopped.
-std::vector<std::string> failed_services(const std::string& run_dir);
+// A service that ended for good with an error.
+struct FailedService {
+  std::string name;
+  std::string said;  // the last line of its log, empty while that lags behind
+};
+// Those that have said why come first, in the order of their names.
+std::vector<FailedService> failed_services(const std::string& run_dir);
 
 }  // namespace rover
