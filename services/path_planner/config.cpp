@@ -31,6 +31,8 @@ void read_view(const Config& c, ViewArea& out) {
 void read_repair(const Config& c, LocalRepairConfig& out) {
   c.read("rejoin_within_m", out.rejoin_within_m, {0.0, 10.0});
   c.read("turn_extra_m", out.turn_extra_m, {0.0, 1.0});
+  c.read("dead_end_reach_m", out.dead_end_reach_m, {0.0, 5.0});
+  c.read("dead_end_cost", out.dead_end_cost, {0.0, 50.0});
   c.read("max_deviation_m", out.max_deviation_m, {0.5, 20.0});
   c.read("risk_distance_m", out.risk_distance_m, {0.1, 5.0});
   c.read("risk_cost", out.risk_cost, {0.0, 20.0});

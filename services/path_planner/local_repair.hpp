@@ -15,12 +15,14 @@ namespace rover::planning {
 struct LocalRepairConfig {
   Footprint footprint;
   ViewArea view;
-  double rejoin_within_m = 4.0;  // past the first place where the global path is clear; 0: as soon as possible
-  double turn_extra_m = 0.04;    // of the margin, for point turns: the rover does not halt exactly
-  double max_deviation_m = 4.0;  // from the global path
-  double risk_distance_m = 1.0;  // clearance below which ground costs more
-  double risk_cost = 1.5;        // per metre more, at the margin
-  double unseen_cost = 0.6;      // per metre more
+  double rejoin_within_m = 4.0;   // past the first place where the global path is clear; 0: as soon as possible
+  double turn_extra_m = 0.04;     // of the margin, for point turns: the rover does not halt exactly
+  double dead_end_reach_m = 0.8;  // around a place from which the rover had to go back ...
+  double dead_end_cost = 4.0;     // ... ground costs that much more per metre
+  double max_deviation_m = 4.0;   // from the global path
+  double risk_distance_m = 1.0;   // clearance below which ground costs more
+  double risk_cost = 1.5;         // per metre more, at the margin
+  double unseen_cost = 0.6;       // per metre more
   ArcSearchConfig search;
   SmootherConfig smoother;
 };
@@ -35,6 +37,7 @@ struct RepairRequest {
   double margin_m = 0.0;
   double sure_m = kInfinity;  // way that must lie over ground seen in time; further on it only costs more
   double goal_tolerance_m = 0.0;
+  std::vector<Point2> dead_ends;  // places that led nowhere, in odom
 };
 
 enum class RepairStatus { kFound, kNoTarget, kNoWay, kUnseen };

@@ -70,6 +70,7 @@ std::string PathPlanner::set_global_path(const GlobalPath& path) {
   active_ = Active();
   failures_ = 0;
   retreats_ = 0;
+  dead_ends_.clear();
   furthest_m_ = 0.0;
   return "";
 }
@@ -105,6 +106,7 @@ void PathPlanner::take_start_area() {
   history_.add(newest);
   memory_.clear();
   driven_.clear();
+  dead_ends_.clear();
   memory_.move_to(position(rover()));
   const Point2 center = apply(inverse(planar(newest.T_map_odom)), start_area_->center_map);
   if (start_area_->radius_m > 0.0) memory_.mark_seen(center, start_area_->radius_m);
@@ -168,6 +170,7 @@ void PathPlanner::track_progress() {
   if (global_progress_m_ < furthest_m_ + kGainM) return;
   furthest_m_ = global_progress_m_;
   retreats_ = 0;
+  dead_ends_.clear();
 }
 
 void PathPlanner::begin(PlannerOutput& out) {
@@ -220,11 +223,13 @@ bool PathPlanner::strayed() const {
 }
 
 // No way leads on from here, but one led here: back over ground that carried the rover, to where more can be seen and
-// there is room to turn. False where there is no track, or where that has been tried enough.
+// there is room to turn; further each time, and what led here costs more from now on. False where there is no track, or
+// where that has been tried enough.
 bool PathPlanner::retreat(PlannerOutput& out) {
-  const std::vector<Point2> back = driven_.back(position(rover()), config_.retreat_m);
+  const std::vector<Point2> back = driven_.back(position(rover()), (1 + retreats_) * config_.retreat_m);
   if (retreats_ >= config_.most_retreats || distance(back.front(), back.back()) < kLeastRetreatM) return false;
   ++retreats_;
+  dead_ends_.push_back(position(rover()));
   failures_ = 0;
   std::vector<RoutePoint> points;
   for (const Point2& p : back) points.push_back({p, kNaN, global_odom_.level_at(global_progress_m_)});
@@ -319,10 +324,10 @@ void PathPlanner::take_repair(double margin_m, PlannerOutput& out) {
 RepairResult PathPlanner::plan_repair(const Terrain& terrain, const LeadIn& lead, double margin_m,
                                       double sure_m) const {
   const double halt_m = lead_ins().front().way_m;
-  return local_repair_.plan({terrain, global_odom_, global_progress_m_,
-                             advanced(rover(), lead.way_m, lead.curvature_per_m), lead.curvature_per_m,
-                             advanced(rover(), halt_m, lead.curvature_per_m),
-                             margin_m + config_.plan_extra_m + sigma_margin_m(), sure_m, global_->goal_tolerance_m});
+  return local_repair_.plan(
+      {terrain, global_odom_, global_progress_m_, advanced(rover(), lead.way_m, lead.curvature_per_m),
+       lead.curvature_per_m, advanced(rover(), halt_m, lead.curvature_per_m),
+       margin_m + config_.plan_extra_m + sigma_margin_m(), sure_m, global_->goal_tolerance_m, dead_ends_});
 }
 
 Route PathPlanner::repaired_route(const RepairResult& repair) const {

@@ -184,8 +184,9 @@ class PathPlanner {
   std::int64_t next_path_id_;
   std::int32_t replans_ = 0;
   int failures_ = 0;
-  int retreats_ = 0;         // since the rover last got further along the global path than ever
-  double furthest_m_ = 0.0;  // along the global path
+  std::vector<Point2> dead_ends_;  // where retreats began since then
+  int retreats_ = 0;               // since the rover last got further along the global path than ever
+  double furthest_m_ = 0.0;        // along the global path
   int frames_before_unseen_ = 0;
   int frames_before_possible_ = 0;
   RepairResult last_repair_;

@@ -74,18 +74,19 @@ TEST(Scenarios, PathsAreDrivable) {
   }
 }
 
-TEST(Scenarios, RocksStandInTheWayAsOftenAsInThePaper) {
+// A rock in the way makes one or two repairs (test/results/seed.md): the paper's are 6 and 10.
+TEST(Scenarios, RocksStandInTheWayForThePapersRepairs) {
   const auto mean = [](const Scenario& scenario) {
     double sum = 0.0;
     for (std::uint64_t seed = 1; seed <= 5; ++seed) sum += hazards_on_path(scenario, seed) / 5.0;
     return sum;
   };
   const double first = mean(load_scenario(kScenarios + "seed_traverse_1.yaml"));
-  EXPECT_GT(first, 6.0);
-  EXPECT_LT(first, 11.0);
+  EXPECT_GT(first, 3.0);
+  EXPECT_LT(first, 8.0);
   const double second = mean(load_scenario(kScenarios + "seed_traverse_2.yaml"));
-  EXPECT_GT(second, 9.0);
-  EXPECT_LT(second, 14.0);
+  EXPECT_GT(second, 4.0);
+  EXPECT_LT(second, 10.0);
   EXPECT_EQ(hazards_on_path(load_scenario(kScenarios + "flat.yaml"), 1), 0.0);
 }
 
