@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
-# Builds and runs every test, then the tests of the cores once more under AddressSanitizer and
-# UndefinedBehaviorSanitizer. `unit`: only the unit tests; `sanitize`: only those under the sanitizers. Called by
-# ./rover test.
+# Builds and runs every test. `unit`: only the unit tests; `sanitize`: those of the cores under AddressSanitizer and
+# UndefinedBehaviorSanitizer, in a build of their own. Called by ./rover test.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
 
@@ -28,7 +27,6 @@ case "${1:-all}" in
     ;;
   all)
     configure_and_build build all
-    sanitized
     run_ctest build
     ;;
   *)
