@@ -9,7 +9,9 @@
 
 namespace rover {
 
-std::string scenario_name(const std::string& file) { return std::filesystem::path(file).stem().string(); }
+std::string scenario_name(const std::string& file) {
+  return std::filesystem::path(file).stem().string();
+}
 
 std::string commit_of(const std::string& source_dir) {
   const std::string command = "git -C '" + source_dir + "' describe --always --dirty --abbrev=12 2>/dev/null";

@@ -8,18 +8,18 @@
 namespace rover {
 
 struct RunArguments {
-  std::string source_dir = ".";   // holds config/ and logs/
-  std::string bin_dir;            // holds the services' executables
-  std::string scenario;           // file; empty for run(): config/scenarios/default.yaml
-  std::int64_t seed = -1;         // -1: the scenario's own
+  std::string source_dir = ".";  // holds config/ and logs/
+  std::string bin_dir;           // holds the services' executables
+  std::string scenario;          // file; empty for run(): config/scenarios/default.yaml
+  std::int64_t seed = -1;        // -1: the scenario's own
   std::string level = "auto";
-  std::vector<std::string> set;   // file.key.key=value
-  std::string out;                // run folder; empty: logs/<time>-<scenario>
-  std::string bus;                // LCM URL; empty: of config/bus.yaml
-  std::string record;             // full or reduced; empty: of config/recorder.yaml
+  std::vector<std::string> set;  // file.key.key=value
+  std::string out;               // run folder; empty: logs/<time>-<scenario>
+  std::string bus;               // LCM URL; empty: of config/bus.yaml
+  std::string record;            // full or reduced; empty: of config/recorder.yaml
   bool headless = false;
   bool realtime = false;
-  bool quiet = false;             // no progress (benches)
+  bool quiet = false;  // no progress (benches)
 };
 
 // Name of a scenario file without folder and ending.

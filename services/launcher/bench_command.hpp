@@ -9,12 +9,12 @@
 namespace rover {
 
 struct BenchArguments {
-  RunArguments run;                  // source and bin folders, settings that hold for each run
+  RunArguments run;  // source and bin folders, settings that hold for each run
   std::string suite = "seed";
   std::vector<std::int64_t> seeds;
-  bool resume = false;               // keep the rows that this commit already has
-  int jobs = 1;                      // runs at a time, each on a bus of its own
-  std::string command;               // as given, for the table
+  bool resume = false;  // keep the rows that this commit already has
+  int jobs = 1;         // runs at a time, each on a bus of its own
+  std::string command;  // as given, for the table
 };
 
 int bench(const BenchArguments& arguments);

@@ -1,8 +1,8 @@
 #include "launcher/preflight.hpp"
 
+#include <arpa/inet.h>
 #include <fcntl.h>
 #include <netinet/in.h>
-#include <arpa/inet.h>
 #include <sys/file.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -55,10 +55,10 @@ std::vector<std::string> bus_problems(const std::string& bus_url) {
   long allowed = 0;
   std::ifstream("/proc/sys/net/core/rmem_max") >> allowed;
   if (allowed > 0 && allowed < address.receive_buffer)
-    problems.push_back("bus: the kernel allows receive buffers of " + std::to_string(allowed) + " bytes, " +
-                       std::to_string(address.receive_buffer) +
-                       " are needed. Mend it with: sudo sysctl -w net.core.rmem_max=" +
-                       std::to_string(address.receive_buffer));
+    problems.push_back(
+        "bus: the kernel allows receive buffers of " + std::to_string(allowed) + " bytes, " +
+        std::to_string(address.receive_buffer) +
+        " are needed. Mend it with: sudo sysctl -w net.core.rmem_max=" + std::to_string(address.receive_buffer));
   if (!can_send_multicast(address))
     problems.push_back("bus: no route for multicast to " + address.group +
                        ". Mend it with: sudo ip link set lo multicast on && sudo ip route add 224.0.0.0/4 dev lo");

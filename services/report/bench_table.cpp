@@ -246,7 +246,9 @@ std::string bench_table(const BenchContext& context, const std::vector<BenchRow>
   out += fmt::format("\nMean speed, median: {} m/h.\n",
                      shown(median(values(runs, [](const BenchRow& r) { return r.mean_speed_m_per_h; })), 0));
   out += time_lines(runs);
-  out += "\nRuns share the machine when there is more than one at a time; real time is measured by `./rover bench speed`.\n";
+  out +=
+      "\nRuns share the machine when there is more than one at a time; real time is measured by `./rover bench "
+      "speed`.\n";
   out += "\n## Beside the paper\n\n" + paper_table(runs) + "\n## Runs\n\n" + kHead;
   for (const BenchRow& row : runs) out += row_line(row);
   for (const auto& [scenario, paper] : kPaper) out += median_line(scenario, of_scenario(runs, scenario));

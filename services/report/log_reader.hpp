@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "report/run_record.hpp"
@@ -22,7 +23,9 @@ struct LogLength {
 // Calls `take` for each whole record; a cut last one ends the log. Throws ConfigError where there is no log.
 LogLength for_each_event(const std::string& path, const std::function<void(const LogEvent&)>& take);
 
-// Of a log that was cut, what is whole; one line on stderr says so. Throws ConfigError where nothing is.
-RunRecord read_log(const std::string& path);
+// Of a log that was cut, what is whole; one line on stderr says so. Throws ConfigError where nothing is. Messages of
+// the bus are counted until shortly before the end of the run, if it is known: which of the last ones still reach the
+// log is a matter of chance.
+RunRecord read_log(const std::string& path, std::optional<double> run_s = std::nullopt);
 
 }  // namespace rover::report

@@ -57,7 +57,7 @@ std::string write_report(const RunFolder& folder, const RunRecord& run, const st
 
 std::string make_report(const std::string& run_dir, const std::string& default_config_dir) {
   const RunFolder folder = open_run_folder(run_dir, default_config_dir);
-  const RunRecord run = read_log(folder.log);
+  const RunRecord run = read_log(folder.log, folder.info.sim_s);
   return write_report(folder, run, load_true_world(folder, surroundings(run)), load_orbital_map(folder));
 }
 

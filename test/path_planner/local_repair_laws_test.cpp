@@ -18,7 +18,7 @@ using testing_support::random_field;
 using testing_support::RepairField;
 
 constexpr int kFields = 1000;
-constexpr double kMostDetourM = 20.0;
+constexpr double kMostDetourM = 9.0;      // about twice the way without rocks
 constexpr double kRoomToJoinM = 1.2;      // an arc comes in from the side within about this way
 constexpr double kHaltM = 0.011;          // sections meet within the smoother's end tolerance
 constexpr double kRelaxM = 0.02;          // of hazards that stand nearer than the margin at the start
@@ -224,7 +224,7 @@ TEST(LocalRepairLaws, StaysWithinTheDeviationAndTheMap) {
     found += result.status == RepairStatus::kFound ? 1 : 0;
     for (const Pose2& pose : result.poses) {
       const double off = distance(field.route.point_at(field.route.closest(position(pose))), position(pose));
-      ASSERT_LE(off, narrow.max_deviation_m + 0.15) << seed;  // a cell and what smoothing moves
+      ASSERT_LE(off, narrow.max_deviation_m + 0.25) << seed;  // cells, and what smoothing moves
       ASSERT_GT(terrain.inside_m(position(pose)), 0.0) << seed;
     }
   }
@@ -376,7 +376,7 @@ Case walled(std::uint64_t seed) {
   std::mt19937_64 random(seed);
   RepairField field{testing_support::ground(true), testing_support::straight_route(20.0), 4.0, {}, 0.0, {}, kInfinity};
   const double gap = testing_support::uniform(random, -1.5, 1.5);
-  const double half_m = testing_support::uniform(random, 0.2, 1.0);
+  const double half_m = testing_support::uniform(random, 0.2, 0.8);
   std::vector<testing_support::Rock> rocks;
   for (double y = -5.0; y < 5.0; y += 0.1)
     if (std::abs(y - gap) > half_m + 0.1) rocks.push_back({{2.2, y}, 0.1, 0.3});

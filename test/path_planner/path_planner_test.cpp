@@ -266,22 +266,6 @@ TEST(PathPlanner, StandingBeforeUnseenGroundItSaysThatThereIsNoWay) {
   EXPECT_EQ(rig.step().status.state, PlannerState::kFollowing);
 }
 
-TEST(PathPlanner, WithRoomToTurnItTurnsToLookButNotAtOnce) {
-  PlannerRig rig;
-  rig.send_path(kAhead);
-  rig.camera.far_m = 0.0;
-  rig.step();
-  rig.odom.x_m = 0.8;
-  rig.look(3);
-  EXPECT_EQ(rig.paths.size(), 1u);
-  const PlannerOutput out = rig.look(2);
-  ASSERT_EQ(rig.paths.size(), 2u);
-  EXPECT_EQ(rig.paths.back().kind, PathKind::kRepair);
-  const double turn = Route(rig.paths.back().points).pose_at(0.0).yaw_rad;
-  EXPECT_GT(std::abs(wrap_angle(turn)), 0.7);
-  EXPECT_EQ(out.status.replans, 0) << "no hazard was the reason";
-}
-
 // No way leads on and there is no room to turn, but one way led here.
 TEST(PathPlanner, WhereNoWayLeadsOnItGoesBackOverItsTrack) {
   PlannerRig rig;

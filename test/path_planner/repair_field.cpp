@@ -70,7 +70,7 @@ Route straight_route(double length_ahead_m) {
 RepairField random_field(std::uint64_t seed) {
   std::mt19937_64 random(seed);
   RepairField field{ground(false), random_route(random), 0.0, {}, 0.0, {}, kInfinity};
-  field.from_m = field.route.closest({0.0, 0.0});
+  field.from_m = field.route.closest({-1.5, 0.0});  // most of the map lies ahead
   field.start = beside(field.route.pose_at(field.from_m), random);
   field.stopped = field.start;
   if (random() % 2 == 0) {

@@ -13,7 +13,9 @@ namespace {
 
 std::atomic<bool> running{true};
 
-void stop(int) { running = false; }
+void stop(int) {
+  running = false;
+}
 
 void install_signals() {
   struct sigaction action {};
