@@ -49,7 +49,7 @@ same=no
   echo "| first motion within 5 s of the command (\`default\`, built) | $default_motion_s s |"
   echo "| \`default\` at most 120 s, report included | $default_s s, $(figure default .outcome) |"
   echo "| \`seed_traverse_1\` at least 3 times real time | $(figure seed_traverse_1 '.realtime_factor * 100 | round / 100') ($(figure seed_traverse_1 '.sim_s | round') s in $(figure seed_traverse_1 '.wall_s | round') s), $(figure seed_traverse_1 .outcome) |"
-  echo "| \`default --realtime\` reaches its goal | $(figure realtime .outcome), $(figure realtime '.realtime_factor * 100 | round / 100') times real time |"
+  echo "| \`default --realtime\` reaches its goal | $(figure realtime .outcome), $(figure realtime '(.realtime_factor // 0) * 100 | round / 100') times real time |"
   echo "| \`seed_traverse_1\` again with a core loaded: the same final pose, counts and lengths in every digit | $same ($(figure loaded '.realtime_factor * 100 | round / 100') times real time) |"
   echo
   echo "What each service costs on \`seed_traverse_1\`, seed 1:"

@@ -188,6 +188,7 @@ void Simulator::publish_sensors(Utime t) {
 
 void Simulator::start_exposure(Utime t) {
   if (exposure_) publish_due_images(exposure_->release);
+  if (exposure_) return;  // late by the clock: a camera that is still busy takes no other picture
   PendingPair pending{t, t + kCameraLatency, {}};
   pending.pair = std::async(std::launch::async, [this, T_map_body = rover_.T_map_body(), frame = frame_++] {
     return rover_.expose_loccam(T_map_body, frame);

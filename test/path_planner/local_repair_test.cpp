@@ -119,6 +119,25 @@ TEST(LocalRepair, BeforeAWallItTurnsOnTheSpot) {
   EXPECT_TRUE(result.turns_first || result.halts > 0);
 }
 
+// A rock at a front corner, clear of the rectangle as it stands, is in the way of the turn to its side.
+TEST(LocalRepair, ItTurnsToTheSideOnWhichTheCornersSweepFreely) {
+  const Footprint footprint = planner_config().footprint;
+  for (const double side : {1.0, -1.0}) {
+    std::vector<Rock> rocks = row({1.45, -1.7 * side}, {1.45, 0.9 * side});  // the shorter way would be on this side
+    rocks.push_back({{0.85, 0.72 * side}, 0.08, 0.3});
+    const RepairField field = field_with(rocks);
+    const Terrain terrain(field.memory);
+    const RepairResult result = plan(field);
+    ASSERT_EQ(result.status, RepairStatus::kFound);
+    ASSERT_TRUE(result.turns_first);
+    const double turn = result.poses.front().yaw_rad;
+    EXPECT_LT(side * turn, 0.0);
+    for (int k = 0; k <= 50; ++k)
+      for (const HazardSpot& hazard : terrain.hazards())
+        ASSERT_GE(footprint.distance_m({0.0, 0.0, turn * k / 50.0}, hazard.p), testing_support::kRepairMarginM - 0.005);
+  }
+}
+
 TEST(LocalRepair, ARockOfASingleHitIsPassedToo) {
   RepairField field = field_with({});
   field.memory.map().at(field.memory.map().index_of(1.95, 0.05)).hits = 1;
