@@ -8,27 +8,12 @@
 #include <unistd.h>
 
 #include <fstream>
-#include <regex>
+
+#include "common/bus/bus_url.hpp"
+#include "common/bus/config.hpp"
 
 namespace rover {
 namespace {
-
-struct BusAddress {
-  std::string group;
-  int port = 0;
-  long receive_buffer = 0;
-};
-
-bool parse_udpm(const std::string& url, BusAddress& address) {
-  static const std::regex form(R"(udpm://([0-9.]+):([0-9]+).*)");
-  static const std::regex buffer(R"(recv_buf_size=([0-9]+))");
-  std::smatch match;
-  if (!std::regex_match(url, match, form)) return false;
-  address.group = match[1];
-  address.port = std::stoi(match[2]);
-  if (std::regex_search(url, match, buffer)) address.receive_buffer = std::stol(match[1]);
-  return true;
-}
 
 bool can_send_multicast(const BusAddress& address) {
   const int fd = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
@@ -47,27 +32,33 @@ bool can_send_multicast(const BusAddress& address) {
 std::vector<std::string> bus_problems(const std::string& bus_url) {
   std::vector<std::string> problems;
   if (bus_url.rfind("udpm://", 0) != 0) return problems;
-  BusAddress address;
-  if (!parse_udpm(bus_url, address)) {
+  const std::optional<BusAddress> address = parse_udpm(bus_url);
+  if (!address) {
     problems.push_back("bus: " + bus_url + " is not of the form udpm://GROUP:PORT?ttl=0&recv_buf_size=BYTES");
+    return problems;
+  }
+  try {
+    reports_url(bus_url);
+  } catch (const ConfigError& error) {
+    problems.emplace_back(error.what());
     return problems;
   }
   long allowed = 0;
   std::ifstream("/proc/sys/net/core/rmem_max") >> allowed;
-  if (allowed > 0 && allowed < address.receive_buffer)
+  if (allowed > 0 && allowed < address->receive_buffer)
     problems.push_back(
         "bus: the kernel allows receive buffers of " + std::to_string(allowed) + " bytes, " +
-        std::to_string(address.receive_buffer) +
-        " are needed. Mend it with: sudo sysctl -w net.core.rmem_max=" + std::to_string(address.receive_buffer));
-  if (!can_send_multicast(address))
-    problems.push_back("bus: no route for multicast to " + address.group +
+        std::to_string(address->receive_buffer) +
+        " are needed. Mend it with: sudo sysctl -w net.core.rmem_max=" + std::to_string(address->receive_buffer));
+  if (!can_send_multicast(*address))
+    problems.push_back("bus: no route for multicast to " + address->group +
                        ". Mend it with: sudo ip link set lo multicast on && sudo ip route add 224.0.0.0/4 dev lo");
   return problems;
 }
 
 BusLock::BusLock(const std::string& bus_url) {
-  BusAddress address;
-  const std::string name = parse_udpm(bus_url, address) ? address.group + "-" + std::to_string(address.port) : "local";
+  const std::optional<BusAddress> address = parse_udpm(bus_url);
+  const std::string name = address ? address->group + "-" + std::to_string(address->port) : "local";
   fd_ = open(("/tmp/rover-bus-" + name + ".lock").c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0666);
   if (fd_ >= 0 && flock(fd_, LOCK_EX | LOCK_NB) != 0) {
     close(fd_);

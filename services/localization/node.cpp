@@ -11,6 +11,7 @@ namespace {
 
 constexpr char kCheckpoint[] = "localization";
 constexpr Utime kSavePeriodUs = 1'000'000;
+constexpr Utime kSlipPeriodUs = 5 * kTickUs;  // its window is seconds long
 
 const char* text_of(PoseStatus status) {
   switch (status) {
@@ -90,6 +91,8 @@ void LocalizationNode::publish() {
   pose_t pose_message{};
   pose_to(pose, pose_message);
   node_.publish(channel::kPose, pose_message, utime);
+  if (node_.now() < next_slip_) return;
+  next_slip_ = node_.now() + kSlipPeriodUs;
   slip_t slip_message{};
   slip_to(localization_.slip(), slip_message);
   node_.publish(channel::kSlip, slip_message, utime);

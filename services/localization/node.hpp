@@ -32,6 +32,7 @@ class LocalizationNode {
   std::string told_reason_;
   std::vector<std::uint8_t> restored_;  // to be published as SERVICE_STATE
   Utime next_save_ = 0;
+  Utime next_slip_ = 0;
 };
 
 }  // namespace rover::loc

@@ -13,18 +13,13 @@ bool decode(const RawMessage& raw, Message& message) {
   return decode_message(raw.bytes.data(), static_cast<int>(raw.bytes.size()), message);
 }
 
-Event::Kind kind_of(const std::string& channel) {
-  if (channel == channel::kTick) return Event::Kind::kTick;
-  return channel == channel::kDone ? Event::Kind::kDone : Event::Kind::kData;
-}
-
 }  // namespace
 
 Event event_from(const RawMessage& raw) {
   Event event;
   event.release = raw.header.release_utime;
   event.utime = raw.header.utime;
-  event.kind = kind_of(raw.channel);
+  event.kind = raw.channel == channel::kTick ? Event::Kind::kTick : Event::Kind::kData;
   event.channel = raw.channel;
   event.publisher = raw.header.publisher;
   event.boot_id = raw.header.boot_id;

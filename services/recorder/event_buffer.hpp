@@ -10,8 +10,8 @@
 namespace rover::recorder {
 
 struct Event {
-  // A replay needs what a tick lists before the tick, and the tick before what answers it.
-  enum class Kind { kData = 0, kTick = 1, kDone = 2 };
+  // A replay needs what a tick lists before the tick.
+  enum class Kind { kData = 0, kTick = 1 };
 
   Utime release = 0;
   Utime utime = 0;

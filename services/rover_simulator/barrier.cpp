@@ -10,7 +10,7 @@ Barrier::Barrier(const std::vector<std::string>& participants) : names_(particip
 
 void Barrier::ready(const std::string& name, std::int64_t boot_id, int pid) {
   const auto it = members_.find(name);
-  if (it == members_.end() || it->second.state != State::kAbsent || boot_id <= it->second.boot_id) return;
+  if (it == members_.end() || it->second.state == State::kWorking || boot_id <= it->second.boot_id) return;
   it->second.state = State::kReady;
   it->second.boot_id = boot_id;
   it->second.pid = pid;
@@ -18,10 +18,15 @@ void Barrier::ready(const std::string& name, std::int64_t boot_id, int pid) {
 
 void Barrier::done(const std::string& name, std::int64_t boot_id, int pid, Utime tick, Utime promise) {
   const auto it = members_.find(name);
-  if (it == members_.end() || boot_id != it->second.boot_id || it->second.state == State::kAbsent) return;
-  it->second.state = State::kWorking;
-  it->second.pid = pid;
-  it->second.clear_until = std::max({it->second.clear_until, tick + kTickUs, promise - kTickUs});
+  if (it == members_.end() || boot_id != it->second.boot_id) return;
+  Member& member = it->second;
+  if (member.state == State::kAbsent && !member.may_wake) return;
+  member.pid = pid;
+  if (member.state != State::kWorking) {
+    member.state = State::kReady;
+    return;
+  }
+  member.clear_until = std::max({member.clear_until, tick + kTickUs, promise - kTickUs});
 }
 
 std::vector<std::string> Barrier::waiting_for(Utime t) const {
@@ -48,10 +53,11 @@ std::vector<std::string> Barrier::admit(Utime t) {
   return taking_part;
 }
 
-void Barrier::leave(const std::string& name, Utime now, Utime return_after) {
+void Barrier::leave(const std::string& name, Cause cause, Utime now, Utime return_after) {
   Member& member = members_.at(name);
   member.state = State::kAbsent;
-  member.pid = 0;
+  member.may_wake = cause == Cause::kSilent;
+  if (cause == Cause::kDied) member.pid = 0;
   member.clear_until = kNever;
   member.expected_from = now + return_after;
 }

@@ -27,9 +27,10 @@ class Barrier {
   // depend on how fast their processes started.
   std::vector<std::string> admit(Utime t);
 
-  // The participant leaves at `now` (its process died, or it was thrown out); it is waited for again from
-  // now + return_after on.
-  void leave(const std::string& name, Utime now, Utime return_after);
+  // The participant leaves at `now`; it is waited for again from now + return_after on. A process that died returns as
+  // a newer one only, one that was silent also by its next report.
+  enum class Cause { kDied, kSilent };
+  void leave(const std::string& name, Cause cause, Utime now, Utime return_after);
   // Process of the participant, 0 where none is known.
   int pid_of(const std::string& name) const;
   const std::vector<std::string>& participants() const { return names_; }
@@ -40,6 +41,7 @@ class Barrier {
     State state = State::kAbsent;
     std::int64_t boot_id = 0;
     int pid = 0;
+    bool may_wake = false;         // absent because it was silent
     Utime clear_until = kNever;    // TICK(t) may be given for t up to here
     Utime expected_from = kNever;  // while absent: ticks from here on wait for it
   };

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "common/bus/bus_url.hpp"
 #include "common/bus/vehicle_config.hpp"
 #include "rover_simulator/simulator.hpp"
 #include "rover_simulator/world/scenario.hpp"
@@ -53,9 +54,10 @@ int simulate(Arguments& arguments) {
   rover::SimulatedRover rover_and_world(rover_config(scenario, arguments.seed), vehicle, loccam, std::move(world),
                                         scenario.start_pose(), arguments.seed);
   lcm::LCM lcm(arguments.bus);
-  if (!lcm.good()) throw rover::ConfigError("bus: cannot join " + arguments.bus);
+  lcm::LCM reports(rover::reports_url(arguments.bus));
+  if (!lcm.good() || !reports.good()) throw rover::ConfigError("bus: cannot join " + arguments.bus);
   arguments.options.end.timeout_s = scenario.timeout_s;
-  rover::Simulator simulator(arguments.options, rover_and_world, lcm);
+  rover::Simulator simulator(arguments.options, rover_and_world, lcm, &reports);
   const rover::SimulationSummary summary = simulator.run([] { return running.load(); });
   for (const std::string& left : summary.left) std::printf("%s\n", left.c_str());
   if (!arguments.run_dir.empty()) write_summary(arguments.run_dir, summary);

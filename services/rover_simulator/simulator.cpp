@@ -23,9 +23,15 @@ constexpr Utime kReturnAfter = 1'000'000;  // a service that left is waited for 
 constexpr double kStartPatience_s = 60.0;
 constexpr double kAskAgain_s = 1.0;
 constexpr double kSilence_s = 10.0;
+constexpr double kLost_s = 2.0;
 
 double since_s(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+void warn(Utime t, const std::string& event) {
+  std::printf("%lld WARN rover_simulator %s\n", static_cast<long long>(t), event.c_str());
+  std::fflush(stdout);
 }
 
 bool alive(int pid) {
@@ -47,32 +53,29 @@ RoverPhase phase_of(const supervisor_state_t& state) {
 
 }  // namespace
 
-Simulator::Simulator(const SimulatorOptions& options, SimulatedRover& rover, lcm::LCM& lcm)
+Simulator::Simulator(const SimulatorOptions& options, SimulatedRover& rover, lcm::LCM& lcm, lcm::LCM* reports)
     : options_(options),
       rover_(rover),
       lcm_(lcm),
+      reports_(reports == nullptr ? lcm : *reports),
       streams_("rover_simulator", options.boot_id),
       barrier_(options.participants),
       end_(options.end, kStart) {
-  const auto listen = [this](const char* channel, auto handler) {
+  const auto listen = [this](lcm::LCM& bus, const char* channel, auto handler) {
     malformed_[channel] = 0;
-    auto* subscription = lcm_.subscribe(channel, handler, this);
+    auto* subscription = bus.subscribe(channel, handler, this);
     subscription->setQueueCapacity(0);
   };
-  listen(channel::kDone, &Simulator::on_done);
-  listen(channel::kWheelCommand, &Simulator::on_wheel_command);
-  listen(channel::kState, &Simulator::on_state);
+  listen(reports_, channel::kDone, &Simulator::on_done);
+  listen(lcm_, channel::kWheelCommand, &Simulator::on_wheel_command);
+  listen(lcm_, channel::kState, &Simulator::on_state);
 }
 
 template <class Message>
 bool Simulator::decode(const lcm::ReceiveBuffer* buffer, const std::string& channel, Message& message) {
   if (decode_message(buffer->data, static_cast<int>(buffer->data_size), message)) return true;
   const std::int64_t count = ++malformed_[channel];
-  if ((count & (count - 1)) == 0) {
-    std::printf("%lld WARN rover_simulator BAD_MESSAGE channel=%s count=%lld\n", static_cast<long long>(now_),
-                channel.c_str(), static_cast<long long>(count));
-    std::fflush(stdout);
-  }
+  if ((count & (count - 1)) == 0) warn(now_, "BAD_MESSAGE channel=" + channel + " count=" + std::to_string(count));
   return false;
 }
 
@@ -88,6 +91,8 @@ void Simulator::on_done(const lcm::ReceiveBuffer* buffer, const std::string& cha
   const header_t& header = done.header;
   if (done.tick_utime == kNever) return barrier_.ready(header.publisher, header.boot_id, done.pid);
   barrier_.done(header.publisher, header.boot_id, done.pid, done.tick_utime, done.promise_utime);
+  for (const stream_seq_t& stream : done.streams)
+    if (malformed_.contains(stream.channel)) awaited_.push_back(stream);
   dones_.push_back(done);
 }
 
@@ -98,12 +103,6 @@ std::vector<stream_seq_t> Simulator::take_grown(Utime t) {
   std::erase_if(dones_, [&](const done_t& done) {
     if (done.header.release_utime > t) return false;
     grown.insert(grown.end(), done.streams.begin(), done.streams.end());
-    stream_seq_t own;
-    own.channel = channel::kDone;
-    own.publisher = done.header.publisher;
-    own.boot_id = done.header.boot_id;
-    own.seq = done.header.seq;
-    grown.push_back(own);
     return true;
   });
   return grown;
@@ -111,12 +110,14 @@ std::vector<stream_seq_t> Simulator::take_grown(Utime t) {
 
 void Simulator::on_wheel_command(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
   wheel_command_t command;
-  if (decode(buffer, channel, command)) commands_.push_back(command);
+  if (!decode(buffer, channel, command) || !ledger_.arrived(channel, command.header)) return;
+  commands_.push_back(command);
 }
 
 void Simulator::on_state(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
   supervisor_state_t state;
-  if (decode(buffer, channel, state)) states_.push_back(state);
+  if (!decode(buffer, channel, state) || !ledger_.arrived(channel, state.header)) return;
+  states_.push_back(state);
 }
 
 SimulationSummary Simulator::run(const std::function<bool()>& running) {
@@ -138,12 +139,7 @@ SimulationSummary Simulator::run(const std::function<bool()>& running) {
     else
       wait_for_barrier(t, running);
     give_tick(t);
-    while (lcm_.handleTimeout(0) > 0) {
-    }
-    while (!states_.empty() && states_.front().header.release_utime <= t) {
-      end_.phase(phase_of(states_.front()), states_.front().header.utime);
-      states_.pop_front();
-    }
+    take_states(t);
   }
   if (summary_.outcome.empty()) summary_.outcome = "stopped";
   if (options_.realtime) summary_.deterministic = false;
@@ -152,10 +148,23 @@ SimulationSummary Simulator::run(const std::function<bool()>& running) {
   return summary_;
 }
 
+// In lockstep all that is released until t is here.
+void Simulator::take_states(Utime t) {
+  while (lcm_.handleTimeout(0) > 0) {
+  }
+  if (options_.realtime)
+    while (reports_.handleTimeout(0) > 0) {
+    }
+  while (!states_.empty() && states_.front().header.release_utime <= t) {
+    end_.phase(phase_of(states_.front()), states_.front().header.utime);
+    states_.pop_front();
+  }
+}
+
 bool Simulator::wait_for_start(const std::function<bool()>& running) {
   const auto started = Clock::now();
   const auto absent = [&] { return barrier_.waiting_for(kStart); };
-  while (running() && !absent().empty() && since_s(started) < kStartPatience_s) lcm_.handleTimeout(20);
+  while (running() && !absent().empty() && since_s(started) < kStartPatience_s) reports_.handleTimeout(20);
   const std::vector<std::string> missing = absent();
   if (missing.empty()) return running();
   summary_.outcome = "not_started";
@@ -219,12 +228,28 @@ void Simulator::wait_for_barrier(Utime t, const std::function<bool()>& running) 
   auto started = Clock::now();
   double asked_at_s = 0.0;
   for (auto missing = barrier_.waiting_for(t); !missing.empty() && running(); missing = barrier_.waiting_for(t)) {
-    if (lcm_.handleTimeout(5) > 0) continue;
+    if (reports_.handleTimeout(5) > 0) continue;
     const double waited_s = since_s(started);
     deal_with_missing(missing, t, waited_s);
     if (waited_s - asked_at_s < kAskAgain_s || last_tick_.empty()) continue;
     asked_at_s = waited_s;
     lcm_.publish(channel::kTick, last_tick_.data(), static_cast<unsigned int>(last_tick_.size()));
+  }
+  wait_for_answers(running);
+}
+
+// A report may overtake the messages that it lists: they come on another socket.
+void Simulator::wait_for_answers(const std::function<bool()>& running) {
+  const auto started = Clock::now();
+  const auto here = [this](const stream_seq_t& stream) { return ledger_.complete(stream); };
+  while (std::erase_if(awaited_, here), !awaited_.empty() && running()) {
+    if (lcm_.handleTimeout(1) > 0 || since_s(started) < kLost_s) continue;
+    summary_.deterministic = false;
+    for (const stream_seq_t& stream : awaited_) {
+      ledger_.give_up(stream);
+      warn(now_, "LOST_ON_BUS channel=" + stream.channel + " publisher=" + stream.publisher);
+    }
+    awaited_.clear();
   }
 }
 
@@ -235,10 +260,8 @@ void Simulator::deal_with_missing(const std::vector<std::string>& missing, Utime
     if (!dead && waited_s < kSilence_s) continue;
     if (!dead) summary_.deterministic = false;
     summary_.left.push_back(name + (dead ? " died at " : " silent at ") + std::to_string(to_seconds(t)) + " s");
-    std::printf("%lld WARN rover_simulator LEFT_BARRIER service=%s dead=%d\n", static_cast<long long>(t), name.c_str(),
-                dead);
-    std::fflush(stdout);
-    barrier_.leave(name, t, kReturnAfter);
+    warn(t, "LEFT_BARRIER service=" + name + " dead=" + std::to_string(static_cast<int>(dead)));
+    barrier_.leave(name, dead ? Barrier::Cause::kDied : Barrier::Cause::kSilent, t, kReturnAfter);
   }
 }
 

@@ -38,7 +38,8 @@ struct SimulationSummary {
 
 class Simulator {
  public:
-  Simulator(const SimulatorOptions& options, SimulatedRover& rover, lcm::LCM& lcm);
+  // `reports` brings DONE; null: the bus itself.
+  Simulator(const SimulatorOptions& options, SimulatedRover& rover, lcm::LCM& lcm, lcm::LCM* reports = nullptr);
   // Runs until the run is over or `running` is false.
   SimulationSummary run(const std::function<bool()>& running);
   // Messages dropped because they do not decode, by channel; every channel taken is listed.
@@ -58,8 +59,10 @@ class Simulator {
   void publish_due_images(Utime t);
   void publish_image(const char* channel, const GrayImage& image, double exposure_s, const PendingPair& pending);
   void wait_for_barrier(Utime t, const std::function<bool()>& running);
+  void wait_for_answers(const std::function<bool()>& running);
   void deal_with_missing(const std::vector<std::string>& missing, Utime t, double waited_s);
   void give_tick(Utime t);
+  void take_states(Utime t);
   std::vector<stream_seq_t> take_grown(Utime t);
   WheelCommand command_at(Utime t);
   void on_done(const lcm::ReceiveBuffer* buffer, const std::string& channel);
@@ -73,10 +76,13 @@ class Simulator {
   SimulatorOptions options_;
   SimulatedRover& rover_;
   lcm::LCM& lcm_;
+  lcm::LCM& reports_;
   StreamCounter streams_;
   Barrier barrier_;
   RunEnd end_;
+  ArrivalLedger ledger_;
   std::vector<done_t> dones_;             // whose streams no tick has listed yet
+  std::vector<stream_seq_t> awaited_;     // reported, on channels taken here
   std::deque<wheel_command_t> commands_;  // not yet in force
   std::deque<supervisor_state_t> states_;
   std::optional<wheel_command_t> command_;

@@ -140,7 +140,7 @@ TEST_F(NodeTest, GapsRepeatsAndOldMessagesAreCountedAndNotTaken) {
   for (const slip_t* message : {&one, &three, &three}) bus_.publish(channel::kSlip, message);
   tick(node, 20'000);
   bus_.publish(channel::kSlip, &lost);
-  tick(node, 100'000);
+  tick(node, 200'000);
   EXPECT_EQ(taken, 2);
   ASSERT_EQ(heartbeat.input_count, 2);
   EXPECT_EQ(heartbeat.inputs[0].gaps, 1);

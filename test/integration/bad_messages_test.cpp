@@ -180,6 +180,7 @@ class StandingWorld {
     std::map<std::tuple<std::string, std::string, std::int64_t>, std::int64_t> grown;
     for (; listed_ < bus_.heard().size(); ++listed_) {
       const Event& event = bus_.heard()[listed_];
+      if (event.channel == channel::kDone) continue;  // its port is its own on a real bus
       const header_t header = header_of(event);
       grown[{event.channel, header.publisher, header.boot_id}] = header.seq;
     }
@@ -404,7 +405,7 @@ std::set<std::string> inputs_of(const Traces& traces, const std::vector<Event>& 
       continue;
     }
     for (const Event& event : all)
-      if (header_of(event).publisher != name) channels.insert(event.channel);
+      if (header_of(event).publisher != name && event.channel != channel::kDone) channels.insert(event.channel);
   }
   return channels;
 }

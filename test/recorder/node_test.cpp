@@ -97,8 +97,8 @@ TEST_F(RecorderNodeTest, RecordsEveryChannelItsOwnIncluded) {
   world.close();
   EXPECT_EQ(count("SLIP"), 21u);
   EXPECT_EQ(count("TICK"), 21u);
-  EXPECT_GE(count("HEARTBEAT"), 4u);
-  EXPECT_GE(count("DONE"), 20u);
+  EXPECT_GE(count("HEARTBEAT"), 2u);
+  EXPECT_EQ(count("DONE"), 0u);
 }
 
 TEST_F(RecorderNodeTest, TwoOrdersOfArrivalGiveTheSameLog) {
@@ -119,7 +119,7 @@ TEST_F(RecorderNodeTest, TwoOrdersOfArrivalGiveTheSameLog) {
     // Heartbeats carry processor times.
     std::erase_if(logs.back(), [](const ReadBack& event) { return event.channel == "HEARTBEAT"; });
   }
-  ASSERT_GT(logs[0].size(), 150u);
+  ASSERT_GT(logs[0].size(), 100u);
   ASSERT_EQ(logs[0].size(), logs[1].size());
   for (size_t i = 0; i < logs[0].size(); ++i) {
     EXPECT_EQ(logs[0][i].channel, logs[1][i].channel);

@@ -14,7 +14,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr Utime kHeartbeatPeriod = 5 * kTickUs;
+constexpr Utime kHeartbeatPeriod = 10 * kTickUs;
 // Wall time that a lockstep tick waits for messages that are listed but not here: only loss or reordering on the bus
 // makes it wait at all. A stream never seen is given less, because it may be of a process that is not running.
 constexpr auto kPatience = std::chrono::seconds(2);
@@ -63,10 +63,12 @@ struct Node::QueuedTick {
   Clock::time_point arrived;
 };
 
-Node::Node(NodeOptions options, lcm::LCM& lcm)
+Node::Node(NodeOptions options, lcm::LCM& lcm, lcm::LCM* reports)
     : options_(std::move(options)),
       lcm_(lcm),
+      reports_(reports == nullptr ? lcm : *reports),
       streams_(options_.name, options_.boot_id),
+      reports_counter_(options_.name, options_.boot_id),
       ticks_health_(nothing_yet(channel::kTick)) {
   if (options_.allow_injection || !options_.muted.empty()) {
     tap_ = std::make_unique<Tap>(std::hash<std::string>{}(options_.name));
@@ -128,7 +130,8 @@ std::int64_t Node::fingerprint_of(const Subscription& subscription, const std::s
 
 // A message is noted in the ledger only when all of it is sound: a damaged copy must not stand in for the sound one.
 void Node::receive(const lcm::ReceiveBuffer* buffer, const std::string& channel, Subscription& subscription) {
-  if (channel == "LCM_SELF_TEST") return;  // LCM's own, at each start of a process
+  // LCM's own, at each start of a process; and reports to the giver of ticks, where they share the bus.
+  if (channel == "LCM_SELF_TEST" || channel == channel::kDone) return;
   const int size = static_cast<int>(buffer->data_size);
   const auto* begin = static_cast<const std::uint8_t*>(buffer->data);
   const auto drop = [&](const char* why) { count_malformed(subscription.health, channel, why); };
@@ -139,8 +142,7 @@ void Node::receive(const lcm::ReceiveBuffer* buffer, const std::string& channel,
   if (!peek_header(begin, size, pending.header)) return drop("truncated");
   pending.deliver = subscription.decode({channel, pending.header, {begin, begin + size}});
   if (!pending.deliver) return drop("truncated or damaged");
-  // Announcements (DONE with seq 0) are outside of the order of ticks.
-  if (pending.header.seq <= 0) return channel == channel::kDone ? void() : drop("no sequence number");
+  if (pending.header.seq <= 0) return drop("no sequence number");
   if (!ledger_.arrived(channel, pending.header)) {
     ++subscription.health.out_of_order;
     return;
@@ -175,8 +177,8 @@ void Node::receive_tick(const lcm::ReceiveBuffer* buffer, const std::string& cha
   const Utime latest = ticks_.empty() ? now_ : ticks_.back().tick.header.utime;
   if (queued.tick.header.utime > latest) {
     ticks_.push_back(std::move(queued));
-  } else if (queued.tick.header.utime == now_) {
-    send(channel::kDone, last_done_);  // the world did not hear it
+  } else if (queued.tick.header.utime == now_ && queued.tick.mode == tick_t::LOCKSTEP) {
+    report(last_done_);  // the world did not hear it
   }
 }
 
@@ -220,19 +222,20 @@ std::vector<Node::Pending> Node::take_released(Utime until) {
 void Node::process(const tick_t& tick) {
   now_ = ticks_health_.last_utime = tick.header.utime;
   ++ticks_health_.received;
+  const bool lockstep = tick.mode == tick_t::LOCKSTEP;
   const std::vector<Pending> released = take_released(now_);
   Utime slow = 0;
   for (const Pending& pending : released) slow = std::max(slow, pending.subscription->slow);
   if (slow > 0) {
     promise_ = std::max(promise_, now_ + slow);
-    publish_done(now_);
+    if (lockstep) publish_done(now_);
     timer_.begin();
   }
   for (const Pending& pending : released) dispatch(pending);
   if (slow > 0) timer_.end();
   if (step_) step_(now_);
   if (now_ % kHeartbeatPeriod == 0) publish_heartbeat();
-  publish_done(now_);
+  if (lockstep) publish_done(now_);
 }
 
 bool Node::in_order(Subscription& subscription, const std::string& channel, const header_t& header) {
@@ -308,12 +311,16 @@ void Node::publish_done(Utime tick) {
   last_done_.pid = getpid();
   last_done_.streams = streams_.take_grown();
   last_done_.stream_count = static_cast<std::int32_t>(last_done_.streams.size());
-  last_done_.header = streams_.next(channel::kDone, tick, std::max(tick, promise_));
-  send(channel::kDone, last_done_);
+  last_done_.header = reports_counter_.next(channel::kDone, tick, std::max(tick, promise_));
+  report(last_done_);
 }
 
-void Node::publish_bytes(const std::string& channel, const std::vector<std::uint8_t>& bytes) {
-  if (lcm_.publish(channel, bytes.data(), static_cast<unsigned int>(bytes.size())) != 0)
+void Node::report(const done_t& done) {
+  send(reports_, channel::kDone, done);
+}
+
+void Node::send_bytes(lcm::LCM& lcm, const std::string& channel, const std::vector<std::uint8_t>& bytes) {
+  if (lcm.publish(channel, bytes.data(), static_cast<unsigned int>(bytes.size())) != 0)
     log("ERROR", "NOT_PUBLISHED channel=" + channel);
 }
 
@@ -326,7 +333,7 @@ void Node::announce() {
   hello.tick_utime = hello.promise_utime = kNever;
   hello.pid = getpid();
   hello.stream_count = 0;
-  send(channel::kDone, hello);
+  report(hello);
 }
 
 bool Node::handle(int timeout_ms) {

@@ -44,7 +44,8 @@ struct RawMessage {
 
 class Node {
  public:
-  Node(NodeOptions options, lcm::LCM& lcm);
+  // `reports` carries DONE; null: the bus itself.
+  Node(NodeOptions options, lcm::LCM& lcm, lcm::LCM* reports = nullptr);
   ~Node();
   Node(const Node&) = delete;
   Node& operator=(const Node&) = delete;
@@ -58,9 +59,9 @@ class Node {
   template <class Message>
   void subscribe_slow(const std::string& channel, Utime latency, std::function<void(const Message&)> handler);
 
-  // Every message of every channel, undecoded, in the same order (recorder). What is not of the type that `types` gives
-  // for its channel is dropped like any malformed input. The table is handed in: it names TRUTH, which no other service
-  // may.
+  // Every message of every channel but DONE, undecoded, in the same order (recorder). What is not of the type that
+  // `types` gives for its channel is dropped like any malformed input. The table is handed in: it names TRUTH, which no
+  // other service may.
   void subscribe_raw(std::function<void(const RawMessage&)> handler, FindChannelType types);
 
   // Called once each tick, after the inputs.
@@ -114,13 +115,16 @@ class Node {
   void count_malformed(input_health_t& health, const std::string& channel, const std::string& why);
   void publish_heartbeat();
   void publish_done(Utime tick);
-  void publish_bytes(const std::string& channel, const std::vector<std::uint8_t>& bytes);
+  void report(const done_t& done);
   template <class Message>
-  void send(const std::string& channel, const Message& message);
+  void send(lcm::LCM& lcm, const std::string& channel, const Message& message);
+  void send_bytes(lcm::LCM& lcm, const std::string& channel, const std::vector<std::uint8_t>& bytes);
 
   NodeOptions options_;
   lcm::LCM& lcm_;
+  lcm::LCM& reports_;
   StreamCounter streams_;
+  StreamCounter reports_counter_;  // DONE is not among the streams that it lists
   ArrivalLedger ledger_;
   std::unique_ptr<Tap> tap_;
   StepTimer timer_;
@@ -155,14 +159,14 @@ void Node::subscribe_slow(const std::string& channel, Utime latency, std::functi
 template <class Message>
 void Node::publish(const std::string& channel, Message& message, Utime utime, Utime extra_latency) {
   message.header = streams_.next(channel, utime, std::max(now_ + kTickUs + extra_latency, promise_));
-  send(channel, message);
+  send(lcm_, channel, message);
 }
 
 template <class Message>
-void Node::send(const std::string& channel, const Message& message) {
+void Node::send(lcm::LCM& lcm, const std::string& channel, const Message& message) {
   std::vector<std::uint8_t> bytes(static_cast<size_t>(message.getEncodedSize()));
   message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-  publish_bytes(channel, bytes);
+  send_bytes(lcm, channel, bytes);
 }
 
 }  // namespace rover

@@ -8,6 +8,8 @@
 #include <csignal>
 #include <cstdio>
 
+#include "common/bus/bus_url.hpp"
+
 namespace rover {
 namespace {
 
@@ -68,9 +70,11 @@ int node_main(int argc, char** argv, const std::string& service, const NodeFacto
   install_signals();
   limit_memory();
   try {
-    lcm::LCM lcm(bus.empty() ? load_bus_url(config_dir) : bus);
-    if (!lcm.good()) throw ConfigError("bus: cannot join " + (bus.empty() ? load_bus_url(config_dir) : bus));
-    Node node(options, lcm);
+    if (bus.empty()) bus = load_bus_url(config_dir);
+    lcm::LCM lcm(bus);
+    lcm::LCM reports(reports_url(bus));
+    if (!lcm.good() || !reports.good()) throw ConfigError("bus: cannot join " + bus);
+    Node node(options, lcm, parse_udpm(bus) ? &reports : nullptr);
     const std::shared_ptr<void> keep = factory({node, config_dir});
     node.log("INFO", "STARTED boot=" + std::to_string(options.boot_id));
     node.run([] { return running.load(); });

@@ -1,0 +1,68 @@
+#include "rover_simulator/barrier.hpp"
+
+#include <gtest/gtest.h>
+
+namespace rover {
+namespace {
+
+using Names = std::vector<std::string>;
+
+// One participant that has done its tick at 0.
+class BarrierTest : public testing::Test {
+ protected:
+  BarrierTest() : barrier_({"node"}) {
+    barrier_.ready("node", 5, 100);
+    barrier_.admit(0);
+    barrier_.done("node", 5, 100, 0, kNever);
+  }
+  bool waits_at(Utime t) const { return !barrier_.waiting_for(t).empty(); }
+
+  Barrier barrier_;
+};
+
+TEST_F(BarrierTest, WaitsForEachTickUnlessPromised) {
+  EXPECT_FALSE(waits_at(kTickUs));
+  EXPECT_TRUE(waits_at(2 * kTickUs));
+  barrier_.done("node", 5, 100, kTickUs, 10 * kTickUs);
+  EXPECT_FALSE(waits_at(9 * kTickUs));
+  EXPECT_TRUE(waits_at(10 * kTickUs));
+}
+
+TEST_F(BarrierTest, ADeadProcessReturnsAsANewerOneOnly) {
+  barrier_.leave("node", Barrier::Cause::kDied, 2 * kTickUs, 10 * kTickUs);
+  EXPECT_TRUE(barrier_.admit(3 * kTickUs).empty());
+  EXPECT_FALSE(waits_at(11 * kTickUs));
+  EXPECT_TRUE(waits_at(12 * kTickUs));
+  barrier_.done("node", 5, 100, kTickUs, kNever);  // its last words
+  EXPECT_TRUE(waits_at(12 * kTickUs));
+  barrier_.ready("node", 6, 101);
+  EXPECT_EQ(barrier_.pid_of("node"), 101);
+  EXPECT_TRUE(barrier_.admit(11 * kTickUs).empty());
+  EXPECT_EQ(barrier_.admit(12 * kTickUs), Names{"node"});
+}
+
+TEST_F(BarrierTest, ASilentProcessReturnsByItsNextReport) {
+  barrier_.leave("node", Barrier::Cause::kSilent, 2 * kTickUs, 10 * kTickUs);
+  EXPECT_EQ(barrier_.pid_of("node"), 100);
+  EXPECT_TRUE(waits_at(12 * kTickUs));
+  barrier_.done("node", 5, 100, kTickUs, kNever);
+  EXPECT_TRUE(barrier_.admit(11 * kTickUs).empty());
+  EXPECT_FALSE(waits_at(12 * kTickUs));
+  EXPECT_EQ(barrier_.admit(12 * kTickUs), Names{"node"});
+  EXPECT_TRUE(waits_at(13 * kTickUs));
+  barrier_.done("node", 5, 100, 12 * kTickUs, kNever);
+  EXPECT_FALSE(waits_at(13 * kTickUs));
+}
+
+TEST_F(BarrierTest, ASilentProcessThatIsReplacedReturnsAsTheNewOne) {
+  barrier_.leave("node", Barrier::Cause::kSilent, 2 * kTickUs, 10 * kTickUs);
+  barrier_.done("node", 5, 100, kTickUs, kNever);
+  barrier_.ready("node", 6, 101);
+  EXPECT_EQ(barrier_.admit(12 * kTickUs), Names{"node"});
+  EXPECT_EQ(barrier_.pid_of("node"), 101);
+  barrier_.done("node", 5, 100, 12 * kTickUs, kNever);  // the old one speaks no more for it
+  EXPECT_TRUE(waits_at(14 * kTickUs));
+}
+
+}  // namespace
+}  // namespace rover
