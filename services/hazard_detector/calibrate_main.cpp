@@ -31,7 +31,7 @@ CalibrationFrames read_frames(const std::string& file) {
   int left_out = 0;
   while (const lcm::LogEvent* event = log.readNextEvent()) {
     if (event->channel != channel::kDisparity) continue;
-    disparity_t message;
+    disparity_t message{};
     if (decode_message(event->data, event->datalen, message) && fault_of(message).empty())
       frames.add(disparity_from(message), camera_from(message));
     else

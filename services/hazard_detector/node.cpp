@@ -19,7 +19,7 @@ void HazardNode::take(const disparity_t& message) {
     return;
   }
   const HazardResult result = core_.step(disparity_from(message), camera_from(message));
-  hazards_t hazards;
+  hazards_t hazards{};
   hazards_to(result, core_.shape(), hazards);
   node_.publish(channel::kHazards, hazards, message.header.utime);
   report(result);

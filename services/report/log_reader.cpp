@@ -79,7 +79,7 @@ class Reader {
   }
 
   void add(const LogEvent& event) {
-    header_t header;
+    header_t header{};
     if (!peek_header(event.data, event.size, header)) {
       ++run_.bus.damaged_events;
       return;

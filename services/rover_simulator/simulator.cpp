@@ -86,7 +86,7 @@ void Simulator::publish(const char* channel, Message& message, Utime utime, Utim
 }
 
 void Simulator::on_done(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
-  done_t done;
+  done_t done{};
   if (!decode(buffer, channel, done)) return;
   const header_t& header = done.header;
   if (done.tick_utime == kNever) return barrier_.ready(header.publisher, header.boot_id, done.pid);
@@ -109,13 +109,13 @@ std::vector<stream_seq_t> Simulator::take_grown(Utime t) {
 }
 
 void Simulator::on_wheel_command(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
-  wheel_command_t command;
+  wheel_command_t command{};
   if (!decode(buffer, channel, command) || !ledger_.arrived(channel, command.header)) return;
   commands_.push_back(command);
 }
 
 void Simulator::on_state(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
-  supervisor_state_t state;
+  supervisor_state_t state{};
   if (!decode(buffer, channel, state) || !ledger_.arrived(channel, state.header)) return;
   states_.push_back(state);
 }
@@ -266,7 +266,7 @@ void Simulator::deal_with_missing(const std::vector<std::string>& missing, Utime
 }
 
 void Simulator::give_tick(Utime t) {
-  tick_t tick;
+  tick_t tick{};
   tick.mode = options_.realtime ? tick_t::REALTIME : tick_t::LOCKSTEP;
   tick.members = barrier_.admit(t);
   tick.member_count = static_cast<std::int32_t>(tick.members.size());

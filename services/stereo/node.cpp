@@ -15,8 +15,8 @@ constexpr double kBlindFraction = 0.02;  // less valid stereo than this is worth
 StereoNode::StereoNode(Node& node, const NodeConfig& config)
     : node_(node),
       core_(config.core, config.rig, config.ground_below_m),
-      left_{channel::kLocCamLeft, kNever, {}},
-      right_{channel::kLocCamRight, kNever, {}} {
+      left_{channel::kLocCamLeft},
+      right_{channel::kLocCamRight} {
   cv::setNumThreads(1);
   node_.subscribe_slow<image_t>(left_.channel, config.latency_us,
                                 [this](const image_t& message) { take(left_, right_, message); });
@@ -32,6 +32,7 @@ void StereoNode::take(Slot& own, Slot& other, const image_t& message) {
   }
   drop_unpaired(own);
   own.utime = message.header.utime;
+  own.exposure_s = message.exposure_s;
   own.image = std::move(image);
   if (other.utime < own.utime) drop_unpaired(other);
   if (other.utime == own.utime) process(own.utime);
@@ -47,12 +48,14 @@ void StereoNode::process(Utime utime) {
   const auto result = core_.step(left_.image, right_.image);
   left_.utime = right_.utime = kNever;
   if (!result) return;
-  image_t image;
+  image_t image{};
+  image.exposure_s = left_.exposure_s;
   image_to(result->left, image);
   node_.publish(channel::kLocCamRectLeft, image, utime);
+  image.exposure_s = right_.exposure_s;
   image_to(result->right, image);
   node_.publish(channel::kLocCamRectRight, image, utime);
-  disparity_t disparity;
+  disparity_t disparity{};
   disparity_to(result->disparity, core_.camera(), disparity);
   node_.publish(channel::kDisparity, disparity, utime);
   report(disparity.valid_fraction);

@@ -22,6 +22,7 @@ class StereoNode {
     std::string channel;
     Utime utime = kNever;  // kNever: empty
     GrayImage image;
+    float exposure_s = 0.0F;
   };
 
   void take(Slot& own, Slot& other, const image_t& message);

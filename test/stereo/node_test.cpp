@@ -27,6 +27,8 @@ class StereoNodeTest : public testing::Test {
     const synthetic::RawPair pair = synthetic::render({}, synthetic::loccam_rig(), 1.0, 5);
     left_ = message_of(pair.left);
     right_ = message_of(pair.right);
+    left_.exposure_s = 0.004F;
+    right_.exposure_s = 0.005F;
     world_.hear(channel::kDisparity, disparities_);
     world_.hear(channel::kLocCamRectLeft, rect_left_);
     world_.hear(channel::kLocCamRectRight, rect_right_);
@@ -59,6 +61,8 @@ TEST_F(StereoNodeTest, APairBecomesADisparityOfItsExposureReleasedAfterTheLatenc
   ASSERT_EQ(rect_left_.size(), 1u);
   ASSERT_EQ(rect_right_.size(), 1u);
   EXPECT_EQ(rect_left_[0].header.utime, 20'000);
+  EXPECT_EQ(rect_left_[0].exposure_s, 0.004F);
+  EXPECT_EQ(rect_right_[0].exposure_s, 0.005F);
 }
 
 TEST_F(StereoNodeTest, UnpairedImagesAreCountedAndDropped) {

@@ -25,7 +25,7 @@ bool is_power_of_two(std::int64_t n) {
 }
 
 input_health_t nothing_yet(const std::string& channel) {
-  input_health_t health;
+  input_health_t health{};
   health.channel = channel;
   health.last_utime = kNever;
   health.received = health.gaps = health.malformed = health.out_of_order = 0;
@@ -46,7 +46,7 @@ struct Node::Subscription {
   FindChannelType types = nullptr;  // of the raw one: by channel, not by fingerprint
   Utime slow = 0;
   Decode decode;
-  input_health_t health;
+  input_health_t health{};
   std::map<std::string, Progress> progress;  // by channel and publisher
 };
 
@@ -54,12 +54,12 @@ struct Node::Pending {
   Utime release = 0;
   Subscription* subscription = nullptr;
   std::string channel;
-  header_t header;
+  header_t header{};
   Deliver deliver;  // empty: the tap has damaged it
 };
 
 struct Node::QueuedTick {
-  tick_t tick;
+  tick_t tick{};
   Clock::time_point arrived;
 };
 
@@ -290,7 +290,7 @@ void Node::log(const char* level, const std::string& event) {
 }
 
 void Node::publish_heartbeat() {
-  heartbeat_t heartbeat;
+  heartbeat_t heartbeat{};
   heartbeat.service = options_.name;
   heartbeat.pid = getpid();
   heartbeat.status = status_;
@@ -325,7 +325,7 @@ void Node::send_bytes(lcm::LCM& lcm, const std::string& channel, const std::vect
 }
 
 void Node::announce() {
-  done_t hello;
+  done_t hello{};
   hello.header.utime = hello.header.release_utime = kNever;
   hello.header.seq = 0;
   hello.header.publisher = options_.name;

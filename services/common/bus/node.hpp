@@ -38,7 +38,7 @@ struct NodeOptions {
 // One message as it lies on the bus, for those who do not decode it.
 struct RawMessage {
   std::string channel;
-  header_t header;
+  header_t header{};
   std::vector<std::uint8_t> bytes;
 };
 
@@ -130,11 +130,11 @@ class Node {
   StepTimer timer_;
   std::function<void(Utime)> step_;
   std::vector<std::unique_ptr<Subscription>> subscriptions_;
-  input_health_t ticks_health_;
+  input_health_t ticks_health_{};
   std::map<std::pair<std::string, std::string>, std::int64_t> malformed_;  // by subscription and channel
   std::vector<Pending> pending_;
   std::deque<QueuedTick> ticks_;
-  done_t last_done_;
+  done_t last_done_{};
   Utime now_ = kNever;
   Utime promise_ = kNever;
   std::int8_t status_ = heartbeat_t::OK;

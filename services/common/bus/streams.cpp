@@ -6,7 +6,7 @@ StreamCounter::StreamCounter(std::string publisher, std::int64_t boot_id)
     : publisher_(std::move(publisher)), boot_id_(boot_id) {}
 
 header_t StreamCounter::next(const std::string& channel, Utime utime, Utime release) {
-  header_t header;
+  header_t header{};
   header.utime = utime;
   header.release_utime = release;
   header.seq = ++last_seq_[channel];
@@ -19,7 +19,7 @@ header_t StreamCounter::next(const std::string& channel, Utime utime, Utime rele
 std::vector<stream_seq_t> StreamCounter::take_grown() {
   std::vector<stream_seq_t> streams;
   for (const std::string& channel : grown_) {
-    stream_seq_t stream;
+    stream_seq_t stream{};
     stream.channel = channel;
     stream.publisher = publisher_;
     stream.boot_id = boot_id_;

@@ -13,8 +13,8 @@ constexpr Utime kReorderDelay = 3 * kTickUs;
 
 // The content of `old` under the header of `fresh`: what a frozen sensor sends. Headers may differ in length.
 Tap::Bytes with_header_of(const Tap::Bytes& fresh, const Tap::Bytes& old) {
-  header_t fresh_header;
-  header_t old_header;
+  header_t fresh_header{};
+  header_t old_header{};
   if (!peek_header(fresh.data(), static_cast<int>(fresh.size()), fresh_header)) return fresh;
   if (!peek_header(old.data(), static_cast<int>(old.size()), old_header)) return fresh;
   const auto fresh_end = 8 + fresh_header._getEncodedSizeNoHash();

@@ -34,7 +34,7 @@ class Tap {
 
  private:
   struct Active {
-    injection_t injection;
+    injection_t injection{};
     Bytes frozen;
   };
   bool chance(double share);
