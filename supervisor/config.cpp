@@ -1,5 +1,7 @@
 #include "supervisor/config.hpp"
 
+#include <algorithm>
+#include <set>
 #include <sstream>
 
 #include "common/bus/config.hpp"
@@ -15,22 +17,72 @@ std::vector<std::string> split(const std::string& words) {
   return out;
 }
 
-void read_ages(const Config& c, SupervisorConfig& out) {
-  c.read("pose_s", out.pose_max_age_s, {0.02, 5.0});
-  c.read("hazards_s", out.hazards_max_age_s, {0.1, 10.0});
-  c.read("planner_status_s", out.planner_max_age_s, {0.02, 5.0});
-  c.read("control_status_s", out.control_max_age_s, {0.02, 5.0});
-  c.read("heartbeat_s", out.heartbeat_max_age_s, {0.2, 30.0});
+using enum State;
+
+constexpr StateSet kUnderWay = {kDriving, kHazardStop, kRepairing, kSweeping, kCorrecting, kFaultStop};
+constexpr StateSet kMotion = {kDriving, kHazardStop, kRepairing, kSweeping, kCorrecting, kFaultStop, kTeleop};
+// Nothing is judged before all inputs have once been there.
+constexpr StateSet kAlways = {kStandby, kDriving,     kHazardStop, kRepairing, kSweeping, kCorrecting,
+                              kPaused,  kGoalReached, kFaultStop,  kSafe,      kTeleop};
+
+const std::vector<std::string> kResponses = {"log", "slow", "stop", "stop_replan", "restart_service", "safe"};
+
+void read_armed(const Config& c, MonitorRow& row) {
+  const std::string armed =
+      c.has("armed") ? c.one_of("armed", {"always", "under_way", "motion", "full"}) : std::string("always");
+  row.armed = armed == "always" ? kAlways : armed == "motion" ? kMotion : kUnderWay;
+  row.full_only = armed == "full";
 }
 
-void read_faults(const Config& c, SupervisorConfig& out) {
-  c.read("blind_frames", out.blind_frames, {1, 100});
-  c.read("path_mismatch_s", out.path_mismatch_s, {0.1, 10.0});
-  c.read("no_path_s", out.no_path_s, {1.0, 600.0});
-  c.read("blocked_s", out.blocked_s, {1.0, 600.0});
-  c.read("clear_confirm_s", out.clear_confirm_s, {0.0, 60.0});
-  c.read("slip_limit", out.slip_limit, {0.05, 1.0});
-  c.read("slip_persistence_s", out.slip_persistence_s, {0.0, 60.0});
+FdirLine read_line(const Config& c) {
+  FdirLine line;
+  MonitorRow& row = line.row;
+  row.id = c.text("id");
+  line.quantity = c.text("quantity");
+  const Quantity* quantity = find_quantity(line.quantity);
+  if (quantity == nullptr) c.fail("quantity", "'" + line.quantity + "' is not a quantity that the supervisor knows");
+  row.limit = c.number("limit", {0.0, 1e6});
+  c.read("n", row.n, {1, 64});
+  row.m = row.n;
+  c.read("m", row.m, {1, 64});
+  if (row.n > row.m) c.fail("n", "is larger than m");
+  c.read("persistence_s", row.persistence_s, {0.0, 600.0});
+  c.read("clear_s", row.clear_s, {0.0, 600.0});
+  c.read("latched", row.latched);
+  const std::string response = c.one_of("response", kResponses);
+  row.response = static_cast<Response>(std::find(kResponses.begin(), kResponses.end(), response) - kResponses.begin());
+  const bool of_service = quantity->expansion == Expansion::kEachRequired;
+  if (row.response == Response::kRestartService && !of_service) c.fail("response", "no service to start anew");
+  read_armed(c, row);
+  return line;
+}
+
+// A sensor that the vehicle does not have is not a dead one. Motors have no higher limit here than in vehicle.yaml.
+std::vector<FdirLine> read_lines(const std::string& config_dir, const Vehicle& vehicle) {
+  const bool has_imu = Config::load(config_dir + "/vehicle.yaml").has("imu");
+  const Config config = Config::load(config_dir + "/fdir.yaml");
+  std::vector<FdirLine> lines;
+  std::set<std::string> ids;
+  for (const Config& c : config.list("rows")) {
+    const FdirLine line = read_line(c);
+    if (!ids.insert(line.row.id).second) c.fail("id", "'" + line.row.id + "' is there twice");
+    if (line.quantity == "drive_current_a" && line.row.limit > vehicle.drive_current_limit_a)
+      c.fail("limit", "is above drive.current_limit_a of vehicle.yaml");
+    if (line.quantity == "steer_current_a" && line.row.limit > vehicle.steer_current_limit_a)
+      c.fail("limit", "is above steering.current_limit_a of vehicle.yaml");
+    if (has_imu || line.quantity.rfind("imu_", 0) != 0) lines.push_back(line);
+  }
+  config.finish();
+  return lines;
+}
+
+void read_level(const Config& c, LevelConfig& out) {
+  c.read("window_s", out.window_s, {5.0, 3600.0});
+  c.read("slow_mps", out.slow_mps, {0.0, 1.0});
+  c.read("hazards_per_m", out.hazards_per_m, {0.0, 100.0});
+  c.read("least_hazards", out.least_hazards, {1.0, 1000.0});
+  c.read("easy_difficulty", out.easy_difficulty, {0.0, 1.0});
+  c.read("easy_way_m", out.easy_way_m, {0.0, 1000.0});
 }
 
 void read_hazard_stop(const Config& c, SupervisorConfig& out) {
@@ -41,20 +93,37 @@ void read_hazard_stop(const Config& c, SupervisorConfig& out) {
   c.read_deg("standing_rate_degps", out.standing_rate_radps, {0.05, 10.0});
 }
 
+void take_vehicle(const Vehicle& vehicle, SupervisorConfig& out) {
+  out.max_speed_mps = vehicle.top_speed_mps;
+  out.derive.drive_nominal_a = vehicle.drive_current_nominal_a;
+  out.derive.steer_nominal_a = vehicle.steer_current_nominal_a;
+  out.derive.wheel_radius_m = vehicle.wheel_radius_m;
+}
+
 }  // namespace
 
 SupervisorConfig load_config(const std::string& config_dir) {
   const Vehicle vehicle = load_vehicle(config_dir);
   SupervisorConfig out;
-  out.max_speed_mps = vehicle.top_speed_mps;
+  take_vehicle(vehicle, out);
+  out.fdir.lines = read_lines(config_dir, vehicle);
   const Config config = Config::load(config_dir + "/supervisor.yaml");
-  out.required_services = split(config.text("required_services"));
+  out.fdir.required_services = split(config.text("required_services"));
+  out.fdir.optional_services = split(config.text("optional_services"));
+  out.full_services = split(config.text("full_services"));
   config.read("max_speed_mps", out.max_speed_mps, {0.01, vehicle.top_speed_mps});
+  config.read("slow_speed_mps", out.slow_speed_mps, {0.01, vehicle.top_speed_mps});
+  config.read("teleop_speed_mps", out.teleop_speed_mps, {0.01, vehicle.top_speed_mps});
+  config.read("teleop_max_age_s", out.teleop_max_age_s, {0.1, 5.0});
   config.read("permit_validity_s", out.permit_validity_s, {0.04, 0.2});
   config.read("goal_tolerance_m", out.goal_tolerance_m, {0.05, 5.0});
-  read_ages(config.section("max_age"), out);
-  read_faults(config.section("faults"), out);
   read_hazard_stop(config.section("hazard_stop"), out);
+  read_level(config.section("level"), out.level);
+  const Config restarts = config.section("restarts");
+  restarts.read("patience_s", out.keeper.patience_s, {1.0, 60.0});
+  restarts.read("window_s", out.keeper.window_s, {1.0, 3600.0});
+  out.derive.start_window_s = out.keeper.window_s;
+  config.section("motors").read("thermal_time_s", out.derive.motor_time_s, {1.0, 3600.0});
   config.finish();
   return out;
 }

@@ -20,9 +20,17 @@ PoseReport report_from(const pose_t& message) {
   out.utime = message.header.utime;
   out.speed_mps = Eigen::Vector3d(message.velocity_body_mps).norm();
   out.turn_rate_radps = message.rate_body_radps[2];
+  const Eigen::Isometry3d T_odom_body = pose_from(message.position_odom_body_m, message.quat_odom_body_wxyz);
+  const Eigen::Vector3d attitude = rpy_of(T_odom_body.linear());
+  out.roll_rad = attitude.x();
+  out.pitch_rad = attitude.y();
+  out.tilt_rate_radps = std::hypot(message.rate_body_radps[0], message.rate_body_radps[1]);
+  out.sigma_m = std::sqrt(std::max(message.covariance[0], message.covariance[7]));
+  out.travelled_m = message.travelled_m;
+  out.vo_utime = message.last_vo_utime;
   const bool known = message.status == pose_t::OK || message.status == pose_t::DEGRADED;
   const auto finite = [](const Eigen::Isometry3d& T) { return is_finite(T); };
-  out.usable = known && finite(pose_from(message.position_odom_body_m, message.quat_odom_body_wxyz)) &&
+  out.usable = known && finite(T_odom_body) &&
                finite(pose_from(message.position_map_odom_m, message.quat_map_odom_wxyz)) &&
                std::isfinite(out.speed_mps) && std::isfinite(out.turn_rate_radps);
   return out;
@@ -30,7 +38,7 @@ PoseReport report_from(const pose_t& message) {
 
 HazardsReport report_from(const hazards_t& message) {
   const bool known = message.state == hazards_t::CLEAR || message.state == hazards_t::HAZARD;
-  return {message.header.utime, !known || !std::isfinite(message.coverage)};
+  return {message.header.utime, !known || !std::isfinite(message.coverage), message.coverage};
 }
 
 PlannerReport report_from(const planner_status_t& message) {
@@ -42,6 +50,7 @@ PlannerReport report_from(const planner_status_t& message) {
   // What is not known as unseen ground counts as a hazard, with the longer stopping distance.
   out.block_kind = message.block_kind == planner_status_t::UNSEEN ? BlockKind::kUnseen : BlockKind::kHazard;
   out.goal_distance_m = message.goal_distance_m;
+  out.replans = message.replans;
   return out;
 }
 
@@ -53,6 +62,8 @@ ControlReport report_from(const control_status_t& message) {
   out.path_id = message.path_id;
   out.cross_track_m = message.cross_track_m;
   out.corridor_half_width_m = message.corridor_half_width_m;
+  out.predicted_error_m = message.predicted_corridor_error_m;
+  out.arc_length_m = message.arc_length_m;
   return out;
 }
 
@@ -60,11 +71,67 @@ SlipReport report_from(const slip_t& message) {
   return {message.header.utime, message.valid == 1, message.slip_ratio};
 }
 
+WheelReport report_from(const wheel_state_t& message) {
+  WheelReport out;
+  out.utime = message.header.utime;
+  out.fault = message.status == wheel_state_t::FAULT;
+  std::copy_n(message.drive_current_a, 6, out.drive_a.begin());
+  std::copy_n(message.steer_current_a, 4, out.steer_a.begin());
+  std::copy_n(message.drive_rate_radps, 6, out.drive_radps.begin());
+  return out;
+}
+
+// An increment that is no number is a fault of the sensor.
+ImuReport report_from(const imu_t& message) {
+  bool finite = std::isfinite(message.fog_delta_yaw_rad);
+  for (int i = 0; i < 3; ++i)
+    finite = finite && std::isfinite(message.delta_angle_rad[i]) && std::isfinite(message.delta_velocity_mps[i]);
+  return {message.header.utime, message.status != imu_t::OK || !finite};
+}
+
+TerrainReport report_from(const traversability_t& message) {
+  TerrainReport out;
+  out.utime = message.header.utime;
+  out.difficulty = message.difficulty;
+  const auto known = std::count_if(message.cells.begin(), message.cells.end(),
+                                   [](auto cost) { return cost != traversability_t::UNKNOWN; });
+  out.known = message.cells.empty() ? 0.0 : static_cast<double>(known) / static_cast<double>(message.cells.size());
+  return out;
+}
+
+ServiceReport report_from(const heartbeat_t& message) {
+  ServiceReport out;
+  out.utime = message.header.utime;
+  out.boot_id = message.header.boot_id;
+  out.pid = message.pid;
+  const bool known = message.status >= heartbeat_t::OK && message.status <= heartbeat_t::FAULT;
+  out.status = known ? static_cast<ServiceStatus>(message.status) : ServiceStatus::kFault;
+  for (const input_health_t& input : message.inputs) {
+    out.received += input.received;
+    out.lost += input.gaps + input.malformed + input.out_of_order;
+  }
+  return out;
+}
+
+PathLevels levels_from(const path_t& message) {
+  PathLevels out;
+  const size_t count = std::min({message.x_m.size(), message.y_m.size(), message.level.size()});
+  out.path_id = message.path_id;
+  double s_m = 0.0;
+  for (size_t i = 0; i < count; ++i) {
+    if (i > 0) s_m += std::hypot(message.x_m[i] - message.x_m[i - 1], message.y_m[i] - message.y_m[i - 1]);
+    out.s_m.push_back(s_m);
+    out.level.push_back(message.level[i] == path_t::FULL ? Level::kFull : Level::kEfficient);
+  }
+  return out;
+}
+
 GroundCommand command_from(const ground_command_t& message) {
   GroundCommand out;
   out.id = message.command_id;
   out.kind = static_cast<CommandKind>(message.kind);
   out.target = message.target;
+  out.level = static_cast<ForcedLevel>(message.level);
   return out;
 }
 
@@ -94,7 +161,7 @@ supervisor_state_t state_message(const StateChange& change, Utime since, int haz
                                  const std::vector<std::string>& faults) {
   supervisor_state_t out{};
   out.state = static_cast<std::int8_t>(change.to);
-  out.level = supervisor_state_t::EFFICIENT;
+  out.level = static_cast<std::int8_t>(change.level_to);
   out.since_utime = since;
   out.cause = change.cause;
   out.quantity = change.evidence.quantity;

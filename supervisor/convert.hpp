@@ -6,10 +6,15 @@
 #include <rover/fault_t.hpp>
 #include <rover/ground_command_t.hpp>
 #include <rover/hazards_t.hpp>
+#include <rover/heartbeat_t.hpp>
+#include <rover/imu_t.hpp>
+#include <rover/path_t.hpp>
 #include <rover/planner_status_t.hpp>
 #include <rover/pose_t.hpp>
 #include <rover/slip_t.hpp>
 #include <rover/supervisor_state_t.hpp>
+#include <rover/traversability_t.hpp>
+#include <rover/wheel_state_t.hpp>
 
 #include "supervisor/supervisor.hpp"
 
@@ -20,6 +25,11 @@ HazardsReport report_from(const hazards_t& message);
 PlannerReport report_from(const planner_status_t& message);
 ControlReport report_from(const control_status_t& message);
 SlipReport report_from(const slip_t& message);
+WheelReport report_from(const wheel_state_t& message);
+ImuReport report_from(const imu_t& message);
+TerrainReport report_from(const traversability_t& message);
+ServiceReport report_from(const heartbeat_t& message);
+PathLevels levels_from(const path_t& message);
 GroundCommand command_from(const ground_command_t& message);
 
 drive_permit_t message_of(const Permit& permit);

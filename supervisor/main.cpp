@@ -1,10 +1,20 @@
+#include <cstdio>
+#include <string>
+
 #include "common/bus/node_main.hpp"
 #include "supervisor/config.hpp"
 #include "supervisor/node.hpp"
+#include "supervisor/s6_client.hpp"
 
 int main(int argc, char** argv) {
+  if (argc == 2 && std::string(argv[1]) == "--drawing") {
+    std::printf("%s", rover::supervisor::drawing().c_str());
+    return 0;
+  }
   return rover::node_main(argc, argv, "supervisor", [](const rover::NodeContext& context) {
-    return std::make_shared<rover::supervisor::SupervisorNode>(context.node,
-                                                               rover::supervisor::load_config(context.config_dir));
+    const std::string run_dir = context.node.options().run_dir;
+    return std::make_shared<rover::supervisor::SupervisorNode>(
+        context.node, rover::supervisor::load_config(context.config_dir),
+        [run_dir](const std::string& service) { return rover::supervisor::kill_service(run_dir, service); });
   });
 }

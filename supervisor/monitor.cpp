@@ -1,31 +1,53 @@
 #include "supervisor/monitor.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+
+#include "common/core/check.hpp"
 
 namespace rover::supervisor {
 
-bool Monitor::step(Utime now, State state, const Reading& reading) {
+Monitor::Monitor(MonitorRow row) : row_(std::move(row)) {
+  ROVER_CHECK(row_.n >= 1 && row_.n <= row_.m && row_.m <= 64, row_.n, row_.m);
+}
+
+bool Monitor::step(Utime now, bool armed, const Reading& reading) {
   reading_ = reading;
-  if (!row_.armed.has(state)) {
-    bad_since_ = good_since_ = kNever;
+  if (!armed) {
+    history_ = 0;
+    bad_since_ = good_since_ = judged_utime_ = kNever;
     return set(false);
   }
-  if (reading.condition == Condition::kFalse) {
-    bad_since_ = kNever;
+  const bool bad = reading.condition != Condition::kFalse;
+  if (reading.data_utime != judged_utime_ || reading.condition == Condition::kStale) remember(bad);
+  judged_utime_ = reading.data_utime;
+  if (!bad) {
     if (good_since_ == kNever) good_since_ = now;
-    return !row_.latched && now - good_since_ >= to_utime(row_.clear_s) && set(false);
+    if (standing_) return !row_.latched && now - good_since_ >= to_utime(row_.clear_s) && set(false);
+  } else {
+    good_since_ = kNever;
   }
-  good_since_ = kNever;
+  if (std::popcount(history_) < row_.n) {
+    bad_since_ = kNever;
+    return false;
+  }
   if (bad_since_ == kNever) bad_since_ = now;
-  if (standing_ || now - bad_since_ < to_utime(row_.persistence_s)) return false;
-  visible_utime_ = reading.condition == Condition::kTrue ? reading.data_utime : now;
+  if (standing_ || !bad || now - bad_since_ < to_utime(row_.persistence_s)) return false;
+  visible_utime_ = reading.condition == Condition::kStale ? now : reading.data_utime;
   return set(true);
 }
 
-bool Monitor::unlatch() {
+void Monitor::remember(bool bad) {
+  const std::uint64_t mask = row_.m == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << row_.m) - 1;
+  history_ = ((history_ << 1) | static_cast<std::uint64_t>(bad)) & mask;
+}
+
+bool Monitor::unlatch(const Reading& reading) {
+  reading_ = reading;
   if (reading_.condition != Condition::kFalse) return false;
   standing_ = false;
+  history_ = 0;
   return true;
 }
 
@@ -46,7 +68,6 @@ Reading age_reading(Utime data_utime, Utime now, double limit_s) {
 Reading flag_reading(bool bad, Utime data_utime, Utime now) {
   Reading out = age_reading(data_utime, now, kInfinity);
   out.value = bad ? 1.0 : 0.0;
-  // That nothing came is the concern of the row that watches the age.
   out.condition = bad ? Condition::kTrue : Condition::kFalse;
   return out;
 }
@@ -54,7 +75,14 @@ Reading flag_reading(bool bad, Utime data_utime, Utime now) {
 Reading above_reading(double value, double limit, Utime data_utime, Utime now) {
   Reading out = flag_reading(value > limit, data_utime, now);
   out.value = value;
-  if (std::isnan(value)) out.condition = Condition::kInvalid;
+  if (std::isnan(value) && data_utime >= 0) out.condition = Condition::kInvalid;
+  return out;
+}
+
+Reading below_reading(double value, double limit, Utime data_utime, Utime now) {
+  Reading out = flag_reading(value < limit, data_utime, now);
+  out.value = value;
+  if (std::isnan(value) && data_utime >= 0) out.condition = Condition::kInvalid;
   return out;
 }
 

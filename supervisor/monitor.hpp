@@ -1,4 +1,4 @@
-// One row of fault detection: a reading that must stay bad for a time to raise, and good for a time to clear.
+// One row of fault detection: a reading that must stay bad to raise, and good to clear.
 // Not known is not healthy: a stale or invalid reading raises like a bad one.
 #pragma once
 
@@ -19,11 +19,15 @@ struct MonitorRow {
   std::string id;
   std::string quantity;
   double limit = 0.0;
+  // Raised when n of the newest m measurements are bad, for that long. What is stale counts once a tick.
+  int n = 1;
+  int m = 1;
   double persistence_s = 0.0;
-  double clear_s = 1.0;
+  double clear_s = 1.0;  // good for that long
   bool latched = false;  // cleared by the ground, or where the row is not armed
   Response response = Response::kStop;
   StateSet armed;
+  bool full_only = false;  // armed in the Full level alone
 };
 
 struct Reading {
@@ -36,12 +40,15 @@ struct Reading {
 
 class Monitor {
  public:
-  explicit Monitor(MonitorRow row) : row_(std::move(row)) {}
+  // 1 <= n <= m <= 64.
+  explicit Monitor(MonitorRow row);
 
   // True where the fault was raised or cleared.
-  bool step(Utime now, State state, const Reading& reading);
+  bool step(Utime now, bool armed, const Reading& reading);
   // Unlatches by ground command; false where the condition still holds.
-  bool unlatch();
+  bool unlatch(const Reading& reading);
+  // As it stood before a restart.
+  void restore_standing() { standing_ = true; }
 
   const MonitorRow& row() const { return row_; }
   bool standing() const { return standing_; }
@@ -52,20 +59,25 @@ class Monitor {
   Utime visible_utime() const { return visible_utime_; }
 
  private:
+  void remember(bool bad);
   bool set(bool standing);
 
   MonitorRow row_;
   Reading reading_;
+  std::uint64_t history_ = 0;  // bit 0: the newest measurement was bad
+  Utime judged_utime_ = kNever;
   Utime bad_since_ = kNever;
   Utime good_since_ = kNever;
   Utime visible_utime_ = kNever;
   bool standing_ = false;
 };
 
-// Readings of the usual kinds. An input that never came is as old as can be.
+// Readings of the usual kinds. An input that never came is as old as can be; that it did not is the concern of the row
+// that watches its age, the others find nothing in it.
 Reading age_reading(Utime data_utime, Utime now, double limit_s);
 Reading flag_reading(bool bad, Utime data_utime, Utime now);
-// Bad above the limit, invalid where not a number.
+// Bad above (below) the limit, invalid where not a number.
 Reading above_reading(double value, double limit, Utime data_utime, Utime now);
+Reading below_reading(double value, double limit, Utime data_utime, Utime now);
 
 }  // namespace rover::supervisor

@@ -1,18 +1,29 @@
 #include "supervisor/node.hpp"
 
 #include <rover/command_ack_t.hpp>
+#include <rover/motion_command_t.hpp>
+#include <rover/service_state_t.hpp>
 #include <sstream>
 
+#include "common/bus/checkpoint.hpp"
 #include "supervisor/convert.hpp"
+#include "supervisor/memory_codec.hpp"
+#include "supervisor/s6_client.hpp"
 
 namespace rover::supervisor {
 namespace {
 
+constexpr char kCheckpoint[] = "supervisor";
 constexpr Utime kStatePeriodUs = 100'000;
+constexpr Utime kFaultPeriodUs = 1'000'000;  // of those that stand: for who missed how they were raised
 
 std::string text_of(const StateChange& change) {
   std::ostringstream out;
-  out << "STATE from=" << name(change.from) << " to=" << name(change.to) << " cause=" << change.cause;
+  if (change.level_from != change.level_to)
+    out << "LEVEL from=" << name(change.level_from) << " to=" << name(change.level_to);
+  else
+    out << "STATE from=" << name(change.from) << " to=" << name(change.to);
+  out << " cause=" << change.cause;
   const Evidence& evidence = change.evidence;
   if (!evidence.quantity.empty())
     out << ' ' << evidence.quantity << '=' << evidence.value << " threshold=" << evidence.threshold
@@ -33,34 +44,57 @@ std::string text_of(const CommandAnswer& answer) {
 
 }  // namespace
 
-SupervisorNode::SupervisorNode(Node& node, const SupervisorConfig& config) : node_(node), supervisor_(config) {
+SupervisorNode::SupervisorNode(Node& node, const SupervisorConfig& config, Kill kill)
+    : node_(node), kill_(std::move(kill)), supervisor_(config) {
+  restore();
   subscribe();
+  subscribe_vehicle();
   node_.on_step([this](Utime now) { step(now); });
 }
 
 void SupervisorNode::subscribe() {
   node_.subscribe<heartbeat_t>(channel::kHeartbeat, [this](const heartbeat_t& m) {
-    supervisor_.on_heartbeat(m.header.publisher, m.header.utime);
+    pids_[m.header.publisher] = m.pid;
+    supervisor_.on_service(m.header.publisher, report_from(m));
   });
   node_.subscribe<pose_t>(channel::kPose, [this](const pose_t& m) { supervisor_.on_pose(report_from(m)); });
   node_.subscribe<hazards_t>(channel::kHazards, [this](const hazards_t& m) { supervisor_.on_hazards(report_from(m)); });
   node_.subscribe<planner_status_t>(channel::kPlannerStatus,
                                     [this](const planner_status_t& m) { supervisor_.on_planner(report_from(m)); });
+  node_.subscribe<path_t>(channel::kPath, [this](const path_t& m) { supervisor_.on_path(levels_from(m)); });
   node_.subscribe<control_status_t>(channel::kControlStatus,
                                     [this](const control_status_t& m) { supervisor_.on_control(report_from(m)); });
-  node_.subscribe<slip_t>(channel::kSlip, [this](const slip_t& m) { supervisor_.on_slip(report_from(m)); });
+  node_.subscribe<traversability_t>(channel::kTraversability,
+                                    [this](const traversability_t& m) { supervisor_.on_terrain(report_from(m)); });
   node_.subscribe<ground_command_t>(channel::kGroundCommand, [this](const ground_command_t& m) {
     // Localization takes the start pose, and answers for it.
     if (m.kind != ground_command_t::SET_START_POSE) supervisor_.on_command(command_from(m));
   });
 }
 
+void SupervisorNode::subscribe_vehicle() {
+  node_.subscribe<slip_t>(channel::kSlip, [this](const slip_t& m) { supervisor_.on_slip(report_from(m)); });
+  node_.subscribe<wheel_state_t>(channel::kWheelState,
+                                 [this](const wheel_state_t& m) { supervisor_.on_wheels(report_from(m)); });
+  node_.subscribe<imu_t>(channel::kImu, [this](const imu_t& m) { supervisor_.on_imu(report_from(m)); });
+  node_.subscribe<motion_command_t>(
+      channel::kMotionCommand, [this](const motion_command_t& m) { supervisor_.on_motion_command(m.header.utime); });
+}
+
 void SupervisorNode::step(Utime now) {
+  tell_restored(now);
   const SupervisorOutput output = supervisor_.step(now);
   drive_permit_t permit = message_of(output.permit);
   node_.publish(channel::kDrivePermit, permit, now);
-  publish_changes(output, now);
-  for (const CommandAnswer& answer : output.answers) {
+  publish_faults(output, now);
+  publish_states(output, now);
+  publish_answers(output.answers, now);
+  for (const std::string& service : output.restarts) restart(service);
+  save();
+}
+
+void SupervisorNode::publish_answers(const std::vector<CommandAnswer>& answers, Utime now) {
+  for (const CommandAnswer& answer : answers) {
     command_ack_t ack{};
     ack.command_id = answer.id;
     ack.accepted = answer.accepted ? 1 : 0;
@@ -70,12 +104,21 @@ void SupervisorNode::step(Utime now) {
   }
 }
 
-void SupervisorNode::publish_changes(const SupervisorOutput& output, Utime now) {
+void SupervisorNode::publish_faults(const SupervisorOutput& output, Utime now) {
   for (const FaultChange& change : output.faults) {
-    fault_t message = message_of(change);
-    node_.publish(channel::kFault, message, now);
+    publish_fault(change, now);
     node_.log(change.standing ? "WARN" : "INFO", text_of(change));
   }
+  if (output.faults.empty() && now % kFaultPeriodUs == 0)
+    for (const FaultChange& standing : supervisor_.standing_report()) publish_fault(standing, now);
+}
+
+void SupervisorNode::publish_fault(const FaultChange& change, Utime now) {
+  fault_t message = message_of(change);
+  node_.publish(channel::kFault, message, now);
+}
+
+void SupervisorNode::publish_states(const SupervisorOutput& output, Utime now) {
   for (const StateChange& change : output.changes) {
     publish_state(change, now);
     node_.log("INFO", text_of(change));
@@ -87,6 +130,44 @@ void SupervisorNode::publish_state(const StateChange& change, Utime now) {
   supervisor_state_t message =
       state_message(change, supervisor_.since(), supervisor_.hazard_stops(), supervisor_.standing_faults());
   node_.publish(channel::kState, message, now);
+}
+
+// A process that is gone is started anew by s6 without a word from here.
+void SupervisorNode::restart(const std::string& service) {
+  const bool hangs = process_alive(pids_[service]);
+  const bool killed = hangs && kill_(service);
+  node_.log("WARN", "RESTART service=" + service + " why=" + (hangs ? "hang" : "crash") +
+                        (hangs && !killed ? " not possible" : ""));
+}
+
+void SupervisorNode::restore() {
+  if (node_.options().run_dir.empty()) return;
+  const auto bytes = load_checkpoint(node_.options().run_dir, kCheckpoint);
+  if (!bytes) return;
+  const auto memory = memory_from(*bytes);
+  if (!memory) return node_.log("WARN", "CHECKPOINT unusable");
+  supervisor_.restore(*memory);
+  restored_ = *bytes;
+  node_.log("INFO", std::string("CHECKPOINT restored state=") + name(memory->state));
+}
+
+void SupervisorNode::tell_restored(Utime now) {
+  if (restored_.empty()) return;
+  service_state_t state{};
+  state.service = node_.options().name;
+  state.size = static_cast<std::int32_t>(restored_.size());
+  state.data = restored_;
+  node_.publish(channel::kServiceState, state, now);
+  restored_.clear();
+}
+
+void SupervisorNode::save() {
+  const Memory memory = supervisor_.memory();
+  if (node_.options().run_dir.empty() || memory == saved_) return;
+  if (save_checkpoint(node_.options().run_dir, kCheckpoint, bytes_of(memory)))
+    saved_ = memory;
+  else
+    node_.set_status(heartbeat_t::DEGRADED, "checkpoint not written");
 }
 
 }  // namespace rover::supervisor

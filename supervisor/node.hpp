@@ -1,6 +1,9 @@
 // The supervisor on the bus: reads every stream's state, grants DRIVE_PERMIT each tick, answers the ground.
 #pragma once
 
+#include <functional>
+#include <map>
+
 #include "common/bus/node.hpp"
 #include "supervisor/supervisor.hpp"
 
@@ -8,16 +11,30 @@ namespace rover::supervisor {
 
 class SupervisorNode {
  public:
-  SupervisorNode(Node& node, const SupervisorConfig& config);
+  // Kills the service, so that it starts anew; false where that is not possible.
+  using Kill = std::function<bool(const std::string& service)>;
+  SupervisorNode(Node& node, const SupervisorConfig& config, Kill kill);
 
  private:
   void subscribe();
+  void subscribe_vehicle();
   void step(Utime now);
+  void restore();
+  void tell_restored(Utime now);
+  void save();
+  void publish_answers(const std::vector<CommandAnswer>& answers, Utime now);
+  void publish_faults(const SupervisorOutput& output, Utime now);
+  void publish_states(const SupervisorOutput& output, Utime now);
   void publish_state(const StateChange& change, Utime now);
-  void publish_changes(const SupervisorOutput& output, Utime now);
+  void publish_fault(const FaultChange& change, Utime now);
+  void restart(const std::string& service);
 
   Node& node_;
+  Kill kill_;
   Supervisor supervisor_;
+  Memory saved_;
+  std::vector<std::uint8_t> restored_;  // checkpoint to tell of
+  std::map<std::string, int> pids_;
 };
 
 }  // namespace rover::supervisor

@@ -9,22 +9,28 @@ namespace {
 using enum State;
 using F = Fact;
 
-constexpr StateSet kUnderWay = {kDriving, kHazardStop, kRepairing};
+constexpr StateSet kUnderWay = {kDriving, kHazardStop, kRepairing, kSweeping, kCorrecting};
 constexpr StateSet kAllButSafe = {kBoot,       kStandby, kDriving,     kHazardStop, kRepairing, kSweeping,
                                   kCorrecting, kPaused,  kGoalReached, kFaultStop,  kTeleop};
 
-// The first row that fits decides: commands of the ground, then faults, then the goal, then hazards.
+// The first row that fits decides: what ends the drive for good, commands of the ground, faults, the goal, what has to
+// be waited for, hazards.
 constexpr std::array kTransitions = {
     Transition{kAllButSafe, {F::kCommandEmergencyStop}, {}, kSafe, "emergency_stop", F::kCommandEmergencyStop},
-    Transition{{kSafe}, {F::kCommandClearSafe}, {}, kStandby, "clear_safe", F::kCommandClearSafe},
-    Transition{{kDriving, kHazardStop, kRepairing, kPaused, kFaultStop, kGoalReached},
+    Transition{kAllButSafe, {F::kSafeFault}, {}, kSafe, "safe_fault", F::kSafeFault},
+    Transition{{kSafe}, {F::kCommandClearSafe}, {F::kSafeFault}, kStandby, "clear_safe", F::kCommandClearSafe},
+    Transition{{kDriving, kHazardStop, kRepairing, kSweeping, kCorrecting, kPaused, kFaultStop, kGoalReached, kTeleop},
                {F::kCommandStop},
                {},
                kStandby,
                "stop",
                F::kCommandStop},
-    Transition{
-        {kDriving, kHazardStop, kRepairing, kFaultStop}, {F::kCommandPause}, {}, kPaused, "pause", F::kCommandPause},
+    Transition{{kDriving, kHazardStop, kRepairing, kSweeping, kCorrecting, kFaultStop},
+               {F::kCommandPause},
+               {},
+               kPaused,
+               "pause",
+               F::kCommandPause},
     Transition{{kPaused},
                {F::kCommandResume, F::kPathPresent, F::kPoseFresh},
                {F::kBlockingFault},
@@ -37,9 +43,32 @@ constexpr std::array kTransitions = {
                kDriving,
                "go",
                F::kCommandGo},
+    Transition{{kStandby, kPaused},
+               {F::kCommandTeleop, F::kPoseFresh},
+               {F::kBlockingFault},
+               kTeleop,
+               "teleop",
+               F::kCommandTeleop},
     Transition{{kBoot}, {F::kInputsReady}, {}, kStandby, "inputs_ready", F::kInputsReady},
+    Transition{{kTeleop}, {F::kBlockingFault}, {}, kStandby, "fault", F::kBlockingFault},
     Transition{kUnderWay, {F::kBlockingFault}, {}, kFaultStop, "fault", F::kBlockingFault},
     Transition{kUnderWay, {F::kGoalReached}, {F::kBlockingFault}, State::kGoalReached, "goal_reached", F::kGoalReached},
+    Transition{{kDriving, kHazardStop, kRepairing},
+               {F::kLevelFull},
+               {F::kTerrainKnown, F::kBlockingFault},
+               kSweeping,
+               "terrain_unknown",
+               F::kTerrainKnown},
+    Transition{{kSweeping}, {F::kTerrainKnown}, {F::kBlockingFault}, kDriving, "terrain_known", F::kTerrainKnown},
+    Transition{{kSweeping}, {}, {F::kLevelFull, F::kBlockingFault}, kDriving, "level_efficient", F::kLevelFull},
+    Transition{
+        {kDriving}, {F::kCorrectionWanted}, {F::kBlockingFault}, kCorrecting, "correction", F::kCorrectionWanted},
+    Transition{{kCorrecting},
+               {},
+               {F::kCorrectionWanted, F::kBlockingFault},
+               kDriving,
+               "correction_done",
+               F::kCorrectionWanted},
     Transition{{kDriving}, {F::kPathBlocked}, {F::kBlockingFault}, kHazardStop, "path_blocked", F::kPathBlocked},
     Transition{{kHazardStop, kRepairing},
                {F::kPathClear},
@@ -58,22 +87,81 @@ constexpr std::array kTransitions = {
 };
 
 constexpr std::array kPermitRules = {
-    PermitRule{kDriving, {F::kPoseFresh, F::kPathPresent}, {F::kBlockingFault, F::kPathBlocked, F::kGoalReached}},
+    PermitRule{kDriving,
+               {F::kPoseFresh, F::kPathPresent},
+               {F::kBlockingFault, F::kSafeFault, F::kPathBlocked, F::kGoalReached}},
+    PermitRule{kTeleop, {F::kPoseFresh, F::kTeleopFresh}, {F::kBlockingFault, F::kSafeFault}},
+};
+
+using L = LevelFact;
+
+// The ground's word first, then the path's, then what the rover finds on its way. What raised the level lowers it: a
+// segment's end only what a segment began. The windows of the measured facts start anew at each change (hysteresis).
+constexpr std::array kLevelTransitions = {
+    LevelTransition{Level::kEfficient, {L::kForcedFull, L::kFullReady}, {}, Level::kFull, "forced", L::kForcedFull},
+    LevelTransition{Level::kFull, {L::kForcedEfficient}, {}, Level::kEfficient, "forced", L::kForcedEfficient},
+    LevelTransition{Level::kEfficient,
+                    {L::kPathFull, L::kFullReady},
+                    {L::kForcedEfficient},
+                    Level::kFull,
+                    "path_segment",
+                    L::kPathFull},
+    LevelTransition{Level::kEfficient,
+                    {L::kSlowProgress, L::kFullReady},
+                    {L::kForcedEfficient},
+                    Level::kFull,
+                    "slow_progress",
+                    L::kSlowProgress},
+    LevelTransition{Level::kEfficient,
+                    {L::kManyHazards, L::kFullReady},
+                    {L::kForcedEfficient},
+                    Level::kFull,
+                    "many_hazards",
+                    L::kManyHazards},
+    LevelTransition{Level::kFull,
+                    {L::kRaisedByPath},
+                    {L::kPathFull, L::kForcedFull},
+                    Level::kEfficient,
+                    "path_segment",
+                    L::kPathFull},
+    LevelTransition{Level::kFull,
+                    {L::kEasyAhead},
+                    {L::kPathFull, L::kForcedFull},
+                    Level::kEfficient,
+                    "easy_terrain",
+                    L::kEasyAhead},
 };
 
 constexpr std::array<const char*, kStateCount> kStateNames = {"BOOT",         "STANDBY",    "DRIVING",    "HAZARD_STOP",
                                                               "REPAIRING",    "SWEEPING",   "CORRECTING", "PAUSED",
                                                               "GOAL_REACHED", "FAULT_STOP", "SAFE",       "TELEOP"};
 constexpr std::array<const char*, kFactCount> kFactNames = {
-    "inputs_ready", "pose_fresh", "path_present", "blocking_fault", "path_blocked",
-    "path_clear",   "standing",   "repairing",    "goal_reached",   "GO",
-    "STOP",         "PAUSE",      "RESUME",       "EMERGENCY_STOP", "CLEAR_SAFE"};
+    "inputs_ready", "pose_fresh", "path_present", "blocking_fault", "safe_fault",     "path_blocked", "path_clear",
+    "standing",     "repairing",  "goal_reached", "level_full",     "terrain_known",  "correction",   "teleop_fresh",
+    "GO",           "STOP",       "PAUSE",        "RESUME",         "EMERGENCY_STOP", "CLEAR_SAFE",   "TELEOP"};
+constexpr std::array<const char*, 2> kLevelNames = {"EFFICIENT", "FULL"};
+constexpr std::array<const char*, kLevelFactCount> kLevelFactNames = {
+    "full_ready",     "forced_full",   "forced_efficient", "path_full",
+    "raised_by_path", "slow_progress", "many_hazards",     "easy_ahead"};
+
+template <class Enum, size_t N>
+std::string names(EnumSet<Enum> facts, const std::array<const char*, N>& of, const char* prefix) {
+  std::string out;
+  for (size_t i = 0; i < N; ++i)
+    if (facts.has(static_cast<Enum>(i))) out += (out.empty() ? "" : ", ") + std::string(prefix) + of[i];
+  return out;
+}
 
 std::string names(FactSet facts, const char* prefix) {
-  std::string out;
-  for (int i = 0; i < kFactCount; ++i)
-    if (facts.has(static_cast<Fact>(i))) out += (out.empty() ? "" : ", ") + std::string(prefix) + kFactNames[i];
-  return out;
+  return names(facts, kFactNames, prefix);
+}
+
+// Of an edge: what has to hold, and what must not.
+template <class Set, size_t N>
+std::string condition(Set needs, Set bars, const std::array<const char*, N>& of) {
+  const std::string first = names(needs, of, "");
+  const std::string second = names(bars, of, "not ");
+  return first + (first.empty() || second.empty() ? "" : ", ") + second;
 }
 
 bool fits(const Transition& row, State state, FactSet facts) {
@@ -85,6 +173,9 @@ bool fits(const Transition& row, State state, FactSet facts) {
 std::span<const Transition> transitions() {
   return kTransitions;
 }
+std::span<const LevelTransition> level_transitions() {
+  return kLevelTransitions;
+}
 std::span<const PermitRule> permit_rules() {
   return kPermitRules;
 }
@@ -94,11 +185,21 @@ const char* name(State state) {
 const char* name(Fact fact) {
   return kFactNames[static_cast<size_t>(fact)];
 }
+const char* name(Level level) {
+  return kLevelNames[static_cast<size_t>(level)];
+}
 
 const Transition* next_transition(State state, FactSet facts) {
   const auto row = std::find_if(kTransitions.begin(), kTransitions.end(),
                                 [&](const Transition& t) { return fits(t, state, facts); });
   return row == kTransitions.end() ? nullptr : &*row;
+}
+
+const LevelTransition* next_level(Level level, LevelFactSet facts) {
+  const auto row = std::find_if(kLevelTransitions.begin(), kLevelTransitions.end(), [&](const LevelTransition& t) {
+    return t.from == level && facts.has_all(t.needs) && !facts.has_any(t.bars);
+  });
+  return row == kLevelTransitions.end() ? nullptr : &*row;
 }
 
 bool permit_allowed(State state, FactSet facts) {
@@ -125,12 +226,14 @@ std::string drawing() {
   for (const Transition& row : kTransitions)
     for (int s = 0; s < kStateCount; ++s) {
       if (!row.from.has(static_cast<State>(s))) continue;
-      const std::string needs = names(row.needs, "");
-      const std::string bars = names(row.bars, "not ");
       out << "  " << kStateNames[s] << " -> " << name(row.to) << " [label=\"" << row.cause << "\\n"
-          << needs << (needs.empty() || bars.empty() ? "" : ", ") << bars << "\"];\n";
+          << condition(row.needs, row.bars, kFactNames) << "\"];\n";
     }
-  out << "}\n";
+  out << "  subgraph cluster_level {\n    label=\"level\";\n";
+  for (const LevelTransition& row : kLevelTransitions)
+    out << "    " << name(row.from) << " -> " << name(row.to) << " [label=\"" << row.cause << "\\n"
+        << condition(row.needs, row.bars, kLevelFactNames) << "\"];\n";
+  out << "  }\n}\n";
   return out.str();
 }
 

@@ -1,82 +1,46 @@
-// Decides whether the rover may move: reads every stream, runs the monitors and the state machine, grants the lease.
+// Decides whether the rover may move: reads every stream, judges the rows of FDIR, runs the machines of level and
+// state, grants the lease.
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "common/core/frames.hpp"
-#include "common/core/time.hpp"
-#include "supervisor/monitor.hpp"
+#include "supervisor/derive.hpp"
+#include "supervisor/fdir.hpp"
+#include "supervisor/inputs.hpp"
+#include "supervisor/level_judge.hpp"
+#include "supervisor/path_level.hpp"
+#include "supervisor/service_keeper.hpp"
 #include "supervisor/state_machine.hpp"
 
 namespace rover::supervisor {
 
 struct SupervisorConfig {
-  std::vector<std::string> required_services;
+  FdirConfig fdir;
+  DeriveConfig derive;
+  LevelConfig level;
+  ServiceKeeperConfig keeper;
+  std::vector<std::string> full_services;  // of the Full level
   double max_speed_mps = 0.2;
+  double slow_speed_mps = 0.05;  // while a row with the response "slow" stands
+  double teleop_speed_mps = 0.1;
+  double teleop_max_age_s = 0.5;  // of the operator's newest motion command
   double permit_validity_s = 0.2;
-  double pose_max_age_s = 0.3;
-  double hazards_max_age_s = 1.2;  // 2.5 Hz with 0.24 s latency: one lost frame is 1.06 s
-  double planner_max_age_s = 0.3;
-  double control_max_age_s = 0.3;
+  double pose_max_age_s = 0.3;  // for the start, and beside the rows of FDIR for each permit
+  double stream_max_age_s = 0.3;
+  double hazards_max_age_s = 1.2;
   double heartbeat_max_age_s = 1.0;
-  int blind_frames = 3;          // in a row
-  double path_mismatch_s = 1.0;  // controller follows another path than the planner's
-  double no_path_s = 20.0;
-  double blocked_s = 60.0;  // standing before a hazard that no repair leads around
-  double clear_confirm_s = 1.0;
-  double slip_limit = 0.8;  // logged [HDPR]
-  double slip_persistence_s = 5.0;
+  double terrain_max_age_s = 3.0;
+  double terrain_known_share = 0.02;
   double hazard_stop_m = 0.5;
   double unseen_stop_m = 0.25;
   double stop_hysteresis_m = 0.15;
   double goal_tolerance_m = 0.5;
   double standing_speed_mps = 0.03;
   double standing_rate_radps = 0.03;
-};
-
-// What the supervisor uses of the messages; utime of the measurement.
-struct PoseReport {
-  Utime utime = kNever;
-  bool usable = false;  // status tells of a position, all numbers finite
-  double speed_mps = kNaN;
-  double turn_rate_radps = kNaN;
-};
-
-struct HazardsReport {
-  Utime utime = kNever;
-  bool blind = true;
-};
-
-enum class PlannerState : std::int8_t { kIdle = 0, kFollowing = 1, kRepairing = 2, kNoPath = 3 };
-enum class BlockKind : std::int8_t { kNone = 0, kHazard = 1, kUnseen = 2 };
-
-struct PlannerReport {
-  Utime utime = kNever;
-  PlannerState state = PlannerState::kIdle;
-  std::int64_t path_id = -1;
-  double blocked_in_m = kNaN;
-  BlockKind block_kind = BlockKind::kNone;
-  double goal_distance_m = kNaN;
-};
-
-struct ControlReport {
-  Utime utime = kNever;
-  bool path_end = false;
-  bool out_of_corridor = false;
-  std::int64_t path_id = -1;
-  double cross_track_m = kNaN;
-  double corridor_half_width_m = kNaN;
-};
-
-struct SlipReport {
-  Utime utime = kNever;
-  bool valid = false;
-  double ratio = kNaN;
 };
 
 // SET_START_POSE is localization's to answer.
@@ -93,10 +57,13 @@ enum class CommandKind : std::int8_t {
   kInject = 10,
 };
 
+enum class ForcedLevel : std::int8_t { kEfficient = 0, kFull = 1, kAuto = 2 };
+
 struct GroundCommand {
   std::int64_t id = 0;
   CommandKind kind = CommandKind::kStop;
-  std::string target;  // CLEAR_FAULT
+  std::string target;                      // CLEAR_FAULT
+  ForcedLevel level = ForcedLevel::kAuto;  // FORCE_LEVEL
 };
 
 struct Evidence {
@@ -107,22 +74,14 @@ struct Evidence {
   double data_age_s = 0.0;
 };
 
+// Of the state, or, where the state stays, of the level.
 struct StateChange {
   State from = State::kBoot;
   State to = State::kBoot;
+  Level level_from = Level::kEfficient;
+  Level level_to = Level::kEfficient;
   std::string cause;
   Evidence evidence;
-};
-
-struct FaultChange {
-  std::string id;
-  Condition condition = Condition::kFalse;
-  Response response = Response::kLog;
-  double value = kNaN;
-  double limit = kNaN;
-  Utime visible_utime = kNever;
-  bool standing = false;
-  bool first = false;
 };
 
 struct CommandAnswer {
@@ -143,6 +102,19 @@ struct SupervisorOutput {
   std::vector<StateChange> changes;
   std::vector<FaultChange> faults;
   std::vector<CommandAnswer> answers;
+  std::vector<std::string> restarts;  // services to be killed, so that they start anew
+};
+
+// What outlives a restart of the supervisor.
+struct Memory {
+  State state = State::kBoot;
+  Level level = Level::kEfficient;
+  bool raised_by_path = false;
+  ForcedLevel forced = ForcedLevel::kAuto;
+  int hazard_stops = 0;
+  std::vector<std::string> faults;
+
+  bool operator==(const Memory&) const = default;
 };
 
 class Supervisor {
@@ -150,81 +122,86 @@ class Supervisor {
   explicit Supervisor(const SupervisorConfig& config);
 
   // The newest of each stream; commands are carried out at the next step, in their order.
-  void on_heartbeat(const std::string& service, Utime utime);
-  void on_pose(const PoseReport& pose) { pose_ = pose; }
+  void on_service(const std::string& name, const ServiceReport& report);
+  void on_pose(const PoseReport& pose) { in_.pose = pose; }
   void on_hazards(const HazardsReport& hazards);
-  void on_planner(const PlannerReport& planner) { planner_ = planner; }
-  void on_control(const ControlReport& control) { control_ = control; }
-  void on_slip(const SlipReport& slip) { slip_ = slip; }
+  void on_planner(const PlannerReport& planner) { in_.planner = planner; }
+  void on_control(const ControlReport& control) { in_.control = control; }
+  void on_slip(const SlipReport& slip) { in_.slip = slip; }
+  void on_wheels(const WheelReport& wheels);
+  void on_imu(const ImuReport& imu) { in_.imu = imu; }
+  void on_terrain(const TerrainReport& terrain) { in_.terrain = terrain; }
+  void on_motion_command(Utime utime) { in_.motion_command_utime = utime; }
+  void on_path(PathLevels path) { path_ = std::move(path); }
+  void on_correction_wanted(bool wanted) { correction_wanted_ = wanted; }
   void on_command(const GroundCommand& command) { commands_.push_back(command); }
 
   SupervisorOutput step(Utime now);
 
+  // Before the first step: goes on from where a supervisor before ended, never in a better state. What was under way
+  // stands until everything is seen to be well again.
+  void restore(const Memory& memory);
+  Memory memory() const;
+
   State state() const { return state_; }
+  Level level() const { return level_; }
   Utime since() const { return since_; }
   const StateChange& last_change() const { return last_change_; }
   int hazard_stops() const { return hazard_stops_; }
   // In the order in which they were raised.
-  const std::vector<std::string>& standing_faults() const { return standing_; }
+  const std::vector<std::string>& standing_faults() const { return fdir_.standing(); }
+  std::vector<FaultChange> standing_report() const { return fdir_.report(); }
 
  private:
-  struct Watch {
-    Monitor monitor;
-    Reading (Supervisor::*read)(const Watch& watch, Utime now) const;
-    std::string service;  // of heartbeat rows
-  };
-  using Read = Reading (Supervisor::*)(const Watch&, Utime) const;
-
-  void add(const char* id, const char* quantity, double limit, double persistence_s, Read read);
-  void add_streams();
-  void add_path_rows();
-  Reading read_pose_age(const Watch& watch, Utime now) const;
-  Reading read_pose_status(const Watch& watch, Utime now) const;
-  Reading read_hazards_age(const Watch& watch, Utime now) const;
-  Reading read_hazards_blind(const Watch& watch, Utime now) const;
-  Reading read_planner_age(const Watch& watch, Utime now) const;
-  Reading read_control_age(const Watch& watch, Utime now) const;
-  Reading read_heartbeat(const Watch& watch, Utime now) const;
-  Reading read_corridor(const Watch& watch, Utime now) const;
-  Reading read_path_mismatch(const Watch& watch, Utime now) const;
-  Reading read_no_path(const Watch& watch, Utime now) const;
-  Reading read_blocked(const Watch& watch, Utime now) const;
-  Reading read_slip(const Watch& watch, Utime now) const;
-
-  void run_monitors(Utime now, SupervisorOutput& out);
-  void record(const Watch& watch, SupervisorOutput& out);
+  void begin(Utime now);
+  Now judged(Utime now) const;
+  void run_rows(Utime now, SupervisorOutput& out);
+  void run_level(Utime now, SupervisorOutput& out);
+  LevelFactSet level_facts(Utime now);
   FactSet facts(Utime now);
   bool inputs_ready(Utime now) const;
-  bool services_alive(Utime now) const;
+  bool alive(const std::vector<std::string>& services, Utime now) const;
   bool standing_still() const;
   double stop_distance_m() const;
   double blocked_in_m() const;
   void set_fact(FactSet& facts, Fact fact, bool on, const Evidence& evidence);
+  void set_level_fact(LevelFactSet& facts, LevelFact fact, bool on, const Evidence& evidence);
   void path_facts(FactSet& facts, double planner_age_s);
-  void fault_fact(FactSet& facts);
+  void fault_facts(FactSet& facts);
   CommandAnswer answer(const GroundCommand& command, FactSet& facts, Utime now, SupervisorOutput& out);
-  CommandAnswer clear_fault(const GroundCommand& command, FactSet& facts, SupervisorOutput& out);
+  CommandAnswer teleop(const GroundCommand& command, FactSet& facts, Utime now, SupervisorOutput& out);
+  CommandAnswer transition(const GroundCommand& command, Fact fact, FactSet& facts, Utime now, SupervisorOutput& out);
+  CommandAnswer force_level(const GroundCommand& command, Utime now);
+  CommandAnswer clear_fault(const GroundCommand& command, FactSet& facts, Utime now, SupervisorOutput& out);
   void fire(const Transition& row, Utime now, SupervisorOutput& out);
+  void fire(const LevelTransition& row, SupervisorOutput& out);
   Permit permit(FactSet facts, Utime now) const;
+  double speed_limit_mps() const;
 
   SupervisorConfig config_;
-  std::vector<Watch> watches_;
-  std::vector<std::string> standing_;
-  std::string blocking_fault_;  // the first of those standing that stops the rover
-  std::array<Evidence, kFactCount> evidence_;
-  std::map<std::string, Utime> heartbeats_;
-  PoseReport pose_;
-  HazardsReport hazards_;
-  int blind_in_a_row_ = 0;
-  PlannerReport planner_;
-  ControlReport control_;
-  SlipReport slip_;
+  Inputs in_;
+  PathLevels path_;
+  bool correction_wanted_ = false;
   std::vector<GroundCommand> commands_;
+
+  Derive derive_;
+  Fdir fdir_;
+  ServiceKeeper keeper_;
+  LevelJudge judge_;
+  std::array<Evidence, kFactCount> evidence_;
+  std::array<Evidence, kLevelFactCount> level_evidence_;
+  std::string blocking_fault_;  // the first of those standing that stops the rover
+  std::string safe_fault_;
   State state_ = State::kBoot;
+  Level level_ = Level::kEfficient;
+  bool raised_by_path_ = false;
+  ForcedLevel forced_ = ForcedLevel::kAuto;
   Utime since_ = kNever;
-  StateChange last_change_{State::kBoot, State::kBoot, "start", {}};
+  Utime teleop_utime_ = kNever;
+  StateChange last_change_{State::kBoot, State::kBoot, Level::kEfficient, Level::kEfficient, "start", {}};
   std::int64_t blocked_path_id_ = -1;  // active when the path was found blocked
   int hazard_stops_ = 0;
+  bool permitted_ = false;  // at the step before
 };
 
 }  // namespace rover::supervisor

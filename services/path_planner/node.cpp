@@ -55,6 +55,7 @@ PathPlannerNode::PathPlannerNode(Node& node, const PathPlannerConfig& config)
   node_.subscribe<hazards_t>(channel::kHazards, [this](const hazards_t& m) { on_hazards(m); });
   node_.subscribe<ground_command_t>(channel::kGroundCommand,
                                     [this](const ground_command_t& m) { on_ground_command(m); });
+  node_.subscribe<fault_t>(channel::kFault, [this](const fault_t& m) { on_fault(m); });
   node_.on_step([this](Utime now) { step(now); });
   restore();
 }
@@ -78,6 +79,12 @@ void PathPlannerNode::on_hazards(const hazards_t& message) {
   const HazardGrid grid = hazards_from(message);
   if (const std::string fault = grid.fault(); !fault.empty()) return node_.reject(channel::kHazards, fault);
   planner_.add_hazards(grid);
+}
+
+// Standing faults are repeated: one that is older than the path is not about it.
+void PathPlannerNode::on_fault(const fault_t& message) {
+  if (message.standing && message.response == fault_t::STOP_REPLAN && message.visible_utime > told_at_)
+    planner_.request_replan();
 }
 
 void PathPlannerNode::on_ground_command(const ground_command_t& message) {
@@ -110,6 +117,7 @@ void PathPlannerNode::repeat_path(Utime now, bool at_once) {
 void PathPlannerNode::tell_path(const LocalPath& path) {
   path_ = path_t{};
   path_to(path, path_);
+  told_at_ = node_.now();
   node_.log("INFO", "PATH id=" + std::to_string(path.id) + " kind=" + text_of(path.kind) +
                         " points=" + std::to_string(path.points.size()) +
                         " corridor_m=" + std::to_string(path.corridor_half_width_m));

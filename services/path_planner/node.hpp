@@ -1,6 +1,7 @@
 // The path planner on the bus: GLOBAL_PATH, POSE, HAZARDS and the start pose in, PATH and PLANNER_STATUS out.
 #pragma once
 
+#include <rover/fault_t.hpp>
 #include <rover/ground_command_t.hpp>
 #include <rover/hazards_t.hpp>
 #include <rover/path_t.hpp>
@@ -19,6 +20,7 @@ class PathPlannerNode {
  private:
   void on_global_path(const path_t& message);
   void on_hazards(const hazards_t& message);
+  void on_fault(const fault_t& message);
   void on_ground_command(const ground_command_t& message);
   void step(Utime now);
   void tell_path(const LocalPath& path);
@@ -35,6 +37,7 @@ class PathPlannerNode {
   Utime next_save_ = 0;
   path_t path_{};  // the newest; no points: none
   Utime next_repeat_ = 0;
+  Utime told_at_ = kNever;  // of the newest path
   PlannerState state_ = PlannerState::kIdle;
   std::string text_;
 };

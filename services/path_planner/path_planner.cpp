@@ -217,9 +217,10 @@ bool PathPlanner::stuck() const {
   return (in_the_way || strayed()) && failures_ >= config_.patience_frames;
 }
 
-// Outside the corridor the rover is not let on (supervisor): only another path helps.
+// Outside the corridor, or about to leave it, the rover is not let on (supervisor): only another path helps.
 bool PathPlanner::strayed() const {
-  return distance(active_.route.point_at(active_.progress_m), position(rover())) > active_.corridor_half_width_m;
+  return replan_wanted_ ||
+         distance(active_.route.point_at(active_.progress_m), position(rover())) > active_.corridor_half_width_m;
 }
 
 // No way leads on from here, but one led here: back over ground that carried the rover, to where more can be seen and
@@ -354,6 +355,7 @@ void PathPlanner::adopt(Route route, PathKind kind, PlannerOutput& out) {
   active_.route = std::move(route);
   active_.kind = kind;
   active_.id = next_path_id_++;
+  replan_wanted_ = false;
   active_.progress_m = active_.route.closest(position(rover()), 0.0, kSearchAheadM);
   active_.repair_end_m = 0.0;
   for (size_t i = 0; i < active_.route.points().size(); ++i)

@@ -100,6 +100,8 @@ class PathPlanner {
   void add_pose(const PoseSample& sample);
   // False where the frame cannot be laid: the grid contradicts itself, or no pose of its exposure is known.
   bool add_hazards(const HazardGrid& grid);
+  // The path is not to be driven on (FDIR): once the rover stands, another one is looked for.
+  void request_replan() { replan_wanted_ = true; }
   PlannerOutput step(Utime now);
 
   std::vector<std::uint8_t> save() const;
@@ -183,6 +185,7 @@ class PathPlanner {
   bool new_ground_ = false;  // seen or certified since the last judgement
   std::int64_t next_path_id_;
   std::int32_t replans_ = 0;
+  bool replan_wanted_ = false;
   int failures_ = 0;
   std::vector<Point2> dead_ends_;  // where retreats began since then
   int retreats_ = 0;               // since the rover last got further along the global path than ever

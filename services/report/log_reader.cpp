@@ -1,5 +1,6 @@
 #include "report/log_reader.hpp"
 
+#include <algorithm>
 #include <lcm/eventlog.h>
 
 #include <cstdio>
@@ -67,7 +68,7 @@ class Reader {
     take<hazards_t>(channel::kHazards, [this](const hazards_t& m) { run_.hazards.push_back(hazards_from(m)); });
     take<planner_status_t>(channel::kPlannerStatus,
                            [this](const planner_status_t& m) { run_.planner.push_back(planner_from(m)); });
-    take<fault_t>(channel::kFault, [this](const fault_t& m) { run_.faults.push_back(fault_from(m)); });
+    take<fault_t>(channel::kFault, [this](const fault_t& m) { add_fault(fault_from(m)); });
     take<correction_t>(channel::kCorrection,
                        [this](const correction_t& m) { run_.corrections.push_back(correction_from(m)); });
     take<heartbeat_t>(channel::kHeartbeat, [this](const heartbeat_t& m) { add_heartbeat(m, run_.services); });
@@ -105,6 +106,13 @@ class Reader {
       handler(message);
       return true;
     };
+  }
+  // Standing faults are repeated; those of a row differ by the time at which they became visible.
+  void add_fault(const FaultRecord& fault) {
+    const bool known = std::any_of(run_.faults.begin(), run_.faults.end(), [&](const FaultRecord& before) {
+      return before.id == fault.id && before.t_s == fault.t_s && before.standing == fault.standing;
+    });
+    if (!known) run_.faults.push_back(fault);
   }
   void add_pose(const pose_t& message) {
     if (message.status == pose_t::UNINITIALISED || message.status == pose_t::LOST) return;

@@ -57,6 +57,7 @@ TrajectoryControlConfig load_config(const std::string& config_dir) {
   const Config config = Config::load(config_dir + "/trajectory_control.yaml");
   config.read("pose_max_age_s", out.pose_max_age_s, {0.02, 1.0});
   config.read("permit_max_age_s", out.permit_max_age_s, {0.02, 0.2});
+  config.read("teleop_max_age_s", out.teleop_max_age_s, {0.1, 5.0});
   config.read("command_validity_s", out.command_validity_s, {0.02, 0.2});
   config.read("response_delay_s", out.response_delay_s, {0.0, 2.0});
   config.read("end_tolerance_m", out.end_tolerance_m, {0.005, 0.5});

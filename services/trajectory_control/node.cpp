@@ -1,5 +1,6 @@
 #include "trajectory_control/node.hpp"
 
+#include <rover/supervisor_state_t.hpp>
 #include <string>
 
 #include "locomotion/convert.hpp"
@@ -31,11 +32,15 @@ const char* text_of(ControlState state) {
 }  // namespace
 
 TrajectoryControlNode::TrajectoryControlNode(Node& node, const TrajectoryControlConfig& config)
-    : node_(node), controller_(config) {
+    : node_(node), config_(config), controller_(config) {
   node_.subscribe<path_t>(channel::kPath, [this](const path_t& m) { on_path(m); });
   node_.subscribe<pose_t>(channel::kPose, [this](const pose_t& m) { pose_ = pose_from(m); });
   node_.subscribe<drive_permit_t>(channel::kDrivePermit,
                                   [this](const drive_permit_t& m) { permit_ = locomotion::permit_from(m); });
+  node_.subscribe<ground_command_t>(channel::kGroundCommand,
+                                    [this](const ground_command_t& m) { on_ground_command(m); });
+  node_.subscribe<supervisor_state_t>(
+      channel::kState, [this](const supervisor_state_t& m) { teleoperated_ = m.state == supervisor_state_t::TELEOP; });
   node_.on_step([this](Utime now) { step(now); });
 }
 
@@ -46,10 +51,16 @@ void TrajectoryControlNode::on_path(const path_t& message) {
                                           " points=" + std::to_string(message.point_count) + (taken ? "" : " refused"));
 }
 
+// The supervisor answers it.
+void TrajectoryControlNode::on_ground_command(const ground_command_t& message) {
+  if (message.kind == ground_command_t::TELEOP)
+    teleop_ = {message.header.utime, message.speed_mps, message.curvature_per_m};
+}
+
 void TrajectoryControlNode::step(Utime now) {
   const ControlOutput output = controller_.step(now, pose_, permit_);
   motion_command_t command{};
-  command_to(output.command, command);
+  command_to(teleoperated_ ? teleop_command(now, teleop_, permit_, config_) : output.command, command);
   node_.publish(channel::kMotionCommand, command, now);
   control_status_t status{};
   status_to(output, status);

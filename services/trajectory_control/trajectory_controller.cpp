@@ -153,15 +153,16 @@ void TrajectoryController::follow(const PoseInput& pose, const Projection& here,
   command.mode = MotionMode::kArc;
   command.curvature_per_m = curvature_at(soon, there);
   const double profile = std::max(leg().at(there.s_m).speed_mps, config_.creep_speed_mps);
-  command.speed_mps = std::min({profile, max_speed_mps, speed_while_steering(command.curvature_per_m)});
+  command.speed_mps =
+      std::min({profile, max_speed_mps, speed_while_steering(curvature_per_m_, command.curvature_per_m)});
 
   curvature_per_m_ = move_towards(curvature_per_m_, command.curvature_per_m, config_.path.max_curvature_rate * dt_s);
   integrate(here.cross_track_m, speed * dt_s);
 }
 
 // The steering is slow: while it turns the rover passes only a little way.
-double TrajectoryController::speed_while_steering(double wanted_per_m) const {
-  const double left = std::abs(wanted_per_m - curvature_per_m_) / config_.path.max_curvature_rate;
+double TrajectoryController::speed_while_steering(double curvature_per_m, double wanted_per_m) const {
+  const double left = std::abs(wanted_per_m - curvature_per_m) / config_.path.max_curvature_rate;
   return std::max(config_.steering_way_m / std::max(left, 1e-3), config_.creep_speed_mps);
 }
 
@@ -195,9 +196,10 @@ double TrajectoryController::predict_corridor_error(const Pose2& pose, const Pro
   // A point turn comes first and moves nothing.
   if (turning_ || std::abs(wrap_angle(pose.yaw_rad - here.yaw_rad)) > config_.turn_start_rad) return largest;
   for (double way = 0.0; way < config_.look_ahead_m && place.beyond_m <= 0.0; way += kPredictionStepM) {
-    const double speed = std::max(leg().at(place.s_m).speed_mps, kSlipSpeedMps);
-    const double rate = config_.path.max_curvature_rate * kPredictionStepM / speed;
-    curvature = move_towards(curvature, curvature_at(p, place), rate);
+    const double wanted = curvature_at(p, place);
+    const double profile = std::max(leg().at(place.s_m).speed_mps, config_.creep_speed_mps);
+    const double speed = std::min(profile, speed_while_steering(curvature, wanted));
+    curvature = move_towards(curvature, wanted, config_.path.max_curvature_rate * kPredictionStepM / speed);
     p = moved(p, kPredictionStepM, curvature, side_slip_rad_);
     place = leg().project(position(p), place.s_m - kPredictionStepM, place.s_m + 3.0 * kPredictionStepM);
     largest = std::max(largest, std::abs(leg().cross_track_m(position(p), place.s_m)));

@@ -32,6 +32,7 @@ struct TrajectoryControlConfig {
   double turn_deceleration_radps2 = 0.1;
   double look_ahead_m = 1.5;      // of the predicted corridor error
   double side_slip_time_s = 1.0;  // low pass of the measured side slip
+  double teleop_max_age_s = 0.5;  // of the operator's newest command
 };
 
 enum class ControlState : std::int8_t {
@@ -82,7 +83,7 @@ class TrajectoryController {
   Projection advance_on_path(const Pose2& pose);
   bool update_turning(double heading_error_rad);
   void follow(const PoseInput& pose, const Projection& here, double dt_s, double max_speed_mps, MotionCommand& command);
-  double speed_while_steering(double wanted_per_m) const;
+  double speed_while_steering(double curvature_per_m, double wanted_per_m) const;
   void integrate(double cross_track_m, double way_m);
   void turn(double heading_error_rad, MotionCommand& command) const;
   void update_side_slip(const PoseInput& pose, double dt_s);

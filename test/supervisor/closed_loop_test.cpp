@@ -17,10 +17,25 @@ class MissionTest : public testing::Test {
   void tick() {
     loop_.tick();
     const Utime made = loop_.now - kTickUs;
-    if (loop_.pose_alive) supervisor_.on_pose({made, true, loop_.speed(), loop_.rover.twist().turn_radps});
-    if (hazards_alive_ && loop_.now % 400'000 == 0) supervisor_.on_hazards({made - 220'000, false});
-    if (loop_.now % 100'000 == 0)
-      for (const std::string& service : config_.required_services) supervisor_.on_heartbeat(service, made);
+    if (loop_.pose_alive) {
+      PoseReport pose;
+      pose.utime = pose.vo_utime = made;
+      pose.usable = true;
+      pose.speed_mps = loop_.speed();
+      pose.turn_rate_radps = loop_.rover.twist().turn_radps;
+      supervisor_.on_pose(pose);
+    }
+    WheelReport wheels;
+    wheels.utime = made;
+    supervisor_.on_wheels(wheels);
+    supervisor_.on_imu({made, false});
+    supervisor_.on_motion_command(made);
+    if (hazards_alive_ && loop_.now % 400'000 == 0) supervisor_.on_hazards({made - 220'000, false, 0.9});
+    ServiceReport alive;
+    alive.utime = made;
+    alive.boot_id = 1;
+    if (loop_.now % 200'000 == 0)
+      for (const std::string& service : config_.fdir.required_services) supervisor_.on_service(service, alive);
     PlannerReport planner;
     planner.utime = made;
     planner.state = planner_state_;
@@ -49,7 +64,7 @@ class MissionTest : public testing::Test {
   void follow(const std::vector<Eigen::Vector2d>& points) { loop_.controller.set_path({++path_id_, 0.75, points}); }
   void go() {
     run(2.0);
-    supervisor_.on_command({1, CommandKind::kGo, ""});
+    supervisor_.on_command({1, CommandKind::kGo, "", {}});
     tick();
     ASSERT_EQ(supervisor_.state(), State::kDriving);
   }

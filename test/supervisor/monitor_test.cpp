@@ -13,15 +13,14 @@ MonitorRow row(double persistence_s, bool latched = false) {
   out.persistence_s = persistence_s;
   out.clear_s = 1.0;
   out.latched = latched;
-  out.armed = {State::kDriving, State::kFaultStop};
   return out;
 }
 
 // Seconds until the monitor changes under a steady value, -1 where it does not within 10 s.
-double time_to_change(Monitor& monitor, Utime& now, double value, State state = State::kDriving) {
+double time_to_change(Monitor& monitor, Utime& now, double value, bool armed = true) {
   const Utime start = now;
   for (; now - start <= to_utime(10.0); now += kTickUs)
-    if (monitor.step(now, state, above_reading(value, 1.0, now, now))) return to_seconds(now - start);
+    if (monitor.step(now, armed, above_reading(value, 1.0, now, now))) return to_seconds(now - start);
   return -1.0;
 }
 
@@ -39,7 +38,7 @@ TEST(Monitor, RaisesAfterItsPersistenceAndClearsAfterConfirmation) {
 TEST(Monitor, ShortExcursionsDoNotCount) {
   Monitor monitor(row(0.1));
   for (int i = 0; i < 100; ++i)
-    EXPECT_FALSE(monitor.step(i * kTickUs, State::kDriving, above_reading(i % 4 == 0 ? 0.0 : 2.0, 1.0, 0, 0)));
+    EXPECT_FALSE(monitor.step(i * kTickUs, true, above_reading(i % 4 == 0 ? 0.0 : 2.0, 1.0, i * kTickUs, i * kTickUs)));
 }
 
 TEST(Monitor, AGoodReadingInBetweenRestartsTheConfirmation) {
@@ -47,40 +46,76 @@ TEST(Monitor, AGoodReadingInBetweenRestartsTheConfirmation) {
   Utime now = 0;
   time_to_change(monitor, now, 2.0);
   for (int i = 0; i < 200; ++i, now += kTickUs)
-    EXPECT_FALSE(monitor.step(now, State::kDriving, above_reading(i % 25 == 0 ? 2.0 : 0.0, 1.0, now, now)));
+    EXPECT_FALSE(monitor.step(now, true, above_reading(i % 25 == 0 ? 2.0 : 0.0, 1.0, now, now)));
   EXPECT_TRUE(monitor.standing());
 }
 
 // The original counts NaN and silence as healthy (reference, fault 8).
 TEST(Monitor, NotANumberAndSilenceRaise) {
   Monitor nan(row(0.0));
-  EXPECT_TRUE(nan.step(0, State::kDriving, above_reading(kNaN, 1.0, 0, 0)));
+  EXPECT_TRUE(nan.step(0, true, above_reading(kNaN, 1.0, 0, 0)));
   EXPECT_EQ(nan.reading().condition, Condition::kInvalid);
   Monitor silent(row(0.0));
-  EXPECT_TRUE(silent.step(0, State::kDriving, age_reading(kNever, 0, 1.0)));
+  EXPECT_TRUE(silent.step(0, true, age_reading(kNever, 0, 1.0)));
   EXPECT_EQ(silent.reading().condition, Condition::kStale);
   Monitor old(row(0.0));
-  EXPECT_FALSE(old.step(1'000'000, State::kDriving, age_reading(0, 1'000'000, 1.0)));
-  EXPECT_TRUE(old.step(1'000'001, State::kDriving, age_reading(0, 1'000'001, 1.0)));
+  EXPECT_FALSE(old.step(1'000'000, true, age_reading(0, 1'000'000, 1.0)));
+  EXPECT_TRUE(old.step(1'000'001, true, age_reading(0, 1'000'001, 1.0)));
+}
+
+TEST(Monitor, NOfMCountsMeasurementsNotTicks) {
+  MonitorRow counted = row(0.0);
+  counted.n = 3;
+  counted.m = 5;
+  Monitor monitor(counted);
+  // The same bad measurement, looked at many times, is one.
+  for (int i = 0; i < 20; ++i) EXPECT_FALSE(monitor.step(i * kTickUs, true, above_reading(2.0, 1.0, 0, i * kTickUs)));
+  Utime now = 20 * kTickUs;
+  const auto measure = [&](double value) {
+    now += kTickUs;
+    return monitor.step(now, true, above_reading(value, 1.0, now, now));
+  };
+  EXPECT_FALSE(measure(0.0));
+  EXPECT_FALSE(measure(2.0));
+  EXPECT_FALSE(measure(0.0));
+  EXPECT_TRUE(measure(2.0));  // with the first: three of the newest five
+  EXPECT_EQ(monitor.visible_utime(), now);
+}
+
+TEST(Monitor, TwoOfFiveAreNotThree) {
+  MonitorRow counted = row(0.0);
+  counted.n = 3;
+  counted.m = 5;
+  Monitor monitor(counted);
+  for (int i = 0; i < 100; ++i)
+    EXPECT_FALSE(monitor.step(i * kTickUs, true, above_reading(i % 5 < 2 ? 2.0 : 0.0, 1.0, i * kTickUs, i * kTickUs)));
+}
+
+TEST(Monitor, ARestoredFaultClearsLikeAnyOther) {
+  Monitor monitor(row(0.0));
+  monitor.restore_standing();
+  Utime now = 0;
+  EXPECT_NEAR(time_to_change(monitor, now, 0.0), 1.0, 1e-9);
+  EXPECT_FALSE(monitor.standing());
 }
 
 TEST(Monitor, ALatchedFaultWaitsForTheGround) {
   Monitor monitor(row(0.0, true));
   Utime now = 0;
   time_to_change(monitor, now, 2.0);
-  EXPECT_FALSE(monitor.unlatch());
+  EXPECT_FALSE(monitor.unlatch(above_reading(2.0, 1.0, now, now)));
   EXPECT_EQ(time_to_change(monitor, now, 0.0), -1.0);
   EXPECT_TRUE(monitor.standing());
-  EXPECT_TRUE(monitor.unlatch());
+  EXPECT_TRUE(monitor.unlatch(above_reading(0.0, 1.0, now, now)));
   EXPECT_FALSE(monitor.standing());
 }
 
 TEST(Monitor, OutsideOfItsStatesItIsQuietAndForgets) {
   Monitor monitor(row(0.0, true));
   Utime now = 0;
-  EXPECT_EQ(time_to_change(monitor, now, 2.0, State::kStandby), -1.0);
+  EXPECT_EQ(time_to_change(monitor, now, 2.0, false), -1.0);
   EXPECT_EQ(time_to_change(monitor, now, 2.0), 0.0);
-  EXPECT_EQ(time_to_change(monitor, now, 2.0, State::kStandby), 0.0);
+  EXPECT_EQ(time_to_change(monitor, now, 2.0, false), 0.0);
   EXPECT_FALSE(monitor.standing());
 }
 
@@ -88,7 +123,7 @@ TEST(Monitor, AResponseOfLoggingDoesNotBlock) {
   MonitorRow logged = row(0.0);
   logged.response = Response::kLog;
   Monitor monitor(logged);
-  EXPECT_TRUE(monitor.step(0, State::kDriving, above_reading(2.0, 1.0, 0, 0)));
+  EXPECT_TRUE(monitor.step(0, true, above_reading(2.0, 1.0, 0, 0)));
   EXPECT_TRUE(monitor.standing());
   EXPECT_FALSE(monitor.blocks());
 }

@@ -7,9 +7,12 @@
 #include <rover/drive_permit_t.hpp>
 #include <rover/ground_command_t.hpp>
 #include <rover/hazards_t.hpp>
+#include <rover/imu_t.hpp>
+#include <rover/motion_command_t.hpp>
 #include <rover/planner_status_t.hpp>
 #include <rover/pose_t.hpp>
 #include <rover/supervisor_state_t.hpp>
+#include <rover/wheel_state_t.hpp>
 
 #include "common/bus/convert.hpp"
 #include "supervisor/config.hpp"
@@ -21,7 +24,8 @@ namespace {
 
 class SupervisorNodeTest : public testing::Test {
  protected:
-  SupervisorNodeTest() : node_({.name = "supervisor"}, world_.bus), service_(node_, config_) {
+  SupervisorNodeTest()
+      : node_({.name = "supervisor"}, world_.bus), service_(node_, config_, [](const std::string&) { return false; }) {
     permits_ = world_.listen<drive_permit_t>(channel::kDrivePermit);
     states_ = world_.listen<supervisor_state_t>(channel::kState);
     acks_ = world_.listen<command_ack_t>(channel::kCommandAck);
@@ -41,7 +45,10 @@ class SupervisorNodeTest : public testing::Test {
     world_.send(channel::kPlannerStatus, planner_);
     world_.send(channel::kControlStatus, control_);
     world_.send(channel::kHazards, hazards_);
-    for (const std::string& service : config_.required_services)
+    world_.send(channel::kWheelState, wheel_state_t{});
+    world_.send(channel::kImu, imu_t{});
+    world_.send(channel::kMotionCommand, motion_command_t{});
+    for (const std::string& service : config_.fdir.required_services)
       world_.send(channel::kHeartbeat, heartbeat_t{}, service);
     world_.tick(node_);
     world_.bus.handleTimeout(0);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -15,14 +16,20 @@ using F = Fact;
 
 constexpr std::uint32_t kFactSets = 1U << kFactCount;
 
+// A drive that waits.
+constexpr StateSet kHeld = {kHazardStop, kRepairing, kSweeping, kCorrecting, kFaultStop};
+
 State state(int s) {
   return static_cast<State>(s);
 }
 
-// Of a clear path and a blocked one at most one holds, and without a path it is blocked: so the facts are made.
+// Of a clear path and a blocked one at most one holds, and without a path it is blocked; commands are carried out one
+// by one; a fault that ends the drive blocks: so the facts are made.
 bool possible(FactSet facts) {
   const bool blocked = facts.has(F::kPathBlocked);
-  return !(blocked && facts.has(F::kPathClear)) && (facts.has(F::kPathPresent) || blocked);
+  const bool one_command = std::popcount(facts.common(kCommandFacts).bits()) <= 1;
+  return !(blocked && facts.has(F::kPathClear)) && (facts.has(F::kPathPresent) || blocked) && one_command &&
+         (facts.has(F::kBlockingFault) || !facts.has(F::kSafeFault));
 }
 
 template <class Visit>
@@ -66,18 +73,23 @@ TEST(StateMachine, SettlesUnderEveryFact) {
   EXPECT_LE(longest, 4);
 }
 
-TEST(StateMachine, NoPermitOutsideOfDrivingOrWithAnythingAgainstIt) {
+TEST(StateMachine, NoPermitWithAnythingAgainstIt) {
   int granted = 0;
   for_all([&](State s, FactSet facts) {
     int steps = 0;
     const State settled = settle(s, facts, steps);
     if (!permit_allowed(settled, facts)) return;
     ++granted;
-    ASSERT_EQ(settled, kDriving);
-    ASSERT_FALSE(facts.has(F::kBlockingFault));
+    ASSERT_TRUE(settled == kDriving || settled == kTeleop);
+    ASSERT_FALSE(facts.has_any({F::kBlockingFault, F::kSafeFault}));
     ASSERT_TRUE(facts.has(F::kPoseFresh));
-    ASSERT_TRUE(facts.has(F::kPathPresent));
-    ASSERT_FALSE(facts.has(F::kPathBlocked));
+    if (settled == kTeleop) {
+      ASSERT_TRUE(facts.has(F::kTeleopFresh));
+    } else {
+      ASSERT_TRUE(facts.has(F::kPathPresent));
+      ASSERT_FALSE(facts.has(F::kPathBlocked));
+      ASSERT_TRUE(facts.has(F::kTerrainKnown) || !facts.has(F::kLevelFull));
+    }
   });
   EXPECT_GT(granted, 0);
 }
@@ -87,9 +99,7 @@ TEST(StateMachine, ABlockingFaultEndsDrivingInTheSameTick) {
     if (!facts.has(F::kBlockingFault)) return;
     int steps = 0;
     const State settled = settle(s, facts, steps);
-    ASSERT_NE(settled, kDriving);
-    ASSERT_NE(settled, kHazardStop);
-    ASSERT_NE(settled, kRepairing);
+    ASSERT_FALSE((StateSet{kDriving, kHazardStop, kRepairing, kSweeping, kCorrecting, kTeleop}.has(settled)));
   });
 }
 
@@ -98,6 +108,15 @@ TEST(StateMachine, SafeIsLeftByGroundCommandAlone) {
     if (s != kSafe) return;
     int steps = 0;
     if (!facts.has(F::kCommandClearSafe)) {
+      ASSERT_EQ(settle(s, facts, steps), kSafe);
+    }
+  });
+}
+
+TEST(StateMachine, AFaultThatEndsTheDriveLeadsToSafeAndHoldsIt) {
+  for_all([&](State s, FactSet facts) {
+    int steps = 0;
+    if (facts.has(F::kSafeFault)) {
       ASSERT_EQ(settle(s, facts, steps), kSafe);
     }
   });
@@ -116,13 +135,13 @@ TEST(StateMachine, DrivingBeginsByGroundCommandOrAfterADriveThatItBegan) {
   for (const Transition& row : transitions()) {
     if (row.to != kDriving) continue;
     const bool commanded = row.needs.has_any(kCommandFacts);
-    const bool resumed = StateSet{kHazardStop, kRepairing, kFaultStop}.has_all(row.from);
+    const bool resumed = kHeld.has_all(row.from);
     EXPECT_TRUE(commanded || resumed) << row.cause;
   }
-  // And into those three nothing leads but from a drive.
+  // And into those nothing leads but from a drive.
   for (const Transition& row : transitions())
-    if (StateSet{kHazardStop, kRepairing, kFaultStop}.has(row.to)) {
-      EXPECT_TRUE((StateSet{kDriving, kHazardStop, kRepairing, kFaultStop}.has_all(row.from))) << row.cause;
+    if (kHeld.has(row.to)) {
+      EXPECT_TRUE(row.from.without(kHeld).without({kDriving}).empty()) << row.cause;
     }
 }
 
@@ -150,29 +169,80 @@ TEST(StateMachine, EveryRowFiresUnderSomeFacts) {
   EXPECT_EQ(fired.size(), transitions().size());
 }
 
-TEST(StateMachine, ReachesTheStatesOfTheFirstVersion) {
-  EXPECT_EQ(reachable(), (std::set<State>{kBoot, kStandby, kDriving, kHazardStop, kRepairing, kPaused, kGoalReached,
-                                          kFaultStop, kSafe}));
+TEST(StateMachine, ReachesEveryState) {
+  EXPECT_EQ(reachable().size(), static_cast<size_t>(kStateCount));
 }
 
 TEST(StateMachine, FollowsASmallReferenceOfItsRules) {
   for_all([&](State s, FactSet facts) {
-    if (facts.has_any(kCommandFacts)) return;
+    if (facts.has_any(kCommandFacts) || facts.has(F::kSafeFault)) return;
     int steps = 0;
     const State settled = settle(s, facts, steps);
     const bool under_way = s == kDriving || s == kHazardStop || s == kRepairing;
     if (under_way && facts.has(F::kBlockingFault)) {
       ASSERT_EQ(settled, kFaultStop);
     } else if (under_way && facts.has(F::kGoalReached)) {
-      ASSERT_EQ(settled, kGoalReached);
+      ASSERT_EQ(settled, State::kGoalReached);
+    } else if (under_way && facts.has(F::kLevelFull) && !facts.has(F::kTerrainKnown)) {
+      ASSERT_EQ(settled, kSweeping);
+    } else if (s == kDriving && facts.has(F::kCorrectionWanted)) {
+      ASSERT_EQ(settled, kCorrecting);
     } else if (under_way && facts.has(F::kPathBlocked)) {
       ASSERT_TRUE(settled == kHazardStop || settled == kRepairing);
-    } else if (under_way && facts.has(F::kPathClear)) {
+    } else if (under_way && facts.has(F::kPathClear) && !facts.has(F::kCorrectionWanted)) {
       ASSERT_EQ(settled, kDriving);
-    } else if (s == kPaused || s == kGoalReached || s == kStandby || s == kSafe) {
+    } else if (s == kPaused || s == State::kGoalReached || s == kStandby || s == kSafe) {
       ASSERT_EQ(settled, s);
     }
   });
+}
+
+using L = LevelFact;
+
+template <class Visit>
+void for_all_levels(Visit visit) {
+  for (const Level level : {Level::kEfficient, Level::kFull})
+    for (std::uint32_t bits = 0; bits < (1U << kLevelFactCount); ++bits) {
+      const LevelFactSet facts = LevelFactSet::from_bits(bits);
+      const bool both = facts.has_all({L::kForcedFull, L::kForcedEfficient});
+      // Only a level that is Full was raised by the path, and was there by the path's word.
+      if (!both && (level == Level::kFull || !facts.has(L::kRaisedByPath))) visit(level, facts);
+    }
+}
+
+TEST(LevelMachine, ChangesByItsRulesAlone) {
+  for_all_levels([](Level level, LevelFactSet facts) {
+    const LevelTransition* row = next_level(level, facts);
+    const bool up = facts.has(L::kForcedFull) || (!facts.has(L::kForcedEfficient) &&
+                                                  facts.has_any({L::kPathFull, L::kSlowProgress, L::kManyHazards}));
+    const bool down = facts.has(L::kForcedEfficient) || (!facts.has_any({L::kForcedFull, L::kPathFull}) &&
+                                                         facts.has_any({L::kRaisedByPath, L::kEasyAhead}));
+    const bool changes = level == Level::kEfficient ? up && facts.has(L::kFullReady) : down;
+    ASSERT_EQ(row != nullptr, changes) << name(level);
+    if (row != nullptr) {
+      ASSERT_NE(row->to, level);
+    }
+  });
+}
+
+// What raises the level must not at once lower it again: the windows of the measured facts start anew at a change.
+TEST(LevelMachine, DoesNotSwingUnderWhatLasts) {
+  constexpr LevelFactSet kWindowed = {L::kSlowProgress, L::kManyHazards, L::kEasyAhead};
+  for_all_levels([&](Level level, LevelFactSet facts) {
+    const LevelTransition* row = next_level(level, facts);
+    if (row == nullptr) return;
+    LevelFactSet after = facts.without(kWindowed);
+    after.set(L::kRaisedByPath, row->to == Level::kFull && row->evidence == L::kPathFull);
+    ASSERT_EQ(next_level(row->to, after), nullptr) << row->cause;
+  });
+}
+
+TEST(LevelMachine, EveryRowFiresUnderSomeFacts) {
+  std::set<const LevelTransition*> fired;
+  for_all_levels([&](Level level, LevelFactSet facts) {
+    if (const LevelTransition* row = next_level(level, facts)) fired.insert(row);
+  });
+  EXPECT_EQ(fired.size(), level_transitions().size());
 }
 
 TEST(StateMachine, RefusalsNameTheReason) {

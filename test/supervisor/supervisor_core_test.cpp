@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "supervisor/config.hpp"
 #include "supervisor/supervisor.hpp"
@@ -15,7 +16,19 @@ class SupervisorTest : public testing::Test {
   void tick() {
     now_ += kTickUs;
     const Utime made = now_ - kTickUs;
-    if (pose_alive_) supervisor_.on_pose({made, pose_usable_, speed_, 0.0});
+    if (pose_alive_) {
+      pose_.utime = pose_.vo_utime = made;
+      pose_.usable = pose_usable_;
+      pose_.speed_mps = speed_;
+      pose_.turn_rate_radps = 0.0;
+      supervisor_.on_pose(pose_);
+    }
+    if (wheels_alive_) {
+      wheels_.utime = made;
+      supervisor_.on_wheels(wheels_);
+    }
+    if (imu_alive_) supervisor_.on_imu({made, false});
+    if (command_alive_) supervisor_.on_motion_command(made);
     if (planner_alive_) {
       planner_.utime = made;
       supervisor_.on_planner(planner_);
@@ -24,23 +37,33 @@ class SupervisorTest : public testing::Test {
       control_.utime = made;
       supervisor_.on_control(control_);
     }
-    if (hazards_alive_ && now_ % 400'000 == 0) supervisor_.on_hazards({now_ - 240'000, blind_});
-    if (now_ % 100'000 == 0)
-      for (const std::string& service : config_.required_services)
-        if (service != dead_service_) supervisor_.on_heartbeat(service, made);
-    supervisor_.on_slip({made, true, slip_});
+    if (hazards_alive_ && now_ % 400'000 == 0) supervisor_.on_hazards({now_ - 240'000, blind_, coverage_});
+    if (now_ % 200'000 == 0) heartbeats(made);
+    supervisor_.on_slip({made, slip_valid_, slip_});
     out_ = supervisor_.step(now_);
     for (const StateChange& change : out_.changes) changes_.push_back(change);
     for (const FaultChange& change : out_.faults) faults_.push_back(change);
-    EXPECT_TRUE(!out_.permit.granted || supervisor_.state() == State::kDriving);
+    restarts_.insert(restarts_.end(), out_.restarts.begin(), out_.restarts.end());
+    EXPECT_TRUE(!out_.permit.granted || supervisor_.state() == State::kDriving ||
+                supervisor_.state() == State::kTeleop);
     EXPECT_TRUE(!out_.permit.granted || out_.permit.valid_until == now_ + 200'000);
     EXPECT_TRUE(out_.permit.granted || out_.permit.valid_until == now_);
+  }
+  void heartbeats(Utime made) {
+    for (const std::string& service : config_.fdir.required_services) {
+      if (service == dead_service_) continue;
+      ServiceReport& report = services_[service];
+      report.utime = made;
+      report.boot_id = std::max<std::int64_t>(report.boot_id, 1);
+      report.received += 100;
+      supervisor_.on_service(service, report);
+    }
   }
   void run(double seconds) {
     for (Utime end = now_ + to_utime(seconds); now_ < end;) tick();
   }
-  CommandAnswer command(CommandKind kind, const std::string& target = "") {
-    supervisor_.on_command({++command_id_, kind, target});
+  CommandAnswer command(CommandKind kind, const std::string& target = "", ForcedLevel level = ForcedLevel::kAuto) {
+    supervisor_.on_command({++command_id_, kind, target, level});
     tick();
     EXPECT_EQ(out_.answers.size(), 1u);
     EXPECT_EQ(out_.answers.at(0).id, command_id_);
@@ -89,8 +112,16 @@ class SupervisorTest : public testing::Test {
   SupervisorOutput out_;
   std::vector<StateChange> changes_;
   std::vector<FaultChange> faults_;
+  std::vector<std::string> restarts_;
   Utime now_ = 0;
   std::int64_t command_id_ = 0;
+  PoseReport pose_;
+  WheelReport wheels_;
+  std::map<std::string, ServiceReport> services_;
+  double coverage_ = 0.9;
+  bool wheels_alive_ = true;
+  bool imu_alive_ = true;
+  bool command_alive_ = true;
   bool pose_alive_ = true;
   bool pose_usable_ = true;
   double speed_ = 0.0;
@@ -101,6 +132,7 @@ class SupervisorTest : public testing::Test {
   bool hazards_alive_ = true;
   bool blind_ = false;
   double slip_ = 0.05;
+  bool slip_valid_ = true;
   std::string dead_service_;
 };
 
@@ -137,8 +169,7 @@ TEST_F(SupervisorTest, GoNeedsStandbyAndAPath) {
 
 TEST_F(SupervisorTest, UnknownCommandsAreRefused) {
   run(2.0);
-  for (const CommandKind kind : {CommandKind::kTeleop, CommandKind::kForceLevel, CommandKind::kInject,
-                                 static_cast<CommandKind>(99), static_cast<CommandKind>(-5)})
+  for (const CommandKind kind : {CommandKind::kInject, static_cast<CommandKind>(99), static_cast<CommandKind>(-5)})
     EXPECT_FALSE(command(kind).accepted);
   EXPECT_EQ(supervisor_.state(), State::kStandby);
 }
@@ -200,11 +231,12 @@ TEST_F(SupervisorTest, ASilentPlannerOrControllerStops) {
 }
 
 TEST_F(SupervisorTest, ADeadServiceStops) {
-  for (const std::string& service : config_.required_services) {
+  for (const std::string& service : config_.fdir.required_services) {
     SCOPED_TRACE(service);
     if (supervisor_.state() == State::kBoot) start_driving();
+    pose_.travelled_m += 5.0;  // fault stops count on a stretch of way
     dead_service_ = service;
-    EXPECT_LE(time_to_withdrawal(), 1.1);
+    EXPECT_LE(time_to_withdrawal(), 1.3);
     EXPECT_EQ(changes_.back().cause, "heartbeat." + service);
     dead_service_.clear();
     EXPECT_LE(time_to_permit(), 1.2);
@@ -233,14 +265,15 @@ TEST_F(SupervisorTest, AControllerOnAnotherPathStops) {
   EXPECT_EQ(changes_.back().cause, "path_mismatch");
 }
 
-TEST_F(SupervisorTest, SlipIsLoggedOnly) {
+// The original's slip buffer freezes at rest, so that its slip stop never clears (reference, fault 8).
+TEST_F(SupervisorTest, SlipStopsAndClearsAtRest) {
   start_driving();
   slip_ = 0.9;
-  run(6.0);
-  EXPECT_TRUE(out_.permit.granted);
-  ASSERT_EQ(faults_.size(), 1u);
-  EXPECT_EQ(faults_[0].id, "slip");
-  EXPECT_EQ(faults_[0].response, Response::kLog);
+  EXPECT_LE(time_to_withdrawal(), 0.2);
+  EXPECT_EQ(changes_.back().cause, "slip");
+  slip_ = kNaN;
+  slip_valid_ = false;
+  EXPECT_NEAR(time_to_permit(), 3.0, 0.1);
 }
 
 // The original clears the newest fault and reports nominal while another stands (reference, fault 8).
@@ -437,9 +470,9 @@ TEST_F(SupervisorTest, AnEmergencyStopIsLatched) {
 
 TEST_F(SupervisorTest, CommandsOfOneTickAreCarriedOutInTheirOrder) {
   start_driving();
-  supervisor_.on_command({1, CommandKind::kPause, ""});
-  supervisor_.on_command({2, CommandKind::kEmergencyStop, ""});
-  supervisor_.on_command({3, CommandKind::kResume, ""});
+  supervisor_.on_command({1, CommandKind::kPause, "", {}});
+  supervisor_.on_command({2, CommandKind::kEmergencyStop, "", {}});
+  supervisor_.on_command({3, CommandKind::kResume, "", {}});
   tick();
   ASSERT_EQ(out_.answers.size(), 3u);
   EXPECT_TRUE(out_.answers[0].accepted);
@@ -450,9 +483,344 @@ TEST_F(SupervisorTest, CommandsOfOneTickAreCarriedOutInTheirOrder) {
 
 TEST_F(SupervisorTest, OldHeartbeatsDoNotMakeAServiceYoungerOrOlder) {
   start_driving();
-  supervisor_.on_heartbeat("stereo", 0);
+  supervisor_.on_service("stereo", {});
   tick();
   EXPECT_TRUE(out_.permit.granted);
+}
+
+struct RowCase {
+  const char* id;
+  std::function<void(PoseReport&, WheelReport&, double)> set;
+  double at_limit, beyond;
+};
+
+// Every row of what is measured of the vehicle: not at its limit, but beyond it and as no number; and back again.
+TEST_F(SupervisorTest, AttitudeAndCurrentsStopBeyondTheirLimits) {
+  const std::vector<RowCase> cases = {
+      {"roll", [](PoseReport& p, WheelReport&, double v) { p.roll_rad = to_rad(v); }, 19.9, -20.1},
+      {"pitch", [](PoseReport& p, WheelReport&, double v) { p.pitch_rad = to_rad(v); }, -34.9, 35.1},
+      {"tilt_rate", [](PoseReport& p, WheelReport&, double v) { p.tilt_rate_radps = to_rad(v); }, 29.9, 30.1},
+      {"pose_sigma", [](PoseReport& p, WheelReport&, double v) { p.sigma_m = v; }, 2.9, 3.1},
+      {"drive_current.ML", [](PoseReport&, WheelReport& w, double v) { w.drive_a[2] = v; }, -9.9, -10.1},
+      {"steer_current.RR", [](PoseReport&, WheelReport& w, double v) { w.steer_a[3] = v; }, 0.99, 1.01},
+  };
+  for (const RowCase& row : cases)
+    for (const double bad : {row.beyond, kNaN}) {
+      SCOPED_TRACE(std::string(row.id) + " " + std::to_string(bad));
+      if (supervisor_.state() == State::kBoot) start_driving();
+      pose_.travelled_m += 5.0;
+      row.set(pose_, wheels_, row.at_limit);
+      run(1.0);
+      ASSERT_TRUE(out_.permit.granted);
+      row.set(pose_, wheels_, bad);
+      EXPECT_LE(time_to_withdrawal(), 0.1);
+      EXPECT_EQ(changes_.back().cause, row.id);
+      row.set(pose_, wheels_, 0.0);
+      EXPECT_LE(time_to_permit(), 2.2);
+    }
+}
+
+TEST_F(SupervisorTest, AMotorHeatsUpBelowItsInstantLimit) {
+  start_driving();
+  wheels_.drive_a[0] = 5.0;  // 1.6 times nominal
+  const double seconds = time_to_withdrawal(300.0);
+  EXPECT_GT(seconds, 20.0);
+  EXPECT_LT(seconds, 60.0);
+  EXPECT_EQ(changes_.back().cause, "drive_heat.FL");
+  wheels_.drive_a[0] = 0.0;
+  EXPECT_GT(time_to_permit(120.0), 20.0);
+}
+
+TEST_F(SupervisorTest, SensorsThatFallSilentOrReportAFaultStop) {
+  start_driving();
+  imu_alive_ = false;
+  EXPECT_LE(time_to_withdrawal(), 0.24);
+  EXPECT_EQ(changes_.back().cause, "imu_age");
+  imu_alive_ = true;
+  time_to_permit();
+  wheels_alive_ = false;
+  EXPECT_LE(time_to_withdrawal(), 0.24);
+  EXPECT_EQ(changes_.back().cause, "wheel_state_age");
+  wheels_alive_ = true;
+  time_to_permit();
+  wheels_.fault = true;
+  EXPECT_LE(time_to_withdrawal(), 0.04);
+  EXPECT_EQ(changes_.back().cause, "wheel_fault");
+  wheels_.fault = false;
+  time_to_permit();
+  command_alive_ = false;
+  EXPECT_LE(time_to_withdrawal(), 0.34);
+  EXPECT_EQ(changes_.back().cause, "command_age");
+}
+
+TEST_F(SupervisorTest, AWarningSlowsTheRover) {
+  start_driving();
+  EXPECT_EQ(out_.permit.max_speed_mps, config_.max_speed_mps);
+  pose_.roll_rad = to_rad(16.0);
+  run(0.2);
+  EXPECT_TRUE(out_.permit.granted);
+  EXPECT_EQ(out_.permit.max_speed_mps, config_.slow_speed_mps);
+  pose_.roll_rad = 0.0;
+  run(1.1);
+  EXPECT_EQ(out_.permit.max_speed_mps, config_.max_speed_mps);
+}
+
+TEST_F(SupervisorTest, ThePredictionStopsARoverThatStraysBeforeItLeaves) {
+  start_driving();
+  control_.predicted_error_m = 1.2 * control_.corridor_half_width_m;
+  run(1.0);
+  EXPECT_TRUE(out_.permit.granted);  // on its path, the prediction errs to the safe side
+  control_.cross_track_m = 0.5 * control_.corridor_half_width_m;
+  EXPECT_LE(time_to_withdrawal(), 0.1);
+  EXPECT_EQ(changes_.back().cause, "corridor_predicted");
+  EXPECT_EQ(faults_.back().response, Response::kStopReplan);
+}
+
+TEST_F(SupervisorTest, AStepOfTheClockStops) {
+  start_driving();
+  now_ += to_utime(0.8);
+  tick();
+  EXPECT_FALSE(out_.permit.granted);
+  EXPECT_EQ(changes_.back().cause, "clock_step");
+}
+
+TEST_F(SupervisorTest, ASilentServiceIsStartedAnewThreeTimesThenTheRoverGivesUp) {
+  start_driving();
+  dead_service_ = "stereo";
+  run(1.5);
+  EXPECT_EQ(restarts_, std::vector<std::string>{"stereo"});
+  run(5.0);
+  EXPECT_EQ(restarts_.size(), 2u);
+  run(20.0);
+  EXPECT_EQ(supervisor_.state(), State::kSafe);
+  EXPECT_EQ(changes_.back().cause, "restart_failed.stereo");
+  // The service is well again: SAFE stays until the ground has spoken.
+  dead_service_.clear();
+  run(70.0);
+  EXPECT_EQ(supervisor_.state(), State::kSafe);
+  EXPECT_TRUE(command(CommandKind::kClearSafe).accepted);
+}
+
+TEST_F(SupervisorTest, AServiceThatStartsOverAndOverEndsTheDrive) {
+  start_driving();
+  for (int i = 0; i < 4; ++i) {
+    ++services_["hazard_detector"].boot_id;
+    services_["hazard_detector"].received = 0;
+    run(2.0);
+  }
+  EXPECT_EQ(supervisor_.state(), State::kSafe);
+  EXPECT_EQ(changes_.back().cause, "starts.hazard_detector");
+  EXPECT_FALSE(command(CommandKind::kClearSafe).accepted);  // it still stands
+  EXPECT_TRUE(command(CommandKind::kClearFault, "starts.hazard_detector").accepted);
+  EXPECT_TRUE(command(CommandKind::kClearSafe).accepted);
+}
+
+TEST_F(SupervisorTest, AServicesOwnFaultStartsItAnew) {
+  start_driving();
+  services_["stereo"].status = ServiceStatus::kFault;
+  EXPECT_LE(time_to_withdrawal(), 0.5);
+  EXPECT_EQ(changes_.back().cause, "service_fault.stereo");
+  EXPECT_EQ(restarts_, std::vector<std::string>{"stereo"});
+}
+
+TEST_F(SupervisorTest, LossOnTheBusIsLoggedThenStops) {
+  start_driving();
+  services_["stereo"].lost += 400;  // of 14000 in the window
+  run(1.0);
+  EXPECT_TRUE(out_.permit.granted);
+  ASSERT_EQ(faults_.size(), 1u);
+  EXPECT_EQ(faults_[0].id, "message_loss_high");
+  for (int i = 0; i < 25 && out_.permit.granted; ++i) {
+    for (auto& [name, report] : services_) report.lost += 80;
+    run(0.2);
+  }
+  EXPECT_EQ(changes_.back().cause, "message_loss");
+}
+
+TEST_F(SupervisorTest, WheelsThatTurnWithoutAPermitEndTheDrive) {
+  start_driving();
+  command(CommandKind::kPause);
+  wheels_.drive_radps.fill(1.0);
+  run(2.5);
+  EXPECT_EQ(supervisor_.state(), State::kPaused);
+  run(1.0);
+  EXPECT_EQ(supervisor_.state(), State::kSafe);
+  EXPECT_EQ(changes_.back().cause, "unpermitted_motion");
+}
+
+TEST_F(SupervisorTest, TeleoperationNeedsFreshCommandsAndIsSlow) {
+  run(2.0);
+  EXPECT_TRUE(command(CommandKind::kTeleop).accepted);
+  EXPECT_EQ(supervisor_.state(), State::kTeleop);
+  EXPECT_TRUE(out_.permit.granted);
+  EXPECT_EQ(out_.permit.max_speed_mps, config_.teleop_speed_mps);
+  EXPECT_NEAR(time_to_withdrawal(), 0.5, 0.05);
+  EXPECT_EQ(supervisor_.state(), State::kTeleop);
+  EXPECT_TRUE(command(CommandKind::kTeleop).accepted);
+  EXPECT_TRUE(out_.permit.granted);
+  pose_alive_ = false;
+  for (int i = 0; i < 20; ++i) command(CommandKind::kTeleop);
+  EXPECT_FALSE(out_.permit.granted);
+  EXPECT_EQ(supervisor_.state(), State::kStandby);
+  EXPECT_EQ(changes_.back().cause, "pose_age");
+}
+
+TEST_F(SupervisorTest, RestartedItGoesOnAsItWasButNeverBetter) {
+  start_driving();
+  planner_.state = PlannerState::kNoPath;
+  planner_.blocked_in_m = 0.4;
+  run(21.0);
+  ASSERT_EQ(supervisor_.standing_faults(), std::vector<std::string>{"no_path"});
+  const Memory memory = supervisor_.memory();
+  supervisor_ = Supervisor(config_);
+  supervisor_.restore(memory);
+  planner_ = clear_path();
+  run(5.0);
+  EXPECT_EQ(supervisor_.state(), State::kFaultStop);  // latched before, latched now
+  EXPECT_TRUE(command(CommandKind::kClearFault, "no_path").accepted);
+  EXPECT_EQ(supervisor_.state(), State::kDriving);
+  EXPECT_TRUE(restarts_.empty());
+}
+
+TEST_F(SupervisorTest, RestartedWhileDrivingItResumesWhenAllIsSeenToBeWell) {
+  for (const auto& [before, after] : {std::pair(State::kDriving, State::kDriving),
+                                      {State::kRepairing, State::kDriving},
+                                      {State::kSafe, State::kSafe},
+                                      {State::kPaused, State::kPaused},
+                                      {State::kStandby, State::kStandby},
+                                      {State::kTeleop, State::kStandby},
+                                      {State::kGoalReached, State::kGoalReached}}) {
+    SCOPED_TRACE(name(before));
+    supervisor_ = Supervisor(config_);
+    Memory memory;
+    memory.state = before;
+    memory.hazard_stops = 3;
+    supervisor_.restore(memory);
+    tick();
+    EXPECT_FALSE(out_.permit.granted);
+    run(3.0);
+    EXPECT_EQ(supervisor_.state(), after);
+    EXPECT_EQ(supervisor_.hazard_stops(), 3);
+    EXPECT_TRUE(restarts_.empty());
+  }
+}
+
+// Until the Full level is there: its services and its map, as the supervisor sees them.
+class LevelTest : public SupervisorTest {
+ protected:
+  void drive(double seconds, double speed_mps) {
+    for (Utime end = now_ + to_utime(seconds); now_ < end;) {
+      if (full_alive_ && now_ % 200'000 == 0)
+        for (const std::string& service : config_.full_services) {
+          ServiceReport report;
+          report.utime = now_;
+          report.boot_id = 1;
+          supervisor_.on_service(service, report);
+        }
+      if (full_alive_) supervisor_.on_terrain({now_, difficulty_, known_});
+      const double way = out_.permit.granted ? speed_mps * to_seconds(kTickUs) : 0.0;
+      pose_.travelled_m += way;
+      planner_.goal_distance_m -= way;
+      control_.arc_length_m += way;
+      tick();
+    }
+  }
+  void begin() {
+    planner_.goal_distance_m = 500.0;
+    start_driving();
+  }
+  const StateChange* last_level_change() const {
+    for (auto it = changes_.rbegin(); it != changes_.rend(); ++it)
+      if (it->level_from != it->level_to) return &*it;
+    return nullptr;
+  }
+
+  bool full_alive_ = true;
+  double difficulty_ = 0.8;
+  double known_ = 0.5;
+};
+
+TEST_F(LevelTest, SlowProgressRaisesAndEasyTerrainLowers) {
+  begin();
+  drive(130.0, 0.15);
+  EXPECT_EQ(supervisor_.level(), Level::kEfficient);
+  drive(130.0, 0.03);
+  EXPECT_EQ(supervisor_.level(), Level::kFull);
+  ASSERT_NE(last_level_change(), nullptr);
+  EXPECT_EQ(last_level_change()->cause, "slow_progress");
+  EXPECT_EQ(last_level_change()->evidence.quantity, "effective_speed_mps");
+  EXPECT_LT(last_level_change()->evidence.value, 0.06);
+  EXPECT_EQ(last_level_change()->evidence.threshold, 0.06);
+  drive(200.0, 0.03);
+  EXPECT_EQ(supervisor_.level(), Level::kFull);  // hard ground ahead
+  difficulty_ = 0.1;
+  drive(40.0, 0.1);
+  EXPECT_EQ(supervisor_.level(), Level::kFull);  // not for the whole of the way yet
+  drive(50.0, 0.1);
+  EXPECT_EQ(supervisor_.level(), Level::kEfficient);
+  EXPECT_EQ(last_level_change()->cause, "easy_terrain");
+}
+
+TEST_F(LevelTest, ManyHazardsRaise) {
+  begin();
+  for (int i = 0; i < 8 && supervisor_.level() == Level::kEfficient; ++i) {
+    planner_.replans += 1;
+    drive(10.0, 0.15);
+  }
+  EXPECT_EQ(supervisor_.level(), Level::kFull);
+  EXPECT_EQ(last_level_change()->cause, "many_hazards");
+}
+
+TEST_F(LevelTest, ThePathsSegmentsRaiseAndLower) {
+  begin();
+  supervisor_.on_path({1, {0.0, 10.0, 20.0}, {Level::kEfficient, Level::kFull, Level::kEfficient}});
+  drive(60.0, 0.15);
+  EXPECT_EQ(supervisor_.level(), Level::kEfficient);
+  drive(10.0, 0.15);
+  EXPECT_EQ(supervisor_.level(), Level::kFull);
+  EXPECT_EQ(last_level_change()->cause, "path_segment");
+  drive(70.0, 0.15);
+  EXPECT_EQ(supervisor_.level(), Level::kEfficient);
+}
+
+TEST_F(LevelTest, TheGroundForcesAndReleases) {
+  begin();
+  drive(1.0, 0.1);
+  EXPECT_TRUE(command(CommandKind::kForceLevel, "", ForcedLevel::kFull).accepted);
+  drive(1.0, 0.1);
+  EXPECT_EQ(supervisor_.level(), Level::kFull);
+  difficulty_ = 0.0;
+  drive(120.0, 0.15);
+  EXPECT_EQ(supervisor_.level(), Level::kFull);
+  EXPECT_TRUE(command(CommandKind::kForceLevel, "", ForcedLevel::kAuto).accepted);
+  drive(1.0, 0.15);
+  EXPECT_EQ(supervisor_.level(), Level::kEfficient);
+}
+
+TEST_F(LevelTest, WithoutItsServicesThereIsNoFullLevel) {
+  full_alive_ = false;
+  begin();
+  EXPECT_FALSE(command(CommandKind::kForceLevel, "", ForcedLevel::kFull).accepted);
+  drive(300.0, 0.01);
+  EXPECT_EQ(supervisor_.level(), Level::kEfficient);
+  EXPECT_FALSE(command(CommandKind::kForceLevel, "", static_cast<ForcedLevel>(7)).accepted);
+}
+
+TEST_F(LevelTest, AnEmptyMapIsSweptBeforeTheRoverDrivesOn) {
+  begin();
+  known_ = 0.0;
+  drive(1.0, 0.1);
+  command(CommandKind::kForceLevel, "", ForcedLevel::kFull);
+  drive(1.0, 0.1);
+  EXPECT_EQ(supervisor_.state(), State::kSweeping);
+  EXPECT_FALSE(out_.permit.granted);
+  known_ = 0.3;
+  drive(0.1, 0.1);
+  EXPECT_EQ(supervisor_.state(), State::kDriving);
+  EXPECT_TRUE(out_.permit.granted);
+  full_alive_ = false;  // the map ages
+  drive(4.0, 0.1);
+  EXPECT_FALSE(out_.permit.granted);
 }
 
 }  // namespace

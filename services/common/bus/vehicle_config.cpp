@@ -77,7 +77,7 @@ Vehicle load_vehicle(const std::string& config_dir) {
   read_wheels(config.section("wheels"), vehicle);
   read_motors(config.section("steering"), config.section("drive"), vehicle);
   read_limits(config.section("limits"), vehicle);
-  vehicle.imu_position_m = vector3(config.section("imu"), "position_m", kSignedMetres);
+  if (config.has("imu")) vehicle.imu_position_m = vector3(config.section("imu"), "position_m", kSignedMetres);
   config.finish();
   return vehicle;
 }

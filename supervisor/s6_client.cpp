@@ -1,0 +1,28 @@
+#include "supervisor/s6_client.hpp"
+
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include <cerrno>
+#include <filesystem>
+
+extern char** environ;
+
+namespace rover::supervisor {
+
+bool process_alive(int pid) {
+  return pid > 0 && (kill(pid, 0) == 0 || errno == EPERM);
+}
+
+bool kill_service(const std::string& run_dir, const std::string& service) {
+  const std::string dir = run_dir + "/services/" + service;
+  if (run_dir.empty() || !std::filesystem::exists(dir)) return false;
+  const char* command[] = {"s6-svc", "-k", dir.c_str(), nullptr};
+  pid_t pid = 0;
+  if (posix_spawnp(&pid, command[0], nullptr, nullptr, const_cast<char**>(command), environ) != 0) return false;
+  int status = 0;
+  return waitpid(pid, &status, 0) == pid && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+}  // namespace rover::supervisor

@@ -1,0 +1,14 @@
+// Kills services through s6, which then starts them anew.
+#pragma once
+
+#include <string>
+
+namespace rover::supervisor {
+
+// Whether a process of that number is there: a hung one is, a crashed one is not.
+bool process_alive(int pid);
+// SIGKILL to the service of the run's folder: a hung or stopped process obeys nothing less. False where s6 does not
+// keep such a service.
+bool kill_service(const std::string& run_dir, const std::string& service);
+
+}  // namespace rover::supervisor
