@@ -58,6 +58,7 @@ ControlReport report_from(const control_status_t& message) {
   ControlReport out;
   out.utime = message.header.utime;
   out.path_end = message.state == control_status_t::PATH_END;
+  out.stale_pose = message.state == control_status_t::STALE_POSE;
   out.out_of_corridor = message.state == control_status_t::OUT_OF_CORRIDOR;
   out.path_id = message.path_id;
   out.cross_track_m = message.cross_track_m;

@@ -47,6 +47,7 @@ struct ControlReport {
   Utime utime = kNever;
   bool path_end = false;
   bool out_of_corridor = false;
+  bool stale_pose = false;  // nothing is predicted from it
   std::int64_t path_id = -1;
   double cross_track_m = kNaN;
   double corridor_half_width_m = kNaN;
