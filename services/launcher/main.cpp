@@ -5,6 +5,7 @@
 #include "common/bus/config.hpp"
 #include "launcher/bench_command.hpp"
 #include "launcher/run_command.hpp"
+#include "status/status_command.hpp"
 
 namespace {
 
@@ -19,6 +20,13 @@ void add_run_options(CLI::App& command, rover::RunArguments& run) {
       ->check(CLI::IsMember({"auto", "efficient", "full"}))
       ->capture_default_str();
   command.add_option("--set", run.set, "set a value of the configuration: file.key=value, repeatable");
+}
+
+void add_status_options(CLI::App& command, rover::status::StatusArguments& status) {
+  CLI::Option* json = command.add_flag("--json", status.json, "one JSON document");
+  command.add_flag("--watch", status.watch, "again each second, until Ctrl-C")->excludes(json);
+  command.add_option("--run", status.run, "folder of the run; default: the newest in logs/ that runs");
+  command.add_option("--bus", status.bus, "LCM URL; default: the run's. Without a run: the bus alone");
 }
 
 }  // namespace
@@ -50,12 +58,19 @@ int main(int argc, char** argv) {
   bench_command->add_option("--jobs", bench.jobs, "runs at a time")->check(CLI::Range(1, 64))->capture_default_str();
   add_run_options(*bench_command, run);
 
+  rover::status::StatusArguments status;
+  status.logs_dir = run.source_dir + "/logs";
+  CLI::App* status_command =
+      app.add_subcommand("status", "what the running rover does. Example: ./rover status --watch");
+  add_status_options(*status_command, status);
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
   try {
+    if (status_command->parsed()) return rover::status::show_status(status);
     if (run_command->parsed()) return rover::run(run).exit_status;
     bench.run = run;
     bench.seeds = rover::parse_seeds(seeds);

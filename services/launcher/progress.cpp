@@ -2,30 +2,19 @@
 
 #include <unistd.h>
 
-#include <array>
 #include <cmath>
 #include <cstdio>
 
 #include "common/bus/channels.hpp"
+#include "common/bus/state_names.hpp"
 #include "common/bus/streams.hpp"
 
 namespace rover {
 namespace {
 
-constexpr std::array kStateNames = {"BOOT",       "STANDBY", "DRIVING",      "HAZARD_STOP", "REPAIRING", "SWEEPING",
-                                    "CORRECTING", "PAUSED",  "GOAL_REACHED", "FAULT_STOP",  "SAFE",      "TELEOP"};
 constexpr double kTopSpeed = 0.2;
 
 }  // namespace
-
-std::string state_name(std::int8_t state) {
-  const auto index = static_cast<size_t>(state);
-  return index < kStateNames.size() ? kStateNames[index] : "?";
-}
-
-std::string level_name(std::int8_t level) {
-  return level == supervisor_state_t::FULL ? "FULL" : "EFFICIENT";
-}
 
 Progress::Progress(lcm::LCM& lcm, bool enabled) : enabled_(enabled), terminal_(isatty(STDOUT_FILENO) == 1) {
   pose_.header.utime = -1;

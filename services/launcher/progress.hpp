@@ -12,9 +12,6 @@
 
 namespace rover {
 
-std::string state_name(std::int8_t state);
-std::string level_name(std::int8_t level);
-
 class Progress {
  public:
   // `enabled`: print at all; on a terminal one line is kept up to date, else a line comes every ten seconds.

@@ -1,0 +1,23 @@
+#include "common/bus/state_names.hpp"
+
+#include <array>
+#include <rover/supervisor_state_t.hpp>
+
+namespace rover {
+namespace {
+
+constexpr std::array kStateNames = {"BOOT",       "STANDBY", "DRIVING",      "HAZARD_STOP", "REPAIRING", "SWEEPING",
+                                    "CORRECTING", "PAUSED",  "GOAL_REACHED", "FAULT_STOP",  "SAFE",      "TELEOP"};
+
+}  // namespace
+
+std::string state_name(std::int8_t state) {
+  const auto index = static_cast<size_t>(state);
+  return index < kStateNames.size() ? kStateNames[index] : "?";
+}
+
+std::string level_name(std::int8_t level) {
+  return level == supervisor_state_t::FULL ? "FULL" : "EFFICIENT";
+}
+
+}  // namespace rover

@@ -1,0 +1,37 @@
+// Message time against wall time, from the last ticks. Wall time is an argument, in seconds of any steady clock.
+#pragma once
+
+#include <deque>
+
+#include "common/core/frames.hpp"
+#include "common/core/time.hpp"
+
+namespace rover::status {
+
+// The stretch of time that rates are taken over.
+struct Window {
+  Utime from = kNever;
+  double message_s = 0.0;  // 0: fewer than two ticks came
+  double wall_s = 0.0;
+};
+
+class MessageClock {
+ public:
+  void tick(Utime utime, double wall_s);
+  // The newest tick; kNever before the first.
+  Utime now() const { return ticks_.empty() ? kNever : ticks_.back().utime; }
+  // At most the last 5 s of message time. Wall time runs on where no tick comes.
+  Window window(double wall_s) const;
+  double silence_s(double wall_s) const { return ticks_.empty() ? kNaN : wall_s - ticks_.back().wall_s; }
+  // Age in message time, NaN where either is not known.
+  double age_s(Utime utime) const;
+
+ private:
+  struct Tick {
+    Utime utime;
+    double wall_s;
+  };
+  std::deque<Tick> ticks_;
+};
+
+}  // namespace rover::status

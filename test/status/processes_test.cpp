@@ -1,0 +1,94 @@
+#include "status/processes.hpp"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "status/running_run.hpp"
+
+namespace rover::status {
+namespace {
+namespace fs = std::filesystem;
+
+class Folder : public testing::Test {
+ protected:
+  Folder() {
+    char name[] = "/tmp/rover-status-XXXXXX";
+    root_ = mkdtemp(name);
+  }
+  ~Folder() override {
+    for (const int fd : open_) close(fd);
+    fs::remove_all(root_);
+  }
+  // A run's folder as s6-svscan leaves it; `running`: with a reader of its control pipe.
+  fs::path run(const std::string& name, bool running) {
+    const fs::path scan = root_ / name / "services" / ".s6-svscan";
+    fs::create_directories(scan);
+    mkfifo((scan / "control").c_str(), 0600);
+    if (running) open_.push_back(open((scan / "control").c_str(), O_RDONLY | O_NONBLOCK));
+    return root_ / name;
+  }
+  void begun(const fs::path& run, int seconds_ago) {
+    fs::last_write_time(run / "services" / ".s6-svscan",
+                        fs::file_time_type::clock::now() - std::chrono::seconds(seconds_ago));
+  }
+
+  fs::path root_;
+  std::vector<int> open_;
+};
+
+TEST_F(Folder, TheNewestOfThoseThatRunIsFound) {
+  begun(run("20250101-000000-flat", true), 30);
+  begun(run("bench/seed/seed_traverse_1-2", true), 20);
+  begun(run("20250101-000002-flat", false), 10);
+  fs::create_directories(root_ / "no run");
+  EXPECT_EQ(newest_running(root_), (root_ / "bench/seed/seed_traverse_1-2").string());
+  EXPECT_TRUE(is_running(root_ / "20250101-000000-flat"));
+  EXPECT_FALSE(is_running(root_ / "20250101-000002-flat"));
+}
+
+TEST_F(Folder, WhereNothingRunsNothingIsFound) {
+  EXPECT_FALSE(newest_running(root_ / "missing").has_value());
+  EXPECT_FALSE(newest_running(root_).has_value());
+  run("20250101-000000-flat", false);
+  EXPECT_FALSE(newest_running(root_).has_value());
+}
+
+TEST_F(Folder, ServicesThatS6DoesNotKeepUpAreDead) {
+  const fs::path dir = run("dead", true);
+  fs::create_directories(dir / "services" / "stereo");
+  fs::create_directories(dir / "services" / "recorder");
+  fs::create_directories(dir / "boots");
+  std::ofstream(dir / "boots" / "stereo") << "3\n";
+  Processes processes(dir);
+  processes.look({{"stereo", getpid()}}, 0.0);
+  ASSERT_EQ(processes.figures().size(), 2u);
+  const ProcessFigures& stereo = processes.figures().at("stereo");
+  EXPECT_FALSE(stereo.alive) << "the bus does not overrule s6";
+  EXPECT_EQ(stereo.restarts, 2);
+  EXPECT_FALSE(processes.figures().at("recorder").restarts.has_value());
+}
+
+TEST(Processes, AProcessIsMeasuredBetweenTwoLooks) {
+  Processes processes("");
+  const std::map<std::string, int> heard = {{"me", getpid()}, {"nobody", 0}};
+  processes.look(heard, 10.0);
+  EXPECT_TRUE(processes.figures().at("me").alive);
+  EXPECT_FALSE(processes.figures().at("nobody").alive);
+  EXPECT_TRUE(std::isnan(processes.figures().at("me").cpu_percent));
+  EXPECT_GT(processes.figures().at("me").rss_mb, 0.5);
+  const double begin_s = usage_of(getpid()).cpu_s;
+  while (usage_of(getpid()).cpu_s < begin_s + 0.2) {
+  }
+  processes.look(heard, 11.0);
+  EXPECT_GE(processes.figures().at("me").cpu_percent, 20.0);
+  EXPECT_LT(processes.figures().at("me").cpu_percent, 60.0);
+  EXPECT_FALSE(processes.figures().at("me").restarts.has_value());
+}
+
+}  // namespace
+}  // namespace rover::status
