@@ -4,6 +4,7 @@
 
 #include "common/bus/config.hpp"
 #include "launcher/bench_command.hpp"
+#include "launcher/inject_command.hpp"
 #include "launcher/run_command.hpp"
 
 namespace {
@@ -19,6 +20,18 @@ void add_run_options(CLI::App& command, rover::RunArguments& run) {
       ->check(CLI::IsMember({"auto", "efficient", "full"}))
       ->capture_default_str();
   command.add_option("--set", run.set, "set a value of the configuration: file.key=value, repeatable");
+}
+
+CLI::App* add_inject_command(CLI::App& app, rover::InjectArguments& inject) {
+  CLI::App* command = app.add_subcommand("inject", "do a fault to a running system. Example: ./rover inject drop VO");
+  command->add_option("fault", inject.fault, "one of --list");
+  command->add_option("target", inject.target, "service, CHANNEL, CHANNEL.field, wheel ...; see --list");
+  command->add_option("--amount", inject.amount, "in the fault's unit; default: its usual one");
+  command->add_option("--for", inject.for_s, "duration in seconds of message time; default: until the end");
+  command->add_option("--run", inject.run_dir, "the run's folder; default: the newest that runs");
+  command->add_flag("--list", inject.list, "list the faults");
+  inject.source_dir = std::filesystem::current_path();
+  return command;
 }
 
 }  // namespace
@@ -38,6 +51,7 @@ int main(int argc, char** argv) {
   run_command->add_option("--bus", run.bus, "LCM URL; default: of config/bus.yaml");
   run_command->add_option("--record", run.record, "full or reduced")->check(CLI::IsMember({"full", "reduced"}));
   run_command->add_flag("--headless", run.headless, "no page");
+  run_command->add_flag("--allow-injection", run.allow_injection, "let ./rover inject do faults to this run");
   run_command->add_flag("--realtime", run.realtime, "pace by the clock instead of lockstep");
   add_run_options(*run_command, run);
 
@@ -50,6 +64,9 @@ int main(int argc, char** argv) {
   bench_command->add_option("--jobs", bench.jobs, "runs at a time")->check(CLI::Range(1, 64))->capture_default_str();
   add_run_options(*bench_command, run);
 
+  rover::InjectArguments inject;
+  CLI::App* inject_command = add_inject_command(app, inject);
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -57,6 +74,7 @@ int main(int argc, char** argv) {
   }
   try {
     if (run_command->parsed()) return rover::run(run).exit_status;
+    if (inject_command->parsed()) return rover::inject(inject);
     bench.run = run;
     bench.seeds = rover::parse_seeds(seeds);
     bench.command = command_line(argc, argv);
