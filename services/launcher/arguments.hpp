@@ -19,7 +19,8 @@ struct RunArguments {
   std::string record;            // full or reduced; empty: of config/recorder.yaml
   bool headless = false;
   bool realtime = false;
-  bool quiet = false;  // no progress (benches)
+  bool allow_injection = false;  // services obey ./rover inject; a scenario with faults asks for it by itself
+  bool quiet = false;            // no progress (benches)
 };
 
 // Name of a scenario file without folder and ending.

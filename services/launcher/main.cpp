@@ -4,6 +4,7 @@
 
 #include "common/bus/config.hpp"
 #include "launcher/bench_command.hpp"
+#include "launcher/inject_command.hpp"
 #include "launcher/run_command.hpp"
 #include "status/status_command.hpp"
 
@@ -29,6 +30,18 @@ void add_status_options(CLI::App& command, rover::status::StatusArguments& statu
   command.add_option("--bus", status.bus, "LCM URL; default: the run's. Without a run: the bus alone");
 }
 
+CLI::App* add_inject_command(CLI::App& app, rover::InjectArguments& inject) {
+  CLI::App* command = app.add_subcommand("inject", "do a fault to a running system. Example: ./rover inject drop VO");
+  command->add_option("fault", inject.fault, "one of --list");
+  command->add_option("target", inject.target, "service, CHANNEL, CHANNEL.field, wheel ...; see --list");
+  command->add_option("--amount", inject.amount, "in the fault's unit; default: its usual one");
+  command->add_option("--for", inject.for_s, "duration in seconds of message time; default: until the end");
+  command->add_option("--run", inject.run_dir, "the run's folder; default: the newest that runs");
+  command->add_flag("--list", inject.list, "list the faults");
+  inject.source_dir = std::filesystem::current_path();
+  return command;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -46,6 +59,7 @@ int main(int argc, char** argv) {
   run_command->add_option("--bus", run.bus, "LCM URL; default: of config/bus.yaml");
   run_command->add_option("--record", run.record, "full or reduced")->check(CLI::IsMember({"full", "reduced"}));
   run_command->add_flag("--headless", run.headless, "no page");
+  run_command->add_flag("--allow-injection", run.allow_injection, "let ./rover inject do faults to this run");
   run_command->add_flag("--realtime", run.realtime, "pace by the clock instead of lockstep");
   add_run_options(*run_command, run);
 
@@ -64,6 +78,9 @@ int main(int argc, char** argv) {
       app.add_subcommand("status", "what the running rover does. Example: ./rover status --watch");
   add_status_options(*status_command, status);
 
+  rover::InjectArguments inject;
+  CLI::App* inject_command = add_inject_command(app, inject);
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -72,6 +89,7 @@ int main(int argc, char** argv) {
   try {
     if (status_command->parsed()) return rover::status::show_status(status);
     if (run_command->parsed()) return rover::run(run).exit_status;
+    if (inject_command->parsed()) return rover::inject(inject);
     bench.run = run;
     bench.seeds = rover::parse_seeds(seeds);
     bench.command = command_line(argc, argv);

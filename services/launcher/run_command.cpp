@@ -1,5 +1,7 @@
 #include "launcher/run_command.hpp"
 
+#include <unistd.h>
+
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
@@ -8,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/bus/config.hpp"
+#include "common/bus/service_names.hpp"
 #include "launcher/preflight.hpp"
 #include "launcher/progress.hpp"
 #include "launcher/run_folder.hpp"
@@ -23,17 +26,16 @@ void interrupt(int) {
   interrupted = 1;
 }
 
-// The stack of the Efficient level, in the order of its flow.
-const std::vector<std::string> kServices = {"recorder",        "stereo",         "visual_odometry",    "localization",
-                                            "hazard_detector", "path_planner",   "trajectory_control", "locomotion",
-                                            "supervisor",      "mission_control"};
+bool allows_injection(const RunArguments& arguments, const RunFolder& folder) {
+  return arguments.allow_injection || folder.has_faults;
+}
 
 std::vector<ServiceCommand> service_commands(const RunArguments& arguments, const RunFolder& folder) {
-  const std::string common =
-      " --config '" + folder.config_dir + "' --bus '" + folder.bus_url + "' --run-dir '" + folder.dir + "'";
+  const std::string common = " --config '" + folder.config_dir + "' --bus '" + folder.bus_url + "' --run-dir '" +
+                             folder.dir + "'" + (allows_injection(arguments, folder) ? " --allow-injection" : "");
   std::vector<ServiceCommand> commands;
   std::string participants;
-  for (const std::string& name : kServices) {
+  for (const std::string name : kServiceNames) {
     commands.push_back({name, "'" + arguments.bin_dir + "/" + name + "'" + common, false});
     participants += (participants.empty() ? "" : ",") + name;
   }
@@ -92,6 +94,13 @@ void write_run_json(const RunArguments& arguments, const RunFolder& folder) {
   std::ofstream(folder.dir + "/run.json") << facts.dump(2) << "\n";
 }
 
+// For ./rover inject, while the run lasts.
+void write_launch_json(const RunArguments& arguments, const RunFolder& folder) {
+  const nlohmann::json facts = {
+      {"pid", getpid()}, {"bus", folder.bus_url}, {"allow_injection", allows_injection(arguments, folder)}};
+  std::ofstream(folder.dir + "/launch.json") << facts.dump(2) << "\n";
+}
+
 int make_report(const RunArguments& arguments, const RunFolder& folder) {
   const std::string command = "'" + arguments.bin_dir + "/rover_report' '" + folder.dir + "' > '" + folder.dir +
                               "/service_logs/report.log' 2>&1";
@@ -140,6 +149,7 @@ RunResult run(const RunArguments& given) {
   std::signal(SIGINT, interrupt);
   std::signal(SIGTERM, interrupt);
   if (!arguments.quiet) std::printf("run: %s\n", folder.dir.c_str());
+  write_launch_json(arguments, folder);
   write_s6_tree(folder.dir, service_commands(arguments, folder));
   End end = End::kFailed;
   {

@@ -134,6 +134,7 @@ void fill_run_folder(const RunArguments& arguments, const std::string& dtm_file,
   folder.bus_url = Config::load(folder.config_dir + "/bus.yaml").text("url");
 
   const Scenario scenario = load_scenario(folder.scenario);
+  folder.has_faults = !scenario.faults.empty();
   folder.seed = arguments.seed >= 0 ? arguments.seed : static_cast<std::int64_t>(scenario.seed);
   const World world(scenario.world, scenario.dtm, static_cast<std::uint64_t>(folder.seed));
   const ElevationRaster orbital = world.orbital_map(scenario.orbital_resolution_m);
@@ -149,7 +150,7 @@ RunFolder make_run_folder(const RunArguments& arguments) {
   if (!fs::is_regular_file(arguments.scenario)) throw ConfigError(arguments.scenario + ": no such file");
   // Before anything is made, so that what is wrong is named in the user's own file.
   const std::string dtm_file = load_scenario(arguments.scenario).dtm_file;
-  RunFolder folder{dir, dir / "config", dir / "config" / "scenario.yaml", arguments.bus, 0, !fs::exists(dir)};
+  RunFolder folder{dir, dir / "config", dir / "config" / "scenario.yaml", arguments.bus, 0, false, !fs::exists(dir)};
   create_folders(dir);
   try {
     fill_run_folder(arguments, dtm_file, folder);

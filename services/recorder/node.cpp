@@ -16,6 +16,9 @@ RecorderNode::RecorderNode(Node& node, const RecorderConfig& config, const std::
                       std::to_string(config_.min_free_start_gb));
   log_ = std::make_unique<LogFile>(log_path);
   node_.subscribe_raw([this](const RawMessage& raw) { take(raw); }, find_channel_type);
+  node_.on_injection([this](const injection_t& injection) {
+    if (injection.fault == "full_disk") full_disk_ = injection;
+  });
   node_.on_step([this](Utime now) { step(now); });
 }
 
@@ -35,7 +38,7 @@ void RecorderNode::step(Utime now) {
   write(buffer_.take_before(now - policy_.hold()));
   if (checked_ != kNever && now - checked_ < kCheckPeriod) return;
   checked_ = now;
-  check_disk();
+  check_disk(now);
 }
 
 void RecorderNode::write(const std::vector<Event>& events) {
@@ -45,11 +48,16 @@ void RecorderNode::write(const std::vector<Event>& events) {
   }
 }
 
-void RecorderNode::check_disk() {
+double RecorderNode::free_gb(Utime now) const {
+  if (full_disk_ && now >= full_disk_->from_utime && now <= full_disk_->until_utime) return 0.0;
+  return static_cast<double>(free_bytes_()) / kBytesPerGb;
+}
+
+void RecorderNode::check_disk(Utime now) {
   if (!log_) return;
   if (!log_->flush()) return stop_recording("write failed");
-  const double free_gb = static_cast<double>(free_bytes_()) / kBytesPerGb;
-  if (free_gb < config_.min_free_gb) stop_recording("free_gb=" + std::to_string(free_gb));
+  const double left_gb = free_gb(now);
+  if (left_gb < config_.min_free_gb) stop_recording("free_gb=" + std::to_string(left_gb));
 }
 
 void RecorderNode::stop_recording(const std::string& why) {

@@ -3,6 +3,8 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
+#include <rover/injection_t.hpp>
 #include <string>
 
 #include "common/bus/node.hpp"
@@ -26,7 +28,8 @@ class RecorderNode {
   void take(const RawMessage& raw);
   void step(Utime now);
   void write(const std::vector<Event>& events);
-  void check_disk();
+  void check_disk(Utime now);
+  double free_gb(Utime now) const;
   void stop_recording(const std::string& why);
 
   Node& node_;
@@ -37,6 +40,7 @@ class RecorderNode {
   EventBuffer buffer_;
   std::unique_ptr<LogFile> log_;  // empty: recording has stopped
   Utime checked_ = kNever;
+  std::optional<injection_t> full_disk_;  // an injected fault
 };
 
 std::shared_ptr<RecorderNode> make_recorder(Node& node, const std::string& config_dir);

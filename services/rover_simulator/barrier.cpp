@@ -16,7 +16,7 @@ void Barrier::ready(const std::string& name, std::int64_t boot_id, int pid) {
   it->second.pid = pid;
 }
 
-void Barrier::done(const std::string& name, std::int64_t boot_id, int pid, Utime tick, Utime promise) {
+void Barrier::done(const std::string& name, std::int64_t boot_id, int pid, Utime tick, Utime promise, bool busy) {
   const auto it = members_.find(name);
   if (it == members_.end() || boot_id != it->second.boot_id) return;
   Member& member = it->second;
@@ -27,13 +27,14 @@ void Barrier::done(const std::string& name, std::int64_t boot_id, int pid, Utime
     return;
   }
   member.clear_until = std::max({member.clear_until, tick + kTickUs, promise - kTickUs});
+  if (!busy) member.finished = std::max(member.finished, tick);
 }
 
 std::vector<std::string> Barrier::waiting_for(Utime t) const {
   std::vector<std::string> missing;
   for (const std::string& name : names_) {
     const Member& member = members_.at(name);
-    const bool absent = member.state == State::kAbsent && t >= member.expected_from;
+    const bool absent = member.state == State::kAbsent && member.awaited && t >= member.up_from;
     const bool late = member.state == State::kWorking && t > member.clear_until;
     if (absent || late) missing.push_back(name);
   }
@@ -41,6 +42,7 @@ std::vector<std::string> Barrier::waiting_for(Utime t) const {
 }
 
 std::vector<std::string> Barrier::admit(Utime t) {
+  last_given_ = t;
   std::vector<std::string> taking_part;
   for (const std::string& name : names_) {
     Member& member = members_[name];
@@ -58,8 +60,28 @@ void Barrier::leave(const std::string& name, Cause cause, Utime now, Utime retur
   member.state = State::kAbsent;
   member.may_wake = cause == Cause::kSilent;
   if (cause == Cause::kDied) member.pid = 0;
-  member.clear_until = kNever;
+  member.clear_until = member.finished = kNever;
+  member.awaited = true;
+  member.up_from = now + return_after / 2;
   member.expected_from = now + return_after;
+}
+
+void Barrier::give_up(const std::string& name) {
+  members_.at(name).awaited = false;
+}
+
+bool Barrier::takes_part(const std::string& name) const {
+  const auto it = members_.find(name);
+  return it != members_.end() && it->second.state == State::kWorking;
+}
+
+bool Barrier::idle(const std::string& name) const {
+  return !takes_part(name) || members_.at(name).finished >= last_given_;
+}
+
+void Barrier::allow_until(Utime t) {
+  for (const std::string& name : names_)
+    if (takes_part(name) && idle(name)) members_[name].clear_until = std::max(members_[name].clear_until, t);
 }
 
 int Barrier::pid_of(const std::string& name) const {

@@ -18,8 +18,9 @@ class Barrier {
   // A process of the participant is up and waits for its first tick. Ignored for others, and for boots not newer than
   // one that has died.
   void ready(const std::string& name, std::int64_t boot_id, int pid);
-  // The participant has done the tick and publishes nothing that is released before `promise`.
-  void done(const std::string& name, std::int64_t boot_id, int pid, Utime tick, Utime promise);
+  // The participant has done the tick and publishes nothing that is released before `promise`. Busy: it has only begun
+  // long work on the tick, and reports it again when that is done.
+  void done(const std::string& name, std::int64_t boot_id, int pid, Utime tick, Utime promise, bool busy = false);
 
   // Those for whom TICK(t) has to wait.
   std::vector<std::string> waiting_for(Utime t) const;
@@ -27,10 +28,19 @@ class Barrier {
   // depend on how fast their processes started.
   std::vector<std::string> admit(Utime t);
 
-  // The participant leaves at `now`; it is waited for again from now + return_after on. A process that died returns as
-  // a newer one only, one that was silent also by its next report.
+  // The participant leaves at `now` and takes part again from now + return_after on. Its process is waited for from
+  // half of that time on, so that it hears all that concerns it when it takes part. A process that died returns as a
+  // newer one only, one that was silent also by its next report.
   enum class Cause { kDied, kSilent };
   void leave(const std::string& name, Cause cause, Utime now, Utime return_after);
+  // The participant is absent and nobody waits for it any more; it returns when it reports.
+  void give_up(const std::string& name);
+  // Whether it takes part in the ticks.
+  bool takes_part(const std::string& name) const;
+  // Whether it owes nothing for the last tick given: its process idles until the next.
+  bool idle(const std::string& name) const;
+  // The next tick may be as late as t for all who idle: message time jumps.
+  void allow_until(Utime t);
   // Process of the participant, 0 where none is known.
   int pid_of(const std::string& name) const;
   const std::vector<std::string>& participants() const { return names_; }
@@ -42,11 +52,15 @@ class Barrier {
     std::int64_t boot_id = 0;
     int pid = 0;
     bool may_wake = false;         // absent because it was silent
+    bool awaited = true;           // while absent
+    Utime finished = kNever;       // last tick of which all work is done
     Utime clear_until = kNever;    // TICK(t) may be given for t up to here
-    Utime expected_from = kNever;  // while absent: ticks from here on wait for it
+    Utime up_from = kNever;        // while absent: ticks from here on wait for its process
+    Utime expected_from = kNever;  // and from here on it takes part
   };
   std::vector<std::string> names_;
   std::map<std::string, Member> members_;
+  Utime last_given_ = kNever;
 };
 
 }  // namespace rover

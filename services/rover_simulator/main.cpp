@@ -57,6 +57,7 @@ int simulate(Arguments& arguments) {
   lcm::LCM reports(rover::reports_url(arguments.bus));
   if (!lcm.good() || !reports.good()) throw rover::ConfigError("bus: cannot join " + arguments.bus);
   arguments.options.end.timeout_s = scenario.timeout_s;
+  arguments.options.faults = scenario.faults;
   rover::Simulator simulator(arguments.options, rover_and_world, lcm, &reports);
   const rover::SimulationSummary summary = simulator.run([] { return running.load(); });
   for (const std::string& left : summary.left) std::printf("%s\n", left.c_str());
@@ -76,6 +77,7 @@ int main(int argc, char** argv) {
   app.add_option("--seed", arguments.seed, "seed of everything random")->capture_default_str();
   app.add_option("--participants", arguments.options.participants, "services that the ticks wait for")->delimiter(',');
   app.add_option("--boot-id", arguments.options.boot_id, "start number");
+  app.add_flag("--allow-injection", arguments.options.allow_injection, "obey INJECT");
   app.add_flag("--realtime", arguments.options.realtime, "pace by the clock");
   try {
     app.parse(argc, argv);

@@ -27,6 +27,7 @@ class SimulatedRover {
                  std::unique_ptr<World> world, const Pose2& believed_start, std::uint64_t seed);
 
   void advance(double dt_s, const WheelCommand& command);
+  void set_faults(const VehicleFaults& faults) { vehicle_.set_faults(faults); }
   // Wheels at rest, steering as it stands: what the driver does when its command has expired.
   WheelCommand hold_command() const;
 

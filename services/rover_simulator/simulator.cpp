@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <rover/tick_t.hpp>
 #include <thread>
@@ -24,6 +25,12 @@ constexpr double kStartPatience_s = 60.0;
 constexpr double kAskAgain_s = 1.0;
 constexpr double kSilence_s = 10.0;
 constexpr double kLost_s = 2.0;
+
+bool all_finite(const wheel_command_t& command) {
+  const auto finite = [](double value) { return std::isfinite(value); };
+  return std::all_of(std::begin(command.drive_rate_radps), std::end(command.drive_rate_radps), finite) &&
+         std::all_of(std::begin(command.steer_angle_rad), std::end(command.steer_angle_rad), finite);
+}
 
 double since_s(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -60,7 +67,9 @@ Simulator::Simulator(const SimulatorOptions& options, SimulatedRover& rover, lcm
       reports_(reports == nullptr ? lcm : *reports),
       streams_("rover_simulator", options.boot_id),
       barrier_(options.participants),
-      end_(options.end, kStart) {
+      end_(options.end, kStart),
+      script_(options.faults, kStart),
+      way_mark_(rover.T_map_body().translation().head<2>()) {
   const auto listen = [this](lcm::LCM& bus, const char* channel, auto handler) {
     malformed_[channel] = 0;
     auto* subscription = bus.subscribe(channel, handler, this);
@@ -69,20 +78,12 @@ Simulator::Simulator(const SimulatorOptions& options, SimulatedRover& rover, lcm
   listen(reports_, channel::kDone, &Simulator::on_done);
   listen(lcm_, channel::kWheelCommand, &Simulator::on_wheel_command);
   listen(lcm_, channel::kState, &Simulator::on_state);
+  if (options_.allow_injection) listen(lcm_, channel::kInject, &Simulator::on_inject);
 }
 
-template <class Message>
-bool Simulator::decode(const lcm::ReceiveBuffer* buffer, const std::string& channel, Message& message) {
-  if (decode_message(buffer->data, static_cast<int>(buffer->data_size), message)) return true;
+void Simulator::count_malformed(const std::string& channel) {
   const std::int64_t count = ++malformed_[channel];
   if ((count & (count - 1)) == 0) warn(now_, "BAD_MESSAGE channel=" + channel + " count=" + std::to_string(count));
-  return false;
-}
-
-template <class Message>
-void Simulator::publish(const char* channel, Message& message, Utime utime, Utime release) {
-  message.header = streams_.next(channel, utime, release);
-  lcm_.publish(channel, &message);
 }
 
 void Simulator::on_done(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
@@ -90,7 +91,7 @@ void Simulator::on_done(const lcm::ReceiveBuffer* buffer, const std::string& cha
   if (!decode(buffer, channel, done)) return;
   const header_t& header = done.header;
   if (done.tick_utime == kNever) return barrier_.ready(header.publisher, header.boot_id, done.pid);
-  barrier_.done(header.publisher, header.boot_id, done.pid, done.tick_utime, done.promise_utime);
+  barrier_.done(header.publisher, header.boot_id, done.pid, done.tick_utime, done.promise_utime, done.busy != 0);
   for (const stream_seq_t& stream : done.streams)
     if (malformed_.contains(stream.channel)) awaited_.push_back(stream);
   dones_.push_back(done);
@@ -111,7 +112,7 @@ std::vector<stream_seq_t> Simulator::take_grown(Utime t) {
 void Simulator::on_wheel_command(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
   wheel_command_t command{};
   if (!decode(buffer, channel, command) || !ledger_.arrived(channel, command.header)) return;
-  commands_.push_back(command);
+  commands_.add(command);
 }
 
 void Simulator::on_state(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
@@ -124,12 +125,13 @@ SimulationSummary Simulator::run(const std::function<bool()>& running) {
   if (!wait_for_start(running)) return summary_;
   const auto started = Clock::now();
   Utime t = kStart;
-  for (; running(); t += kTickUs) {
+  for (; running(); t = next_tick(t, running)) {
     now_ = t;
     if (const auto over = end_.over(t)) {
       summary_.outcome = *over;
       break;
     }
+    do_faults(t, running);
     if (t > kStart) step_world(t);
     publish_sensors(t);
     if ((t - kStart) % kFramePeriod == 0) start_exposure(t);
@@ -157,6 +159,7 @@ void Simulator::take_states(Utime t) {
     }
   while (!states_.empty() && states_.front().header.release_utime <= t) {
     end_.phase(phase_of(states_.front()), states_.front().header.utime);
+    script_.entered(states_.front().state);
     states_.pop_front();
   }
 }
@@ -173,24 +176,33 @@ bool Simulator::wait_for_start(const std::function<bool()>& running) {
 }
 
 WheelCommand Simulator::command_at(Utime t) {
-  while (!commands_.empty() && commands_.front().header.release_utime <= t) {
-    command_ = commands_.front();
-    commands_.pop_front();
-  }
-  if (!command_ || command_->valid_until_utime < t) return rover_.hold_command();
+  if (auto newest = commands_.take(t, tap_.get())) command_ = std::move(newest);
+  if (!command_ || command_->valid_until_utime < t || !all_finite(*command_)) return rover_.hold_command();
   return wheel_command_from(*command_);
 }
 
+// Message time may jump where a fault says so: no service may be at work then.
+Utime Simulator::next_tick(Utime t, const std::function<bool()>& running) {
+  const Utime jump = world_faults_.take_clock_step();
+  if (jump == 0) return t + kTickUs;
+  if (!options_.realtime)
+    for (const std::string& service : barrier_.participants()) wait_until_idle(service, running);
+  barrier_.allow_until(t + kTickUs + jump);
+  return t + kTickUs + jump;
+}
+
 void Simulator::step_world(Utime t) {
+  rover_.set_faults(world_faults_.vehicle(t));
   rover_.advance(to_seconds(kTickUs), command_at(t - kTickUs));
+  measure_way();
 }
 
 void Simulator::publish_sensors(Utime t) {
   const bool expired = command_ && command_->valid_until_utime < t;
-  imu_t imu = imu_message(rover_.imu());
-  wheel_state_t wheels = wheel_state_message(rover_.wheels(), expired);
+  imu_t imu = imu_message(sensors_.imu(broken_, rover_.imu()));
+  wheel_state_t wheels = wheel_state_message(sensors_.wheels(broken_, rover_.wheels()), expired);
   truth_t truth = truth_message(rover_.truth());
-  publish(channel::kImu, imu, t, t);
+  if (!broken_.imu_dead) publish(channel::kImu, imu, t, t);
   publish(channel::kWheelState, wheels, t, t);
   publish(channel::kTruth, truth, t, t);
 }
@@ -212,7 +224,7 @@ void Simulator::publish_due_images(Utime t) {
     exposure_->release = t + kTickUs;  // late by the clock: released when it is there
     return;
   }
-  const StereoCameraSim::Pair pair = exposure_->pair.get();
+  const StereoCameraSim::Pair pair = sensors_.pictures(world_faults_.sensors(exposure_->utime), exposure_->pair.get());
   publish_image(channel::kLocCamLeft, pair.left, pair.exposure_s, *exposure_);
   publish_image(channel::kLocCamRight, pair.right, pair.exposure_s, *exposure_);
   exposure_.reset();
@@ -256,6 +268,13 @@ void Simulator::wait_for_answers(const std::function<bool()>& running) {
 // A dead process leaves the barrier at once, a silent one after a while; both are waited for again later.
 void Simulator::deal_with_missing(const std::vector<std::string>& missing, Utime t, double waited_s) {
   for (const std::string& name : missing) {
+    if (!barrier_.takes_part(name) && waited_s >= kSilence_s) {
+      summary_.deterministic = false;
+      summary_.left.push_back(name + " did not return until " + std::to_string(to_seconds(t)) + " s");
+      warn(t, "NOT_BACK service=" + name);
+      barrier_.give_up(name);
+      continue;
+    }
     const bool dead = barrier_.pid_of(name) > 0 && !alive(barrier_.pid_of(name));
     if (!dead && waited_s < kSilence_s) continue;
     if (!dead) summary_.deterministic = false;
@@ -268,7 +287,7 @@ void Simulator::deal_with_missing(const std::vector<std::string>& missing, Utime
 void Simulator::give_tick(Utime t) {
   tick_t tick{};
   tick.mode = options_.realtime ? tick_t::REALTIME : tick_t::LOCKSTEP;
-  tick.members = barrier_.admit(t);
+  tick.members = members_ = barrier_.admit(t);
   tick.member_count = static_cast<std::int32_t>(tick.members.size());
   tick.streams = streams_.take_grown();
   const std::vector<stream_seq_t> grown = take_grown(t);

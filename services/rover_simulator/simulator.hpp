@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <functional>
 #include <future>
 #include <lcm/lcm-cpp.hpp>
 #include <map>
@@ -14,9 +15,14 @@
 #include <vector>
 
 #include "common/bus/streams.hpp"
+#include "common/bus/tap.hpp"
 #include "rover_simulator/barrier.hpp"
+#include "rover_simulator/command_inbox.hpp"
+#include "rover_simulator/fault_script.hpp"
+#include "rover_simulator/process_faults.hpp"
 #include "rover_simulator/run_end.hpp"
 #include "rover_simulator/simulated_rover.hpp"
+#include "rover_simulator/world_faults.hpp"
 
 namespace rover {
 
@@ -24,6 +30,8 @@ struct SimulatorOptions {
   std::vector<std::string> participants;  // nodes that the ticks wait for
   std::int64_t boot_id = 1;
   bool realtime = false;
+  bool allow_injection = false;       // obeys INJECT
+  std::vector<ScriptedFault> faults;  // done whether injection is allowed or not
   RunEndConfig end;
 };
 
@@ -62,12 +70,24 @@ class Simulator {
   void wait_for_answers(const std::function<bool()>& running);
   void deal_with_missing(const std::vector<std::string>& missing, Utime t, double waited_s);
   void give_tick(Utime t);
+  Utime next_tick(Utime t, const std::function<bool()>& running);
+  // simulator_faults.cpp
+  void do_faults(Utime t, const std::function<bool()>& running);
+  void begin_scripted(Utime t);
+  void begin_asked_for(Utime t);
+  void begin(const injection_t& injection);
+  void announce_again(Utime t);
+  void deal(const ProcessBlow& blow, Utime t, const std::function<bool()>& running);
+  bool wait_until_idle(const std::string& service, const std::function<bool()>& running);
+  void measure_way();
+  void on_inject(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void take_states(Utime t);
   std::vector<stream_seq_t> take_grown(Utime t);
   WheelCommand command_at(Utime t);
   void on_done(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void on_wheel_command(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void on_state(const lcm::ReceiveBuffer* buffer, const std::string& channel);
+  void count_malformed(const std::string& channel);
   template <class Message>
   bool decode(const lcm::ReceiveBuffer* buffer, const std::string& channel, Message& message);
   template <class Message>
@@ -81,9 +101,9 @@ class Simulator {
   Barrier barrier_;
   RunEnd end_;
   ArrivalLedger ledger_;
-  std::vector<done_t> dones_;             // whose streams no tick has listed yet
-  std::vector<stream_seq_t> awaited_;     // reported, on channels taken here
-  std::deque<wheel_command_t> commands_;  // not yet in force
+  std::vector<done_t> dones_;          // whose streams no tick has listed yet
+  std::vector<stream_seq_t> awaited_;  // reported, on channels taken here
+  CommandInbox commands_;
   std::deque<supervisor_state_t> states_;
   std::optional<wheel_command_t> command_;
   std::optional<PendingPair> exposure_;
@@ -92,6 +112,33 @@ class Simulator {
   std::map<std::string, std::int64_t> malformed_;
   std::vector<std::uint8_t> last_tick_;
   SimulationSummary summary_;
+
+  FaultScript script_;
+  ProcessFaults process_faults_;
+  WorldFaults world_faults_;
+  SensorFaults broken_;
+  FaultySensors sensors_;
+  std::unique_ptr<Tap> tap_;            // empty while no fault has been done
+  std::vector<injection_t> asked_for_;  // by others, on INJECT
+  std::vector<injection_t> announced_;  // by us: a process that starts must hear of those that last
+  std::vector<std::string> members_;    // of the last tick
+  std::vector<std::string> told_;       // of the faults that stand
+  std::int64_t injections_ = 0;
+  double driven_m_ = 0.0;
+  Eigen::Vector2d way_mark_ = Eigen::Vector2d::Zero();
 };
+
+template <class Message>
+bool Simulator::decode(const lcm::ReceiveBuffer* buffer, const std::string& channel, Message& message) {
+  if (decode_message(buffer->data, static_cast<int>(buffer->data_size), message)) return true;
+  count_malformed(channel);
+  return false;
+}
+
+template <class Message>
+void Simulator::publish(const char* channel, Message& message, Utime utime, Utime release) {
+  message.header = streams_.next(channel, utime, release);
+  lcm_.publish(channel, &message);
+}
 
 }  // namespace rover

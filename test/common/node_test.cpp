@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <rover/injection_t.hpp>
 #include <rover/pose_t.hpp>
 #include <rover/slip_t.hpp>
 
@@ -217,6 +218,92 @@ TEST_F(NodeTest, StaysOutOfTicksThatDoNotNameIt) {
   node.on_step([&](Utime) { ++steps; });
   tick(node, 20'000);
   EXPECT_EQ(steps, 0);
+}
+
+TEST_F(NodeTest, SaysBeforeLongWorkThatItIsBusy) {
+  Node node({.name = "node"}, bus_);
+  node.subscribe_slow<slip_t>(channel::kSlip, 120'000, [](const slip_t&) {});
+  slip_t message = slip(1.0, 0, 20'000);
+  bus_.publish(channel::kSlip, &message);
+  tick(node, 20'000);
+  ASSERT_EQ(dones_.size(), 2u);
+  EXPECT_EQ(dones_[0].busy, 1);
+  EXPECT_EQ(dones_[1].busy, 0);
+}
+
+TEST_F(NodeTest, AnInjectionHoldsForWhatIsTakenWithItWhateverArrivesFirst) {
+  for (const bool injected_first : {true, false}) {
+    Node node({.name = "node", .allow_injection = true}, bus_);
+    std::vector<double> taken;
+    node.subscribe<slip_t>(channel::kSlip, [&](const slip_t& m) { taken.push_back(m.wheel_mps); });
+    injection_t injection{};
+    injection.header = world_.next(channel::kInject, 20'000, 20'000);
+    injection.target = "SLIP.wheel_mps";
+    injection.fault = "offset";
+    injection.amount = 10.0;
+    injection.from_utime = 20'000;
+    injection.until_utime = 40'000;
+    if (injected_first) bus_.publish(channel::kInject, &injection);
+    slip_t at = slip(1.0, 20'000, 20'000);
+    bus_.publish(channel::kSlip, &at);
+    if (!injected_first) bus_.publish(channel::kInject, &injection);
+    tick(node, 20'000);
+    slip_t after = slip(2.0, 60'000, 60'000);
+    bus_.publish(channel::kSlip, &after);
+    tick(node, 60'000);
+    EXPECT_EQ(taken, (std::vector<double>{11.0, 2.0}));
+  }
+}
+
+TEST_F(NodeTest, ObeysNoInjectionUnlessItIsAllowed) {
+  Node node({.name = "node"}, bus_);
+  int taken = 0, injections = 0;
+  node.subscribe<slip_t>(channel::kSlip, [&](const slip_t&) { ++taken; });
+  node.on_injection([&](const injection_t&) { ++injections; });
+  injection_t injection{};
+  injection.header = world_.next(channel::kInject, 20'000, 20'000);
+  injection.target = "SLIP";
+  injection.fault = "drop";
+  injection.amount = 1.0;
+  injection.until_utime = 1'000'000;
+  bus_.publish(channel::kInject, &injection);
+  slip_t message = slip(1.0, 20'000, 20'000);
+  bus_.publish(channel::kSlip, &message);
+  tick(node, 20'000);
+  EXPECT_EQ(taken, 1);
+  EXPECT_EQ(injections, 0);
+}
+
+TEST_F(NodeTest, TheRecordOfTheBusIsNotTouchedByFaults) {
+  Node node({.name = "node", .allow_injection = true}, bus_);
+  std::vector<std::string> heard;
+  int injections = 0;
+  node.subscribe_raw([&](const RawMessage& raw) { heard.push_back(raw.channel); }, find_channel_type);
+  node.on_injection([&](const injection_t&) { ++injections; });
+  injection_t injection{};
+  injection.header = world_.next(channel::kInject, 20'000, 20'000);
+  injection.target = "SLIP";
+  injection.fault = "drop";
+  injection.amount = 1.0;
+  injection.until_utime = 1'000'000;
+  bus_.publish(channel::kInject, &injection);
+  slip_t message = slip(1.0, 20'000, 20'000);
+  bus_.publish(channel::kSlip, &message);
+  tick(node, 20'000);
+  EXPECT_EQ(heard, (std::vector<std::string>{"INJECT", "SLIP", "TICK"}));
+  EXPECT_EQ(injections, 1);
+}
+
+TEST_F(NodeTest, AProcessStartedAgainTakesNothingFromBeforeItsFirstTick) {
+  Node node({.name = "node", .boot_id = 2}, bus_);
+  std::vector<double> taken;
+  node.subscribe<slip_t>(channel::kSlip, [&](const slip_t& message) { taken.push_back(message.wheel_mps); });
+  slip_t before = slip(1.0, 60'000, 80'000);
+  slip_t at = slip(2.0, 80'000, 100'000);
+  bus_.publish(channel::kSlip, &before);
+  bus_.publish(channel::kSlip, &at);
+  tick(node, 100'000);
+  EXPECT_EQ(taken, std::vector<double>{2.0});
 }
 
 TEST_F(NodeTest, AgeGrowsWithMessageTime) {

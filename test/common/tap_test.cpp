@@ -2,24 +2,36 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <rover/pose_t.hpp>
 #include <rover/slip_t.hpp>
+
+#include "common/bus/streams.hpp"
 
 namespace rover {
 namespace {
 
-std::vector<std::uint8_t> encoded(std::int64_t seq, double value) {
-  slip_t slip{};
-  slip.header.seq = seq;
-  slip.header.publisher = "localization";
-  slip.wheel_mps = value;
-  std::vector<std::uint8_t> bytes(static_cast<size_t>(slip.getEncodedSize()));
-  slip.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+using Bytes = Tap::Bytes;
+
+template <class Message>
+Bytes encoded(const Message& message) {
+  Bytes bytes(static_cast<size_t>(message.getEncodedSize()));
+  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
   return bytes;
 }
 
-injection_t injection(const std::string& fault, double amount) {
+slip_t slip(std::int64_t seq, Utime utime, double value = 1.0) {
+  slip_t message{};
+  message.header.seq = seq;
+  message.header.utime = utime;
+  message.header.publisher = "localization";
+  message.wheel_mps = value;
+  return message;
+}
+
+injection_t injection(const std::string& fault, double amount, const std::string& target = "SLIP") {
   injection_t what{};
-  what.target = "SLIP";
+  what.target = target;
   what.fault = fault;
   what.amount = amount;
   what.from_utime = 100;
@@ -27,53 +39,134 @@ injection_t injection(const std::string& fault, double amount) {
   return what;
 }
 
-std::vector<Tap::Passed> pass(Tap& tap, Utime utime, const std::vector<std::uint8_t>& bytes) {
-  return tap.pass("SLIP", utime, bytes.data(), static_cast<int>(bytes.size()));
+std::vector<Tap::Passed> pass(Tap& tap, const slip_t& message) {
+  return tap.pass("SLIP", message.header, encoded(message));
+}
+
+slip_t decoded(const Bytes& bytes) {
+  slip_t message{};
+  EXPECT_TRUE(decode_message(bytes.data(), static_cast<int>(bytes.size()), message));
+  return message;
+}
+
+// What became of messages 1..n at time 150: how often each came, and how late.
+std::vector<std::pair<size_t, Utime>> fates(const std::string& node, const injection_t& what, int n) {
+  Tap tap(node);
+  EXPECT_TRUE(tap.inject(what));
+  std::vector<std::pair<size_t, Utime>> out;
+  for (int i = 1; i <= n; ++i) {
+    const auto passed = pass(tap, slip(i, 150));
+    out.emplace_back(passed.size(), passed.empty() ? 0 : passed.front().delay);
+  }
+  return out;
+}
+
+int lost(const std::vector<std::pair<size_t, Utime>>& fates) {
+  return static_cast<int>(std::count_if(fates.begin(), fates.end(), [](const auto& fate) { return fate.first == 0; }));
 }
 
 TEST(Tap, LetsAllThroughUntouchedOutsideOfTheTime) {
-  Tap tap(1);
+  Tap tap("node");
   ASSERT_TRUE(tap.inject(injection("drop", 1.0)));
-  EXPECT_EQ(pass(tap, 99, encoded(1, 1.0)).size(), 1u);
-  EXPECT_EQ(pass(tap, 150, encoded(2, 1.0)).size(), 0u);
-  EXPECT_EQ(pass(tap, 201, encoded(3, 1.0)).size(), 1u);
+  EXPECT_EQ(pass(tap, slip(1, 99)).size(), 1u);
+  EXPECT_EQ(pass(tap, slip(2, 150)).size(), 0u);
+  EXPECT_EQ(pass(tap, slip(3, 201)).size(), 1u);
+}
+
+TEST(Tap, DropsTheShareAskedForTheSameEachTimeAndOtherMessagesAtOtherNodes) {
+  const auto once = fates("node", injection("drop", 0.3), 1000);
+  EXPECT_NEAR(lost(once), 300, 60);
+  EXPECT_EQ(once, fates("node", injection("drop", 0.3), 1000));
+  EXPECT_NE(once, fates("other", injection("drop", 0.3), 1000));
+}
+
+TEST(Tap, LosesMessagesOfAllChannels) {
+  EXPECT_NEAR(lost(fates("node", injection("loss", 0.5, "*"), 1000)), 500, 70);
+  EXPECT_EQ(lost(fates("node", injection("drop", 1.0, "POSE"), 10)), 0);
 }
 
 TEST(Tap, DelaysAndDuplicates) {
-  Tap tap(1);
+  Tap tap("node");
   tap.inject(injection("delay", 0.5));
   tap.inject(injection("duplicate", 1.0));
-  const auto passed = pass(tap, 150, encoded(1, 1.0));
+  const auto passed = pass(tap, slip(1, 150));
   ASSERT_EQ(passed.size(), 2u);
   EXPECT_EQ(passed[0].delay, 500'000);
 }
 
+TEST(Tap, ReordersTheShareAskedFor) {
+  const auto all = fates("node", injection("reorder", 0.5), 1000);
+  const auto late = std::count_if(all.begin(), all.end(), [](const auto& fate) { return fate.second == 3 * kTickUs; });
+  EXPECT_NEAR(static_cast<double>(late), 500.0, 70.0);
+}
+
+TEST(Tap, AllOfASlowServiceComesLater) {
+  Tap tap("node");
+  ASSERT_TRUE(tap.inject(injection("slow", 0.5, "localization")));
+  ASSERT_TRUE(tap.inject(injection("slow", 0.5, "stereo")));
+  EXPECT_EQ(pass(tap, slip(1, 150)).at(0).delay, 500'000);
+}
+
 TEST(Tap, FreezesTheContentUnderFreshHeaders) {
-  Tap tap(1);
-  tap.inject(injection("freeze", 1.0));
-  pass(tap, 150, encoded(1, 1.0));
-  const auto passed = pass(tap, 160, encoded(2, 9.0));
-  slip_t slip;
-  ASSERT_GT(slip.decode(passed.at(0).bytes.data(), 0, static_cast<int>(passed[0].bytes.size())), 0);
-  EXPECT_EQ(slip.header.seq, 2);
-  EXPECT_DOUBLE_EQ(slip.wheel_mps, 1.0);
+  Tap tap("node");
+  tap.inject(injection("freeze", 0.0));
+  pass(tap, slip(1, 150, 1.0));
+  const slip_t frozen = decoded(pass(tap, slip(2, 160, 9.0)).at(0).bytes);
+  EXPECT_EQ(frozen.header.seq, 2);
+  EXPECT_DOUBLE_EQ(frozen.wheel_mps, 1.0);
 }
 
 TEST(Tap, CorruptsOneBit) {
-  Tap tap(1);
+  Tap tap("node");
   tap.inject(injection("corrupt", 1.0));
-  const auto bytes = encoded(1, 1.0);
-  const auto passed = pass(tap, 150, bytes);
+  const Bytes bytes = encoded(slip(1, 150));
+  const auto passed = pass(tap, slip(1, 150));
   int bits = 0;
   for (size_t i = 0; i < bytes.size(); ++i) bits += __builtin_popcount(bytes[i] ^ passed.at(0).bytes[i]);
   EXPECT_EQ(bits, 1);
 }
 
-TEST(Tap, MutesAndRefusesWhatItDoesNotKnow) {
-  Tap tap(1);
+TEST(Tap, OffsetsOneField) {
+  Tap tap("node");
+  ASSERT_TRUE(tap.inject(injection("offset", 0.25, "SLIP.wheel_mps")));
+  const slip_t changed = decoded(pass(tap, slip(1, 150, 1.0)).at(0).bytes);
+  EXPECT_DOUBLE_EQ(changed.wheel_mps, 1.25);
+  EXPECT_DOUBLE_EQ(changed.visual_mps, 0.0);
+}
+
+TEST(Tap, MakesNanOfOneFieldOrOfAll) {
+  Tap one("node");
+  one.inject(injection("nan", 1.0, "SLIP.wheel_mps"));
+  const slip_t changed = decoded(pass(one, slip(1, 150)).at(0).bytes);
+  EXPECT_TRUE(std::isnan(changed.wheel_mps));
+  EXPECT_FALSE(std::isnan(changed.visual_mps));
+  Tap all("node");
+  all.inject(injection("nan", 1.0, "POSE"));
+  pose_t pose{};
+  pose.header.utime = 150;
+  const Bytes bytes = all.pass("POSE", pose.header, encoded(pose)).at(0).bytes;
+  ASSERT_TRUE(decode_message(bytes.data(), static_cast<int>(bytes.size()), pose));
+  EXPECT_TRUE(std::isnan(pose.covariance[35]));
+  EXPECT_TRUE(std::isnan(pose.travelled_m));
+}
+
+TEST(Tap, TakesAnInjectionThatIsAnnouncedAgainOnce) {
+  Tap tap("node");
+  injection_t what = injection("delay", 0.5);
+  what.injection_id = 3;
+  tap.inject(what);
+  tap.inject(what);
+  EXPECT_EQ(pass(tap, slip(1, 150)).at(0).delay, 500'000);
+}
+
+TEST(Tap, MutesAndRefusesWhatIsNotItsOwn) {
+  Tap tap("node");
   tap.mute("SLIP");
-  EXPECT_TRUE(pass(tap, 1, encoded(1, 1.0)).empty());
-  EXPECT_FALSE(tap.inject(injection("kill", 1.0)));
+  EXPECT_TRUE(pass(tap, slip(1, 1)).empty());
+  EXPECT_FALSE(tap.inject(injection("kill", 0.0)));
+  EXPECT_FALSE(tap.inject(injection("camera_blind", 0.0)));
+  EXPECT_FALSE(tap.inject(injection("no_such_fault", 1.0)));
+  EXPECT_FALSE(tap.inject(injection("drop", 1.5)));
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ RecorderConfig config(bool reduced = false) {
 class World {
  public:
   World(const std::string& path, const RecorderConfig& config, RecorderNode::FreeBytes free_bytes)
-      : bus_("memq://"), streams_("world", 1), node_({.name = "recorder"}, bus_) {
+      : bus_("memq://"), streams_("world", 1), node_({.name = "recorder", .allow_injection = true}, bus_) {
     bus_.subscribeFunction(channel::kHeartbeat, &World::on_heartbeat, this);
     bus_.subscribeFunction(channel::kDone, &World::on_done, this);
     recorder_ = std::make_unique<RecorderNode>(node_, config, path, std::move(free_bytes));
@@ -154,6 +154,22 @@ TEST_F(RecorderNodeTest, AFullDiskStopsTheRecordNotTheNode) {
   const size_t ticks = count("TICK");
   EXPECT_GE(ticks, 150u);
   EXPECT_LE(ticks, 205u);
+}
+
+TEST_F(RecorderNodeTest, AnInjectedFullDiskIsOneLikeAnyOther) {
+  World world(path_, config(), [] { return kPlenty; });
+  Utime t = 0;
+  for (; t <= 2'000'000; t += kTickUs) world.tick(t);
+  auto injection = world.made<injection_t>(channel::kInject, t);
+  injection.fault = "full_disk";
+  injection.target = "recorder";
+  injection.from_utime = t;
+  injection.until_utime = t + 2'000'000;
+  world.publish(channel::kInject, injection);
+  for (; t <= 4'000'000; t += kTickUs) world.tick(t);
+  EXPECT_EQ(world.heartbeats_.front().status, std::int8_t{heartbeat_t::OK});
+  EXPECT_EQ(world.heartbeats_.back().status, std::int8_t{heartbeat_t::DEGRADED});
+  EXPECT_EQ(count("INJECT"), 1u);
 }
 
 TEST_F(RecorderNodeTest, AWriteThatFailsStopsTheRecordNotTheNode) {

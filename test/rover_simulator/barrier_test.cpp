@@ -31,14 +31,43 @@ TEST_F(BarrierTest, WaitsForEachTickUnlessPromised) {
 TEST_F(BarrierTest, ADeadProcessReturnsAsANewerOneOnly) {
   barrier_.leave("node", Barrier::Cause::kDied, 2 * kTickUs, 10 * kTickUs);
   EXPECT_TRUE(barrier_.admit(3 * kTickUs).empty());
-  EXPECT_FALSE(waits_at(11 * kTickUs));
-  EXPECT_TRUE(waits_at(12 * kTickUs));
+  EXPECT_FALSE(waits_at(6 * kTickUs));
+  EXPECT_TRUE(waits_at(7 * kTickUs));
   barrier_.done("node", 5, 100, kTickUs, kNever);  // its last words
   EXPECT_TRUE(waits_at(12 * kTickUs));
   barrier_.ready("node", 6, 101);
   EXPECT_EQ(barrier_.pid_of("node"), 101);
   EXPECT_TRUE(barrier_.admit(11 * kTickUs).empty());
   EXPECT_EQ(barrier_.admit(12 * kTickUs), Names{"node"});
+}
+
+TEST_F(BarrierTest, IdlesAfterTheLastReportOfATickOnly) {
+  EXPECT_TRUE(barrier_.idle("node"));
+  barrier_.admit(kTickUs);
+  EXPECT_FALSE(barrier_.idle("node"));
+  barrier_.done("node", 5, 100, kTickUs, 6 * kTickUs, true);
+  EXPECT_FALSE(waits_at(5 * kTickUs));
+  EXPECT_FALSE(barrier_.idle("node"));
+  barrier_.done("node", 5, 100, kTickUs, 6 * kTickUs);
+  EXPECT_TRUE(barrier_.idle("node"));
+}
+
+TEST_F(BarrierTest, TimeJumpsForThoseWhoIdleOnly) {
+  barrier_.allow_until(100 * kTickUs);
+  EXPECT_FALSE(waits_at(100 * kTickUs));
+  EXPECT_EQ(barrier_.admit(100 * kTickUs), Names{"node"});
+  barrier_.done("node", 5, 100, 100 * kTickUs, 106 * kTickUs, true);
+  barrier_.allow_until(200 * kTickUs);
+  EXPECT_TRUE(waits_at(200 * kTickUs));
+}
+
+TEST_F(BarrierTest, AProcessThatIsGivenUpIsNotWaitedForAndMayReturn) {
+  barrier_.leave("node", Barrier::Cause::kDied, 2 * kTickUs, 10 * kTickUs);
+  barrier_.give_up("node");
+  EXPECT_FALSE(waits_at(100 * kTickUs));
+  EXPECT_FALSE(barrier_.takes_part("node"));
+  barrier_.ready("node", 6, 101);
+  EXPECT_EQ(barrier_.admit(100 * kTickUs), Names{"node"});
 }
 
 TEST_F(BarrierTest, ASilentProcessReturnsByItsNextReport) {

@@ -176,5 +176,50 @@ TEST_F(ScenarioFile, BadWorldsAreNamed) {
             std::string::npos);
 }
 
+const std::string kPlane = "world: {plane: {width_m: 40, height_m: 30}}\npath: {x_m: [5, 6], y_m: [5, 6]}\n";
+
+TEST_F(ScenarioFile, ReadsFaults) {
+  write(kPlane +
+        "faults:\n"
+        "  - {fault: kill, target: stereo, at_s: 5}\n"
+        "  - {fault: offset, target: POSE.travelled_m, amount: 2, at_m: 1.5, for_s: 3}\n"
+        "  - {fault: imu_dead, at_state: DRIVING}\n");
+  const std::vector<ScriptedFault> faults = load_scenario(file()).faults;
+  ASSERT_EQ(faults.size(), 3u);
+  EXPECT_EQ(faults[0].order.target, "stereo");
+  EXPECT_EQ(faults[0].at_s, 5.0);
+  EXPECT_EQ(faults[1].order.amount, 2.0);
+  EXPECT_EQ(faults[1].order.for_s, 3.0);
+  EXPECT_EQ(faults[1].at_m, 1.5);
+  EXPECT_EQ(faults[2].order.target, "imu");
+  EXPECT_EQ(faults[2].at_state, std::int8_t{2});
+  EXPECT_FALSE(faults[2].at_s || faults[2].at_m);
+}
+
+TEST_F(ScenarioFile, BadFaultsAreNamed) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"{fault: kil, target: stereo, at_s: 1}", "faults[0].fault: 'kil' is not one of"},
+      {"{fault: kill, target: radio, at_s: 1}", "faults[0].target: 'radio' is not a service"},
+      {"{fault: kill, at_s: 1}", "faults[0].target: missing"},
+      {"{fault: kill, target: stereo}", "faults[0].at_s: missing"},
+      {"{fault: kill, target: stereo, at_s: 1, at_m: 2}", "faults[0].at_m: a fault begins once"},
+      {"{fault: kill, target: stereo, at_s: -1}", "faults[0].at_s: out of range"},
+      {"{fault: kill, target: stereo, at_state: ASLEEP}", "faults[0].at_state: 'ASLEEP'"},
+      {"{fault: kill, target: stereo, at_s: 1, amount: 2}", "faults[0].amount: kill takes no amount"},
+      {"{fault: kill, target: stereo, at_s: 1, for_s: 2}", "faults[0].for_s: kill takes no duration"},
+      {"{fault: loss, amount: 0.6, at_s: 1}", "faults[0].amount: out of range [0.01, 0.5]"},
+      {"{fault: loss, target: POSE, at_s: 1}", "faults[0].target: 'POSE' is not one of *"},
+      {"{fault: offset, target: POSE.travelled_m, at_s: 1}", "faults[0].amount: missing"},
+      {"{fault: drop, target: POSES, at_s: 1}", "faults[0].target: 'POSES' is not a channel"},
+      {"{fault: drop, target: POSE, at_s: 1, share: 0.5}", "faults[0].share: unknown key"},
+      {"{fault: wheel_jammed, target: 7, at_s: 1}", "faults[0].target: '7' is not one of"},
+  };
+  for (const auto& [fault, expected] : cases) {
+    const std::string what = complaint(kPlane + "faults:\n  - " + fault + "\n");
+    EXPECT_NE(what.find(expected), std::string::npos) << what;
+    EXPECT_EQ(what.rfind(file() + ":4: ", 0), 0u) << what;
+  }
+}
+
 }  // namespace
 }  // namespace rover

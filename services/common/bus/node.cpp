@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <rover/injection_t.hpp>
 
 #include "common/core/frames.hpp"
 
@@ -55,7 +54,8 @@ struct Node::Pending {
   Subscription* subscription = nullptr;
   std::string channel;
   header_t header{};
-  Deliver deliver;  // empty: the tap has damaged it
+  Deliver deliver;                  // empty: the tap has damaged it
+  std::vector<std::uint8_t> bytes;  // for the tap, empty where none is to see it
 };
 
 struct Node::QueuedTick {
@@ -71,11 +71,11 @@ Node::Node(NodeOptions options, lcm::LCM& lcm, lcm::LCM* reports)
       reports_counter_(options_.name, options_.boot_id),
       ticks_health_(nothing_yet(channel::kTick)) {
   if (options_.allow_injection || !options_.muted.empty()) {
-    tap_ = std::make_unique<Tap>(std::hash<std::string>{}(options_.name));
+    tap_ = std::make_unique<Tap>(options_.name);
     for (const std::string& channel : options_.muted) tap_->mute(channel);
   }
   if (options_.allow_injection)
-    subscribe<injection_t>(channel::kInject, [this](const injection_t& injection) { tap_->inject(injection); });
+    subscribe<injection_t>(channel::kInject, [this](const injection_t& injection) { obey(injection); });
   auto* subscription = lcm_.subscribeFunction(
       channel::kTick,
       +[](const lcm::ReceiveBuffer* buffer, const std::string& channel, Node* node) {
@@ -143,26 +143,72 @@ void Node::receive(const lcm::ReceiveBuffer* buffer, const std::string& channel,
   pending.deliver = subscription.decode({channel, pending.header, {begin, begin + size}});
   if (!pending.deliver) return drop("truncated or damaged");
   if (pending.header.seq <= 0) return drop("no sequence number");
-  if (!ledger_.arrived(channel, pending.header)) {
+  const bool raw = subscription.types != nullptr;
+  // Where injection is allowed the raw subscription is the second to take INJECT, and not the one that keeps the
+  // ledger.
+  const bool second = raw && tap_ && options_.allow_injection && channel == channel::kInject;
+  if (!second && !ledger_.arrived(channel, pending.header)) {
     ++subscription.health.out_of_order;
     return;
   }
+  if (tap_ && tap_->mutes(channel)) return;
   pending.channel = channel;
-  if (!tap_) return enqueue(subscription, std::move(pending), 0);
-  for (const Tap::Passed& passed : tap_->pass(channel, pending.header.utime, begin, size)) {
-    Pending tapped;
-    tapped.channel = channel;
-    // A header that cannot be read has no release either: lost.
-    if (!peek_header(passed.bytes.data(), static_cast<int>(passed.bytes.size()), tapped.header)) continue;
-    tapped.deliver = subscription.decode({channel, tapped.header, passed.bytes});
-    enqueue(subscription, std::move(tapped), passed.delay);
-  }
+  if (tap_ && !raw) pending.bytes.assign(begin, begin + size);
+  enqueue(subscription, std::move(pending), 0);
 }
 
 void Node::enqueue(Subscription& subscription, Pending pending, Utime delay) {
   pending.release = pending.header.release_utime + delay;
   pending.subscription = &subscription;
   pending_.push_back(std::move(pending));
+}
+
+void Node::obey(const injection_t& injection) {
+  const bool mine = tap_->inject(injection);
+  if (on_injection_) on_injection_(injection);
+  if (mine) log("WARN", "INJECTED fault=" + injection.fault + " target=" + injection.target);
+}
+
+// Injections first: they hold for what is taken with them.
+std::vector<Node::Pending> Node::through_tap(std::vector<Pending> released) {
+  std::vector<Pending> others;
+  for (Pending& pending : released) {
+    if (pending.subscription->channel == channel::kInject)
+      dispatch(pending);
+    else
+      others.push_back(std::move(pending));
+  }
+  std::vector<Pending> passed;
+  for (Pending& pending : others) {
+    if (pending.bytes.empty())
+      passed.push_back(std::move(pending));
+    else
+      tap_one(std::move(pending), passed);
+  }
+  return passed;
+}
+
+// A bus with check sums hands on no damaged header, so damage there is malformed input like any other: taken at its
+// word it would end the stream for good.
+void Node::tap_one(Pending pending, std::vector<Pending>& passed) {
+  const auto identity = [](const header_t& h) { return std::tie(h.publisher, h.boot_id, h.seq, h.release_utime); };
+  for (Tap::Passed& through : tap_->pass(pending.channel, pending.header, std::move(pending.bytes))) {
+    Pending tapped{pending.release, pending.subscription, pending.channel, pending.header};
+    header_t header{};
+    const bool readable = peek_header(through.bytes.data(), static_cast<int>(through.bytes.size()), header);
+    if (readable && identity(header) == identity(pending.header))
+      tapped.deliver = tapped.subscription->decode({tapped.channel, header, std::move(through.bytes)});
+    if (through.delay > 0)
+      enqueue(*pending.subscription, std::move(tapped), through.delay);
+    else
+      passed.push_back(std::move(tapped));
+  }
+}
+
+// Which messages from before its first tick a process that was started again has heard depends on how fast it started:
+// it takes none of them.
+void Node::forget_before(Utime first_tick) {
+  std::erase_if(pending_, [first_tick](const Pending& pending) { return pending.header.release_utime < first_tick; });
 }
 
 void Node::receive_tick(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
@@ -220,15 +266,17 @@ std::vector<Node::Pending> Node::take_released(Utime until) {
 }
 
 void Node::process(const tick_t& tick) {
+  if (now_ == kNever && options_.boot_id > 1) forget_before(tick.header.utime);
   now_ = ticks_health_.last_utime = tick.header.utime;
   ++ticks_health_.received;
   const bool lockstep = tick.mode == tick_t::LOCKSTEP;
-  const std::vector<Pending> released = take_released(now_);
+  std::vector<Pending> released = take_released(now_);
+  if (tap_) released = through_tap(std::move(released));
   Utime slow = 0;
   for (const Pending& pending : released) slow = std::max(slow, pending.subscription->slow);
   if (slow > 0) {
     promise_ = std::max(promise_, now_ + slow);
-    if (lockstep) publish_done(now_);
+    if (lockstep) publish_done(now_, true);
     timer_.begin();
   }
   for (const Pending& pending : released) dispatch(pending);
@@ -305,8 +353,9 @@ void Node::publish_heartbeat() {
   publish(channel::kHeartbeat, heartbeat, now_);
 }
 
-void Node::publish_done(Utime tick) {
+void Node::publish_done(Utime tick, bool busy) {
   last_done_.tick_utime = tick;
+  last_done_.busy = busy ? 1 : 0;
   last_done_.promise_utime = promise_;
   last_done_.pid = getpid();
   last_done_.streams = streams_.take_grown();

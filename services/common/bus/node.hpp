@@ -13,6 +13,7 @@
 #include <memory>
 #include <rover/done_t.hpp>
 #include <rover/heartbeat_t.hpp>
+#include <rover/injection_t.hpp>
 #include <rover/tick_t.hpp>
 #include <string>
 #include <vector>
@@ -61,8 +62,11 @@ class Node {
 
   // Every message of every channel but DONE, undecoded, in the same order (recorder). What is not of the type that
   // `types` gives for its channel is dropped like any malformed input. The table is handed in: it names TRUTH, which no
-  // other service may.
+  // other service may. Injected faults do not touch these messages: the record says what was sent.
   void subscribe_raw(std::function<void(const RawMessage&)> handler, FindChannelType types);
+
+  // Each injection that reaches this node, whatever its target; never called unless injection is allowed.
+  void on_injection(std::function<void(const injection_t&)> handler) { on_injection_ = std::move(handler); }
 
   // Called once each tick, after the inputs.
   void on_step(std::function<void(Utime now)> step) { step_ = std::move(step); }
@@ -110,11 +114,15 @@ class Node {
   bool holds_all_for(QueuedTick& tick);
   void process(const tick_t& tick);
   std::vector<Pending> take_released(Utime until);
+  std::vector<Pending> through_tap(std::vector<Pending> released);
+  void tap_one(Pending pending, std::vector<Pending>& passed);
+  void obey(const injection_t& injection);
+  void forget_before(Utime first_tick);
   bool in_order(Subscription& subscription, const std::string& channel, const header_t& header);
   void dispatch(const Pending& pending);
   void count_malformed(input_health_t& health, const std::string& channel, const std::string& why);
   void publish_heartbeat();
-  void publish_done(Utime tick);
+  void publish_done(Utime tick, bool busy = false);
   void report(const done_t& done);
   template <class Message>
   void send(lcm::LCM& lcm, const std::string& channel, const Message& message);
@@ -129,6 +137,7 @@ class Node {
   std::unique_ptr<Tap> tap_;
   StepTimer timer_;
   std::function<void(Utime)> step_;
+  std::function<void(const injection_t&)> on_injection_;
   std::vector<std::unique_ptr<Subscription>> subscriptions_;
   input_health_t ticks_health_{};
   std::map<std::pair<std::string, std::string>, std::int64_t> malformed_;  // by subscription and channel

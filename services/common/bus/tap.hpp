@@ -1,10 +1,13 @@
-// The receive-side tap: what arrives passes through it where injection or replay asked for it, and only there.
+// The receive-side tap: what a node takes passes through it where injection or replay asked for it, and only there.
+//
+// Messages pass in the order in which the node takes them, so the same injections on the same messages give the same
+// faults, whatever the order of arrival.
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <random>
+#include <rover/header_t.hpp>
 #include <rover/injection_t.hpp>
 #include <set>
 #include <string>
@@ -23,25 +26,36 @@ class Tap {
     Utime delay = 0;
   };
 
-  explicit Tap(std::uint64_t seed) : random_(seed) {}
+  // The name of the node is the seed: each loses other messages.
+  explicit Tap(const std::string& node_name);
 
   void mute(const std::string& channel) { muted_.insert(channel); }
-  // Faults on channels: drop (amount: share), delay (amount: s), duplicate, reorder (amount: share), corrupt (flips a
-  // byte, amount: share), freeze (repeats the content of the first message). False where the fault is not a channel's.
+  bool mutes(const std::string& channel) const { return muted_.contains(channel); }
+  // Takes the faults that the table (faults.hpp) leaves to taps; false for others. One that is announced again under
+  // its id is the same.
   bool inject(const injection_t& injection);
-  // What becomes of a message of the channel, by its measurement time.
-  std::vector<Passed> pass(const std::string& channel, Utime utime, const void* data, int size);
+  // What becomes of a message, by its channel, publisher and measurement time.
+  std::vector<Passed> pass(const std::string& channel, const header_t& header, Bytes bytes);
 
  private:
   struct Active {
     injection_t injection{};
+    std::string channel;  // "*": all; empty: of the publisher
+    std::string publisher;
     Bytes frozen;
   };
+  struct Fate {
+    Bytes bytes;
+    Utime delay = 0;
+    int copies = 1;  // 0: lost
+  };
+  void strike(Active& active, Fate& fate);
+  void strike_content(Active& active, Fate& fate);
   bool chance(double share);
 
   std::mt19937_64 random_;
   std::set<std::string> muted_;
-  std::multimap<std::string, Active> active_;
+  std::vector<Active> active_;
 };
 
 }  // namespace rover

@@ -35,6 +35,9 @@ std::unique_ptr<mjModel, ModelDeleter> load_model(const std::string& mjcf) {
 
 using Vec3Map = Eigen::Map<const Eigen::Vector3d>;
 
+// MuJoCo integrates damping implicitly, so this much of it is a lock that stays stable at the step.
+constexpr double kJammedNms = 1e5;
+
 }  // namespace
 
 class VehicleSim::Impl {
@@ -63,6 +66,13 @@ class VehicleSim::Impl {
     truth_.delta_angle_rad = log_so3(R_before.transpose() * pose().linear());
     truth_.specific_force_body_mps2 = truth_.delta_velocity_mps / dt_s;
     end_interval();
+  }
+
+  void set_faults(const VehicleFaults& faults) {
+    loose_sand_ = faults.loose_sand;
+    Eigen::Map<Eigen::Vector3d>{model_->opt.gravity} = config_.gravity_mps2 * faults.down.normalized();
+    for (int i = 0; i < 6; ++i)
+      model_->dof_damping[model_->jnt_dofadr[drive_[i]]] = faults.jammed[i] ? kJammedNms : 0.0;
   }
 
   const VehicleTruth& truth() const { return truth_; }
@@ -120,8 +130,7 @@ class VehicleSim::Impl {
     for (int i = 0; i < 6; ++i) push_wheel(i);
     run_motors(command);
     mj_step2(model_.get(), data_.get());
-    const Eigen::Vector3d gained =
-        imu_velocity() - velocity_before + Eigen::Vector3d(0.0, 0.0, config_.gravity_mps2 * config_.step_s);
+    const Eigen::Vector3d gained = imu_velocity() - velocity_before - Vec3Map(model_->opt.gravity) * config_.step_s;
     truth_.delta_velocity_mps += pose().linear().transpose() * gained;
   }
 
@@ -148,7 +157,8 @@ class VehicleSim::Impl {
     const Eigen::Vector3d axle = Vec3Map(data_->xpos + 3 * body);
     const Eigen::Matrix3d R_map_wheel =
         Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(data_->xmat + 9 * body);
-    const WheelContact contact = find_contact(config_.contact, vehicle_, heights_, axle, R_map_wheel);
+    WheelContact contact = find_contact(config_.contact, vehicle_, heights_, axle, R_map_wheel);
+    if (loose_sand_) contact.soil_share = {1.0, 0.0, 0.0};
     double* wrench = data_->xfrc_applied + 6 * body;
     std::fill(wrench, wrench + 6, 0.0);
     note_contact(i, contact);
@@ -222,6 +232,7 @@ class VehicleSim::Impl {
   std::array<DriveMotor, 6> drive_motor_;
   std::array<SteerMotor, 4> steer_motor_;
   std::array<double, 6> along_mps_{}, rim_mps_{};  // sums over the interval
+  bool loose_sand_ = false;
   VehicleTruth truth_;
 };
 
@@ -231,6 +242,9 @@ VehicleSim::VehicleSim(const Vehicle& vehicle, const VehicleSimConfig& config, c
 VehicleSim::~VehicleSim() = default;
 void VehicleSim::advance(double dt_s, const WheelCommand& command) {
   impl_->advance(dt_s, command);
+}
+void VehicleSim::set_faults(const VehicleFaults& faults) {
+  impl_->set_faults(faults);
 }
 const VehicleTruth& VehicleSim::truth() const {
   return impl_->truth();

@@ -36,6 +36,14 @@ struct VehicleSimConfig {
   SteerMotorConfig steer;
 };
 
+// What can be wrong with the vehicle and under it.
+struct VehicleFaults {
+  std::array<bool, 6> jammed{};  // the wheel does not turn, its motor goes on trying
+  bool loose_sand = false;       // under all wheels
+  // Down, as on a slope: in map axes, of any length.
+  Eigen::Vector3d down = -Eigen::Vector3d::UnitZ();
+};
+
 enum class Collision : std::int8_t { kNone = 0, kBodyContact = 1, kWheelClimb = 2 };
 
 // All of it at the end of the last advance(), in map and body axes; angles over the sensors' interval are increments.
@@ -71,6 +79,8 @@ class VehicleSim {
   VehicleSim& operator=(const VehicleSim&) = delete;
 
   void advance(double dt_s, const WheelCommand& command);
+  // From the next advance() on.
+  void set_faults(const VehicleFaults& faults);
   const VehicleTruth& truth() const;
 
  private:

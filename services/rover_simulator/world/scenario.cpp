@@ -138,6 +138,7 @@ Scenario load_scenario(const std::string& file) {
   if (config.has("sun")) read_sun(config.section("sun"), scenario);
   config.read("calibration_error_px", scenario.calibration_error_px, {0, 5});
   config.read("timeout_s", scenario.timeout_s, {10, 1e6});
+  scenario.faults = read_faults(config);
   config.finish();
   scenario.world.keep_clear = certified_circles(scenario);
   return scenario;

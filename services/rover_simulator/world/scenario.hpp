@@ -8,6 +8,7 @@
 
 #include "common/core/frames.hpp"
 #include "rover_simulator/world/elevation_raster.hpp"
+#include "rover_simulator/world/scenario_faults.hpp"
 #include "rover_simulator/world/world.hpp"
 
 namespace rover {
@@ -42,6 +43,7 @@ struct Scenario {
   PlannedStart start;
   PlannedPath path;
   double timeout_s = 3600.0;
+  std::vector<ScriptedFault> faults;
 
   Pose2 start_pose() const;
   double path_length_m() const;

@@ -1,0 +1,153 @@
+#include "common/bus/faults.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <set>
+#include <sstream>
+
+#include "common/bus/channels.hpp"
+#include "common/bus/field_faults.hpp"
+#include "common/bus/service_names.hpp"
+
+namespace rover {
+namespace {
+
+using enum FaultTarget;
+
+constexpr Range kNone{0.0, 0.0};
+constexpr Range kShare{0.0, 1.0};
+constexpr double kMust = std::numeric_limits<double>::quiet_NaN();
+const std::vector<std::string> kWheels = {"0", "1", "2", "3", "4", "5"};
+
+const std::vector<FaultKind>& table() {
+  static const std::vector<FaultKind> kTable = {
+      {"kill", kService, {}, "", kNone, 0.0, false, "ends the process at once; s6 starts it again"},
+      {"hang", kService, {}, "", kNone, 0.0, false, "stops the process where it stands (SIGSTOP)"},
+      {"restart_loop", kService, {}, "times", {2, 20}, 3.0, false, "ends the process again each time it is back"},
+      {"slow", kSlow, {}, "s", {0.02, 10}, 0.5, true, "all that the service publishes comes later"},
+      {"drop", kChannel, {}, "share", kShare, 1.0, true, "messages are lost"},
+      {"delay", kChannel, {}, "s", {0.02, 60}, 0.5, true, "messages come later"},
+      {"duplicate", kChannel, {}, "share", kShare, 1.0, true, "messages come twice"},
+      {"reorder", kChannel, {}, "share", kShare, 0.3, true, "messages come after those that follow them"},
+      {"corrupt", kChannel, {}, "share", kShare, 1.0, true, "one bit of a message is flipped"},
+      {"freeze", kChannel, {}, "", kNone, 0.0, true, "the first message's content comes again and again"},
+      {"nan", kField, {}, "share", kShare, 1.0, true, "numbers become NaN"},
+      {"offset", kField, {}, "field's unit", {-1e6, 1e6}, kMust, true, "is added to one field's numbers"},
+      {"loss", kBus, {"*"}, "share", {0.01, 0.5}, 0.1, true, "messages of all channels are lost"},
+      {"camera_blind", kWorld, {"left", "right", "both"}, "", kNone, 0.0, true, "black pictures of the LocCam"},
+      {"camera_frozen", kWorld, {"left", "right", "both"}, "", kNone, 0.0, true, "the same picture again and again"},
+      {"camera_rows", kWorld, {"left", "right", "both"}, "px", {-50, 50}, 3.0, true, "pictures shifted downwards"},
+      {"camera_columns", kWorld, {"left", "right", "both"}, "px", {-50, 50}, 3.0, true, "shifted to the right"},
+      {"imu_dead", kWorld, {"imu"}, "", kNone, 0.0, true, "no IMU messages"},
+      {"gyro_bias", kWorld, {"imu"}, "rad/s", {-2, 2}, 0.05, true, "on the yaw rate, fibre-optic gyro included"},
+      {"accel_bias", kWorld, {"imu"}, "m/s2", {-20, 20}, 0.5, true, "on the forward acceleration"},
+      {"encoder_stuck", kWorld, kWheels, "", kNone, 0.0, true, "the wheel's encoder stands still"},
+      {"wheel_jammed", kWorld, kWheels, "", kNone, 0.0, true, "the wheel does not turn; its motor stalls"},
+      {"loose_sand", kWorld, {"ground"}, "", kNone, 0.0, true, "all wheels stand on loose sand"},
+      {"tilt_roll", kWorld, {"ground"}, "deg", {-60, 60}, kMust, true, "gravity as on a slope across the heading"},
+      {"tilt_pitch", kWorld, {"ground"}, "deg", {-60, 60}, kMust, true, "gravity as on a slope along it, nose down"},
+      {"clock_step", kWorld, {"clock"}, "s", {0.02, 3600}, kMust, false, "message time jumps ahead once"},
+      {"full_disk", kRecorder, {"recorder"}, "", kNone, 0.0, true, "the recorder finds no space"},
+  };
+  return kTable;
+}
+
+std::string joined(const std::vector<std::string>& items) {
+  std::string text;
+  for (const std::string& item : items) text += (text.empty() ? "" : ", ") + item;
+  return text;
+}
+
+std::string usual_target(const FaultKind& kind) {
+  if (!kind.targets.empty()) {
+    std::string text;
+    for (const std::string& target : kind.targets) text += (text.empty() ? "" : "|") + target;
+    return text;
+  }
+  if (kind.on == kField) return "CHANNEL.field";
+  return kind.on == kChannel ? "CHANNEL" : "SERVICE";
+}
+
+std::string service_problem(const std::string& target) {
+  if (std::find(kServiceNames.begin(), kServiceNames.end(), target) != kServiceNames.end()) return "";
+  return "'" + target + "' is not a service; there are " + joined({kServiceNames.begin(), kServiceNames.end()});
+}
+
+// TICK, DONE and INJECT are the machinery itself.
+std::string channel_problem(const std::string& channel, FindChannelType types) {
+  static const std::set<std::string> kNotTapped = {channel::kTick, channel::kDone, channel::kInject};
+  if (types(channel) == nullptr) return "'" + channel + "' is not a channel";
+  return kNotTapped.contains(channel) ? "no fault can be put on " + channel : "";
+}
+
+std::string field_problem(const FaultKind& kind, const std::string& target, FindChannelType types) {
+  const FieldTarget at = split_field(target);
+  if (std::string problem = channel_problem(at.channel, types); !problem.empty()) return problem;
+  const std::vector<std::string> fields = fields_of(at.channel);
+  if (fields.empty()) return at.channel + " has no numbers that " + kind.name + " knows";
+  if (at.field.empty())
+    return kind.name == "offset" ? "a field is needed, as in " + at.channel + "." + fields.front() : "";
+  if (std::find(fields.begin(), fields.end(), at.field) != fields.end()) return "";
+  return at.channel + " has no field '" + at.field + "'; there are " + joined(fields);
+}
+
+}  // namespace
+
+const std::vector<FaultKind>& fault_kinds() {
+  return table();
+}
+
+const FaultKind* find_fault(const std::string& name) {
+  for (const FaultKind& kind : table())
+    if (kind.name == name) return &kind;
+  return nullptr;
+}
+
+std::string fault_names() {
+  std::vector<std::string> names;
+  for (const FaultKind& kind : table()) names.push_back(kind.name);
+  return joined(names);
+}
+
+std::string target_problem(const FaultKind& kind, const std::string& target, FindChannelType types) {
+  if (!kind.targets.empty()) {
+    const bool known = std::find(kind.targets.begin(), kind.targets.end(), target) != kind.targets.end();
+    return known ? "" : "'" + target + "' is not one of " + joined(kind.targets);
+  }
+  switch (kind.on) {
+    case kService:
+    case kSlow:
+      return service_problem(target);
+    case kField:
+      return field_problem(kind, target, types);
+    default:
+      return channel_problem(target, types);
+  }
+}
+
+std::string amount_problem(const FaultKind& kind, double amount) {
+  if (kind.unit.empty()) return amount == 0.0 ? "" : kind.name + " takes no amount";
+  if (std::isfinite(amount) && amount >= kind.amount.min && amount <= kind.amount.max) return "";
+  std::ostringstream text;
+  text << "out of range [" << kind.amount.min << ", " << kind.amount.max << "] " << kind.unit;
+  return text.str();
+}
+
+std::string fault_list() {
+  std::string text;
+  for (const FaultKind& kind : table()) {
+    std::ostringstream amount;
+    if (!kind.unit.empty()) {
+      amount << kind.amount.min << ".." << kind.amount.max << " " << kind.unit;
+      if (std::isfinite(kind.usual)) amount << " (" << kind.usual << ")";
+    }
+    char line[256];
+    std::snprintf(line, sizeof line, "%-15s %-16s %-28s %s\n", kind.name.c_str(), usual_target(kind).c_str(),
+                  amount.str().c_str(), kind.what.c_str());
+    text += line;
+  }
+  return text;
+}
+
+}  // namespace rover

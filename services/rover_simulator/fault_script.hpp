@@ -1,0 +1,36 @@
+// Which faults of a scenario begin now, by message time, true way and the supervisor's states alone.
+#pragma once
+
+#include <set>
+#include <vector>
+
+#include "common/core/time.hpp"
+#include "rover_simulator/world/scenario_faults.hpp"
+
+namespace rover {
+
+class FaultScript {
+ public:
+  FaultScript(std::vector<ScriptedFault> faults, Utime start) : waiting_(std::move(faults)), start_(start) {}
+
+  void entered(std::int8_t state) { entered_.insert(state); }
+  // In the order of the list; each is given once.
+  std::vector<FaultOrder> take_due(Utime now, double driven_m) {
+    std::vector<FaultOrder> due;
+    std::erase_if(waiting_, [&](const ScriptedFault& fault) {
+      const bool begins = (fault.at_s && to_seconds(now - start_) >= *fault.at_s) ||
+                          (fault.at_m && driven_m >= *fault.at_m) ||
+                          (fault.at_state && entered_.contains(*fault.at_state));
+      if (begins) due.push_back(fault.order);
+      return begins;
+    });
+    return due;
+  }
+
+ private:
+  std::vector<ScriptedFault> waiting_;
+  Utime start_;
+  std::set<std::int8_t> entered_;
+};
+
+}  // namespace rover

@@ -1,0 +1,40 @@
+// What broken sensors make of good samples.
+#pragma once
+
+#include <array>
+
+#include "rover_simulator/camera/stereo_camera_sim.hpp"
+#include "rover_simulator/vehicle/sensors.hpp"
+
+namespace rover {
+
+struct CameraFault {
+  bool blind = false;
+  bool frozen = false;
+  int shift_rows = 0;  // downwards; what is missing repeats the border
+  int shift_columns = 0;
+};
+
+struct SensorFaults {
+  std::array<CameraFault, 2> camera;  // left, right
+  bool imu_dead = false;
+  double yaw_bias_radps = 0.0;
+  double forward_bias_mps2 = 0.0;
+  std::array<bool, 6> encoder_stuck{};
+};
+
+// Sees every sample, so that it knows the last good one.
+class FaultySensors {
+ public:
+  ImuSample imu(const SensorFaults& faults, ImuSample sample) const;
+  WheelSample wheels(const SensorFaults& faults, WheelSample sample);
+  StereoCameraSim::Pair pictures(const SensorFaults& faults, StereoCameraSim::Pair pair);
+
+ private:
+  GrayImage picture(const CameraFault& fault, GrayImage image, GrayImage& last) const;
+
+  WheelSample last_wheels_;
+  std::array<GrayImage, 2> last_;
+};
+
+}  // namespace rover

@@ -1,0 +1,82 @@
+#include "rover_simulator/world/scenario_faults.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <rover/supervisor_state_t.hpp>
+#include <utility>
+
+namespace rover {
+namespace {
+
+constexpr double kLongest = 1e6;  // of any time or way
+
+const std::vector<std::pair<std::string, std::int8_t>>& states() {
+  using State = supervisor_state_t;
+  static const std::vector<std::pair<std::string, std::int8_t>> kStates = {
+      {"BOOT", State::BOOT},
+      {"STANDBY", State::STANDBY},
+      {"DRIVING", State::DRIVING},
+      {"HAZARD_STOP", State::HAZARD_STOP},
+      {"REPAIRING", State::REPAIRING},
+      {"SWEEPING", State::SWEEPING},
+      {"CORRECTING", State::CORRECTING},
+      {"PAUSED", State::PAUSED},
+      {"GOAL_REACHED", State::GOAL_REACHED},
+      {"FAULT_STOP", State::FAULT_STOP},
+      {"SAFE", State::SAFE},
+      {"TELEOP", State::TELEOP},
+  };
+  return kStates;
+}
+
+std::int8_t read_state(const Config& config) {
+  std::vector<std::string> names;
+  for (const auto& [name, state] : states()) names.push_back(name);
+  const std::string wanted = config.one_of("at_state", names);
+  return states()[static_cast<size_t>(std::find(names.begin(), names.end(), wanted) - names.begin())].second;
+}
+
+void read_trigger(const Config& config, ScriptedFault& fault) {
+  std::string first;
+  for (const char* key : {"at_s", "at_m", "at_state"}) {
+    if (!config.has(key)) continue;
+    if (!first.empty()) config.fail(key, "a fault begins once, and " + first + " is given");
+    first = key;
+  }
+  if (first.empty()) config.fail("at_s", "missing; or at_m, or at_state");
+  if (first == "at_s") fault.at_s = config.number(first, {0, kLongest});
+  if (first == "at_m") fault.at_m = config.number(first, {0, kLongest});
+  if (first == "at_state") fault.at_state = read_state(config);
+}
+
+FaultOrder read_order(const Config& config) {
+  FaultOrder order;
+  order.fault = config.text("fault");
+  const FaultKind* kind = find_fault(order.fault);
+  if (kind == nullptr) config.fail("fault", "'" + order.fault + "' is not one of " + fault_names());
+  order.target = kind->targets.size() == 1 && !config.has("target") ? kind->targets.front() : config.text("target");
+  const std::string problem = target_problem(*kind, order.target, find_channel_type);
+  if (!problem.empty()) config.fail("target", problem);
+  if (kind->unit.empty() && config.has("amount")) config.fail("amount", order.fault + " takes no amount");
+  order.amount = kind->usual;
+  if (config.has("amount") || std::isnan(kind->usual)) order.amount = config.number("amount", kind->amount);
+  if (!kind->lasts && config.has("for_s")) config.fail("for_s", order.fault + " takes no duration");
+  config.read("for_s", order.for_s, {0.02, kLongest});
+  return order;
+}
+
+}  // namespace
+
+std::vector<ScriptedFault> read_faults(const Config& scenario) {
+  std::vector<ScriptedFault> faults;
+  if (!scenario.has("faults")) return faults;
+  for (const Config& item : scenario.list("faults")) {
+    ScriptedFault fault;
+    fault.order = read_order(item);
+    read_trigger(item, fault);
+    faults.push_back(fault);
+  }
+  return faults;
+}
+
+}  // namespace rover

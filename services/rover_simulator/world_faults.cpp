@@ -1,0 +1,74 @@
+#include "rover_simulator/world_faults.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "common/core/frames.hpp"
+
+namespace rover {
+namespace {
+
+bool stands(const injection_t& injection, Utime now) {
+  return now >= injection.from_utime && now <= injection.until_utime;
+}
+
+void break_camera(const injection_t& injection, CameraFault& camera) {
+  const int pixels = static_cast<int>(std::lround(injection.amount));
+  if (injection.fault == "camera_blind") camera.blind = true;
+  if (injection.fault == "camera_frozen") camera.frozen = true;
+  if (injection.fault == "camera_rows") camera.shift_rows = pixels;
+  if (injection.fault == "camera_columns") camera.shift_columns = pixels;
+}
+
+void break_sensor(const injection_t& injection, SensorFaults& sensors) {
+  if (injection.fault.rfind("camera_", 0) == 0) {
+    if (injection.target != "right") break_camera(injection, sensors.camera[0]);
+    if (injection.target != "left") break_camera(injection, sensors.camera[1]);
+  }
+  if (injection.fault == "imu_dead") sensors.imu_dead = true;
+  if (injection.fault == "gyro_bias") sensors.yaw_bias_radps += injection.amount;
+  if (injection.fault == "accel_bias") sensors.forward_bias_mps2 += injection.amount;
+  if (injection.fault == "encoder_stuck") sensors.encoder_stuck.at(std::stoul(injection.target)) = true;
+}
+
+// Gravity as the vehicle would feel it with this roll or pitch on a slope that it faces as it does now.
+Eigen::Vector3d tilted(const injection_t& injection, double heading_rad, const Eigen::Vector3d& down) {
+  const double angle = to_rad(injection.amount);
+  const Eigen::Matrix3d heading = rotation_from_rpy(0.0, 0.0, heading_rad);
+  const Eigen::Matrix3d tilt =
+      injection.fault == "tilt_roll" ? rotation_from_rpy(angle, 0.0, 0.0) : rotation_from_rpy(0.0, angle, 0.0);
+  return heading * tilt.transpose() * heading.transpose() * down;
+}
+
+}  // namespace
+
+void WorldFaults::begin(const injection_t& injection, double heading_rad) {
+  if (injection.fault == "clock_step")
+    clock_step_ += kTickUs * std::lround(injection.amount / to_seconds(kTickUs));
+  else
+    active_.push_back({injection, heading_rad});
+}
+
+SensorFaults WorldFaults::sensors(Utime now) const {
+  SensorFaults sensors;
+  for (const Active& active : active_)
+    if (stands(active.injection, now)) break_sensor(active.injection, sensors);
+  return sensors;
+}
+
+VehicleFaults WorldFaults::vehicle(Utime now) const {
+  VehicleFaults vehicle;
+  for (const auto& [injection, heading_rad] : active_) {
+    if (!stands(injection, now)) continue;
+    if (injection.fault == "wheel_jammed") vehicle.jammed.at(std::stoul(injection.target)) = true;
+    if (injection.fault == "loose_sand") vehicle.loose_sand = true;
+    if (injection.fault.rfind("tilt_", 0) == 0) vehicle.down = tilted(injection, heading_rad, vehicle.down);
+  }
+  return vehicle;
+}
+
+Utime WorldFaults::take_clock_step() {
+  return std::exchange(clock_step_, 0);
+}
+
+}  // namespace rover

@@ -1,0 +1,102 @@
+// The parts that faults are made of: the script, the blows to processes, the way of a command to the motors.
+#include <gtest/gtest.h>
+
+#include <csignal>
+
+#include "rover_simulator/command_inbox.hpp"
+#include "rover_simulator/fault_script.hpp"
+#include "rover_simulator/process_faults.hpp"
+
+namespace rover {
+namespace {
+
+constexpr Utime kStart = 1'000'000;
+
+TEST(FaultScript, GivesEachFaultOnceWhenItsTimeWayOrStateHasCome) {
+  std::vector<ScriptedFault> faults(3);
+  faults[0].order.fault = "by_time";
+  faults[0].at_s = 2.0;
+  faults[1].order.fault = "by_way";
+  faults[1].at_m = 1.0;
+  faults[2].order.fault = "by_state";
+  faults[2].at_state = std::int8_t{2};
+  FaultScript script(faults, kStart);
+  EXPECT_TRUE(script.take_due(kStart + 1'980'000, 0.9).empty());
+  EXPECT_EQ(script.take_due(kStart + 2'000'000, 0.9).at(0).fault, "by_time");
+  EXPECT_EQ(script.take_due(kStart + 2'020'000, 1.0).at(0).fault, "by_way");
+  script.entered(1);
+  EXPECT_TRUE(script.take_due(kStart + 2'040'000, 2.0).empty());
+  script.entered(2);
+  script.entered(1);
+  EXPECT_EQ(script.take_due(kStart + 2'060'000, 2.0).at(0).fault, "by_state");
+  EXPECT_TRUE(script.take_due(kStart + 9'000'000, 9.0).empty());
+}
+
+TEST(ProcessFaults, ARestartLoopStrikesEachTimeTheServiceIsBack) {
+  Barrier barrier({"stereo"});
+  ProcessFaults faults;
+  faults.order({"restart_loop", "stereo", 2.0});
+  EXPECT_TRUE(faults.take_due(barrier).empty());  // not there yet
+  for (int boot = 1; boot <= 2; ++boot) {
+    const Utime t = boot * 2'000'000;
+    barrier.ready("stereo", boot, 100 + boot);
+    barrier.admit(t);
+    const std::vector<ProcessBlow> blows = faults.take_due(barrier);
+    ASSERT_EQ(blows.size(), 1u);
+    EXPECT_EQ(blows[0].signal, SIGKILL);
+    barrier.leave("stereo", Barrier::Cause::kDied, t, blows[0].away);
+    EXPECT_TRUE(faults.take_due(barrier).empty());
+  }
+  barrier.ready("stereo", 3, 103);
+  barrier.admit(9'000'000);
+  EXPECT_TRUE(faults.take_due(barrier).empty());
+}
+
+TEST(ProcessFaults, AHungServiceIsAwayLonger) {
+  Barrier barrier({"stereo"});
+  barrier.ready("stereo", 1, 100);
+  barrier.admit(0);
+  ProcessFaults faults;
+  faults.order({"hang", "stereo"});
+  const std::vector<ProcessBlow> blows = faults.take_due(barrier);
+  ASSERT_EQ(blows.size(), 1u);
+  EXPECT_EQ(blows[0].signal, SIGSTOP);
+  EXPECT_EQ(blows[0].away, 3'000'000);
+}
+
+wheel_command_t command(std::int64_t seq, Utime utime) {
+  wheel_command_t message{};
+  message.header.seq = seq;
+  message.header.utime = utime;
+  message.header.release_utime = utime + kTickUs;
+  message.header.publisher = "locomotion";
+  return message;
+}
+
+TEST(CommandInbox, GivesTheNewestReleased) {
+  CommandInbox inbox;
+  for (int i = 1; i <= 3; ++i) inbox.add(command(i, i * kTickUs));
+  EXPECT_FALSE(inbox.take(kTickUs, nullptr));
+  EXPECT_EQ(inbox.take(3 * kTickUs, nullptr)->header.seq, 2);
+  EXPECT_FALSE(inbox.take(3 * kTickUs, nullptr));
+  EXPECT_EQ(inbox.take(4 * kTickUs, nullptr)->header.seq, 3);
+}
+
+TEST(CommandInbox, OldCommandsThatComeLateAreVoid) {
+  Tap tap("rover_simulator");
+  injection_t delay{};
+  delay.fault = "delay";
+  delay.target = "WHEEL_COMMAND";
+  delay.amount = 0.1;
+  delay.until_utime = kTickUs;
+  ASSERT_TRUE(tap.inject(delay));
+  CommandInbox inbox;
+  inbox.add(command(1, kTickUs));
+  inbox.add(command(2, 3 * kTickUs));
+  EXPECT_FALSE(inbox.take(2 * kTickUs, &tap));
+  EXPECT_EQ(inbox.take(4 * kTickUs, &tap)->header.seq, 2);
+  EXPECT_FALSE(inbox.take(20 * kTickUs, &tap));
+}
+
+}  // namespace
+}  // namespace rover

@@ -1,0 +1,274 @@
+// Faults of sensors, vehicle, clock and processes, as they show on a bus in memory.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <csignal>
+#include <numeric>
+#include <rover/image_t.hpp>
+#include <rover/imu_t.hpp>
+#include <rover/injection_t.hpp>
+#include <rover/tick_t.hpp>
+#include <rover/truth_t.hpp>
+#include <rover/wheel_state_t.hpp>
+
+#include "common/bus/channels.hpp"
+#include "common/bus/vehicle_config.hpp"
+#include "rover_simulator/simulator.hpp"
+
+namespace rover {
+namespace {
+
+const std::string kConfig = std::string(ROVER_SOURCE_DIR) + "/config";
+constexpr Utime kStart = 1'000'000;
+
+// Keeps all messages of a channel.
+template <class Message>
+void keep(lcm::LCM& bus, const char* channel, std::vector<Message>& kept) {
+  bus.subscribeFunction(
+      channel,
+      +[](const lcm::ReceiveBuffer* buffer, const std::string&, std::vector<Message>* out) {
+        Message message;
+        if (decode_message(buffer->data, static_cast<int>(buffer->data_size), message)) out->push_back(message);
+      },
+      &kept);
+}
+
+// A service that drives straight ahead; its process is a child that sleeps, and comes back when it was ended.
+class Driver {
+ public:
+  explicit Driver(lcm::LCM& bus) : bus_(bus) {
+    bus_.subscribeFunction(
+        channel::kTick,
+        +[](const lcm::ReceiveBuffer* buffer, const std::string&, Driver* driver) {
+          tick_t tick;
+          if (decode_message(buffer->data, static_cast<int>(buffer->data_size), tick)) driver->on_tick(tick);
+        },
+        this);
+    start();
+  }
+  ~Driver() { end(); }
+  Driver(const Driver&) = delete;
+  Driver& operator=(const Driver&) = delete;
+
+  const std::vector<Utime>& ticks() const { return ticks_; }
+  int boots() const { return boot_; }
+
+ private:
+  void start() {
+    ++boot_;
+    streams_ = std::make_unique<StreamCounter>("driver", boot_);
+    child_ = fork();
+    if (child_ == 0)
+      while (true) pause();
+    say_done(kNever);
+  }
+  void end() {
+    kill(child_, SIGKILL);
+    waitpid(child_, nullptr, 0);
+  }
+  // Told by the tick without it that its process is no more.
+  void on_tick(const tick_t& tick) {
+    if (tick.members.empty()) {
+      if (waitpid(child_, nullptr, WNOHANG) == child_) start();
+      return;
+    }
+    ticks_.push_back(tick.header.utime);
+    wheel_command_t command{};
+    command.valid_until_utime = tick.header.utime + 10 * kTickUs;
+    for (double& rate : command.drive_rate_radps) rate = 1.0;
+    command.header = streams_->next(channel::kWheelCommand, tick.header.utime, tick.header.utime + kTickUs);
+    bus_.publish(channel::kWheelCommand, &command);
+    say_done(tick.header.utime);
+  }
+  void say_done(Utime t) {
+    done_t done{};
+    done.tick_utime = t;
+    done.promise_utime = kNever;
+    done.pid = child_;
+    done.header = streams_->next(channel::kDone, t, t);
+    bus_.publish(channel::kDone, &done);
+  }
+
+  lcm::LCM& bus_;
+  std::unique_ptr<StreamCounter> streams_;
+  std::vector<Utime> ticks_;
+  int boot_ = 0;
+  int child_ = -1;
+};
+
+struct Heard {
+  SimulationSummary summary;
+  std::vector<imu_t> imu;
+  std::vector<wheel_state_t> wheels;
+  std::vector<image_t> left, right;
+  std::vector<injection_t> injections;
+  std::vector<truth_t> truth;
+  std::vector<Utime> ticks;
+  int boots = 0;
+};
+
+ScriptedFault at_second(double at_s, const std::string& fault, const std::string& target, double amount = 0.0) {
+  ScriptedFault scripted;
+  scripted.order = {fault, target, amount};
+  scripted.at_s = at_s;
+  return scripted;
+}
+
+// Some seconds on a plane of firm ground.
+Heard drive(std::vector<ScriptedFault> faults, double seconds = 2.0) {
+  SimulatedRoverConfig config;
+  config.loccam.scene.fine_radius_m = 4.5;
+  config.loccam.scene.middle_radius_m = 8.0;
+  config.loccam.scene.far_radius_m = 30.0;
+  WorldConfig plane;
+  plane.soil.everywhere = Soil::kFirm;
+  auto world = std::make_unique<World>(plane, plane_raster(40.0, 40.0, 1.0, 0.0, 0.0), 1);
+  SimulatedRover rover(config, load_vehicle(kConfig), load_stereo_rig(kConfig, "loccam"), std::move(world),
+                       {20.0, 20.0, 0.0}, 1);
+  SimulatorOptions options;
+  options.participants = {"driver"};
+  options.end.timeout_s = seconds;
+  options.faults = std::move(faults);
+  Heard heard;
+  lcm::LCM bus("memq://");
+  keep(bus, channel::kImu, heard.imu);
+  keep(bus, channel::kWheelState, heard.wheels);
+  keep(bus, channel::kLocCamLeft, heard.left);
+  keep(bus, channel::kLocCamRight, heard.right);
+  keep(bus, channel::kInject, heard.injections);
+  keep(bus, channel::kTruth, heard.truth);
+  testing::internal::CaptureStdout();
+  {
+    Simulator simulator(options, rover, bus);
+    const Driver driver(bus);
+    heard.summary = simulator.run([] { return true; });
+    heard.ticks = driver.ticks();
+    heard.boots = driver.boots();
+  }
+  testing::internal::GetCapturedStdout();
+  return heard;
+}
+
+double mean(const std::vector<std::uint8_t>& data) {
+  return std::accumulate(data.begin(), data.end(), 0.0) / static_cast<double>(data.size());
+}
+
+TEST(SimulatorFaults, ABlindCameraGivesBlackPictures) {
+  const Heard heard = drive({at_second(1.0, "camera_blind", "left")});
+  ASSERT_GE(heard.left.size(), 4u);
+  EXPECT_GT(mean(heard.left.front().data), 20.0);
+  EXPECT_EQ(mean(heard.left.back().data), 0.0);
+  EXPECT_GT(mean(heard.right.back().data), 20.0);
+}
+
+TEST(SimulatorFaults, AFrozenCameraRepeatsItsLastPicture) {
+  const Heard heard = drive({at_second(0.6, "camera_frozen", "both")});
+  ASSERT_GE(heard.left.size(), 4u);
+  EXPECT_NE(heard.left[0].data, heard.left[1].data);
+  EXPECT_EQ(heard.left[2].data, heard.left[1].data);
+  EXPECT_EQ(heard.left.back().data, heard.left[1].data);
+  EXPECT_EQ(heard.right.back().data, heard.right[1].data);
+}
+
+TEST(SimulatorFaults, AShiftedCameraIsShiftedByItsPixels) {
+  const Heard good = drive({}, 1.0);
+  const Heard heard = drive({at_second(0.0, "camera_rows", "right", 3)}, 1.0);
+  const image_t& image = heard.right.at(1);
+  const auto w = static_cast<size_t>(image.width);
+  EXPECT_TRUE(std::equal(image.data.begin() + static_cast<std::ptrdiff_t>(3 * w), image.data.end(),
+                         good.right.at(1).data.begin()));
+  EXPECT_EQ(heard.left.at(1).data, good.left.at(1).data);
+}
+
+TEST(SimulatorFaults, ADeadImuSaysNothing) {
+  const Heard heard = drive({at_second(1.0, "imu_dead", "imu")});
+  EXPECT_EQ(heard.imu.size(), 50u);
+  EXPECT_GE(heard.wheels.size(), 100u);
+}
+
+TEST(SimulatorFaults, BiasesShowInTheIncrements) {
+  const Heard good = drive({}, 1.0);
+  const Heard heard = drive({at_second(0.0, "gyro_bias", "imu", 0.1), at_second(0.0, "accel_bias", "imu", 2.0)}, 1.0);
+  const imu_t& biased = heard.imu.at(20);
+  EXPECT_NEAR(biased.delta_angle_rad[2] - good.imu.at(20).delta_angle_rad[2], 0.1 * biased.dt_s, 1e-12);
+  EXPECT_NEAR(biased.fog_delta_yaw_rad - good.imu.at(20).fog_delta_yaw_rad, 0.1 * biased.dt_s, 1e-12);
+  EXPECT_NEAR(biased.delta_velocity_mps[0] - good.imu.at(20).delta_velocity_mps[0], 2.0 * biased.dt_s, 1e-12);
+}
+
+TEST(SimulatorFaults, AStuckEncoderStandsWhileItsWheelTurns) {
+  const Heard heard = drive({at_second(1.0, "encoder_stuck", "2")});
+  const wheel_state_t& last = heard.wheels.back();
+  EXPECT_EQ(last.drive_angle_rad[2], heard.wheels.at(49).drive_angle_rad[2]);
+  EXPECT_EQ(last.drive_rate_radps[2], 0.0);
+  EXPECT_GT(last.drive_angle_rad[3] - heard.wheels.at(49).drive_angle_rad[3], 0.8);
+}
+
+TEST(SimulatorFaults, AJammedWheelStandsAndItsCurrentRisesToTheLimit) {
+  const Heard heard = drive({at_second(1.0, "wheel_jammed", "4")});
+  const wheel_state_t& last = heard.wheels.back();
+  EXPECT_NEAR(last.drive_rate_radps[4], 0.0, 0.02);
+  EXPECT_GT(last.drive_current_a[4], 8.0);
+  EXPECT_LT(heard.wheels.at(45).drive_current_a[4], 2.0);
+  EXPECT_NEAR(last.drive_rate_radps[5], 1.0, 0.1);
+}
+
+TEST(SimulatorFaults, LooseSandSlips) {
+  const auto slip = [](const truth_t& truth) {
+    return std::accumulate(truth.wheel_slip, truth.wheel_slip + 6, 0.0) / 6;
+  };
+  const Heard good = drive({}, 4.0);
+  const Heard heard = drive({at_second(1.0, "loose_sand", "ground")}, 4.0);
+  EXPECT_EQ(heard.truth.back().wheel_soil[0], std::int8_t{truth_t::SAND});
+  EXPECT_GT(slip(heard.truth.back()), slip(good.truth.back()) + 0.02);
+}
+
+TEST(SimulatorFaults, ATiltIsFeltAsASlope) {
+  const Heard heard = drive({at_second(1.0, "tilt_pitch", "ground", 20.0)}, 3.0);
+  // On a slope that falls ahead by 20 degrees specific force points up, that is backwards in the body.
+  double forward = 0.0, up = 0.0;
+  for (size_t i = heard.imu.size() - 50; i < heard.imu.size(); ++i) {
+    forward += heard.imu[i].delta_velocity_mps[0];
+    up += heard.imu[i].delta_velocity_mps[2];
+  }
+  EXPECT_NEAR(std::atan2(-forward, up), to_rad(20.0), to_rad(4.0));
+}
+
+TEST(SimulatorFaults, TheClockStepsOnceAndTheRunGoesOn) {
+  const Heard heard = drive({at_second(1.0, "clock_step", "clock", 5.0)}, 7.0);
+  EXPECT_EQ(heard.summary.outcome, "timeout");
+  EXPECT_TRUE(heard.summary.deterministic);
+  int jumps = 0;
+  for (size_t i = 1; i < heard.ticks.size(); ++i) {
+    const Utime step = heard.ticks[i] - heard.ticks[i - 1];
+    if (step == kTickUs) continue;
+    EXPECT_EQ(step, kTickUs + 5'000'000);
+    EXPECT_EQ(heard.ticks[i - 1], kStart + 1'000'000);
+    ++jumps;
+  }
+  EXPECT_EQ(jumps, 1);
+}
+
+TEST(SimulatorFaults, EveryFaultIsAnnounced) {
+  const Heard heard = drive({at_second(0.5, "drop", "POSE", 0.3), at_second(0.7, "gyro_bias", "imu", 0.1)}, 1.0);
+  ASSERT_EQ(heard.injections.size(), 2u);
+  EXPECT_EQ(heard.injections[0].target, "POSE");
+  EXPECT_EQ(heard.injections[0].from_utime, kStart + 500'000);
+  EXPECT_EQ(heard.injections[1].injection_id, 2);
+}
+
+TEST(SimulatorFaults, AKilledServiceIsBackASecondLaterAndHearsOfWhatStands) {
+  const Heard heard = drive({at_second(0.5, "drop", "POSE", 0.3), at_second(1.0, "kill", "driver")}, 3.0);
+  EXPECT_EQ(heard.boots, 2);
+  EXPECT_TRUE(heard.summary.deterministic);
+  const auto gap = std::find(heard.ticks.begin(), heard.ticks.end(), kStart + 980'000);
+  ASSERT_NE(gap, heard.ticks.end());
+  EXPECT_EQ(*(gap + 1), kStart + 2'000'000);
+  ASSERT_EQ(heard.injections.size(), 3u);
+  EXPECT_EQ(heard.injections[2].injection_id, 1);
+  EXPECT_EQ(heard.injections[2].header.utime, kStart + 2'020'000);
+}
+
+}  // namespace
+}  // namespace rover
