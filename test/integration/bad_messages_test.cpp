@@ -13,11 +13,13 @@
 #include <map>
 #include <random>
 #include <rover/correction_t.hpp>
+#include <rover/fault_t.hpp>
 #include <rover/image_t.hpp>
 #include <rover/imu_t.hpp>
 #include <rover/injection_t.hpp>
 #include <rover/slam_pose_t.hpp>
 #include <rover/supervisor_state_t.hpp>
+#include <rover/traversability_t.hpp>
 #include <rover/wheel_state_t.hpp>
 #include <set>
 #include <sstream>
@@ -73,6 +75,13 @@ MissionPlan plan() {
   return plan;
 }
 
+// Without the rows that are there to raise on bad messages.
+supervisor::SupervisorConfig supervisor_config() {
+  supervisor::SupervisorConfig config = supervisor::load_config(kConfig);
+  std::erase_if(config.fdir.lines, [](const auto& line) { return line.quantity == "lost_share"; });
+  return config;
+}
+
 const std::map<std::string, Factory>& factories() {
   static const std::map<std::string, Factory> kFactories = {
       {"stereo", [](Node& n) { return stereo::make_stereo(n, kConfig); }},
@@ -89,7 +98,10 @@ const std::map<std::string, Factory>& factories() {
       {"locomotion",
        [](Node& n) { return std::make_shared<locomotion::LocomotionNode>(n, locomotion::load_config(kConfig)); }},
       {"supervisor",
-       [](Node& n) { return std::make_shared<supervisor::SupervisorNode>(n, supervisor::load_config(kConfig)); }},
+       [](Node& n) {
+         return std::make_shared<supervisor::SupervisorNode>(n, supervisor_config(),
+                                                             [](const std::string&) { return false; });
+       }},
       {"mission_control", [](Node& n) { return std::make_shared<MissionControlNode>(n, plan()); }},
       {"recorder", make_test_recorder},
   };
@@ -168,6 +180,10 @@ class StandingWorld {
     slam_pose_t slam{};
     slam.status = slam_pose_t::NO_INFORMATION;
     send(channel::kSlamPose, slam, t, t);
+    traversability_t terrain{};
+    send(channel::kTraversability, terrain, t, t);
+    fault_t fault{};
+    send(channel::kFault, fault, t, t);
     correction_t correction{};
     send(channel::kCorrection, correction, t, t);
     injection_t injection{};
