@@ -103,6 +103,8 @@ TEST(Screen, SilenceIsSaid) {
   Snapshot stalled = made_up_status();
   stalled.tick_silence_s = 7.2;
   EXPECT_NE(screen(stalled, {}).find("no TICK for 7.2 s"), std::string::npos);
+  stalled.services["visual_odometry"].quiet_s = kNaN;
+  EXPECT_NE(screen(stalled, {}).find("visual_odometry          104  waiting"), std::string::npos);
 }
 
 TEST(Screen, ServicesCannotCommandTheTerminal) {
