@@ -13,7 +13,8 @@ constexpr double kPeriods = 3.0;
 
 Piece condition_of(const ServiceStatus& service) {
   if (!service.process.alive) return {"dead", Colour::kRed};
-  if (std::isnan(service.age_s)) return {"silent", Colour::kRed};
+  if (service.quiet_s > kStaleS) return {"silent", Colour::kRed};
+  if (std::isnan(service.age_s)) return {"waiting", Colour::kYellow};
   if (service.age_s > kStaleS) return {"stale", Colour::kRed};
   const Health health = service.heartbeat ? service.heartbeat->health : Health::kOk;
   if (health == Health::kOk) return {"OK", Colour::kPlain};

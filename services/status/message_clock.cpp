@@ -19,7 +19,10 @@ Window MessageClock::window(double wall_s) const {
 }
 
 double MessageClock::age_s(Utime utime) const {
-  return ticks_.empty() || utime == kNever ? kNaN : to_seconds(now() - utime);
+  if (ticks_.empty() || utime == kNever) return kNaN;
+  const Utime age = now() - utime;
+  // What the world measures for a tick goes out just before it. What is of a later future is shown as such.
+  return age < 0 && age >= -kTickUs ? 0.0 : to_seconds(age);
 }
 
 }  // namespace rover::status

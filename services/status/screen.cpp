@@ -76,6 +76,7 @@ Line fault_line(const FaultStatus& fault) {
 }
 
 void add_faults(const Snapshot& s, Lines& out) {
+  if (!s.state && s.faults.empty()) return;  // not heard is not "none"
   out.emplace_back();
   if (s.faults.empty()) {
     out.push_back({{"no fault stands"}});

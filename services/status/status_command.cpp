@@ -1,5 +1,6 @@
 #include "status/status_command.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -35,6 +36,7 @@ double wall_s() {
 constexpr double kFirstLookS = 0.3;
 constexpr double kListenS = 1.2;
 constexpr double kRefreshS = 1.0;
+constexpr int kMoreRefreshes = 3;
 
 struct Target {
   std::string run_dir;  // empty: none
@@ -101,6 +103,11 @@ class Observer {
   Processes processes_;
 };
 
+bool lacks_figures(const Snapshot& snapshot) {
+  return std::any_of(snapshot.faults.begin(), snapshot.faults.end(),
+                     [](const FaultStatus& fault) { return fault.report.utime == kNever; });
+}
+
 int watch(Observer& observer) {
   std::signal(SIGINT, interrupt);
   std::signal(SIGTERM, interrupt);
@@ -124,6 +131,8 @@ int show_status(const StatusArguments& arguments) {
   observer.listen(kFirstLookS);
   if (arguments.watch) return watch(observer);
   observer.listen(kListenS - kFirstLookS);
+  // Standing faults are told again each second of message time, which a busy machine stretches.
+  for (int more = 0; more < kMoreRefreshes && lacks_figures(observer.snapshot()); ++more) observer.listen(kRefreshS);
   const Snapshot snapshot = observer.snapshot();
   if (target->run_dir.empty() && snapshot.channels.empty()) {
     std::fprintf(stderr, "no rover runs: nothing was heard on %s\n", target->bus_url.c_str());

@@ -145,6 +145,15 @@ TEST(Account, OvertakenAndRepeatedMessagesAreNoGaps) {
   EXPECT_EQ(world.look().channels.at("SLIP").gaps, 0);
 }
 
+TEST(Account, WhatIsMeasuredForTheNextTickIsNotOfTheFuture) {
+  World world;
+  world.run(0.1);
+  world.hear("IMU", "rover_simulator", -kTickUs);
+  world.hear("VO", "visual_odometry", -5 * kTickUs);
+  EXPECT_EQ(world.look().channels.at("IMU").age_s, 0.0);
+  EXPECT_NEAR(world.look().channels.at("VO").age_s, -0.1, 1e-9);
+}
+
 TEST(Account, WithoutTicksNothingIsOld) {
   Account account;
   account.hear({"POSE", "localization", 1, 1, 5'000'000, 100});

@@ -100,9 +100,12 @@ TEST(Screen, SilenceIsSaid) {
   const std::string silent = screen(Snapshot{}, {});
   EXPECT_NE(silent.find("no TICK heard"), std::string::npos);
   EXPECT_NE(silent.find("no STATE heard"), std::string::npos);
+  EXPECT_EQ(silent.find("no fault stands"), std::string::npos);
   Snapshot stalled = made_up_status();
   stalled.tick_silence_s = 7.2;
   EXPECT_NE(screen(stalled, {}).find("no TICK for 7.2 s"), std::string::npos);
+  stalled.services["visual_odometry"].quiet_s = kNaN;
+  EXPECT_NE(screen(stalled, {}).find("visual_odometry          104  waiting"), std::string::npos);
 }
 
 TEST(Screen, ServicesCannotCommandTheTerminal) {
