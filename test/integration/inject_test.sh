@@ -64,11 +64,11 @@ for _ in $(seq 600); do
   sleep 0.1
 done
 "$BUILD/bin/rover_launcher" inject camera_blind both --for 3 --run "$WORK/live" || fail "camera_blind was not injected"
-"$BUILD/bin/rover_launcher" inject kill localization --run "$WORK/live" || fail "localization was not killed"
+"$BUILD/bin/rover_launcher" inject kill stereo --run "$WORK/live" || fail "stereo was not killed"
 wait $launcher || true
 grep -q 'INJECTED fault=camera_blind target=both' "$WORK/live/service_logs/rover_simulator/current" ||
   fail "the simulator did not hear of the blind camera"
-[ "$(cat "$WORK/live/boots/localization")" = 2 ] || fail "localization was not started again"
+[ "$(cat "$WORK/live/boots/stereo")" = 2 ] || fail "stereo was not started again"
 [ "$(metric "$WORK/live" deterministic)" = false ] || fail "a run with faults by hand calls itself deterministic"
 
 ! pgrep -f ":$PORT[?]" >/dev/null || fail "a process is left: $(pgrep -af ":$PORT[?]")"
