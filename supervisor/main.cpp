@@ -2,9 +2,9 @@
 #include <string>
 
 #include "common/bus/node_main.hpp"
+#include "common/bus/s6_client.hpp"
 #include "supervisor/config.hpp"
 #include "supervisor/node.hpp"
-#include "supervisor/s6_client.hpp"
 
 int main(int argc, char** argv) {
   if (argc == 2 && std::string(argv[1]) == "--drawing") {
@@ -15,6 +15,6 @@ int main(int argc, char** argv) {
     const std::string run_dir = context.node.options().run_dir;
     return std::make_shared<rover::supervisor::SupervisorNode>(
         context.node, rover::supervisor::load_config(context.config_dir),
-        [run_dir](const std::string& service) { return rover::supervisor::kill_service(run_dir, service); });
+        [run_dir](const std::string& service) { return rover::kill_service(run_dir, service); });
   });
 }

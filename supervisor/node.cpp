@@ -2,18 +2,15 @@
 
 #include <rover/command_ack_t.hpp>
 #include <rover/motion_command_t.hpp>
-#include <rover/service_state_t.hpp>
 #include <sstream>
 
-#include "common/bus/checkpoint.hpp"
+#include "common/bus/s6_client.hpp"
 #include "supervisor/convert.hpp"
 #include "supervisor/memory_codec.hpp"
-#include "supervisor/s6_client.hpp"
 
 namespace rover::supervisor {
 namespace {
 
-constexpr char kCheckpoint[] = "supervisor";
 constexpr Utime kStatePeriodUs = 100'000;
 constexpr Utime kFaultPeriodUs = 1'000'000;  // of those that stand: for who missed how they were raised
 
@@ -45,7 +42,7 @@ std::string text_of(const CommandAnswer& answer) {
 }  // namespace
 
 SupervisorNode::SupervisorNode(Node& node, const SupervisorConfig& config, Kill kill)
-    : node_(node), kill_(std::move(kill)), supervisor_(config) {
+    : node_(node), kept_(node), kill_(std::move(kill)), supervisor_(config) {
   restore();
   subscribe();
   subscribe_vehicle();
@@ -82,7 +79,7 @@ void SupervisorNode::subscribe_vehicle() {
 }
 
 void SupervisorNode::step(Utime now) {
-  tell_restored(now);
+  kept_.tell();
   const SupervisorOutput output = supervisor_.step(now);
   drive_permit_t permit = message_of(output.permit);
   node_.publish(channel::kDrivePermit, permit, now);
@@ -141,30 +138,17 @@ void SupervisorNode::restart(const std::string& service) {
 }
 
 void SupervisorNode::restore() {
-  if (node_.options().run_dir.empty()) return;
-  const auto bytes = load_checkpoint(node_.options().run_dir, kCheckpoint);
-  if (!bytes) return;
-  const auto memory = memory_from(*bytes);
-  if (!memory) return node_.log("WARN", "CHECKPOINT unusable");
-  supervisor_.restore(*memory);
-  restored_ = *bytes;
-  node_.log("INFO", std::string("CHECKPOINT restored state=") + name(memory->state));
-}
-
-void SupervisorNode::tell_restored(Utime now) {
-  if (restored_.empty()) return;
-  service_state_t state{};
-  state.service = node_.options().name;
-  state.size = static_cast<std::int32_t>(restored_.size());
-  state.data = restored_;
-  node_.publish(channel::kServiceState, state, now);
-  restored_.clear();
+  kept_.restore([this](const KeptState::Bytes& bytes) {
+    const auto memory = memory_from(bytes);
+    if (memory) supervisor_.restore(*memory);
+    return memory.has_value();
+  });
 }
 
 void SupervisorNode::save() {
   const Memory memory = supervisor_.memory();
-  if (node_.options().run_dir.empty() || memory == saved_) return;
-  if (save_checkpoint(node_.options().run_dir, kCheckpoint, bytes_of(memory)))
+  if (memory == saved_) return;
+  if (kept_.save(bytes_of(memory)))
     saved_ = memory;
   else
     node_.set_status(heartbeat_t::DEGRADED, "checkpoint not written");

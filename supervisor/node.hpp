@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 
+#include "common/bus/kept_state.hpp"
 #include "common/bus/node.hpp"
 #include "supervisor/supervisor.hpp"
 
@@ -20,7 +21,6 @@ class SupervisorNode {
   void subscribe_vehicle();
   void step(Utime now);
   void restore();
-  void tell_restored(Utime now);
   void save();
   void publish_answers(const std::vector<CommandAnswer>& answers, Utime now);
   void publish_faults(const SupervisorOutput& output, Utime now);
@@ -30,10 +30,10 @@ class SupervisorNode {
   void restart(const std::string& service);
 
   Node& node_;
+  KeptState kept_;
   Kill kill_;
   Supervisor supervisor_;
   Memory saved_;
-  std::vector<std::uint8_t> restored_;  // checkpoint to tell of
   std::map<std::string, int> pids_;
 };
 

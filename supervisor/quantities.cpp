@@ -55,7 +55,8 @@ Reading corridor_deviation(const Now& now, const Subject&, double) {
 
 Reading predicted_corridor_share(const Now& now, const Subject&, double limit) {
   const ControlReport& control = now.in.control;
-  if (control.stale_pose || !(control.corridor_half_width_m > 0.0)) return flag_reading(false, control.utime, now.utime);
+  if (control.stale_pose || !(control.corridor_half_width_m > 0.0))
+    return flag_reading(false, control.utime, now.utime);
   const double predicted = control.predicted_error_m / control.corridor_half_width_m;
   const bool strays = std::abs(control.cross_track_m) > kPredictionFrom * control.corridor_half_width_m;
   Reading out = above_reading(predicted, limit, control.utime, now.utime);

@@ -19,6 +19,7 @@ constexpr double kTopSpeed = 0.2;
 Progress::Progress(lcm::LCM& lcm, bool enabled) : enabled_(enabled), terminal_(isatty(STDOUT_FILENO) == 1) {
   pose_.header.utime = -1;
   state_.state = -1;
+  state_.header.utime = -1;
   listen(lcm, channel::kPose, pose_);
   listen(lcm, channel::kPlannerStatus, planner_);
   listen(lcm, channel::kState, state_);
@@ -34,6 +35,11 @@ void Progress::listen(lcm::LCM& lcm, const char* channel, Message& newest) {
         if (decode_message(buffer->data, static_cast<int>(buffer->data_size), message)) *out = message;
       },
       &newest);
+}
+
+bool Progress::supervisor_hangs() const {
+  constexpr std::int64_t kSilence = 2'000'000;  // message time; STATE comes ten times a second
+  return state_.header.utime >= 0 && pose_.header.utime - state_.header.utime > kSilence;
 }
 
 std::string Progress::line() const {

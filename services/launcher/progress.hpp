@@ -22,6 +22,11 @@ class Progress {
   void finish();
   // Whether the rover has been heard: the world has begun.
   bool started() const { return pose_.header.utime >= 0; }
+  // Whether the rover's time goes on without a word from its supervisor, which nobody else would start anew when it
+  // hangs.
+  bool supervisor_hangs() const;
+  // Give it time again.
+  void supervisor_killed() { state_.header.utime = pose_.header.utime; }
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/bus/config.hpp"
+#include "common/bus/s6_client.hpp"
 #include "common/bus/service_names.hpp"
 #include "launcher/preflight.hpp"
 #include "launcher/progress.hpp"
@@ -59,6 +60,10 @@ End wait_for_end(const RunArguments& arguments, const RunFolder& folder, S6Sessi
   while (!interrupted) {
     lcm.handleTimeout(100);
     progress.show();
+    if (progress.supervisor_hangs()) {
+      kill_service(folder.dir, "supervisor");
+      progress.supervisor_killed();
+    }
     if (fs::exists(end_file)) break;
     const auto failed = failed_services(folder.dir);
     if (!failed.empty() && (!failed.front().said.empty() || ++silent_looks > kSilentLooks))

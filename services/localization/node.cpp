@@ -1,16 +1,12 @@
 #include "localization/node.hpp"
 
 #include <rover/command_ack_t.hpp>
-#include <rover/service_state_t.hpp>
 
-#include "common/bus/checkpoint.hpp"
 #include "localization/convert.hpp"
 
 namespace rover::loc {
 namespace {
 
-constexpr char kCheckpoint[] = "localization";
-constexpr Utime kSavePeriodUs = 1'000'000;
 constexpr Utime kSlipPeriodUs = 5 * kTickUs;  // its window is seconds long
 
 const char* text_of(PoseStatus status) {
@@ -30,7 +26,7 @@ const char* text_of(PoseStatus status) {
 }  // namespace
 
 LocalizationNode::LocalizationNode(Node& node, const LocalizationConfig& config, const Vehicle& vehicle)
-    : node_(node), localization_(config, vehicle) {
+    : node_(node), kept_(node), localization_(config, vehicle) {
   subscribe();
   restore();
   node_.on_step([this](Utime now) { on_step(now); });
@@ -71,14 +67,7 @@ void LocalizationNode::on_ground_command(const ground_command_t& command) {
 }
 
 void LocalizationNode::on_step(Utime now) {
-  if (!restored_.empty()) {
-    service_state_t state{};
-    state.service = node_.options().name;
-    state.size = static_cast<int32_t>(restored_.size());
-    state.data = restored_;
-    node_.publish(channel::kServiceState, state, now);
-    restored_.clear();
-  }
+  kept_.tell();
   localization_.step(now);
   publish();
   tell_status();
@@ -109,23 +98,16 @@ void LocalizationNode::tell_status() {
 }
 
 void LocalizationNode::restore() {
-  if (node_.options().run_dir.empty()) return;
-  const auto bytes = load_checkpoint(node_.options().run_dir, kCheckpoint);
-  if (!bytes) return;
-  const auto checkpoint = from_bytes(*bytes);
-  if (!checkpoint) return node_.log("WARN", "CHECKPOINT unusable");
-  localization_.restore(*checkpoint);
-  restored_ = *bytes;
-  node_.log("INFO", "CHECKPOINT restored utime=" + std::to_string(checkpoint->utime));
+  kept_.restore([this](const KeptState::Bytes& bytes) {
+    const auto checkpoint = from_bytes(bytes);
+    if (checkpoint) localization_.restore(*checkpoint);
+    return checkpoint.has_value();
+  });
 }
 
 void LocalizationNode::save() {
-  if (node_.options().run_dir.empty() || node_.now() < next_save_) return;
-  next_save_ = node_.now() + kSavePeriodUs;
-  const auto checkpoint = localization_.checkpoint();
-  if (!checkpoint) return;
-  if (!save_checkpoint(node_.options().run_dir, kCheckpoint, to_bytes(*checkpoint)))
-    node_.log("WARN", "CHECKPOINT not saved");
+  if (!kept_.due()) return;
+  if (const auto checkpoint = localization_.checkpoint()) kept_.save(to_bytes(*checkpoint));
 }
 
 void LocalizationNode::check(const char* channel, std::string_view refusal) {

@@ -5,6 +5,7 @@
 #include <rover/slam_pose_t.hpp>
 #include <string>
 
+#include "common/bus/kept_state.hpp"
 #include "common/bus/node.hpp"
 #include "common/core/vehicle.hpp"
 #include "localization/localization.hpp"
@@ -27,11 +28,10 @@ class LocalizationNode {
   void check(const char* channel, std::string_view refusal);
 
   Node& node_;
+  KeptState kept_;
   Localization localization_;
   PoseStatus told_ = PoseStatus::kOk;
   std::string told_reason_;
-  std::vector<std::uint8_t> restored_;  // to be published as SERVICE_STATE
-  Utime next_save_ = 0;
   Utime next_slip_ = 0;
 };
 

@@ -4,16 +4,12 @@
 #include <rover/command_ack_t.hpp>
 #include <rover/planner_status_t.hpp>
 #include <rover/pose_t.hpp>
-#include <rover/service_state_t.hpp>
 
-#include "common/bus/checkpoint.hpp"
 #include "path_planner/convert.hpp"
 
 namespace rover::planning {
 namespace {
 
-constexpr char kCheckpoint[] = "path_planner";
-constexpr Utime kSavePeriodUs = 1'000'000;
 constexpr Utime kRepeatPeriodUs = 1'000'000;       // of PATH: a restarted controller has none
 constexpr std::int64_t kPathsPerBoot = 1'000'000;  // keeps the path ids of two processes apart
 constexpr double kMostClearRadiusM = 5.0;          // more than an operator would certify
@@ -48,6 +44,7 @@ const char* text_of(PathKind kind) {
 
 PathPlannerNode::PathPlannerNode(Node& node, const PathPlannerConfig& config)
     : node_(node),
+      kept_(node),
       path_latency_(std::max<Utime>(0, to_utime(config.release_latency_s) - kTickUs)),
       planner_(config, node.options().boot_id * kPathsPerBoot) {
   node_.subscribe<path_t>(channel::kGlobalPath, [this](const path_t& m) { on_global_path(m); });
@@ -57,7 +54,7 @@ PathPlannerNode::PathPlannerNode(Node& node, const PathPlannerConfig& config)
                                     [this](const ground_command_t& m) { on_ground_command(m); });
   node_.subscribe<fault_t>(channel::kFault, [this](const fault_t& m) { on_fault(m); });
   node_.on_step([this](Utime now) { step(now); });
-  restore();
+  kept_.restore([this](const KeptState::Bytes& bytes) { return planner_.restore(bytes); });
 }
 
 void PathPlannerNode::on_global_path(const path_t& message) {
@@ -97,7 +94,7 @@ void PathPlannerNode::on_ground_command(const ground_command_t& message) {
 }
 
 void PathPlannerNode::step(Utime now) {
-  tell_restored(now);
+  kept_.tell();
   const PlannerOutput output = planner_.step(now);
   if (output.path) tell_path(*output.path);
   if (output.status.path_id == path_.path_id) repeat_path(now, output.path.has_value());
@@ -105,7 +102,7 @@ void PathPlannerNode::step(Utime now) {
   status_to(output.status, status);
   node_.publish(channel::kPlannerStatus, status, now);
   report(output.status);
-  save(now, output.path.has_value());
+  if (kept_.due() || output.path) kept_.save(planner_.save());
 }
 
 void PathPlannerNode::repeat_path(Utime now, bool at_once) {
@@ -132,32 +129,6 @@ void PathPlannerNode::report(const PlannerStatus& status) {
   node_.log(no_path ? "WARNING" : "INFO", std::string("PLANNER state=") + text_of(state_) +
                                               " blocked_in_m=" + std::to_string(status.blocked_in_m) +
                                               (text_.empty() ? "" : " text=" + text_));
-}
-
-void PathPlannerNode::restore() {
-  if (node_.options().run_dir.empty()) return;
-  const auto bytes = load_checkpoint(node_.options().run_dir, kCheckpoint);
-  if (!bytes) return;
-  if (!planner_.restore(*bytes)) return node_.log("WARNING", "CHECKPOINT unusable");
-  restored_ = *bytes;
-  node_.log("INFO", "CHECKPOINT restored");
-}
-
-void PathPlannerNode::tell_restored(Utime now) {
-  if (restored_.empty()) return;
-  service_state_t state{};
-  state.service = node_.options().name;
-  state.size = static_cast<int32_t>(restored_.size());
-  state.data = restored_;
-  node_.publish(channel::kServiceState, state, now);
-  restored_.clear();
-}
-
-void PathPlannerNode::save(Utime now, bool at_once) {
-  if (node_.options().run_dir.empty() || (!at_once && now < next_save_)) return;
-  next_save_ = now + kSavePeriodUs;
-  if (!save_checkpoint(node_.options().run_dir, kCheckpoint, planner_.save()))
-    node_.log("WARNING", "CHECKPOINT not saved");
 }
 
 }  // namespace rover::planning

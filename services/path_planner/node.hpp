@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "common/bus/kept_state.hpp"
 #include "common/bus/node.hpp"
 #include "path_planner/path_planner.hpp"
 
@@ -26,15 +27,11 @@ class PathPlannerNode {
   void tell_path(const LocalPath& path);
   void repeat_path(Utime now, bool at_once);
   void report(const PlannerStatus& status);
-  void restore();
-  void tell_restored(Utime now);
-  void save(Utime now, bool at_once);
 
   Node& node_;
+  KeptState kept_;
   Utime path_latency_;
   PathPlanner planner_;
-  std::vector<std::uint8_t> restored_;  // until it has been told
-  Utime next_save_ = 0;
   path_t path_{};  // the newest; no points: none
   Utime next_repeat_ = 0;
   Utime told_at_ = kNever;  // of the newest path

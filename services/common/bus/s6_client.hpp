@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace rover::supervisor {
+namespace rover {
 
 // Whether a process of that number is there: a hung one is, a crashed one is not.
 bool process_alive(int pid);
@@ -11,4 +11,4 @@ bool process_alive(int pid);
 // keep such a service.
 bool kill_service(const std::string& run_dir, const std::string& service);
 
-}  // namespace rover::supervisor
+}  // namespace rover

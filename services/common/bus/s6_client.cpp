@@ -1,4 +1,4 @@
-#include "supervisor/s6_client.hpp"
+#include "common/bus/s6_client.hpp"
 
 #include <signal.h>
 #include <spawn.h>
@@ -9,7 +9,7 @@
 
 extern char** environ;
 
-namespace rover::supervisor {
+namespace rover {
 
 bool process_alive(int pid) {
   return pid > 0 && (kill(pid, 0) == 0 || errno == EPERM);
@@ -25,4 +25,4 @@ bool kill_service(const std::string& run_dir, const std::string& service) {
   return waitpid(pid, &status, 0) == pid && WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
-}  // namespace rover::supervisor
+}  // namespace rover

@@ -1,0 +1,45 @@
+#include "common/bus/kept_state.hpp"
+
+#include <rover/service_state_t.hpp>
+
+#include "common/bus/checkpoint.hpp"
+
+namespace rover {
+namespace {
+
+constexpr Utime kPeriod = 1'000'000;
+
+}  // namespace
+
+void KeptState::restore(const std::function<bool(const Bytes&)>& take) {
+  if (node_.options().run_dir.empty()) return;
+  const auto bytes = load_checkpoint(node_.options().run_dir, node_.options().name);
+  if (!bytes) return;
+  if (!take(*bytes)) return node_.log("WARN", "CHECKPOINT unusable");
+  restored_ = *bytes;
+  node_.log("INFO", "CHECKPOINT restored bytes=" + std::to_string(restored_.size()));
+}
+
+void KeptState::tell() {
+  if (restored_.empty()) return;
+  service_state_t state{};
+  state.service = node_.options().name;
+  state.size = static_cast<std::int32_t>(restored_.size());
+  state.data = restored_;
+  node_.publish(channel::kServiceState, state, node_.now());
+  restored_.clear();
+}
+
+bool KeptState::due() const {
+  return !node_.options().run_dir.empty() && node_.now() >= next_save_;
+}
+
+bool KeptState::save(const Bytes& bytes) {
+  if (node_.options().run_dir.empty()) return true;
+  next_save_ = node_.now() + kPeriod;
+  if (save_checkpoint(node_.options().run_dir, node_.options().name, bytes)) return true;
+  node_.log("WARN", "CHECKPOINT not saved");
+  return false;
+}
+
+}  // namespace rover
