@@ -9,8 +9,7 @@ scenario() {
   shift
   sed 's/^  x_m: .*/  x_m: [10.0, 12.0, 14.0, 16.0]/; s/^  y_m: .*/  y_m: [20.0, 20.0, 20.0, 20.0]/; /^ \{8\}/d' \
     "$SOURCE/config/scenarios/flat.yaml" >"$file"
-  [ $# = 0 ] || echo "faults:" >>"$file"
-  printf '  - %s\n' "$@" >>"$file"
+  [ $# = 0 ] || { echo "faults:" && printf '  - %s\n' "$@"; } >>"$file"
 }
 
 # refused PATTERN ARGS...: one line, exit status 2.

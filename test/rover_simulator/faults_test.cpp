@@ -116,7 +116,7 @@ ScriptedFault at_second(double at_s, const std::string& fault, const std::string
   return scripted;
 }
 
-// Some seconds on a plane of firm ground.
+// Some seconds on a smooth plane of firm ground.
 Heard drive(std::vector<ScriptedFault> faults, double seconds = 2.0) {
   SimulatedRoverConfig config;
   config.loccam.scene.fine_radius_m = 4.5;
@@ -124,6 +124,8 @@ Heard drive(std::vector<ScriptedFault> faults, double seconds = 2.0) {
   config.loccam.scene.far_radius_m = 30.0;
   WorldConfig plane;
   plane.soil.everywhere = Soil::kFirm;
+  plane.rocks.k = 0.0;
+  plane.roughness.rms_m = 0.0;
   auto world = std::make_unique<World>(plane, plane_raster(40.0, 40.0, 1.0, 0.0, 0.0), 1);
   SimulatedRover rover(config, load_vehicle(kConfig), load_stereo_rig(kConfig, "loccam"), std::move(world),
                        {20.0, 20.0, 0.0}, 1);
