@@ -47,6 +47,7 @@ SupervisorNode::SupervisorNode(Node& node, const SupervisorConfig& config, Kill 
   subscribe();
   subscribe_vehicle();
   node_.on_step([this](Utime now) { step(now); });
+  node_.on_silence([this] { withdraw(); });
 }
 
 void SupervisorNode::subscribe() {
@@ -88,6 +89,11 @@ void SupervisorNode::step(Utime now) {
   publish_answers(output.answers, now);
   for (const std::string& service : output.restarts) restart(service);
   save();
+}
+
+void SupervisorNode::withdraw() {
+  drive_permit_t permit = message_of(Permit{false, 0.0, node_.now(), "no ticks"});
+  node_.publish(channel::kDrivePermit, permit, node_.now());
 }
 
 void SupervisorNode::publish_answers(const std::vector<CommandAnswer>& answers, Utime now) {

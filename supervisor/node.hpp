@@ -20,6 +20,7 @@ class SupervisorNode {
   void subscribe();
   void subscribe_vehicle();
   void step(Utime now);
+  void withdraw();
   void restore();
   void save();
   void publish_answers(const std::vector<CommandAnswer>& answers, Utime now);

@@ -24,6 +24,7 @@ LocomotionNode::LocomotionNode(Node& node, const NodeConfig& config)
   node_.subscribe<drive_permit_t>(channel::kDrivePermit, [this](const drive_permit_t& m) { permit_ = permit_from(m); });
   node_.subscribe<wheel_state_t>(channel::kWheelState, [this](const wheel_state_t& m) { wheels_ = reading_from(m); });
   node_.on_step([this](Utime now) { step(now); });
+  node_.on_silence([this] { stop(); });
 }
 
 void LocomotionNode::step(Utime now) {
@@ -33,6 +34,14 @@ void LocomotionNode::step(Utime now) {
   setpoints_to(command.wheels, message);
   node_.publish(channel::kWheelCommand, message, now);
   report(command);
+}
+
+// Nobody knows what time it is: no lease holds.
+void LocomotionNode::stop() {
+  wheel_command_t message{};
+  message.valid_until_utime = node_.now();
+  setpoints_to(locomotion_.step(node_.now(), command_, {}, wheels_).wheels, message);
+  node_.publish(channel::kWheelCommand, message, node_.now());
 }
 
 void LocomotionNode::report(const WheelCommand& command) {

@@ -13,6 +13,7 @@ class LocomotionNode {
 
  private:
   void step(Utime now);
+  void stop();
   void report(const WheelCommand& command);
 
   Node& node_;

@@ -39,10 +39,17 @@ class NodeTest : public testing::Test {
     return message;
   }
 
-  void tick(Node& node, Utime utime, std::vector<stream_seq_t> streams = {}) {
+  // Handles until the count of silences grows, or for as long as it never takes.
+  bool falls_silent(Node& node, const int& silences) {
+    const int before = silences;
+    for (int i = 0; i < 50 && silences == before; ++i) node.handle(10);
+    return silences > before;
+  }
+
+  void tick(Node& node, Utime utime, std::vector<stream_seq_t> streams = {}, std::int8_t mode = tick_t::LOCKSTEP) {
     tick_t tick;
     tick.header = world_.next(channel::kTick, utime, utime);
-    tick.mode = tick_t::LOCKSTEP;
+    tick.mode = mode;
     tick.members = {"node"};
     tick.member_count = 1;
     tick.streams = std::move(streams);
@@ -61,6 +68,21 @@ class NodeTest : public testing::Test {
   std::vector<done_t> dones_;
   std::vector<pose_t> poses_;
 };
+
+TEST_F(NodeTest, TicksOfTheClockThatStopAreNoticedOnce) {
+  Node node({.name = "node"}, bus_);
+  int silences = 0;
+  node.on_silence([&] { ++silences; });
+  tick(node, 20'000);  // in lockstep the world may think as long as it wants
+  EXPECT_FALSE(falls_silent(node, silences));
+  for (int round = 1; round <= 2; ++round) {
+    tick(node, 20'000 * (round + 1), {}, tick_t::REALTIME);
+    EXPECT_EQ(silences, round - 1);
+    EXPECT_TRUE(falls_silent(node, silences));
+    EXPECT_EQ(silences, round);
+    EXPECT_FALSE(falls_silent(node, silences));
+  }
+}
 
 TEST_F(NodeTest, TakesInputsByReleaseNotByArrival) {
   Node node({.name = "node"}, bus_);

@@ -17,6 +17,8 @@ constexpr Utime kHeartbeatPeriod = 10 * kTickUs;
 // Wall time that a lockstep tick waits for messages that are listed but not here: only loss or reordering on the bus
 // makes it wait at all. A stream never seen is given less, because it may be of a process that is not running.
 constexpr auto kPatience = std::chrono::seconds(2);
+// Ticks by the clock come every 20 ms.
+constexpr auto kSilence = std::chrono::milliseconds(300);
 constexpr auto kPatienceUnknown = std::chrono::milliseconds(50);
 
 bool is_power_of_two(std::int64_t n) {
@@ -270,6 +272,7 @@ void Node::process(const tick_t& tick) {
   now_ = ticks_health_.last_utime = tick.header.utime;
   ++ticks_health_.received;
   const bool lockstep = tick.mode == tick_t::LOCKSTEP;
+  if (!lockstep) last_tick_wall_ = Clock::now();
   std::vector<Pending> released = take_released(now_);
   if (tap_) released = through_tap(std::move(released));
   Utime slow = 0;
@@ -388,7 +391,15 @@ void Node::announce() {
 bool Node::handle(int timeout_ms) {
   const int handled = lcm_.handleTimeout(timeout_ms);
   process_ready_ticks();
+  look_for_silence();
   return handled >= 0;
+}
+
+void Node::look_for_silence() {
+  if (!last_tick_wall_ || Clock::now() - *last_tick_wall_ < kSilence) return;
+  last_tick_wall_.reset();
+  log("WARN", "NO_TICKS");
+  if (silence_) silence_();
 }
 
 void Node::run(const std::function<bool()>& running) {

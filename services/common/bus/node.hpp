@@ -6,11 +6,13 @@
 // meanwhile. TICK lists what has been published, so a node knows that it holds all it must have before it goes on.
 #pragma once
 
+#include <chrono>
 #include <deque>
 #include <functional>
 #include <lcm/lcm-cpp.hpp>
 #include <map>
 #include <memory>
+#include <optional>
 #include <rover/done_t.hpp>
 #include <rover/heartbeat_t.hpp>
 #include <rover/injection_t.hpp>
@@ -71,6 +73,10 @@ class Node {
   // Called once each tick, after the inputs.
   void on_step(std::function<void(Utime now)> step) { step_ = std::move(step); }
 
+  // Dead man's switch: called when ticks that followed the clock have come no more for 0.3 s of wall time, once until
+  // they come again. Message time stands still then; what the node says is of the last tick.
+  void on_silence(std::function<void()> silence) { silence_ = std::move(silence); }
+
   // Fills the header and publishes. `utime`: what the data are of. Release: the next tick plus extra_latency, or later
   // by a promise.
   template <class Message>
@@ -111,6 +117,7 @@ class Node {
   void enqueue(Subscription& subscription, Pending pending, Utime delay);
   void receive_tick(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void process_ready_ticks();
+  void look_for_silence();
   bool holds_all_for(QueuedTick& tick);
   void process(const tick_t& tick);
   std::vector<Pending> take_released(Utime until);
@@ -137,6 +144,8 @@ class Node {
   std::unique_ptr<Tap> tap_;
   StepTimer timer_;
   std::function<void(Utime)> step_;
+  std::function<void()> silence_;
+  std::optional<std::chrono::steady_clock::time_point> last_tick_wall_;  // of the clock's ticks, until told silent
   std::function<void(const injection_t&)> on_injection_;
   std::vector<std::unique_ptr<Subscription>> subscriptions_;
   input_health_t ticks_health_{};
