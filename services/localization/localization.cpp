@@ -42,7 +42,7 @@ std::string_view Localization::take_imu(const ImuSample& sample) {
   if (!sample.healthy) return {};  // silence, which the monitor sees
   if (const auto flaw = flaw_of(sample); !flaw.empty()) return flaw;
   if (sample.utime <= imu_newest_) return "not newer than the one before";
-  if (pose_.utime != kNever && sample.utime > pose_.utime + kFutureUs) return "from the future";
+  if (is_future(sample.utime)) return "from the future";
   imu_newest_ = sample.utime;
   if (imu_monitor_.take(sample)) imu_waiting_.push_back(sample);
   return {};
@@ -52,7 +52,7 @@ std::string_view Localization::take_wheels(const WheelSample& sample) {
   if (!sample.healthy) return {};
   if (const auto flaw = flaw_of(sample); !flaw.empty()) return flaw;
   if (sample.utime <= wheels_newest_) return "not newer than the one before";
-  if (pose_.utime != kNever && sample.utime > pose_.utime + kFutureUs) return "from the future";
+  if (is_future(sample.utime)) return "from the future";
   wheels_newest_ = sample.utime;
   wheels_waiting_.push_back(sample);
   return {};
@@ -112,7 +112,13 @@ void Localization::start_covariance(const StartPose& start) {
 
 // ---- the tick
 
+// Against the tick's time, not the pose's: after a step of the clock the pose is old, and the samples are not to blame.
+bool Localization::is_future(Utime utime) const {
+  return stepped_ != kNever && utime > stepped_ + kFutureUs;
+}
+
 void Localization::step(Utime now) {
+  stepped_ = now;
   if (const auto record = next_record(now)) {
     history_.add(*record);
     slip_.add(*record);

@@ -89,6 +89,7 @@ class Localization {
     Eigen::Isometry3d T_odom_body;
   };
 
+  bool is_future(Utime utime) const;
   std::optional<MotionRecord> next_record(Utime now);
   void gather_imu(MotionRecord& record);
   void gather_wheels(MotionRecord& record);
@@ -128,6 +129,7 @@ class Localization {
   Utime imu_newest_ = kNever;
   Utime wheels_newest_ = kNever;
   Utime visual_newest_ = kNever;
+  Utime stepped_ = kNever;  // newest tick
   Utime record_end_ = kNever;
   Utime initialised_utime_ = kNever;
   Utime imu_alive_utime_ = kNever;

@@ -582,6 +582,8 @@ TEST_F(SupervisorTest, AStepOfTheClockStops) {
   tick();
   EXPECT_FALSE(out_.permit.granted);
   EXPECT_EQ(changes_.back().cause, "clock_step");
+  EXPECT_LE(time_to_permit(), 2.0);
+  EXPECT_TRUE(restarts_.empty());  // nobody was at fault
 }
 
 TEST_F(SupervisorTest, ASilentServiceIsStartedAnewThreeTimesThenTheRoverGivesUp) {
