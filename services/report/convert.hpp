@@ -3,6 +3,7 @@
 
 #include <rover/control_status_t.hpp>
 #include <rover/correction_t.hpp>
+#include <rover/drive_permit_t.hpp>
 #include <rover/fault_t.hpp>
 #include <rover/hazards_t.hpp>
 #include <rover/heartbeat_t.hpp>

@@ -1,8 +1,8 @@
 #include "report/log_reader.hpp"
 
-#include <algorithm>
 #include <lcm/eventlog.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <limits>
@@ -66,6 +66,9 @@ class Reader {
     take<path_t>(channel::kGlobalPath, [this](const path_t& m) { run_.global_paths.push_back(path_from(m)); });
     take<path_t>(channel::kPath, [this](const path_t& m) { add_path(path_from(m)); });
     take<hazards_t>(channel::kHazards, [this](const hazards_t& m) { run_.hazards.push_back(hazards_from(m)); });
+    take<drive_permit_t>(channel::kDrivePermit, [this](const drive_permit_t& m) {
+      if (m.granted) run_.permits.push_back({to_seconds(m.header.release_utime), to_seconds(m.valid_until_utime)});
+    });
     take<planner_status_t>(channel::kPlannerStatus,
                            [this](const planner_status_t& m) { run_.planner.push_back(planner_from(m)); });
     take<fault_t>(channel::kFault, [this](const fault_t& m) { add_fault(fault_from(m)); });

@@ -96,6 +96,24 @@ void judge_control(const RunRecord& run, Metrics& m) {
 }
 
 // Truth against the path followed, both in map, where the rover believes its path to lie: drift counts.
+// The whole log, not the drive alone: a rover that nobody lets go must stand before and after it too.
+void judge_lease(const RunRecord& run, Metrics& m) {
+  constexpr double kStopS = 3.0;  // from top speed at the vehicle's deceleration, and what the commands need
+  constexpr double kMovingMps = 0.03;
+  if (run.truth.empty()) return;
+  m.motion_without_lease_s = 0.0;
+  double lease_s = -kInfinity;
+  double before_s = run.truth.front().t_s;
+  auto permit = run.permits.begin();
+  for (const TruthSample& sample : run.truth) {
+    for (; permit != run.permits.end() && permit->released_s <= sample.t_s; ++permit)
+      lease_s = std::max(lease_s, permit->until_s);
+    if (sample.speed_mps > kMovingMps && sample.t_s - lease_s > kStopS)
+      m.motion_without_lease_s += sample.t_s - before_s;
+    before_s = sample.t_s;
+  }
+}
+
 void judge_deviation(const RunRecord& run, const TrueTrack& truth, Metrics& m) {
   constexpr double kStepS = 0.2;
   double next = m.window.begin_s;
@@ -241,6 +259,7 @@ Judgement judge(const RunRecord& run, const RunInfo& info, const Footprint& foot
   const TrueTrack truth(run.truth);
   judge_length(run, truth, footprint, m);
   judge_truth(run, m);
+  judge_lease(run, m);
   judge_control(run, m);
   judge_deviation(run, truth, m);
   judge_drift(run, truth, m);

@@ -69,7 +69,8 @@ struct Metrics {
   std::optional<int> rocks_missed;
   std::optional<int> false_stops;
   int unseen_stops = 0;
-  std::vector<FaultRecord> fdir;  // each raised
+  std::vector<FaultRecord> fdir;         // each raised
+  double motion_without_lease_s = kNaN;  // true motion later after the lease than a stop takes
   std::map<std::string, ServiceFigures> services;
   BusRecord bus;
   std::int64_t bus_lost = 0;  // as the receivers counted

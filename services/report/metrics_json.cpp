@@ -140,6 +140,7 @@ Json metrics_json(const Metrics& m) {
   add_drive(m, json);
   add_accuracy(m, json);
   add_hazards(m, json);
+  json["motion_without_lease_s"] = number(m.motion_without_lease_s);
   json["fdir"] = fdir_json(m);
   json["services"] = services_json(m);
   json["bus"] = {{"messages", m.bus.messages},

@@ -103,6 +103,12 @@ struct PlannerSample {
   int replans = 0;
 };
 
+// A DRIVE_PERMIT that was granted.
+struct PermitSample {
+  double released_s = 0.0;
+  double until_s = 0.0;
+};
+
 struct FaultRecord {
   double t_s = 0.0;
   std::string id;
@@ -143,6 +149,7 @@ struct RunRecord {
   std::vector<PathRecord> local_paths;
   std::vector<HazardMap> hazards;
   std::vector<PlannerSample> planner;
+  std::vector<PermitSample> permits;
   std::vector<FaultRecord> faults;
   std::vector<CorrectionRecord> corrections;
   std::map<std::string, ServiceRecord> services;

@@ -44,6 +44,21 @@ TEST(Metrics, ContactsOfOneBumpAreOneCollision) {
   EXPECT_EQ(m.outcome, "collision");
 }
 
+TEST(Metrics, MotionAfterTheLeaseCounts) {
+  RunRecord run;
+  for (int i = 0; i <= 1000; ++i) {
+    TruthSample sample;
+    sample.t_s = 0.02 * i;
+    sample.speed_mps = i < 700 ? 0.2 : 0.0;
+    run.truth.push_back(sample);
+  }
+  run.permits = {{0.0, 4.0}, {9.0, 9.2}};
+  // Moving until 14 s; leases until 4 s and from 9 s until 9.2 s, and three seconds to stop after each.
+  EXPECT_NEAR(judge(run, {}, {}, std::nullopt).metrics.motion_without_lease_s, 2.0 + 1.8, 0.05);
+  run.permits.clear();
+  EXPECT_NEAR(judge(run, {}, {}, std::nullopt).metrics.motion_without_lease_s, 14.0, 0.05);
+}
+
 TEST(Metrics, OutcomeOfRunsThatDoNotArrive) {
   RunRecord run = straight_run(10.0);
   run.states.back().state = State::kFaultStop;

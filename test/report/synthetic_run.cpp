@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fstream>
 #include <rover/control_status_t.hpp>
+#include <rover/drive_permit_t.hpp>
 #include <rover/hazards_t.hpp>
 #include <rover/heartbeat_t.hpp>
 #include <rover/path_t.hpp>
@@ -129,6 +130,10 @@ class Writer {
     for (int i = 0; i < 6; ++i)
       wheels.drive_current_a[i] = s > 0.0 ? 1.2 + 0.15 * i + 0.5 * std::sin(1e-6 * static_cast<double>(t) + i) : 0.0;
     log_.put(channel::kWheelState, wheels, t, "rover_simulator");
+    drive_permit_t permit{};
+    permit.granted = s > 0.0;
+    permit.valid_until_utime = t + 200'000;
+    log_.put(channel::kDrivePermit, permit, t, "supervisor", kTickUs);
     slip_t slip{};
     slip.valid = s > 0.0;
     slip.slip_ratio = 0.045 + 0.03 * std::sin(2e-7 * static_cast<double>(t) - 0.3);

@@ -1,0 +1,94 @@
+#!/usr/bin/env bash
+# One fault of the table in each of many runs of the default scenario, by seed: which fault, when, on whom. Writes
+# test/results/faults.md. Called by ./rover bench faults [--seeds a..b] [--resume] [--jobs N].
+set -euo pipefail
+cd "$(dirname "$(readlink -f "$0")")/.."
+BUILD=$1
+shift
+first=1 last=60 resume= jobs=2
+while [ $# -gt 0 ]; do
+  case $1 in
+    --seeds) IFS=. read -r first _ last <<<"$2" && shift ;;
+    --resume) resume=yes ;;
+    --jobs) jobs=$2 && shift ;;
+    *) echo "rover bench faults: '$1' is not an option" >&2 && exit 2 ;;
+  esac
+  shift
+done
+LOGS=$PWD/logs/bench/faults
+ROWS=$LOGS/rows.jsonl
+OUT=test/results/faults.md
+COMMIT=$(git describe --always --dirty --abbrev=12)
+mkdir -p "$LOGS" test/results
+[ -n "$resume" ] || rm -f "$ROWS"
+touch "$ROWS"
+
+# fault, target, amount ("-": its usual one), duration ("-": none)
+CASES=(
+  "kill recorder - -" "kill stereo - -" "kill visual_odometry - -" "kill localization - -" "kill hazard_detector - -"
+  "kill path_planner - -" "kill trajectory_control - -" "kill locomotion - -" "kill supervisor - -"
+  "kill mission_control - -" "hang stereo - -" "hang localization - -" "hang path_planner - -" "hang locomotion - -"
+  "hang supervisor - -" "restart_loop hazard_detector 2 -" "slow stereo 0.5 5" "drop POSE 1 2" "drop DISPARITY 1 3"
+  "delay HAZARDS 1 5" "duplicate IMU 1 5" "reorder POSE 0.3 5" "corrupt VO 0.5 5" "freeze DISPARITY - 3"
+  "nan POSE 1 2" "nan VO 1 3" "loss * 0.02 20" "loss * 0.2 5" "camera_blind both - 3" "camera_frozen both - 3"
+  "camera_rows left 3 4" "imu_dead imu - 2" "gyro_bias imu 0.05 5" "encoder_stuck 2 - 5" "wheel_jammed 3 - 4"
+  "loose_sand ground - 8" "tilt_roll ground 25 4" "tilt_pitch ground 40 4" "clock_step clock 0.8 -"
+  "full_disk recorder - 10"
+)
+
+case_of() { echo "${CASES[$((($1 - 1) % ${#CASES[@]}))]}"; }
+
+scenario_of() {  # SEED FAULT TARGET AMOUNT FOR: the default scenario with this fault at a time of the seed's
+  cat config/scenarios/default.yaml
+  local keys="fault: $2, target: '$3', at_s: $((15 + $1 * 37 % 60))"
+  [ "$4" = - ] || keys="$keys, amount: $4"
+  [ "$5" = - ] || keys="$keys, for_s: $5"
+  echo "faults:"
+  echo "  - {$keys}"
+}
+
+run_one() {  # SEED SLOT
+  local seed=$1 dir="$LOGS/run-$1" fault
+  fault=$(case_of "$seed")
+  rm -rf "$dir"
+  set -f  # a target may be a star
+  # shellcheck disable=SC2086
+  scenario_of "$seed" $fault >"$LOGS/seed-$seed.yaml"
+  set +f
+  sed -i "s|\.\./terrain|$PWD/config/terrain|" "$LOGS/seed-$seed.yaml"
+  "$BUILD/bin/rover_launcher" run "$LOGS/seed-$seed.yaml" --seed "$seed" --out "$dir" --record reduced \
+    --bus "udpm://239.255.76.67:$((7900 + $2))?ttl=0&recv_buf_size=4194304" >"$LOGS/seed-$seed.log" 2>&1 || true
+  [ -e "$dir/metrics.json" ] || echo '{"outcome": "no_metrics", "fdir": []}' >"$dir/metrics.json"
+  jq -c --arg fault "$fault" --arg commit "$COMMIT" --argjson seed "$seed" \
+    '{commit: $commit, seed: $seed, fault: $fault, outcome, collisions, deterministic, duration_s,
+      unleased_s: .motion_without_lease_s, rows: [.fdir[].id] | unique, first: (.fdir[0].id // "-"), last: (.fdir[-1].id // "-")}' "$dir/metrics.json" >>"$ROWS"
+  rm -f "$dir/traverse.lcm"
+  echo "seed $seed: $fault: $(jq -r .outcome "$dir/metrics.json")"
+}
+
+slot=0
+for ((seed = first; seed <= last; ++seed)); do
+  grep -q "\"commit\":\"$COMMIT\",\"seed\":$seed," "$ROWS" && continue
+  while [ "$(jobs -rp | wc -l)" -ge "$jobs" ]; do wait -n; done
+  run_one $seed $((slot = (slot + 1) % 1000)) &
+done
+wait
+
+{
+  echo "# Faults on the whole, rendered rover"
+  echo
+  echo "Command: \`./rover bench faults --seeds $first..$last\`; commit $COMMIT; $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1), $(nproc) cores."
+  echo
+  echo "One fault in each run of the default scenario; the rover is on its own until the end."
+  echo
+  jq -rs --arg commit "$COMMIT" '
+    map(select(.commit == $commit)) |
+    "| demand | measured |", "|---|---|",
+    "| runs | \(length) |",
+    "| 0 collisions | \(map(.collisions // 0) | add) |",
+    "| at least 95 % reach the goal without a person | \(map(select(.outcome == "goal_reached")) | length) of \(length) |",
+    "| 0 s of motion without lease, by the truth | \(map(.unleased_s // 0) | add) s |",
+    "", "| seed | fault, target, amount, seconds | outcome | first row | last row | collisions | deterministic | s |", "|---|---|---|---|---|---|---|---|",
+    (sort_by(.seed)[] | "| \(.seed) | \(.fault) | \(.outcome) | \(.first) | \(.last) | \(.collisions // "-") | \(.deterministic) | \(.duration_s // 0 | round) |")' "$ROWS"
+} >"$OUT"
+cat "$OUT"
