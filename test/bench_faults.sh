@@ -62,7 +62,7 @@ run_one() {  # SEED SLOT
   jq -c --arg fault "$fault" --arg commit "$COMMIT" --argjson seed "$seed" \
     '{commit: $commit, seed: $seed, fault: $fault, outcome, collisions, deterministic, duration_s,
       unleased_s: .motion_without_lease_s, rows: [.fdir[].id] | unique, first: (.fdir[0].id // "-"), last: (.fdir[-1].id // "-")}' "$dir/metrics.json" >>"$ROWS"
-  rm -f "$dir/traverse.lcm"
+  [ "$(jq -r .outcome "$dir/metrics.json")" != goal_reached ] || rm -f "$dir/traverse.lcm"  # else it is looked into
   echo "seed $seed: $fault: $(jq -r .outcome "$dir/metrics.json")"
 }
 

@@ -240,8 +240,10 @@ bool PathPlanner::retreat(PlannerOutput& out) {
   return true;
 }
 
+// At its end, or where the rover is not let on along it.
 void PathPlanner::look_from_retreat(PlannerOutput& out) {
-  if (active_.route.length_m() - active_.progress_m > kRetreatEndM || !standing()) return;
+  const bool at_end = active_.route.length_m() - active_.progress_m <= kRetreatEndM;
+  if (!standing() || !(at_end || strayed())) return;
   if (repair(true, out) || failures_ < config_.patience_frames) return;
   retreat(out);
 }
