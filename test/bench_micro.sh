@@ -15,8 +15,10 @@ mkdir -p test/results
 } >$OUT.new
 for program in "$BUILD"/bench/*; do
   [ -x "$program" ] && [ -f "$program" ] || continue
-  "$program" --benchmark_repetitions=5 --benchmark_report_aggregates_only=true --benchmark_format=csv 2>/dev/null |
-    awk -F, '/_median"?,/ { gsub(/"/, "", $1); sub(/_median$/, "", $1); printf "| %s | %.3f %s | %.3f %s |\n", $1, $3, $5, $4, $5 }' >>$OUT.new
+  "$program" --benchmark_repetitions=5 --benchmark_report_aggregates_only=true --benchmark_format=json 2>/dev/null |
+    jq -r '.benchmarks[] | select(.aggregate_name == "median") |
+      def figure(x): x * 1000 | round / 1000;
+      "| \(.name | sub("_median$"; "")) | \(figure(.real_time)) \(.time_unit) | \(figure(.cpu_time)) \(.time_unit) |"' >>$OUT.new
 done
 mv $OUT.new $OUT
 cat $OUT
