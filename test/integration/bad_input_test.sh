@@ -79,8 +79,8 @@ refused "value out of range" "config/vehicle.yaml:[0-9]+: wheels.radius_m: out o
   --set vehicle.wheels.radius_m=-1
 refused "wrong unit of one service" "path_planner: .*config/path_planner.yaml:[0-9]+: margin_cm: unknown key" \
   config/scenarios/flat.yaml --set path_planner.margin_cm=20
-refused "unit in a value of one service" "supervisor: .*config/supervisor.yaml:[0-9]+: max_age.pose_s: not a number" \
-  config/scenarios/flat.yaml --set "supervisor.max_age.pose_s=300 ms"
+refused "unit in a value of one service" "supervisor: .*config/supervisor.yaml:[0-9]+: permit_validity_s: not a number" \
+  config/scenarios/flat.yaml --set "supervisor.permit_validity_s=200 ms"
 
 mkdir "$WORK/out"
 echo mine >"$WORK/out/notes.txt"
