@@ -47,7 +47,7 @@ scenario_of() {  # SEED FAULT TARGET AMOUNT FOR: the default scenario with this 
   echo "  - {$keys}"
 }
 
-run_one() {  # SEED SLOT
+run_one() {  # SEED
   local seed=$1 dir="$LOGS/run-$1" fault
   fault=$(case_of "$seed")
   rm -rf "$dir"
@@ -57,7 +57,8 @@ run_one() {  # SEED SLOT
   set +f
   sed -i "s|\.\./terrain|$PWD/config/terrain|" "$LOGS/seed-$seed.yaml"
   "$BUILD/bin/rover_launcher" run "$LOGS/seed-$seed.yaml" --seed "$seed" --out "$dir" --record reduced \
-    --bus "udpm://239.255.76.67:$((7900 + $2))?ttl=0&recv_buf_size=4194304" >"$LOGS/seed-$seed.log" 2>&1 || true
+    --bus "udpm://239.255.76.67:$((7900 + seed))?ttl=0&recv_buf_size=4194304" >"$LOGS/seed-$seed.log" 2>&1 || true
+  mkdir -p "$dir"
   [ -e "$dir/metrics.json" ] || echo '{"outcome": "no_metrics", "fdir": []}' >"$dir/metrics.json"
   jq -c --arg fault "$fault" --arg commit "$COMMIT" --argjson seed "$seed" \
     '{commit: $commit, seed: $seed, fault: $fault, outcome, collisions, deterministic, duration_s,
@@ -66,11 +67,10 @@ run_one() {  # SEED SLOT
   echo "seed $seed: $fault: $(jq -r .outcome "$dir/metrics.json")"
 }
 
-slot=0
 for ((seed = first; seed <= last; ++seed)); do
   grep -q "\"commit\":\"$COMMIT\",\"seed\":$seed," "$ROWS" && continue
   while [ "$(jobs -rp | wc -l)" -ge "$jobs" ]; do wait -n; done
-  run_one $seed $((slot = (slot + 1) % 1000)) &
+  run_one "$seed" &
 done
 wait
 

@@ -24,7 +24,10 @@ MotorOutput DriveMotor::step(const DriveMotorConfig& config, double limit_a, dou
   const double most_rad = limit_a * config.torque_per_amp_nm / config.angle_gain_nm;
   lead_rad_ = std::clamp(lead_rad_, -most_rad, most_rad);
   const double torque = config.rate_gain_nms * (rate_cmd_radps - rate_radps) + config.angle_gain_nm * lead_rad_;
-  return limited(torque, rate_radps, config.torque_per_amp_nm, config.no_load_current_a, limit_a);
+  MotorOutput out = limited(torque, rate_radps, config.torque_per_amp_nm, config.no_load_current_a, limit_a);
+  // At rest the gear holds the wheel by itself.
+  if (rate_cmd_radps == 0.0 && std::abs(rate_radps) < kFrictionRate) out.current_a = 0.0;
+  return out;
 }
 
 MotorOutput SteerMotor::step(const SteerMotorConfig& config, double limit_a, double max_rate_radps,
