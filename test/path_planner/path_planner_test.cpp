@@ -285,6 +285,34 @@ TEST(PathPlanner, WhereNoWayLeadsOnItGoesBackOverItsTrack) {
   EXPECT_LT(retreat->points.back().p.x_m, rig.odom.x_m - 0.4);
 }
 
+// FDIR has stopped the rover on the retreat: it must not wait there for ever.
+TEST(PathPlanner, ARetreatThatTheRoverIsNotLetGoOnIsReplaced) {
+  PlannerRig rig;
+  rig.send_path(kAhead);
+  rig.camera.far_m = 0.0;
+  for (rig.odom.x_m = 0.0; rig.odom.x_m < 1.5; rig.odom.x_m += 0.05) rig.step();
+  rig.look(20);
+  ASSERT_EQ(rig.paths.back().kind, PathKind::kRetreat);
+  const std::int64_t retreat = rig.paths.back().id;
+  rig.look(20);
+  ASSERT_EQ(rig.paths.back().id, retreat);  // undisturbed it is kept
+  rig.planner.request_replan();
+  rig.look(20);
+  EXPECT_NE(rig.paths.back().id, retreat);
+}
+
+TEST(PathPlanner, OnDemandAClearPathIsReplacedTooAndOnce) {
+  PlannerRig rig;
+  rig.send_path(kAhead);
+  rig.look(3);
+  const size_t before = rig.paths.size();
+  rig.look(20);
+  ASSERT_EQ(rig.paths.size(), before);
+  rig.planner.request_replan();
+  rig.look(20);
+  EXPECT_EQ(rig.paths.size(), before + 1);
+}
+
 TEST(PathPlanner, AStartAreaBeginsAnew) {
   PlannerRig rig;
   rig.send_path(kAhead);
