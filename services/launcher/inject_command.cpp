@@ -1,7 +1,5 @@
 #include "launcher/inject_command.hpp"
 
-#include <signal.h>
-
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -16,8 +14,10 @@
 
 #include "common/bus/channels.hpp"
 #include "common/bus/faults.hpp"
+#include "common/bus/s6_client.hpp"
 #include "common/bus/streams.hpp"
 #include "common/core/time.hpp"
+#include "status/running_run.hpp"
 
 namespace rover {
 namespace fs = std::filesystem;
@@ -49,56 +49,31 @@ struct LiveRun {
   bool allow_injection = false;
 };
 
-// A run is live from its start until the simulator has written its summary.
-bool read_live(const fs::path& dir, LiveRun& run) {
-  std::ifstream in(dir / "launch.json");
-  const auto facts = nlohmann::json::parse(in, nullptr, false);
-  if (!facts.is_object() || fs::exists(dir / "simulation.json")) return false;
-  const int pid = facts.value("pid", 0);
-  if (pid <= 0 || (kill(pid, 0) != 0 && errno != EPERM)) return false;
-  run = {fs::absolute(dir), facts.value("bus", ""), facts.value("allow_injection", false)};
-  return true;
-}
-
-LiveRun newest_live(const fs::path& logs) {
-  LiveRun newest;
-  fs::file_time_type time;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(logs, error)) {
-    LiveRun run;
-    if (!entry.is_directory() || !read_live(entry.path(), run)) continue;
-    const fs::file_time_type started = fs::last_write_time(entry.path() / "launch.json");
-    if (!newest.dir.empty() && started < time) continue;
-    newest = run;
-    time = started;
-  }
-  if (newest.dir.empty()) throw ConfigError("inject: no run is under way in " + logs.string() + "; name one by --run");
-  return newest;
+std::string newest_live(const std::string& logs) {
+  const auto newest = status::newest_running(logs);
+  if (!newest) throw ConfigError("inject: no run is under way in " + logs + "; name one by --run");
+  return *newest;
 }
 
 LiveRun find_run(const InjectArguments& arguments) {
-  LiveRun run;
-  if (arguments.run_dir.empty())
-    run = newest_live(fs::path(arguments.source_dir) / "logs");
-  else if (!read_live(arguments.run_dir, run))
-    throw ConfigError("inject: " + arguments.run_dir + ": no run is under way there");
+  const fs::path dir = arguments.run_dir.empty() ? newest_live(arguments.source_dir + "/logs") : arguments.run_dir;
+  std::ifstream in(dir / "launch.json");
+  const auto facts = nlohmann::json::parse(in, nullptr, false);
+  if (!facts.is_object() || !status::is_running(dir))
+    throw ConfigError("inject: " + dir.string() + ": no run is under way there");
+  const LiveRun run{fs::absolute(dir), facts.value("bus", ""), facts.value("allow_injection", false)};
   if (!run.allow_injection)
     throw ConfigError("inject: " + run.dir +
                       " was started without injection; start it with: ./rover run --allow-injection");
   return run;
 }
 
-std::string service_dir(const LiveRun& run, const std::string& service) {
-  return run.dir + "/services/" + service;
-}
-
 void signal_through_s6(const LiveRun& run, const std::string& service, const char* option) {
-  const std::string command = "s6-svc " + std::string(option) + " '" + service_dir(run, service) + "'";
-  if (std::system(command.c_str()) != 0) throw ConfigError("inject: s6-svc has failed on " + service);
+  if (!control_service(run.dir, service, option)) throw ConfigError("inject: s6-svc has failed on " + service);
 }
 
 int pid_of(const LiveRun& run, const std::string& service) {
-  const std::string command = "s6-svstat -o pid '" + service_dir(run, service) + "'";
+  const std::string command = "s6-svstat -o pid '" + run.dir + "/services/" + service + "'";
   int pid = -1;
   if (FILE* pipe = popen(command.c_str(), "r")) {
     if (std::fscanf(pipe, "%d", &pid) != 1) pid = -1;

@@ -1,7 +1,5 @@
 #include "launcher/run_command.hpp"
 
-#include <unistd.h>
-
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
@@ -101,8 +99,7 @@ void write_run_json(const RunArguments& arguments, const RunFolder& folder) {
 
 // For ./rover inject, while the run lasts.
 void write_launch_json(const RunArguments& arguments, const RunFolder& folder) {
-  const nlohmann::json facts = {
-      {"pid", getpid()}, {"bus", folder.bus_url}, {"allow_injection", allows_injection(arguments, folder)}};
+  const nlohmann::json facts = {{"bus", folder.bus_url}, {"allow_injection", allows_injection(arguments, folder)}};
   std::ofstream(folder.dir + "/launch.json") << facts.dump(2) << "\n";
 }
 

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "common/bus/channels.hpp"
+#include "common/bus/s6_client.hpp"
 #include "rover_simulator/convert.hpp"
 
 namespace rover {
@@ -39,10 +40,6 @@ double since_s(Clock::time_point start) {
 void warn(Utime t, const std::string& event) {
   std::printf("%lld WARN rover_simulator %s\n", static_cast<long long>(t), event.c_str());
   std::fflush(stdout);
-}
-
-bool alive(int pid) {
-  return pid > 0 && (kill(pid, 0) == 0 || errno == EPERM);
 }
 
 RoverPhase phase_of(const supervisor_state_t& state) {
@@ -275,7 +272,7 @@ void Simulator::deal_with_missing(const std::vector<std::string>& missing, Utime
       barrier_.give_up(name);
       continue;
     }
-    const bool dead = barrier_.pid_of(name) > 0 && !alive(barrier_.pid_of(name));
+    const bool dead = barrier_.pid_of(name) > 0 && !process_alive(barrier_.pid_of(name));
     if (!dead && waited_s < kSilence_s) continue;
     if (!dead) summary_.deterministic = false;
     summary_.left.push_back(name + (dead ? " died at " : " silent at ") + std::to_string(to_seconds(t)) + " s");

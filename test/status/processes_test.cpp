@@ -17,8 +17,8 @@ namespace fs = std::filesystem;
 class Folder : public testing::Test {
  protected:
   Folder() {
-    char name[] = "/tmp/rover-status-XXXXXX";
-    root_ = mkdtemp(name);
+    std::string name = testing::TempDir() + "/rover-status-XXXXXX";
+    root_ = mkdtemp(name.data());
   }
   ~Folder() override {
     for (const int fd : open_) close(fd);

@@ -17,9 +17,9 @@ constexpr Utime kHeartbeatPeriod = 10 * kTickUs;
 // Wall time that a lockstep tick waits for messages that are listed but not here: only loss or reordering on the bus
 // makes it wait at all. A stream never seen is given less, because it may be of a process that is not running.
 constexpr auto kPatience = std::chrono::seconds(2);
-// Ticks by the clock come every 20 ms.
-constexpr auto kSilence = std::chrono::milliseconds(300);
 constexpr auto kPatienceUnknown = std::chrono::milliseconds(50);
+// Wall time without ticks that follow the clock; they come every 20 ms.
+constexpr auto kSilence = std::chrono::milliseconds(300);
 
 bool is_power_of_two(std::int64_t n) {
   return (n & (n - 1)) == 0;

@@ -15,14 +15,18 @@ bool process_alive(int pid) {
   return pid > 0 && (kill(pid, 0) == 0 || errno == EPERM);
 }
 
-bool kill_service(const std::string& run_dir, const std::string& service) {
+bool control_service(const std::string& run_dir, const std::string& service, const char* option) {
   const std::string dir = run_dir + "/services/" + service;
   if (run_dir.empty() || !std::filesystem::exists(dir)) return false;
-  const char* command[] = {"s6-svc", "-k", dir.c_str(), nullptr};
+  const char* command[] = {"s6-svc", option, dir.c_str(), nullptr};
   pid_t pid = 0;
   if (posix_spawnp(&pid, command[0], nullptr, nullptr, const_cast<char**>(command), environ) != 0) return false;
   int status = 0;
   return waitpid(pid, &status, 0) == pid && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+bool kill_service(const std::string& run_dir, const std::string& service) {
+  return control_service(run_dir, service, "-k");
 }
 
 }  // namespace rover
