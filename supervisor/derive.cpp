@@ -4,6 +4,15 @@
 #include <cmath>
 
 namespace rover::supervisor {
+namespace {
+
+double lasting_s(bool is_so, Utime now, Utime& since) {
+  if (!is_so) since = kNever;
+  if (is_so && since == kNever) since = now;
+  return since == kNever ? 0.0 : to_seconds(now - since);
+}
+
+}  // namespace
 
 Derive::Derive(const DeriveConfig& config)
     : config_(config),
@@ -73,9 +82,8 @@ void Derive::step_motion(Utime now, const Inputs& in, bool permitted) {
   const bool turning = std::any_of(in.wheels.drive_radps.begin(), in.wheels.drive_radps.end(), [&](double rate) {
     return std::abs(rate) * config_.wheel_radius_m > config_.standing_wheel_mps;
   });
-  if (permitted || !turning) moving_since_ = kNever;
-  if (!permitted && turning && moving_since_ == kNever) moving_since_ = now;
-  derived_.unpermitted_s = moving_since_ == kNever ? 0.0 : to_seconds(now - moving_since_);
+  derived_.unpermitted_s = lasting_s(!permitted && turning, now, moving_since_);
+  derived_.idle_s = lasting_s(permitted && !turning, now, idle_since_);
 }
 
 }  // namespace rover::supervisor

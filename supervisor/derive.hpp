@@ -1,5 +1,5 @@
 // What rows watch that no single message says: loads of motors, losses on the bus, starts of services, steps of the
-// clock, motion that nobody permitted.
+// clock, motion that nobody permitted, and permits that nobody uses.
 #pragma once
 
 #include <deque>
@@ -54,8 +54,9 @@ class Derive {
   std::map<std::string, std::deque<Utime>> starts_;
   std::deque<double> fault_stops_;
   Utime last_tick_ = kNever;
-  Utime newest_ = kNever;  // of the messages about services
-  Utime moving_since_ = kNever;
+  Utime newest_ = kNever;        // of the messages about services
+  Utime moving_since_ = kNever;  // without a permit
+  Utime idle_since_ = kNever;    // with one
 };
 
 }  // namespace rover::supervisor

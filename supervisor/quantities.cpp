@@ -199,6 +199,7 @@ constexpr std::array kQuantities = {
     Quantity{"lost_share", kOne, lost_share},
     Quantity{"clock_step_s", kOne, derived_above<&Derived::clock_step_s>},
     Quantity{"unpermitted_motion_s", kOne, derived_above<&Derived::unpermitted_s>},
+    Quantity{"idle_drive_s", kOne, derived_above<&Derived::idle_s>},
     Quantity{"fault_stops", kOne, derived_above<&Derived::fault_stops>},
 };
 

@@ -21,6 +21,7 @@ struct Derived {
   std::map<std::string, int> starts;  // of each service beyond its first, in the newest minute
   double clock_step_s = 0.0;          // between the newest two ticks
   double unpermitted_s = 0.0;         // wheels have turned for that long without a permit
+  double idle_s = 0.0;                // the rover could have driven for that long and has not
   double fault_stops = 0.0;           // of the newest metres of way
 };
 

@@ -187,9 +187,7 @@ class ArcSearch {
 
   void finish_from(int index) {
     const ArcNode& node = nodes_[index];
-    if (problem_.goal && node.parent >= 0 && distance(position(node.pose), *problem_.goal) <= problem_.goal_radius_m &&
-        node.cost < result_.cost)
-      accept(index, nullptr, -1, node.cost);
+    if (problem_.goal && node.parent >= 0) end_at_goal(index, distance(position(node.pose), *problem_.goal));
     if (problem_.targets.empty()) return;
     const int near = nearest_target(position(node.pose));
     const double near_m = problem_.targets[near].way_m;
@@ -202,6 +200,11 @@ class ArcSearch {
       last = target;
       for (const double radius : kJoinRadii) join(index, target, radius / config_.max_curvature_per_m);
     }
+  }
+
+  void end_at_goal(int index, double miss_m) {
+    const double cost = nodes_[index].cost + problem_.goal_miss_cost * miss_m;
+    if (miss_m <= problem_.goal_reach_m && cost < result_.cost) accept(index, nullptr, -1, cost);
   }
 
   int nearest_target(Point2 p) const {

@@ -43,8 +43,9 @@ struct SearchProblem {
   const std::vector<double>& travel;  // the fast-marching field of `cost` from the targets
   ViewArea view;
   const std::vector<JoinTarget>& targets;  // ordered along the global path
-  std::optional<Point2> goal;              // any heading will do within goal_radius_m of it
-  double goal_radius_m = 0.0;
+  std::optional<Point2> goal;              // any heading will do within goal_reach_m of it
+  double goal_reach_m = 0.0;
+  double goal_miss_cost = 0.0;  // per metre off the goal
   Pose2 start;
   double start_curvature_per_m = 0.0;
   double sure_m = kInfinity;  // way within which all ground must be seen before the rover reaches it

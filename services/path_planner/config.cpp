@@ -96,6 +96,7 @@ PathPlannerConfig load_config(const std::string& config_dir) {
   config.read("corridor_half_width_m", out.corridor_half_width_m, {0.1, 5.0});
   config.read("least_corridor_m", out.least_corridor_m, {0.05, 1.0});
   config.read("goal_tolerance_m", out.goal_tolerance_m, {0.05, 5.0});
+  config.read("blocked_goal_reach_m", out.blocked_goal_reach_m, {0.0, 3.0});
   config.read("max_start_offset_m", out.max_start_offset_m, {0.05, 5.0});
   config.read_deg("point_turn_deg", out.turn_threshold_rad, {5.0, 90.0});
   config.read("stop_hazard_m", out.stop_hazard_m, {0.1, 5.0});

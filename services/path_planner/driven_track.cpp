@@ -1,5 +1,7 @@
 #include "path_planner/driven_track.hpp"
 
+#include <algorithm>
+
 namespace rover::planning {
 
 void DrivenTrack::extend(Point2 rover) {
@@ -9,11 +11,11 @@ void DrivenTrack::extend(Point2 rover) {
 }
 
 void DrivenTrack::retrace(Point2 rover) {
-  while (points_.size() >= 2) {
-    const Point2 before = points_[points_.size() - 2];
-    if (distance(before, rover) > distance(before, points_.back())) return;
-    points_.pop_back();
-  }
+  const size_t window = std::min(points_.size(), static_cast<size_t>(kRetraceM / kStepM));
+  size_t nearest = points_.size();
+  for (size_t i = points_.size(); i-- > points_.size() - window;)
+    if (nearest == points_.size() || distance(points_[i], rover) < distance(points_[nearest], rover)) nearest = i;
+  points_.resize(std::min(nearest + 1, points_.size()));
 }
 
 std::vector<Point2> DrivenTrack::back(Point2 rover, double way_m) const {

@@ -12,10 +12,11 @@ class DrivenTrack {
  public:
   static constexpr double kStepM = 0.1;
   static constexpr double kLongestM = 10.0;
+  static constexpr double kRetraceM = 1.0;
 
   // The rover goes on: a point every step of the way.
   void extend(Point2 rover);
-  // The rover goes back: points that it has passed again are taken off.
+  // The rover goes back, not quite on the track: it ends at its point closest to the rover, among the last kRetraceM.
   void retrace(Point2 rover);
   void clear() { points_.clear(); }
   // From the rover back along the track, at most `way_m` long; fewer than two points: there is no track.

@@ -18,6 +18,7 @@ constexpr double kMarchBeyond = 6.0;    // travel cost, as much as a point turn 
 constexpr double kMostClearanceM = 2.0;
 constexpr double kLeastSmoothM = 0.6;
 constexpr double kSeenMarginM = 0.04;  // the rover follows a path within centimetres
+constexpr double kGoalMissCost = 3.0;  // per metre that a way ends off the goal
 constexpr double kViewReserveM = 0.06;
 constexpr double kViewStepM = 0.1;
 constexpr double kViewStepRad = 0.4;
@@ -39,6 +40,17 @@ ViewArea narrowed(ViewArea view) {
   view.far_half_width_m -= kViewReserveM;
   view.far_m -= kViewReserveM;
   return view;
+}
+
+// The goal itself may lie under a hazard: each cell from which it counts as reached is an end.
+void append_goal_seeds(const Terrain& terrain, Point2 goal, double reach_m, std::vector<Seed>& seeds) {
+  const int reach = static_cast<int>(std::ceil(reach_m / terrain.cell_m()));
+  for (int dy = -reach; dy <= reach; ++dy)
+    for (int dx = -reach; dx <= reach; ++dx) {
+      const Point2 p{goal.x_m + dx * terrain.cell_m(), goal.y_m + dy * terrain.cell_m()};
+      const double miss_m = distance(p, goal);
+      if (miss_m <= reach_m && terrain.contains(p)) seeds.push_back({terrain.cell_of(p), kGoalMissCost * miss_m});
+    }
 }
 
 void append(std::vector<Pose2>& way, const std::vector<Pose2>& section) {
@@ -76,17 +88,16 @@ RepairResult LocalRepair::plan(const RepairRequest& request) const {
   std::optional<Point2> goal;
   if (request.terrain.inside_m(end) >= kBorderM) {
     goal = end;
-    seeds.push_back({request.terrain.cell_of(end), 0.0});
+    append_goal_seeds(request.terrain, end, request.goal_reach_m, seeds);
   }
   if (seeds.empty()) {
     result.status = RepairStatus::kNoTarget;
     return result;
   }
   const std::vector<double> travel = march(cost, seeds, request.terrain.cell_of(position(request.start)), kMarchBeyond);
-  const SearchResult way =
-      search_arcs(config_.search, {check, turn_check, cost, travel, narrowed(config_.view), targets, goal,
-                                   0.6 * request.goal_tolerance_m, request.start, request.start_curvature_per_m,
-                                   request.sure_m, request.stopped});
+  const SearchResult way = search_arcs(
+      config_.search, {check, turn_check, cost, travel, narrowed(config_.view), targets, goal, request.goal_reach_m,
+                       kGoalMissCost, request.start, request.start_curvature_per_m, request.sure_m, request.stopped});
   result.expansions = way.expansions;
   if (!way.found) {
     result.status = way.unseen_in_the_way ? RepairStatus::kUnseen

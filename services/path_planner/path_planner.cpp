@@ -259,7 +259,9 @@ void PathPlanner::firm_up(PlannerOutput& out) {
   const double sure = seen_way(terrain, poses);
   if (sure >= config_.firm_way_m) return;
   double margin = 0.0;
-  if (!find_repair(terrain, kInfinity, margin) && !find_repair(terrain, config_.sure_way_m, margin)) return;
+  if (!find_repair(terrain, {kInfinity, goal_reach_m()}, margin) &&
+      !find_repair(terrain, {config_.sure_way_m, goal_reach_m()}, margin))
+    return;
   if (seen_way(terrain, last_repair_.poses) > sure + config_.firm_gain_m) take_repair(margin, out);
 }
 
@@ -282,8 +284,7 @@ void PathPlanner::judge() {
 bool PathPlanner::repair(bool because_of_hazard, PlannerOutput& out) {
   const Terrain terrain(memory_);
   double margin = 0.0;
-  if (!find_repair(terrain, kInfinity, margin) && !find_repair(terrain, config_.sure_way_m, margin) &&
-      !find_repair(terrain, config_.least_sure_way_m, margin)) {
+  if (!find_any_repair(terrain, margin)) {
     ++failures_;
     return false;
   }
@@ -293,12 +294,24 @@ bool PathPlanner::repair(bool because_of_hazard, PlannerOutput& out) {
   return true;
 }
 
-bool PathPlanner::find_repair(const Terrain& terrain, double sure_m, double& margin_m) {
+// The demands fall from one to the next. The last is for a goal under hazards, once that is certain.
+bool PathPlanner::find_any_repair(const Terrain& terrain, double& margin_m) {
+  for (const double sure_m : {kInfinity, config_.sure_way_m, config_.least_sure_way_m})
+    if (find_repair(terrain, {sure_m, goal_reach_m()}, margin_m)) return true;
+  return failures_ + 1 >= config_.patience_frames && goal_near() &&
+         find_repair(terrain, {config_.sure_way_m, config_.blocked_goal_reach_m}, margin_m);
+}
+
+bool PathPlanner::goal_near() const {
+  return distance(global_odom_.points().back().p, position(rover())) < config_.repair.view.far_m;
+}
+
+bool PathPlanner::find_repair(const Terrain& terrain, const WayDemand& demand, double& margin_m) {
   for (const double margin : {config_.margin_m, config_.tight_margin_m})
     for (const LeadIn& lead : lead_ins()) {
       margin_m = margin;
       last_lead_ = lead;
-      last_repair_ = plan_repair(terrain, lead, margin, sure_m);
+      last_repair_ = plan_repair(terrain, lead, margin, demand);
       if (last_repair_.status == RepairStatus::kFound) return true;
     }
   return false;
@@ -325,12 +338,12 @@ void PathPlanner::take_repair(double margin_m, PlannerOutput& out) {
 }
 
 RepairResult PathPlanner::plan_repair(const Terrain& terrain, const LeadIn& lead, double margin_m,
-                                      double sure_m) const {
+                                      const WayDemand& demand) const {
   const double halt_m = lead_ins().front().way_m;
   return local_repair_.plan(
       {terrain, global_odom_, global_progress_m_, advanced(rover(), lead.way_m, lead.curvature_per_m),
        lead.curvature_per_m, advanced(rover(), halt_m, lead.curvature_per_m),
-       margin_m + config_.plan_extra_m + sigma_margin_m(), sure_m, global_->goal_tolerance_m, dead_ends_});
+       margin_m + config_.plan_extra_m + sigma_margin_m(), demand.sure_m, demand.goal_reach_m, dead_ends_});
 }
 
 Route PathPlanner::repaired_route(const RepairResult& repair) const {
@@ -439,6 +452,9 @@ PlannerStatus PathPlanner::status(Utime now) const {
   status.path_id = active_.id;
   status.goal_distance_m = goal_distance_m();
   status.state = active_.kind == PathKind::kGlobal ? PlannerState::kFollowing : PlannerState::kRepairing;
+  const double short_by_m = distance(active_.route.points().back().p, global_odom_.points().back().p);
+  if (active_.kind != PathKind::kRetreat && short_by_m > global_->goal_tolerance_m)
+    status.text = "the goal is not free: the path ends beside it";
   describe_block(status);
   return status;
 }

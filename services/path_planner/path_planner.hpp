@@ -37,10 +37,11 @@ struct PathPlannerConfig {
   double trigger_m = 6.0;          // a block further ahead is left until it comes nearer
   double corridor_half_width_m = 0.75;
   double least_corridor_m = 0.20;
-  double goal_tolerance_m = 0.4;    // where the global path names none
-  double max_start_offset_m = 0.5;  // from the global path; further away a way to it is planned
-  double turn_threshold_rad = 0.7;  // as trajectory_control: larger heading errors are a point turn
-  double stop_hazard_m = 0.6;       // nearer blocks stand in the way at once: no path if no repair is found
+  double goal_tolerance_m = 0.4;      // where the global path names none
+  double blocked_goal_reach_m = 1.2;  // a way may end that far from a goal on which hazards lie
+  double max_start_offset_m = 0.5;    // from the global path; further away a way to it is planned
+  double turn_threshold_rad = 0.7;    // as trajectory_control: larger heading errors are a point turn
+  double stop_hazard_m = 0.6;         // nearer blocks stand in the way at once: no path if no repair is found
   double stop_unseen_m = 0.35;
   int patience_frames = 4;  // standing before unseen ground, a single hit or a blocked path, until it counts
   double retreat_m = 1.2;   // backwards along the driven track, where no way leads on
@@ -113,6 +114,8 @@ class PathPlanner {
   const RepairResult& last_repair() const { return last_repair_; }
 
  private:
+  static constexpr double kGoalShare = 0.6;  // of the goal's tolerance, for the plan
+
   struct Active {
     Route route;
     std::int64_t id = -1;
@@ -126,6 +129,11 @@ class PathPlanner {
   struct LeadIn {
     double way_m = 0.0;
     double curvature_per_m = 0.0;
+  };
+  // What a repair has to fulfil: way over ground that is seen in time, and how near to the goal one that ends there.
+  struct WayDemand {
+    double sure_m = kInfinity;
+    double goal_reach_m = 0.0;
   };
   struct StartArea {
     Point2 center_map;
@@ -152,8 +160,11 @@ class PathPlanner {
   void judge();
   bool repair(bool because_of_hazard, PlannerOutput& out);
   void take_repair(double margin_m, PlannerOutput& out);
-  RepairResult plan_repair(const Terrain& terrain, const LeadIn& lead, double margin_m, double sure_m) const;
-  bool find_repair(const Terrain& terrain, double sure_m, double& margin_m);
+  RepairResult plan_repair(const Terrain& terrain, const LeadIn& lead, double margin_m, const WayDemand& demand) const;
+  bool find_repair(const Terrain& terrain, const WayDemand& demand, double& margin_m);
+  bool find_any_repair(const Terrain& terrain, double& margin_m);
+  bool goal_near() const;
+  double goal_reach_m() const { return kGoalShare * global_->goal_tolerance_m; }
   std::vector<LeadIn> lead_ins() const;
   double seen_way(const Terrain& terrain, const std::vector<Pose2>& poses) const;
   bool turn_pending() const;

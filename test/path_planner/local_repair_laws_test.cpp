@@ -10,7 +10,7 @@
 namespace rover::planning {
 namespace {
 
-using testing_support::kRepairGoalToleranceM;
+using testing_support::kRepairGoalReachM;
 using testing_support::kRepairMarginM;
 using testing_support::plan_on;
 using testing_support::planner_config;
@@ -197,7 +197,7 @@ TEST(LocalRepairLaws, EndsOnTheGlobalPathWithItsHeadingOrAtTheGoal) {
     }
     ++at_goal;
     EXPECT_NEAR(c.result.join_m, c.field.route.length_m(), 1e-9);
-    EXPECT_LE(off, kRepairGoalToleranceM);
+    EXPECT_LE(off, kRepairGoalReachM);
   });
   EXPECT_GT(at_goal, 5);
 }

@@ -108,7 +108,19 @@ TEST(LocalRepair, AsSoonAsPossibleJoinsBeforeWithinADistance) {
 TEST(LocalRepair, NearTheGoalItEndsAtTheGoal) {
   const RepairResult result = plan(field_with({{{1.7, 0.0}, 0.15, 0.3}}, 3.3));
   ASSERT_EQ(result.status, RepairStatus::kFound);
-  EXPECT_LE(distance(position(result.poses.back()), {3.3, 0.0}), testing_support::kRepairGoalToleranceM);
+  EXPECT_LE(distance(position(result.poses.back()), {3.3, 0.0}), testing_support::kRepairGoalReachM);
+}
+
+// A boulder where the goal was drawn: without reach there is no way, with it the rover stops clear of the boulder.
+TEST(LocalRepair, AGoalUnderARockIsReachedBesideIt) {
+  const Rock on_goal{{3.3, 0.0}, 0.25, 0.4};
+  const RepairField field = field_with({on_goal}, 3.3);
+  const Terrain terrain(field.memory);
+  EXPECT_NE(plan_on(field, terrain, planner_config().repair).status, RepairStatus::kFound);
+  const RepairResult result = plan_on(field, terrain, planner_config().repair, 1.2);
+  ASSERT_EQ(result.status, RepairStatus::kFound);
+  EXPECT_LE(distance(position(result.poses.back()), on_goal.p), 1.2 + 1e-9);
+  EXPECT_GT(result.clearance_m, testing_support::kRepairMarginM - 1e-9);
 }
 
 // A wall too near to be passed on an arc: the rover turns on the spot first.

@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint64_t kFields = 51;
 constexpr double kMarginM = 0.17;
 constexpr double kSureWayM = 2.5;
-constexpr double kGoalToleranceM = 0.5;
+constexpr double kGoalReachM = 0.3;
 
 struct Scene {
   HazardMemory memory;
@@ -43,7 +43,7 @@ Scene scene(std::uint64_t seed) {
 }
 
 RepairRequest request(const Terrain& terrain, const Route& route) {
-  return {terrain, route, 4.0, {0.02, 0.0, 0.0}, 0.0, {0.19, 0.0, 0.0}, kMarginM, kSureWayM, kGoalToleranceM};
+  return {terrain, route, 4.0, {0.02, 0.0, 0.0}, 0.0, {0.19, 0.0, 0.0}, kMarginM, kSureWayM, kGoalReachM};
 }
 
 RepairStatus repair(const LocalRepair& planner, const Scene& s) {

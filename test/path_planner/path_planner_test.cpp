@@ -285,6 +285,23 @@ TEST(PathPlanner, WhereNoWayLeadsOnItGoesBackOverItsTrack) {
   EXPECT_LT(retreat->points.back().p.x_m, rig.odom.x_m - 0.4);
 }
 
+TEST(PathPlanner, AGoalUnderARockIsReachedBesideIt) {
+  PlannerRig rig;
+  rig.send_path({{0.0, 0.0}, {6.0, 0.0}});
+  const Rock on_goal{{6.0, 0.0}, 0.25, 0.4};
+  rig.rocks = {on_goal};
+  rig.look(3);
+  PlannerOutput out;
+  for (int leg = 0; leg < 40 && !(out.status.goal_distance_m < 0.1); ++leg) {
+    rig.go(0.5);
+    out = rig.look(6);
+  }
+  EXPECT_LT(out.status.goal_distance_m, 0.1);
+  EXPECT_EQ(out.status.text, "the goal is not free: the path ends beside it");
+  EXPECT_LT(distance(position(rig.odom), on_goal.p), 1.3);
+  EXPECT_GT(clearance_m(testing_support::planner_config().footprint, rig.odom, rig.rocks), 0.0);
+}
+
 // FDIR has stopped the rover on the retreat: it must not wait there for ever.
 TEST(PathPlanner, ARetreatThatTheRoverIsNotLetGoOnIsReplaced) {
   PlannerRig rig;

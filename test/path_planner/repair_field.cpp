@@ -88,9 +88,10 @@ RepairField random_field(std::uint64_t seed) {
   return field;
 }
 
-RepairResult plan_on(const RepairField& field, const Terrain& terrain, const LocalRepairConfig& config) {
+RepairResult plan_on(const RepairField& field, const Terrain& terrain, const LocalRepairConfig& config,
+                     double goal_reach_m) {
   return LocalRepair(config).plan({terrain, field.route, field.from_m, field.start, field.start_curvature_per_m,
-                                   field.stopped, kRepairMarginM, field.sure_m, kRepairGoalToleranceM});
+                                   field.stopped, kRepairMarginM, field.sure_m, goal_reach_m});
 }
 
 }  // namespace rover::planning::testing_support

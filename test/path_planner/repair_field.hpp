@@ -19,7 +19,7 @@ struct RepairField {
 };
 
 constexpr double kRepairMarginM = 0.17;
-constexpr double kRepairGoalToleranceM = 0.5;
+constexpr double kRepairGoalReachM = 0.3;
 
 // A map of 10 x 10 m around the origin; all of it seen or nothing.
 HazardMemory ground(bool seen);
@@ -29,6 +29,7 @@ void lay_rocks(HazardMemory& memory, const std::vector<Rock>& rocks);
 Route straight_route(double length_ahead_m);
 // Rocks around a rover that follows a path past the origin, and one rock in its way.
 RepairField random_field(std::uint64_t seed);
-RepairResult plan_on(const RepairField& field, const Terrain& terrain, const LocalRepairConfig& config);
+RepairResult plan_on(const RepairField& field, const Terrain& terrain, const LocalRepairConfig& config,
+                     double goal_reach_m = kRepairGoalReachM);
 
 }  // namespace rover::planning::testing_support

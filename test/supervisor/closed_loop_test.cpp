@@ -10,6 +10,8 @@ namespace {
 
 using control::ControlState;
 
+constexpr double kWheelRadiusM = 0.125;
+
 class MissionTest : public testing::Test {
  protected:
   MissionTest() { loop_.permitted = false; }
@@ -27,6 +29,7 @@ class MissionTest : public testing::Test {
     }
     WheelReport wheels;
     wheels.utime = made;
+    wheels.drive_radps.fill(loop_.speed() / kWheelRadiusM);
     supervisor_.on_wheels(wheels);
     supervisor_.on_imu({made, false});
     supervisor_.on_motion_command(made);

@@ -25,6 +25,7 @@ class SupervisorTest : public testing::Test {
     }
     if (wheels_alive_) {
       wheels_.utime = made;
+      if (wheels_follow_) wheels_.drive_radps.fill(out_.permit.granted ? 0.8 : 0.0);
       supervisor_.on_wheels(wheels_);
     }
     if (imu_alive_) supervisor_.on_imu({made, false});
@@ -120,6 +121,7 @@ class SupervisorTest : public testing::Test {
   std::map<std::string, ServiceReport> services_;
   double coverage_ = 0.9;
   bool wheels_alive_ = true;
+  bool wheels_follow_ = true;  // the permit
   bool imu_alive_ = true;
   bool command_alive_ = true;
   bool pose_alive_ = true;
@@ -642,12 +644,26 @@ TEST_F(SupervisorTest, LossOnTheBusIsLoggedThenStops) {
 TEST_F(SupervisorTest, WheelsThatTurnWithoutAPermitEndTheDrive) {
   start_driving();
   command(CommandKind::kPause);
+  wheels_follow_ = false;
   wheels_.drive_radps.fill(1.0);
   run(2.5);
   EXPECT_EQ(supervisor_.state(), State::kPaused);
   run(1.0);
   EXPECT_EQ(supervisor_.state(), State::kSafe);
   EXPECT_EQ(changes_.back().cause, "unpermitted_motion");
+}
+
+// As when path and control each wait for the other.
+TEST_F(SupervisorTest, ARoverThatDoesNotUseItsPermitGetsANewPath) {
+  start_driving();
+  wheels_follow_ = false;
+  wheels_.drive_radps.fill(0.0);
+  run(29.0);
+  EXPECT_TRUE(faults_.empty());
+  run(2.0);
+  ASSERT_FALSE(faults_.empty());
+  EXPECT_EQ(faults_[0].id, "idle_drive");
+  EXPECT_EQ(supervisor_.state(), State::kFaultStop);
 }
 
 TEST_F(SupervisorTest, TeleoperationNeedsFreshCommandsAndIsSlow) {
