@@ -44,9 +44,11 @@ add_library(rover_opencv INTERFACE)
 target_include_directories(rover_opencv SYSTEM INTERFACE ${OpenCV_INCLUDE_DIRS})
 target_link_libraries(rover_opencv INTERFACE ${OpenCV_LIBS})
 
-# runtime: what ./rover run needs. unit_tests: the programs of the unit tests. benchmarks: those of ./rover bench micro.
+# runtime: what ./rover run needs. unit_tests: the programs of the unit tests. core_tests: those of them that also run
+# under the sanitizers in each ./rover test. benchmarks: those of ./rover bench micro.
 add_custom_target(runtime)
 add_custom_target(unit_tests)
+add_custom_target(core_tests)
 add_custom_target(benchmarks)
 
 # rover_core(NAME [HOT] SOURCES ... LINK ...): a library without middleware: it links neither LCM nor YAML nor the bus.
@@ -87,9 +89,10 @@ function(rover_benchmark name)
   add_dependencies(benchmarks ${name})
 endfunction()
 
-# rover_test(NAME SOURCES ... LINK ... [LABEL unit|integration]): builds and registers a GoogleTest program.
+# rover_test(NAME [CORE] SOURCES ... LINK ... [LABEL unit|integration]): builds and registers a GoogleTest program.
+# CORE: of a service's core.
 function(rover_test name)
-  cmake_parse_arguments(ARG "" "LABEL;TIMEOUT" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "CORE" "LABEL;TIMEOUT" "SOURCES;LINK" ${ARGN})
   if(NOT ARG_LABEL)
     set(ARG_LABEL unit)
   endif()
@@ -107,5 +110,9 @@ function(rover_test name)
   set_tests_properties(${name} PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT})
   if(ARG_LABEL STREQUAL unit)
     add_dependencies(unit_tests ${name})
+  endif()
+  if(ARG_CORE)
+    add_dependencies(core_tests ${name})
+    set_property(TEST ${name} APPEND PROPERTY LABELS core)
   endif()
 endfunction()

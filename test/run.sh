@@ -1,12 +1,10 @@
 #!/usr/bin/env bash
-# Builds and runs every test. `unit`: only the unit tests; `sanitize`: those of the cores under AddressSanitizer and
-# UndefinedBehaviorSanitizer, in a build of their own. Called by ./rover test.
+# Builds and runs every test, those of the cores also under AddressSanitizer and UndefinedBehaviorSanitizer. `unit`: only
+# the unit tests; `sanitize`: all unit tests under the sanitizers, in a build of their own. Called by ./rover test.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
 
 JOBS=$(nproc)
-# The services whose cores decide over the rover; what only draws, records or starts things is left out.
-CORES="rover_simulator;stereo;visual_odometry;localization;hazard_detector;path_planner;trajectory_control;locomotion"
 run_ctest() { ctest --test-dir "$1" --output-on-failure -j "$JOBS" "${@:2}"; }
 
 configure_and_build() {
@@ -14,19 +12,20 @@ configure_and_build() {
   ninja -C "$1" --quiet "$2"
 }
 
-sanitized() {
-  configure_and_build build-sanitize unit_tests -DROVER_SANITIZE=ON -DROVER_SERVICES="$CORES"
-  run_ctest build-sanitize -L unit
+sanitized() {  # TARGET LABEL
+  configure_and_build build-sanitize "$1" -DROVER_SANITIZE=ON
+  run_ctest build-sanitize -L "$2"
 }
 
 case "${1:-all}" in
-  sanitize) sanitized ;;
+  sanitize) sanitized unit_tests unit ;;
   unit)
     configure_and_build build unit_tests
     run_ctest build -L unit
     ;;
   all)
     configure_and_build build all
+    sanitized core_tests core
     run_ctest build
     ;;
   *)

@@ -43,6 +43,21 @@ TEST(VehicleAtRest, LiesParallelToASlope) {
   EXPECT_NEAR(facing_up.truth().T_map_body.translation().x(), 0.0, 0.01);
 }
 
+// The ground gives the rover its start pose with a deviation of 0.2 deg: settling must not add to that.
+TEST(VehicleAtRest, OnRoughGroundItStandsWhereItWasToStand) {
+  WorldConfig config;
+  config.rocks.k = 0.0;
+  config.roughness.rms_m = 0.06;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    const World world(config, level_raster(40.0), seed);
+    const Pose2 start{20.0, 18.0, 0.7 * static_cast<double>(seed)};
+    const VehicleSim sim(test_vehicle(), {}, world, start);
+    const Pose2 at = planar(sim.truth().T_map_body);
+    EXPECT_LT(std::hypot(at.x_m - start.x_m, at.y_m - start.y_m), 0.005) << seed;
+    EXPECT_LT(std::abs(wrap_angle(at.yaw_rad - start.yaw_rad)), to_rad(0.03)) << seed;
+  }
+}
+
 TEST(VehicleDrive, GoesStraightAtTheWheelsSpeed) {
   const PlaneSurface level(Soil::kBedrock, 0.0);
   VehicleSim sim(test_vehicle(), {}, level, {});

@@ -38,6 +38,10 @@ using Vec3Map = Eigen::Map<const Eigen::Vector3d>;
 // MuJoCo integrates damping implicitly, so this much of it is a lock that stays stable at the step.
 constexpr double kJammedNms = 1e5;
 
+constexpr int kSettleAttempts = 6;
+constexpr double kSettledM = 0.005;
+constexpr double kSettledRad = to_rad(0.03);
+
 }  // namespace
 
 class VehicleSim::Impl {
@@ -52,8 +56,7 @@ class VehicleSim::Impl {
     for (int i = 0; i < 6; ++i) drive_[i] = find(mjOBJ_JOINT, "drive", i);
     for (int i = 0; i < 4; ++i) steer_[i] = find(mjOBJ_JOINT, "steer", i);
     for (int i = 0; i < 3; ++i) bogie_[i] = find(mjOBJ_JOINT, "bogie", i);
-    set_down(start);
-    advance(config_.settle_s, WheelCommand{});
+    settle_at(start);
   }
 
   void advance(double dt_s, const WheelCommand& command) {
@@ -95,6 +98,27 @@ class VehicleSim::Impl {
   Eigen::Vector3d imu_velocity() const {
     const Eigen::Vector3d rates = Vec3Map(data_->qvel + 3);
     return Vec3Map(data_->qvel) + pose().linear() * rates.cross(vehicle_.imu_position_m);
+  }
+
+  // Coming to rest the vehicle slides and turns a little, by a degree on rough ground: it is set down with that lead.
+  void settle_at(const Pose2& start) {
+    Pose2 aim = start;
+    for (int attempt = 0; attempt < kSettleAttempts; ++attempt) {
+      put_at_rest(aim);
+      const Pose2 rest = planar(truth_.T_map_body);
+      const Pose2 off{rest.x_m - start.x_m, rest.y_m - start.y_m, wrap_angle(rest.yaw_rad - start.yaw_rad)};
+      if (std::hypot(off.x_m, off.y_m) < kSettledM && std::abs(off.yaw_rad) < kSettledRad) return;
+      aim = {aim.x_m - off.x_m, aim.y_m - off.y_m, aim.yaw_rad - off.yaw_rad};
+    }
+  }
+
+  void put_at_rest(const Pose2& aim) {
+    mj_resetData(model_.get(), data_.get());
+    bristle_ = {};
+    drive_motor_ = {};
+    steer_motor_ = {};
+    set_down(aim);
+    advance(config_.settle_s, WheelCommand{});
   }
 
   // On the plane through the ground under the six wheels, all of them in the air by a hair.

@@ -72,7 +72,7 @@ struct VehicleTruth {
 
 class VehicleSim {
  public:
-  // Sets the vehicle down on the surface at the start pose and lets it settle. The surface must outlive it.
+  // The vehicle at rest on the surface, at the start pose within a few millimetres. The surface must outlive it.
   VehicleSim(const Vehicle& vehicle, const VehicleSimConfig& config, const Surface& surface, const Pose2& start);
   ~VehicleSim();
   VehicleSim(const VehicleSim&) = delete;
