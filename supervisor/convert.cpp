@@ -109,7 +109,7 @@ ServiceReport report_from(const heartbeat_t& message) {
   out.status = known ? static_cast<ServiceStatus>(message.status) : ServiceStatus::kFault;
   for (const input_health_t& input : message.inputs) {
     out.received += input.received;
-    out.lost += input.gaps + input.malformed + input.out_of_order;
+    out.lost += input.gaps + input.malformed;  // what came late was a gap before, what came twice is not lost
   }
   return out;
 }

@@ -89,7 +89,7 @@ struct ServiceReport {
   int pid = 0;
   ServiceStatus status = ServiceStatus::kOk;
   std::int64_t received = 0;  // messages taken, over all inputs
-  std::int64_t lost = 0;      // gaps, malformed, out of order
+  std::int64_t lost = 0;      // gaps, malformed
 };
 
 struct Inputs {

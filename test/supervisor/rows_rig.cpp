@@ -39,8 +39,7 @@ RowsRig::RowsRig(Bus bus)
 template <class Message>
 void RowsRig::send(const std::string& channel, Message message, const std::string& publisher, std::int64_t boot_id) {
   if (silent.contains(channel)) return;
-  StreamCounter& counter =
-      counters_.try_emplace({publisher, boot_id}, StreamCounter(publisher, boot_id)).first->second;
+  StreamCounter& counter = counters_.try_emplace({publisher, boot_id}, StreamCounter(publisher, boot_id)).first->second;
   message.header = counter.next(channel, world.now, world.now + kTickUs);
   const auto publish = [this, channel, message] { world.bus.publish(channel, &message); };
   std::function<void()>& held = held_[channel + " " + publisher];
