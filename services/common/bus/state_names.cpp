@@ -11,6 +11,10 @@ constexpr std::array kStateNames = {"BOOT",       "STANDBY", "DRIVING",      "HA
 
 }  // namespace
 
+std::vector<std::string> state_names() {
+  return {kStateNames.begin(), kStateNames.end()};
+}
+
 std::string state_name(std::int8_t state) {
   const auto index = static_cast<size_t>(state);
   return index < kStateNames.size() ? kStateNames[index] : "?";

@@ -2,38 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <rover/supervisor_state_t.hpp>
-#include <utility>
+
+#include "common/bus/state_names.hpp"
 
 namespace rover {
 namespace {
 
 constexpr double kLongest = 1e6;  // of any time or way
 
-const std::vector<std::pair<std::string, std::int8_t>>& states() {
-  using State = supervisor_state_t;
-  static const std::vector<std::pair<std::string, std::int8_t>> kStates = {
-      {"BOOT", State::BOOT},
-      {"STANDBY", State::STANDBY},
-      {"DRIVING", State::DRIVING},
-      {"HAZARD_STOP", State::HAZARD_STOP},
-      {"REPAIRING", State::REPAIRING},
-      {"SWEEPING", State::SWEEPING},
-      {"CORRECTING", State::CORRECTING},
-      {"PAUSED", State::PAUSED},
-      {"GOAL_REACHED", State::GOAL_REACHED},
-      {"FAULT_STOP", State::FAULT_STOP},
-      {"SAFE", State::SAFE},
-      {"TELEOP", State::TELEOP},
-  };
-  return kStates;
-}
-
 std::int8_t read_state(const Config& config) {
-  std::vector<std::string> names;
-  for (const auto& [name, state] : states()) names.push_back(name);
+  const std::vector<std::string> names = state_names();
   const std::string wanted = config.one_of("at_state", names);
-  return states()[static_cast<size_t>(std::find(names.begin(), names.end(), wanted) - names.begin())].second;
+  return static_cast<std::int8_t>(std::find(names.begin(), names.end(), wanted) - names.begin());
 }
 
 void read_trigger(const Config& config, ScriptedFault& fault) {
