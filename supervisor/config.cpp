@@ -76,6 +76,25 @@ std::vector<FdirLine> read_lines(const std::string& config_dir, const Vehicle& v
   return lines;
 }
 
+// What starts a drive and gives a permit is as old as the rows allow at most; without such a row the default counts.
+void take_age(const std::vector<FdirLine>& lines, const std::string& quantity, double& max_age_s) {
+  double least = kInfinity;
+  for (const FdirLine& line : lines)
+    if (line.quantity == quantity && line.row.response >= Response::kStop)
+      least = std::min(least, line.row.limit + line.row.persistence_s);
+  if (std::isfinite(least)) max_age_s = least;
+}
+
+void take_ages(SupervisorConfig& out) {
+  take_age(out.fdir.lines, "pose_age_s", out.pose_max_age_s);
+  take_age(out.fdir.lines, "planner_age_s", out.planner_max_age_s);
+  take_age(out.fdir.lines, "control_age_s", out.control_max_age_s);
+  take_age(out.fdir.lines, "wheel_state_age_s", out.wheels_max_age_s);
+  take_age(out.fdir.lines, "hazards_age_s", out.hazards_max_age_s);
+  take_age(out.fdir.lines, "heartbeat_age_s", out.heartbeat_max_age_s);
+  take_age(out.fdir.lines, "terrain_age_s", out.terrain_max_age_s);
+}
+
 void read_level(const Config& c, LevelConfig& out) {
   c.read("window_s", out.window_s, {5.0, 3600.0});
   c.read("slow_mps", out.slow_mps, {0.0, 1.0});
@@ -107,6 +126,7 @@ SupervisorConfig load_config(const std::string& config_dir) {
   SupervisorConfig out;
   take_vehicle(vehicle, out);
   out.fdir.lines = read_lines(config_dir, vehicle);
+  take_ages(out);
   const Config config = Config::load(config_dir + "/supervisor.yaml");
   out.fdir.required_services = split(config.text("required_services"));
   out.fdir.optional_services = split(config.text("optional_services"));

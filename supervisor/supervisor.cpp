@@ -192,9 +192,9 @@ bool Supervisor::inputs_ready(Utime now) const {
   return alive(config_.fdir.required_services, now) && in_.pose.usable && in_.pose.vo_utime >= 0 &&
          fresh(in_.pose.utime, now, config_.pose_max_age_s) &&
          fresh(in_.hazards.utime, now, config_.hazards_max_age_s) &&
-         fresh(in_.planner.utime, now, config_.stream_max_age_s) &&
-         fresh(in_.control.utime, now, config_.stream_max_age_s) &&
-         fresh(in_.wheels.utime, now, config_.stream_max_age_s);
+         fresh(in_.planner.utime, now, config_.planner_max_age_s) &&
+         fresh(in_.control.utime, now, config_.control_max_age_s) &&
+         fresh(in_.wheels.utime, now, config_.wheels_max_age_s);
 }
 
 bool Supervisor::alive(const std::vector<std::string>& services, Utime now) const {

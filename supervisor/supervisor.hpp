@@ -29,8 +29,11 @@ struct SupervisorConfig {
   double teleop_speed_mps = 0.1;
   double teleop_max_age_s = 0.5;  // of the operator's newest motion command
   double permit_validity_s = 0.2;
-  double pose_max_age_s = 0.3;  // for the start, and beside the rows of FDIR for each permit
-  double stream_max_age_s = 0.3;
+  // For the start and for each permit, where no row of FDIR that stops the rover says otherwise.
+  double pose_max_age_s = 0.3;
+  double planner_max_age_s = 0.3;
+  double control_max_age_s = 0.3;
+  double wheels_max_age_s = 0.2;
   double hazards_max_age_s = 1.2;
   double heartbeat_max_age_s = 1.0;
   double terrain_max_age_s = 3.0;

@@ -1,0 +1,64 @@
+// What the core takes from the table beside its rows.
+#include "supervisor/config.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "common/bus/config.hpp"
+
+namespace rover::supervisor {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The project's configuration with one text of fdir.yaml replaced.
+class ConfigTest : public testing::Test {
+ protected:
+  ConfigTest() : dir_(fs::path(testing::TempDir()) / "supervisor_config_test") {
+    fs::remove_all(dir_);
+    fs::copy(ROVER_SOURCE_DIR "/config", dir_, fs::copy_options::recursive);
+  }
+  ~ConfigTest() override { fs::remove_all(dir_); }
+
+  SupervisorConfig load_with(const std::string& from, const std::string& to) {
+    std::stringstream text;
+    text << std::ifstream(dir_ / "fdir.yaml").rdbuf();
+    std::string fdir = text.str();
+    const size_t at = fdir.find(from);
+    EXPECT_NE(at, std::string::npos);
+    std::ofstream(dir_ / "fdir.yaml") << fdir.replace(at, from.size(), to);
+    return load_config(dir_);
+  }
+
+  fs::path dir_;
+};
+
+TEST_F(ConfigTest, TheAgesOfThePermitAreThoseOfTheRows) {
+  const SupervisorConfig config = load_with("quantity: pose_age_s, limit: 0.3", "quantity: pose_age_s, limit: 0.6");
+  EXPECT_EQ(config.pose_max_age_s, 0.6);
+  EXPECT_EQ(config.hazards_max_age_s, 1.2);
+  EXPECT_EQ(config.wheels_max_age_s, 0.2);
+  EXPECT_NEAR(config.heartbeat_max_age_s, 1.05, 1e-9);
+}
+
+TEST_F(ConfigTest, ARowThatOnlyLogsGatesNothing) {
+  const SupervisorConfig config =
+      load_with("limit: 1.2, response: stop}    # 2.5 Hz", "limit: 9.0, response: log}    # 2.5 Hz");
+  EXPECT_EQ(config.hazards_max_age_s, SupervisorConfig().hazards_max_age_s);
+}
+
+TEST_F(ConfigTest, AnUnknownQuantityIsNamedWithFileAndLine) {
+  try {
+    load_with("quantity: imu_fault", "quantity: imu_mood");
+    FAIL();
+  } catch (const ConfigError& error) {
+    EXPECT_NE(std::string(error.what()).find("fdir.yaml:"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("imu_mood"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace rover::supervisor
