@@ -29,6 +29,13 @@ void read_steering(const Config& c, LocomotionConfig& out) {
     c.fail("stop_from_curvature_per_m", "must be larger than slow_from_curvature_per_m");
 }
 
+void read_stall(const Config& c, SteeringStallConfig& out) {
+  c.read("patience_s", out.patience_s, {0.2, 20.0});
+  c.read_deg("most_error_deg", out.most_error_rad, {0.0, 60.0});
+  c.read("speed_mps", out.speed_mps, {0.005, 0.1});
+  c.read("way_m", out.way_m, {0.0, 1.0});
+}
+
 }  // namespace
 
 NodeConfig load_config(const std::string& config_dir) {
@@ -41,6 +48,7 @@ NodeConfig load_config(const std::string& config_dir) {
   read_lease(config.section("lease"), out.locomotion);
   read_ramps(config.section("ramps"), out.locomotion);
   read_steering(config.section("steering"), out.locomotion);
+  read_stall(config.section("stall"), out.locomotion.stall);
   config.finish();
   return out;
 }

@@ -19,6 +19,12 @@ double falling(double value, double slow, double stop) {
   return std::clamp((stop - value) / (stop - slow), 0.0, 1.0);
 }
 
+double largest_difference(const std::array<double, 4>& a, const std::array<double, 4>& b) {
+  double largest = 0.0;
+  for (size_t k = 0; k < 4; ++k) largest = std::max(largest, std::abs(a[k] - b[k]));
+  return largest;
+}
+
 bool finite(const std::array<double, 4>& values) {
   return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
 }
@@ -30,7 +36,8 @@ Locomotion::Locomotion(const LocomotionConfig& config, const Vehicle& vehicle)
       vehicle_(vehicle),
       curvature_rate_(config.steering_rate_share * vehicle.steer_rate_radps /
                       steepest_steering(vehicle, config.max_curvature_per_m)),
-      turn_radius_m_(point_turn_radius_m(vehicle)) {}
+      turn_radius_m_(point_turn_radius_m(vehicle)),
+      stall_(config.stall) {}
 
 WheelCommand Locomotion::step(Utime now, const MotionCommand& command, const DrivePermit& permit,
                               const WheelReading& wheels) {
@@ -46,18 +53,48 @@ WheelCommand Locomotion::step(Utime now, const MotionCommand& command, const Dri
   }
   if (wheels_known && wheels.command_expired) motion_mps_ = 0.0;
   if (out.lease) {
-    const Target target = target_of(command, permit);
-    steer(target, wheels, dt_s);
-    const bool may_roll = aligned_ && target.geometry == geometry_;
-    ramp(may_roll ? target.motion_mps * allowed_share(target, wheels) : 0.0, config_.acceleration_mps2, dt_s);
-    out.state = may_roll ? LocomotionState::kDriving : LocomotionState::kAligning;
+    if (held_) go_on(wheels);
+    out.state = drive(target_of(command, permit), wheels, dt_s);
   } else {
     ramp(0.0, config_.emergency_deceleration_mps2, dt_s);
+    if (wheels_known && motion_mps_ == 0.0 && !held_) hold(wheels);
   }
   out.valid = started_ && wheels_known;
   out.wheels = setpoints();
   out.steering_error_rad = wheels_known ? steering_error(wheels) : 0.0;
   return out;
+}
+
+// Once at rest, not at each tick: angles that give way a little would creep on.
+void Locomotion::hold(const WheelReading& wheels) {
+  held_ = true;
+  steer_rad_ = wheels.steer_angle_rad;
+}
+
+void Locomotion::go_on(const WheelReading& wheels) {
+  held_ = false;
+  stall_.clear();
+  const auto wanted = geometry_angles();
+  aligned_ = aligned_ && largest_difference(wanted, wheels.steer_angle_rad) <= config_.aligned_rad;
+  if (aligned_) steer_rad_ = wanted;
+}
+
+LocomotionState Locomotion::drive(const Target& target, const WheelReading& wheels, double dt_s) {
+  steer(target, wheels, dt_s);
+  const double freeing_mps = std::min(freeing_speed_mps(target, wheels, dt_s), std::abs(target.motion_mps));
+  const bool steered = aligned_ && target.geometry == geometry_;
+  const double allowed_mps = steered ? std::abs(target.motion_mps) * allowed_share(target, wheels) : 0.0;
+  const bool may_roll = steered || freeing_mps > 0.0;
+  ramp(std::copysign(std::max(allowed_mps, freeing_mps), target.motion_mps), config_.acceleration_mps2, dt_s);
+  return may_roll ? LocomotionState::kDriving : LocomotionState::kAligning;
+}
+
+double Locomotion::freeing_speed_mps(const Target& target, const WheelReading& wheels, double dt_s) {
+  const double error = steering_error(wheels);
+  if (error <= config_.aligned_rad) stall_.clear();
+  const bool steering_done =
+      target.geometry == geometry_ && curvature_per_m_ == target.curvature_per_m && steer_rad_ == geometry_angles();
+  return steering_done && error > config_.aligned_rad ? stall_.freeing_speed_mps(error, motion_mps_, dt_s) : 0.0;
 }
 
 bool Locomotion::usable(const WheelReading& wheels, Utime now) const {
@@ -86,7 +123,7 @@ void Locomotion::steer(const Target& target, const WheelReading& wheels, double 
     align(target, wheels, dt_s);
   } else if (geometry_ == Geometry::kArc) {
     curvature_per_m_ = move_towards(curvature_per_m_, target.curvature_per_m, curvature_rate_ * dt_s);
-    steer_rad_ = setpoints().steer_angle_rad;
+    steer_rad_ = geometry_angles();
   }
 }
 
@@ -97,17 +134,14 @@ void Locomotion::switch_geometry(const Target& target) {
 
 void Locomotion::align(const Target& target, const WheelReading& wheels, double dt_s) {
   curvature_per_m_ = target.curvature_per_m;
-  const auto wanted = geometry_ == Geometry::kArc ? arc_setpoints(vehicle_, 0.0, curvature_per_m_).steer_angle_rad
-                                                  : point_turn_setpoints(vehicle_, 0.0).steer_angle_rad;
+  const auto wanted = geometry_angles();
   const double step = config_.steering_rate_share * vehicle_.steer_rate_radps * dt_s;
   for (size_t k = 0; k < 4; ++k) steer_rad_[k] = move_towards(steer_rad_[k], wanted[k], step);
   aligned_ = steer_rad_ == wanted && steering_error(wheels) <= config_.aligned_rad;
 }
 
 double Locomotion::steering_error(const WheelReading& wheels) const {
-  double error = 0.0;
-  for (size_t k = 0; k < 4; ++k) error = std::max(error, std::abs(steer_rad_[k] - wheels.steer_angle_rad[k]));
-  return error;
+  return largest_difference(steer_rad_, wheels.steer_angle_rad);
 }
 
 double Locomotion::allowed_share(const Target& target, const WheelReading& wheels) const {
@@ -120,10 +154,14 @@ void Locomotion::ramp(double motion_mps, double rate_mps2, double dt_s) {
   motion_mps_ = move_towards(motion_mps_, motion_mps, rate_mps2 * dt_s);
 }
 
+WheelSetpoints Locomotion::rolling(double motion_mps) const {
+  return geometry_ == Geometry::kArc ? arc_setpoints(vehicle_, motion_mps, curvature_per_m_)
+                                     : point_turn_setpoints(vehicle_, motion_mps / turn_radius_m_);
+}
+
 WheelSetpoints Locomotion::setpoints() const {
-  WheelSetpoints out = geometry_ == Geometry::kArc ? arc_setpoints(vehicle_, motion_mps_, curvature_per_m_)
-                                                   : point_turn_setpoints(vehicle_, motion_mps_ / turn_radius_m_);
-  if (!aligned_) out.steer_angle_rad = steer_rad_;
+  WheelSetpoints out = rolling(motion_mps_);
+  out.steer_angle_rad = steer_rad_;
   return out;
 }
 

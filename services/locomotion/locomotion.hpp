@@ -1,7 +1,10 @@
 // Drives the six wheels: from a body motion under a lease to wheel rates and steering angles, with ramps.
 //
 // While the rover rolls, the steering moves along the curvature, not wheel by wheel: at each moment all wheels share
-// one centre of rotation. Between arc and point turn the rover stands until the wheels have reached their angles.
+// one centre of rotation. Between arc and point turn the rover stands until the wheels have reached their angles. A
+// wheel that cannot, because it stands against a rock, is rolled on a little: that frees it (steering_stall.hpp).
+// Without a lease a standing rover keeps the angles that its wheels have, not those that were asked for: no servo
+// pushes on against what stopped it.
 #pragma once
 
 #include <array>
@@ -10,6 +13,7 @@
 #include "common/core/vehicle.hpp"
 #include "locomotion/kinematics.hpp"
 #include "locomotion/lease.hpp"
+#include "locomotion/steering_stall.hpp"
 
 namespace rover::locomotion {
 
@@ -26,6 +30,7 @@ struct LocomotionConfig {
   double steering_stop_rad = 0.175;    // 10 deg behind: wait
   double curvature_slow_per_m = 0.20;  // as above, of the commanded curvature not yet set
   double curvature_stop_per_m = 1.00;
+  SteeringStallConfig stall;
 };
 
 struct WheelReading {
@@ -60,6 +65,10 @@ class Locomotion {
     double curvature_per_m;
   };
 
+  LocomotionState drive(const Target& target, const WheelReading& wheels, double dt_s);
+  void hold(const WheelReading& wheels);
+  void go_on(const WheelReading& wheels);
+  double freeing_speed_mps(const Target& target, const WheelReading& wheels, double dt_s);
   bool usable(const WheelReading& wheels, Utime now) const;
   Target target_of(const MotionCommand& command, const DrivePermit& permit) const;
   void steer(const Target& target, const WheelReading& wheels, double dt_s);
@@ -68,13 +77,18 @@ class Locomotion {
   double allowed_share(const Target& target, const WheelReading& wheels) const;
   double steering_error(const WheelReading& wheels) const;
   void ramp(double motion_mps, double rate_mps2, double dt_s);
+  // Of the present geometry and curvature.
+  WheelSetpoints rolling(double motion_mps) const;
+  std::array<double, 4> geometry_angles() const { return rolling(0.0).steer_angle_rad; }
   WheelSetpoints setpoints() const;
 
   LocomotionConfig config_;
   Vehicle vehicle_;
   double curvature_rate_;  // that no steering motor is too slow for [1/(m s)]
   double turn_radius_m_;
+  SteeringStall stall_;
   bool started_ = false;
+  bool held_ = false;  // steer_rad_ are the angles that the wheels had when they came to rest
   Utime last_step_ = kNever;
   Geometry geometry_ = Geometry::kArc;
   bool aligned_ = false;

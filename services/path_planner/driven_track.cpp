@@ -23,7 +23,7 @@ std::vector<Point2> DrivenTrack::back(Point2 rover, double way_m) const {
   double way = 0.0;
   for (size_t i = points_.size(); i-- > 0 && way < way_m;) {
     const double step = distance(out.back(), points_[i]);
-    if (step < 0.5 * kStepM) continue;
+    if (step < kStepM) continue;  // nearer ones tell of the drift of a standing rover, not of the way
     way += step;
     out.push_back(points_[i]);
   }

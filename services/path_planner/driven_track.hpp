@@ -19,7 +19,8 @@ class DrivenTrack {
   // The rover goes back, not quite on the track: it ends at its point closest to the rover, among the last kRetraceM.
   void retrace(Point2 rover);
   void clear() { points_.clear(); }
-  // From the rover back along the track, at most `way_m` long; fewer than two points: there is no track.
+  // From the rover back along the track in steps of at least kStepM, about `way_m` long; fewer than two points: there
+  // is no track.
   std::vector<Point2> back(Point2 rover, double way_m) const;
 
   const std::deque<Point2>& points() const { return points_; }

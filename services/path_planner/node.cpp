@@ -11,6 +11,7 @@ namespace rover::planning {
 namespace {
 
 constexpr Utime kRepeatPeriodUs = 1'000'000;       // of PATH: a restarted controller has none
+constexpr Utime kFaultClearsUs = 4'000'000;        // a row on the path is cleared by good ones for 1-2 s (fdir.yaml)
 constexpr std::int64_t kPathsPerBoot = 1'000'000;  // keeps the path ids of two processes apart
 constexpr double kMostClearRadiusM = 5.0;          // more than an operator would certify
 
@@ -78,10 +79,12 @@ void PathPlannerNode::on_hazards(const hazards_t& message) {
   planner_.add_hazards(grid);
 }
 
-// Standing faults are repeated: one that is older than the path is not about it.
+// Standing faults are repeated: one that is older than the path is not about it, unless it stands on although the path
+// should have ended it.
 void PathPlannerNode::on_fault(const fault_t& message) {
-  if (message.standing && message.response == fault_t::STOP_REPLAN && message.visible_utime > told_at_)
-    planner_.request_replan();
+  if (!message.standing || message.response != fault_t::STOP_REPLAN) return;
+  const bool of_this_path = message.visible_utime > told_at_ || message.header.utime > told_at_ + kFaultClearsUs;
+  if (of_this_path) planner_.request_replan();
 }
 
 void PathPlannerNode::on_ground_command(const ground_command_t& message) {

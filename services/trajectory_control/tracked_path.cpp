@@ -12,6 +12,7 @@ constexpr double kDistinctM = 1e-3;
 constexpr double kMaxLengthM = 1e5;
 constexpr double kNearM = 0.5;           // the curve and the path run side by side
 constexpr double kHeadingWeightM = 0.3;  // a radian of heading error counts as much as this distance
+constexpr double kBesideShare = 0.5;     // of the half width: parts of the path that near all pass by the rover
 
 Points distinct(const Points& points) {
   Points out;
@@ -58,11 +59,17 @@ double yaw_of(const Eigen::Vector2d& direction) {
   return std::atan2(direction.y(), direction.x());
 }
 
-// Bend between the chords before and behind each sample; 0 near the ends.
+// Bend between the chords before and behind each sample. Near the ends, where there is no room for a whole chord, it is
+// taken over shorter ones and counts in proportion: the shorter the chords, the more of it is noise.
 std::vector<double> bends(const Points& samples, size_t chord) {
   std::vector<double> out(samples.size(), 0.0);
-  for (size_t i = chord; i + chord < samples.size(); ++i)
-    out[i] = std::abs(wrap_angle(yaw_of(samples[i + chord] - samples[i]) - yaw_of(samples[i] - samples[i - chord])));
+  for (size_t i = 1; i + 1 < samples.size(); ++i) {
+    const size_t before = std::min(chord, i);
+    const size_t behind = std::min(chord, samples.size() - 1 - i);
+    const double turn = yaw_of(samples[i + behind] - samples[i]) - yaw_of(samples[i] - samples[i - before]);
+    const double share = 2.0 * static_cast<double>(std::min(before, behind)) / static_cast<double>(chord);
+    out[i] = std::min(share, 1.0) * std::abs(wrap_angle(turn));
+  }
   return out;
 }
 
@@ -101,6 +108,18 @@ Projection project_on_segment(const Eigen::Vector2d& p, const Eigen::Vector2d& a
   const bool goes_on = (first && outside < 0.0) || (last && outside > 0.0);
   out.beyond_m = goes_on ? outside : 0.0;
   out.cross_track_m = goes_on ? cross : std::copysign(out.distance_m, cross);
+  return out;
+}
+
+// Samples at which the leg passes by the point: nearer than their neighbours.
+std::vector<size_t> closest_passes(const std::vector<PathSample>& samples, const Eigen::Vector2d& p) {
+  std::vector<size_t> out;
+  const auto distance_m = [&](size_t i) { return (samples[i].p - p).norm(); };
+  for (size_t i = 0; i < samples.size(); ++i) {
+    const bool approached = i == 0 || distance_m(i) <= distance_m(i - 1);
+    const bool left_behind = i + 1 == samples.size() || distance_m(i) < distance_m(i + 1);
+    if (approached && left_behind) out.push_back(i);
+  }
   return out;
 }
 
@@ -222,16 +241,23 @@ std::optional<TrackedPath> TrackedPath::build(const PathInput& input, const Trac
 }
 
 Place TrackedPath::locate(const Pose2& pose) const {
+  const Eigen::Vector2d p(pose.x_m, pose.y_m);
+  double nearest_m = kInfinity;
+  for (const Leg& leg : legs_)
+    for (const PathSample& sample : leg.samples()) nearest_m = std::min(nearest_m, (sample.p - p).norm());
+  const double beside_m = std::max(nearest_m, kBesideShare * corridor_half_width_m_);
+
   Place best;
   double least = kInfinity;
   for (size_t l = 0; l < legs_.size(); ++l) {
-    const auto& samples = legs_[l].samples();
-    for (size_t i = 0; i < samples.size(); ++i) {
-      const double turn = kHeadingWeightM * wrap_angle(samples[i].yaw_rad - pose.yaw_rad);
-      const double cost = (samples[i].p - Eigen::Vector2d(pose.x_m, pose.y_m)).squaredNorm() + turn * turn;
-      if (cost >= least) continue;
+    const double step_m = legs_[l].length_m() / static_cast<double>(legs_[l].samples().size() - 1);
+    for (const size_t i : closest_passes(legs_[l].samples(), p)) {
+      const PathSample& sample = legs_[l].samples()[i];
+      const double distance_m = (sample.p - p).norm();
+      const double cost = std::hypot(distance_m, kHeadingWeightM * wrap_angle(sample.yaw_rad - pose.yaw_rad));
+      if (distance_m > beside_m || cost >= least) continue;
       least = cost;
-      best = {l, legs_[l].length_m() * static_cast<double>(i) / static_cast<double>(samples.size() - 1)};
+      best = {l, step_m * static_cast<double>(i)};
     }
   }
   return best;

@@ -94,7 +94,9 @@ class TrackedPath {
   double corridor_half_width_m() const { return corridor_half_width_m_; }
   double length_m() const { return legs_.back().start_m() + legs_.back().length_m(); }
   const std::vector<Leg>& legs() const { return legs_; }
-  // The sample closest to the pose on the whole path; of two parts that pass by, the one that runs the rover's way.
+  // The sample closest to the pose on the whole path; of parts that pass by well inside the corridor, the one that runs
+  // the rover's way. The heading never leads away from the closest place of a part: a path that begins with a point
+  // turn begins where the rover is.
   Place locate(const Pose2& pose) const;
 
  private:

@@ -12,6 +12,8 @@ constexpr double kSearchAheadM = 0.5;
 constexpr double kPredictionStepM = 0.1;
 constexpr double kSlipSpeedMps = 0.05;  // slower, the direction of the motion is noise
 constexpr double kMaxSideSlipRad = 0.35;
+constexpr double kStandingMps = 0.02;
+constexpr double kLeastTurnRad = 0.175;  // 10 deg: below it, it is not the heading that leads out of the corridor
 
 Pose2 moved(const Pose2& pose, double way_m, double curvature_per_m, double side_slip_rad) {
   const double middle = pose.yaw_rad + 0.5 * way_m * curvature_per_m;
@@ -101,7 +103,7 @@ ControlOutput TrajectoryController::step_ahead(Utime now, const PoseInput& pose,
     return out;
   }
   out.command.valid_until = valid_until;
-  if (update_turning(out.heading_error_rad)) {
+  if (update_turning(out, pose.forward_mps)) {
     out.state = ControlState::kPointTurn;
     turn(out.heading_error_rad, out.command);
   } else {
@@ -131,9 +133,12 @@ Projection TrajectoryController::advance_on_path(const Pose2& pose) {
   return here;
 }
 
-bool TrajectoryController::update_turning(double heading_error_rad) {
-  const double threshold = turning_ ? config_.turn_stop_rad : config_.turn_start_rad;
-  turning_ = std::abs(heading_error_rad) > threshold;
+// A rover that stands and would leave a narrow corridor on its first arc turns on the spot, too.
+bool TrajectoryController::update_turning(const ControlOutput& out, double forward_mps) {
+  const bool would_leave =
+      std::abs(forward_mps) < kStandingMps && out.predicted_corridor_error_m > out.corridor_half_width_m;
+  const double start_rad = would_leave ? kLeastTurnRad : config_.turn_start_rad;
+  turning_ = std::abs(out.heading_error_rad) > (turning_ ? config_.turn_stop_rad : start_rad);
   return turning_;
 }
 

@@ -81,7 +81,7 @@ class TrajectoryController {
   const Leg& leg() const { return path_->legs()[place_.leg]; }
   bool on_last_leg() const { return place_.leg + 1 == path_->legs().size(); }
   Projection advance_on_path(const Pose2& pose);
-  bool update_turning(double heading_error_rad);
+  bool update_turning(const ControlOutput& out, double forward_mps);
   void follow(const PoseInput& pose, const Projection& here, double dt_s, double max_speed_mps, MotionCommand& command);
   double speed_while_steering(double curvature_per_m, double wanted_per_m) const;
   void integrate(double cross_track_m, double way_m);

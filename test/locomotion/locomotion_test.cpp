@@ -22,6 +22,7 @@ class LocomotionTest : public testing::Test {
       command_.valid_until = now_ + to_utime(0.18);
     }
     if (wheels_alive_) wheels_ = {now_, rover_.wheels().steer_angle_rad, wheel_fault_, expired_};
+    if (rock_at_rad_) wheels_.steer_angle_rad[3] = std::max(wheels_.steer_angle_rad[3], *rock_at_rad_);
     out_ = locomotion_.step(now_, command_, permit_, wheels_);
     if (out_.valid) applied_ = out_.wheels;
     rover_.step(applied_, to_seconds(kTickUs));
@@ -58,6 +59,7 @@ class LocomotionTest : public testing::Test {
   bool wheels_alive_ = true;
   bool wheel_fault_ = false;
   bool expired_ = false;
+  std::optional<double> rock_at_rad_;  // keeps the right rear wheel from steering further to the right
   double max_speed_ = 0.2;
   double largest_scrub_ = 0.0;
 };
@@ -233,7 +235,77 @@ TEST_F(LocomotionTest, TheSteeringKeepsItsAngleWhenTheLeaseIsLost) {
   permit_alive_ = false;
   command_.mode = MotionMode::kPointTurn;
   run(3.0);
-  EXPECT_EQ(out_.wheels.steer_angle_rad, angles);
+  for (size_t k = 0; k < 4; ++k) EXPECT_NEAR(out_.wheels.steer_angle_rad[k], angles[k], 1e-9);
+}
+
+TEST_F(LocomotionTest, WithoutALeaseNoServoPushesOnAgainstARock) {
+  rock_at_rad_ = -0.3;
+  point_turn(0.2);
+  run(7.0);
+  EXPECT_LT(out_.wheels.steer_angle_rad[3], -1.0);
+  permit_alive_ = false;
+  run(1.0);
+  EXPECT_EQ(out_.wheels.steer_angle_rad[3], -0.3);
+  rock_at_rad_ = -0.2;  // it gives way under the weight: the angle is kept, it does not creep on
+  run(1.0);
+  EXPECT_EQ(out_.wheels.steer_angle_rad[3], -0.3);
+}
+
+TEST_F(LocomotionTest, AlignmentGoesOnFromTheAnglesThatWereHeld) {
+  rock_at_rad_ = -0.3;
+  point_turn(0.2);
+  run(7.0);
+  permit_alive_ = false;
+  run(1.0);
+  permit_alive_ = true;
+  for (double before = -0.3; before > -1.0; before = out_.wheels.steer_angle_rad[3]) {
+    tick();
+    EXPECT_LE(std::abs(out_.wheels.steer_angle_rad[3] - before), config_.vehicle.steer_rate_radps * 0.02 + 1e-12);
+    EXPECT_EQ(commanded_speed(), 0.0);
+    ASSERT_LT(now_, to_utime(30.0));
+  }
+}
+
+TEST_F(LocomotionTest, ALostLeaseInABendCostsNoNewAlignment) {
+  arc(0.2, 0.6);
+  run(8.0);
+  permit_alive_ = false;
+  run(2.0);
+  permit_alive_ = true;
+  tick();
+  EXPECT_EQ(out_.state, LocomotionState::kDriving);
+}
+
+TEST_F(LocomotionTest, AWheelAgainstARockIsRolledFree) {
+  rock_at_rad_ = -0.8;  // 15 deg short of a point turn's angle
+  point_turn(0.2);
+  run(6.5);
+  EXPECT_EQ(commanded_speed(), 0.0);
+  run(2.5);
+  EXPECT_GT(commanded_speed(), 0.0);
+  EXPECT_LE(commanded_speed(), config_.locomotion.stall.speed_mps + 1e-12);
+  rock_at_rad_.reset();
+  run(3.0);
+  EXPECT_NEAR(rover_.twist().turn_radps, 0.2, 1e-3);
+}
+
+TEST_F(LocomotionTest, AWheelThatDoesNotComeFreeStopsTheRover) {
+  rock_at_rad_ = -0.8;
+  point_turn(0.2);
+  double rolled_m = 0.0;
+  for (int i = 0; i < 1500; ++i) {
+    tick();
+    rolled_m += commanded_speed() * 0.02;
+  }
+  EXPECT_EQ(commanded_speed(), 0.0);
+  EXPECT_NEAR(rolled_m, config_.locomotion.stall.way_m, 0.02);
+}
+
+TEST_F(LocomotionTest, AWheelFarFromItsAngleIsNotRolled) {
+  rock_at_rad_ = -0.4;  // 38 deg short
+  point_turn(0.2);
+  run(20.0);
+  EXPECT_EQ(commanded_speed(), 0.0);
 }
 
 TEST_F(LocomotionTest, StartsFromTheAnglesThatTheWheelsHave) {

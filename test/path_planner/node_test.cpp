@@ -5,11 +5,13 @@
 
 #include <filesystem>
 #include <rover/command_ack_t.hpp>
+#include <rover/fault_t.hpp>
 #include <rover/hazards_t.hpp>
 #include <rover/heartbeat_t.hpp>
 #include <rover/planner_status_t.hpp>
 #include <rover/pose_t.hpp>
 #include <rover/service_state_t.hpp>
+#include <set>
 
 #include "common/bus/convert.hpp"
 #include "path_planner/config.hpp"
@@ -186,6 +188,30 @@ TEST_F(PlannerNodeTest, ARockInTwoFramesMakesARepair) {
   EXPECT_EQ(statuses_->back().state, +planner_status_t::REPAIRING);
   EXPECT_EQ(statuses_->back().replans, 1);
   EXPECT_GT(paths_->back().path_id, paths_->front().path_id);
+}
+
+// A fault of stop_replan is answered by a new path; where it stands on although that path should have ended it, by
+// another one.
+TEST_F(PlannerNodeTest, AFaultThatStandsOnAsksForAPathAgain) {
+  certify_start();
+  world_.send(channel::kGlobalPath, ahead(), "mission_control");
+  tick(3);
+  fault_t fault{};
+  fault.response = fault_t::STOP_REPLAN;
+  fault.standing = 1;
+  fault.visible_utime = world_.now;
+  const auto seconds_with_fault = [&](int seconds) {
+    for (int i = 0; i < 5 * seconds; ++i) {
+      if (i % 5 == 0) world_.send(channel::kFault, fault, "supervisor");
+      send_frame({});
+      tick(10);
+    }
+    std::set<std::int64_t> ids;
+    for (const path_t& path : *paths_) ids.insert(path.path_id);
+    return ids.size();
+  };
+  EXPECT_EQ(seconds_with_fault(4), 2u);
+  EXPECT_EQ(seconds_with_fault(4), 3u);
 }
 
 TEST_F(PlannerNodeTest, UnusableMessagesAreCountedAndChangeNothing) {

@@ -235,6 +235,46 @@ TEST(ClosedLoop, ARetreatIsDrivenBackwardsAlongTheTrack) {
   EXPECT_NEAR(loop.rover.pose().yaw_rad, 0.0, 0.15);
 }
 
+// A retreat of the rendered simulator: the rover had turned on the spot, driven 0.3 m and turned again.
+TEST(ClosedLoop, ARetreatOverAPointTurnStaysInItsCorridor) {
+  DriveLoop loop;
+  loop.rover.put({13.758, 3.431, to_rad(-47.6)});
+  const std::vector<Eigen::Vector2d> back = {{13.758, 3.431}, {13.687, 3.364}, {13.629, 3.280}, {13.613, 3.179},
+                                             {13.515, 3.204}, {13.415, 3.204}, {13.311, 3.206}, {13.211, 3.209},
+                                             {13.107, 3.215}, {13.005, 3.201}, {12.903, 3.193}, {12.801, 3.184}};
+  loop.controller.set_path({1, 0.25, back, true});
+  loop.run(0.1);
+  while (loop.output.state != ControlState::kPathEnd && loop.now < to_utime(200.0)) {
+    loop.tick();
+    ASSERT_NE(loop.output.state, ControlState::kOutOfCorridor);
+    EXPECT_LT(std::abs(loop.output.cross_track_m), 0.1);
+  }
+  EXPECT_EQ(loop.output.state, ControlState::kPathEnd);
+}
+
+// Wherever on the way back the turn lies, and whichever way the rover looks.
+TEST(ClosedLoop, ARetreatOverAPointTurnNearItsStartStaysInItsCorridor) {
+  for (const double first_m : {0.1, 0.15, 0.2, 0.25, 0.3, 0.4})
+    for (const double turn_deg : {-150.0, -90.0, -50.0, 50.0, 90.0, 150.0})
+      for (const double yaw_deg : {0.0, 90.0, 180.0, 270.0}) {
+        DriveLoop loop;
+        loop.rover.put({0.0, 0.0, to_rad(yaw_deg)});
+        const Eigen::Vector2d along(std::cos(to_rad(turn_deg)), std::sin(to_rad(turn_deg)));
+        std::vector<Eigen::Vector2d> back = {{0.0, 0.0}, {first_m, 0.0}};
+        for (double way = 0.1; way < 1.05; way += 0.1) back.push_back(back[1] + way * along);
+        loop.controller.set_path({1, 0.25, back, true});
+        loop.run(0.1);
+        double largest = 0.0;
+        while (loop.output.state != ControlState::kPathEnd && loop.now < to_utime(200.0) &&
+               loop.output.state != ControlState::kOutOfCorridor) {
+          loop.tick();
+          largest = std::max(largest, std::abs(loop.output.cross_track_m));
+        }
+        EXPECT_EQ(loop.output.state, ControlState::kPathEnd) << first_m << " " << turn_deg << " " << yaw_deg;
+        EXPECT_LT(largest, 0.2) << first_m << " " << turn_deg << " " << yaw_deg;
+      }
+}
+
 TEST(ClosedLoop, TheSamePathAgainChangesNothing) {
   DriveLoop once;
   DriveLoop again;

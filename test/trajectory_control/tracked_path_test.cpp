@@ -9,12 +9,12 @@
 namespace rover::control {
 namespace {
 
-PathInput input(std::vector<Eigen::Vector2d> points) {
-  return {1, 0.75, std::move(points)};
+PathInput input(std::vector<Eigen::Vector2d> points, double corridor_half_width_m = 0.75) {
+  return {1, corridor_half_width_m, std::move(points)};
 }
 
-TrackedPath tracked(std::vector<Eigen::Vector2d> points) {
-  return TrackedPath::build(input(std::move(points)), TrackedPathConfig{}).value();
+TrackedPath tracked(std::vector<Eigen::Vector2d> points, double corridor_half_width_m = 0.75) {
+  return TrackedPath::build(input(std::move(points), corridor_half_width_m), TrackedPathConfig{}).value();
 }
 
 TEST(TrackedPath, RefusesWhatIsNoPath) {
@@ -129,6 +129,22 @@ TEST(Locate, PrefersThePartThatRunsTheRoversWay) {
   const auto arc_length = [&](const Place& place) { return path.legs()[place.leg].start_m() + place.s_m; };
   EXPECT_NEAR(arc_length(path.locate({5.0, 0.05, 0.0})), 5.0, 0.1);
   EXPECT_NEAR(arc_length(path.locate({5.0, 0.05, kPi})), 15.1, 0.1);
+}
+
+// A place where the rover had turned on the spot: the way back begins across its heading, and its second leg runs the
+// rover's way, outside the corridor.
+TEST(Locate, BeginsWhereTheRoverIsThoughAPointTurnComesFirst) {
+  const TrackedPath path = tracked({{0, 0}, {0, -0.3}, {-2, -0.3}}, 0.25);
+  const Place place = path.locate({0.01, 0.0, kPi + 0.3});
+  EXPECT_EQ(place.leg, 0u);
+  EXPECT_NEAR(place.s_m, 0.0, 0.05);
+}
+
+TEST(Locate, TheHeadingDoesNotLeadAlongABend) {
+  std::vector<Eigen::Vector2d> circle;
+  for (double angle = 0.0; angle <= kPi; angle += 0.1) circle.emplace_back(std::sin(angle), 1.0 - std::cos(angle));
+  const TrackedPath path = tracked(circle, 0.25);
+  EXPECT_NEAR(path.locate({0.0, 0.0, 0.5 * kPi}).s_m, 0.0, 0.05);
 }
 
 }  // namespace
