@@ -72,10 +72,15 @@ SlipReport report_from(const slip_t& message) {
   return {message.header.utime, message.valid == 1, message.slip_ratio};
 }
 
+// As with the IMU: a current or a rate that is no number is a fault of the sensor.
 WheelReport report_from(const wheel_state_t& message) {
+  const auto finite = [](const auto& values) {
+    return std::all_of(std::begin(values), std::end(values), [](double v) { return std::isfinite(v); });
+  };
   WheelReport out;
   out.utime = message.header.utime;
-  out.fault = message.status == wheel_state_t::FAULT;
+  out.fault = message.status == wheel_state_t::FAULT || !finite(message.drive_current_a) ||
+              !finite(message.steer_current_a) || !finite(message.drive_rate_radps);
   std::copy_n(message.drive_current_a, 6, out.drive_a.begin());
   std::copy_n(message.steer_current_a, 4, out.steer_a.begin());
   std::copy_n(message.drive_rate_radps, 6, out.drive_radps.begin());

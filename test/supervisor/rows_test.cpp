@@ -109,7 +109,7 @@ std::vector<RowCase> sensor_cases() {
       drive_motor("drive_current", -10.1, 1.0, 4.0),
       drive_motor("drive_heat_high", 4.0, 200.0, 60.0),
       drive_motor("drive_heat", 5.0, 200.0, 120.0),
-      steer_motor("steer_current", 1.01, 3.0, 6.0),
+      steer_motor("steer_current", 0.95, 16.0, 6.0),
       steer_motor("steer_heat", 0.8, 200.0, 120.0),
   };
 }
@@ -313,7 +313,13 @@ TEST(RowsTable, NotANumberIsAFault) {
       {"imu_fault", [](RowsRig& rig) { rig.imu.delta_angle_rad[1] = kNaN; }},
       {"imu_fault", [](RowsRig& rig) { rig.imu.fog_delta_yaw_rad = kNaN; }},
       {"drive_current.FL", [](RowsRig& rig) { rig.wheels.drive_current_a[0] = kNaN; }},
-      {"steer_current.FL", [](RowsRig& rig) { rig.wheels.steer_current_a[0] = kNaN; }},
+      {"wheel_fault", [](RowsRig& rig) { rig.wheels.drive_current_a[5] = kNaN; }},
+      {"wheel_fault", [](RowsRig& rig) { rig.wheels.steer_current_a[0] = kNaN; }},
+      {"wheel_fault",
+       [](RowsRig& rig) {
+         rig.wheels_follow = false;
+         rig.wheels.drive_rate_radps[3] = kNaN;
+       }},
       {"pose_status", [](RowsRig& rig) { rig.pose.position_odom_body_m[0] = kNaN; }},
       {"pose_status", [](RowsRig& rig) { rig.pose.quat_map_odom_wxyz[2] = kNaN; }},
       {"pose_sigma", [](RowsRig& rig) { rig.pose.covariance[0] = kNaN; }},
