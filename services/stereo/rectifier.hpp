@@ -12,15 +12,9 @@
 #include "common/core/camera_rig.hpp"
 #include "common/core/disparity_plane.hpp"
 #include "common/core/image.hpp"
+#include "stereo/block_matcher.hpp"
 
 namespace rover::stereo {
-
-// Pad of the matching images around the rectified ones, in pixels.
-struct MatchPad {
-  int left = 0;
-  int right = 0;
-  int rows = 0;  // above and below
-};
 
 struct RectifiedPair {
   GrayImage left;

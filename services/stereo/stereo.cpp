@@ -13,7 +13,7 @@ bool fits(const GrayImage& image, const StereoCamera& camera) {
 }  // namespace
 
 Stereo::Stereo(const StereoConfig& config, const StereoRig& rig, double ground_below_m)
-    : rectifier_(rig, Matcher::pad(config.matcher),
+    : rectifier_(rig, BlockMatcher::pad(config.matcher),
                  config.ground_reference ? std::optional<double>(ground_below_m) : std::nullopt),
       matcher_(config.matcher) {}
 

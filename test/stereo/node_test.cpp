@@ -117,7 +117,7 @@ TEST(StereoConfigTest, AnUnknownKeyOrAWrongRangeStopsTheStart) {
   for (const char* file : {"vehicle.yaml", "cameras.yaml"})
     std::filesystem::copy_file(kConfig + "/" + file, dir / file, std::filesystem::copy_options::overwrite_existing);
   for (const char* bad : {"matcher: {block: 11}", "matcher: {block_px: 10}", "matcher: {residual_count_px: 60}",
-                          "matcher: {}\nlatency: 0.1"}) {
+                          "matcher: {block_px: 33}", "matcher: {}\nlatency: 0.1"}) {
     std::ofstream(dir / "stereo.yaml") << bad << "\n";
     EXPECT_THROW(load_config(dir.string()), ConfigError) << bad;
   }
