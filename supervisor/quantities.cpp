@@ -64,8 +64,10 @@ Reading predicted_corridor_share(const Now& now, const Subject&, double limit) {
   return out;
 }
 
+// A planner without a path is the concern of no_path.
 Reading path_mismatch(const Now& now, const Subject&, double) {
-  Reading out = flag_reading(now.in.control.path_id != now.in.planner.path_id, now.in.control.utime, now.utime);
+  const bool another = now.in.planner.path_id >= 0 && now.in.control.path_id != now.in.planner.path_id;
+  Reading out = flag_reading(another, now.in.control.utime, now.utime);
   out.value = static_cast<double>(now.in.control.path_id);
   out.limit = static_cast<double>(now.in.planner.path_id);
   return out;

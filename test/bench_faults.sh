@@ -1,20 +1,28 @@
 #!/usr/bin/env bash
 # One fault of the table in each of many runs of the default scenario, by seed: which fault, when, on whom. Writes
-# test/results/faults.md. Called by ./rover bench faults [--seeds a..b] [--resume] [--jobs N].
+# test/results/faults.md. Called by ./rover bench faults [--seeds a..b] [--resume] [--jobs N] [--part stack|rendered];
+# the part `stack` is bench_faults_stack.sh, and comes first where none is chosen.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
 BUILD=$1
 shift
-first=1 last=60 resume= jobs=2
+first=1 last=60 resume= jobs=2 part=
 while [ $# -gt 0 ]; do
   case $1 in
     --seeds) IFS=. read -r first _ last <<<"$2" && shift ;;
     --resume) resume=yes ;;
     --jobs) jobs=$2 && shift ;;
+    --part) part=$2 && shift ;;
     *) echo "rover bench faults: '$1' is not an option" >&2 && exit 2 ;;
   esac
   shift
 done
+case $part in
+  "") test/bench_faults_stack.sh "$BUILD" ;;
+  stack) exec test/bench_faults_stack.sh "$BUILD" ;;
+  rendered) ;;
+  *) echo "rover bench faults: '$part' is not a part; there are: stack, rendered" >&2 && exit 2 ;;
+esac
 LOGS=$PWD/logs/bench/faults
 ROWS=$LOGS/rows.jsonl
 OUT=test/results/faults.md

@@ -28,6 +28,7 @@ void MotionHistory::add(const MotionRecord& record) {
 
 std::vector<MotionRecord> MotionHistory::slice(Utime from, Utime to) const {
   std::vector<MotionRecord> out;
+  if (from >= to) return out;  // a part of a record without length has no rates
   auto it = std::upper_bound(records_.begin(), records_.end(), from,
                              [](Utime t, const MotionRecord& r) { return t < r.end; });
   for (; it != records_.end() && it->start < to; ++it) out.push_back(it->part(from, to));

@@ -328,6 +328,20 @@ TEST_F(NodeTest, AProcessStartedAgainTakesNothingFromBeforeItsFirstTick) {
   EXPECT_EQ(taken, std::vector<double>{2.0});
 }
 
+TEST_F(NodeTest, OneThatIsGoneTakesNothingMoreFromTheBus) {
+  int taken = 0;
+  {
+    Node node({.name = "node"}, bus_);
+    node.subscribe<slip_t>(channel::kSlip, [&](const slip_t&) { ++taken; });
+  }
+  slip_t message = slip(1.0, 0, 20'000);
+  bus_.publish(channel::kSlip, &message);
+  Node next({.name = "node", .boot_id = 2}, bus_);
+  tick(next, 20'000);
+  EXPECT_EQ(taken, 0);
+  EXPECT_EQ(dones_.size(), 1u);
+}
+
 TEST_F(NodeTest, AgeGrowsWithMessageTime) {
   Node node({.name = "node"}, bus_);
   node.subscribe<slip_t>(channel::kSlip, [](const slip_t&) {});

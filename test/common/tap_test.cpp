@@ -159,6 +159,16 @@ TEST(Tap, TakesAnInjectionThatIsAnnouncedAgainOnce) {
   EXPECT_EQ(pass(tap, slip(1, 150)).at(0).delay, 500'000);
 }
 
+TEST(Tap, ForgetsInjectionsThatEndedLongAgo) {
+  Tap tap("node");
+  tap.inject(injection("drop", 1.0));
+  EXPECT_TRUE(pass(tap, slip(1, 150)).empty());
+  injection_t later = injection("drop", 1.0, "POSE");
+  later.header.utime = 61'000'000;
+  tap.inject(later);
+  EXPECT_EQ(pass(tap, slip(2, 150)).size(), 1u);
+}
+
 TEST(Tap, MutesAndRefusesWhatIsNotItsOwn) {
   Tap tap("node");
   tap.mute("SLIP");

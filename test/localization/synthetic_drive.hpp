@@ -50,6 +50,7 @@ class SyntheticDrive {
   bool wheels_on = true;
   bool visual_on = true;
   bool visual_lost = false;  // pairs come, but none can be aligned
+  bool stalled = false;      // localization takes all of it later
   std::function<void(ImuSample&)> spoil_imu = [](ImuSample&) {};
   std::function<void(VisualMotion&)> spoil_visual = [](VisualMotion&) {};
 
@@ -134,7 +135,7 @@ class SyntheticDrive {
       localization.take_visual(late_.front().motion);
       late_.pop_front();
     }
-    localization.step(now_);
+    if (!stalled) localization.step(now_);
   }
 
   void make_imu(const Eigen::Isometry3d& before, double dt) {

@@ -267,6 +267,16 @@ TEST_F(SupervisorTest, AControllerOnAnotherPathStops) {
   EXPECT_EQ(changes_.back().cause, "path_mismatch");
 }
 
+TEST_F(SupervisorTest, APlannerWithoutAPathIsNotOnAnotherOne) {
+  start_driving();
+  planner_.path_id = -1;
+  planner_.state = PlannerState::kNoPath;
+  speed_ = 0.0;
+  run(25.0);
+  ASSERT_FALSE(faults_.empty());
+  EXPECT_EQ(faults_.front().id, "no_path");
+}
+
 // The original's slip buffer freezes at rest, so that its slip stop never clears (reference, fault 8).
 TEST_F(SupervisorTest, SlipStopsAndClearsAtRest) {
   start_driving();

@@ -58,6 +58,7 @@ class KinematicRover {
     }
     twist_ = forward_kinematics(vehicle_, wheels_);
     twist_.forward_mps *= 1.0 - slip_ratio;
+    twist_.turn_radps *= 1.0 - turn_slip;
     twist_.left_mps += side_slip * twist_.forward_mps;
     pose_.yaw_rad += twist_.turn_radps * dt_s;
     const double c = std::cos(pose_.yaw_rad);
@@ -77,6 +78,7 @@ class KinematicRover {
   }
 
   double slip_ratio = 0.0;  // lost of the forward motion
+  double turn_slip = 0.0;   // lost of the turn
   double side_slip = 0.0;   // to the left, per forward motion
 
  private:

@@ -85,9 +85,12 @@ Node::Node(NodeOptions options, lcm::LCM& lcm, lcm::LCM* reports)
       },
       this);
   subscription->setQueueCapacity(0);
+  taken_.push_back(subscription);
 }
 
-Node::~Node() = default;
+Node::~Node() {
+  for (lcm::Subscription* subscription : taken_) lcm_.unsubscribe(subscription);
+}
 
 Node::Subscription& Node::add_subscription(const std::string& channel, std::int64_t fingerprint, Utime slow,
                                            Decode decode) {
@@ -110,6 +113,7 @@ Node::Subscription& Node::add_subscription(const std::string& channel, std::int6
       },
       Context{this, &added});
   subscription->setQueueCapacity(0);
+  taken_.push_back(subscription);
   return added;
 }
 

@@ -48,6 +48,7 @@ struct RawMessage {
 class Node {
  public:
   // `reports` carries DONE; null: the bus itself.
+  // The bus outlives the node.
   Node(NodeOptions options, lcm::LCM& lcm, lcm::LCM* reports = nullptr);
   ~Node();
   Node(const Node&) = delete;
@@ -148,6 +149,7 @@ class Node {
   std::optional<std::chrono::steady_clock::time_point> last_tick_wall_;  // of the clock's ticks, until told silent
   std::function<void(const injection_t&)> on_injection_;
   std::vector<std::unique_ptr<Subscription>> subscriptions_;
+  std::vector<lcm::Subscription*> taken_;  // on the bus, which outlives the node
   input_health_t ticks_health_{};
   std::map<std::pair<std::string, std::string>, std::int64_t> malformed_;  // by subscription and channel
   std::vector<Pending> pending_;

@@ -11,6 +11,7 @@ namespace rover {
 namespace {
 
 constexpr Utime kReorderDelay = 3 * kTickUs;
+constexpr Utime kLongestDelayUs = 60'000'000;  // as in faults.cpp: so old a message may still come
 
 // FNV-1a: the standard library's hash may differ from one to the next.
 std::uint64_t hash_of(const std::string& text) {
@@ -56,6 +57,9 @@ bool Tap::inject(const injection_t& injection) {
     default:
       return false;
   }
+  // Those that ended long ago strike nothing more; one that is announced again then is over all the same.
+  std::erase_if(
+      active_, [&](const Active& old) { return old.injection.until_utime < injection.header.utime - kLongestDelayUs; });
   if (!known || injection.injection_id == 0) active_.push_back(std::move(active));
   return true;
 }

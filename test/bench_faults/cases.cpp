@@ -1,0 +1,267 @@
+#include "test/bench_faults/cases.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rover::bench_faults {
+namespace {
+
+using enum Phase;
+using Who = const std::string&;
+
+const std::vector<Phase> kEver = {kStraight, kPointTurn, kHazardStop, kRepair, kStandstill};
+const std::vector<Phase> kUnderWay = {kStraight, kPointTurn, kHazardStop, kRepair};
+const std::vector<Phase> kRolling = {kStraight, kPointTurn, kRepair};
+const std::vector<std::string> kDrives = {"FL", "FR", "ML", "MR", "RL", "RR"};
+const std::vector<std::string> kSteers = {"FL", "FR", "RL", "RR"};
+const std::vector<std::string> kServices = {"stereo",       "visual_odometry",    "localization", "hazard_detector",
+                                            "path_planner", "trajectory_control", "locomotion"};
+const std::vector<std::string> kOptional = {"recorder", "mission_control"};
+constexpr double kQuickRestartS = 0.2;  // as s6 starts a process again
+
+size_t index_of(const std::vector<std::string>& names, Who who) {
+  return static_cast<size_t>(std::find(names.begin(), names.end(), who) - names.begin());
+}
+
+// ---- causes by the taps of the nodes, on one channel or field
+
+Cause tap(const std::string& fault, const std::string& target, double amount, double for_s) {
+  return {fault + " " + target, for_s, [=](Hands& h, Who, int) { h.tap(fault, target, amount, for_s); }, nullptr,
+          nullptr};
+}
+Cause drop(const std::string& channel, double for_s) {
+  return tap("drop", channel, 1.0, for_s);
+}
+Cause nan(const std::string& field, double for_s) {
+  return tap("nan", field, 1.0, for_s);
+}
+
+// Off the path, and more so ahead.
+Cause straying() {
+  return {"the controller strays", 0.3,
+          [](Hands& h, Who, int) {
+            h.tap("offset", "CONTROL_STATUS.cross_track_m", 0.5, 0.3);
+            h.tap("offset", "CONTROL_STATUS.predicted_corridor_error_m", 1.0, 0.3);
+          },
+          nullptr, nullptr};
+}
+
+// ---- causes in the vehicle, its sensors and the ground
+
+Cause broken(const std::string& text, double longest_s, std::function<void(Broken&, Who, int turn)> change) {
+  return {text, longest_s, [change](Hands& h, Who who, int turn) { change(h.rover.broken, who, turn); },
+          [](Hands& h, Who) { h.rover.broken = {}; }, nullptr};
+}
+Cause drive_current(double current_a, double longest_s) {
+  return broken("a wheel that is hard to turn", longest_s,
+                [=](Broken& b, Who who, int) { b.drive_a[index_of(kDrives, who)] = current_a; });
+}
+Cause steer_current(double current_a, double longest_s) {
+  return broken("a steering that is stuck", longest_s,
+                [=](Broken& b, Who who, int) { b.steer_a[index_of(kSteers, who)] = current_a; });
+}
+// Hot without ever being over the limit for a second.
+Cause steer_pulses() {
+  Cause cause = steer_current(3.0, 6.0);
+  cause.text = "a steering that pulls again and again";
+  cause.go_on = [](Hands& h, Who who, double age_s) {
+    h.rover.broken.steer_a[index_of(kSteers, who)] = std::fmod(age_s, 0.9) < 0.8 ? 3.0 : 0.3;
+  };
+  return cause;
+}
+Cause roll(double deg) {
+  return broken("ground tilted across", 6.0,
+                [=](Broken& b, Who, int turn) { b.roll_rad = to_rad(turn % 2 == 0 ? deg : -deg); });
+}
+Cause pitch(double deg) {
+  return broken("ground tilted along", 6.0,
+                [=](Broken& b, Who, int turn) { b.pitch_rad = to_rad(turn % 2 == 0 ? deg : -deg); });
+}
+Cause jolt() {
+  Cause cause = roll(12.0);
+  cause.text = "a jolt";
+  cause.begin = [](Hands& h, Who, int turn) {
+    h.rover.broken.roll_rad = to_rad(turn % 2 == 0 ? 12.0 : -12.0);
+    h.rover.broken.tilt_radps = to_rad(50.0);
+  };
+  return cause;
+}
+Cause slip(double ratio) {
+  return broken("loose ground", 9.0, [=](Broken& b, Who, int) { b.slip_ratio = ratio; });
+}
+Cause shove() {
+  return broken("a slide to the side", 1.2, [](Broken& b, Who, int turn) { b.shove_mps = turn % 2 == 0 ? 1.2 : -1.2; });
+}
+// The wheels turn on when the ground has the rover stand.
+Cause runaway() {
+  return {"a driver that does not stop", 6.0,
+          [](Hands& h, Who, int) {
+            h.rover.broken.runaway_mps = 0.06;
+            h.ground.wish(Wish::kStand);
+            h.ground.command(ground_command_t::STOP);
+          },
+          [](Hands& h, Who) { h.rover.broken = {}; }, nullptr};
+}
+
+// ---- causes in seeing
+
+Cause pictures(const std::string& text, std::function<double(int)> share) {
+  return {text, 3.0,
+          [share](Hands& h, Who, int) {
+            h.blindness.share = share;
+            h.blindness.pictures = 0;
+          },
+          [](Hands& h, Who) { h.blindness.share = nullptr; }, nullptr};
+}
+Cause visual_lost(double longest_s) {
+  return {"no features", longest_s, [](Hands& h, Who, int) { h.blindness.visual_lost = true; },
+          [](Hands& h, Who) { h.blindness.visual_lost = false; }, nullptr};
+}
+
+// ---- causes in services
+
+Cause hang(double longest_s) {
+  return {"hang", longest_s, [](Hands& h, Who who, int) { h.stack.hang(who, true); },
+          [](Hands& h, Who who) { h.stack.hang(who, false); }, nullptr};
+}
+Cause reports(std::int8_t status, bool for_good) {
+  return {for_good ? "says that it is ill, and kills do not help" : "says that it is ill", for_good ? 20.0 : 2.0,
+          [=](Hands& h, Who who, int) {
+            h.stack.set_status(who, status);
+            h.stack.set_stuck(who, for_good);
+          },
+          [](Hands& h, Who who) {
+            h.stack.set_stuck(who, false);
+            h.stack.set_status(who, heartbeat_t::OK);
+          },
+          nullptr};
+}
+// Ends as soon as it has said that it is there.
+Cause restart_loop() {
+  return {"restart loop", 6.0, [](Hands&, Who, int) {}, nullptr,
+          [](Hands& h, Who who, double age_s) {
+            const bool heard = h.now % 400'000 == 40'000;  // heartbeats come every 0.2 s
+            if (heard && age_s < 4.0 && h.stack.runs(who)) h.stack.kill(who, kQuickRestartS);
+          }};
+}
+
+// ---- causes that need the ground
+
+// A path that the controller does not get to hear of.
+Cause lost_path() {
+  return {"the new path is lost", 2.5,
+          [](Hands& h, Who, int) {
+            h.tap("drop", "PATH", 1.0, 2.5);
+            h.ground.give_path(0.0);
+          },
+          nullptr, nullptr};
+}
+Cause unreachable_path() {
+  return {"a path that begins out of reach", 40.0, [](Hands& h, Who, int) { h.ground.give_path(25.0); },
+          [](Hands& h, Who) {
+            h.ground.forget_path();
+            h.ground.command(ground_command_t::STOP);
+          },
+          nullptr};
+}
+// Six stops, each as soon as the one before is over.
+Cause many_stops() {
+  return {"one fault after the other", 16.0, [](Hands&, Who, int) {}, nullptr,
+          [](Hands& h, Who, double age_s) {
+            if (std::fmod(age_s + 1e-3, 1.8) < 0.02) h.tap("nan", "POSE.velocity_body_mps", 1.0, 0.1);
+          }};
+}
+Cause clock_step() {
+  return {"the clock jumps", 0.5, [](Hands& h, Who, int) { h.clock_step = 800'000; }, nullptr, nullptr};
+}
+
+std::vector<Case> of_sensors_and_motors() {
+  return {
+      {"clock_step", {}, kEver, {clock_step()}},
+      {"imu_age", {}, kEver, {drop("IMU", 0.5), tap("delay", "IMU", 0.5, 0.5)}},
+      {"imu_fault",
+       {},
+       kEver,
+       {broken("the IMU says that it is ill", 0.5, [](Broken& b, Who, int) { b.imu_fault = true; }),
+        nan("IMU.delta_angle_rad", 0.2), nan("IMU.fog_delta_yaw_rad", 0.2)}},
+      {"wheel_state_age", {}, kEver, {drop("WHEEL_STATE", 0.5), tap("delay", "WHEEL_STATE", 0.5, 0.5)}},
+      {"wheel_fault",
+       {},
+       kEver,
+       {broken("the driver says that it is ill", 0.5, [](Broken& b, Who, int) { b.wheel_fault = true; })}},
+      {"drive_current", kDrives, kUnderWay, {drive_current(11.0, 1.0), drive_current(kNaN, 1.0)}},
+      {"drive_heat_high", kDrives, kUnderWay, {drive_current(9.9, 10.0)}},
+      {"drive_heat", kDrives, kUnderWay, {drive_current(9.9, 12.0)}},
+      {"steer_current", kSteers, kUnderWay, {steer_current(1.5, 2.0)}},
+      {"steer_heat", kSteers, kUnderWay, {steer_pulses()}},
+  };
+}
+
+std::vector<Case> of_pose() {
+  return {
+      {"pose_age", {}, kEver, {drop("POSE", 0.6), tap("delay", "POSE", 0.6, 0.6)}},
+      {"pose_status", {}, kEver, {nan("POSE.position_odom_body_m", 0.2), nan("POSE.velocity_body_mps", 0.2)}},
+      {"pose_sigma_high", {}, kEver, {tap("offset", "POSE.covariance", 4.0, 0.4)}},
+      {"pose_sigma", {}, kUnderWay, {tap("offset", "POSE.covariance", 16.0, 0.4), nan("POSE.covariance", 0.4)}},
+      {"vo_age_high", {}, kEver, {drop("VO", 2.6), visual_lost(3.0)}},
+      {"vo_age", {}, kUnderWay, {drop("VO", 6.8), visual_lost(7.0)}},
+      {"roll_high", {}, kUnderWay, {roll(17.5)}},
+      {"roll", {}, kEver, {roll(24.0)}},
+      {"pitch_high", {}, kUnderWay, {pitch(30.0)}},
+      {"pitch", {}, kEver, {pitch(40.0)}},
+      {"tilt_rate", {}, kEver, {jolt()}},
+      {"slip_high", {}, kRolling, {slip(0.72)}},
+      {"slip", {}, kRolling, {slip(0.97)}},
+  };
+}
+
+std::vector<Case> of_seeing_and_following() {
+  return {
+      {"hazards_age", {}, kEver, {drop("HAZARDS", 1.8), drop("DISPARITY", 1.8)}},
+      {"hazards_blind", {}, kEver, {pictures("few pixels measured", [](int) { return 0.3; })}},
+      {"stereo_coverage_low", {}, kUnderWay, {pictures("two dim pictures", [](int n) { return n < 2 ? 0.3 : 1.0; })}},
+      {"stereo_coverage", {}, kEver, {pictures("flickering pictures", [](int n) { return n == 2 ? 1.0 : 0.1; })}},
+      {"planner_age", {}, kEver, {drop("PLANNER_STATUS", 0.6), tap("delay", "PLANNER_STATUS", 0.6, 0.6)}},
+      {"control_age", {}, kEver, {drop("CONTROL_STATUS", 0.6), tap("delay", "CONTROL_STATUS", 0.6, 0.6)}},
+      {"command_age", {}, kEver, {drop("MOTION_COMMAND", 0.6), tap("delay", "MOTION_COMMAND", 0.6, 0.6)}},
+      {"corridor_predicted", {}, kUnderWay, {nan("CONTROL_STATUS.predicted_corridor_error_m", 0.3), straying()}},
+      {"out_of_corridor", {}, kUnderWay, {shove()}},
+      {"path_mismatch", {}, kUnderWay, {lost_path()}},
+      {"no_path", {}, kUnderWay, {unreachable_path()}},
+      {"blocked", {}, kUnderWay, {nan("PLANNER_STATUS.blocked_in_m", 63.0)}},
+      {"terrain_age", {}, kUnderWay, {drop("TRAVERSABILITY", 4.2)}, true},
+  };
+}
+
+std::vector<Case> of_services() {
+  return {
+      {"heartbeat_late", kServices, kEver, {hang(1.0)}},
+      {"heartbeat", kServices, kEver, {hang(2.0)}},
+      {"service_fault", kServices, kEver, {reports(heartbeat_t::FAULT, false)}},
+      {"starts", kServices, kEver, {restart_loop()}},
+      {"restart_failed", kServices, kEver, {reports(heartbeat_t::FAULT, true)}},
+      {"optional_heartbeat", kOptional, kEver, {hang(6.0)}},
+      {"log_disk",
+       {},
+       kEver,
+       {{"no space for the log", 1.0, [](Hands& h, Who, int) { h.stack.set_status("recorder", heartbeat_t::DEGRADED); },
+         [](Hands& h, Who) { h.stack.set_status("recorder", heartbeat_t::OK); }, nullptr}}},
+      {"message_loss_high", {}, kEver, {tap("duplicate", "*", 0.1, 2.0)}},
+      {"message_loss", {}, kUnderWay, {tap("duplicate", "*", 1.0, 4.5)}},
+      {"unpermitted_motion", {}, kEver, {runaway()}},
+      {"fault_stops", {}, kUnderWay, {many_stops()}},
+  };
+}
+
+}  // namespace
+
+std::vector<Case> all_cases() {
+  std::vector<Case> all = of_sensors_and_motors();
+  for (auto* part : {&of_pose, &of_seeing_and_following, &of_services}) {
+    std::vector<Case> more = part();
+    std::move(more.begin(), more.end(), std::back_inserter(all));
+  }
+  return all;
+}
+
+}  // namespace rover::bench_faults

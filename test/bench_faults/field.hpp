@@ -1,0 +1,34 @@
+// A flat field of rocks without end, the same for the same seed, and rocks that are laid in the rover's way on purpose.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "common/core/frames.hpp"
+#include "test/path_planner/rock_world.hpp"
+
+namespace rover::bench_faults {
+
+using planning::testing_support::Rock;
+
+class Field {
+ public:
+  explicit Field(std::uint64_t seed) : seed_(seed) {}
+
+  // A row of rocks across the way ahead.
+  void lay_rocks(const Pose2& pose, double ahead_m);
+  void take_laid_rocks_away() { laid_.clear(); }
+  // In body axes of the pose, within reach_m of it.
+  std::vector<Rock> around(const Pose2& pose, double reach_m);
+
+ private:
+  const std::vector<Rock>& tile(int ix, int iy);
+
+  std::uint64_t seed_;
+  std::map<std::pair<int, int>, std::vector<Rock>> tiles_;
+  std::vector<Rock> laid_;
+};
+
+}  // namespace rover::bench_faults

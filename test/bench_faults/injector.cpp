@@ -1,0 +1,139 @@
+#include "test/bench_faults/injector.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace rover::bench_faults {
+namespace {
+
+constexpr double kSettleS = 0.5;  // after the cause, before the stack can be well
+constexpr double kMostRecoveryS = 150.0;
+constexpr double kSeekS = 120.0;   // for a phase, before the ground gives another path
+constexpr double kWayLeftM = 4.0;  // to the goal, so that it is not reached meanwhile
+constexpr double kRockAheadM = 1.55;
+constexpr Utime kRockPeriodUs = 8'000'000;
+
+bool is_before_rocks(Phase phase) {
+  return phase == Phase::kHazardStop || phase == Phase::kRepair;
+}
+
+}  // namespace
+
+Injector::Injector(const std::vector<Case>& cases, int per_row, size_t most, const Observer& seen, Hands& hands,
+                   Field& field, Log& log, std::uint64_t seed)
+    : cases_(cases), seen_(seen), hands_(hands), field_(field), log_(log), random_(seed) {
+  plan(per_row, most);
+}
+
+void Injector::plan(int per_row, size_t most) {
+  for (const Case& what : cases_)
+    for (int i = 0; i < per_row; ++i) {
+      const size_t turn = static_cast<size_t>(i);
+      const size_t phases = what.phases.size();
+      const std::string who = what.who.empty() ? "" : what.who[turn % what.who.size()];
+      const Cause& cause = what.causes[turn / phases % what.causes.size()];
+      plan_.push_back({&what, &cause, what.phases[turn % phases], who, i});
+    }
+  for (size_t i = plan_.size(); i > 1; --i) std::swap(plan_[i - 1], plan_[random_() % i]);
+  if (plan_.size() > most) plan_.resize(most);
+}
+
+void Injector::step(Utime now) {
+  hands_.now = now;
+  if (active_) return watch();
+  if (next_ >= plan_.size() || !well()) return;
+  // Of those that are left, the first whose phase it is now; else the next one's phase is sought.
+  const auto from = plan_.begin() + static_cast<std::ptrdiff_t>(next_);
+  const auto fits = std::find_if(from, plan_.end(), [&](const Planned& planned) { return is_time_for(planned); });
+  if (fits == plan_.end()) return seek(*from);
+  std::iter_swap(from, fits);
+  begin(plan_[next_++]);
+}
+
+bool Injector::is_time_for(const Planned& wanted) const {
+  if (seen_.phase() != wanted.phase) return false;
+  if ((seen_.state().level == supervisor_state_t::FULL) != wanted.what->full) return false;
+  if (wanted.phase == Phase::kStandstill) return true;
+  if (wanted.phase == Phase::kStraight && hands_.rover.speed_mps() < 0.05) return false;
+  return seen_.planner().goal_distance_m > kWayLeftM;
+}
+
+void Injector::seek(const Planned& wanted) {
+  const bool stand = wanted.phase == Phase::kStandstill;
+  hands_.ground.wish(stand ? Wish::kStand : Wish::kDrive);
+  if (seeking_since_ == 0) seeking_since_ = hands_.now;
+  const Utime sought = hands_.now - seeking_since_;
+  const bool full = seen_.state().level == supervisor_state_t::FULL;
+  if (full != wanted.what->full && hands_.now % 1'000'000 == 0)
+    hands_.ground.command(ground_command_t::FORCE_LEVEL, "",
+                          wanted.what->full ? ground_command_t::FULL : ground_command_t::EFFICIENT);
+  if (is_before_rocks(wanted.phase) && sought % kRockPeriodUs == 0 && seen_.phase() == Phase::kStraight)
+    field_.lay_rocks(hands_.rover.pose(), kRockAheadM);
+  if (to_seconds(sought) < kSeekS) return;
+  leave();
+  seeking_since_ = 0;
+}
+
+// The next drive begins with another path, away from what stands here.
+void Injector::leave() {
+  hands_.ground.forget_path();
+  hands_.ground.command(ground_command_t::STOP);
+}
+
+void Injector::begin(const Planned& planned) {
+  active_ = planned;
+  ended_ = false;
+  begun_at_ = hands_.now;
+  seeking_since_ = 0;
+  injection_t note{};
+  note.injection_id = static_cast<std::int64_t>(next_);
+  note.target = planned.row();
+  note.fault = planned.cause->text;
+  note.header.publisher = kPhaseNames[static_cast<size_t>(planned.phase)];
+  note.from_utime = hands_.now;
+  log_.note(kInjectionBegins, note);
+  std::printf("%lld BENCH injection=%zu row=%s phase=%s cause=%s\n", static_cast<long long>(hands_.now), next_,
+              planned.row().c_str(), note.header.publisher.c_str(), note.fault.c_str());
+  hands_.ground.wish(planned.phase == Phase::kStandstill ? Wish::kStand : Wish::kDrive);
+  planned.cause->begin(hands_, planned.who, planned.turn);
+}
+
+void Injector::watch() {
+  const Planned& p = *active_;
+  const double age_s = to_seconds(hands_.now - begun_at_);
+  if (!ended_ && p.cause->go_on) p.cause->go_on(hands_, p.who, age_s);
+  if (!ended_ && (age_s >= p.cause->longest_s || seen_.standing().contains(p.row()))) end();
+  if (!ended_ || to_seconds(hands_.now - ended_at_) < kSettleS) return;
+  const bool late = to_seconds(hands_.now - ended_at_) > kMostRecoveryS;
+  if (!well() && !late) return;
+  if (late) {
+    ++stuck_;
+    std::printf("%lld BENCH injection=%zu row=%s STUCK\n", static_cast<long long>(hands_.now), next_, p.row().c_str());
+    leave();
+  }
+  injection_t note{};
+  note.injection_id = static_cast<std::int64_t>(next_);
+  note.target = p.row();
+  note.from_utime = begun_at_;
+  note.until_utime = ended_at_;
+  log_.note(kInjectionOver, note);
+  if (is_before_rocks(p.phase)) leave();
+  // What is counted over a time or a way is forgiven, as an operator does who has seen the fault.
+  hands_.ground.command(ground_command_t::CLEAR_FAULT, p.row());
+  active_.reset();
+}
+
+void Injector::end() {
+  if (active_->cause->end) active_->cause->end(hands_, active_->who);
+  ended_ = true;
+  ended_at_ = hands_.now;
+}
+
+// No row stands, and the rover does what it may do for a while.
+bool Injector::well() const {
+  const std::int8_t state = seen_.state().state;
+  return seen_.standing().empty() && state != supervisor_state_t::BOOT && state != supervisor_state_t::SAFE &&
+         state != supervisor_state_t::FAULT_STOP;
+}
+
+}  // namespace rover::bench_faults

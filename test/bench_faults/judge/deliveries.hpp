@@ -1,0 +1,40 @@
+// When a receiver of the bus takes which message: by release, after what INJECT does to its channel on the way. A log
+// says what was sent; this says what came in.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <rover/header_t.hpp>
+#include <rover/injection_t.hpp>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "common/core/time.hpp"
+
+namespace rover::bench_faults {
+
+struct Delivery {
+  std::string channel;
+  header_t header{};
+  std::vector<std::uint8_t> bytes;
+};
+
+class Deliveries {
+ public:
+  void inject(const injection_t& injection);
+  void sent(Delivery delivery);
+  // Everything that is taken at the tick, in its order; what is older than what its stream has brought is left out.
+  std::vector<Delivery> take(Utime tick);
+
+ private:
+  struct Waiting {
+    Utime at;
+    Delivery delivery;
+  };
+  std::vector<injection_t> injections_;
+  std::vector<Waiting> waiting_;
+  std::map<std::tuple<std::string, std::string>, std::pair<std::int64_t, std::int64_t>> newest_;  // boot and sequence
+};
+
+}  // namespace rover::bench_faults

@@ -1,0 +1,90 @@
+// The quantities of the rows, made anew from the messages: nothing here is the supervisor's code or word but the state
+// that says which rows are armed.
+#pragma once
+
+#include <array>
+#include <deque>
+#include <map>
+#include <rover/control_status_t.hpp>
+#include <rover/drive_permit_t.hpp>
+#include <rover/hazards_t.hpp>
+#include <rover/heartbeat_t.hpp>
+#include <rover/imu_t.hpp>
+#include <rover/planner_status_t.hpp>
+#include <rover/pose_t.hpp>
+#include <rover/slip_t.hpp>
+#include <rover/supervisor_state_t.hpp>
+#include <rover/wheel_state_t.hpp>
+#include <string>
+
+#include "test/bench_faults/judge/deliveries.hpp"
+#include "test/bench_faults/judge/visibility.hpp"
+
+namespace rover::bench_faults {
+
+class Evidence {
+ public:
+  explicit Evidence(const Settings& settings) : settings_(settings) {}
+
+  void take(const Delivery& delivery);
+  // Of the supervisor, as it said: STATE and DRIVE_PERMIT of the ticks before.
+  void state(const supervisor_state_t& state);
+  void permit(const drive_permit_t& permit) { permitted_ = permit.granted != 0; }
+  void kill_ordered(const std::string& service, Utime at) { kills_[service].push_back(at); }
+  // Counts of starts, kills and stops begin anew at the ground's order.
+  void forget_counts();
+  // Once each tick, after what it took.
+  void tick(Utime now);
+
+  bool armed(const Row& row) const;
+  Measurement measure(const Row& row) const;
+
+ private:
+  struct Service {
+    heartbeat_t beat{};
+    bool heard = false;
+    std::deque<Utime> starts;
+  };
+  struct Loss {
+    Utime utime;
+    double received;
+    double lost;
+  };
+  void take_heartbeat(const heartbeat_t& beat);
+  void take_wheels(const wheel_state_t& wheels);
+  Measurement of(const header_t& header, bool bad) const;
+  Measurement age(Utime utime) const;
+  Measurement counted(double count, const Row& row) const;
+  Measurement measure_pose(const Row& row) const;
+  Measurement measure_wheels(const Row& row) const;
+  Measurement measure_seen(const Row& row) const;
+  Measurement measure_followed(const Row& row) const;
+  Measurement measure_service(const Row& row) const;
+  Measurement measure_own(const Row& row) const;
+  bool standing() const;
+
+  Settings settings_;
+  Utime now_ = kNever;
+  double clock_step_s_ = 0.0;
+  supervisor_state_t state_{};
+  bool permitted_ = false;
+  pose_t pose_{};
+  imu_t imu_{};
+  wheel_state_t wheels_{};
+  hazards_t hazards_{};
+  planner_status_t planner_{};
+  control_status_t control_{};
+  slip_t slip_{};
+  int blind_in_a_row_ = 0;
+  std::map<std::string, header_t> headers_;  // the newest of each channel
+  std::array<double, 6> drive_heat_{};
+  std::array<double, 4> steer_heat_{};
+  std::map<std::string, Service> services_;
+  std::deque<Loss> losses_;
+  Utime beat_utime_ = kNever;
+  std::map<std::string, std::deque<Utime>> kills_;
+  std::deque<double> fault_stops_m_;
+  Utime turning_since_ = kNever;
+};
+
+}  // namespace rover::bench_faults

@@ -1,0 +1,48 @@
+#include "test/bench_faults/judge/precursors.hpp"
+
+#include <map>
+
+namespace rover::bench_faults {
+namespace {
+
+// The rows that see the streams of a service.
+const std::map<std::string, std::set<std::string>> kStreams = {{"stereo", {"hazards_age"}},
+                                                               {"hazard_detector", {"hazards_age"}},
+                                                               {"localization", {"pose_age"}},
+                                                               {"path_planner", {"planner_age"}},
+                                                               {"trajectory_control", {"control_age", "command_age"}}};
+
+// Of the same motor or service, where the row is about one.
+const std::map<std::string, std::set<std::string>> kLower = {{"pose_sigma", {"pose_sigma_high"}},
+                                                             {"vo_age", {"vo_age_high"}},
+                                                             {"drive_heat", {"drive_heat_high"}},
+                                                             {"roll", {"roll_high"}},
+                                                             {"pitch", {"pitch_high"}},
+                                                             {"slip", {"slip_high"}},
+                                                             {"hazards_blind", {"stereo_coverage_low"}},
+                                                             {"stereo_coverage", {"stereo_coverage_low"}},
+                                                             {"out_of_corridor", {"corridor_predicted"}},
+                                                             {"message_loss", {"message_loss_high"}},
+                                                             {"heartbeat", {"heartbeat_late"}},
+                                                             {"restart_failed", {"service_fault"}},
+                                                             {"fault_stops", {"pose_status"}}};
+
+}  // namespace
+
+std::set<std::string> precursors(const std::string& row) {
+  const size_t dot = row.find('.');
+  const std::string line = row.substr(0, dot);
+  const std::string suffix = dot == std::string::npos ? "" : row.substr(dot);
+  std::set<std::string> out;
+  if (const auto lower = kLower.find(line); lower != kLower.end())
+    for (const std::string& one : lower->second) out.insert(one + suffix);
+  const bool hangs = line == "heartbeat" || line == "heartbeat_late";
+  const auto streams = hangs ? kStreams.find(suffix.substr(1)) : kStreams.end();
+  if (streams != kStreams.end()) out.insert(streams->second.begin(), streams->second.end());
+  // Begun anew, a controller has no path until the planner repeats it, and localization has used no picture.
+  if (row == "starts.trajectory_control") out.insert("path_mismatch");
+  if (row == "starts.localization") out.insert({"vo_age_high", "vo_age"});
+  return out;
+}
+
+}  // namespace rover::bench_faults

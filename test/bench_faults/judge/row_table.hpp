@@ -1,0 +1,41 @@
+// The rows of config/fdir.yaml as the judge reads them: one for each motor or service that a line is about.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace rover::bench_faults {
+
+enum class Armed { kAlways, kMotion, kUnderWay, kFull };
+
+struct Row {
+  std::string id;    // with its motor or service: "drive_heat.FL"
+  std::string line;  // without: "drive_heat"
+  std::string quantity;
+  std::string service;  // whom it is about, else empty
+  int motor = 0;
+  double limit = 0.0;
+  int n = 1;
+  int m = 1;
+  double persistence_s = 0.0;
+  Armed armed = Armed::kAlways;
+  bool stops = false;  // its response withdraws the permit
+};
+
+// Settings of other files that quantities refer to.
+struct Settings {
+  std::vector<Row> rows;
+  double wheel_radius_m = 0.0;
+  double drive_nominal_a = 0.0;
+  double steer_nominal_a = 0.0;
+  double motor_time_s = 0.0;
+  double restart_window_s = 0.0;
+  double hazard_stop_m = 0.0;
+  double unseen_stop_m = 0.0;
+  double standing_speed_mps = 0.0;
+  double standing_rate_radps = 0.0;
+};
+
+Settings read_settings(const std::string& config_dir);
+
+}  // namespace rover::bench_faults

@@ -1,0 +1,40 @@
+// What the bench hears of the stack, to know when to inject and when the stack is well again.
+#pragma once
+
+#include <lcm/lcm-cpp.hpp>
+#include <map>
+#include <optional>
+#include <rover/control_status_t.hpp>
+#include <rover/drive_permit_t.hpp>
+#include <rover/fault_t.hpp>
+#include <rover/planner_status_t.hpp>
+#include <rover/supervisor_state_t.hpp>
+#include <string>
+
+#include "test/bench_faults/phase.hpp"
+
+namespace rover::bench_faults {
+
+class Observer {
+ public:
+  explicit Observer(lcm::LCM& bus);
+
+  // What the rover is doing; none in between.
+  std::optional<Phase> phase() const;
+  const supervisor_state_t& state() const { return state_; }
+  const planner_status_t& planner() const { return planner_; }
+  // Ids of the rows that stand, with their response.
+  const std::map<std::string, std::int8_t>& standing() const { return standing_; }
+
+ private:
+  template <class Message>
+  void keep(lcm::LCM& bus, const char* channel, Message& newest);
+  void take(const fault_t& fault);
+
+  supervisor_state_t state_{};
+  planner_status_t planner_{};
+  control_status_t control_{};
+  std::map<std::string, std::int8_t> standing_;
+};
+
+}  // namespace rover::bench_faults

@@ -1,0 +1,69 @@
+// The vehicle and its sensors in place of the simulator: pure kinematics on ground that can be tilted as a whole, and
+// what can be broken about them.
+#pragma once
+
+#include <array>
+#include <random>
+#include <rover/imu_t.hpp>
+#include <rover/truth_t.hpp>
+#include <rover/wheel_command_t.hpp>
+#include <rover/wheel_state_t.hpp>
+
+#include "common/core/time.hpp"
+#include "test/bench_faults/field.hpp"
+#include "test/trajectory_control/kinematic_rover.hpp"
+
+namespace rover::bench_faults {
+
+// What is broken now; as made: nothing.
+struct Broken {
+  bool imu_fault = false;           // by the unit's own word
+  bool wheel_fault = false;         // by the driver's own word
+  std::array<double, 6> drive_a{};  // in place of the motor's current where not 0
+  std::array<double, 4> steer_a{};
+  double slip_ratio = 0.0;
+  double roll_rad = 0.0;   // to which the ground tilts
+  double pitch_rad = 0.0;  // positive nose down
+  double tilt_radps = 0.35;
+  double shove_mps = 0.0;    // sideways, without the wheels
+  double runaway_mps = 0.0;  // the driver turns the wheels without a command
+};
+
+class StandInRover {
+ public:
+  StandInRover(const Vehicle& vehicle, std::uint64_t seed) : vehicle_(vehicle), rover_(vehicle), random_(seed) {}
+
+  // Moves to `now` under the newest command; a step of the clock moves nothing.
+  void step(Utime now);
+  void command(const wheel_command_t& command) { command_ = command; }
+
+  imu_t imu();
+  wheel_state_t wheels() const;
+  truth_t truth() const;
+  Eigen::Isometry3d T_map_body() const;
+  const Pose2& pose() const { return rover_.pose(); }
+  double speed_mps() const { return std::abs(rover_.twist().forward_mps); }
+
+  Broken broken;
+
+ private:
+  locomotion::WheelSetpoints obeyed() const;
+  void tilt(double dt_s);
+  double noise(double sigma);
+
+  Vehicle vehicle_;
+  test::KinematicRover rover_;
+  std::mt19937_64 random_;
+  Utime now_ = 0;
+  wheel_command_t command_{};
+  double roll_rad_ = 0.0;
+  double pitch_rad_ = 0.0;
+  double shove_mps_ = 0.0;
+  std::array<double, 6> drive_angle_rad_{};
+  std::array<double, 4> steer_before_rad_{};
+  Eigen::Isometry3d T_before_ = Eigen::Isometry3d::Identity();
+  Eigen::Vector3d velocity_mps_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d velocity_before_mps_ = Eigen::Vector3d::Zero();
+};
+
+}  // namespace rover::bench_faults
