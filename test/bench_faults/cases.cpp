@@ -36,6 +36,18 @@ Cause nan(const std::string& field, double for_s) {
   return tap("nan", field, 1.0, for_s);
 }
 
+// Of the streams that come at each tick, which are most of all messages. Of IMU and wheels less: ten in a row are a
+// fault of their own.
+Cause losing(double sensors, double decisions, double for_s) {
+  return {"messages lost", for_s,
+          [=](Hands& h, Who, int) {
+            for (const char* channel : {"IMU", "WHEEL_STATE"}) h.tap("drop", channel, sensors, for_s);
+            for (const char* channel : {"POSE", "PLANNER_STATUS", "CONTROL_STATUS", "MOTION_COMMAND", "DRIVE_PERMIT"})
+              h.tap("drop", channel, decisions, for_s);
+          },
+          nullptr, nullptr};
+}
+
 // Off the path, and more so ahead.
 Cause straying() {
   return {"the controller strays", 0.3,
@@ -91,6 +103,10 @@ Cause slip(double ratio) {
 }
 Cause shove() {
   return broken("a slide to the side", 1.2, [](Broken& b, Who, int turn) { b.shove_mps = turn % 2 == 0 ? 1.2 : -1.2; });
+}
+// The driver takes the commands, and nothing comes of them.
+Cause standing() {
+  return broken("a driver that turns no wheel", 33.0, [](Broken& b, Who, int) { b.stands = true; });
 }
 // The wheels turn on when the ground has the rover stand.
 Cause runaway() {
@@ -188,11 +204,12 @@ std::vector<Case> of_sensors_and_motors() {
       {"wheel_fault",
        {},
        kEver,
-       {broken("the driver says that it is ill", 0.5, [](Broken& b, Who, int) { b.wheel_fault = true; })}},
-      {"drive_current", kDrives, kUnderWay, {drive_current(11.0, 1.0), drive_current(kNaN, 1.0)}},
+       {broken("the driver says that it is ill", 0.5, [](Broken& b, Who, int) { b.wheel_fault = true; }),
+        nan("WHEEL_STATE.drive_current_a", 0.2), nan("WHEEL_STATE.steer_current_a", 0.2)}},
+      {"drive_current", kDrives, kUnderWay, {drive_current(11.0, 1.0)}},
       {"drive_heat_high", kDrives, kUnderWay, {drive_current(9.9, 10.0)}},
       {"drive_heat", kDrives, kUnderWay, {drive_current(9.9, 12.0)}},
-      {"steer_current", kSteers, kUnderWay, {steer_current(1.5, 2.0)}},
+      {"steer_current", kSteers, kUnderWay, {steer_current(0.95, 15.0)}},
       {"steer_heat", kSteers, kUnderWay, {steer_pulses()}},
   };
 }
@@ -229,6 +246,7 @@ std::vector<Case> of_seeing_and_following() {
       {"path_mismatch", {}, kUnderWay, {lost_path()}},
       {"no_path", {}, kUnderWay, {unreachable_path()}},
       {"blocked", {}, kUnderWay, {nan("PLANNER_STATUS.blocked_in_m", 63.0)}},
+      {"idle_drive", {}, kRolling, {standing()}},
       {"terrain_age", {}, kUnderWay, {drop("TRAVERSABILITY", 4.2)}, true},
   };
 }
@@ -246,8 +264,8 @@ std::vector<Case> of_services() {
        kEver,
        {{"no space for the log", 1.0, [](Hands& h, Who, int) { h.stack.set_status("recorder", heartbeat_t::DEGRADED); },
          [](Hands& h, Who) { h.stack.set_status("recorder", heartbeat_t::OK); }, nullptr}}},
-      {"message_loss_high", {}, kEver, {tap("duplicate", "*", 0.1, 2.0)}},
-      {"message_loss", {}, kUnderWay, {tap("duplicate", "*", 1.0, 4.5)}},
+      {"message_loss_high", {}, kEver, {losing(0.1, 0.1, 2.0)}},
+      {"message_loss", {}, kUnderWay, {losing(0.32, 0.45, 4.5)}},
       {"unpermitted_motion", {}, kEver, {runaway()}},
       {"fault_stops", {}, kUnderWay, {many_stops()}},
   };

@@ -32,6 +32,7 @@ locomotion::WheelSetpoints StandInRover::obeyed() const {
   std::copy_n(command_.steer_angle_rad, 4, out.steer_angle_rad.begin());
   if (command_.valid_until_utime >= now_) std::copy_n(command_.drive_rate_radps, 6, out.drive_rate_radps.begin());
   if (broken.runaway_mps != 0.0) out.drive_rate_radps.fill(broken.runaway_mps / vehicle_.wheel_radius_m);
+  if (broken.stands) out.drive_rate_radps.fill(0.0);
   return out;
 }
 

@@ -27,6 +27,7 @@ struct Broken {
   double tilt_radps = 0.35;
   double shove_mps = 0.0;    // sideways, without the wheels
   double runaway_mps = 0.0;  // the driver turns the wheels without a command
+  bool stands = false;       // the driver turns no wheel, whatever the command
 };
 
 class StandInRover {

@@ -83,7 +83,7 @@ void Evidence::take_heartbeat(const heartbeat_t& beat) {
     Loss sum{b.header.utime, 0.0, 0.0};
     for (const input_health_t& input : b.inputs) {
       sum.received += static_cast<double>(input.received);
-      sum.lost += static_cast<double>(input.gaps + input.malformed + input.out_of_order);
+      sum.lost += static_cast<double>(input.gaps + input.malformed);
     }
     return sum;
   };
@@ -123,6 +123,8 @@ void Evidence::tick(Utime now) {
                   [&](double rate) { return std::abs(rate) * settings_.wheel_radius_m > kTurningMps; });
   if (permitted_ || !turning) turning_since_ = kNever;
   if (!permitted_ && turning && turning_since_ == kNever) turning_since_ = now;
+  if (!permitted_ || turning) idle_since_ = kNever;
+  if (permitted_ && !turning && idle_since_ == kNever) idle_since_ = now;
 }
 
 bool Evidence::armed(const Row& row) const {
@@ -212,7 +214,9 @@ Measurement Evidence::measure_wheels(const Row& row) const {
   if (q == "steer_current_a") return bad(above(std::abs(wheels_.steer_current_a[i]), row.limit));
   if (q == "drive_i2t_load") return bad(above(drive_heat_[i], row.limit));
   if (q == "steer_i2t_load") return bad(above(steer_heat_[i], row.limit));
-  if (q == "wheel_fault") return bad(wheels_.status == wheel_state_t::FAULT);
+  if (q == "wheel_fault")
+    return bad(wheels_.status == wheel_state_t::FAULT || !all_finite(wheels_.drive_current_a) ||
+               !all_finite(wheels_.steer_current_a) || !all_finite(wheels_.drive_rate_radps));
   if (q == "imu_fault")
     return of(imu_.header, imu_.status != imu_t::OK || !all_finite(imu_.delta_angle_rad) ||
                                !all_finite(imu_.delta_velocity_mps) || !std::isfinite(imu_.fog_delta_yaw_rad));
@@ -272,6 +276,7 @@ Measurement Evidence::measure_own(const Row& row) const {
   if (q == "fault_stops") return counted(static_cast<double>(fault_stops_m_.size()), row);
   if (q == "unpermitted_motion_s")
     return counted(turning_since_ == kNever ? 0.0 : to_seconds(now_ - turning_since_), row);
+  if (q == "idle_drive_s") return counted(idle_since_ == kNever ? 0.0 : to_seconds(now_ - idle_since_), row);
   if (q == "lost_share") {
     double received = 0.0, lost = 0.0;
     for (const Loss& loss : losses_) received += loss.received, lost += loss.lost;

@@ -84,7 +84,8 @@ class Evidence {
   Utime beat_utime_ = kNever;
   std::map<std::string, std::deque<Utime>> kills_;
   std::deque<double> fault_stops_m_;
-  Utime turning_since_ = kNever;
+  Utime turning_since_ = kNever;  // without a permit
+  Utime idle_since_ = kNever;     // with one
 };
 
 }  // namespace rover::bench_faults
