@@ -12,6 +12,8 @@ using Who = const std::string&;
 const std::vector<Phase> kEver = {kStraight, kPointTurn, kHazardStop, kRepair, kStandstill};
 const std::vector<Phase> kUnderWay = {kStraight, kPointTurn, kHazardStop, kRepair};
 const std::vector<Phase> kRolling = {kStraight, kPointTurn, kRepair};
+// Sideways is off the path.
+const std::vector<Phase> kAlongPath = {kStraight, kHazardStop, kRepair};
 const std::vector<std::string> kDrives = {"FL", "FR", "ML", "MR", "RL", "RR"};
 const std::vector<std::string> kSteers = {"FL", "FR", "RL", "RR"};
 const std::vector<std::string> kServices = {"stereo",       "visual_odometry",    "localization", "hazard_detector",
@@ -172,6 +174,15 @@ Cause lost_path() {
           },
           nullptr, nullptr};
 }
+// The way is clear, so that the planner finds one, and seems blocked.
+Cause looks_blocked() {
+  Cause cause = nan("PLANNER_STATUS.blocked_in_m", 63.0);
+  cause.begin = [](Hands& h, Who, int) {
+    h.ground.clear_way();
+    h.tap("nan", "PLANNER_STATUS.blocked_in_m", 1.0, 63.0);
+  };
+  return cause;
+}
 Cause unreachable_path() {
   return {"a path that begins out of reach", 40.0, [](Hands& h, Who, int) { h.ground.give_path(25.0); },
           [](Hands& h, Who) {
@@ -242,10 +253,10 @@ std::vector<Case> of_seeing_and_following() {
       {"control_age", {}, kEver, {drop("CONTROL_STATUS", 0.6), tap("delay", "CONTROL_STATUS", 0.6, 0.6)}},
       {"command_age", {}, kEver, {drop("MOTION_COMMAND", 0.6), tap("delay", "MOTION_COMMAND", 0.6, 0.6)}},
       {"corridor_predicted", {}, kUnderWay, {nan("CONTROL_STATUS.predicted_corridor_error_m", 0.3), straying()}},
-      {"out_of_corridor", {}, kUnderWay, {shove()}},
+      {"out_of_corridor", {}, kAlongPath, {shove()}},
       {"path_mismatch", {}, kUnderWay, {lost_path()}},
       {"no_path", {}, kUnderWay, {unreachable_path()}},
-      {"blocked", {}, kUnderWay, {nan("PLANNER_STATUS.blocked_in_m", 63.0)}},
+      {"blocked", {}, kUnderWay, {looks_blocked()}},
       {"idle_drive", {}, kRolling, {standing()}},
       {"terrain_age", {}, kUnderWay, {drop("TRAVERSABILITY", 4.2)}, true},
   };

@@ -26,6 +26,7 @@ class Ground {
   void command(std::int8_t kind, const std::string& target = "", std::int8_t level = ground_command_t::AUTO);
   // Begins `away_m` from the rover, to its left.
   void give_path(double away_m);
+  void clear_way() { field_.take_laid_rocks_away(); }
   // The path is of no use any more: the next drive begins with another one.
   void forget_path() { has_path_ = false; }
 

@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kSettleS = 0.5;  // after the cause, before the stack can be well
 constexpr double kMostRecoveryS = 150.0;
+constexpr double kLostS = 400.0;
 constexpr double kSeekS = 120.0;   // for a phase, before the ground gives another path
 constexpr double kWayLeftM = 4.0;  // to the goal, so that it is not reached meanwhile
 constexpr double kRockAheadM = 1.55;
@@ -30,7 +31,8 @@ void Injector::plan(int per_row, size_t most) {
     for (int i = 0; i < per_row; ++i) {
       const size_t turn = static_cast<size_t>(i);
       const size_t phases = what.phases.size();
-      const std::string who = what.who.empty() ? "" : what.who[turn % what.who.size()];
+      // Each motor or service in another phase the next time.
+      const std::string who = what.who.empty() ? "" : what.who[(turn + turn / phases) % what.who.size()];
       const Cause& cause = what.causes[turn / phases % what.causes.size()];
       plan_.push_back({&what, &cause, what.phases[turn % phases], who, i});
     }
@@ -40,6 +42,7 @@ void Injector::plan(int per_row, size_t most) {
 
 void Injector::step(Utime now) {
   hands_.now = now;
+  if (well()) well_at_ = now;
   if (active_) return watch();
   if (next_ >= plan_.size() || !well()) return;
   // Of those that are left, the first whose phase it is now; else the next one's phase is sought.
@@ -129,7 +132,11 @@ void Injector::end() {
   ended_at_ = hands_.now;
 }
 
-// No row stands, and the rover does what it may do for a while.
+bool Injector::lost() const {
+  return to_seconds(hands_.now - well_at_) > kLostS;
+}
+
+// No row stands, and the supervisor neither waits for services nor for the ground.
 bool Injector::well() const {
   const std::int8_t state = seen_.state().state;
   return seen_.standing().empty() && state != supervisor_state_t::BOOT && state != supervisor_state_t::SAFE &&

@@ -20,6 +20,8 @@ class Injector {
   // A cause is at work: the ground lets the rover alone.
   bool injecting() const { return active_ && !ended_; }
   bool done() const { return next_ >= plan_.size() && !active_; }
+  // The stack does not get well any more.
+  bool lost() const;
   size_t count() const { return next_; }
   // Injections after which the stack did not recover by itself or by the ground's usual orders.
   int stuck() const { return stuck_; }
@@ -55,6 +57,7 @@ class Injector {
   Utime begun_at_ = 0;
   Utime ended_at_ = 0;
   Utime seeking_since_ = 0;
+  Utime well_at_ = 0;
   int stuck_ = 0;
 };
 

@@ -57,7 +57,7 @@ class Bench {
   }
 
   void run() {
-    while (!injector_.done()) tick();
+    while (!injector_.done() && !injector_.lost()) tick();
     std::printf("%zu injections in %.0f s of message time, %d stuck\n", injector_.count(), to_seconds(now_),
                 injector_.stuck());
   }
