@@ -29,7 +29,8 @@ refused "a silent bus" 1 "nothing was heard" --bus "$BUS"
 refused "a run that is over" 1 "$WORK/idle: no services run there" --run "$WORK/idle"
 refused "no folder" 2 "$WORK/none: no such run folder" --run "$WORK/none"
 
-(cd "$SOURCE" && exec "$BUILD/bin/rover_launcher" run config/scenarios/default.yaml --seed 5 --out "$WORK/run" \
+# A drive that is longer than all that is looked at here.
+(cd "$SOURCE" && exec "$BUILD/bin/rover_launcher" run config/scenarios/seed_traverse_1.yaml --seed 5 --out "$WORK/run" \
   --bus "$BUS") >/dev/null &
 run=$!
 until [ -e "$WORK/run/services" ]; do
