@@ -17,7 +17,7 @@ for seed in 1 2; do
   "$BUILD/bin/rover_launcher" run config/scenarios/seed_traverse_1.yaml --seed $seed --realtime --record reduced \
     --out "$LOGS/run-$seed" --bus "$bus" >"$LOGS/run-$seed.log" 2>&1 &
   run=$!
-  "$BUILD/bench/restart_probe" "$LOGS/run-$seed" "$bus" $ROUNDS | tee -a "$LOGS/rows.jsonl" >&2
+  "$BUILD/probes/restart_probe" "$LOGS/run-$seed" "$bus" $ROUNDS | tee -a "$LOGS/rows.jsonl" >&2
   wait $run || true  # its clock was killed
 done
 
