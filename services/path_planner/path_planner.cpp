@@ -296,8 +296,10 @@ bool PathPlanner::repair(bool because_of_hazard, PlannerOutput& out) {
 
 // The demands fall from one to the next. The last is for a goal under hazards, once that is certain.
 bool PathPlanner::find_any_repair(const Terrain& terrain, double& margin_m) {
-  for (const double sure_m : {kInfinity, config_.sure_way_m, config_.least_sure_way_m})
+  for (const double sure_m : {kInfinity, config_.sure_way_m, config_.least_sure_way_m}) {
     if (find_repair(terrain, {sure_m, goal_reach_m()}, margin_m)) return true;
+    if (!unseen_in_the_way_) break;  // no way was dropped for that: asking for less finds the same
+  }
   return failures_ + 1 >= config_.patience_frames && goal_near() &&
          find_repair(terrain, {config_.sure_way_m, config_.blocked_goal_reach_m}, margin_m);
 }
@@ -307,12 +309,14 @@ bool PathPlanner::goal_near() const {
 }
 
 bool PathPlanner::find_repair(const Terrain& terrain, const WayDemand& demand, double& margin_m) {
+  unseen_in_the_way_ = false;
   for (const double margin : {config_.margin_m, config_.tight_margin_m})
     for (const LeadIn& lead : lead_ins()) {
       margin_m = margin;
       last_lead_ = lead;
       last_repair_ = plan_repair(terrain, lead, margin, demand);
       if (last_repair_.status == RepairStatus::kFound) return true;
+      unseen_in_the_way_ = unseen_in_the_way_ || last_repair_.status == RepairStatus::kUnseen;
     }
   return false;
 }

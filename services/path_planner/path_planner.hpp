@@ -204,7 +204,8 @@ class PathPlanner {
   int frames_before_unseen_ = 0;
   int frames_before_possible_ = 0;
   RepairResult last_repair_;
-  LeadIn last_lead_;  // of the last repair
+  LeadIn last_lead_;                // of the last repair
+  bool unseen_in_the_way_ = false;  // ways of the last search were dropped for ground that is not seen in time
 };
 
 }  // namespace rover::planning
