@@ -40,6 +40,12 @@ bool find_way(const Line& waypoints, const MarchGrid& grid, Plan& plan) {
   return true;
 }
 
+// Rounding draws points together in bends: they are spread again.
+Line drivable(const Line& way, const MarchGrid& grid, const RouteConfig& config) {
+  const double spacing = config.point_spacing_m;
+  return resampled(rounded(resampled(way, spacing, grid), grid, config), spacing, grid);
+}
+
 double slope_at(const TerrainLayers& terrain, const MarchGrid& grid, const Eigen::Vector2d& p) {
   return terrain.slope_rad[cell_at(grid, p)];
 }
@@ -75,7 +81,7 @@ Plan plan(const ElevationRaster& map, const Line& waypoints, const PlannerConfig
   plan.terrain = analyse(map, config.terrain);
   const CostMap costs = travel_cost(plan.terrain, config.cost);
   if (!judge_waypoints(waypoints, costs, plan) || !find_way(waypoints, costs.grid, plan)) return plan;
-  plan.line = rounded(resampled(plan.line, config.route.point_spacing_m), costs.grid, config.route);
+  plan.line = drivable(plan.line, costs.grid, config.route);
   plan.difficulty = difficulty_along(plan.line, plan.terrain, config.levels);
   plan.level = levels_along(plan.line, plan.difficulty, config.levels);
   measure(costs.grid, plan);

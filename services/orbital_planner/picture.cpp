@@ -10,7 +10,7 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kMarginM = 40.0;  // around the path
-constexpr int kLongSide = 1400;    // of the picture
+constexpr int kLongSide = 1000;    // of the picture
 constexpr int kShift = 4;          // OpenCV draws in sixteenths of a pixel
 const cv::Vec3f kObstacle(52, 66, 176), kSteep(66, 140, 214), kUnknown(96, 96, 96);
 

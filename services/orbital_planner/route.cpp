@@ -23,15 +23,11 @@ class Descent {
  public:
   Descent(const MarchGrid& grid, const std::vector<double>& travel) : grid_(grid), travel_(travel) {}
 
-  Line walk(Vector2d p, const Vector2d& goal) const {
-    Line line{p};
+  Line walk(const Vector2d& start, const Vector2d& goal) const {
+    Line line{start};
     // The way visits no cell twice but in passing, so the bound only stops what would never end.
     const size_t most = 8 * travel_.size() + 16;
-    while ((p - goal).norm() > grid_.cell_m || !is_open(grid_, p, goal)) {
-      p = next(p);
-      line.push_back(p);
-      if (line.size() > most || cell_at(grid_, p) == cell_at(grid_, goal)) break;
-    }
+    while (!arrives(line.back(), goal) && line.size() < most) step(line);
     line.push_back(goal);
     return line;
   }
@@ -42,18 +38,26 @@ class Descent {
     return inside ? travel_[static_cast<size_t>(y) * grid_.width + x] : kInfinity;
   }
 
-  // A half step along the gradient where the travel cost falls that way, else to the best neighbouring cell.
-  Vector2d next(const Vector2d& p) const {
+  bool arrives(const Vector2d& p, const Vector2d& goal) const {
+    return cell_at(grid_, p) == cell_at(grid_, goal) || ((p - goal).norm() <= grid_.cell_m && is_open(grid_, p, goal));
+  }
+
+  // A half step along the gradient where the travel cost falls that way, else by the cells' centres to the best
+  // neighbour.
+  void step(Line& line) const {
+    const Vector2d p = line.back();
     const int cell = cell_at(grid_, p);
     const Vector2d fall = fall_at(p);
     if (fall.norm() > 0.0) {
       const Vector2d q = p + kDescentStep * grid_.cell_m * fall.normalized();
-      const int there = cell_at(grid_, q);
-      if (there >= 0 && is_open(grid_, p, q) && (there == cell || travel_[there] < travel_[cell])) {
-        if (there != cell || interpolated(q) < interpolated(p)) return q;
-      }
+      if (is_open(grid_, p, q) && falls(p, cell, q, cell_at(grid_, q))) return line.push_back(q);
     }
-    return center_of(grid_, best_neighbour(cell));
+    line.push_back(center_of(grid_, cell));
+    line.push_back(center_of(grid_, best_neighbour(cell)));
+  }
+
+  bool falls(const Vector2d& from, int from_cell, const Vector2d& to, int to_cell) const {
+    return to_cell == from_cell ? interpolated(to) < interpolated(from) : travel_[to_cell] < travel_[from_cell];
   }
 
   int best_neighbour(int cell) const {
@@ -144,22 +148,26 @@ double length_m(std::span<const Vector2d> line) {
   return length;
 }
 
-Line resampled(const Line& line, double spacing_m) {
+Line resampled(const Line& line, double spacing_m, const MarchGrid& grid) {
   const double length = length_m(line);
   const int parts = std::max(1, static_cast<int>(std::lround(length / spacing_m)));
   Line points{line.front()};
-  double passed = 0.0;
-  size_t i = 1;
-  for (int k = 1; k < parts; ++k) {
+  double passed = 0.0;  // way to the vertex before `next`
+  size_t next = 1;
+  for (int k = 1; k <= parts; ++k) {
     const double wanted = length * k / parts;
-    while (i + 1 < line.size() && passed + (line[i] - line[i - 1]).norm() < wanted) {
-      passed += (line[i] - line[i - 1]).norm();
-      ++i;
+    const size_t first = next;
+    while (next + 1 < line.size() && passed + (line[next] - line[next - 1]).norm() < wanted) {
+      passed += (line[next] - line[next - 1]).norm();
+      ++next;
     }
-    const double piece = (line[i] - line[i - 1]).norm();
-    points.push_back(line[i - 1] + (line[i] - line[i - 1]) * (piece > 0.0 ? (wanted - passed) / piece : 0.0));
+    const double piece = (line[next] - line[next - 1]).norm();
+    const double share = piece > 0.0 ? std::min(1.0, (wanted - passed) / piece) : 0.0;
+    const Vector2d p = k == parts ? line.back() : Vector2d(line[next - 1] + (line[next] - line[next - 1]) * share);
+    // The chord cuts a corner: by the line's own vertices then.
+    if (!is_open(grid, points.back(), p)) points.insert(points.end(), line.begin() + first, line.begin() + next);
+    points.push_back(p);
   }
-  points.push_back(line.back());
   return points;
 }
 
@@ -174,11 +182,7 @@ Line rounded(Line line, const MarchGrid& grid, const RouteConfig& config) {
       if (is_open(grid, line[i - 1], moved) && is_open(grid, moved, before[i + 1])) line[i] = moved;
     }
   }
-  // Rounding draws points together in bends.
-  const Line even = resampled(line, config.point_spacing_m);
-  for (size_t i = 1; i < even.size(); ++i)
-    if (!is_open(grid, even[i - 1], even[i])) return line;
-  return even;
+  return line;
 }
 
 }  // namespace rover::orbital

@@ -29,10 +29,11 @@ bool is_open(const MarchGrid& grid, const Eigen::Vector2d& a, const Eigen::Vecto
 std::optional<Line> best_way(const MarchGrid& grid, const Eigen::Vector2d& start, const Eigen::Vector2d& goal);
 
 double length_m(std::span<const Eigen::Vector2d> line);
-// Points at even distances of about the spacing, first and last kept.
-Line resampled(const Line& line, double spacing_m);
+// Points at even distances of about the spacing, first and last kept; where the straight way between two of them is not
+// open, the line's own points as well.
+Line resampled(const Line& line, double spacing_m, const MarchGrid& grid);
 // Points drawn towards the middle of their neighbours again and again, the ends fixed; a point stays where the line
-// would cross a cell that may not be entered. Evenly spaced again at the end where that is possible.
+// would cross a cell that may not be entered.
 Line rounded(Line line, const MarchGrid& grid, const RouteConfig& config);
 
 }  // namespace rover::orbital
