@@ -41,7 +41,7 @@ std::string yaml_path_of(const std::string& scenario_text) {
 
 class PlanCommand : public TempDir {
  protected:
-  Arguments arguments(const std::string& start = "60,270", const std::string& goal = "120,60") const {
+  Arguments arguments(const std::string& start = "60.5,270.5", const std::string& goal = "120.5,60.5") const {
     Arguments arguments;
     arguments.map = kGale;
     arguments.start = start;
@@ -49,6 +49,12 @@ class PlanCommand : public TempDir {
     arguments.out = path("out");
     arguments.config_dir = kSource + "/config";
     return arguments;
+  }
+
+  // The written section, as a scenario reads it.
+  PlannedPath written_path() const {
+    std::ofstream(path("scenario.yaml")) << "world: {dtm: " << kGale << "}\n" << text_of(path("out/path.yaml"));
+    return load_scenario(path("scenario.yaml")).path;
   }
 
   // Status and stderr of the program.
@@ -72,8 +78,8 @@ TEST_F(PlanCommand, ThePlannerTakesTheMessage) {
   planning::GlobalPath path;
   EXPECT_EQ(planning::global_path_from(message, path), "");
   EXPECT_EQ(message.kind, path_t::GLOBAL + 0);
-  EXPECT_EQ(message.x_m.front(), 60.0);
-  EXPECT_EQ(message.y_m.back(), 60.0);
+  EXPECT_EQ(message.x_m.front(), 60.5);
+  EXPECT_EQ(message.y_m.back(), 60.5);
   EXPECT_EQ(message.corridor_half_width_m, 1.5);
   EXPECT_TRUE(std::count(message.level.begin(), message.level.end(), path_t::FULL + 0) > 0);
   EXPECT_TRUE(std::count(message.level.begin(), message.level.end(), path_t::EFFICIENT + 0) > 0);
@@ -84,8 +90,7 @@ TEST_F(PlanCommand, GeojsonMessageAndScenarioSayTheSame) {
   run(arguments());
   const nlohmann::json geojson = nlohmann::json::parse(text_of(path("out/path.geojson")));
   EXPECT_EQ(geojson["type"], "FeatureCollection");
-  std::ofstream(path("scenario.yaml")) << "world: {dtm: " << kGale << "}\n" << text_of(path("out/path.yaml"));
-  const PlannedPath planned = load_scenario(path("scenario.yaml")).path;
+  const PlannedPath planned = written_path();
   const Geography geography(read_elevation(kGale));
   size_t at = 0, points = 0;
   for (const nlohmann::json& feature : geojson["features"]) {
@@ -111,7 +116,7 @@ TEST_F(PlanCommand, GeojsonMessageAndScenarioSayTheSame) {
 
 TEST_F(PlanCommand, LongitudeAndLatitudeGiveTheSamePlan) {
   run(arguments());
-  const std::string by_metres = text_of(path("out/path.yaml"));
+  const PlannedPath by_metres = written_path();
   const Geography geography(read_elevation(kGale));
   const auto place = [&](double x, double y) {
     const Eigen::Vector2d p = geography.to_lon_lat({x, y});
@@ -120,10 +125,16 @@ TEST_F(PlanCommand, LongitudeAndLatitudeGiveTheSamePlan) {
     text << p.x() << "," << p.y();
     return text.str();
   };
-  Arguments by_degrees = arguments(place(60, 270), place(120, 60));
+  Arguments by_degrees = arguments(place(60.5, 270.5), place(120.5, 60.5));
   by_degrees.lon_lat = true;
   run(by_degrees);
-  EXPECT_EQ(text_of(path("out/path.yaml")), by_metres);
+  const PlannedPath same = written_path();
+  ASSERT_EQ(same.x_m.size(), by_metres.x_m.size());
+  EXPECT_EQ(same.level, by_metres.level);
+  for (size_t i = 0; i < same.x_m.size(); ++i) {
+    EXPECT_NEAR(same.x_m[i], by_metres.x_m[i], 1e-3);
+    EXPECT_NEAR(same.y_m[i], by_metres.y_m[i], 1e-3);
+  }
 }
 
 TEST_F(PlanCommand, ThePictureShowsBothLevels) {
@@ -188,10 +199,10 @@ TEST_F(PlanCommand, BadInputEndsWithStatus2AndOneLine) {
       {kGale + " --start 60,270 --goal 400,60", "--goal 400,60: lies outside of the map"},
       {path("split.tif") + " --start 100.5,270 --goal 120,60", "--start 100.5,270: lies where the map has no data"},
       {path("split.tif") + " --start 60,270 --goal 200,270", "--goal 200,270: cannot be reached"},
-      {kGale + " --start 60,270 --via 180,300 --goal 120,60", "--via 180,300: lies 0.0 m from an obstacle"},
+      {kGale + " --start 60,270 --via 180,300 --goal 120,60", "--via 180,300: lies 1.0 m from an obstacle"},
       {kGale + " --start 60:270 --goal 120,60", "--start '60:270': two numbers"},
       {kGale + " --start nan,270 --goal 120,60", "--start 'nan,270': two numbers"},
-      {kGale + " --start 60,270 --goal 120,600 --lonlat", "--goal 120,600: no longitude and latitude"},
+      {kGale + " --start 137.4,-4.6 --goal 120,600 --lonlat", "--goal 120,600: no longitude and latitude"},
       {kGale + " --start 60,270 --goal 120,60 --config " + path("none"), "none/orbital_planner.yaml"},
   };
   for (const auto& [words, expected] : cases) {
