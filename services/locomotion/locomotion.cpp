@@ -135,7 +135,7 @@ void Locomotion::switch_geometry(const Target& target) {
 void Locomotion::align(const Target& target, const WheelReading& wheels, double dt_s) {
   curvature_per_m_ = target.curvature_per_m;
   const auto wanted = geometry_angles();
-  const double step = config_.steering_rate_share * vehicle_.steer_rate_radps * dt_s;
+  const double step = vehicle_.steer_rate_radps * dt_s;
   for (size_t k = 0; k < 4; ++k) steer_rad_[k] = move_towards(steer_rad_[k], wanted[k], step);
   aligned_ = steer_rad_ == wanted && steering_error(wheels) <= config_.aligned_rad;
 }

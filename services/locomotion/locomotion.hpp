@@ -22,7 +22,7 @@ struct LocomotionConfig {
   double wheel_state_max_age_s = 0.2;
   double acceleration_mps2 = 0.118;          // both ways [HDPR]
   double emergency_deceleration_mps2 = 0.4;  // lease lost: 0.2 m/s to rest in 0.5 s and 5 cm
-  double steering_rate_share = 0.9;          // of the motors' rate, so that they can follow
+  double steering_rate_share = 0.9;          // of the motors' rate while rolling, so that they can follow
   double max_curvature_per_m = 1.0;
   double max_turn_rate_radps = 0.25;
   double aligned_rad = 0.052;          // 3 deg: the steering has arrived, motion may start

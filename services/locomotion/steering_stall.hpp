@@ -6,7 +6,7 @@
 namespace rover::locomotion {
 
 struct SteeringStallConfig {
-  double patience_s = 2.0;       // the setpoints have arrived, the wheels have not
+  double patience_s = 0.5;       // the setpoints have arrived, the wheels have not: free ones lag by 0.1 s
   double most_error_rad = 0.61;  // 35 deg: one wheel of six scrubs that much; beyond, the rover stands
   double speed_mps = 0.04;
   double way_m = 0.20;  // more than a wheel's radius

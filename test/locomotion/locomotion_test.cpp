@@ -279,9 +279,9 @@ TEST_F(LocomotionTest, ALostLeaseInABendCostsNoNewAlignment) {
 TEST_F(LocomotionTest, AWheelAgainstARockIsRolledFree) {
   rock_at_rad_ = -0.8;  // 15 deg short of a point turn's angle
   point_turn(0.2);
-  run(6.5);
+  run(5.5);
   EXPECT_EQ(commanded_speed(), 0.0);
-  run(2.5);
+  run(1.5);
   EXPECT_GT(commanded_speed(), 0.0);
   EXPECT_LE(commanded_speed(), config_.locomotion.stall.speed_mps + 1e-12);
   rock_at_rad_.reset();
