@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numeric>
 #include <queue>
 
+#include "common/core/frames.hpp"
 #include "test/common/randoms.hpp"
 
 namespace rover {
