@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "path_planner/distance_field.hpp"
+#include "common/core/distance_field.hpp"
 
 namespace rover::planning {
 namespace {
