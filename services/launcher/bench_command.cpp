@@ -82,6 +82,7 @@ RunArguments run_arguments(const BenchArguments& arguments, const Job& job, int 
   run.bus = "udpm://239.255.76.67:" + std::to_string(kFirstBenchPort + slot) + "?ttl=0&recv_buf_size=4194304";
   run.record = "reduced";
   run.quiet = true;
+  run.headless = true;
   return run;
 }
 

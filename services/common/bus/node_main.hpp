@@ -14,6 +14,7 @@ namespace rover {
 struct NodeContext {
   Node& node;
   std::string config_dir;  // holds vehicle.yaml, <service>.yaml, ...
+  std::string bus_url;
 };
 
 // Builds the service on the node and returns the object that keeps it alive.
