@@ -96,8 +96,8 @@ std::string page_line(const std::string& config_dir) try {
   if (!served) return "";
   const std::string at = "http://" + address + ":" + std::to_string(port);
   if (!is_taken(address, port)) return "page: " + at;
-  return "page: " + at + " is taken; this run has no page. Another one: --set mission_control.port=" +
-         std::to_string(port + 1);
+  return "page: " + at +
+         " is taken; this run has no page. Another one: --set mission_control.port=" + std::to_string(port + 1);
 } catch (const ConfigError&) {
   return "";  // the service itself says what is wrong, and the run ends
 }

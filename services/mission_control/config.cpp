@@ -96,8 +96,9 @@ PageConfig load_page_config(const std::string& config_dir) {
   if (!token_file.empty())
     page.guard.token = load_token(token_file);
   else if (!is_loopback(page.guard.address))
-    config.fail("address", page.guard.address + " can be reached from elsewhere: token_file has to name a file of mode "
-                           "0600 with a token in it");
+    config.fail("address", page.guard.address +
+                               " can be reached from elsewhere: token_file has to name a file of mode "
+                               "0600 with a token in it");
   return page;
 }
 
@@ -130,7 +131,8 @@ nlohmann::json page_setup(const std::string& config_dir, const Vehicle& vehicle)
             {"steered", kSteeredWheels},
             {"top_speed_mps", vehicle.top_speed_mps}}},
           {"gauges", gauge_limits(config_dir, vehicle)},
-          {"roi", {{"near_m", coverage.number("roi_near_m", {0, 100})}, {"far_m", coverage.number("roi_far_m", {0, 100})}}}};
+          {"roi",
+           {{"near_m", coverage.number("roi_near_m", {0, 100})}, {"far_m", coverage.number("roi_far_m", {0, 100})}}}};
 }
 
 }  // namespace mission

@@ -1,9 +1,6 @@
 #include "mission_control/ear.hpp"
 
 #include <chrono>
-#include <functional>
-#include <lcm/lcm-cpp.hpp>
-#include <list>
 
 #include "common/bus/channels.hpp"
 #include "common/bus/streams.hpp"
@@ -11,32 +8,7 @@
 namespace rover::mission {
 namespace {
 
-using namespace std::chrono_literals;
-
 constexpr double kLingerS = 5.0;  // after the last page has gone: it may only be loaded anew
-
-// Subscriptions of one stay on the bus. What does not decode is left to the services to count and name.
-class Listeners {
- public:
-  explicit Listeners(lcm::LCM& bus) : bus_(bus) {}
-
-  template <class Message>
-  lcm::Subscription* add(const char* channel, std::function<void(const Message&)> handler) {
-    handlers_.push_back([handler](const lcm::ReceiveBuffer* buffer) {
-      Message message;
-      if (decode_message(buffer->data, static_cast<int>(buffer->data_size), message)) handler(message);
-    });
-    return bus_.subscribeFunction(
-        channel,
-        +[](const lcm::ReceiveBuffer* buffer, const std::string&, Handler* handle) { (*handle)(buffer); },
-        &handlers_.back());
-  }
-
- private:
-  using Handler = std::function<void(const lcm::ReceiveBuffer*)>;
-  lcm::LCM& bus_;
-  std::list<Handler> handlers_;
-};
 
 }  // namespace
 
@@ -44,73 +16,84 @@ double wall_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-Ear::Ear(std::string bus_url, Audience& audience, const std::vector<std::string>& services)
-    : bus_url_(std::move(bus_url)), audience_(audience), gatherer_(services), thread_([this] { run(); }) {}
+Ear::Ear(lcm::LCM& bus, Audience& audience, const std::vector<std::string>& services)
+    : bus_(bus), audience_(audience), gatherer_(services) {}
 
 Ear::~Ear() {
-  running_ = false;
-  audience_.end();
-  thread_.join();
+  end();
 }
 
-void Ear::run() {
-  while (running_)
-    if (audience_.wait_for_page(1s)) listen();
-}
-
-void Ear::listen() {
-  lcm::LCM bus(bus_url_);
-  if (!bus.good()) return std::this_thread::sleep_for(1s);
-  Listeners listeners(bus);
-  const auto take = [&]<class Message>(const char* channel, Message) {
-    return listeners.add<Message>(channel, [this](const Message& message) {
-      const std::lock_guard lock(mutex_);
-      if constexpr (requires { gatherer_.take(message, 0.0); })
-        gatherer_.take(message, wall_seconds());
-      else
-        gatherer_.take(message);
-    });
+// What does not decode is left to the services to count and name.
+template <class Message, class Take>
+Ear::Hearing* Ear::hear(const char* channel, Take take) {
+  Hearing& hearing = handlers_.emplace_back();
+  hearing.handler = [this, take](const lcm::ReceiveBuffer* buffer) {
+    Message message;
+    if (!decode_message(buffer->data, static_cast<int>(buffer->data_size), message)) return;
+    const std::lock_guard lock(mutex_);
+    take(message);
   };
-  take(channel::kTick, tick_t{});
-  take(channel::kHeartbeat, heartbeat_t{});
-  take(channel::kState, supervisor_state_t{});
-  take(channel::kFault, fault_t{});
-  take(channel::kDrivePermit, drive_permit_t{});
-  take(channel::kPose, pose_t{});
-  take(channel::kPlannerStatus, planner_status_t{});
-  take(channel::kControlStatus, control_status_t{});
-  take(channel::kSlip, slip_t{});
-  take(channel::kWheelState, wheel_state_t{});
-  take(channel::kPath, path_t{});
-  take(channel::kHazards, hazards_t{});
-  take(channel::kTraversability, traversability_t{});
-  take(channel::kElevation, elevation_t{});
-  listeners.add<image_t>(channel::kLocCamRectLeft, [this](const image_t& image) {
-    const std::lock_guard lock(mutex_);
-    gatherer_.take_loccam(image);
+  hearing.subscription = bus_.subscribeFunction(
+      channel, +[](const lcm::ReceiveBuffer* buffer, const std::string&, Handler* handler) { (*handler)(buffer); },
+      &hearing.handler);
+  return &hearing;
+}
+
+template <class Message>
+Ear::Hearing* Ear::hear(const char* channel) {
+  return hear<Message>(channel, [this](const Message& message) {
+    if constexpr (requires { gatherer_.take(message, 0.0); })
+      gatherer_.take(message, wall_seconds());
+    else
+      gatherer_.take(message);
   });
-  listeners.add<image_t>(channel::kNavCamLeft, [this](const image_t& image) {
-    const std::lock_guard lock(mutex_);
-    gatherer_.take_navcam(image);
-  });
+}
+
+void Ear::drop(Hearing*& hearing) {
+  bus_.unsubscribe(hearing->subscription);
+  handlers_.remove_if([&](const Hearing& h) { return &h == hearing; });
+  hearing = nullptr;
+}
+
+void Ear::begin() {
+  hear<tick_t>(channel::kTick);
+  hear<heartbeat_t>(channel::kHeartbeat);
+  hear<supervisor_state_t>(channel::kState);
+  hear<fault_t>(channel::kFault);
+  hear<drive_permit_t>(channel::kDrivePermit);
+  hear<pose_t>(channel::kPose);
+  hear<planner_status_t>(channel::kPlannerStatus);
+  hear<control_status_t>(channel::kControlStatus);
+  hear<slip_t>(channel::kSlip);
+  hear<wheel_state_t>(channel::kWheelState);
+  hear<path_t>(channel::kPath);
+  hear<hazards_t>(channel::kHazards);
+  hear<traversability_t>(channel::kTraversability);
+  hear<elevation_t>(channel::kElevation);
+  hear<image_t>(channel::kLocCamRectLeft, [this](const image_t& image) { gatherer_.take_loccam(image); });
+  hear<image_t>(channel::kNavCamLeft, [this](const image_t& image) { gatherer_.take_navcam(image); });
   // Large, and all that is wanted of it is the camera, which does not change.
-  lcm::Subscription* disparity = take(channel::kDisparity, disparity_t{});
-  lcm::Subscription* truth = nullptr;
-  double page_seen = wall_seconds();
-  while (running_ && wall_seconds() - page_seen < kLingerS) {
-    if (audience_.pages() > 0) page_seen = wall_seconds();
-    if (disparity != nullptr && with([](Gatherer& g) { return g.camera().has_value(); })) {
-      bus.unsubscribe(disparity);
-      disparity = nullptr;
-    }
-    if (audience_.truth_wanted() && truth == nullptr)
-      truth = take(channel::kTruth, truth_t{});
-    if (!audience_.truth_wanted() && truth != nullptr) {
-      bus.unsubscribe(truth);
-      truth = nullptr;
-    }
-    if (bus.handleTimeout(100) < 0) return;
+  if (!with([](const Gatherer& g) { return g.camera().has_value(); }))
+    disparity_ = hear<disparity_t>(channel::kDisparity);
+}
+
+void Ear::end() {
+  for (const Hearing& hearing : handlers_) bus_.unsubscribe(hearing.subscription);
+  handlers_.clear();
+  disparity_ = truth_ = nullptr;
+  with([](Gatherer& gatherer) { gatherer.begin(); });
+}
+
+void Ear::attend(double wall_s) {
+  if (audience_.pages() > 0) {
+    page_seen_s_ = wall_s;
+    if (!listening()) begin();
   }
+  if (!listening()) return;
+  if (wall_s - page_seen_s_ > kLingerS) return end();
+  if (disparity_ != nullptr && with([](const Gatherer& g) { return g.camera().has_value(); })) drop(disparity_);
+  if (audience_.truth_wanted() && truth_ == nullptr) truth_ = hear<truth_t>(channel::kTruth);
+  if (!audience_.truth_wanted() && truth_ != nullptr) drop(truth_);
 }
 
 }  // namespace rover::mission

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgcodecs.hpp>
 
 #include "common/bus/convert.hpp"
 #include "common/bus/s6_client.hpp"
@@ -13,9 +12,10 @@ namespace {
 
 constexpr Utime kRateWindow = 3'000'000;
 constexpr double kCpuWindowS = 3.0;
-constexpr double kLostS = 1.0;           // a heartbeat comes five times a second
+constexpr double kLostS = 1.0;  // a heartbeat comes five times a second
+constexpr double kWaitS = 2.0;
 constexpr Utime kPoseHistory = 4'000'000;
-constexpr size_t kImagesKept = 8;        // hazards follow their image by about one more
+constexpr size_t kImagesKept = 8;  // hazards follow their image by about one more
 constexpr Utime kHazardsAwaited = 1'500'000;
 constexpr int kLargestGrid = 2048;
 constexpr std::int64_t kMostBoots = 100'000;  // a larger boot number is a clock's, of a process started by hand
@@ -29,14 +29,21 @@ bool sane(int nx, int ny, size_t size, double cell_m) {
 
 }  // namespace
 
-Gatherer::Gatherer(const std::vector<std::string>& services) {
-  for (const std::string& name : services) services_[name];
+Gatherer::Gatherer(const std::vector<std::string>& services) : expected_(services) {
+  for (const std::string& name : expected_) services_[name];
+}
+
+void Gatherer::begin() {
+  Gatherer fresh(expected_);
+  fresh.camera_ = camera_;
+  *this = std::move(fresh);
 }
 
 void Gatherer::take(const tick_t& message, double wall_s) {
   const Utime utime = message.header.utime;
   if (utime <= view_.now) return;  // said again
   view_.now = utime;
+  if (first_tick_ == kNever) first_tick_ = utime;
   ticks_.emplace_back(utime, wall_s);
   while (ticks_.front().first < utime - kRateWindow) ticks_.pop_front();
 }
@@ -55,8 +62,8 @@ void Gatherer::take(const heartbeat_t& message, double wall_s) {
 }
 
 void Gatherer::take(const supervisor_state_t& m) {
-  view_.state = {m.header.utime, state_name(m.state), level_name(m.level), m.since_utime, m.cause,
-                 m.quantity,     m.value,             m.threshold,         m.hazard_stops, m.faults};
+  view_.state = {m.header.utime, state_name(m.state), level_name(m.level), m.since_utime, m.cause, m.quantity,
+                 m.value,        m.threshold,         m.hazard_stops,      m.faults};
 }
 
 void Gatherer::take(const fault_t& m) {
@@ -115,8 +122,9 @@ void Gatherer::take(const path_t& m) {
   view_.path = {m.path_id, m.kind, m.x_m, m.y_m};
 }
 
-void Gatherer::place(GridView& grid, const header_t& header, const Pose2& odom, double cell_m, double x_m, double y_m,
-                     int nx, int ny) {
+GridContent& Gatherer::place(const std::string& name, const header_t& header, const Pose2& odom, double cell_m,
+                             double x_m, double y_m, int nx, int ny) {
+  GridView& grid = view_.grids[name];
   grid.seq = header.utime;
   grid.utime = header.utime;
   grid.odom = odom;
@@ -125,29 +133,28 @@ void Gatherer::place(GridView& grid, const header_t& header, const Pose2& odom, 
   grid.origin_y_m = y_m;
   grid.cells_x = nx;
   grid.cells_y = ny;
+  return grids_[name] = {header.utime, nx, ny, cell_m, {}, {}};
 }
 
 void Gatherer::take(const hazards_t& m) {
   if (!sane(m.cells_x, m.cells_y, m.cells.size(), m.cell_m)) return;
+  place("hazards", m.header, odom_at(m.header.utime), m.cell_m, m.origin_x_m, m.origin_y_m, m.cells_x, m.cells_y)
+      .cells = m.cells;
   GridView& grid = view_.grids["hazards"];
-  place(grid, m.header, odom_at(m.header.utime), m.cell_m, m.origin_x_m, m.origin_y_m, m.cells_x, m.cells_y);
   grid.note = m.state == hazards_t::BLIND ? "blind" : m.state == hazards_t::HAZARD ? "hazard" : "clear";
-  grids_["hazards"].cells = m.cells;
+  grid.plane_pitch_rad = m.plane_pitch_rad;
+  grid.plane_roll_rad = m.plane_roll_rad;
   choose_loccam();
 }
 
 void Gatherer::take(const traversability_t& m) {
   if (!sane(m.cells_x, m.cells_y, m.cells.size(), m.cell_m)) return;
-  GridView& grid = view_.grids["traversability"];
-  place(grid, m.header, {}, m.cell_m, m.origin_x_m, m.origin_y_m, m.cells_x, m.cells_y);
-  grids_["traversability"].cells = m.cells;
+  place("traversability", m.header, {}, m.cell_m, m.origin_x_m, m.origin_y_m, m.cells_x, m.cells_y).cells = m.cells;
 }
 
 void Gatherer::take(const elevation_t& m) {
   if (!sane(m.cells_x, m.cells_y, m.height_m.size(), m.cell_m)) return;
-  GridView& grid = view_.grids["elevation"];
-  place(grid, m.header, {}, m.cell_m, m.origin_x_m, m.origin_y_m, m.cells_x, m.cells_y);
-  grids_["elevation"].heights_m = m.height_m;
+  place("elevation", m.header, {}, m.cell_m, m.origin_x_m, m.origin_y_m, m.cells_x, m.cells_y).heights_m = m.height_m;
 }
 
 void Gatherer::take_loccam(const image_t& message) {
@@ -165,7 +172,8 @@ void Gatherer::choose_loccam() {
   if (loccam_.empty()) return;
   const auto grid = view_.grids.find("hazards");
   const Utime judged = grid == view_.grids.end() ? kNever : grid->second.utime;
-  const auto same = std::find_if(loccam_.begin(), loccam_.end(), [&](const auto& i) { return i->header.utime == judged; });
+  const auto same =
+      std::find_if(loccam_.begin(), loccam_.end(), [&](const auto& i) { return i->header.utime == judged; });
   if (same != loccam_.end())
     show("loccam", *same);
   else if (loccam_.back()->header.utime - judged > kHazardsAwaited)
@@ -176,7 +184,7 @@ void Gatherer::show(const std::string& name, const std::shared_ptr<const image_t
   if (image->width <= 0 || image->height <= 0 || image->encoding != image_t::MONO8 ||
       image->data.size() != static_cast<size_t>(image->width) * static_cast<size_t>(image->height))
     return;
-  pictures_[name].image = image;
+  images_[name] = image;
   view_.images[name] = {image->header.utime, image->header.utime, image->width, image->height};
 }
 
@@ -197,7 +205,10 @@ Pose2 Gatherer::odom_at(Utime utime) const {
 
 ServiceView Gatherer::view_of(const ServiceRecord& record) const {
   ServiceView out;
-  if (record.heard == kNever) return out;
+  if (record.heard == kNever) {
+    if (first_tick_ != kNever && to_seconds(view_.now - first_tick_) > kWaitS) out.health = Health::kLost;
+    return out;
+  }
   out.age_s = std::max(0.0, to_seconds(view_.now - record.heard));
   out.rss_mb = record.rss_mb;
   out.text = record.text;
@@ -225,32 +236,15 @@ View Gatherer::view(double wall_s) {
   return out;
 }
 
-Gatherer::Bytes Gatherer::grid_png(const std::string& name) {
-  const auto placed = view_.grids.find(name);
-  if (placed == view_.grids.end()) return nullptr;
-  const GridView& at = placed->second;
-  Grid& grid = grids_[name];
-  if (grid.png && grid.png_seq == at.seq) return grid.png;
-  Png png = name == "hazards"          ? hazards_png(grid.cells, at.cells_x, at.cells_y)
-            : name == "traversability" ? traversability_png(grid.cells, at.cells_x, at.cells_y)
-                                       : elevation_png(grid.heights_m, at.cells_x, at.cells_y, at.cell_m);
-  grid.png = std::make_shared<const Png>(std::move(png));
-  grid.png_seq = at.seq;
-  return grid.png;
+std::optional<GridContent> Gatherer::grid(const std::string& name) const {
+  const auto found = grids_.find(name);
+  if (found == grids_.end()) return std::nullopt;
+  return found->second;
 }
 
-Gatherer::Bytes Gatherer::image_jpeg(const std::string& name) {
-  Picture& picture = pictures_[name];
-  if (!picture.image) return nullptr;
-  const image_t& image = *picture.image;
-  if (picture.jpeg && picture.jpeg_seq == image.header.utime) return picture.jpeg;
-  constexpr int kQuality = 80;
-  const cv::Mat grey(image.height, image.width, CV_8UC1, const_cast<std::uint8_t*>(image.data.data()));
-  std::vector<std::uint8_t> bytes;
-  cv::imencode(".jpg", grey, bytes, {cv::IMWRITE_JPEG_QUALITY, kQuality});
-  picture.jpeg = std::make_shared<const std::vector<std::uint8_t>>(std::move(bytes));
-  picture.jpeg_seq = image.header.utime;
-  return picture.jpeg;
+std::shared_ptr<const image_t> Gatherer::image(const std::string& name) const {
+  const auto found = images_.find(name);
+  return found == images_.end() ? nullptr : found->second;
 }
 
 }  // namespace rover::mission

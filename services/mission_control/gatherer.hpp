@@ -23,16 +23,26 @@
 #include <rover/wheel_state_t.hpp>
 
 #include "common/core/image.hpp"
-#include "mission_control/grid_picture.hpp"
 #include "mission_control/view.hpp"
 
 namespace rover::mission {
+
+struct GridContent {
+  std::int64_t seq = 0;
+  int cells_x = 0;
+  int cells_y = 0;
+  double cell_m = 0.0;
+  std::vector<std::uint8_t> cells;  // hazards, traversability
+  std::vector<float> heights_m;     // elevation
+};
 
 class Gatherer {
  public:
   // `services`: those that have to be there.
   explicit Gatherer(const std::vector<std::string>& services);
 
+  // Forgets all but the camera: what was heard long ago says nothing about now.
+  void begin();
   void take(const tick_t& message, double wall_s);
   void take(const heartbeat_t& message, double wall_s);
   void take(const supervisor_state_t& message);
@@ -49,7 +59,7 @@ class Gatherer {
   void take(const elevation_t& message);
   void take_loccam(const image_t& message);
   void take_navcam(const image_t& message);
-  void take(const disparity_t& message) ;
+  void take(const disparity_t& message);
   void take(const truth_t& message);
 
   // The largest currents begin anew with each.
@@ -59,10 +69,9 @@ class Gatherer {
   // Rectified LocCam; none before it was heard.
   const std::optional<StereoCamera>& camera() const { return camera_; }
 
-  // Newest content of a layer, encoded once: hazards, traversability, elevation; loccam, navcam. Empty: none.
-  using Bytes = std::shared_ptr<const std::vector<std::uint8_t>>;
-  Bytes grid_png(const std::string& name);
-  Bytes image_jpeg(const std::string& name);
+  // What a picture is made of; empty: not heard.
+  std::optional<GridContent> grid(const std::string& name) const;
+  std::shared_ptr<const image_t> image(const std::string& name) const;
 
  private:
   struct ServiceRecord {
@@ -74,34 +83,24 @@ class Gatherer {
     std::string text;
     std::deque<std::pair<double, double>> cpu;  // wall time, processor time
   };
-  struct Grid {
-    std::vector<std::uint8_t> cells;
-    std::vector<float> heights_m;
-    Bytes png;
-    std::int64_t png_seq = 0;
-  };
-  struct Picture {
-    std::shared_ptr<const image_t> image;
-    Bytes jpeg;
-    std::int64_t jpeg_seq = 0;
-  };
-
   ServiceView view_of(const ServiceRecord& record) const;
   Pose2 odom_at(Utime utime) const;
   void choose_loccam();
   void show(const std::string& name, const std::shared_ptr<const image_t>& image);
-  void place(GridView& grid, const header_t& header, const Pose2& odom, double cell_m, double x_m, double y_m, int nx,
-             int ny);
+  GridContent& place(const std::string& name, const header_t& header, const Pose2& odom, double cell_m, double x_m,
+                     double y_m, int nx, int ny);
 
+  std::vector<std::string> expected_;
+  Utime first_tick_ = kNever;
   View view_;
   TruthView truth_;
   std::optional<StereoCamera> camera_;
   std::map<std::string, ServiceRecord> services_;
-  std::deque<std::pair<Utime, double>> ticks_;          // with wall time
-  std::deque<std::pair<Utime, Pose2>> poses_;           // odom
-  std::deque<std::shared_ptr<const image_t>> loccam_;   // waiting for their hazards
-  std::map<std::string, Grid> grids_;
-  std::map<std::string, Picture> pictures_;
+  std::deque<std::pair<Utime, double>> ticks_;         // with wall time
+  std::deque<std::pair<Utime, Pose2>> poses_;          // odom
+  std::deque<std::shared_ptr<const image_t>> loccam_;  // waiting for their hazards
+  std::map<std::string, GridContent> grids_;
+  std::map<std::string, std::shared_ptr<const image_t>> images_;
 };
 
 }  // namespace rover::mission

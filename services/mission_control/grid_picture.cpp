@@ -49,7 +49,8 @@ Png hazards_png(const std::vector<std::uint8_t>& cells, int cells_x, int cells_y
 }
 
 Png traversability_png(const std::vector<std::uint8_t>& costs, int cells_x, int cells_y) {
-  return picture(cells_x, cells_y, [&](int x, int y) { return cost_colour(costs[static_cast<size_t>(y) * cells_x + x]); });
+  return picture(cells_x, cells_y,
+                 [&](int x, int y) { return cost_colour(costs[static_cast<size_t>(y) * cells_x + x]); });
 }
 
 Png elevation_png(const std::vector<float>& heights_m, int cells_x, int cells_y, double cell_m) {

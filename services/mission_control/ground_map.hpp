@@ -22,8 +22,8 @@ struct SlopeLimits {
 };
 
 struct PathCheck {
-  bool inside = true;          // all of it on the map
-  bool passable = true;        // nowhere steeper than the limit
+  bool inside = true;    // all of it on the map
+  bool passable = true;  // nowhere steeper than the limit
   double length_m = 0.0;
   double max_slope_rad = 0.0;
   std::vector<double> distance_m;  // along the path, with

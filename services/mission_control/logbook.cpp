@@ -1,5 +1,6 @@
 #include "mission_control/logbook.hpp"
 
+#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -8,6 +9,7 @@ namespace {
 
 using nlohmann::json;
 
+constexpr double kTrendS = 120.0;
 constexpr size_t kMostEvents = 400;
 constexpr size_t kMostPoints = 20'000;
 constexpr std::array kTones = {"info", "good", "warn", "bad"};
@@ -70,6 +72,11 @@ void Logbook::thin_out() {
   spacing_m_ *= 2.0;
 }
 
+void Logbook::sample(const TrendSample& sample) {
+  trend_.push_back(sample);
+  while (trend_.front().t_s < sample.t_s - kTrendS) trend_.pop_front();
+}
+
 void Logbook::set_path(std::int64_t id, const GlobalPath& path) {
   path_id_ = id;
   path_ = path;
@@ -89,6 +96,12 @@ json Logbook::path_json() const {
           {"level", path_.level},
           {"corridor_half_width_m", path_.corridor_half_width_m},
           {"goal_tolerance_m", path_.goal_tolerance_m}};
+}
+
+json Logbook::trend_json() const {
+  json out = json::array();
+  for (const TrendSample& s : trend_) out.push_back({s.t_s, s.speed_mps, s.slip, s.roll_rad, s.pitch_rad});
+  return out;
 }
 
 std::vector<std::uint8_t> Logbook::save() const {

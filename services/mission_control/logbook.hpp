@@ -22,11 +22,22 @@ struct Event {
   std::string text;
 };
 
+// One moment of the last minutes.
+struct TrendSample {
+  double t_s = 0.0;
+  float speed_mps = 0.0F;
+  float slip = 0.0F;  // NaN: not known
+  float roll_rad = 0.0F;
+  float pitch_rad = 0.0F;
+};
+
 class Logbook {
  public:
   void note(double t_s, Tone tone, const std::string& kind, const std::string& text);
   // Points nearer than 0.1 m to the one before are left out.
   void drive_to(double x_m, double y_m);
+  // The last two minutes stay.
+  void sample(const TrendSample& sample);
   void set_path(std::int64_t id, const GlobalPath& path);
   void set_forced(Level level) { forced_ = level; }
 
@@ -44,11 +55,13 @@ class Logbook {
 
   nlohmann::json events_after(std::int64_t id) const;
   nlohmann::json path_json() const;
+  nlohmann::json trend_json() const;
 
  private:
   void thin_out();
 
   std::deque<Event> events_;
+  std::deque<TrendSample> trend_;
   std::vector<float> track_;
   double spacing_m_ = 0.1;
   GlobalPath path_;

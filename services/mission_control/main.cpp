@@ -16,7 +16,6 @@ PageContext page_context(const NodeContext& context) {
   const std::string run_dir = context.node.options().run_dir;
   const Vehicle vehicle = load_vehicle(context.config_dir);
   PageContext page;
-  page.bus_url = context.bus_url;
   page.run_dir = run_dir;
   page.run_name = run_dir.empty() ? "by hand" : std::filesystem::path(run_dir).filename().string();
   page.allow_injection = context.node.options().allow_injection;
@@ -29,17 +28,18 @@ PageContext page_context(const NodeContext& context) {
   return page;
 }
 
-// The page goes before the node, whose station it uses.
 struct MissionControl {
   std::shared_ptr<Station> station = std::make_shared<Station>();
-  MissionControlNode node;
   std::unique_ptr<PageServer> page;
+  MissionControlNode node;
 
   MissionControl(const NodeContext& context, const PageConfig& config)
-      : node(context.node, load_mission_plan(context.config_dir), station, config.path) {
-    if (!config.served) return;
-    page = std::make_unique<PageServer>(config, page_context(context), *station);
-    page->start();
+      : page(config.served ? std::make_unique<PageServer>(config, page_context(context), *station, context.lcm)
+                           : nullptr),
+        node(context.node, load_mission_plan(context.config_dir), station, config.path, [this] {
+          if (page) page->attend();
+        }) {
+    if (page) page->start();
   }
 };
 

@@ -17,6 +17,7 @@ constexpr std::int64_t kCommandsPerBoot = 100'000;  // keeps the ids of two proc
 constexpr std::int64_t kMostBoots = 1'000'000'000;  // so that a page can count the ids too
 constexpr Utime kSilenceUs = 1'000'000;             // a heartbeat comes five times a second
 constexpr Utime kTrackPeriodUs = 5'000'000;
+constexpr Utime kTrendPeriodUs = 1'000'000;
 constexpr Utime kSilenceLookUs = 200'000;
 
 ground_command_t command_message(std::int8_t kind, std::int64_t command_id) {
@@ -64,7 +65,7 @@ GlobalPath path_of(const mission::Command& command, const mission::DrawnPath& dr
   for (const Eigen::Vector2d& p : command.points) {
     path.x_m.push_back(p.x());
     path.y_m.push_back(p.y());
-    path.level.push_back(command.level == mission::Level::kFull ? path_t::FULL : path_t::EFFICIENT);
+    path.level.push_back(level_of(command.level));
   }
   path.corridor_half_width_m = drawn.corridor_half_width_m;
   path.goal_tolerance_m = drawn.goal_tolerance_m;
@@ -103,12 +104,13 @@ std::string order_name(Order order) {
 }  // namespace
 
 MissionControlNode::MissionControlNode(Node& node, MissionPlan plan, std::shared_ptr<mission::Station> station,
-                                       mission::DrawnPath drawn)
+                                       mission::DrawnPath drawn, std::function<void()> beside)
     : node_(node),
       kept_(node),
       plan_(std::move(plan)),
       station_(std::move(station)),
       drawn_(std::move(drawn)),
+      beside_(std::move(beside)),
       next_command_id_(node.options().boot_id % kMostBoots * kCommandsPerBoot + 1) {
   restore();
   subscribe();
@@ -121,13 +123,9 @@ void MissionControlNode::subscribe() {
   node_.subscribe<fault_t>(channel::kFault, [this](const fault_t& m) { on_fault(m); });
   node_.subscribe<heartbeat_t>(channel::kHeartbeat, [this](const heartbeat_t& m) { on_heartbeat(m); });
   node_.subscribe<path_t>(channel::kPath, [this](const path_t& m) { on_path(m); });
-  node_.subscribe<pose_t>(channel::kPose, [this](const pose_t& m) {
-    if (m.status == pose_t::LOST || m.status == pose_t::UNINITIALISED) return;
-    const Eigen::Vector3d p = pose_from(m.position_map_odom_m, m.quat_map_odom_wxyz) *
-                              Eigen::Vector3d(m.position_odom_body_m);
-    if (orders_.progress() > static_cast<int>(Order::kStartPose))
-      station_->book.with([&](mission::Logbook& book) { book.drive_to(p.x(), p.y()); });
-  });
+  node_.subscribe<pose_t>(channel::kPose, [this](const pose_t& m) { on_pose(m); });
+  node_.subscribe<slip_t>(channel::kSlip,
+                          [this](const slip_t& m) { slip_ratio_ = m.valid == 1 ? m.slip_ratio : kNaN; });
 }
 
 void MissionControlNode::note(Tone tone, const std::string& kind, const std::string& text) {
@@ -138,8 +136,8 @@ void MissionControlNode::note(Tone tone, const std::string& kind, const std::str
 void MissionControlNode::on_ack(const command_ack_t& ack) {
   const bool accepted = ack.accepted != 0;
   if (const auto order = orders_.waiting(); orders_.acknowledge(ack.command_id, accepted, ack.reason)) {
-    node_.log(accepted ? "INFO" : "WARN", "ORDER id=" + std::to_string(ack.command_id) +
-                                              (accepted ? " accepted" : " refused: " + ack.reason));
+    node_.log(accepted ? "INFO" : "WARN",
+              "ORDER id=" + std::to_string(ack.command_id) + (accepted ? " accepted" : " refused: " + ack.reason));
     if (accepted) note(Tone::kInfo, "command", "mission plan: " + order_name(order) + " accepted");
   } else if (const auto command = station_->desk.answered(ack.command_id, accepted, ack.reason)) {
     note(accepted ? Tone::kInfo : Tone::kWarn, "command",
@@ -147,8 +145,7 @@ void MissionControlNode::on_ack(const command_ack_t& ack) {
     if (accepted) accepted_by_operator(*command, ack.command_id);
   }
   if (const auto path = paths_given_.find(ack.command_id); path != paths_given_.end()) {
-    if (accepted)
-      station_->book.with([&](mission::Logbook& book) { book.set_path(ack.command_id, path->second); });
+    if (accepted) station_->book.with([&](mission::Logbook& book) { book.set_path(ack.command_id, path->second); });
     paths_given_.erase(path);
   }
 }
@@ -197,6 +194,24 @@ void MissionControlNode::on_path(const path_t& path) {
   if (path.kind == path_t::RETREAT) note(Tone::kWarn, "path", "no way ahead: backwards along the driven track");
 }
 
+// Before the start pose has been taken the map has no place for the rover.
+void MissionControlNode::on_pose(const pose_t& pose) {
+  pose_ = pose;
+  const bool known = pose.status == pose_t::OK || pose.status == pose_t::DEGRADED;
+  if (!known || orders_.progress() == static_cast<int>(Order::kStartPose)) return;
+  const Eigen::Vector3d p =
+      pose_from(pose.position_map_odom_m, pose.quat_map_odom_wxyz) * Eigen::Vector3d(pose.position_odom_body_m);
+  station_->book.with([&](mission::Logbook& book) { book.drive_to(p.x(), p.y()); });
+}
+
+void MissionControlNode::sample(Utime now) {
+  const Eigen::Vector3d rpy = rpy_of(pose_from(pose_.position_odom_body_m, pose_.quat_odom_body_wxyz).rotation());
+  const mission::TrendSample moment{to_seconds(now), static_cast<float>(pose_.velocity_body_mps[0]),
+                                    static_cast<float>(slip_ratio_), static_cast<float>(rpy.x()),
+                                    static_cast<float>(rpy.y())};
+  station_->book.with([&](mission::Logbook& book) { book.sample(moment); });
+}
+
 void MissionControlNode::step(Utime now) {
   kept_.tell();
   station_->now_s = to_seconds(now);
@@ -207,8 +222,10 @@ void MissionControlNode::step(Utime now) {
     give(*given);
   }
   if (now % kSilenceLookUs == 0) look_for_silence(now);
+  if (now % kTrendPeriodUs == 0) sample(now);
   tell_status();
   save(now);
+  if (beside_) beside_();
 }
 
 void MissionControlNode::look_for_silence(Utime now) {

@@ -2,6 +2,7 @@
 // It never takes TRUTH.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <rover/command_ack_t.hpp>
@@ -10,6 +11,7 @@
 #include <rover/heartbeat_t.hpp>
 #include <rover/path_t.hpp>
 #include <rover/pose_t.hpp>
+#include <rover/slip_t.hpp>
 #include <rover/supervisor_state_t.hpp>
 
 #include "common/bus/kept_state.hpp"
@@ -21,9 +23,10 @@ namespace rover {
 
 class MissionControlNode {
  public:
+  // `beside`: called once each tick, in the node's thread.
   MissionControlNode(Node& node, MissionPlan plan,
                      std::shared_ptr<mission::Station> station = std::make_shared<mission::Station>(),
-                     mission::DrawnPath drawn = {});
+                     mission::DrawnPath drawn = {}, std::function<void()> beside = {});
 
  private:
   struct Life {
@@ -38,6 +41,8 @@ class MissionControlNode {
   void on_fault(const fault_t& fault);
   void on_heartbeat(const heartbeat_t& heartbeat);
   void on_path(const path_t& path);
+  void on_pose(const pose_t& pose);
+  void sample(Utime now);
   void step(Utime now);
   void look_for_silence(Utime now);
   void tell_status();
@@ -56,10 +61,13 @@ class MissionControlNode {
   MissionPlan plan_;
   std::shared_ptr<mission::Station> station_;
   mission::DrawnPath drawn_;
+  std::function<void()> beside_;
   Orders orders_;
   std::int64_t next_command_id_ = 1;
   bool standby_ = false;
   std::optional<supervisor_state_t> state_;
+  pose_t pose_{};
+  double slip_ratio_ = kNaN;
   std::map<std::string, Life> lives_;
   std::map<std::string, bool> faults_;
   std::int64_t path_id_ = -1;

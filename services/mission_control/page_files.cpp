@@ -1,10 +1,10 @@
 #include "mission_control/page_files.hpp"
 
 // The assembler takes a file's bytes as they are. ROVER_PAGE_DIR: services/mission_control/page.
-#define PAGE_FILE(name, file)                                                             \
-  __asm__(".pushsection .rodata\n" #name "_begin:\n.incbin \"" ROVER_PAGE_DIR "/" file    \
-          "\"\n" #name "_end:\n.byte 0\n.popsection\n");                                  \
-  extern "C" const char name##_begin[];                                                   \
+#define PAGE_FILE(name, file)                                                                       \
+  __asm__(".pushsection .rodata\n" #name "_begin:\n.incbin \"" ROVER_PAGE_DIR "/" file "\"\n" #name \
+          "_end:\n.byte 0\n.popsection\n");                                                         \
+  extern "C" const char name##_begin[];                                                             \
   extern "C" const char name##_end[]
 
 PAGE_FILE(page_index, "index.html");

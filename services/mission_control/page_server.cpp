@@ -2,6 +2,7 @@
 
 #include <httplib.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -16,7 +17,7 @@ using namespace std::chrono_literals;
 using nlohmann::json;
 
 constexpr size_t kLargestBody = 64 * 1024;
-constexpr auto kPatience = 3s;  // for the answer to a command
+constexpr auto kPatience = 3s;    // for the answer to a command
 constexpr int kSpareThreads = 8;  // beside those that streams hold
 
 // Nothing from elsewhere is loaded, and no other site may frame the page or read from it.
@@ -85,11 +86,11 @@ std::string content_of(const std::string& file) {
 
 }  // namespace
 
-PageServer::PageServer(PageConfig config, PageContext context, Station& station)
+PageServer::PageServer(PageConfig config, PageContext context, Station& station, lcm::LCM& bus)
     : config_(std::move(config)),
       context_(std::move(context)),
       station_(station),
-      ear_(context_.bus_url, audience_, context_.services),
+      ear_(bus, audience_, context_.services),
       broadcaster_(audience_, ear_, station_),
       server_(std::make_unique<httplib::Server>()) {
   server_->set_default_headers(kHeaders);
@@ -111,6 +112,7 @@ PageServer::PageServer(PageConfig config, PageContext context, Station& station)
 
 PageServer::~PageServer() {
   running_ = false;
+  audience_.end();
   broadcaster_.stop();
   server_->stop();
   if (thread_.joinable()) thread_.join();
@@ -209,7 +211,7 @@ void PageServer::add_state() {
   });
   server_->Get("/api/camera", [this](const Request&, Response& response) {
     const auto camera = ear_.with([](const Gatherer& gatherer) { return gatherer.camera(); });
-    if (!camera) return refuse(response, 404, "not heard yet");
+    if (!camera) return answer(response, 200, nullptr);
     json rotation = json::array();
     const Eigen::Matrix3d R = camera->T_body_cam.rotation();
     for (int row = 0; row < 3; ++row) rotation.push_back({R(row, 0), R(row, 1), R(row, 2)});
@@ -228,14 +230,16 @@ void PageServer::add_state() {
 
 void PageServer::add_pictures() {
   server_->Get(R"(/layer/(hazards|traversability|elevation)\.png)", [this](const Request& request, Response& response) {
-    const auto png = ear_.with([&](Gatherer& gatherer) { return gatherer.grid_png(request.matches[1]); });
-    if (!png) return refuse(response, 404, "not heard yet");
-    send(response, *png, "image/png");
+    const std::string name = request.matches[1];
+    const auto content = ear_.with([&](const Gatherer& gatherer) { return gatherer.grid(name); });
+    if (!content) return refuse(response, 404, "not heard yet");
+    send(response, *pictures_.grid(name, *content), "image/png");
   });
   server_->Get(R"(/camera/(loccam|navcam)\.jpg)", [this](const Request& request, Response& response) {
-    const auto jpeg = ear_.with([&](Gatherer& gatherer) { return gatherer.image_jpeg(request.matches[1]); });
-    if (!jpeg) return refuse(response, 404, "not heard yet");
-    send(response, *jpeg, "image/jpeg");
+    const std::string name = request.matches[1];
+    const auto image = ear_.with([&](const Gatherer& gatherer) { return gatherer.image(name); });
+    if (!image) return refuse(response, 404, "not heard yet");
+    send(response, *pictures_.camera(name, *image), "image/jpeg");
   });
   server_->Get(R"(/map/(relief|slope|difficulty))", [this](const Request& request, Response& response) {
     const GroundMap* map = ground();
@@ -270,13 +274,13 @@ nlohmann::json PageServer::setup() {
   out["injection"] = context_.allow_injection;
   out["services"] = context_.services;
   const GroundMap* map = ground();
-  out["map"] = map == nullptr ? json()
-                              : json{{"width_m", map->width_m()},
-                                     {"height_m", map->height_m()},
-                                     {"resolution_m", map->resolution_m()}};
+  out["map"] =
+      map == nullptr
+          ? json()
+          : json{{"width_m", map->width_m()}, {"height_m", map->height_m()}, {"resolution_m", map->resolution_m()}};
   out["path"] = {{"corridor_half_width_m", config_.path.corridor_half_width_m},
-                 {"warn_slope_deg", to_deg(config_.path.slope.warn_rad)},
-                 {"most_slope_deg", to_deg(config_.path.slope.most_rad)},
+                 {"warn_slope_deg", std::round(1e6 * to_deg(config_.path.slope.warn_rad)) * 1e-6},
+                 {"most_slope_deg", std::round(1e6 * to_deg(config_.path.slope.most_rad)) * 1e-6},
                  {"longest_m", config_.path.longest_m},
                  {"most_points", config_.path.limits.most_points}};
   return out;
@@ -284,7 +288,10 @@ nlohmann::json PageServer::setup() {
 
 nlohmann::json PageServer::history() {
   return station_.book.with([](const Logbook& book) {
-    return json{{"track", book.track()}, {"events", book.events_after(0)}, {"path", book.path_json()}};
+    return json{{"track", book.track()},
+                {"events", book.events_after(0)},
+                {"path", book.path_json()},
+                {"trend", book.trend_json()}};
   });
 }
 

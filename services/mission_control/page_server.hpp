@@ -11,6 +11,7 @@
 
 #include "mission_control/broadcaster.hpp"
 #include "mission_control/config.hpp"
+#include "mission_control/pictures.hpp"
 
 namespace httplib {
 class Server;
@@ -22,9 +23,8 @@ namespace rover::mission {
 
 // What the page is about, beside its configuration.
 struct PageContext {
-  std::string bus_url;
-  std::string run_dir;           // holds orbital_map.tif; empty: no map
-  std::string run_name;          // changes with the run, not with a restart of the service
+  std::string run_dir;   // holds orbital_map.tif; empty: no map
+  std::string run_name;  // changes with the run, not with a restart of the service
   bool allow_injection = false;
   std::vector<std::string> services;
   double rover_length_m = 1.75;
@@ -35,13 +35,15 @@ struct PageContext {
 
 class PageServer {
  public:
-  PageServer(PageConfig config, PageContext context, Station& station);
+  PageServer(PageConfig config, PageContext context, Station& station, lcm::LCM& bus);
   ~PageServer();
   PageServer(const PageServer&) = delete;
   PageServer& operator=(const PageServer&) = delete;
 
   // Serves in threads of its own. Where the address is not to be had it is tried again each second.
   void start();
+  // Often, in the thread that handles the bus.
+  void attend() { ear_.attend(wall_seconds()); }
   // Whether it is being served.
   bool serving() const;
 
@@ -72,6 +74,7 @@ class PageServer {
   Station& station_;
   Audience audience_;
   Ear ear_;
+  Pictures pictures_;
   Broadcaster broadcaster_;
   std::mutex ground_mutex_;
   bool ground_looked_for_ = false;

@@ -68,10 +68,11 @@ struct MotionView {
   std::array<double, 4> steer_rad = {0, 0, 0, 0};
 };
 
-enum class Health { kOk, kDegraded, kFault, kLost };  // kLost: no process, or no word for too long
+// kWaiting: the page has only begun to listen. kLost: no process, or no word for too long.
+enum class Health { kOk, kDegraded, kFault, kLost, kWaiting };
 
 struct ServiceView {
-  Health health = Health::kLost;
+  Health health = Health::kWaiting;
   double age_s = kNaN;  // message time since its last heartbeat
   double cpu_percent = kNaN;
   double rss_mb = kNaN;
@@ -81,21 +82,23 @@ struct ServiceView {
 
 struct LocalPathView {
   std::int64_t id = -1;
-  int kind = 0;                   // of path_t
-  std::vector<double> x_m, y_m;   // odom
+  int kind = 0;                  // of path_t
+  std::vector<double> x_m, y_m;  // odom
 };
 
 // A grid of the rover's surroundings: `seq` changes with its content.
 struct GridView {
   std::int64_t seq = 0;
   Utime utime = kNever;
-  Pose2 odom;                     // of the grid's axes
+  Pose2 odom;  // of the grid's axes
   double cell_m = 0.0;
-  double origin_x_m = 0.0;        // of the corner with the smallest x and y, in the grid's axes
+  double origin_x_m = 0.0;  // of the corner with the smallest x and y, in the grid's axes
   double origin_y_m = 0.0;
   int cells_x = 0;
   int cells_y = 0;
-  std::string note;               // for the legend
+  double plane_pitch_rad = 0.0;  // hazards: of the ground ahead
+  double plane_roll_rad = 0.0;
+  std::string note;  // for the legend
 };
 
 struct ImageView {
@@ -112,9 +115,9 @@ struct TruthView {
 };
 
 struct View {
-  Utime now = kNever;             // newest TICK
+  Utime now = kNever;  // newest TICK
   double realtime_factor = kNaN;
-  double silence_s = kNaN;        // wall time since that TICK
+  double silence_s = kNaN;  // wall time since that TICK
   StateView state;
   std::map<std::string, FaultView> faults;
   PermitView permit;

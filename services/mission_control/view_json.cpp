@@ -8,7 +8,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array kHealth = {"ok", "degraded", "fault", "lost"};
+constexpr std::array kHealth = {"ok", "degraded", "fault", "lost", "waiting"};
 
 // Digits that nobody sees cost the network and every page.
 json rounded(double value, double step) {
@@ -43,10 +43,16 @@ json of(const StateView& s, const std::map<std::string, FaultView>& known, Utime
                       {"limit", rounded(fault.limit, 0.001)},
                       {"response", fault.response}});
   }
-  return {{"name", s.state},         {"level", s.level},       {"since_s", since(s.since, now)},
-          {"age_s", since(s.utime, now)}, {"cause", s.cause},  {"quantity", s.quantity},
-          {"value", rounded(s.value, 0.001)}, {"threshold", rounded(s.threshold, 0.001)},
-          {"hazard_stops", s.hazard_stops}, {"faults", faults}};
+  return {{"name", s.state},
+          {"level", s.level},
+          {"since_s", since(s.since, now)},
+          {"age_s", since(s.utime, now)},
+          {"cause", s.cause},
+          {"quantity", s.quantity},
+          {"value", rounded(s.value, 0.001)},
+          {"threshold", rounded(s.threshold, 0.001)},
+          {"hazard_stops", s.hazard_stops},
+          {"faults", faults}};
 }
 
 json of(const PermitView& p) {
@@ -105,9 +111,16 @@ json of(const std::map<std::string, ServiceView>& services) {
 json of(const std::map<std::string, GridView>& grids, Utime now) {
   json out = json::object();
   for (const auto& [name, g] : grids)
-    out[name] = {{"seq", g.seq},         {"age_s", since(g.utime, now)}, {"odom", pose2(g.odom)},
-                 {"cell_m", g.cell_m},   {"x_m", metres(g.origin_x_m)},  {"y_m", metres(g.origin_y_m)},
-                 {"nx", g.cells_x},      {"ny", g.cells_y},              {"note", g.note}};
+    out[name] = {{"seq", g.seq},
+                 {"age_s", since(g.utime, now)},
+                 {"odom", pose2(g.odom)},
+                 {"cell_m", g.cell_m},
+                 {"x_m", metres(g.origin_x_m)},
+                 {"y_m", metres(g.origin_y_m)},
+                 {"nx", g.cells_x},
+                 {"ny", g.cells_y},
+                 {"note", g.note},
+                 {"plane", {angle(g.plane_pitch_rad), angle(g.plane_roll_rad)}}};
   return out;
 }
 

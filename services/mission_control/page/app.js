@@ -47,6 +47,7 @@ async function begin() {
   const history = await getJson("/api/history");
   parts.map.setTrack(history.track);
   parts.panels.setEvents(history.events);
+  parts.charts.setTrend(history.trend);
   newestEvent = history.events.length ? history.events.at(-1).id : 0;
   paths = { global: null, local: null };
 }

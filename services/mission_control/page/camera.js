@@ -38,7 +38,8 @@ export function createCamera(setup) {
     asked = true;
     try {
       const response = await fetch("/api/camera");
-      if (response.ok) lens = createLens(await response.json());
+      const camera = await response.json();
+      if (camera) lens = createLens(camera);
     } catch { /* asked again */ }
     setTimeout(() => { asked = false; }, 1000);
   }
@@ -54,6 +55,9 @@ export function createCamera(setup) {
     context.stroke();
   }
 
+  // On the plane that the hazard detector has fitted to the ground ahead.
+  const onGround = (grid, x, y) => [x, y, ground - Math.tan(grid.plane[0]) * x + Math.tan(grid.plane[1]) * y];
+
   // The layer's picture has one pixel a cell, row 0 at the largest y.
   function drawHazards(grid, cells) {
     const size = document.createElement("canvas");
@@ -66,7 +70,7 @@ export function createCamera(setup) {
         const i = 4 * (v * grid.nx + u);
         const free = data[i + 1] > data[i];
         if (!data[i + 3] || free) continue;
-        const corner = (du, dv) => lens.pixel([grid.x_m + (u + du) * grid.cell_m, grid.y_m + (grid.ny - v - dv) * grid.cell_m, ground]);
+        const corner = (du, dv) => lens.pixel(onGround(grid, grid.x_m + (u + du) * grid.cell_m, grid.y_m + (grid.ny - v - dv) * grid.cell_m));
         const corners = [corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)];
         if (corners.includes(null)) continue;
         context.beginPath();

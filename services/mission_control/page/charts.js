@@ -2,6 +2,7 @@
 const Chart = window.Chart;
 const WINDOW_S = 120;
 const STEP_S = .5;
+const clock = (t) => `${Math.floor(t / 60)}:${String(Math.round(t % 60)).padStart(2, "0")}`;
 const deg = (rad) => (Number.isFinite(rad) ? (rad * 180) / Math.PI : NaN);
 
 Chart.defaults.color = "#8696a8";
@@ -22,7 +23,7 @@ function chart(id, datasets, scales) {
     options: {
       responsive: true, maintainAspectRatio: false, parsing: false, normalized: true, interaction: { mode: "index", intersect: false },
       plugins: { legend: { align: "end", labels: { boxWidth: 14, boxHeight: 2, padding: 8 } }, tooltip: { enabled: false } },
-      scales: { x: axis({ type: "linear", ticks: { maxTicksLimit: 7, callback: (t) => `${Math.round(t)} s` } }), ...scales },
+      scales: { x: axis({ type: "linear", ticks: { includeBounds: false, stepSize: 30, padding: 4, maxRotation: 0, callback: (t) => clock(t) } }), ...scales },
     },
   });
 }
@@ -36,17 +37,28 @@ export function createCharts(setup) {
   let profile = null;
   let newest = -Infinity;
 
-  function push(graph, t, values) {
+  function push(graph, t, values, draw = true) {
     graph.data.datasets.forEach((set, i) => {
       set.data.push({ x: t, y: values[i] });
       while (set.data.length && set.data[0].x < t - WINDOW_S) set.data.shift();
     });
     graph.options.scales.x.min = Math.max(0, t - WINDOW_S);
     graph.options.scales.x.max = Math.max(t, 10);
-    graph.update("none");
+    if (draw) graph.update("none");
   }
 
   return {
+    // One row each second: time, speed, slip, roll, pitch.
+    setTrend(rows) {
+      for (const graph of [speed, tilt]) for (const set of graph.data.datasets) set.data = [];
+      const y = (value) => value ?? NaN;
+      for (const [t, v_, slip, roll, pitch] of rows) {
+        push(speed, t, [y(v_), y(slip)], false);
+        push(tilt, t, [deg(roll), deg(pitch)], false);
+        newest = t;
+      }
+      for (const graph of [speed, tilt]) graph.update("none");
+    },
     show(view) {
       if (!Number.isFinite(view.t_s) || Math.abs(view.t_s - newest) < STEP_S) return;
       if (view.t_s < newest) for (const graph of [speed, tilt]) for (const set of graph.data.datasets) set.data = [];
@@ -59,14 +71,14 @@ export function createCharts(setup) {
       for (const id of ["trend-speed-box", "trend-tilt-box"]) document.getElementById(id).hidden = check !== null;
       document.getElementById("profile-box").hidden = check === null;
       if (check === null) return;
-      profile ??= chart("profile", [line("slope °", "#ffb454"), line("limit", "#f0616d"), line("warning", "#f2b84b")], { y: axis({ min: 0, suggestedMax: 1.2 * setup.path.most_slope_deg }) });
+      profile ??= chart("profile", [line("slope °", "#5cc8ff"), line("limit", "#f0616d"), line("warning", "#f2b84b")], { y: axis({ min: 0, suggestedMax: 1.2 * setup.path.most_slope_deg }) });
       const end = check.distance_m.at(-1) ?? 1;
       const level = (y) => [{ x: 0, y }, { x: end, y }];
       profile.data.datasets[0].data = check.distance_m.map((x, i) => ({ x, y: check.slope_deg[i] }));
       profile.data.datasets[1].data = level(setup.path.most_slope_deg);
       profile.data.datasets[2].data = level(setup.path.warn_slope_deg);
       profile.options.scales.x.max = end;
-      profile.options.scales.x.ticks.callback = (d) => `${+d.toFixed(1)} m`;
+      Object.assign(profile.options.scales.x.ticks, { stepSize: undefined, maxTicksLimit: 8, callback: (d) => `${+d.toFixed(1)} m` });
       profile.update("none");
     },
   };

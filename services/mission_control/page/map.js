@@ -101,6 +101,7 @@ export function createMap(setup, { onTruth }) {
     crs: L.CRS.Simple, attributionControl: false, zoomAnimation: false, fadeAnimation: false, preferCanvas: true,
     minZoom: -1, maxZoom: 8, zoomSnap: .25, zoomDelta: .5, wheelPxPerZoomLevel: 100,
   });
+  map.createPane("ground").style.zIndex = 250;
   map.createPane("grids").style.zIndex = 350;
   map.setView(at(0, 0), 3);
   const size = setup.map ? [[0, 0], [setup.map.height_m, setup.map.width_m]] : [[-50, -50], [50, 50]];
@@ -108,16 +109,16 @@ export function createMap(setup, { onTruth }) {
   map.fitBounds(size);
   L.control.scale({ imperial: false, maxWidth: 120, position: "bottomright" }).addTo(map);
 
-  const picture = (name, options) => L.imageOverlay(`/map/${name}`, size, { className: name, ...options });
+  const picture = (name, options) => L.imageOverlay(`/map/${name}`, size, { className: name, pane: "ground", ...options });
   const line = (color, weight, extra) => L.polyline([], { color, weight, interactive: false, ...extra });
   const layers = {
-    relief: picture("relief", {}), slope: picture("slope", { opacity: .75 }), difficulty: picture("difficulty", { opacity: .75 }),
+    relief: picture("relief", {}), slope: picture("slope", { opacity: .75, zIndex: 2 }), difficulty: picture("difficulty", { opacity: .75, zIndex: 2 }),
     elevation: new GridLayer("elevation"), traversability: new GridLayer("traversability"), hazards: new GridLayer("hazards"),
     global: L.layerGroup(), local: line("#5cc8ff", 3.5), track: line("#ffb454", 3), truth: L.layerGroup(),
   };
   const planned = line("#ffffff", 2.5, { dashArray: "7 6", opacity: .9 });
-  const corridor = line("#ffffff", 1, { opacity: .12, lineCap: "butt" });
-  const goal = L.circle(at(0, 0), { radius: .5, color: "#4cc38a", weight: 2, fillOpacity: .25, interactive: false });
+  const corridor = line("#ffffff", 1, { opacity: .1, lineCap: "butt" });
+  const goal = L.circle(at(0, 0), { radius: .5, color: "#4cc38a", weight: 2, fillOpacity: .2, interactive: false });
   const trueTrack = line("#e48bff", 2, { dashArray: "3 5" });
   const vehicle = setup.vehicle;
   const rover = new Rover(map, vehicle, { line: "#0b0e13", fill: "#ffb454", wheel: "#dbe2ea", nose: "#3a2506", opacity: .95 });
@@ -171,7 +172,7 @@ export function createMap(setup, { onTruth }) {
   map.on("dragstart", () => setFollowing(false));
 
   let globalPath = null;
-  let fitted = false;
+  let begun = false;  // the view has gone to the rover
   const trackEnd = { x: NaN, y: NaN };
   let mapOdom = [NaN, NaN, NaN];
   let localPath = null;
@@ -250,7 +251,6 @@ export function createMap(setup, { onTruth }) {
         corridor.setLatLngs(points);
         goal.setLatLng(points.at(-1)).setRadius(globalPath.goal_tolerance_m);
         widths();
-        if (!fitted) { fitted = true; fitPath(); }
       }
       localPath = found.local.x_m.length ? found.local : null;
       drawLocal();
@@ -264,7 +264,10 @@ export function createMap(setup, { onTruth }) {
           if (!jump) layers.track.addLatLng(at(p.x_m, p.y_m));
           trackEnd.x = p.x_m; trackEnd.y = p.y_m;
         }
-        if (following && !sketch.on) map.panTo(at(p.x_m, p.y_m), { animate: false });
+        if (!begun) {
+          begun = true;
+          map.setView(at(p.x_m, p.y_m), map.getSize().x > 600 ? 5 : 4.5, { animate: false });
+        } else if (following && !sketch.on) map.panTo(at(p.x_m, p.y_m), { animate: false });
       }
       if (p.odom.some((v, i) => v !== mapOdom[i])) { mapOdom = p.odom; drawLocal(); }
       for (const name of ["hazards", "traversability", "elevation"])
