@@ -82,6 +82,7 @@ class PageServer {
   std::map<std::string, std::vector<std::uint8_t>> map_pictures_;
   std::unique_ptr<httplib::Server> server_;
   std::atomic<bool> running_ = true;
+  std::atomic<bool> ended_ = true;  // the thread has, or was never begun
   std::thread thread_;
 };
 
