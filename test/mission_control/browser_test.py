@@ -15,7 +15,7 @@ from selenium.webdriver.chrome.options import Options
 from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.by import By
 
-PATIENCE_S = 240.0  # of wall time, for a run on a loaded machine
+PATIENCE_S = 600.0  # of wall time: a run on a loaded machine may be slower than real time
 
 
 def wait_for(what, condition, patience_s=PATIENCE_S):
