@@ -162,7 +162,7 @@ def drive(page, second, url, run, pictures):
 
     page.click("tr[data-service=stereo] td.inject button")
     wait_for("a killed service is red", lambda: page.service("stereo") == "lost")
-    wait_for("and green again", lambda: page.service("stereo") == "")
+    wait_for("and green again", lambda: page.service("stereo") == "ok")
     wait_for("and it is noted", lambda: any("stereo is back" in e for e in page.events()))
 
     driven = page.number("driven")

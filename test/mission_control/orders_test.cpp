@@ -42,7 +42,9 @@ TEST(Orders, ARestartDoesNotGiveThemAgain) {
     EXPECT_EQ(orders.progress(), progress);
     const auto next = orders.step(0, true, 1);
     EXPECT_EQ(next.has_value(), progress < 3);
-    if (next) EXPECT_EQ(static_cast<int>(next->order), progress);
+    if (next) {
+      EXPECT_EQ(static_cast<int>(next->order), progress);
+    }
   }
   Orders orders;
   orders.resume_at(99);
