@@ -82,6 +82,7 @@ RunArguments run_arguments(const BenchArguments& arguments, const Job& job, int 
   run.bus = "udpm://239.255.76.67:" + std::to_string(kFirstBenchPort + slot) + "?ttl=0&recv_buf_size=4194304";
   run.record = "reduced";
   run.quiet = true;
+  run.headless = true;
   return run;
 }
 
@@ -131,7 +132,7 @@ void run_jobs(const BenchArguments& arguments, const std::vector<Job>& jobs, Row
 
 int bench(const BenchArguments& arguments) {
   if (arguments.suite != "seed")
-    throw ConfigError("bench: no suite '" + arguments.suite + "'; there are: seed, speed, micro, faults");
+    throw ConfigError("bench: no suite '" + arguments.suite + "'; there are: seed, speed, micro, faults, restarts, page");
   Rows rows(arguments.run.source_dir + "/logs/bench/" + arguments.suite + "/rows.jsonl",
             commit_of(arguments.run.source_dir), arguments.resume);
   for (const auto& [scenario, least] : kLeastRepairs) {

@@ -7,6 +7,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <fstream>
 
 #include "common/bus/bus_url.hpp"
@@ -25,6 +26,20 @@ bool can_send_multicast(const BusAddress& address) {
   const bool routed = connect(fd, reinterpret_cast<const sockaddr*>(&to), sizeof to) == 0;
   close(fd);
   return routed;
+}
+
+bool is_taken(const std::string& address, int port) {
+  sockaddr_in name{};
+  name.sin_family = AF_INET;
+  name.sin_port = htons(static_cast<std::uint16_t>(port));
+  if (inet_pton(AF_INET, address.c_str(), &name.sin_addr) != 1) return false;
+  const int fd = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  if (fd < 0) return false;
+  const int yes = 1;  // as the page's server: connections that have just ended do not count
+  setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+  const bool taken = bind(fd, reinterpret_cast<const sockaddr*>(&name), sizeof name) != 0 && errno == EADDRINUSE;
+  close(fd);
+  return taken;
 }
 
 }  // namespace
@@ -68,6 +83,23 @@ BusLock::BusLock(const std::string& bus_url) {
 
 BusLock::~BusLock() {
   if (fd_ >= 0) close(fd_);
+}
+
+std::string page_line(const std::string& config_dir) try {
+  const Config config = Config::load(config_dir + "/mission_control.yaml");
+  bool served = true;
+  std::string address = "127.0.0.1";
+  int port = 8080;
+  config.read("page", served);
+  config.read("address", address);
+  config.read("port", port, {1, 65535});
+  if (!served) return "";
+  const std::string at = "http://" + address + ":" + std::to_string(port);
+  if (!is_taken(address, port)) return "page: " + at;
+  return "page: " + at +
+         " is taken; this run has no page. Another one: --set mission_control.port=" + std::to_string(port + 1);
+} catch (const ConfigError&) {
+  return "";  // the service itself says what is wrong, and the run ends
 }
 
 }  // namespace rover

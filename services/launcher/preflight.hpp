@@ -22,4 +22,8 @@ class BusLock {
   int fd_ = -1;
 };
 
+// Where the run's page will be, as one line for the user; empty where it has none. A taken port takes the page from a
+// run, not the run.
+std::string page_line(const std::string& config_dir);
+
 }  // namespace rover

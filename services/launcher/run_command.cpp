@@ -151,6 +151,8 @@ RunResult run(const RunArguments& given) {
   std::signal(SIGINT, interrupt);
   std::signal(SIGTERM, interrupt);
   if (!arguments.quiet) std::printf("run: %s\n", folder.dir.c_str());
+  if (const std::string line = page_line(folder.config_dir); !arguments.quiet && !line.empty())
+    std::printf("%s\n", line.c_str());
   write_launch_json(arguments, folder);
   write_s6_tree(folder.dir, service_commands(arguments, folder));
   End end = End::kFailed;

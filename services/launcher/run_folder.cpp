@@ -128,6 +128,7 @@ void create_folders(const fs::path& dir) {
 void fill_run_folder(const RunArguments& arguments, const std::string& dtm_file, RunFolder& folder) {
   copy_configuration(fs::path(arguments.source_dir) / "config", folder.config_dir);
   copy_scenario(arguments.scenario, dtm_file, folder.scenario);
+  if (arguments.headless) apply_setting("mission_control.page=false", folder.config_dir);
   if (!arguments.record.empty()) apply_setting("recorder.record=" + arguments.record, folder.config_dir);
   for (const std::string& setting : arguments.set) apply_setting(setting, folder.config_dir);
   if (!folder.bus_url.empty()) apply_setting("bus.url=" + folder.bus_url, folder.config_dir);

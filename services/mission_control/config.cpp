@@ -1,5 +1,9 @@
 #include "mission_control/config.hpp"
 
+#include <sys/stat.h>
+
+#include <fstream>
+
 #include "common/bus/config.hpp"
 
 namespace rover {
@@ -30,6 +34,28 @@ GlobalPath read_path(const Config& config) {
   return path;
 }
 
+// The page shows these rows of the table of faults as gauges: the limit, and the lesser one that warns before it.
+struct Gauge {
+  const char* name;
+  const char* row;
+  const char* warning_row;
+};
+constexpr std::array kGauges = {Gauge{"slip", "slip", "slip_high"}, Gauge{"roll_deg", "roll", "roll_high"},
+                                Gauge{"pitch_deg", "pitch", "pitch_high"}, Gauge{"current_a", "drive_current", ""}};
+
+nlohmann::json gauge_limits(const std::string& config_dir, const Vehicle& vehicle) {
+  std::map<std::string, double> limit;
+  for (const Config& row : Config::load(config_dir + "/fdir.yaml").list("rows"))
+    limit[row.text("id")] = row.number("limit", {-1e9, 1e9});
+  nlohmann::json out;
+  for (const Gauge& gauge : kGauges) {
+    const auto value = [&](const char* row) { return limit.contains(row) ? nlohmann::json(limit[row]) : nullptr; };
+    out[gauge.name] = {{"limit", value(gauge.row)}, {"warn", value(gauge.warning_row)}};
+  }
+  out["current_a"]["warn"] = vehicle.drive_current_nominal_a;
+  return out;
+}
+
 }  // namespace
 
 MissionPlan load_mission_plan(const std::string& config_dir) {
@@ -39,4 +65,75 @@ MissionPlan load_mission_plan(const std::string& config_dir) {
   return plan;
 }
 
+namespace mission {
+namespace {
+
+DrawnPath read_drawn_path(const Config& config) {
+  DrawnPath path;
+  config.read("corridor_half_width_m", path.corridor_half_width_m, {0.1, 50});
+  config.read("goal_tolerance_m", path.goal_tolerance_m, {0.01, 10});
+  config.read("longest_m", path.longest_m, {1, 1e5});
+  config.read_deg("warn_slope_deg", path.slope.warn_rad, {0, 90});
+  config.read_deg("most_slope_deg", path.slope.most_rad, {0, 90});
+  if (path.slope.most_rad < path.slope.warn_rad) config.fail("most_slope_deg", "is below warn_slope_deg");
+  return path;
+}
+
+}  // namespace
+
+PageConfig load_page_config(const std::string& config_dir) {
+  const Config config = Config::load(config_dir + "/mission_control.yaml");
+  PageConfig page;
+  std::string token_file;
+  config.read("page", page.served);
+  config.read("address", page.guard.address);
+  config.read("port", page.guard.port, {1, 65535});
+  config.read("most_pages", page.most_pages, {1, 64});
+  config.read("token_file", token_file);
+  page.path = read_drawn_path(config.section("path"));
+  config.finish();
+  if (!page.served) return page;
+  if (!token_file.empty())
+    page.guard.token = load_token(token_file);
+  else if (!is_loopback(page.guard.address))
+    config.fail("address", page.guard.address +
+                               " can be reached from elsewhere: token_file has to name a file of mode "
+                               "0600 with a token in it");
+  return page;
+}
+
+std::string load_token(const std::string& file) {
+  constexpr size_t kShortest = 16;
+  struct stat status {};
+  if (stat(file.c_str(), &status) != 0) throw ConfigError(file + ": cannot be read");
+  if ((status.st_mode & 0777) != 0600)
+    throw ConfigError(file + ": others may read the token. Mend it with: chmod 600 " + file);
+  std::ifstream in(file);
+  std::string token;
+  in >> token;
+  if (token.size() < kShortest)
+    throw ConfigError(file + ": a token of at least 16 characters is expected. Make one with: openssl rand -hex 16");
+  if (token.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_") != std::string::npos)
+    throw ConfigError(file + ": a token holds letters, digits, - and _ alone");
+  return token;
+}
+
+nlohmann::json page_setup(const std::string& config_dir, const Vehicle& vehicle) {
+  const Config coverage = Config::load(config_dir + "/hazard_detector.yaml").section("coverage");
+  return {{"vehicle",
+           {{"half_length_m", vehicle.body_half_length_m},
+            {"half_width_m", vehicle.body_half_width_m},
+            {"origin_height_m", vehicle.origin_height_m},
+            {"wheel_x_m", vehicle.wheel_x_m},
+            {"wheel_y_m", vehicle.wheel_y_m},
+            {"wheel_radius_m", vehicle.wheel_radius_m},
+            {"wheel_width_m", vehicle.wheel_width_m},
+            {"steered", kSteeredWheels},
+            {"top_speed_mps", vehicle.top_speed_mps}}},
+          {"gauges", gauge_limits(config_dir, vehicle)},
+          {"roi",
+           {{"near_m", coverage.number("roi_near_m", {0, 100})}, {"far_m", coverage.number("roi_far_m", {0, 100})}}}};
+}
+
+}  // namespace mission
 }  // namespace rover

@@ -1,8 +1,52 @@
+#include <filesystem>
+
 #include "common/bus/node_main.hpp"
+#include "common/bus/s6_client.hpp"
+#include "common/bus/service_names.hpp"
+#include "common/bus/vehicle_config.hpp"
 #include "mission_control/node.hpp"
+#include "mission_control/page_server.hpp"
+
+namespace {
+
+using namespace rover;
+using namespace rover::mission;
+
+PageContext page_context(const NodeContext& context) {
+  const std::string run_dir = context.node.options().run_dir;
+  const Vehicle vehicle = load_vehicle(context.config_dir);
+  PageContext page;
+  page.run_dir = run_dir;
+  page.run_name = run_dir.empty() ? "by hand" : std::filesystem::path(run_dir).filename().string();
+  page.allow_injection = context.node.options().allow_injection;
+  page.services.assign(kServiceNames.begin(), kServiceNames.end());
+  page.rover_length_m = 2.0 * vehicle.footprint_half_length_m();
+  page.setup = page_setup(context.config_dir, vehicle);
+  page.inject = [run_dir](const std::string& service, CommandKind kind) {
+    return control_service(run_dir, service, kind == CommandKind::kHang ? "-p" : "-k");
+  };
+  return page;
+}
+
+struct MissionControl {
+  std::shared_ptr<Station> station = std::make_shared<Station>();
+  std::unique_ptr<PageServer> page;
+  MissionControlNode node;
+
+  MissionControl(const NodeContext& context, const PageConfig& config)
+      : page(config.served ? std::make_unique<PageServer>(config, page_context(context), *station, context.lcm)
+                           : nullptr),
+        node(context.node, load_mission_plan(context.config_dir), station, config.path, [this] {
+          if (page) page->attend();
+        }) {
+    if (page) page->start();
+  }
+};
+
+}  // namespace
 
 int main(int argc, char** argv) {
-  return rover::node_main(argc, argv, "mission_control", [](const rover::NodeContext& context) {
-    return std::make_shared<rover::MissionControlNode>(context.node, rover::load_mission_plan(context.config_dir));
+  return node_main(argc, argv, "mission_control", [](const NodeContext& context) {
+    return std::make_shared<MissionControl>(context, load_page_config(context.config_dir));
   });
 }

@@ -1,12 +1,26 @@
 #include "mission_control/node.hpp"
 
-#include <rover/ground_command_t.hpp>
-#include <rover/path_t.hpp>
+#include <cmath>
+#include <cstring>
+#include <sstream>
+
+#include "common/bus/convert.hpp"
+#include "common/bus/state_names.hpp"
 
 namespace rover {
 namespace {
 
-ground_command_t command(std::int8_t kind, std::int64_t command_id) {
+using mission::CommandKind;
+using mission::Tone;
+
+constexpr std::int64_t kCommandsPerBoot = 100'000;  // keeps the ids of two processes apart
+constexpr std::int64_t kMostBoots = 1'000'000'000;  // so that a page can count the ids too
+constexpr Utime kSilenceUs = 1'000'000;             // a heartbeat comes five times a second
+constexpr Utime kTrackPeriodUs = 5'000'000;
+constexpr Utime kTrendPeriodUs = 1'000'000;
+constexpr Utime kSilenceLookUs = 200'000;
+
+ground_command_t command_message(std::int8_t kind, std::int64_t command_id) {
   ground_command_t message{};
   message.kind = kind;
   message.command_id = command_id;
@@ -14,25 +28,221 @@ ground_command_t command(std::int8_t kind, std::int64_t command_id) {
   return message;
 }
 
+std::int8_t kind_of(CommandKind kind) {
+  switch (kind) {
+    case CommandKind::kGo:
+      return ground_command_t::GO;
+    case CommandKind::kPause:
+      return ground_command_t::PAUSE;
+    case CommandKind::kResume:
+      return ground_command_t::RESUME;
+    case CommandKind::kEmergencyStop:
+      return ground_command_t::EMERGENCY_STOP;
+    case CommandKind::kClearSafe:
+      return ground_command_t::CLEAR_SAFE;
+    case CommandKind::kForceLevel:
+      return ground_command_t::FORCE_LEVEL;
+    case CommandKind::kClearFault:
+      return ground_command_t::CLEAR_FAULT;
+    default:
+      return ground_command_t::STOP;
+  }
+}
+
+std::int8_t level_of(mission::Level level) {
+  switch (level) {
+    case mission::Level::kEfficient:
+      return ground_command_t::EFFICIENT;
+    case mission::Level::kFull:
+      return ground_command_t::FULL;
+    default:
+      return ground_command_t::AUTO;
+  }
+}
+
+GlobalPath path_of(const mission::Command& command, const mission::DrawnPath& drawn) {
+  GlobalPath path;
+  for (const Eigen::Vector2d& p : command.points) {
+    path.x_m.push_back(p.x());
+    path.y_m.push_back(p.y());
+    path.level.push_back(level_of(command.level));
+  }
+  path.corridor_half_width_m = drawn.corridor_half_width_m;
+  path.goal_tolerance_m = drawn.goal_tolerance_m;
+  return path;
+}
+
+std::string because(const supervisor_state_t& state) {
+  std::ostringstream out;
+  out.precision(3);
+  out << ": " << state.cause;
+  if (!state.quantity.empty() && std::isfinite(state.value))
+    out << " (" << state.quantity << " " << state.value << ", limit " << state.threshold << ")";
+  return out.str();
+}
+
+Tone tone_of(std::int8_t state) {
+  switch (state) {
+    case supervisor_state_t::FAULT_STOP:
+    case supervisor_state_t::SAFE:
+      return Tone::kBad;
+    case supervisor_state_t::HAZARD_STOP:
+    case supervisor_state_t::PAUSED:
+      return Tone::kWarn;
+    case supervisor_state_t::DRIVING:
+    case supervisor_state_t::GOAL_REACHED:
+      return Tone::kGood;
+    default:
+      return Tone::kInfo;
+  }
+}
+
+std::string order_name(Order order) {
+  return order == Order::kStartPose ? "start pose" : order == Order::kPath ? "path of the mission" : "go";
+}
+
 }  // namespace
 
-MissionControlNode::MissionControlNode(Node& node, MissionPlan plan) : node_(node), plan_(std::move(plan)) {
-  node_.subscribe<command_ack_t>(channel::kCommandAck, [this](const command_ack_t& ack) { on_ack(ack); });
-  node_.subscribe<supervisor_state_t>(channel::kState, [this](const supervisor_state_t& state) {
-    standby_ = state.state == supervisor_state_t::STANDBY;
-  });
+MissionControlNode::MissionControlNode(Node& node, MissionPlan plan, std::shared_ptr<mission::Station> station,
+                                       mission::DrawnPath drawn, std::function<void()> beside)
+    : node_(node),
+      kept_(node),
+      plan_(std::move(plan)),
+      station_(std::move(station)),
+      drawn_(std::move(drawn)),
+      beside_(std::move(beside)),
+      next_command_id_(node.options().boot_id % kMostBoots * kCommandsPerBoot + 1) {
+  restore();
+  subscribe();
   node_.on_step([this](Utime now) { step(now); });
 }
 
+void MissionControlNode::subscribe() {
+  node_.subscribe<command_ack_t>(channel::kCommandAck, [this](const command_ack_t& ack) { on_ack(ack); });
+  node_.subscribe<supervisor_state_t>(channel::kState, [this](const supervisor_state_t& m) { on_state(m); });
+  node_.subscribe<fault_t>(channel::kFault, [this](const fault_t& m) { on_fault(m); });
+  node_.subscribe<heartbeat_t>(channel::kHeartbeat, [this](const heartbeat_t& m) { on_heartbeat(m); });
+  node_.subscribe<path_t>(channel::kPath, [this](const path_t& m) { on_path(m); });
+  node_.subscribe<pose_t>(channel::kPose, [this](const pose_t& m) { on_pose(m); });
+  node_.subscribe<slip_t>(channel::kSlip,
+                          [this](const slip_t& m) { slip_ratio_ = m.valid == 1 ? m.slip_ratio : kNaN; });
+}
+
+void MissionControlNode::note(Tone tone, const std::string& kind, const std::string& text) {
+  station_->book.with([&](mission::Logbook& book) { book.note(to_seconds(node_.now()), tone, kind, text); });
+  changed_ = true;
+}
+
 void MissionControlNode::on_ack(const command_ack_t& ack) {
-  if (!orders_.acknowledge(ack.command_id, ack.accepted != 0, ack.reason)) return;
-  node_.log(ack.accepted ? "INFO" : "WARN",
-            "ORDER id=" + std::to_string(ack.command_id) + (ack.accepted ? " accepted" : " refused: " + ack.reason));
-  node_.set_status(ack.accepted ? heartbeat_t::OK : heartbeat_t::DEGRADED, orders_.refusal());
+  const bool accepted = ack.accepted != 0;
+  if (const auto order = orders_.waiting(); orders_.acknowledge(ack.command_id, accepted, ack.reason)) {
+    node_.log(accepted ? "INFO" : "WARN",
+              "ORDER id=" + std::to_string(ack.command_id) + (accepted ? " accepted" : " refused: " + ack.reason));
+    if (accepted) note(Tone::kInfo, "command", "mission plan: " + order_name(order) + " accepted");
+  } else if (const auto command = station_->desk.answered(ack.command_id, accepted, ack.reason)) {
+    note(accepted ? Tone::kInfo : Tone::kWarn, "command",
+         mission::description(*command) + (accepted ? " accepted" : " refused: " + ack.reason));
+    if (accepted) accepted_by_operator(*command, ack.command_id);
+  }
+  if (const auto path = paths_given_.find(ack.command_id); path != paths_given_.end()) {
+    if (accepted) station_->book.with([&](mission::Logbook& book) { book.set_path(ack.command_id, path->second); });
+    paths_given_.erase(path);
+  }
+}
+
+void MissionControlNode::accepted_by_operator(const mission::Command& command, std::int64_t command_id) {
+  node_.log("INFO", "COMMAND id=" + std::to_string(command_id) + " accepted: " + mission::description(command));
+  if (command.kind == CommandKind::kForceLevel)
+    station_->book.with([&](mission::Logbook& book) { book.set_forced(command.level); });
+}
+
+void MissionControlNode::on_state(const supervisor_state_t& state) {
+  standby_ = state.state == supervisor_state_t::STANDBY;
+  if (state_ && state.state != state_->state)
+    note(tone_of(state.state), "state", state_name(state.state) + because(state));
+  if (state_ && state.level != state_->level)
+    note(Tone::kInfo, "level", "level " + level_name(state.level) + because(state));
+  state_ = state;
+}
+
+void MissionControlNode::on_fault(const fault_t& fault) {
+  const bool standing = fault.standing == 1;
+  bool& known = faults_[fault.id];
+  if (standing == known) return;  // said again
+  known = standing;
+  std::ostringstream text;
+  text.precision(3);
+  text << fault.id << (standing ? " raised" : " cleared");
+  if (standing && std::isfinite(fault.value)) text << " (" << fault.value << ", limit " << fault.limit << ")";
+  const bool serious = fault.response != fault_t::LOG && fault.response != fault_t::SLOW;
+  note(!standing ? Tone::kGood : serious ? Tone::kBad : Tone::kWarn, "fault", text.str());
+}
+
+void MissionControlNode::on_heartbeat(const heartbeat_t& heartbeat) {
+  Life& life = lives_[heartbeat.service];
+  if (life.heard != kNever && heartbeat.header.boot_id != life.boot_id)
+    note(Tone::kGood, "service", heartbeat.service + " is back after a restart");
+  else if (life.silent)
+    note(Tone::kGood, "service", heartbeat.service + " is heard again");
+  life = {heartbeat.header.boot_id, heartbeat.header.utime, false};
+}
+
+void MissionControlNode::on_path(const path_t& path) {
+  if (path.path_id == path_id_) return;
+  path_id_ = path.path_id;
+  if (path.kind == path_t::REPAIR) note(Tone::kInfo, "path", "path repaired around hazards");
+  if (path.kind == path_t::RETREAT) note(Tone::kWarn, "path", "no way ahead: backwards along the driven track");
+}
+
+// Before the start pose has been taken the map has no place for the rover.
+void MissionControlNode::on_pose(const pose_t& pose) {
+  pose_ = pose;
+  const bool known = pose.status == pose_t::OK || pose.status == pose_t::DEGRADED;
+  if (!known || orders_.progress() == static_cast<int>(Order::kStartPose)) return;
+  const Eigen::Vector3d p =
+      pose_from(pose.position_map_odom_m, pose.quat_map_odom_wxyz) * Eigen::Vector3d(pose.position_odom_body_m);
+  station_->book.with([&](mission::Logbook& book) { book.drive_to(p.x(), p.y()); });
+}
+
+void MissionControlNode::sample(Utime now) {
+  const Eigen::Vector3d rpy = rpy_of(pose_from(pose_.position_odom_body_m, pose_.quat_odom_body_wxyz).rotation());
+  const mission::TrendSample moment{to_seconds(now), static_cast<float>(pose_.velocity_body_mps[0]),
+                                    static_cast<float>(slip_ratio_), static_cast<float>(rpy.x()),
+                                    static_cast<float>(rpy.y())};
+  station_->book.with([&](mission::Logbook& book) { book.sample(moment); });
 }
 
 void MissionControlNode::step(Utime now) {
-  if (const auto given = orders_.step(now, standby_)) give(*given);
+  kept_.tell();
+  station_->now_s = to_seconds(now);
+  while (const auto waiting = station_->desk.take()) give(*waiting);
+  if (const auto given = orders_.step(now, standby_, next_command_id_)) {
+    ++next_command_id_;
+    changed_ = true;
+    give(*given);
+  }
+  if (now % kSilenceLookUs == 0) look_for_silence(now);
+  if (now % kTrendPeriodUs == 0) sample(now);
+  tell_status();
+  save(now);
+  if (beside_) beside_();
+}
+
+void MissionControlNode::look_for_silence(Utime now) {
+  for (auto& [name, life] : lives_) {
+    if (life.silent || now - life.heard < kSilenceUs) continue;
+    life.silent = true;
+    note(Tone::kBad, "service", name + " is silent");
+  }
+}
+
+void MissionControlNode::tell_status() {
+  if (!orders_.refusal().empty())
+    node_.set_status(heartbeat_t::DEGRADED, orders_.refusal());
+  else if (!station_->page_is_served)
+    node_.set_status(heartbeat_t::DEGRADED, "the page's address is taken");
+  else
+    node_.set_status(heartbeat_t::OK, "");
 }
 
 void MissionControlNode::give(const Orders::Given& given) {
@@ -40,14 +250,28 @@ void MissionControlNode::give(const Orders::Given& given) {
     case Order::kStartPose:
       return publish_start_pose(given.command_id);
     case Order::kPath:
-      return publish_path(given.command_id);
+      return publish_path(given.command_id, plan_.path);
     case Order::kGo:
-      return publish_go(given.command_id);
+      return publish(command_message(ground_command_t::GO, given.command_id));
   }
 }
 
+void MissionControlNode::give(const mission::Desk::Waiting& waiting) {
+  const mission::Command& command = waiting.command;
+  const std::int64_t id = next_command_id_++;
+  changed_ = true;
+  station_->desk.given(waiting.ticket, id);
+  // Whoever stops the rover, or has another way in mind, does not want the plan to go on by itself.
+  if (mission::stops(command.kind) || command.kind == CommandKind::kPath) orders_.abandon();
+  if (command.kind == CommandKind::kPath) return publish_path(id, path_of(command, drawn_));
+  ground_command_t message = command_message(kind_of(command.kind), id);
+  message.level = level_of(command.level);
+  message.target = command.target;
+  publish(message);
+}
+
 void MissionControlNode::publish_start_pose(std::int64_t command_id) {
-  ground_command_t message = command(ground_command_t::SET_START_POSE, command_id);
+  ground_command_t message = command_message(ground_command_t::SET_START_POSE, command_id);
   message.position_map_m[0] = plan_.start.pose.x_m;
   message.position_map_m[1] = plan_.start.pose.y_m;
   message.position_map_m[2] = plan_.start.z_m;
@@ -55,26 +279,53 @@ void MissionControlNode::publish_start_pose(std::int64_t command_id) {
   message.sigma_m = plan_.start.sigma_m;
   message.sigma_yaw_rad = plan_.start.sigma_yaw_rad;
   message.clear_radius_m = plan_.start.clear_radius_m;
+  publish(message);
+}
+
+void MissionControlNode::publish(ground_command_t message) {
   node_.publish(channel::kGroundCommand, message, node_.now());
 }
 
-void MissionControlNode::publish_path(std::int64_t command_id) {
+void MissionControlNode::publish_path(std::int64_t command_id, const GlobalPath& path) {
   path_t message{};
   message.path_id = command_id;
   message.frame = path_t::MAP;
   message.kind = path_t::GLOBAL;
-  message.corridor_half_width_m = plan_.path.corridor_half_width_m;
-  message.goal_tolerance_m = plan_.path.goal_tolerance_m;
-  message.point_count = static_cast<std::int32_t>(plan_.path.x_m.size());
-  message.x_m = plan_.path.x_m;
-  message.y_m = plan_.path.y_m;
-  message.level = plan_.path.level;
+  message.corridor_half_width_m = path.corridor_half_width_m;
+  message.goal_tolerance_m = path.goal_tolerance_m;
+  message.point_count = static_cast<std::int32_t>(path.x_m.size());
+  message.x_m = path.x_m;
+  message.y_m = path.y_m;
+  message.level = path.level;
   node_.publish(channel::kGlobalPath, message, node_.now());
+  paths_given_.clear();  // of those that were never answered
+  paths_given_[command_id] = path;
 }
 
-void MissionControlNode::publish_go(std::int64_t command_id) {
-  ground_command_t message = command(ground_command_t::GO, command_id);
-  node_.publish(channel::kGroundCommand, message, node_.now());
+// The checkpoint: progress of the plan, newest command id, logbook.
+void MissionControlNode::restore() {
+  kept_.restore([this](const KeptState::Bytes& bytes) {
+    std::int64_t head[2];
+    if (bytes.size() < sizeof head) return false;
+    std::memcpy(head, bytes.data(), sizeof head);
+    const std::vector<std::uint8_t> book(bytes.begin() + sizeof head, bytes.end());
+    if (!station_->book.with([&](mission::Logbook& b) { return b.restore(book); })) return false;
+    orders_.resume_at(static_cast<int>(head[0]));
+    next_command_id_ = std::max(next_command_id_, head[1]);
+    return true;
+  });
+}
+
+void MissionControlNode::save(Utime now) {
+  if (!kept_.due() || (!changed_ && now < track_saved_ + kTrackPeriodUs)) return;
+  const std::int64_t head[2] = {orders_.progress(), next_command_id_};
+  KeptState::Bytes bytes(sizeof head);
+  std::memcpy(bytes.data(), head, sizeof head);
+  const auto book = station_->book.with([](const mission::Logbook& b) { return b.save(); });
+  bytes.insert(bytes.end(), book.begin(), book.end());
+  if (!kept_.save(bytes)) return;
+  changed_ = false;
+  track_saved_ = now;
 }
 
 }  // namespace rover

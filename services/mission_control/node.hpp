@@ -1,30 +1,79 @@
-// The ground's side of the bus: gives the orders of a mission plan.
+// The ground's side of the bus: gives the orders of a mission plan and the operator's commands, and keeps the logbook.
+// It never takes TRUTH.
 #pragma once
 
+#include <functional>
+#include <map>
+#include <memory>
 #include <rover/command_ack_t.hpp>
+#include <rover/fault_t.hpp>
+#include <rover/ground_command_t.hpp>
+#include <rover/heartbeat_t.hpp>
+#include <rover/path_t.hpp>
+#include <rover/pose_t.hpp>
+#include <rover/slip_t.hpp>
 #include <rover/supervisor_state_t.hpp>
 
+#include "common/bus/kept_state.hpp"
 #include "common/bus/node.hpp"
 #include "mission_control/config.hpp"
+#include "mission_control/station.hpp"
 
 namespace rover {
 
 class MissionControlNode {
  public:
-  MissionControlNode(Node& node, MissionPlan plan);
+  // `beside`: called once each tick, in the node's thread.
+  MissionControlNode(Node& node, MissionPlan plan,
+                     std::shared_ptr<mission::Station> station = std::make_shared<mission::Station>(),
+                     mission::DrawnPath drawn = {}, std::function<void()> beside = {});
 
  private:
+  struct Life {
+    std::int64_t boot_id = 0;
+    Utime heard = kNever;
+    bool silent = false;
+  };
+
+  void subscribe();
   void on_ack(const command_ack_t& ack);
+  void on_state(const supervisor_state_t& state);
+  void on_fault(const fault_t& fault);
+  void on_heartbeat(const heartbeat_t& heartbeat);
+  void on_path(const path_t& path);
+  void on_pose(const pose_t& pose);
+  void sample(Utime now);
   void step(Utime now);
+  void look_for_silence(Utime now);
+  void tell_status();
   void give(const Orders::Given& given);
+  void give(const mission::Desk::Waiting& waiting);
   void publish_start_pose(std::int64_t command_id);
-  void publish_path(std::int64_t command_id);
-  void publish_go(std::int64_t command_id);
+  void publish_path(std::int64_t command_id, const GlobalPath& path);
+  void publish(ground_command_t message);
+  void note(mission::Tone tone, const std::string& kind, const std::string& text);
+  void accepted_by_operator(const mission::Command& command, std::int64_t command_id);
+  void restore();
+  void save(Utime now);
 
   Node& node_;
+  KeptState kept_;
   MissionPlan plan_;
+  std::shared_ptr<mission::Station> station_;
+  mission::DrawnPath drawn_;
+  std::function<void()> beside_;
   Orders orders_;
+  std::int64_t next_command_id_ = 1;
   bool standby_ = false;
+  std::optional<supervisor_state_t> state_;
+  pose_t pose_{};
+  double slip_ratio_ = kNaN;
+  std::map<std::string, Life> lives_;
+  std::map<std::string, bool> faults_;
+  std::int64_t path_id_ = -1;
+  std::map<std::int64_t, GlobalPath> paths_given_;  // not answered yet
+  bool changed_ = false;                            // since the newest checkpoint, but for the track
+  Utime track_saved_ = 0;
 };
 
 }  // namespace rover

@@ -38,12 +38,20 @@ class Orders {
     std::int64_t command_id;
   };
 
-  // The order to give at this time, if any. `standby`: the supervisor's state allows to go.
-  std::optional<Given> step(Utime now, bool standby);
+  // The order to give at this time, if any. `standby`: the supervisor's state allows to go. `command_id`: not given
+  // to any command before; taken where there is an order.
+  std::optional<Given> step(Utime now, bool standby, std::int64_t command_id);
   // Whether it was an answer to the order that waits.
   bool acknowledge(std::int64_t command_id, bool accepted, const std::string& reason);
 
+  // The order that is next, or waits for its answer; of no meaning when all are accepted.
+  Order waiting() const { return next_; }
   bool all_accepted() const { return next_ > Order::kGo; }
+  // The operator has taken over: nothing more is given.
+  void abandon() { next_ = static_cast<Order>(static_cast<int>(Order::kGo) + 1); }
+  // Over restarts of the process. A number that is none of progress() begins anew.
+  int progress() const { return static_cast<int>(next_); }
+  void resume_at(int progress);
   // Why the last order was refused, empty where it was not.
   const std::string& refusal() const { return refusal_; }
 

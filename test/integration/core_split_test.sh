@@ -14,6 +14,7 @@ for service in stereo visual_odometry localization hazard_detector path_planner 
   nm -C "$program" >"$WORK/symbols"
   strings "$program" >"$WORK/strings"
   ! grep -qE 'rover::(World|RockField|VehicleSim|TileScene)::' "$WORK/symbols" || fail "$service links the simulated world"
-  ! grep -qx TRUTH "$WORK/strings" || fail "$service names the channel TRUTH"
+  # The page of mission_control shows the true world to who asks for it; its node never hears of it (ear_test).
+  [ "$service" = mission_control ] || ! grep -qx TRUTH "$WORK/strings" || fail "$service names the channel TRUTH"
 done
 echo "cores and services keep to themselves"

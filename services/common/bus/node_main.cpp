@@ -75,7 +75,7 @@ int node_main(int argc, char** argv, const std::string& service, const NodeFacto
     lcm::LCM reports(reports_url(bus));
     if (!lcm.good() || !reports.good()) throw ConfigError("bus: cannot join " + bus);
     Node node(options, lcm, parse_udpm(bus) ? &reports : nullptr);
-    const std::shared_ptr<void> keep = factory({node, config_dir});
+    const std::shared_ptr<void> keep = factory({node, config_dir, lcm});
     node.log("INFO", "STARTED boot=" + std::to_string(options.boot_id));
     node.run([] { return running.load(); });
     node.log("INFO", "STOPPED");

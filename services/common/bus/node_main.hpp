@@ -14,6 +14,7 @@ namespace rover {
 struct NodeContext {
   Node& node;
   std::string config_dir;  // holds vehicle.yaml, <service>.yaml, ...
+  lcm::LCM& lcm;           // the node's; for listeners beside it, in its thread
 };
 
 // Builds the service on the node and returns the object that keeps it alive.

@@ -1,0 +1,55 @@
+// How many pages are open, and how many of them want to see the true world. Without any, nobody listens and nothing is
+// made.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+
+namespace rover::mission {
+
+class Audience {
+ public:
+  // False where there are so many already.
+  bool enter(bool truth, int most) {
+    const std::lock_guard lock(mutex_);
+    if (pages_ >= most) return false;
+    ++pages_;
+    if (truth) ++truth_;
+    changed_.notify_all();
+    return true;
+  }
+  void leave(bool truth) {
+    const std::lock_guard lock(mutex_);
+    --pages_;
+    if (truth) --truth_;
+  }
+  int pages() const {
+    const std::lock_guard lock(mutex_);
+    return pages_;
+  }
+  bool truth_wanted() const {
+    const std::lock_guard lock(mutex_);
+    return truth_ > 0;
+  }
+  // Until a page is open; false where none came in that time, or all is over.
+  bool wait_for_page(std::chrono::milliseconds patience) {
+    std::unique_lock lock(mutex_);
+    changed_.wait_for(lock, patience, [this] { return pages_ > 0 || over_; });
+    return pages_ > 0 && !over_;
+  }
+  void end() {
+    const std::lock_guard lock(mutex_);
+    over_ = true;
+    changed_.notify_all();
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  int pages_ = 0;
+  int truth_ = 0;
+  bool over_ = false;
+};
+
+}  // namespace rover::mission

@@ -1,0 +1,250 @@
+#include "mission_control/gatherer.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/bus/convert.hpp"
+#include "common/bus/s6_client.hpp"
+#include "common/bus/state_names.hpp"
+
+namespace rover::mission {
+namespace {
+
+constexpr Utime kRateWindow = 3'000'000;
+constexpr double kCpuWindowS = 3.0;
+constexpr double kLostS = 1.0;  // a heartbeat comes five times a second
+constexpr double kWaitS = 2.0;
+constexpr Utime kPoseHistory = 4'000'000;
+constexpr size_t kImagesKept = 8;  // hazards follow their image by about one more
+constexpr Utime kHazardsAwaited = 1'500'000;
+constexpr int kLargestGrid = 2048;
+constexpr std::int64_t kMostBoots = 100'000;  // a larger boot number is a clock's, of a process started by hand
+
+const std::array kResponses = {"log", "slow", "stop", "stop and replan", "restart service", "safe"};
+
+bool sane(int nx, int ny, size_t size, double cell_m) {
+  return nx > 0 && ny > 0 && nx <= kLargestGrid && ny <= kLargestGrid && size == static_cast<size_t>(nx) * ny &&
+         cell_m > 0.0 && cell_m < 10.0;
+}
+
+}  // namespace
+
+Gatherer::Gatherer(const std::vector<std::string>& services) : expected_(services) {
+  for (const std::string& name : expected_) services_[name];
+}
+
+void Gatherer::begin() {
+  Gatherer fresh(expected_);
+  fresh.camera_ = camera_;
+  *this = std::move(fresh);
+}
+
+void Gatherer::take(const tick_t& message, double wall_s) {
+  const Utime utime = message.header.utime;
+  if (utime <= view_.now) return;  // said again
+  view_.now = utime;
+  if (first_tick_ == kNever) first_tick_ = utime;
+  ticks_.emplace_back(utime, wall_s);
+  while (ticks_.front().first < utime - kRateWindow) ticks_.pop_front();
+}
+
+void Gatherer::take(const heartbeat_t& message, double wall_s) {
+  ServiceRecord& record = services_[message.service];
+  if (message.header.boot_id != record.boot_id) record.cpu.clear();
+  record.heard = message.header.utime;
+  record.boot_id = message.header.boot_id;
+  record.pid = message.pid;
+  record.status = message.status;
+  record.rss_mb = message.rss_mb;
+  record.text = message.text;
+  record.cpu.emplace_back(wall_s, message.cpu_s);
+  while (record.cpu.size() > 2 && record.cpu.front().first < wall_s - kCpuWindowS) record.cpu.pop_front();
+}
+
+void Gatherer::take(const supervisor_state_t& m) {
+  view_.state = {m.header.utime, state_name(m.state), level_name(m.level), m.since_utime, m.cause, m.quantity,
+                 m.value,        m.threshold,         m.hazard_stops,      m.faults};
+}
+
+void Gatherer::take(const fault_t& m) {
+  const auto response = static_cast<size_t>(m.response);
+  if (m.standing == 0)
+    view_.faults.erase(m.id);
+  else
+    view_.faults[m.id] = {m.value, m.limit, response < kResponses.size() ? kResponses[response] : "?"};
+}
+
+void Gatherer::take(const drive_permit_t& m) {
+  view_.permit = {m.granted == 1, m.max_speed_mps, m.reason};
+}
+
+void Gatherer::take(const pose_t& m) {
+  const Eigen::Isometry3d T_odom_body = pose_from(m.position_odom_body_m, m.quat_odom_body_wxyz);
+  const Eigen::Isometry3d T_map_odom = pose_from(m.position_map_odom_m, m.quat_map_odom_wxyz);
+  const Eigen::Isometry3d T_map_body = T_map_odom * T_odom_body;
+  PoseView& pose = view_.pose;
+  pose.utime = m.header.utime;
+  pose.status = m.status;
+  pose.position_map_m = T_map_body.translation();
+  const Eigen::Vector3d rpy = rpy_of(T_odom_body.rotation());
+  pose.roll_rad = rpy.x();
+  pose.pitch_rad = rpy.y();
+  pose.yaw_rad = yaw_of(T_map_body);
+  pose.speed_mps = m.velocity_body_mps[0];
+  pose.sigma_m = std::sqrt(std::max(m.covariance[0], m.covariance[7]));
+  pose.travelled_m = m.travelled_m;
+  pose.map_odom = planar(T_map_odom);
+  poses_.emplace_back(m.header.utime, planar(T_odom_body));
+  while (poses_.front().first < m.header.utime - kPoseHistory) poses_.pop_front();
+}
+
+void Gatherer::take(const planner_status_t& m) {
+  view_.planner = {m.state, m.blocked_in_m, m.goal_distance_m, m.corridor_offset_m, m.replans, m.text};
+}
+
+void Gatherer::take(const control_status_t& m) {
+  view_.motion.cross_track_m = m.cross_track_m;
+  view_.motion.corridor_half_width_m = m.corridor_half_width_m;
+}
+
+void Gatherer::take(const slip_t& m) {
+  view_.motion.slip_ratio = m.valid == 1 ? m.slip_ratio : kNaN;
+}
+
+void Gatherer::take(const wheel_state_t& m) {
+  for (size_t i = 0; i < 6; ++i)
+    view_.motion.drive_current_a[i] = std::fmax(view_.motion.drive_current_a[i], std::abs(m.drive_current_a[i]));
+  std::copy(std::begin(m.steer_angle_rad), std::end(m.steer_angle_rad), view_.motion.steer_rad.begin());
+}
+
+void Gatherer::take(const path_t& m) {
+  if (m.frame != path_t::ODOM || m.path_id == view_.path.id) return;
+  view_.path = {m.path_id, m.kind, m.x_m, m.y_m};
+}
+
+GridContent& Gatherer::place(const std::string& name, const header_t& header, const Pose2& odom, double cell_m,
+                             double x_m, double y_m, int nx, int ny) {
+  GridView& grid = view_.grids[name];
+  grid.seq = header.utime;
+  grid.utime = header.utime;
+  grid.odom = odom;
+  grid.cell_m = cell_m;
+  grid.origin_x_m = x_m;
+  grid.origin_y_m = y_m;
+  grid.cells_x = nx;
+  grid.cells_y = ny;
+  return grids_[name] = {header.utime, nx, ny, cell_m, {}, {}};
+}
+
+void Gatherer::take(const hazards_t& m) {
+  if (!sane(m.cells_x, m.cells_y, m.cells.size(), m.cell_m)) return;
+  place("hazards", m.header, odom_at(m.header.utime), m.cell_m, m.origin_x_m, m.origin_y_m, m.cells_x, m.cells_y)
+      .cells = m.cells;
+  GridView& grid = view_.grids["hazards"];
+  grid.note = m.state == hazards_t::BLIND ? "blind" : m.state == hazards_t::HAZARD ? "hazard" : "clear";
+  grid.plane_pitch_rad = m.plane_pitch_rad;
+  grid.plane_roll_rad = m.plane_roll_rad;
+  choose_loccam();
+}
+
+void Gatherer::take(const traversability_t& m) {
+  if (!sane(m.cells_x, m.cells_y, m.cells.size(), m.cell_m)) return;
+  place("traversability", m.header, {}, m.cell_m, m.origin_x_m, m.origin_y_m, m.cells_x, m.cells_y).cells = m.cells;
+}
+
+void Gatherer::take(const elevation_t& m) {
+  if (!sane(m.cells_x, m.cells_y, m.height_m.size(), m.cell_m)) return;
+  place("elevation", m.header, {}, m.cell_m, m.origin_x_m, m.origin_y_m, m.cells_x, m.cells_y).heights_m = m.height_m;
+}
+
+void Gatherer::take_loccam(const image_t& message) {
+  loccam_.push_back(std::make_shared<const image_t>(message));
+  if (loccam_.size() > kImagesKept) loccam_.pop_front();
+  choose_loccam();
+}
+
+void Gatherer::take_navcam(const image_t& message) {
+  show("navcam", std::make_shared<const image_t>(message));
+}
+
+// The image that the newest hazards were found in; where none come, the newest.
+void Gatherer::choose_loccam() {
+  if (loccam_.empty()) return;
+  const auto grid = view_.grids.find("hazards");
+  const Utime judged = grid == view_.grids.end() ? kNever : grid->second.utime;
+  const auto same =
+      std::find_if(loccam_.begin(), loccam_.end(), [&](const auto& i) { return i->header.utime == judged; });
+  if (same != loccam_.end())
+    show("loccam", *same);
+  else if (loccam_.back()->header.utime - judged > kHazardsAwaited)
+    show("loccam", loccam_.back());
+}
+
+void Gatherer::show(const std::string& name, const std::shared_ptr<const image_t>& image) {
+  if (image->width <= 0 || image->height <= 0 || image->encoding != image_t::MONO8 ||
+      image->data.size() != static_cast<size_t>(image->width) * static_cast<size_t>(image->height))
+    return;
+  images_[name] = image;
+  view_.images[name] = {image->header.utime, image->header.utime, image->width, image->height};
+}
+
+void Gatherer::take(const disparity_t& message) {
+  camera_ = camera_from(message);
+}
+
+void Gatherer::take(const truth_t& m) {
+  const Eigen::Isometry3d T = pose_from(m.position_map_body_m, m.quat_map_body_wxyz);
+  truth_ = {m.header.utime, T.translation(), yaw_of(T)};
+}
+
+Pose2 Gatherer::odom_at(Utime utime) const {
+  const auto at = std::find_if(poses_.begin(), poses_.end(), [utime](const auto& p) { return p.first >= utime; });
+  if (at != poses_.end()) return at->second;
+  return poses_.empty() ? Pose2{kNaN, kNaN, kNaN} : poses_.back().second;
+}
+
+ServiceView Gatherer::view_of(const ServiceRecord& record) const {
+  ServiceView out;
+  if (record.heard == kNever) {
+    if (first_tick_ != kNever && to_seconds(view_.now - first_tick_) > kWaitS) out.health = Health::kLost;
+    return out;
+  }
+  out.age_s = std::max(0.0, to_seconds(view_.now - record.heard));
+  out.rss_mb = record.rss_mb;
+  out.text = record.text;
+  if (record.boot_id < kMostBoots) out.restarts = static_cast<int>(record.boot_id) - 1;
+  const auto& [wall_0, cpu_0] = record.cpu.front();
+  const auto& [wall_1, cpu_1] = record.cpu.back();
+  if (wall_1 - wall_0 > 0.3) out.cpu_percent = 100.0 * (cpu_1 - cpu_0) / (wall_1 - wall_0);
+  const bool lost = out.age_s > kLostS || !process_alive(record.pid);
+  out.health = lost                                     ? Health::kLost
+               : record.status == heartbeat_t::OK       ? Health::kOk
+               : record.status == heartbeat_t::DEGRADED ? Health::kDegraded
+                                                        : Health::kFault;
+  return out;
+}
+
+View Gatherer::view(double wall_s) {
+  if (!ticks_.empty()) {
+    const double span_s = wall_s - ticks_.front().second;
+    view_.silence_s = wall_s - ticks_.back().second;
+    view_.realtime_factor = span_s > 0.5 ? to_seconds(ticks_.back().first - ticks_.front().first) / span_s : kNaN;
+  }
+  for (const auto& [name, record] : services_) view_.services[name] = view_of(record);
+  View out = view_;
+  view_.motion.drive_current_a.fill(kNaN);
+  return out;
+}
+
+std::optional<GridContent> Gatherer::grid(const std::string& name) const {
+  const auto found = grids_.find(name);
+  if (found == grids_.end()) return std::nullopt;
+  return found->second;
+}
+
+std::shared_ptr<const image_t> Gatherer::image(const std::string& name) const {
+  const auto found = images_.find(name);
+  return found == images_.end() ? nullptr : found->second;
+}
+
+}  // namespace rover::mission

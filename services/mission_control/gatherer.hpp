@@ -1,0 +1,106 @@
+// Gathers the newest of each message into what the page shows. Wall time is an argument, in seconds of a steady clock.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <rover/control_status_t.hpp>
+#include <rover/disparity_t.hpp>
+#include <rover/drive_permit_t.hpp>
+#include <rover/elevation_t.hpp>
+#include <rover/fault_t.hpp>
+#include <rover/hazards_t.hpp>
+#include <rover/heartbeat_t.hpp>
+#include <rover/image_t.hpp>
+#include <rover/path_t.hpp>
+#include <rover/planner_status_t.hpp>
+#include <rover/pose_t.hpp>
+#include <rover/slip_t.hpp>
+#include <rover/supervisor_state_t.hpp>
+#include <rover/tick_t.hpp>
+#include <rover/traversability_t.hpp>
+#include <rover/truth_t.hpp>
+#include <rover/wheel_state_t.hpp>
+
+#include "common/core/image.hpp"
+#include "mission_control/view.hpp"
+
+namespace rover::mission {
+
+struct GridContent {
+  std::int64_t seq = 0;
+  int cells_x = 0;
+  int cells_y = 0;
+  double cell_m = 0.0;
+  std::vector<std::uint8_t> cells;  // hazards, traversability
+  std::vector<float> heights_m;     // elevation
+};
+
+class Gatherer {
+ public:
+  // `services`: those that have to be there.
+  explicit Gatherer(const std::vector<std::string>& services);
+
+  // Forgets all but the camera: what was heard long ago says nothing about now.
+  void begin();
+  void take(const tick_t& message, double wall_s);
+  void take(const heartbeat_t& message, double wall_s);
+  void take(const supervisor_state_t& message);
+  void take(const fault_t& message);
+  void take(const drive_permit_t& message);
+  void take(const pose_t& message);
+  void take(const planner_status_t& message);
+  void take(const control_status_t& message);
+  void take(const slip_t& message);
+  void take(const wheel_state_t& message);
+  void take(const path_t& message);
+  void take(const hazards_t& message);
+  void take(const traversability_t& message);
+  void take(const elevation_t& message);
+  void take_loccam(const image_t& message);
+  void take_navcam(const image_t& message);
+  void take(const disparity_t& message);
+  void take(const truth_t& message);
+
+  // The largest currents begin anew with each.
+  View view(double wall_s);
+  const TruthView& truth() const { return truth_; }
+  const LocalPathView& path() const { return view_.path; }
+  // Rectified LocCam; none before it was heard.
+  const std::optional<StereoCamera>& camera() const { return camera_; }
+
+  // What a picture is made of; empty: not heard.
+  std::optional<GridContent> grid(const std::string& name) const;
+  std::shared_ptr<const image_t> image(const std::string& name) const;
+
+ private:
+  struct ServiceRecord {
+    Utime heard = kNever;
+    std::int64_t boot_id = 0;
+    int pid = 0;
+    int status = heartbeat_t::OK;
+    double rss_mb = kNaN;
+    std::string text;
+    std::deque<std::pair<double, double>> cpu;  // wall time, processor time
+  };
+  ServiceView view_of(const ServiceRecord& record) const;
+  Pose2 odom_at(Utime utime) const;
+  void choose_loccam();
+  void show(const std::string& name, const std::shared_ptr<const image_t>& image);
+  GridContent& place(const std::string& name, const header_t& header, const Pose2& odom, double cell_m, double x_m,
+                     double y_m, int nx, int ny);
+
+  std::vector<std::string> expected_;
+  Utime first_tick_ = kNever;
+  View view_;
+  TruthView truth_;
+  std::optional<StereoCamera> camera_;
+  std::map<std::string, ServiceRecord> services_;
+  std::deque<std::pair<Utime, double>> ticks_;         // with wall time
+  std::deque<std::pair<Utime, Pose2>> poses_;          // odom
+  std::deque<std::shared_ptr<const image_t>> loccam_;  // waiting for their hazards
+  std::map<std::string, GridContent> grids_;
+  std::map<std::string, std::shared_ptr<const image_t>> images_;
+};
+
+}  // namespace rover::mission

@@ -1,0 +1,114 @@
+// Ties the page together: one stream of views, five a second, handed to the parts that show them.
+import { createMap } from "/map.js";
+import { createPanels } from "/panels.js";
+import { createCharts } from "/charts.js";
+import { createCamera } from "/camera.js";
+import { createCommands } from "/commands.js";
+
+const byId = (id) => document.getElementById(id);
+export const getJson = async (url) => {
+  const response = await fetch(url);
+  if (!response.ok) throw new Error(`${url}: ${response.status}`);
+  return response.json();
+};
+
+let setup = null;
+let parts = null;
+let source = null;
+let truthWanted = false;
+let newestEvent = 0;
+let paths = { global: null, local: null };
+let fetching = false;
+
+function showLink(state, text) {
+  byId("link").className = `link ${state}`;
+  byId("link").textContent = text;
+}
+
+function showVeil(text) {
+  byId("veil").hidden = !text;
+  byId("veil").firstElementChild.textContent = text || "";
+}
+
+// Another run has begun under the same address: everything starts anew.
+async function begin() {
+  const fresh = await getJson("/api/setup");
+  if (setup && fresh.run !== setup.run) return location.reload();
+  setup = fresh;
+  byId("run").textContent = setup.run;
+  document.title = `Mission control · ${setup.run}`;
+  byId("no-map").hidden = setup.map !== null;
+  if (!parts) {
+    const map = createMap(setup, { onTruth: (on) => { truthWanted = on; openStream(); } });
+    const charts = createCharts(setup);
+    parts = { map, charts, camera: createCamera(setup), commands: createCommands(setup, map, charts) };
+    parts.panels = createPanels(setup, parts.commands);
+  }
+  const history = await getJson("/api/history");
+  parts.map.setTrack(history.track);
+  parts.panels.setEvents(history.events);
+  parts.charts.setTrend(history.trend);
+  newestEvent = history.events.length ? history.events.at(-1).id : 0;
+  paths = { global: null, local: null };
+}
+
+// What is told by number alone is fetched when the number is new.
+async function fetchNews(view) {
+  if (fetching) return;
+  fetching = true;
+  try {
+    if (view.book.event > newestEvent) {
+      const events = await getJson(`/api/events?after=${newestEvent}`);
+      newestEvent = events.length ? events.at(-1).id : view.book.event;
+      parts.panels.addEvents(events);
+    } else if (view.book.event < newestEvent) {
+      await begin();
+    }
+    if (view.book.path !== paths.global || view.path !== paths.local) {
+      const found = await getJson("/api/paths");
+      paths = { global: found.global.id, local: found.local.id };
+      parts.map.setPaths(found);
+    }
+  } finally {
+    fetching = false;
+  }
+}
+
+function show(view) {
+  showLink("up", view.book.pages > 1 ? `live · ${view.book.pages} pages` : "live");
+  const stands = view.silence_s === null ? null : view.silence_s > 2.5;
+  showVeil(stands ? `The rover's time stands still since ${view.silence_s.toFixed(0)} s` : "");
+  parts.map.show(view);
+  parts.panels.show(view);
+  parts.charts.show(view);
+  parts.camera.show(view);
+  parts.commands.show(view);
+  fetchNews(view).catch(() => {});
+}
+
+function openStream() {
+  if (source) source.close();
+  source = new EventSource(`/api/stream?truth=${truthWanted ? 1 : 0}`);
+  source.addEventListener("view", (event) => show(JSON.parse(event.data)));
+  source.addEventListener("truth", (event) => parts.map.showTruth(JSON.parse(event.data)));
+  source.onerror = () => {
+    source.close();
+    showLink("down", "no connection");
+    showVeil("No connection to mission control. Trying again …");
+    setTimeout(start, 1000);
+  };
+}
+
+async function start() {
+  try {
+    await begin();
+    showVeil("");
+    openStream();
+  } catch {
+    showLink("down", "no connection");
+    showVeil("No connection to mission control. Trying again …");
+    setTimeout(start, 1000);
+  }
+}
+
+start();

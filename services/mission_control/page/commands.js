@@ -1,0 +1,126 @@
+// The operator's commands: each is answered, and the answer is shown.
+const byId = (id) => document.getElementById(id);
+const words = (name) => name.replaceAll("_", " ");
+const describe = (c) => [words(c.command), c.level && c.command === "force_level" ? c.level : "", c.service || c.fault || ""].filter(Boolean).join(" ");
+
+async function post(url, body) {
+  const response = await fetch(url, { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(body) });
+  return response.json();
+}
+
+function toast(text, good) {
+  const box = document.createElement("div");
+  box.className = `toast ${good ? "" : "bad"}`;
+  box.textContent = text;
+  byId("toasts").append(box);
+  setTimeout(() => box.remove(), 4500);
+}
+
+// Way-points of a file: GeoJSON, a JSON list, or lines "x, y". Metres of the map.
+export function readWayPoints(text) {
+  const numbers = (list) => list.map((p) => [Number(p[0]), Number(p[1])]);
+  const find = (node) => {
+    if (Array.isArray(node)) return numbers(node);
+    if (node.type === "FeatureCollection") return find(node.features.find((f) => f.geometry.type === "LineString"));
+    if (node.type === "Feature") return find(node.geometry);
+    if (node.type === "LineString") return numbers(node.coordinates);
+    if (node.points) return numbers(node.points);
+    if (node.x_m) return node.x_m.map((x, i) => [Number(x), Number(node.y_m[i])]);
+    return [];
+  };
+  const points = /^\s*[[{]/.test(text) ? find(JSON.parse(text))
+    : numbers(text.split("\n").map((row) => row.trim().split(/[,;\s]+/)).filter((row) => row.length >= 2 && !Number.isNaN(Number(row[0]))));
+  if (points.length < 2 || !points.flat().every(Number.isFinite)) throw new Error("at least two way-points x, y are expected");
+  return points;
+}
+
+export function createCommands(setup, map, charts) {
+  async function give(command) {
+    const what = describe(command);
+    const note = byId("answer");
+    note.className = "note";
+    note.textContent = `${what} …`;
+    let result;
+    try {
+      result = await post("/api/command", command);
+    } catch {
+      result = { accepted: false, reason: "no answer: the connection is lost" };
+    }
+    const text = result.accepted ? `${what}: accepted` : `${what}: refused, ${words(result.reason || "no reason given")}`;
+    note.textContent = text;
+    note.className = `note ${result.accepted ? "good" : "bad"}`;
+    toast(text, result.accepted);
+    return result;
+  }
+
+  for (const button of document.querySelectorAll("[data-command]"))
+    button.addEventListener("click", () => give({ command: button.dataset.command }));
+  byId("levels").addEventListener("click", ({ target }) => {
+    if (target.dataset.level) give({ command: "force_level", level: target.dataset.level });
+  });
+
+  // Drawing a path.
+  const tools = { draw: byId("draw"), load: byId("load"), undo: byId("undo"), send: byId("send"), cancel: byId("cancel") };
+  const info = byId("path-info");
+  let checked = 0;
+
+  function drawing(on) {
+    tools.draw.hidden = tools.load.hidden = on;
+    tools.undo.hidden = tools.send.hidden = tools.cancel.hidden = info.hidden = !on;
+    tools.send.disabled = true;
+    if (!on) {
+      map.sketch.end();
+      charts.showProfile(null);
+    }
+  }
+  function say(text, tone) {
+    info.textContent = text;
+    info.className = `note ${tone || ""}`;
+  }
+
+  async function check() {
+    const number = ++checked, points = map.sketch.points();
+    tools.send.disabled = true;
+    if (points.length < 2) return say("Click way-points on the map.");
+    const found = await post("/api/check", { points });
+    if (number !== checked) return;
+    map.sketch.draw(found);
+    if (found.inside === undefined) return say(words(found.reason), "bad");
+    if (!found.inside) return say("The path leaves the map.", "bad");
+    charts.showProfile(found);
+    const figures = `${found.length_m.toFixed(1)} m, slope up to ${found.max_slope_deg.toFixed(1)}°`;
+    if (!found.passable) return say(`${figures}: more than ${setup.path.most_slope_deg}°.`, "bad");
+    tools.send.disabled = false;
+    say(figures, found.max_slope_deg > setup.path.warn_slope_deg ? "warn" : "good");
+  }
+
+  tools.draw.onclick = () => { drawing(true); map.sketch.begin(check); say("Click way-points on the map."); };
+  tools.undo.onclick = () => map.sketch.undo();
+  tools.cancel.onclick = () => drawing(false);
+  tools.send.onclick = async () => {
+    const result = await give({ command: "path", points: map.sketch.points() });
+    if (result.accepted) drawing(false);
+  };
+  tools.load.onclick = () => byId("file").click();
+  byId("file").onchange = async ({ target }) => {
+    const file = target.files[0];
+    target.value = "";
+    if (!file) return;
+    try {
+      const points = readWayPoints(await file.text());
+      drawing(true);
+      map.sketch.load(points, check);
+    } catch (error) {
+      toast(`${file.name}: ${error.message}`, false);
+    }
+  };
+
+  return {
+    give,
+    show(view) {
+      byId("clear-safe").hidden = view.state.name !== "SAFE";
+      const forced = (view.book.forced || "auto").toLowerCase();
+      for (const button of byId("levels").children) button.classList.toggle("on", button.dataset.level === forced);
+    },
+  };
+}

@@ -1,0 +1,89 @@
+// The page over HTTP: its files, the stream of views, pictures, and the operator's commands.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "mission_control/broadcaster.hpp"
+#include "mission_control/config.hpp"
+#include "mission_control/pictures.hpp"
+
+namespace httplib {
+class Server;
+struct Request;
+struct Response;
+}  // namespace httplib
+
+namespace rover::mission {
+
+// What the page is about, beside its configuration.
+struct PageContext {
+  std::string run_dir;   // holds orbital_map.tif; empty: no map
+  std::string run_name;  // changes with the run, not with a restart of the service
+  bool allow_injection = false;
+  std::vector<std::string> services;
+  double rover_length_m = 1.75;
+  nlohmann::json setup;
+  // Does a fault to a service; false where that is not possible.
+  std::function<bool(const std::string& service, CommandKind kind)> inject;
+};
+
+class PageServer {
+ public:
+  PageServer(PageConfig config, PageContext context, Station& station, lcm::LCM& bus);
+  ~PageServer();
+  PageServer(const PageServer&) = delete;
+  PageServer& operator=(const PageServer&) = delete;
+
+  // Serves in threads of its own. Where the address is not to be had it is tried again each second.
+  void start();
+  // Often, in the thread that handles the bus.
+  void attend() { ear_.attend(wall_seconds()); }
+  // Whether it is being served.
+  bool serving() const;
+
+ private:
+  using Request = httplib::Request;
+  using Response = httplib::Response;
+
+  void serve();
+  void add_routes();
+  void add_files();
+  void add_state();
+  void add_pictures();
+  bool guard(const Request& request, Response& response) const;
+  bool greet(const Request& request, Response& response) const;
+  void stream(const Request& request, Response& response);
+  void command(const Request& request, Response& response);
+  void give(const Command& command, Response& response);
+  void inject(const Command& command, Response& response);
+  void check(const Request& request, Response& response);
+  std::string path_problem(const Command& command);
+  nlohmann::json setup();
+  nlohmann::json history();
+  // Read when it is first asked for; null where there is none.
+  const GroundMap* ground();
+
+  PageConfig config_;
+  PageContext context_;
+  Station& station_;
+  Audience audience_;
+  Ear ear_;
+  Pictures pictures_;
+  Broadcaster broadcaster_;
+  std::mutex ground_mutex_;
+  bool ground_looked_for_ = false;
+  std::unique_ptr<GroundMap> ground_;
+  std::map<std::string, std::vector<std::uint8_t>> map_pictures_;
+  std::unique_ptr<httplib::Server> server_;
+  std::atomic<bool> running_ = true;
+  std::atomic<bool> ended_ = true;  // the thread has, or was never begun
+  std::thread thread_;
+};
+
+}  // namespace rover::mission

@@ -1,0 +1,32 @@
+// Pictures of grids and cameras for the page, each made once for all pages, and in the thread that asks for it.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+
+#include "mission_control/gatherer.hpp"
+
+namespace rover::mission {
+
+class Pictures {
+ public:
+  using Bytes = std::shared_ptr<const std::vector<std::uint8_t>>;
+  // PNG with transparency.
+  Bytes grid(const std::string& name, const GridContent& content);
+  // JPEG.
+  Bytes camera(const std::string& name, const image_t& image);
+
+ private:
+  struct Made {
+    std::int64_t seq = 0;
+    Bytes bytes;
+  };
+  template <class Make>
+  Bytes made_once(const std::string& name, std::int64_t seq, Make make);
+
+  std::mutex mutex_;
+  std::map<std::string, Made> made_;
+};
+
+}  // namespace rover::mission

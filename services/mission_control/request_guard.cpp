@@ -1,0 +1,67 @@
+#include "mission_control/request_guard.hpp"
+
+#include <array>
+
+namespace rover::mission {
+namespace {
+
+constexpr std::array kLoopback = {"127.0.0.1", "localhost", "::1"};
+
+std::string with_port(const std::string& address, int port) {
+  const bool v6 = address.find(':') != std::string::npos;
+  return (v6 ? "[" + address + "]" : address) + ":" + std::to_string(port);
+}
+
+// Behind a token the host may have any name: another site's page has no cookie of ours, whatever it calls us.
+bool host_is_ours(const GuardConfig& config, const std::string& host) {
+  if (!config.token.empty()) return !host.empty();
+  for (const char* name : kLoopback)
+    if (host == with_port(name, config.port)) return true;
+  return false;
+}
+
+Verdict judge_change(const RequestFacts& request) {
+  if (request.origin != "http://" + request.host) return {403, "not from this page (Origin)"};
+  if (!request.fetch_site.empty() && request.fetch_site != "same-origin")
+    return {403, "not from this page (Sec-Fetch-Site)"};
+  if (request.content_type.rfind("application/json", 0) != 0) return {415, "application/json is expected"};
+  return {};
+}
+
+}  // namespace
+
+bool is_loopback(const std::string& address) {
+  for (const char* name : kLoopback)
+    if (address == name) return true;
+  return false;
+}
+
+Verdict judge(const GuardConfig& config, const RequestFacts& request) {
+  if (!host_is_ours(config, request.host)) return {403, "not the address of this page (Host)"};
+  if (!config.token.empty() && !same_secret(request.token, config.token))
+    return {401, "a token is needed: open the page once as /?token=..."};
+  if (request.method == "GET" || request.method == "HEAD") return {};
+  if (request.method == "POST") return judge_change(request);
+  return {405, "GET and POST alone"};
+}
+
+bool same_secret(const std::string& a, const std::string& b) {
+  unsigned difference = a.size() == b.size() ? 0 : 1;
+  for (size_t i = 0; i < b.size(); ++i)
+    difference |= static_cast<unsigned char>(b[i]) ^ static_cast<unsigned char>(i < a.size() ? a[i] : 0);
+  return difference == 0;
+}
+
+std::string cookie(const std::string& header, const std::string& name) {
+  const std::string key = name + "=";
+  for (size_t at = 0; at < header.size();) {
+    size_t end = header.find(';', at);
+    if (end == std::string::npos) end = header.size();
+    while (at < end && header[at] == ' ') ++at;
+    if (header.compare(at, key.size(), key) == 0) return header.substr(at + key.size(), end - at - key.size());
+    at = end + 1;
+  }
+  return "";
+}
+
+}  // namespace rover::mission

@@ -1,0 +1,225 @@
+#!/usr/bin/python3
+"""What an operator does with the page, done by Chromium on a live run. Called by browser_test.sh."""
+
+import argparse
+import json
+import pathlib
+import subprocess
+import sys
+import time
+import urllib.error
+import urllib.request
+
+from selenium import webdriver
+from selenium.webdriver.chrome.options import Options
+from selenium.webdriver.chrome.service import Service
+from selenium.webdriver.common.by import By
+
+PATIENCE_S = 600.0  # of wall time: a run on a loaded machine may be slower than real time
+
+
+def wait_for(what, condition, patience_s=PATIENCE_S):
+    end = time.monotonic() + patience_s
+    while time.monotonic() < end:
+        value = condition()
+        if value:
+            print(f"ok: {what}", flush=True)
+            return value
+        time.sleep(0.1)
+    sys.exit(f"FAIL: {what}: not within {patience_s:.0f} s")
+
+
+def check(what, holds):
+    if not holds:
+        sys.exit(f"FAIL: {what}")
+    print(f"ok: {what}", flush=True)
+
+
+class Page:
+    def __init__(self, url, width, height):
+        options = Options()
+        for argument in ["--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--disable-dev-shm-usage"]:
+            options.add_argument(argument)
+        # Nothing but this machine is there: a page that needs more would show it.
+        options.add_argument("--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1")
+        options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+        self.driver = webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)
+        self.resize(width, height)
+        self.driver.get(url)
+
+    def resize(self, width, height):
+        metrics = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 600}
+        self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", metrics)
+
+    def script(self, text, *arguments):
+        return self.driver.execute_script(text, *arguments)
+
+    def text(self, element_id):
+        return self.script("return document.getElementById(arguments[0]).textContent", element_id)
+
+    def click(self, selector):
+        self.driver.find_element(By.CSS_SELECTOR, selector).click()
+
+    def number(self, element_id):
+        try:
+            return float(self.text(element_id).split()[0])
+        except (ValueError, IndexError):
+            return float("nan")
+
+    def service(self, name):
+        return self.script("const r = document.querySelector(`tr[data-service=${arguments[0]}]`); return r && r.className",
+                           name)
+
+    def events(self):
+        return self.script("return [...document.querySelectorAll('#events li span')].map((e) => e.textContent)")
+
+    def click_map(self, x, y):
+        """At these shares of the map's width and height."""
+        self.script("""
+            const map = document.getElementById("map"), box = map.getBoundingClientRect();
+            const at = { clientX: box.left + arguments[0] * box.width, clientY: box.top + arguments[1] * box.height,
+                         bubbles: true, view: window };
+            for (const type of ["mousedown", "mouseup", "click"]) map.dispatchEvent(new MouseEvent(type, at));
+        """, x, y)
+
+    def picture(self, path):
+        time.sleep(1.0)
+        self.driver.save_screenshot(str(path))
+
+    def overlaps(self):
+        """Panels that cover each other or reach beyond the page, and texts cut off."""
+        return self.script("""
+            const found = [], panels = [...document.querySelectorAll(".panel, header")].filter((p) => p.offsetParent !== null);
+            const boxes = panels.map((p) => p.getBoundingClientRect());
+            boxes.forEach((a, i) => {
+              const name = panels[i].className || "header";
+              if (a.left < -1 || a.right > innerWidth + 1) found.push(`${name} beyond the page`);
+              if (a.width < 60 || a.height < 30) found.push(`${name} too small`);
+              boxes.forEach((b, k) => {
+                if (k > i && a.left < b.right - 1 && b.left < a.right - 1 && a.top < b.bottom - 1 && b.top < a.bottom - 1)
+                  found.push(`${name} over ${panels[k].className || "header"}`);
+              });
+            });
+            for (const e of document.querySelectorAll("button, .chip, dd, dt, h2, .gauge .name, .gauge .value"))
+              if (e.offsetParent !== null && e.scrollWidth > e.clientWidth + 1 && e.clientWidth > 0)
+                found.push(`cut off: ${e.textContent}`);
+            return found;
+        """)
+
+    def complaints(self):
+        return [entry["message"] for entry in self.driver.get_log("browser") if entry["level"] == "SEVERE"]
+
+
+def is_up(url):
+    try:
+        return urllib.request.urlopen(url, timeout=1).status == 200
+    except (urllib.error.URLError, OSError):
+        return False
+
+
+def post(url, body, headers):
+    request = urllib.request.Request(url, json.dumps(body).encode(), {"Content-Type": "application/json", **headers})
+    try:
+        return urllib.request.urlopen(request, timeout=5).status
+    except urllib.error.HTTPError as error:
+        return error.code
+
+
+def begun(run):
+    """When the services were begun: s6 makes each one's folder of supervision then."""
+    path = run / "boots" / "mission_control"
+    return path.stat().st_mtime if path.exists() else None
+
+
+def kill_service(run, name):
+    subprocess.run(["s6-svc", "-k", str(run / "services" / name)], check=True)
+
+
+def drive(page, second, url, run, pictures):
+    wait_for("the rover drives", lambda: page.text("state") == "DRIVING")
+    wait_for("the rover moves on the map", lambda: page.number("driven") > 2.0)
+    check("a second page sees the same", second.text("state") == page.text("state") and second.number("driven") > 1.5)
+    wait_for("both pages are counted", lambda: "2 pages" in page.text("link"))
+    wait_for("the camera's picture and the limits are shown", lambda: "old" in page.text("camera-age") and
+             "°" in page.script("return document.querySelector('#gauges').textContent"))
+
+    check("no panel covers another at 1440x900", page.overlaps() == [] or print(page.overlaps()))
+    page.picture(pictures / "page.png")
+    second.resize(390, 844)
+    time.sleep(1.0)
+    check("nor at phone width", second.overlaps() == [] or print(second.overlaps()))
+    second.picture(pictures / "page_phone.png")
+
+    page.click("[data-level=efficient]")
+    wait_for("a forced level is answered", lambda: "force level efficient: accepted" in page.text("answer"))
+    wait_for("and shown", lambda: "forced" in page.text("level") and "forced" in second.text("level"))
+    wait_for("with its place in the events", lambda: any("force level efficient accepted" in e for e in page.events()))
+    page.click("[data-level=full]")
+    wait_for("a level that is not to be had is refused with the reason",
+             lambda: "refused" in page.text("answer") or "FULL" in page.text("level"))
+    page.click("[data-level=auto]")
+    wait_for("the level is the rover's own again", lambda: "forced" not in page.text("level"))
+
+    page.click("tr[data-service=stereo] td.inject button")
+    wait_for("a killed service is red", lambda: page.service("stereo") == "lost")
+    wait_for("and green again", lambda: page.service("stereo") == "ok")
+    wait_for("and it is noted", lambda: any("stereo is back" in e for e in page.events()))
+
+    driven = page.number("driven")
+    kill_service(run, "mission_control")
+    wait_for("the page outlives its own server", lambda: page.text("link").startswith("live") and
+             page.number("driven") > driven + 0.5)
+    check("which has kept the events", any("go accepted" in e for e in page.events()))
+    check("and does not begin the drive anew", page.number("togo") < 86.0 - driven + 3.0)
+
+    page.click(".stop")
+    wait_for("stop stops", lambda: page.text("state") == "STANDBY" and page.text("permit") == "no permit")
+    wait_for("and the rover stands", lambda: abs(page.number("speed")) < 0.01)
+    wait_for("the second page sees it", lambda: second.text("state") == "STANDBY")
+    standing = page.number("driven")
+
+    page.click("#draw")
+    for x, y in [(.60, .50), (.68, .52), (.76, .50)]:
+        page.click_map(x, y)
+    wait_for("a drawn path is checked against the slope", lambda: "slope up to" in page.text("path-info"))
+    page.picture(pictures / "page_drawing.png")
+    wait_for("and may be sent", lambda: page.script("return !document.getElementById('send').disabled"))
+    page.click("#send")
+    wait_for("it is accepted", lambda: "path: accepted" in page.text("answer"))
+    wait_for("and is the way to go now", lambda: page.number("togo") < 30.0)
+    check("but does not move the rover by itself", page.text("state") == "STANDBY")
+    page.click("[data-command=go]")
+    wait_for("it is driven", lambda: page.number("driven") > standing + 2.0)
+
+    moving = page.number("driven")
+    headers = {"Origin": "http://evil.example", "Sec-Fetch-Site": "cross-site"}
+    check("another site's command is refused", post(f"{url}api/command", {"command": "stop"}, headers) == 403)
+    wait_for("and changes nothing", lambda: page.number("driven") > moving + 0.3)
+
+    page.click("#emergency")
+    wait_for("the emergency stop leads to SAFE", lambda: page.text("state") == "SAFE")
+    check("out of which GO is refused", page.click("[data-command=go]") or wait_for(
+        "with the reason", lambda: "go: refused, not possible in SAFE" in page.text("answer")))
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--port", type=int, required=True)
+    parser.add_argument("--run", type=pathlib.Path, required=True)
+    parser.add_argument("--pictures", type=pathlib.Path, required=True)
+    arguments = parser.parse_args()
+    url = f"http://127.0.0.1:{arguments.port}/"
+    wait_for("the page is up", lambda: is_up(url))
+    print(f"page up {time.time() - begun(arguments.run):.1f} s after its service was started", flush=True)
+    pages = []
+    try:
+        pages = [Page(url, 1440, 900), Page(url, 1440, 900)]
+        drive(*pages, url, arguments.run, arguments.pictures)
+        loud = [c for c in pages[0].complaints() if "api/command" not in c and "ERR_" not in c]
+        check("the browser has nothing to complain about", loud == [] or print(loud))
+    finally:
+        for page in pages:
+            page.driver.quit()
+
+
+main()

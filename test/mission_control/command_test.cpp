@@ -1,0 +1,114 @@
+// The text of a request is one of the commands, exactly, or it is none.
+#include "mission_control/command.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+
+namespace rover::mission {
+namespace {
+
+constexpr CommandLimits kLimits;
+
+std::string error_of(const std::string& text) {
+  const ParsedCommand parsed = parse_command(text, kLimits);
+  EXPECT_NE(parsed.command.has_value(), !parsed.error.empty()) << text;
+  return parsed.error;
+}
+
+TEST(Command, EachOfThemIsUnderstood) {
+  const std::map<std::string, CommandKind> plain = {{"go", CommandKind::kGo},
+                                                    {"stop", CommandKind::kStop},
+                                                    {"pause", CommandKind::kPause},
+                                                    {"resume", CommandKind::kResume},
+                                                    {"clear_safe", CommandKind::kClearSafe},
+                                                    {"emergency_stop", CommandKind::kEmergencyStop}};
+  for (const auto& [name, kind] : plain) {
+    const auto parsed = parse_command("{\"command\": \"" + name + "\"}", kLimits);
+    ASSERT_TRUE(parsed.command) << parsed.error;
+    EXPECT_EQ(parsed.command->kind, kind);
+    EXPECT_EQ(mission::name(kind), name);
+  }
+}
+
+TEST(Command, ArgumentsAreTaken) {
+  const auto level = parse_command(R"({"command":"force_level","level":"full"})", kLimits);
+  ASSERT_TRUE(level.command);
+  EXPECT_EQ(level.command->level, Level::kFull);
+  const auto fault = parse_command(R"({"command":"clear_fault","fault":"heartbeat.stereo"})", kLimits);
+  ASSERT_TRUE(fault.command);
+  EXPECT_EQ(fault.command->target, "heartbeat.stereo");
+  const auto kill = parse_command(R"({"command":"kill","service":"stereo"})", kLimits);
+  ASSERT_TRUE(kill.command);
+  EXPECT_EQ(kill.command->target, "stereo");
+  const auto path = parse_command(R"({"command":"path","points":[[1,2],[3.5,-4]],"level":"full"})", kLimits);
+  ASSERT_TRUE(path.command);
+  ASSERT_EQ(path.command->points.size(), 2U);
+  EXPECT_EQ(path.command->points[1], Eigen::Vector2d(3.5, -4.0));
+  EXPECT_EQ(path.command->level, Level::kFull);
+}
+
+TEST(Command, WhatIsNotExactlyACommandIsRefusedInWords) {
+  const std::vector<std::string> bad = {"",
+                                        "go",
+                                        "null",
+                                        "[]",
+                                        "{}",
+                                        "{\"command\":\"go\"",
+                                        R"({"command":1})",
+                                        R"({"command":"GO"})",
+                                        R"({"command":"drive"})",
+                                        R"({"command":"go","speed":9})",
+                                        R"({"command":"go","level":"full"})",
+                                        R"({"command":"force_level"})",
+                                        R"({"command":"force_level","level":"mars"})",
+                                        R"({"command":"force_level","level":1})",
+                                        R"({"command":"clear_fault","fault":""})",
+                                        R"({"command":"clear_fault","fault":"a b"})",
+                                        R"({"command":"kill","service":"../../bin/sh"})",
+                                        R"({"command":"kill","service":"a;reboot"})",
+                                        R"({"command":"kill"})",
+                                        R"({"command":"hang","service":["stereo"]})",
+                                        R"({"command":"path"})",
+                                        R"({"command":"path","points":[]})",
+                                        R"({"command":"path","points":[[1,2]]})",
+                                        R"({"command":"path","points":[[1,2],[3]]})",
+                                        R"({"command":"path","points":[[1,2],[3,4,5]]})",
+                                        R"({"command":"path","points":[[1,2],["3",4]]})",
+                                        R"({"command":"path","points":[[1,2],[1e300,4]]})",
+                                        R"({"command":"path","points":[[1,2],[null,4]]})",
+                                        R"({"command":"path","points":[[1,2],[NaN,4]]})",
+                                        R"({"command":"path","points":[[1,2],[3,4]],"level":"auto"})",
+                                        R"({"command":"path","points":"all"})"};
+  for (const std::string& text : bad) EXPECT_FALSE(error_of(text).empty()) << text;
+}
+
+TEST(Command, TooManyWayPointsAreRefused) {
+  nlohmann::json request = {{"command", "path"}, {"points", nlohmann::json::array()}};
+  for (size_t i = 0; i < kLimits.most_points; ++i) request["points"].push_back({i, i});
+  EXPECT_EQ(error_of(request.dump()), "");
+  request["points"].push_back({0, 0});
+  EXPECT_NE(error_of(request.dump()), "");
+}
+
+TEST(Command, DeepNestingIsAnErrorLikeAnyOther) {
+  EXPECT_NE(error_of(std::string(60'000, '[')), "");
+  EXPECT_NE(error_of("{\"command\":\"path\",\"points\":" + std::string(20'000, '[') + std::string(20'000, ']') + "}"),
+            "");
+}
+
+TEST(Command, PointsForACheckHoldNothingElse) {
+  EXPECT_EQ(parse_points(R"({"points":[[1,2],[3,4]]})", kLimits).points.size(), 2U);
+  EXPECT_NE(parse_points(R"({"points":[[1,2],[3,4]],"go":1})", kLimits).error, "");
+  EXPECT_NE(parse_points(R"([[1,2],[3,4]])", kLimits).error, "");
+}
+
+TEST(Command, WhatStopsTheRoverIsKnown) {
+  EXPECT_TRUE(stops(CommandKind::kStop) && stops(CommandKind::kPause) && stops(CommandKind::kEmergencyStop));
+  for (const CommandKind kind : {CommandKind::kGo, CommandKind::kResume, CommandKind::kPath, CommandKind::kClearSafe})
+    EXPECT_FALSE(stops(kind));
+}
+
+}  // namespace
+}  // namespace rover::mission

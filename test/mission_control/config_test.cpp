@@ -1,0 +1,80 @@
+// An address that others can reach needs a token that others cannot read.
+#include "mission_control/config.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "common/bus/config.hpp"
+#include "common/bus/vehicle_config.hpp"
+
+namespace rover::mission {
+namespace {
+
+class PageConfigTest : public testing::Test {
+ protected:
+  PageConfigTest() {
+    std::string dir = std::filesystem::temp_directory_path() / "rover-page-XXXXXX";
+    dir_ = mkdtemp(dir.data());
+  }
+  ~PageConfigTest() override { std::filesystem::remove_all(dir_); }
+
+  std::string token_file(const std::string& token, mode_t mode) const {
+    const std::string file = dir_ + "/token";
+    std::ofstream(file) << token << "\n";
+    chmod(file.c_str(), mode);
+    return file;
+  }
+
+  PageConfig load(const std::string& address, const std::string& token, const std::string& more = "") const {
+    std::ofstream(dir_ + "/mission_control.yaml")
+        << "address: " << address << "\ntoken_file: \"" << token << "\"\npath: {}\n"
+        << more;
+    return load_page_config(dir_);
+  }
+
+  std::string dir_;
+};
+
+TEST_F(PageConfigTest, TheProjectsOwnIsLoopbackWithoutToken) {
+  const PageConfig config = load_page_config(ROVER_SOURCE_DIR "/config");
+  EXPECT_TRUE(config.served);
+  EXPECT_TRUE(is_loopback(config.guard.address));
+  EXPECT_TRUE(config.guard.token.empty());
+}
+
+TEST_F(PageConfigTest, AnotherAddressNeedsAToken) {
+  EXPECT_NO_THROW(load("127.0.0.1", ""));
+  EXPECT_THROW(load("0.0.0.0", ""), ConfigError);
+  EXPECT_THROW(load("192.168.1.5", ""), ConfigError);
+  EXPECT_NO_THROW(load("0.0.0.0", "", "page: false\n"));
+  EXPECT_EQ(load("0.0.0.0", token_file("0123456789abcdef", 0600)).guard.token, "0123456789abcdef");
+}
+
+TEST_F(PageConfigTest, ATokenThatOthersCanReadOrGuessIsNone) {
+  for (const mode_t mode : {0644, 0640, 0604, 0700, 0660})
+    EXPECT_THROW(load("0.0.0.0", token_file("0123456789abcdef", mode)), ConfigError) << mode;
+  EXPECT_THROW(load("0.0.0.0", token_file("short", 0600)), ConfigError);
+  EXPECT_THROW(load("0.0.0.0", token_file("", 0600)), ConfigError);
+  EXPECT_THROW(load("0.0.0.0", token_file("0123456789abcdef;Path=/", 0600)), ConfigError);
+  EXPECT_THROW(load("0.0.0.0", dir_ + "/none"), ConfigError);
+}
+
+TEST_F(PageConfigTest, UnknownKeysAndPortsOutOfRangeAreRefused) {
+  EXPECT_THROW(load("127.0.0.1", "", "colour: red\n"), ConfigError);
+  EXPECT_THROW(load("127.0.0.1", "", "port: 70000\n"), ConfigError);
+}
+
+TEST_F(PageConfigTest, TheGaugesHaveTheLimitsOfTheTableOfFaults) {
+  const std::string dir = ROVER_SOURCE_DIR "/config";
+  const auto setup = page_setup(dir, load_vehicle(dir));
+  for (const char* gauge : {"slip", "roll_deg", "pitch_deg", "current_a"}) {
+    ASSERT_TRUE(setup["gauges"][gauge]["limit"].is_number()) << gauge;
+    EXPECT_LT(setup["gauges"][gauge]["warn"], setup["gauges"][gauge]["limit"]) << gauge;
+  }
+}
+
+}  // namespace
+}  // namespace rover::mission

@@ -1,0 +1,200 @@
+// What the page shows of what the bus says.
+#include "mission_control/gatherer.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "common/bus/convert.hpp"
+#include "mission_control/pictures.hpp"
+
+namespace rover::mission {
+namespace {
+
+tick_t tick_at(Utime utime) {
+  tick_t tick{};
+  tick.header.utime = utime;
+  return tick;
+}
+
+heartbeat_t heartbeat_at(Utime utime, double cpu_s, int pid = getpid(), std::int64_t boot_id = 1) {
+  heartbeat_t out{};
+  out.header.utime = utime;
+  out.header.boot_id = boot_id;
+  out.service = "stereo";
+  out.pid = pid;
+  out.cpu_s = cpu_s;
+  return out;
+}
+
+image_t image_at(Utime utime, std::uint8_t grey) {
+  image_t image{};
+  image.header.utime = utime;
+  image.width = 16;
+  image.height = 8;
+  image.data.assign(128, grey);
+  image.size = 128;
+  return image;
+}
+
+hazards_t hazards_at(Utime utime) {
+  hazards_t out{};
+  out.header.utime = utime;
+  out.cell_m = 0.1;
+  out.cells_x = 4;
+  out.cells_y = 3;
+  out.cells.assign(12, hazards_t::FREE);
+  out.cells[0] = hazards_t::OBSTACLE;
+  out.size = 12;
+  return out;
+}
+
+Health health(Gatherer& gatherer, double wall_s) {
+  return gatherer.view(wall_s).services.at("stereo").health;
+}
+
+TEST(Gatherer, AServiceIsGreenRedAndGreenAgain) {
+  Gatherer gatherer({"stereo"});
+  EXPECT_EQ(health(gatherer, 0.0), Health::kWaiting);
+  gatherer.take(tick_at(1'000'000), 0.0);
+  gatherer.take(heartbeat_at(1'000'000, 1.0), 0.0);
+  EXPECT_EQ(health(gatherer, 0.1), Health::kOk);
+  gatherer.take(tick_at(2'500'000), 0.5);
+  EXPECT_EQ(health(gatherer, 0.5), Health::kLost) << "silent";
+  gatherer.take(heartbeat_at(2'500'000, 1.0, getpid(), 2), 0.6);
+  EXPECT_EQ(health(gatherer, 0.6), Health::kOk);
+  EXPECT_EQ(gatherer.view(0.6).services.at("stereo").restarts, 1);
+  gatherer.take(heartbeat_at(2'500'000, 1.0, 0, 2), 0.7);
+  EXPECT_EQ(health(gatherer, 0.7), Health::kLost) << "no such process";
+}
+
+TEST(Gatherer, AServiceThatNeverSpoke) {
+  Gatherer gatherer({"stereo"});
+  gatherer.take(tick_at(1'000'000), 0.0);
+  EXPECT_EQ(health(gatherer, 0.0), Health::kWaiting);
+  gatherer.take(tick_at(4'000'000), 1.0);
+  EXPECT_EQ(health(gatherer, 1.0), Health::kLost);
+}
+
+TEST(Gatherer, ProcessorTimeIsOfWallTime) {
+  Gatherer gatherer({"stereo"});
+  for (int i = 0; i <= 10; ++i) gatherer.take(heartbeat_at(i * 200'000, 0.05 * i), 0.1 * i);
+  EXPECT_NEAR(gatherer.view(1.0).services.at("stereo").cpu_percent, 50.0, 1e-6);
+}
+
+TEST(Gatherer, TheImageIsTheOneTheHazardsWereFoundIn) {
+  Gatherer gatherer({});
+  for (const Utime utime : {400'000, 800'000, 1'200'000}) gatherer.take_loccam(image_at(utime, 10));
+  gatherer.take(hazards_at(800'000));
+  const View view = gatherer.view(0.0);
+  EXPECT_EQ(view.images.at("loccam").seq, 800'000);
+  EXPECT_EQ(view.grids.at("hazards").seq, 800'000);
+}
+
+TEST(Gatherer, WithoutHazardsTheNewestImageIsShown) {
+  Gatherer gatherer({});
+  for (const Utime utime : {400'000, 5'000'000, 5'400'000}) gatherer.take_loccam(image_at(utime, 10));
+  EXPECT_EQ(gatherer.view(0.0).images.at("loccam").seq, 5'400'000);
+}
+
+TEST(Gatherer, TheHazardGridStandsWhereTheRoverWas) {
+  Gatherer gatherer({});
+  for (int i = 0; i < 10; ++i) {
+    pose_t pose{};
+    pose.header.utime = i * 100'000;
+    pose_to(from_planar({0.5 * i, 0.0, 0.0}), pose.position_odom_body_m, pose.quat_odom_body_wxyz);
+    pose_to(from_planar({10.0, 20.0, 0.0}), pose.position_map_odom_m, pose.quat_map_odom_wxyz);
+    gatherer.take(pose);
+  }
+  gatherer.take(hazards_at(400'000));
+  const View view = gatherer.view(0.0);
+  EXPECT_NEAR(view.grids.at("hazards").odom.x_m, 2.0, 1e-9);
+  EXPECT_NEAR(view.pose.position_map_m.x(), 14.5, 1e-9);
+}
+
+TEST(Gatherer, PicturesAreMadeOnceAndAnewWhenTheContentIs) {
+  Gatherer gatherer({});
+  EXPECT_FALSE(gatherer.grid("hazards"));
+  EXPECT_EQ(gatherer.image("loccam"), nullptr);
+  Pictures pictures;
+  const auto png = [&] { return pictures.grid("hazards", *gatherer.grid("hazards")); };
+  gatherer.take(hazards_at(1));
+  const auto first = png();
+  ASSERT_TRUE(first);
+  EXPECT_EQ(png(), first);
+  gatherer.take(hazards_at(2));
+  EXPECT_NE(png(), first);
+  const cv::Mat picture = cv::imdecode(*first, cv::IMREAD_UNCHANGED);
+  ASSERT_EQ(picture.size(), cv::Size(4, 3));
+  EXPECT_GT(picture.at<cv::Vec4b>(2, 0)[2], 200) << "the first cell is the lower left one, red";
+  EXPECT_LT(picture.at<cv::Vec4b>(0, 0)[2], 200);
+}
+
+TEST(Gatherer, TheMapsOfTheFullLevelAreShownWhenTheyCome) {
+  Gatherer gatherer({});
+  elevation_t elevation{};
+  elevation.cell_m = 0.1;
+  elevation.cells_x = elevation.cells_y = 10;
+  elevation.size = 100;
+  elevation.height_m.assign(100, 1.0F);
+  elevation.height_m[5] = std::numeric_limits<float>::quiet_NaN();
+  elevation.sigma_m.assign(100, 0.1F);
+  gatherer.take(elevation);
+  traversability_t terrain{};
+  terrain.cell_m = 0.1;
+  terrain.cells_x = terrain.cells_y = 10;
+  terrain.size = 100;
+  terrain.cells.assign(100, 254);
+  gatherer.take(terrain);
+  gatherer.take_navcam(image_at(7, 200));
+  Pictures pictures;
+  const cv::Mat heights = cv::imdecode(*pictures.grid("elevation", *gatherer.grid("elevation")), cv::IMREAD_UNCHANGED);
+  EXPECT_EQ(heights.at<cv::Vec4b>(9, 5)[3], 0) << "never seen";
+  EXPECT_GT(heights.at<cv::Vec4b>(9, 6)[3], 0);
+  EXPECT_FALSE(
+      cv::imdecode(*pictures.grid("traversability", *gatherer.grid("traversability")), cv::IMREAD_UNCHANGED).empty());
+  EXPECT_FALSE(cv::imdecode(*pictures.camera("navcam", *gatherer.image("navcam")), cv::IMREAD_UNCHANGED).empty());
+}
+
+TEST(Gatherer, MessagesThatContradictThemselvesAreNotShown) {
+  Gatherer gatherer({});
+  hazards_t hazards = hazards_at(1);
+  hazards.cells_x = 5;
+  gatherer.take(hazards);
+  hazards = hazards_at(1);
+  hazards.cells_x = -4;
+  hazards.cells_y = -3;
+  gatherer.take(hazards);
+  image_t image = image_at(1, 0);
+  image.width = 99;
+  gatherer.take_navcam(image);
+  const View view = gatherer.view(0.0);
+  EXPECT_TRUE(view.grids.empty());
+  EXPECT_TRUE(view.images.empty());
+}
+
+TEST(Gatherer, CurrentsAreTheLargestSinceTheLastView) {
+  Gatherer gatherer({});
+  wheel_state_t wheels{};
+  for (const double current : {1.0, -7.0, 2.0}) {
+    wheels.drive_current_a[3] = current;
+    gatherer.take(wheels);
+  }
+  EXPECT_EQ(gatherer.view(0.0).motion.drive_current_a[3], 7.0);
+  EXPECT_TRUE(std::isnan(gatherer.view(0.0).motion.drive_current_a[3]));
+}
+
+TEST(Gatherer, ANewBeginningForgets) {
+  Gatherer gatherer({"stereo"});
+  gatherer.take(tick_at(9'000'000), 0.0);
+  gatherer.take(hazards_at(9'000'000));
+  gatherer.begin();
+  const View view = gatherer.view(1.0);
+  EXPECT_EQ(view.now, kNever);
+  EXPECT_TRUE(view.grids.empty());
+  EXPECT_EQ(view.services.at("stereo").health, Health::kWaiting);
+}
+
+}  // namespace
+}  // namespace rover::mission

@@ -1,0 +1,241 @@
+// The node on an in-process bus: the plan, the operator's commands, the logbook, a restart.
+#include "mission_control/node.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <thread>
+
+#include "common/bus/convert.hpp"
+#include "test/trajectory_control/bus_world.hpp"
+
+namespace rover {
+namespace {
+
+using mission::Answer;
+using mission::Command;
+using mission::CommandKind;
+
+MissionPlan plan() {
+  MissionPlan plan;
+  plan.start.pose = {20.0, 20.0, 0.0};
+  plan.path.x_m = {20.0, 25.0};
+  plan.path.y_m = {20.0, 20.0};
+  plan.path.level = {0, 0};
+  return plan;
+}
+
+class MissionControlTest : public testing::Test {
+ protected:
+  explicit MissionControlTest(std::string run_dir = "") : run_dir_(std::move(run_dir)) {
+    commands_ = world_.listen<ground_command_t>(channel::kGroundCommand);
+    paths_ = world_.listen<path_t>(channel::kGlobalPath);
+    start(1);
+  }
+
+  void start(std::int64_t boot_id) {
+    service_.reset();
+    node_.reset();
+    station_ = std::make_shared<mission::Station>();
+    node_ = std::make_unique<Node>(NodeOptions{.name = "mission_control", .boot_id = boot_id, .run_dir = run_dir_},
+                                   world_.bus);
+    service_ = std::make_unique<MissionControlNode>(*node_, plan(), station_);
+  }
+
+  void tick(int times = 1) {
+    for (int i = 0; i < times; ++i) world_.tick(*node_);
+  }
+
+  void acknowledge(std::int64_t id, bool accepted, const std::string& reason = "") {
+    command_ack_t ack{};
+    ack.command_id = id;
+    ack.accepted = accepted ? 1 : 0;
+    ack.reason = reason;
+    world_.send(channel::kCommandAck, ack, "supervisor");
+    tick(2);
+  }
+
+  void say_state(std::int8_t state, const std::string& cause = "go") {
+    supervisor_state_t message{};
+    message.state = state;
+    message.cause = cause;
+    world_.send(channel::kState, message, "supervisor");
+    tick(2);
+  }
+
+  void finish_plan() {
+    tick(2);
+    acknowledge(commands_->back().command_id, true);
+    acknowledge(paths_->back().path_id, true);
+    say_state(supervisor_state_t::STANDBY);
+    acknowledge(commands_->back().command_id, true);
+  }
+
+  // What an operator's command leads to; `answer`: of the rover, none: it is silent.
+  Answer operate(const Command& command, std::optional<bool> answer, const std::string& reason = "") {
+    Answer result;
+    const size_t before = commands_->size() + paths_->size();
+    std::thread page([&] { result = station_->desk.give(command, std::chrono::milliseconds(answer ? 20'000 : 300)); });
+    for (int i = 0; i < 2000 && commands_->size() + paths_->size() == before; ++i) {
+      tick();
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    EXPECT_EQ(commands_->size() + paths_->size(), before + 1);
+    const std::int64_t id = command.kind == CommandKind::kPath ? paths_->back().path_id : commands_->back().command_id;
+    if (answer) acknowledge(id, *answer, reason);
+    page.join();
+    return result;
+  }
+
+  bool noted(const std::string& text) {
+    return station_->book.with([&](const mission::Logbook& book) {
+      return std::any_of(book.events().begin(), book.events().end(),
+                         [&](const auto& event) { return event.text.find(text) != std::string::npos; });
+    });
+  }
+
+  std::string run_dir_;
+  test::BusWorld world_;
+  std::shared_ptr<mission::Station> station_;
+  std::unique_ptr<Node> node_;
+  std::unique_ptr<MissionControlNode> service_;
+  std::shared_ptr<std::vector<ground_command_t>> commands_;
+  std::shared_ptr<std::vector<path_t>> paths_;
+};
+
+TEST_F(MissionControlTest, ThePlanIsGivenOnceAndEndsWithGo) {
+  finish_plan();
+  tick(200);
+  ASSERT_EQ(commands_->size(), 2U);
+  EXPECT_EQ(commands_->front().kind, ground_command_t::SET_START_POSE);
+  EXPECT_EQ(commands_->back().kind, ground_command_t::GO);
+  ASSERT_EQ(paths_->size(), 1U);
+  EXPECT_EQ(paths_->front().x_m, plan().path.x_m);
+  EXPECT_EQ(station_->book.with([](const auto& book) { return book.path_id(); }), paths_->front().path_id);
+}
+
+TEST_F(MissionControlTest, EachCommandGoesOutWithAnIdOfItsOwnAndItsAnswerComesBack) {
+  finish_plan();
+  const std::vector<std::pair<CommandKind, std::int8_t>> kinds = {
+      {CommandKind::kGo, ground_command_t::GO},
+      {CommandKind::kStop, ground_command_t::STOP},
+      {CommandKind::kPause, ground_command_t::PAUSE},
+      {CommandKind::kResume, ground_command_t::RESUME},
+      {CommandKind::kEmergencyStop, ground_command_t::EMERGENCY_STOP},
+      {CommandKind::kClearSafe, ground_command_t::CLEAR_SAFE}};
+  std::set<std::int64_t> ids;
+  for (const auto& [kind, expected] : kinds) {
+    Command command;
+    command.kind = kind;
+    const Answer answer = operate(command, true);
+    EXPECT_EQ(answer.outcome, Answer::Outcome::kAccepted);
+    EXPECT_EQ(commands_->back().kind, expected);
+    EXPECT_EQ(answer.command_id, commands_->back().command_id);
+    EXPECT_TRUE(ids.insert(answer.command_id).second);
+  }
+}
+
+TEST_F(MissionControlTest, ARefusalComesWithItsReason) {
+  finish_plan();
+  Command command;
+  command.kind = CommandKind::kClearFault;
+  command.target = "no_path";
+  const Answer answer = operate(command, false, "does not stand");
+  EXPECT_EQ(answer.outcome, Answer::Outcome::kRefused);
+  EXPECT_EQ(answer.reason, "does not stand");
+  EXPECT_EQ(commands_->back().target, "no_path");
+  EXPECT_TRUE(noted("clear fault no_path refused: does not stand"));
+}
+
+TEST_F(MissionControlTest, SilenceIsToldAsSuch) {
+  finish_plan();
+  Command command;
+  command.kind = CommandKind::kGo;
+  EXPECT_EQ(operate(command, std::nullopt).outcome, Answer::Outcome::kSilence);
+}
+
+TEST_F(MissionControlTest, AForcedLevelIsRemembered) {
+  finish_plan();
+  Command command;
+  command.kind = CommandKind::kForceLevel;
+  command.level = mission::Level::kFull;
+  operate(command, false, "the services of the Full level are not there");
+  EXPECT_EQ(station_->book.with([](const auto& book) { return book.forced(); }), mission::Level::kAuto);
+  operate(command, true);
+  EXPECT_EQ(commands_->back().level, ground_command_t::FULL);
+  EXPECT_EQ(station_->book.with([](const auto& book) { return book.forced(); }), mission::Level::kFull);
+}
+
+TEST_F(MissionControlTest, ADrawnPathIsInForceOnceItIsAccepted) {
+  finish_plan();
+  const std::int64_t planned = paths_->back().path_id;
+  Command command;
+  command.kind = CommandKind::kPath;
+  command.points = {{1.0, 2.0}, {3.0, 4.0}};
+  const auto in_force = [&] { return station_->book.with([](const auto& book) { return book.path_id(); }); };
+  operate(command, false, "path is shorter than 0.1 m");
+  EXPECT_EQ(in_force(), planned);
+  operate(command, true);
+  EXPECT_EQ(in_force(), paths_->back().path_id);
+  EXPECT_EQ(paths_->back().frame, path_t::MAP);
+  EXPECT_EQ(paths_->back().x_m, (std::vector<double>{1.0, 3.0}));
+}
+
+// Nobody who has stopped the rover wants the plan's GO to follow.
+TEST_F(MissionControlTest, AStopEndsThePlan) {
+  tick(2);
+  acknowledge(commands_->back().command_id, true);
+  acknowledge(paths_->back().path_id, true);
+  Command command;
+  command.kind = CommandKind::kStop;
+  operate(command, true);
+  say_state(supervisor_state_t::STANDBY);
+  tick(200);
+  EXPECT_EQ(commands_->back().kind, ground_command_t::STOP);
+}
+
+TEST_F(MissionControlTest, WhatHappensIsNoted) {
+  finish_plan();
+  say_state(supervisor_state_t::DRIVING, "go");
+  say_state(supervisor_state_t::HAZARD_STOP, "path_blocked");
+  EXPECT_TRUE(noted("HAZARD_STOP: path_blocked"));
+  fault_t fault{};
+  fault.id = "slip";
+  fault.standing = 1;
+  fault.response = fault_t::STOP;
+  world_.send(channel::kFault, fault, "supervisor");
+  tick(2);
+  EXPECT_TRUE(noted("slip raised"));
+  heartbeat_t heartbeat{};
+  heartbeat.service = "stereo";
+  world_.send(channel::kHeartbeat, heartbeat, "stereo");
+  tick(100);
+  EXPECT_TRUE(noted("stereo is silent"));
+}
+
+class RestartedMissionControlTest : public MissionControlTest {
+ protected:
+  RestartedMissionControlTest() : MissionControlTest(make_dir()) {}
+  ~RestartedMissionControlTest() override { std::filesystem::remove_all(run_dir_); }
+  static std::string make_dir() {
+    std::string dir = std::filesystem::temp_directory_path() / "rover-mission-XXXXXX";
+    return mkdtemp(dir.data());
+  }
+};
+
+// A start pose given again would put the rover back to where it began.
+TEST_F(RestartedMissionControlTest, GivesNothingAgainAndRemembersTheDrive) {
+  finish_plan();
+  tick(100);
+  const size_t commands = commands_->size();
+  const std::int64_t path = paths_->back().path_id;
+  start(2);
+  tick(200);
+  EXPECT_EQ(commands_->size(), commands);
+  EXPECT_EQ(paths_->size(), 1U);
+  EXPECT_EQ(station_->book.with([](const auto& book) { return book.path_id(); }), path);
+  EXPECT_TRUE(noted("mission plan: go accepted"));
+}
+
+}  // namespace
+}  // namespace rover

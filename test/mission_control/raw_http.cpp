@@ -1,0 +1,151 @@
+#include "test/mission_control/raw_http.hpp"
+
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+
+#include "rover_simulator/world/elevation_raster.hpp"
+#include "rover_simulator/world/geotiff_writer.hpp"
+
+namespace rover::mission::test {
+namespace {
+
+using namespace std::chrono_literals;
+
+sockaddr_in loopback(int port) {
+  sockaddr_in name{};
+  name.sin_family = AF_INET;
+  name.sin_port = htons(static_cast<std::uint16_t>(port));
+  name.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  return name;
+}
+
+std::string own_headers(int port) {
+  const std::string host = "127.0.0.1:" + std::to_string(port);
+  return "Host: " + host + "\r\nOrigin: http://" + host + "\r\nSec-Fetch-Site: same-origin\r\nConnection: close\r\n";
+}
+
+}  // namespace
+
+int connect_to(int port) {
+  const int fd = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  const sockaddr_in name = loopback(port);
+  if (fd >= 0 && connect(fd, reinterpret_cast<const sockaddr*>(&name), sizeof name) == 0) return fd;
+  if (fd >= 0) close(fd);
+  return -1;
+}
+
+std::string exchange(int port, const std::string& bytes, double patience_s) {
+  const int fd = connect_to(port);
+  if (fd < 0) return "";
+  const timeval patience{static_cast<time_t>(patience_s), 0};
+  setsockopt(fd, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+  size_t sent = 0;
+  while (sent < bytes.size()) {
+    const ssize_t n = send(fd, bytes.data() + sent, bytes.size() - sent, MSG_NOSIGNAL);
+    if (n <= 0) break;  // refused before its end
+    sent += static_cast<size_t>(n);
+  }
+  shutdown(fd, SHUT_WR);
+  std::string answer;
+  char buffer[8192];
+  for (ssize_t n = 0; (n = recv(fd, buffer, sizeof buffer, 0)) > 0;) answer.append(buffer, static_cast<size_t>(n));
+  close(fd);
+  return answer;
+}
+
+int status_of(const std::string& answer) {
+  return answer.rfind("HTTP/1.1 ", 0) == 0 && answer.size() > 12 ? std::stoi(answer.substr(9, 3)) : 0;
+}
+
+std::string body_of(const std::string& answer) {
+  const size_t end = answer.find("\r\n\r\n");
+  return end == std::string::npos ? "" : answer.substr(end + 4);
+}
+
+std::string get(int port, const std::string& path) {
+  return exchange(port, "GET " + path + " HTTP/1.1\r\n" + own_headers(port) + "\r\n");
+}
+
+std::string post(int port, const std::string& path, const std::string& body) {
+  return exchange(port, "POST " + path + " HTTP/1.1\r\n" + own_headers(port) + "Content-Type: application/json\r\n" +
+                            "Content-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body);
+}
+
+int free_port() {
+  const int fd = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  sockaddr_in name = loopback(0);
+  socklen_t size = sizeof name;
+  if (bind(fd, reinterpret_cast<const sockaddr*>(&name), sizeof name) != 0 ||
+      getsockname(fd, reinterpret_cast<sockaddr*>(&name), &size) != 0)
+    ADD_FAILURE() << "no port is free";
+  close(fd);
+  return ntohs(name.sin_port);
+}
+
+TestServer::TestServer(std::function<void(PageConfig&, PageContext&)> change) : port_(free_port()) {
+  std::string dir = std::filesystem::temp_directory_path() / "rover-page-XXXXXX";
+  dir_ = mkdtemp(dir.data());
+  // Flat in the south, 20 deg in the north.
+  ElevationRaster raster = plane_raster(100.0, 100.0, 1.0, 0.0, 0.0);
+  for (int row = 50; row < raster.height; ++row)
+    for (int column = 0; column < raster.width; ++column)
+      raster.at(column, row) = static_cast<float>(std::tan(0.35) * (row - 50));
+  write_geotiff(dir_ + "/orbital_map.tif", raster);
+  PageConfig config;
+  config.guard.port = port_;
+  config.most_pages = 4;
+  PageContext context;
+  context.run_dir = dir_;
+  context.run_name = "test";
+  context.services = {"stereo", "localization"};
+  context.setup = nlohmann::json::object();
+  context.inject = [this](const std::string& service, CommandKind kind) {
+    const std::lock_guard lock(mutex_);
+    injected_.push_back(name(kind) + " " + service);
+    return true;
+  };
+  if (change) change(config, context);
+  node_ = std::thread([this] {
+    for (std::int64_t id = 1; running_;) {
+      const auto waiting = station_.desk.take();
+      if (!waiting) {
+        std::this_thread::sleep_for(1ms);
+        continue;
+      }
+      {
+        const std::lock_guard lock(mutex_);
+        taken_.push_back(waiting->command);
+      }
+      station_.desk.given(waiting->ticket, id);
+      station_.desk.answered(id++, true, "");
+    }
+  });
+  server_ = std::make_unique<PageServer>(config, context, station_, bus_);
+  server_->start();
+  while (!server_->serving()) std::this_thread::sleep_for(1ms);
+}
+
+TestServer::~TestServer() {
+  server_.reset();
+  running_ = false;
+  node_.join();
+  std::filesystem::remove_all(dir_);
+}
+
+std::vector<Command> TestServer::taken() {
+  const std::lock_guard lock(mutex_);
+  return taken_;
+}
+
+std::vector<std::string> TestServer::injected() {
+  const std::lock_guard lock(mutex_);
+  return injected_;
+}
+
+}  // namespace rover::mission::test
