@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <set>
 #include <thread>
 
 #include "common/bus/convert.hpp"
@@ -107,8 +108,8 @@ TEST_F(MissionControlTest, ThePlanIsGivenOnceAndEndsWithGo) {
   finish_plan();
   tick(200);
   ASSERT_EQ(commands_->size(), 2U);
-  EXPECT_EQ(commands_->front().kind, ground_command_t::SET_START_POSE);
-  EXPECT_EQ(commands_->back().kind, ground_command_t::GO);
+  EXPECT_EQ(commands_->front().kind, +ground_command_t::SET_START_POSE);
+  EXPECT_EQ(commands_->back().kind, +ground_command_t::GO);
   ASSERT_EQ(paths_->size(), 1U);
   EXPECT_EQ(paths_->front().x_m, plan().path.x_m);
   EXPECT_EQ(station_->book.with([](const auto& book) { return book.path_id(); }), paths_->front().path_id);
@@ -116,13 +117,13 @@ TEST_F(MissionControlTest, ThePlanIsGivenOnceAndEndsWithGo) {
 
 TEST_F(MissionControlTest, EachCommandGoesOutWithAnIdOfItsOwnAndItsAnswerComesBack) {
   finish_plan();
-  const std::vector<std::pair<CommandKind, std::int8_t>> kinds = {
-      {CommandKind::kGo, ground_command_t::GO},
-      {CommandKind::kStop, ground_command_t::STOP},
-      {CommandKind::kPause, ground_command_t::PAUSE},
-      {CommandKind::kResume, ground_command_t::RESUME},
-      {CommandKind::kEmergencyStop, ground_command_t::EMERGENCY_STOP},
-      {CommandKind::kClearSafe, ground_command_t::CLEAR_SAFE}};
+  const std::vector<std::pair<CommandKind, int>> kinds = {
+      {CommandKind::kGo, +ground_command_t::GO},
+      {CommandKind::kStop, +ground_command_t::STOP},
+      {CommandKind::kPause, +ground_command_t::PAUSE},
+      {CommandKind::kResume, +ground_command_t::RESUME},
+      {CommandKind::kEmergencyStop, +ground_command_t::EMERGENCY_STOP},
+      {CommandKind::kClearSafe, +ground_command_t::CLEAR_SAFE}};
   std::set<std::int64_t> ids;
   for (const auto& [kind, expected] : kinds) {
     Command command;
@@ -162,7 +163,7 @@ TEST_F(MissionControlTest, AForcedLevelIsRemembered) {
   operate(command, false, "the services of the Full level are not there");
   EXPECT_EQ(station_->book.with([](const auto& book) { return book.forced(); }), mission::Level::kAuto);
   operate(command, true);
-  EXPECT_EQ(commands_->back().level, ground_command_t::FULL);
+  EXPECT_EQ(commands_->back().level, +ground_command_t::FULL);
   EXPECT_EQ(station_->book.with([](const auto& book) { return book.forced(); }), mission::Level::kFull);
 }
 
@@ -177,7 +178,7 @@ TEST_F(MissionControlTest, ADrawnPathIsInForceOnceItIsAccepted) {
   EXPECT_EQ(in_force(), planned);
   operate(command, true);
   EXPECT_EQ(in_force(), paths_->back().path_id);
-  EXPECT_EQ(paths_->back().frame, path_t::MAP);
+  EXPECT_EQ(paths_->back().frame, +path_t::MAP);
   EXPECT_EQ(paths_->back().x_m, (std::vector<double>{1.0, 3.0}));
 }
 
@@ -191,7 +192,7 @@ TEST_F(MissionControlTest, AStopEndsThePlan) {
   operate(command, true);
   say_state(supervisor_state_t::STANDBY);
   tick(200);
-  EXPECT_EQ(commands_->back().kind, ground_command_t::STOP);
+  EXPECT_EQ(commands_->back().kind, +ground_command_t::STOP);
 }
 
 TEST_F(MissionControlTest, WhatHappensIsNoted) {

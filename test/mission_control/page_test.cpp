@@ -74,8 +74,7 @@ TEST(Page, BadRequestsAre4xxAndGiveNothing) {
   TestServer server;
   const std::string own = "127.0.0.1:" + std::to_string(server.port());
   const auto raw = [&](const std::string& head, const std::string& body) {
-    return status_of(
-        exchange(server.port(), head + "Content-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body));
+    return status_of(talk(server.port(), head + "Content-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body));
   };
   const std::string go = R"({"command":"go"})";
   const std::string host = "POST /api/command HTTP/1.1\r\nConnection: close\r\nHost: " + own + "\r\n";
@@ -163,7 +162,7 @@ TEST(Page, WithATokenNothingIsShownWithoutIt) {
   EXPECT_NE(welcome.find("rover_token=" + token + "; HttpOnly; SameSite=Strict"), std::string::npos);
   const std::string with_cookie =
       "GET / HTTP/1.1\r\nConnection: close\r\nHost: rover:1\r\nCookie: rover_token=" + token + "\r\n\r\n";
-  EXPECT_EQ(status_of(exchange(server.port(), with_cookie)), 200);
+  EXPECT_EQ(status_of(talk(server.port(), with_cookie)), 200);
   EXPECT_TRUE(server.taken().empty());
 }
 

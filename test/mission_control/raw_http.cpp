@@ -3,6 +3,7 @@
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
 #include <netinet/in.h>
+#include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -40,10 +41,10 @@ int connect_to(int port) {
   return -1;
 }
 
-std::string exchange(int port, const std::string& bytes, double patience_s) {
+std::string talk(int port, const std::string& bytes, int whole_within_ms) {
   const int fd = connect_to(port);
   if (fd < 0) return "";
-  const timeval patience{static_cast<time_t>(patience_s), 0};
+  const timeval patience{20, 0};
   setsockopt(fd, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
   size_t sent = 0;
   while (sent < bytes.size()) {
@@ -51,7 +52,8 @@ std::string exchange(int port, const std::string& bytes, double patience_s) {
     if (n <= 0) break;  // refused before its end
     sent += static_cast<size_t>(n);
   }
-  shutdown(fd, SHUT_WR);
+  pollfd answered{fd, POLLIN, 0};
+  if (whole_within_ms >= 0 && poll(&answered, 1, whole_within_ms) == 0) shutdown(fd, SHUT_WR);
   std::string answer;
   char buffer[8192];
   for (ssize_t n = 0; (n = recv(fd, buffer, sizeof buffer, 0)) > 0;) answer.append(buffer, static_cast<size_t>(n));
@@ -69,12 +71,12 @@ std::string body_of(const std::string& answer) {
 }
 
 std::string get(int port, const std::string& path) {
-  return exchange(port, "GET " + path + " HTTP/1.1\r\n" + own_headers(port) + "\r\n");
+  return talk(port, "GET " + path + " HTTP/1.1\r\n" + own_headers(port) + "\r\n");
 }
 
 std::string post(int port, const std::string& path, const std::string& body) {
-  return exchange(port, "POST " + path + " HTTP/1.1\r\n" + own_headers(port) + "Content-Type: application/json\r\n" +
-                            "Content-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body);
+  return talk(port, "POST " + path + " HTTP/1.1\r\n" + own_headers(port) + "Content-Type: application/json\r\n" +
+                        "Content-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body);
 }
 
 int free_port() {

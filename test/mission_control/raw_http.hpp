@@ -12,8 +12,10 @@
 
 namespace rover::mission::test {
 
-// Everything that comes back until the other side closes; empty: nothing did. `patience_s`: of each read.
-std::string exchange(int port, const std::string& bytes, double patience_s = 5.0);
+// Everything that comes back until the other side closes; empty: nothing did. Where nothing comes within
+// `whole_within_ms` the other side is told that there is no more to the request; it does not answer then. Negative:
+// never.
+std::string talk(int port, const std::string& bytes, int whole_within_ms = -1);
 int connect_to(int port);
 // Of an answer; 0: it is none.
 int status_of(const std::string& answer);

@@ -11,6 +11,7 @@ ElevationRaster plane_raster(double width_m, double height_m, double resolution_
   raster.width = static_cast<int>(std::lround(width_m / resolution_m));
   raster.height = static_cast<int>(std::lround(height_m / resolution_m));
   raster.resolution_m = resolution_m;
+  raster.projection_wkt = R"(LOCAL_CS["plane",UNIT["metre",1]])";  // a file of it is a map like any other
   raster.z_m.resize(static_cast<size_t>(raster.width) * raster.height);
   const double gx = std::tan(slope_rad) * std::cos(toward_rad), gy = std::tan(slope_rad) * std::sin(toward_rad);
   for (int row = 0; row < raster.height; ++row)
