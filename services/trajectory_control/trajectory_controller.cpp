@@ -13,6 +13,8 @@ constexpr double kPredictionStepM = 0.1;
 constexpr double kSlipSpeedMps = 0.05;  // slower, the direction of the motion is noise
 constexpr double kMaxSideSlipRad = 0.35;
 constexpr double kStandingMps = 0.02;
+constexpr double kSlowMps = 0.1;  // at rest within 5 cm
+constexpr double kStandingShare = 0.8;
 constexpr double kLeastTurnRad = 0.175;  // 10 deg: below it, it is not the heading that leads out of the corridor
 
 Pose2 moved(const Pose2& pose, double way_m, double curvature_per_m, double side_slip_rad) {
@@ -133,10 +135,12 @@ Projection TrajectoryController::advance_on_path(const Pose2& pose) {
   return here;
 }
 
-// A rover that stands and would leave a narrow corridor on its first arc turns on the spot, too.
+// A rover that stands or comes to rest and would leave a narrow corridor on its first arc turns on the spot, too: the
+// supervisor would stop it. One that stands does so with something in hand, for what the first metre adds.
 bool TrajectoryController::update_turning(const ControlOutput& out, double forward_mps) {
-  const bool would_leave =
-      std::abs(forward_mps) < kStandingMps && out.predicted_corridor_error_m > out.corridor_half_width_m;
+  const double speed = std::abs(forward_mps);
+  const double share = speed < kStandingMps ? kStandingShare : 1.0;
+  const bool would_leave = speed < kSlowMps && out.predicted_corridor_error_m > share * out.corridor_half_width_m;
   const double start_rad = would_leave ? kLeastTurnRad : config_.turn_start_rad;
   turning_ = std::abs(out.heading_error_rad) > (turning_ ? config_.turn_stop_rad : start_rad);
   return turning_;

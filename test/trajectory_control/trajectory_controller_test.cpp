@@ -153,6 +153,24 @@ TEST_F(ControllerTest, ALargeHeadingErrorIsTurnedOnTheSpot) {
   }
 }
 
+// At 35 deg off the least radius leads 0.25 m to the side, and the supervisor stops a rover that is about to leave its
+// corridor (seen in a corridor of 0.2 m at 0.08 m/s, and at 31 deg from rest).
+TEST_F(ControllerTest, ASlowRoverThatWouldLeaveItsCorridorTurnsOnTheSpot) {
+  controller_.set_path({8, 0.2, {{0.0, 0.0}, {20.0, 0.0}}});
+  for (const double forward_mps : {0.0, 0.08}) {
+    pose_ = {kNow - 20'000, true, {3.0, 0.0, 0.61}, forward_mps, 0.0};
+    EXPECT_EQ(step().state, ControlState::kPointTurn) << forward_mps;
+  }
+}
+
+TEST_F(ControllerTest, AtSpeedOrInAWideCorridorTheSameErrorIsDrivenOut) {
+  pose_ = {kNow - 20'000, true, {3.0, 0.0, 0.61}, 0.0, 0.0};
+  EXPECT_EQ(step().state, ControlState::kFollowing);
+  controller_.set_path({8, 0.2, {{0.0, 0.0}, {20.0, 0.0}}});
+  pose_.forward_mps = 0.2;
+  EXPECT_EQ(step().state, ControlState::kFollowing);
+}
+
 TEST_F(ControllerTest, APointTurnGoesOnUntilTheHeadingFits) {
   pose_.odom.yaw_rad = to_rad(41.0);
   step();
