@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/bus/channels.hpp"
 #include "common/bus/convert.hpp"
 
 namespace rover::supervisor {
@@ -113,7 +114,8 @@ ServiceReport report_from(const heartbeat_t& message) {
   const bool known = message.status >= heartbeat_t::OK && message.status <= heartbeat_t::FAULT;
   out.status = known ? static_cast<ServiceStatus>(message.status) : ServiceStatus::kFault;
   for (const input_health_t& input : message.inputs) {
-    out.received += input.received;
+    // Ticks have no gaps to be seen (a step of the clock is a row of its own): counted, they would only hide the loss.
+    if (input.channel != channel::kTick) out.received += input.received;
     out.lost += input.gaps + input.malformed;  // what came late was a gap before, what came twice is not lost
   }
   return out;

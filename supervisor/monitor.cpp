@@ -48,6 +48,7 @@ bool Monitor::unlatch(const Reading& reading) {
   if (reading_.condition != Condition::kFalse) return false;
   standing_ = false;
   history_ = 0;
+  bad_since_ = kNever;
   return true;
 }
 

@@ -6,7 +6,7 @@
 namespace rover::loc {
 namespace {
 
-constexpr double kVersion = 1.0;
+constexpr double kVersion = 2.0;
 constexpr size_t kPoseSize = 7;
 
 class Writer {
@@ -54,7 +54,7 @@ class Reader {
   size_t next_ = 0;
 };
 
-constexpr size_t kCount = 1 + 1 + 2 * kPoseSize + 1 + 3 + kErrorSize * kErrorSize + 1 + 1 + 6;
+constexpr size_t kCount = 1 + 1 + 2 * kPoseSize + 1 + 3 + kErrorSize * kErrorSize + 1 + 1 + 1 + 6;
 
 bool sound(const Checkpoint& c) {
   return is_finite(c.T_odom_body) && is_finite(c.T_map_odom) && c.gyro_bias_radps.allFinite() && c.P.allFinite() &&
@@ -74,6 +74,7 @@ std::vector<std::uint8_t> to_bytes(const Checkpoint& c) {
   w.put_all(c.P);
   w.put(c.gravity_mps2);
   w.put(c.travelled_m);
+  w.put(static_cast<double>(c.visual_newest));
   for (double angle : c.drive_angle_rad) w.put(angle);
   return w.bytes();
 }
@@ -91,6 +92,7 @@ std::optional<Checkpoint> from_bytes(const std::vector<std::uint8_t>& bytes) {
   r.get_all(c.P);
   c.gravity_mps2 = r.get();
   c.travelled_m = r.get();
+  c.visual_newest = static_cast<Utime>(r.get());
   for (double& angle : c.drive_angle_rad) angle = r.get();
   if (!sound(c)) return std::nullopt;
   return c;

@@ -20,6 +20,7 @@ struct Checkpoint {
   ErrorCov P = ErrorCov::Zero();
   double gravity_mps2 = 0.0;
   double travelled_m = 0.0;
+  Utime visual_newest = kNever;             // the newest visual motion used
   std::array<double, 6> drive_angle_rad{};  // NaN: no encoder reading
 };
 

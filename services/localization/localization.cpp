@@ -387,6 +387,7 @@ std::optional<Checkpoint> Localization::checkpoint() const {
   c.P = tip_.P;
   c.gravity_mps2 = filter_.gravity();
   c.travelled_m = travelled_m_;
+  c.visual_newest = visual_newest_;
   c.drive_angle_rad.fill(kNaN);
   if (last_wheels_) c.drive_angle_rad = last_wheels_->drive_angle_rad;
   return c;
@@ -401,6 +402,7 @@ void Localization::restore(const Checkpoint& c) {
   tip_ = latest_;
   if (c.map_known) map_.restore(c.T_map_odom);
   travelled_m_ = c.travelled_m;
+  visual_newest_ = c.visual_newest;  // odometry that was fresh is not stale for the want of the process
   last_vertex_m_ = c.T_odom_body.translation();
   record_end_ = initialised_utime_ = imu_alive_utime_ = wheels_newest_ = c.utime;
   initialised_ = true;

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "path_planner/dubins.hpp"
-#include "path_planner/fast_marching.hpp"
+#include "common/core/fast_marching.hpp"
 #include "path_planner/terrain.hpp"
 
 namespace rover::planning {

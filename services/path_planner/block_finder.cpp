@@ -14,9 +14,8 @@ class BlockFinder {
 
   Block run() {
     const Pose2 here = query_.route.pose_at(query_.from_m);
-    const double turn = wrap_angle(here.yaw_rad - query_.rover.yaw_rad);
-    const bool turning = std::abs(turn) > query_.turn_threshold_rad;
-    if (turning) look_at_turn(query_.rover, turn, query_.from_m);
+    const bool turning = query_.turning;
+    if (turning) look_at_turn(query_.rover, wrap_angle(here.yaw_rad - query_.rover.yaw_rad), query_.from_m);
     // After a point turn the camera has seen what lies ahead; until then nothing can be said of it.
     bool known = !turning;
     size_t kink = 0;
@@ -46,7 +45,7 @@ class BlockFinder {
   }
 
   void look_at_turn(Pose2 pose, double turn_rad, double s_m) {
-    const int steps = static_cast<int>(std::ceil(std::abs(turn_rad) / kTurnStepRad));
+    const int steps = 1 + static_cast<int>(std::abs(turn_rad) / kTurnStepRad);
     for (int i = 0; i <= steps; ++i) {
       note(pose, s_m, true);
       pose.yaw_rad += turn_rad / steps;

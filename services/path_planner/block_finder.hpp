@@ -13,7 +13,8 @@ struct BlockQuery {
   double from_m = 0.0;  // along the route: where the rover is
   Pose2 rover;
   double margin_m = 0.0;
-  double turn_threshold_rad = 0.7;  // heading errors above it are a point turn
+  bool turning = false;             // the rover turns on the spot to the route's heading first
+  double turn_threshold_rad = 0.7;  // bends of the route above it are a point turn
 };
 
 // Arc lengths along the route, infinity: not as far as the map reaches.

@@ -99,6 +99,7 @@ PathPlannerConfig load_config(const std::string& config_dir) {
   config.read("blocked_goal_reach_m", out.blocked_goal_reach_m, {0.0, 3.0});
   config.read("max_start_offset_m", out.max_start_offset_m, {0.05, 5.0});
   config.read_deg("point_turn_deg", out.turn_threshold_rad, {5.0, 90.0});
+  config.read_deg("point_turn_stop_deg", out.turn_stop_rad, {0.2, 20.0});
   config.read("stop_hazard_m", out.stop_hazard_m, {0.1, 5.0});
   config.read("stop_unseen_m", out.stop_unseen_m, {0.05, 5.0});
   config.read("patience_frames", out.patience_frames, {1, 100});
@@ -110,6 +111,7 @@ PathPlannerConfig load_config(const std::string& config_dir) {
   config.read("most_retreats", out.most_retreats, {0, 100});
   config.read("retreat_corridor_m", out.retreat_corridor_m, {0.05, 1.0});
   config.read("correction_m", out.correction_m, {0.005, 1.0});
+  config.read("frame_work", out.frame_work, {1, 1000000});
   read_margins(config.section("margin"), out);
   read_memory(config.section("map"), out.memory);
   read_view(config.section("view"), out.repair.view);

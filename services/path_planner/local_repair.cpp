@@ -1,6 +1,6 @@
 #include "path_planner/local_repair.hpp"
 
-#include "path_planner/distance_field.hpp"
+#include "common/core/distance_field.hpp"
 
 namespace rover::planning {
 namespace {

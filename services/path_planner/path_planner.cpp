@@ -9,6 +9,7 @@ constexpr double kSearchBackM = 0.5;
 constexpr double kSearchAheadM = 1.0;
 constexpr double kKeepBehindM = 0.3;
 constexpr double kStandingMps = 0.02;
+constexpr double kTurnCreepMps = 0.05;  // of the body origin while the rover turns on the spot
 constexpr double kStandingRadps = 0.02;
 constexpr double kLeastPathM = 0.1;
 constexpr double kLongestPathM = 1e5;
@@ -21,6 +22,7 @@ constexpr double kGainM = 1.0;  // of the global path, with which an attempt cou
 constexpr double kLeastRetreatM = 0.4;
 constexpr double kRetreatEndM = 0.1;
 constexpr double kSamePlaceM = 1e-6;
+constexpr int kFieldWork = 40;        // the travel field of a search costs as much time as that many expansions
 constexpr size_t kPosesPerPoint = 2;  // repairs are verified every 5 cm and published every 10 cm
 
 Pose2 inverse(const Pose2& T) {
@@ -207,6 +209,7 @@ void PathPlanner::react(PlannerOutput& out) {
     if (repair(blocked, out)) frames_before_unseen_ = 0;
   } else {
     failures_ = 0;
+    agenda_.restart();
     if (active_.kind == PathKind::kRepair) firm_up(out);
   }
   if (stuck() && standing()) retreat(out);
@@ -251,18 +254,17 @@ void PathPlanner::look_from_retreat(PlannerOutput& out) {
 // Repairs are sure for their first metres only. Where the rest does not become so on approach, another way is sought
 // while there is room; not during a point turn, which shows new ground by itself.
 void PathPlanner::firm_up(PlannerOutput& out) {
-  if (turn_pending()) return;
+  if (turning_) return;
   const Terrain terrain(memory_);
   std::vector<Pose2> poses = {rover()};
   for (double s = active_.progress_m + kPoseStepM; s < active_.repair_end_m; s += kPoseStepM)
     poses.push_back(active_.route.pose_at(s));
   const double sure = seen_way(terrain, poses);
   if (sure >= config_.firm_way_m) return;
-  double margin = 0.0;
-  if (!find_repair(terrain, {kInfinity, goal_reach_m()}, margin) &&
-      !find_repair(terrain, {config_.sure_way_m, goal_reach_m()}, margin))
+  if (search(terrain, {{kInfinity, goal_reach_m()}, {config_.sure_way_m, goal_reach_m()}}, firm_agenda_) !=
+      SearchEnd::kFound)
     return;
-  if (seen_way(terrain, last_repair_.poses) > sure + config_.firm_gain_m) take_repair(margin, out);
+  if (seen_way(terrain, last_repair_.poses) > sure + config_.firm_gain_m) take_repair(out);
 }
 
 double PathPlanner::seen_way(const Terrain& terrain, const std::vector<Pose2>& poses) const {
@@ -270,55 +272,63 @@ double PathPlanner::seen_way(const Terrain& terrain, const std::vector<Pose2>& p
                     config_.repair.view);
 }
 
-bool PathPlanner::turn_pending() const {
-  const double error = wrap_angle(active_.route.pose_at(active_.progress_m).yaw_rad - rover().yaw_rad);
-  return std::abs(error) > config_.turn_threshold_rad;
+// A turn goes on below the error that starts one. Were the rover taken for one that drives off at that error, its path
+// would look blocked in the middle of each turn beside a rock, and the next plan would turn it back.
+void PathPlanner::track_turn() {
+  const double error = std::abs(wrap_angle(active_.route.pose_at(active_.progress_m).yaw_rad - rover().yaw_rad));
+  const bool driving = history_.newest().forward_mps > kTurnCreepMps;
+  turning_ = error > config_.turn_threshold_rad || (turning_ && error > config_.turn_stop_rad && !driving);
 }
 
 void PathPlanner::judge() {
+  track_turn();
   const Terrain terrain(memory_);
   block_ = find_block({terrain, active_.route, config_.footprint, active_.progress_m, rover(),
-                       active_.margin_m + sigma_margin_m(), config_.turn_threshold_rad});
+                       active_.margin_m + sigma_margin_m(), turning_, config_.turn_threshold_rad});
 }
 
 bool PathPlanner::repair(bool because_of_hazard, PlannerOutput& out) {
-  const Terrain terrain(memory_);
-  double margin = 0.0;
-  if (!find_any_repair(terrain, margin)) {
-    ++failures_;
+  const SearchEnd end = search(Terrain(memory_), demands(), agenda_);
+  if (end != SearchEnd::kFound) {
+    // A frame whose search goes on is one of patience, but none that ends it.
+    if (end == SearchEnd::kNone || failures_ + 1 < config_.patience_frames) ++failures_;
     return false;
   }
   failures_ = 0;
   if (because_of_hazard) ++replans_;
-  take_repair(margin, out);
+  take_repair(out);
   return true;
 }
 
-// The demands fall from one to the next. The last is for a goal under hazards, once that is certain.
-bool PathPlanner::find_any_repair(const Terrain& terrain, double& margin_m) {
-  for (const double sure_m : {kInfinity, config_.sure_way_m, config_.least_sure_way_m}) {
-    if (find_repair(terrain, {sure_m, goal_reach_m()}, margin_m)) return true;
-    if (!unseen_in_the_way_) break;  // no way was dropped for that: asking for less finds the same
-  }
-  return failures_ + 1 >= config_.patience_frames && goal_near() &&
-         find_repair(terrain, {config_.sure_way_m, config_.blocked_goal_reach_m}, margin_m);
+// They fall from one to the next. The last is for a goal under hazards, once that is certain.
+std::vector<WayDemand> PathPlanner::demands() const {
+  std::vector<WayDemand> out;
+  for (const double sure_m : {kInfinity, config_.sure_way_m, config_.least_sure_way_m})
+    out.push_back({sure_m, goal_reach_m()});
+  if (failures_ + 1 >= config_.patience_frames && goal_near())
+    out.push_back({config_.sure_way_m, config_.blocked_goal_reach_m});
+  return out;
 }
 
 bool PathPlanner::goal_near() const {
   return distance(global_odom_.points().back().p, position(rover())) < config_.repair.view.far_m;
 }
 
-bool PathPlanner::find_repair(const Terrain& terrain, const WayDemand& demand, double& margin_m) {
-  unseen_in_the_way_ = false;
-  for (const double margin : {config_.margin_m, config_.tight_margin_m})
-    for (const LeadIn& lead : lead_ins()) {
-      margin_m = margin;
-      last_lead_ = lead;
-      last_repair_ = plan_repair(terrain, lead, margin, demand);
-      if (last_repair_.status == RepairStatus::kFound) return true;
-      unseen_in_the_way_ = unseen_in_the_way_ || last_repair_.status == RepairStatus::kUnseen;
+PathPlanner::SearchEnd PathPlanner::search(const Terrain& terrain, const std::vector<WayDemand>& demands,
+                                           RepairAgenda& agenda) {
+  const std::vector<LeadIn> leads = lead_ins();
+  for (int work = 0; work < config_.frame_work; work += last_repair_.expansions + kFieldWork) {
+    last_lead_ = leads[std::min(agenda.lead(), leads.size() - 1)];
+    last_margin_m_ = agenda.margin() == 0 ? config_.margin_m : config_.tight_margin_m;
+    last_repair_ =
+        plan_repair(terrain, last_lead_, last_margin_m_, demands[std::min(agenda.demand(), demands.size() - 1)]);
+    if (last_repair_.status == RepairStatus::kFound) {
+      agenda.restart();
+      return SearchEnd::kFound;
     }
-  return false;
+    if (!agenda.advance(last_repair_.status, demands, leads.size())) return SearchEnd::kNone;
+  }
+  return SearchEnd::kGoesOn;
 }
 
 // At speed the wheels need time to steer: the repair bends where the rover can have slowed down. Only where that leaves
@@ -329,11 +339,12 @@ std::vector<PathPlanner::LeadIn> PathPlanner::lead_ins() const {
   const double curvature = std::clamp(now.yaw_rate_radps / now.forward_mps, -kMaxCurvatureNow, kMaxCurvatureNow);
   const double reaction = now.forward_mps * config_.release_latency_s;
   const double braking = 0.5 * now.forward_mps * now.forward_mps / config_.deceleration_mps2;
+  if (braking < kPoseStepM) return {{reaction + braking, curvature}};
   return {{reaction + braking, curvature}, {reaction, curvature}};
 }
 
-void PathPlanner::take_repair(double margin_m, PlannerOutput& out) {
-  active_.margin_m = margin_m;
+void PathPlanner::take_repair(PlannerOutput& out) {
+  active_.margin_m = last_margin_m_;
   active_.corridor_half_width_m =
       std::clamp(last_repair_.clearance_m - kCellHalfM - kCorridorReserveM, config_.least_corridor_m,
                  std::max(config_.least_corridor_m, global_->corridor_half_width_m));
@@ -375,6 +386,8 @@ void PathPlanner::adopt(Route route, PathKind kind, PlannerOutput& out) {
   active_.kind = kind;
   active_.id = next_path_id_++;
   replan_wanted_ = false;
+  agenda_.restart();
+  firm_agenda_.restart();
   active_.progress_m = active_.route.closest(position(rover()), 0.0, kSearchAheadM);
   active_.repair_end_m = 0.0;
   for (size_t i = 0; i < active_.route.points().size(); ++i)

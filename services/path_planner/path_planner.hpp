@@ -12,6 +12,7 @@
 #include "path_planner/hazard_memory.hpp"
 #include "path_planner/local_repair.hpp"
 #include "path_planner/pose_history.hpp"
+#include "path_planner/repair_agenda.hpp"
 #include "path_planner/route.hpp"
 
 namespace rover::planning {
@@ -40,7 +41,8 @@ struct PathPlannerConfig {
   double goal_tolerance_m = 0.4;      // where the global path names none
   double blocked_goal_reach_m = 1.2;  // a way may end that far from a goal on which hazards lie
   double max_start_offset_m = 0.5;    // from the global path; further away a way to it is planned
-  double turn_threshold_rad = 0.7;    // as trajectory_control: larger heading errors are a point turn
+  double turn_threshold_rad = 0.7;    // as trajectory_control: larger heading errors start a point turn
+  double turn_stop_rad = 0.035;       // likewise: it ends here
   double stop_hazard_m = 0.6;         // nearer blocks stand in the way at once: no path if no repair is found
   double stop_unseen_m = 0.35;
   int patience_frames = 4;  // standing before unseen ground, a single hit or a blocked path, until it counts
@@ -48,6 +50,7 @@ struct PathPlannerConfig {
   int most_retreats = 5;    // one after the other, without new ground gained
   double retreat_corridor_m = 0.25;
   double correction_m = 0.05;  // movement of map against odom that updates the path
+  int frame_work = 800;        // poses expanded for a frame, after which it begins no further search
 };
 
 struct GlobalPath {
@@ -130,11 +133,7 @@ class PathPlanner {
     double way_m = 0.0;
     double curvature_per_m = 0.0;
   };
-  // What a repair has to fulfil: way over ground that is seen in time, and how near to the goal one that ends there.
-  struct WayDemand {
-    double sure_m = kInfinity;
-    double goal_reach_m = 0.0;
-  };
+  enum class SearchEnd { kFound, kNone, kGoesOn };
   struct StartArea {
     Point2 center_map;
     double radius_m = 0.0;
@@ -159,15 +158,15 @@ class PathPlanner {
   void leave_repair(PlannerOutput& out);
   void judge();
   bool repair(bool because_of_hazard, PlannerOutput& out);
-  void take_repair(double margin_m, PlannerOutput& out);
+  void take_repair(PlannerOutput& out);
   RepairResult plan_repair(const Terrain& terrain, const LeadIn& lead, double margin_m, const WayDemand& demand) const;
-  bool find_repair(const Terrain& terrain, const WayDemand& demand, double& margin_m);
-  bool find_any_repair(const Terrain& terrain, double& margin_m);
+  SearchEnd search(const Terrain& terrain, const std::vector<WayDemand>& demands, RepairAgenda& agenda);
+  std::vector<WayDemand> demands() const;
   bool goal_near() const;
   double goal_reach_m() const { return kGoalShare * global_->goal_tolerance_m; }
   std::vector<LeadIn> lead_ins() const;
   double seen_way(const Terrain& terrain, const std::vector<Pose2>& poses) const;
-  bool turn_pending() const;
+  void track_turn();
   void firm_up(PlannerOutput& out);
   void adopt(Route route, PathKind kind, PlannerOutput& out);
   Route repaired_route(const RepairResult& repair) const;
@@ -201,11 +200,14 @@ class PathPlanner {
   std::vector<Point2> dead_ends_;  // where retreats began since then
   int retreats_ = 0;               // since the rover last got further along the global path than ever
   double furthest_m_ = 0.0;        // along the global path
+  bool turning_ = false;           // on the spot, to the active path's heading
   int frames_before_unseen_ = 0;
   int frames_before_possible_ = 0;
+  RepairAgenda agenda_;
+  RepairAgenda firm_agenda_;
   RepairResult last_repair_;
-  LeadIn last_lead_;                // of the last repair
-  bool unseen_in_the_way_ = false;  // ways of the last search were dropped for ground that is not seen in time
+  LeadIn last_lead_;            // of the last repair
+  double last_margin_m_ = 0.0;  // likewise
 };
 
 }  // namespace rover::planning

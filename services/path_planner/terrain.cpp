@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "path_planner/distance_field.hpp"
+#include "common/core/distance_field.hpp"
 
 namespace rover::planning {
 namespace {
@@ -51,7 +51,11 @@ std::vector<std::uint8_t> wide_parts(const std::vector<std::uint8_t>& mask, int 
 
 }  // namespace
 
-Terrain::Terrain(const HazardMemory& memory) : cells_(memory.map().cells()), cell_m_(memory.map().cell_m()) {
+Terrain::Terrain(const HazardMemory& memory)
+    : cells_(memory.map().cells()),
+      cell_m_(memory.map().cell_m()),
+      cells_per_m_(1.0 / cell_m_),
+      side_m_(cells_ * cell_m_) {
   const GridMap<GroundCell>& map = memory.map();
   corner_ = {map.origin().ix * cell_m_, map.origin().iy * cell_m_};
   unseen_.reserve(static_cast<size_t>(cells_) * cells_);
@@ -68,26 +72,21 @@ Terrain::Terrain(const HazardMemory& memory) : cells_(memory.map().cells()), cel
   map.for_each([&](CellIndex i, const GroundCell& cell) {
     const bool stays_unseen = unseen_[hazard.size()] != 0 && blind[hazard.size()] != 0;
     const bool is_hazard = cell.hits > 0 || stays_unseen;
+    if (hazard.size() % cells_ == 0) row_begin_.push_back(hazards_.size());
     if (is_hazard) hazards_.push_back({{map.center_x_m(i), map.center_y_m(i)}, stays_unseen || memory.confirmed(cell)});
     hazard.push_back(is_hazard ? 1 : 0);
   });
+  row_begin_.push_back(hazards_.size());
   hazard_distance_ = distance_field(hazard, cells_, cells_, cell_m_);
   unseen_distance_ = distance_field(unseen_, cells_, cells_, cell_m_);
 }
 
-bool Terrain::contains(Point2 p) const {
-  return inside_m(p) > 0.0;
-}
-
-double Terrain::inside_m(Point2 p) const {
-  const double side = cells_ * cell_m_;
-  return std::min({p.x_m - corner_.x_m, p.y_m - corner_.y_m, corner_.x_m + side - p.x_m, corner_.y_m + side - p.y_m});
-}
-
-int Terrain::cell_of(Point2 p) const {
-  const int ix = std::clamp(static_cast<int>((p.x_m - corner_.x_m) / cell_m_), 0, cells_ - 1);
-  const int iy = std::clamp(static_cast<int>((p.y_m - corner_.y_m) / cell_m_), 0, cells_ - 1);
-  return iy * cells_ + ix;
+std::span<const HazardSpot> Terrain::hazards_about(Point2 p, double reach_m) const {
+  const auto row = [&](double y_m) {
+    return std::clamp(static_cast<int>(std::floor((y_m - corner_.y_m) * cells_per_m_)), 0, cells_ - 1);
+  };
+  const size_t begin = row_begin_[row(p.y_m - reach_m)];
+  return {hazards_.data() + begin, row_begin_[row(p.y_m + reach_m) + 1] - begin};
 }
 
 Point2 Terrain::center_of(int cell) const {
@@ -120,10 +119,10 @@ FootprintCheck::FootprintCheck(const Terrain& terrain, const Footprint& footprin
   const double y = footprint.half_width_m + seen_margin_m;
   const int nx = static_cast<int>(std::ceil(2.0 * x / terrain.cell_m()));
   const int ny = static_cast<int>(std::ceil(2.0 * y / terrain.cell_m()));
-  for (const double end : {1.0, -1.0})
-    for (int i = 0; i <= ny; ++i) rim_.push_back({end * x, y * (2.0 * i / ny - 1.0)});
-  for (const double side : {1.0, -1.0})
-    for (int i = 1; i < nx; ++i) rim_.push_back({x * (1.0 - 2.0 * i / nx), side * y});
+  for (int i = 0; i < ny; ++i) rim_.push_back({x, y * (2.0 * i / ny - 1.0)});
+  for (int i = 0; i < nx; ++i) rim_.push_back({x * (1.0 - 2.0 * i / nx), y});
+  for (int i = 0; i < ny; ++i) rim_.push_back({-x, y * (1.0 - 2.0 * i / ny)});
+  for (int i = 0; i < nx; ++i) rim_.push_back({x * (2.0 * i / nx - 1.0), -y});
 }
 
 bool FootprintCheck::violates(const Pose2& pose, Point2 hazard) const {
@@ -136,7 +135,8 @@ bool FootprintCheck::violates(const Pose2& pose, Point2 hazard) const {
 bool FootprintCheck::clear(const Pose2& pose) const {
   const double reach = footprint_.radius_m() + margin_m_;
   if (terrain_.hazard_distance_m(position(pose)) > reach + terrain_.cell_m()) return true;
-  return std::none_of(terrain_.hazards().begin(), terrain_.hazards().end(), [&](const HazardSpot& h) {
+  const std::span<const HazardSpot> near = terrain_.hazards_about(position(pose), reach);
+  return std::none_of(near.begin(), near.end(), [&](const HazardSpot& h) {
     return std::abs(h.p.x_m - pose.x_m) <= reach && std::abs(h.p.y_m - pose.y_m) <= reach && violates(pose, h.p);
   });
 }
@@ -144,7 +144,8 @@ bool FootprintCheck::clear(const Pose2& pose) const {
 bool FootprintCheck::clear_of(const Pose2& pose, bool confirmed) const {
   const double reach = footprint_.radius_m() + margin_m_;
   if (terrain_.hazard_distance_m(position(pose)) > reach + terrain_.cell_m()) return true;
-  return std::none_of(terrain_.hazards().begin(), terrain_.hazards().end(), [&](const HazardSpot& h) {
+  const std::span<const HazardSpot> near = terrain_.hazards_about(position(pose), reach);
+  return std::none_of(near.begin(), near.end(), [&](const HazardSpot& h) {
     return h.confirmed == confirmed && std::abs(h.p.x_m - pose.x_m) <= reach && violates(pose, h.p);
   });
 }

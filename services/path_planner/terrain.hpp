@@ -2,7 +2,9 @@
 // was never seen. The exact test of the vehicle's rectangle against both.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "path_planner/geometry.hpp"
@@ -21,13 +23,25 @@ class Terrain {
 
   int cells() const { return cells_; }
   double cell_m() const { return cell_m_; }
-  bool contains(Point2 p) const;
+  bool contains(Point2 p) const { return inside_m(p) > 0.0; }
   // Distance of the point to the map's border, negative outside.
-  double inside_m(Point2 p) const;
-  int cell_of(Point2 p) const;  // the point must lie inside
+  double inside_m(Point2 p) const {
+    const double x = p.x_m - corner_.x_m;
+    const double y = p.y_m - corner_.y_m;
+    return std::min(std::min(x, side_m_ - x), std::min(y, side_m_ - y));
+  }
+  // The point must lie inside.
+  int cell_of(Point2 p) const {
+    const int ix = std::clamp(static_cast<int>((p.x_m - corner_.x_m) * cells_per_m_), 0, cells_ - 1);
+    const int iy = std::clamp(static_cast<int>((p.y_m - corner_.y_m) * cells_per_m_), 0, cells_ - 1);
+    return iy * cells_ + ix;
+  }
   Point2 center_of(int cell) const;
 
+  // Row by row, so that those near a point stand together.
   const std::vector<HazardSpot>& hazards() const { return hazards_; }
+  // Hazards whose y lies within `reach_m` of that of the point, and some more.
+  std::span<const HazardSpot> hazards_about(Point2 p, double reach_m) const;
   bool unseen(Point2 p) const { return !contains(p) || unseen_[cell_of(p)] != 0; }
   // To the nearest hazard's centre, by the cell; infinity outside.
   double hazard_distance_m(Point2 p) const { return contains(p) ? hazard_distance_[cell_of(p)] : kInfinity; }
@@ -40,9 +54,12 @@ class Terrain {
  private:
   int cells_;
   double cell_m_;
+  double cells_per_m_;
+  double side_m_;
   Point2 corner_;
   std::vector<std::uint8_t> unseen_;
   std::vector<HazardSpot> hazards_;
+  std::vector<size_t> row_begin_;  // in hazards_, one more than there are rows
   std::vector<double> hazard_distance_;
   std::vector<double> unseen_distance_;
 };
@@ -70,13 +87,15 @@ class FootprintCheck {
   const Terrain& terrain() const { return terrain_; }
 
  private:
+  static constexpr double kCellDiagonals = 1.5;  // cells by which a distance between cells may be too large
+
   bool violates(const Pose2& pose, Point2 hazard) const;
 
   const Terrain& terrain_;
   Footprint footprint_;
   double margin_m_;
   Pose2 start_;
-  std::vector<Point2> rim_;  // points along the rectangle's edge, the front first
+  std::vector<Point2> rim_;  // around the rectangle's edge, the front first
 };
 
 template <class F>
@@ -84,10 +103,14 @@ bool FootprintCheck::all_unseen(const Pose2& pose, F&& f) const {
   if (terrain_.unseen_distance_m(position(pose)) > footprint_.radius_m() + terrain_.cell_m()) return true;
   const double c = std::cos(pose.yaw_rad);
   const double s = std::sin(pose.yaw_rad);
-  return std::all_of(rim_.begin(), rim_.end(), [&](Point2 r) {
-    const Point2 p{pose.x_m + c * r.x_m - s * r.y_m, pose.y_m + s * r.x_m + c * r.y_m};
-    return !terrain_.unseen(p) || f(p);
-  });
+  for (size_t i = 0; i < rim_.size();) {
+    const Point2 p{pose.x_m + c * rim_[i].x_m - s * rim_[i].y_m, pose.y_m + s * rim_[i].x_m + c * rim_[i].y_m};
+    if (terrain_.unseen(p) && !f(p)) return false;
+    // Neighbours on the rim are a cell apart at most: none nearer than unseen ground or the map's border needs a look.
+    const double seen_m = std::min(terrain_.unseen_distance_m(p), terrain_.inside_m(p));
+    i += 1 + static_cast<size_t>(std::max(0.0, seen_m / terrain_.cell_m() - kCellDiagonals));
+  }
+  return true;
 }
 
 }  // namespace rover::planning

@@ -276,7 +276,7 @@ std::vector<Case> of_services() {
        {{"no space for the log", 1.0, [](Hands& h, Who, int) { h.stack.set_status("recorder", heartbeat_t::DEGRADED); },
          [](Hands& h, Who) { h.stack.set_status("recorder", heartbeat_t::OK); }, nullptr}}},
       {"message_loss_high", {}, kEver, {losing(0.1, 0.1, 2.0)}},
-      {"message_loss", {}, kUnderWay, {losing(0.32, 0.45, 4.5)}},
+      {"message_loss", {}, kUnderWay, {losing(0.35, 0.5, 4.5)}},
       {"unpermitted_motion", {}, kEver, {runaway()}},
       {"fault_stops", {}, kUnderWay, {many_stops()}},
   };

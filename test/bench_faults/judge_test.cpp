@@ -236,9 +236,21 @@ TEST_F(JudgeTest, TheTableSaysWhatIsNotMet) {
   silent_imu(11, 25);
   std::ostringstream table;
   EXPECT_FALSE(write_table({"command", "commit", "machine"}, settings(), judge_, table));
-  EXPECT_NE(table.str().find("| at least 1000 injections | 1 | **no** |"), std::string::npos);
+  EXPECT_NE(table.str().find("| at least 1000 injections that make a fault | 1 of 1 | **no** |"), std::string::npos);
   EXPECT_NE(table.str().find("| detected 100 % | 1 of 1 | yes |"), std::string::npos);
   EXPECT_NE(table.str().find("p99 at most 50 ms | 560 ms"), std::string::npos);
+}
+
+TEST_F(JudgeTest, AnInjectionThatMakesNoFaultCountsForNothing) {
+  run(10);
+  begin("imu_age");
+  inject("delay", "IMU", 0.3);
+  run(40);
+  finish();
+  std::ostringstream table;
+  write_table({"command", "commit", "machine"}, settings(), judge_, table);
+  EXPECT_NE(table.str().find("| at least 1000 injections that make a fault | 0 of 1 |"), std::string::npos);
+  EXPECT_NE(table.str().find("| every row at least 20 times | least 0 | **no** |"), std::string::npos);
 }
 
 }  // namespace

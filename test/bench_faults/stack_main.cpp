@@ -26,9 +26,17 @@ struct Arguments {
   std::string config = "config";
   std::string out = "logs/bench/faults/stack";
   std::uint64_t seed = 1;
-  int per_row = 22;
+  int per_row = 24;
   size_t most = 100'000;
+  std::vector<std::string> rows;  // of fdir.yaml; empty: all
 };
+
+std::vector<Case> cases_of(const std::vector<std::string>& rows) {
+  std::vector<Case> cases = all_cases();
+  if (!rows.empty())
+    std::erase_if(cases, [&](const Case& c) { return std::find(rows.begin(), rows.end(), c.row) == rows.end(); });
+  return cases;
+}
 
 class Bench {
  public:
@@ -43,7 +51,7 @@ class Bench {
         ground_(bus_, seen_, rover_, field_, arguments.seed),
         stack_(bus_, arguments.out),
         hands_(bus_, rover_, blindness_, stack_, ground_),
-        cases_(all_cases()),
+        cases_(cases_of(arguments.rows)),
         injector_(cases_, arguments.per_row, arguments.most, seen_, hands_, field_, log_, arguments.seed) {
     add_stand_ins();
     add_services();
@@ -148,6 +156,7 @@ int main(int argc, char** argv) {
   app.add_option("--out", arguments.out, "folder of the log")->capture_default_str();
   app.add_option("--seed", arguments.seed)->capture_default_str();
   app.add_option("--per-row", arguments.per_row, "injections of each row")->capture_default_str();
+  app.add_option("--rows", arguments.rows, "only these rows, for a closer look")->delimiter(',');
   app.add_option("--most", arguments.most, "injections in all, at most");
   CLI11_PARSE(app, argc, argv);
   std::filesystem::remove_all(arguments.out);

@@ -15,6 +15,7 @@ Checkpoint sample() {
   c.P = ErrorCov::Identity() * 0.25;
   c.gravity_mps2 = 3.71;
   c.travelled_m = 42.5;
+  c.visual_newest = 1'234'567;
   c.drive_angle_rad = {1, 2, 3, 4, 5, 6};
   return c;
 }
@@ -30,6 +31,7 @@ TEST(Checkpoint, ComesBackAsItWas) {
   EXPECT_EQ(back->P, sample().P);
   EXPECT_EQ(back->gravity_mps2, 3.71);
   EXPECT_EQ(back->travelled_m, 42.5);
+  EXPECT_EQ(back->visual_newest, 1'234'567);
   EXPECT_EQ(back->drive_angle_rad, sample().drive_angle_rad);
 }
 

@@ -60,6 +60,26 @@ TEST(ClosedLoop, SurroundedByRocksItStandsAndSaysWhy) {
   EXPECT_NE(r.text, "");
 }
 
+// Turned by less than what starts a point turn, the rover was taken for one that drives off at that error: the path was
+// blocked, another one was planned to the other side, and so on to and fro (615 plans in 25 min).
+TEST(ClosedLoop, ATurnThatWasBegunBetweenRocksIsFinished) {
+  constexpr double length_m = 40.0;
+  constexpr int seed = 23;
+  std::mt19937_64 random(seed);
+  std::vector<Rock> rocks = rock_field(0.06, {-5.0, -15.0}, {length_m + 5.0, 15.0}, 0.2, random);
+  const std::vector<Point2> path = {{0.0, 0.0}, {0.3 * length_m, 2.0}, {0.6 * length_m, -2.0}, {length_m, 0.0}};
+  std::erase_if(rocks, [&](const Rock& r) { return distance(r.p, path.front()) < 2.0 + r.radius_m; });
+  DriveConfig config;
+  config.planner = planner_config();
+  config.camera.false_hit_rate = 0.01;
+  config.timeout_s = 120.0;
+  const DriveResult r = drive(config, rocks, path, seed);
+  EXPECT_FALSE(r.collided);
+  EXPECT_GT(r.driven_m, 12.0);
+  EXPECT_LT(r.replans, 20);
+  EXPECT_LE(r.point_turns, 4);
+}
+
 TEST(ClosedLoop, TheSameSeedGivesTheSameDrive) {
   DriveConfig config;
   config.planner = planner_config();

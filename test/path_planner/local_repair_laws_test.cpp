@@ -4,7 +4,7 @@
 
 #include <queue>
 
-#include "path_planner/distance_field.hpp"
+#include "common/core/distance_field.hpp"
 #include "test/path_planner/repair_field.hpp"
 
 namespace rover::planning {

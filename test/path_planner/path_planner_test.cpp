@@ -246,6 +246,23 @@ TEST(PathPlanner, EnclosedByRocksItSaysThatThereIsNoWay) {
   EXPECT_EQ(rig.paths.size(), before) << "no path through rocks";
 }
 
+// As EnclosedByRocks below, with a share of work that allows one search a frame.
+TEST(PathPlanner, ASearchThatTakesMoreThanAFramesShareGoesOnAtTheNext) {
+  PathPlannerConfig config = testing_support::planner_config();
+  config.frame_work = 1;
+  PlannerRig rig(config);
+  rig.send_path(kAhead);
+  rig.rocks = ring(1.7);
+  for (int deg = -180; deg <= 180; deg += 20) {
+    rig.odom.yaw_rad = to_rad(deg);
+    rig.look(1);
+  }
+  rig.odom.yaw_rad = 0.0;
+  const PlannerOutput out = rig.look(20);
+  EXPECT_EQ(out.status.state, PlannerState::kNoPath);
+  EXPECT_EQ(out.status.text, "hazards leave no way to the global path");
+}
+
 // A rover that knows no ground but that under it: it stands, waits some frames, finds no way and says so.
 TEST(PathPlanner, StandingBeforeUnseenGroundItSaysThatThereIsNoWay) {
   PlannerRig rig;

@@ -1,15 +1,12 @@
-// Random numbers that are the same with every standard library: the distributions of <random> are not.
+// Random places for the tests of the planner.
 #pragma once
 
-#include <random>
-
 #include "path_planner/geometry.hpp"
+#include "test/common/randoms.hpp"
 
 namespace rover::planning::testing_support {
 
-inline double uniform(std::mt19937_64& random, double low, double high) {
-  return low + (high - low) * static_cast<double>(random() >> 11) * 0x1.0p-53;
-}
+using rover::testing_support::uniform;
 
 inline double gauss(std::mt19937_64& random) {
   const double radius = std::sqrt(-2.0 * std::log(uniform(random, 1e-12, 1.0)));

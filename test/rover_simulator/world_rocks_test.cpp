@@ -43,6 +43,47 @@ TEST(RockField, CoversTheLawsArea) {
   }
 }
 
+TEST(RockZone, IsWhatLiesWithinTheHalfWidthOfItsLine) {
+  const RockZone zone{0.1, 5.0, {10, 30, 30}, {10, 10, 40}};
+  EXPECT_TRUE(zone.contains(20, 14.9));
+  EXPECT_TRUE(zone.contains(34.9, 30));
+  EXPECT_TRUE(zone.contains(6.0, 8.0));
+  EXPECT_FALSE(zone.contains(20, 15.1));
+  EXPECT_FALSE(zone.contains(4.9, 10));
+  EXPECT_FALSE(zone.contains(30, 45.1));
+  const RockZone circle{0.1, 5.0, {10}, {10}};
+  EXPECT_TRUE(circle.contains(13, 14));
+  EXPECT_FALSE(circle.contains(13.1, 14));
+}
+
+// Within the zone the rocks are those of a field of its abundance, outside those of the field without zones.
+TEST(RockField, AZoneHasItsOwnAbundance) {
+  RockConfig config = rocks_of(0.05);
+  config.zones = {{0.12, 20.0, {30, 120}, {60, 60}}, {0.0, 15.0, {120}, {60}}, {0.2, 10.0, {100}, {150}}};
+  const RockField zoned(config, 200, 200, {}, 9);
+  const std::vector<double> abundances = {0.05, 0.12, 0.0, 0.2};
+  const auto zone_of = [&](const Rock& rock) {
+    const double x = std::floor(rock.x_m) + 0.5, y = std::floor(rock.y_m) + 0.5;
+    for (size_t i = 0; i < config.zones.size(); ++i)
+      if (config.zones[i].contains(x, y)) return i + 1;
+    return size_t{0};
+  };
+  std::vector<std::vector<Rock>> found(abundances.size()), expected(abundances.size());
+  for (const Rock& rock : zoned.all()) found[zone_of(rock)].push_back(rock);
+  for (size_t i = 0; i < abundances.size(); ++i) {
+    const RockField field(rocks_of(abundances[i]), 200, 200, {}, 9);
+    for (const Rock& rock : field.all())
+      if (zone_of(rock) == i) expected[i].push_back(rock);
+    ASSERT_EQ(found[i].size(), expected[i].size()) << i;
+    for (size_t k = 0; k < found[i].size(); ++k) {
+      EXPECT_EQ(found[i][k].x_m, expected[i][k].x_m);
+      EXPECT_EQ(found[i][k].diameter_m, expected[i][k].diameter_m);
+    }
+  }
+  EXPECT_GT(found[1].size(), 1000u);
+  EXPECT_TRUE(found[2].empty());
+}
+
 TEST(RockField, KeepsHeightsWithinTheirSpread) {
   const RockField field(rocks_of(0.1), 100, 100, {}, 3);
   double mean = 0.0;

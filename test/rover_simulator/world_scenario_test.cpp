@@ -176,6 +176,32 @@ TEST_F(ScenarioFile, BadWorldsAreNamed) {
             std::string::npos);
 }
 
+TEST_F(ScenarioFile, ReadsRockZones) {
+  const std::string path = "path: {x_m: [5, 6], y_m: [5, 6]}\n";
+  const auto world = [&](const std::string& zone) {
+    return "world: {plane: {width_m: 40, height_m: 30}, rock_zones: [" + zone + "]}\n" + path;
+  };
+  write(
+      world("{rock_area_k: 0.12, half_width_m: 3, x_m: [5, 9], y_m: [5, 7]}, "
+            "{rock_area_k: 0, half_width_m: 2, x_m: [20], y_m: [20]}"));
+  const std::vector<RockZone> zones = load_scenario(file()).world.rocks.zones;
+  ASSERT_EQ(zones.size(), 2u);
+  EXPECT_EQ(zones[0].k, 0.12);
+  EXPECT_EQ(zones[0].half_width_m, 3.0);
+  EXPECT_EQ(zones[0].y_m[1], 7.0);
+  EXPECT_EQ(zones[1].k, 0.0);
+  const std::pair<const char*, const char*> cases[] = {
+      {"{rock_area_k: 0.5, half_width_m: 3, x_m: [5], y_m: [5]}", "rock_zones[0].rock_area_k"},
+      {"{half_width_m: 3, x_m: [5], y_m: [5]}", "rock_zones[0].rock_area_k"},
+      {"{rock_area_k: 0.1, x_m: [5], y_m: [5]}", "rock_zones[0].half_width_m"},
+      {"{rock_area_k: 0.1, half_width_m: 3, x_m: [5, 6], y_m: [5]}", "rock_zones[0].y_m"},
+      {"{rock_area_k: 0.1, half_width_m: 3, x_m: [], y_m: []}", "rock_zones[0].x_m"},
+      {"{rock_area_k: 0.1, half_width_m: 3, x_m: [5], y_m: [5], k: 1}", "rock_zones[0].k: unknown key"},
+  };
+  for (const auto& [zone, expected] : cases)
+    EXPECT_NE(complaint(world(zone)).find(expected), std::string::npos) << zone;
+}
+
 const std::string kPlane = "world: {plane: {width_m: 40, height_m: 30}}\npath: {x_m: [5, 6], y_m: [5, 6]}\n";
 
 TEST_F(ScenarioFile, ReadsFaults) {

@@ -110,6 +110,15 @@ TEST(Monitor, ALatchedFaultWaitsForTheGround) {
   EXPECT_FALSE(monitor.standing());
 }
 
+TEST(Monitor, UnlatchedItTakesItsWholePersistenceAgain) {
+  Monitor monitor(row(0.5, true));
+  Utime now = 0;
+  EXPECT_NEAR(time_to_change(monitor, now, 2.0), 0.5, 1e-9);
+  now += kTickUs;
+  EXPECT_TRUE(monitor.unlatch(above_reading(0.0, 1.0, now, now)));
+  EXPECT_NEAR(time_to_change(monitor, now, 2.0), 0.5, 1e-9);
+}
+
 TEST(Monitor, OutsideOfItsStatesItIsQuietAndForgets) {
   Monitor monitor(row(0.0, true));
   Utime now = 0;

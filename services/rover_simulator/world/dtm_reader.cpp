@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <memory>
 
 #include "rover_simulator/world/gdal_session.hpp"
@@ -19,17 +20,19 @@ std::array<double, 6> georeference(GDALDataset& dataset, const std::string& file
   return t;
 }
 
-void check_heights(GDALRasterBand& band, const std::vector<float>& heights, const std::string& file) {
+void treat_voids(GDALRasterBand& band, std::vector<float>& heights, Voids voids, const std::string& file) {
   int has_void = 0;
   const double void_value = band.GetNoDataValue(&has_void);
-  for (float z : heights)
-    if (!std::isfinite(z) || (has_void && static_cast<double>(z) == void_value))
-      throw DtmError(file + ": elevation model has voids");
+  for (float& z : heights) {
+    if (std::isfinite(z) && !(has_void && static_cast<double>(z) == void_value)) continue;
+    if (voids == Voids::kRefuse) throw DtmError(file + ": elevation model has voids");
+    z = std::numeric_limits<float>::quiet_NaN();
+  }
 }
 
 }  // namespace
 
-ElevationRaster read_elevation(const std::string& file) {
+ElevationRaster read_elevation(const std::string& file, Voids voids) {
   if (!std::filesystem::is_regular_file(file)) throw DtmError(file + ": elevation model not found");
   const GdalSession gdal;
   const std::unique_ptr<GDALDataset> dataset(GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
@@ -51,7 +54,7 @@ ElevationRaster read_elevation(const std::string& file) {
       band.RasterIO(GF_Read, 0, 0, raster.width, raster.height, last_row, raster.width, raster.height, GDT_Float32,
                     sizeof(float), -static_cast<GSpacing>(sizeof(float)) * raster.width, nullptr);
   if (error != CE_None) throw DtmError(file + ": elevation model is cut short or damaged" + gdal.last_error());
-  check_heights(band, raster.z_m, file);
+  treat_voids(band, raster.z_m, voids, file);
   return raster;
 }
 

@@ -14,8 +14,10 @@ class DtmError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+enum class Voids { kRefuse, kAsNaN };
+
 // Heights as the file has them. Throws DtmError where the file is missing, cut short, without georeference, not
-// north-up with square pixels, or has voids.
-ElevationRaster read_elevation(const std::string& file);
+// north-up with square pixels, or has voids that are refused.
+ElevationRaster read_elevation(const std::string& file, Voids voids = Voids::kRefuse);
 
 }  // namespace rover

@@ -18,6 +18,21 @@ double q_of(double k) {
   return 1.79 + 0.152 / k;
 }
 
+// Rocks per square metre of diameter >= D.
+double density_above(double k, double max_diameter_m, double diameter_m) {
+  if (k <= 0.0 || diameter_m >= max_diameter_m) return 0.0;
+  const double q = q_of(k);
+  // Trapezoids in log D, where the integrand k q exp(-q D) * 4 / (pi D^2) * D is smooth.
+  const double a = std::log(diameter_m), step = (std::log(max_diameter_m) - a) / kIntegrationSteps;
+  double sum = 0.0;
+  for (int i = 0; i <= kIntegrationSteps; ++i) {
+    const double d = std::exp(a + i * step);
+    const double value = k * q * std::exp(-q * d) * 4.0 / (M_PI * d);
+    sum += (i == 0 || i == kIntegrationSteps) ? 0.5 * value : value;
+  }
+  return sum * step;
+}
+
 int poisson(double mean, HashStream& stream) {
   // Knuth's product of uniforms: the mean is a few rocks a cell.
   const double limit = std::exp(-mean);
@@ -36,60 +51,73 @@ bool is_kept_clear(const Rock& rock, std::span<const KeepClear> circles) {
 
 }  // namespace
 
-double rock_density_above(const RockConfig& config, double diameter_m) {
-  if (config.k <= 0.0 || diameter_m >= config.max_diameter_m) return 0.0;
-  const double q = q_of(config.k);
-  // Trapezoids in log D, where the integrand k q exp(-q D) * 4 / (pi D^2) * D is smooth.
-  const double a = std::log(diameter_m), step = (std::log(config.max_diameter_m) - a) / kIntegrationSteps;
-  double sum = 0.0;
-  for (int i = 0; i <= kIntegrationSteps; ++i) {
-    const double d = std::exp(a + i * step);
-    const double value = config.k * q * std::exp(-q * d) * 4.0 / (M_PI * d);
-    sum += (i == 0 || i == kIntegrationSteps) ? 0.5 * value : value;
+bool RockZone::contains(double px_m, double py_m) const {
+  for (size_t i = 0; i < x_m.size(); ++i) {
+    const size_t next = std::min(i + 1, x_m.size() - 1);
+    const double dx = x_m[next] - x_m[i], dy = y_m[next] - y_m[i], squared = dx * dx + dy * dy;
+    const double along = squared > 0.0 ? ((px_m - x_m[i]) * dx + (py_m - y_m[i]) * dy) / squared : 0.0;
+    const double t = std::clamp(along, 0.0, 1.0);
+    if (std::hypot(px_m - x_m[i] - t * dx, py_m - y_m[i] - t * dy) <= half_width_m) return true;
   }
-  return sum * step;
+  return false;
+}
+
+double rock_density_above(const RockConfig& config, double diameter_m) {
+  return density_above(config.k, config.max_diameter_m, diameter_m);
 }
 
 RockField::RockField(const RockConfig& config, double width_m, double height_m, std::span<const KeepClear> keep_clear,
                      std::uint64_t seed)
-    : config_(config), width_m_(width_m), height_m_(height_m) {
+    : config_(config), width_m_(width_m), height_m_(height_m), laws_{law_of(config, config.k)} {
+  for (const RockZone& zone : config.zones) laws_.push_back(law_of(config, zone.k));
   cells_x_ = static_cast<int>(std::ceil(width_m / kCellM));
   cells_y_ = static_cast<int>(std::ceil(height_m / kCellM));
-  per_square_metre_ = rock_density_above(config, config.min_diameter_m);
-  if (per_square_metre_ > 0.0) {
-    // Inverse of the distribution of diameters, by walking down the density.
-    const double ratio = std::pow(config.max_diameter_m / config.min_diameter_m, 1.0 / kQuantiles);
-    double diameter = config.min_diameter_m, above = per_square_metre_;
-    for (int i = 0; i <= kQuantiles; ++i) {
-      const double wanted = per_square_metre_ * (1.0 - static_cast<double>(i) / kQuantiles);
-      while (above > wanted && diameter < config.max_diameter_m) {
-        const double next = diameter * ratio, mid = diameter * std::sqrt(ratio);
-        const double q = q_of(config.k);
-        above -= config.k * q * std::exp(-q * mid) * 4.0 / (M_PI * mid * mid) * (next - diameter);
-        diameter = next;
-      }
-      quantile_diameter_m_.push_back(diameter);
-    }
-    for (int cy = 0; cy < cells_y_; ++cy)
-      for (int cx = 0; cx < cells_x_; ++cx) draw_cell(cx, cy, keep_clear, seed);
-  }
+  for (int cy = 0; cy < cells_y_; ++cy)
+    for (int cx = 0; cx < cells_x_; ++cx) draw_cell(cx, cy, keep_clear, seed);
   index_rocks();
 }
 
-double RockField::draw_diameter_m(double u) const {
+RockField::Law RockField::law_of(const RockConfig& config, double k) {
+  Law law;
+  law.per_square_metre = density_above(k, config.max_diameter_m, config.min_diameter_m);
+  if (law.per_square_metre <= 0.0) return law;
+  // Inverse of the distribution of diameters, by walking down the density.
+  const double ratio = std::pow(config.max_diameter_m / config.min_diameter_m, 1.0 / kQuantiles), q = q_of(k);
+  double diameter = config.min_diameter_m, above = law.per_square_metre;
+  for (int i = 0; i <= kQuantiles; ++i) {
+    const double wanted = law.per_square_metre * (1.0 - static_cast<double>(i) / kQuantiles);
+    while (above > wanted && diameter < config.max_diameter_m) {
+      const double next = diameter * ratio, mid = diameter * std::sqrt(ratio);
+      above -= k * q * std::exp(-q * mid) * 4.0 / (M_PI * mid * mid) * (next - diameter);
+      diameter = next;
+    }
+    law.quantile_diameter_m.push_back(diameter);
+  }
+  return law;
+}
+
+const RockField::Law& RockField::law_at(double x_m, double y_m) const {
+  for (size_t i = 0; i < config_.zones.size(); ++i)
+    if (config_.zones[i].contains(x_m, y_m)) return laws_[i + 1];
+  return laws_.front();
+}
+
+double RockField::draw_diameter_m(const Law& law, double u) {
   const double place = u * kQuantiles;
   const int i = std::min(static_cast<int>(place), kQuantiles - 1);
-  return std::lerp(quantile_diameter_m_[i], quantile_diameter_m_[i + 1], place - i);
+  return std::lerp(law.quantile_diameter_m[i], law.quantile_diameter_m[i + 1], place - i);
 }
 
 void RockField::draw_cell(int cx, int cy, std::span<const KeepClear> keep_clear, std::uint64_t seed) {
+  const Law& law = law_at((cx + 0.5) * kCellM, (cy + 0.5) * kCellM);
+  if (law.per_square_metre <= 0.0) return;
   HashStream stream(hash_cell(seed, cx, cy));
-  const int count = poisson(per_square_metre_ * kCellM * kCellM, stream);
+  const int count = poisson(law.per_square_metre * kCellM * kCellM, stream);
   for (int i = 0; i < count; ++i) {
     Rock rock;
     rock.x_m = (cx + stream.unit()) * kCellM;
     rock.y_m = (cy + stream.unit()) * kCellM;
-    rock.diameter_m = draw_diameter_m(stream.unit());
+    rock.diameter_m = draw_diameter_m(law, stream.unit());
     // Sum of two uniforms: most rocks near the mean ratio, none beyond the limits.
     const double spread = 0.5 * (stream.unit() + stream.unit());
     rock.height_m = rock.diameter_m * std::lerp(config_.min_height_ratio, config_.max_height_ratio, spread);

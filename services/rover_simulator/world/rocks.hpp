@@ -27,15 +27,25 @@ struct KeepClear {
   double height_m = 0.12;
 };
 
+// Ground of another abundance: everything within the half width of a line; a single point makes a circle.
+struct RockZone {
+  double k = 0.0;
+  double half_width_m = 0.0;
+  std::vector<double> x_m, y_m;
+
+  bool contains(double px_m, double py_m) const;
+};
+
 struct RockConfig {
-  double k = 0.08;  // cumulative fractional area of all rocks; 0: none
+  double k = 0.08;              // cumulative fractional area of all rocks; 0: none
+  std::vector<RockZone> zones;  // where they overlap the first one counts
   double min_diameter_m = 0.08;
   double max_diameter_m = 1.5;
   double min_height_ratio = 0.3;  // height over diameter: spread about Golombek's 1/2
   double max_height_ratio = 0.7;
 };
 
-// Rocks per square metre of diameter >= D, from the law: the integral of -dF / (pi D^2 / 4).
+// Rocks per square metre of diameter >= D outside of the zones, from the law: the integral of -dF / (pi D^2 / 4).
 double rock_density_above(const RockConfig& config, double diameter_m);
 
 class RockField {
@@ -63,10 +73,18 @@ class RockField {
     std::array<float, kFlanks> flank_x, flank_y, flank_offset, flank_rise;
   };
 
+  // Number and sizes of the rocks for one abundance.
+  struct Law {
+    double per_square_metre = 0.0;
+    std::vector<double> quantile_diameter_m;  // at equal steps of probability
+  };
+
+  static Law law_of(const RockConfig& config, double k);
+  static double draw_diameter_m(const Law& law, double u);
+  const Law& law_at(double x_m, double y_m) const;
   Shape shape_of(const Rock& rock) const;
   static float profile_m(const Shape& shape, float dx_m, float dy_m);
   void draw_cell(int cx, int cy, std::span<const KeepClear> keep_clear, std::uint64_t seed);
-  double draw_diameter_m(double u) const;
   void index_rocks();
   template <class F>
   void for_cells_of(const Shape& shape, F&& f) const;
@@ -74,8 +92,7 @@ class RockField {
   RockConfig config_;
   double width_m_;
   double height_m_;
-  std::vector<double> quantile_diameter_m_;  // at equal steps of probability
-  double per_square_metre_ = 0.0;
+  std::vector<Law> laws_;  // of the ground, then of each zone
   std::vector<Rock> rocks_;
   std::vector<Shape> shapes_;
   int cells_x_ = 0;

@@ -51,6 +51,20 @@ void read_orbital(const Config& orbital, Scenario& scenario) {
   orbital.read("distortion_m", config.distortion_m, {0, 10});
 }
 
+std::vector<RockZone> read_rock_zones(const Config& world) {
+  std::vector<RockZone> zones;
+  for (const Config& yaml : world.list("rock_zones")) {
+    RockZone zone;
+    zone.k = yaml.number("rock_area_k", {0, 0.4});
+    zone.half_width_m = yaml.number("half_width_m", {0.5, 1000});
+    zone.x_m = yaml.numbers("x_m", kMap, 0);
+    zone.y_m = yaml.numbers("y_m", kMap, zone.x_m.size());
+    if (zone.x_m.empty()) yaml.fail("x_m", "a zone needs a point or more");
+    zones.push_back(std::move(zone));
+  }
+  return zones;
+}
+
 void read_world(const Config& world, const std::string& file, Scenario& scenario) {
   if (world.has("plane")) {
     scenario.dtm = read_plane(world.section("plane"));
@@ -59,6 +73,7 @@ void read_world(const Config& world, const std::string& file, Scenario& scenario
     scenario.dtm = read_elevation(scenario.dtm_file);
   }
   world.read("rock_area_k", scenario.world.rocks.k, {0, 0.4});
+  if (world.has("rock_zones")) scenario.world.rocks.zones = read_rock_zones(world);
   world.read("rock_max_diameter_m", scenario.world.rocks.max_diameter_m, {0.1, 5});
   world.read("roughness_rms_m", scenario.world.roughness.rms_m, {0, 0.1});
   if (world.has("soil")) read_soil(world.section("soil"), scenario.world.soil);

@@ -82,7 +82,7 @@ void Evidence::take_heartbeat(const heartbeat_t& beat) {
   const auto account = [](const heartbeat_t& b) {
     Loss sum{b.header.utime, 0.0, 0.0};
     for (const input_health_t& input : b.inputs) {
-      sum.received += static_cast<double>(input.received);
+      if (input.channel != channel::kTick) sum.received += static_cast<double>(input.received);
       sum.lost += static_cast<double>(input.gaps + input.malformed);
     }
     return sum;

@@ -36,8 +36,9 @@ std::set<std::string> precursors(const std::string& row) {
   std::set<std::string> out;
   if (const auto lower = kLower.find(line); lower != kLower.end())
     for (const std::string& one : lower->second) out.insert(one + suffix);
-  const bool hangs = line == "heartbeat" || line == "heartbeat_late";
-  const auto streams = hangs ? kStreams.find(suffix.substr(1)) : kStreams.end();
+  // What hangs, or is begun anew again and again, publishes nothing either.
+  const bool silent = line == "heartbeat" || line == "heartbeat_late" || line == "starts";
+  const auto streams = silent ? kStreams.find(suffix.substr(1)) : kStreams.end();
   if (streams != kStreams.end()) out.insert(streams->second.begin(), streams->second.end());
   // Begun anew, a controller has no path until the planner repeats it, and localization has used no picture.
   if (row == "starts.trajectory_control") out.insert("path_mismatch");

@@ -1,10 +1,10 @@
-#include "path_planner/distance_field.hpp"
+#include "common/core/distance_field.hpp"
 
 #include <cmath>
 
 #include "common/core/frames.hpp"
 
-namespace rover::planning {
+namespace rover {
 namespace {
 
 constexpr double kFar = 1e12;  // in squared cells: none marked
@@ -55,4 +55,4 @@ std::vector<double> distance_field(const std::vector<std::uint8_t>& marked, int 
   return field;
 }
 
-}  // namespace rover::planning
+}  // namespace rover

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace rover::planning {
+namespace rover {
 
 struct Seed {
   int cell = 0;
@@ -22,4 +22,4 @@ struct MarchGrid {
 // Infinity where the front has not come.
 std::vector<double> march(const MarchGrid& grid, const std::vector<Seed>& seeds, int target, double beyond);
 
-}  // namespace rover::planning
+}  // namespace rover

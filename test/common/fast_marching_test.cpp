@@ -1,15 +1,16 @@
 // Fast marching against exact distances, against its own difference equation and against Dijkstra.
-#include "path_planner/fast_marching.hpp"
+#include "common/core/fast_marching.hpp"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numeric>
 #include <queue>
 
-#include "path_planner/geometry.hpp"
-#include "test/path_planner/randoms.hpp"
+#include "common/core/frames.hpp"
+#include "test/common/randoms.hpp"
 
-namespace rover::planning {
+namespace rover {
 namespace {
 
 using testing_support::uniform;
@@ -123,10 +124,8 @@ TEST(FastMarching, BehindAWallTheWayLeadsRoundItsEnd) {
   for (int y = 0; y <= 60; ++y) grid.cost_per_m[cell_at(grid, 50, y)] = kInfinity;
   const std::vector<double> travel = march_all(grid, cell_at(grid, 30, 20));
   // The shortest way touches the last blocked cell's upper corners, half a cell beside and above its centre.
-  const Point2 corners[2] = {{49.5, 60.5}, {50.5, 60.5}};
   for (const auto& [x, y] : {std::pair{70, 20}, std::pair{60, 5}, std::pair{90, 40}}) {
-    const double exact =
-        0.1 * (distance({30.0, 20.0}, corners[0]) + 1.0 + distance(corners[1], Point2{x + 0.0, y + 0.0}));
+    const double exact = 0.1 * (std::hypot(49.5 - 30.0, 60.5 - 20.0) + 1.0 + std::hypot(x - 50.5, y - 60.5));
     EXPECT_NEAR(travel[cell_at(grid, x, y)], exact, 0.04 * exact) << x << " " << y;
     EXPECT_GT(travel[cell_at(grid, x, y)], exact - 0.01);
   }
@@ -251,4 +250,4 @@ TEST(FastMarching, StopsBeyondTheTargetWithTheSameCosts) {
 }
 
 }  // namespace
-}  // namespace rover::planning
+}  // namespace rover

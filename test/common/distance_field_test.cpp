@@ -1,12 +1,12 @@
 // The exact distance transform against brute force.
-#include "path_planner/distance_field.hpp"
+#include "common/core/distance_field.hpp"
 
 #include <gtest/gtest.h>
 
 #include "common/core/frames.hpp"
-#include "test/path_planner/randoms.hpp"
+#include "test/common/randoms.hpp"
 
-namespace rover::planning {
+namespace rover {
 namespace {
 
 using testing_support::uniform;
@@ -57,4 +57,4 @@ TEST(DistanceField, NothingMarkedIsInfinitelyFar) {
 }
 
 }  // namespace
-}  // namespace rover::planning
+}  // namespace rover

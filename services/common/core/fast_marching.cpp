@@ -1,4 +1,4 @@
-#include "path_planner/fast_marching.hpp"
+#include "common/core/fast_marching.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "common/core/frames.hpp"
 
-namespace rover::planning {
+namespace rover {
 namespace {
 
 class Front {
@@ -90,4 +90,4 @@ std::vector<double> march(const MarchGrid& grid, const std::vector<Seed>& seeds,
   return std::move(front).result();
 }
 
-}  // namespace rover::planning
+}  // namespace rover

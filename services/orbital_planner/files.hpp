@@ -1,0 +1,17 @@
+// What a plan leaves behind in its folder.
+#pragma once
+
+#include <string>
+
+#include "orbital_planner/config.hpp"
+#include "orbital_planner/map_file.hpp"
+#include "orbital_planner/orbital_planner.hpp"
+
+namespace rover::orbital {
+
+// path.geojson, path.lcm (an LCM log with the one GLOBAL_PATH), path.yaml, path.png and terrain.tif (slope [deg],
+// roughness [m], step [m], difficulty, class). Throws ConfigError with one line where one cannot be written.
+void write_files(const std::string& dir, const OrbitalMap& map, const Geography& geography, const Plan& plan,
+                 const Line& waypoints, const PathTerms& terms);
+
+}  // namespace rover::orbital

@@ -1,0 +1,32 @@
+// rover_orbital_planner MAP --start X,Y --goal X,Y: the path and its levels, from the orbital map.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <opencv2/core.hpp>
+
+#include "orbital_planner/command.hpp"
+
+int main(int argc, char** argv) {
+  rover::orbital::Arguments arguments;
+  CLI::App app("./rover plan: the globally best path on an orbital map, with the level of autonomy of each stretch");
+  app.add_option("map", arguments.map, "elevation model with georeference, any format that GDAL reads")->required();
+  app.add_option("--start", arguments.start, "X,Y in metres from the map's lower left corner")->required();
+  app.add_option("--via", arguments.via, "a place to pass by on the way, repeatable")->expected(1)->take_all();
+  app.add_option("--goal", arguments.goal, "as --start")->required();
+  app.add_flag("--lonlat", arguments.lon_lat, "places are LONGITUDE,LATITUDE in degrees instead (--start=-9.5,4.1)");
+  app.add_option("--out", arguments.out, "folder for the results; default: logs/plan-<map>");
+  app.add_option("--config", arguments.config_dir, "folder with orbital_planner.yaml")->capture_default_str();
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  if (arguments.out.empty()) arguments.out = rover::orbital::default_folder(arguments.map);
+  cv::setNumThreads(1);
+  try {
+    std::fputs(rover::orbital::run(arguments).c_str(), stdout);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "rover plan: %s\n", error.what());
+    return 2;
+  }
+  return 0;
+}
