@@ -110,25 +110,12 @@ class Page:
         return [entry["message"] for entry in self.driver.get_log("browser") if entry["level"] == "SEVERE"]
 
 
-def is_up(url):
-    try:
-        return urllib.request.urlopen(url, timeout=1).status == 200
-    except (urllib.error.URLError, OSError):
-        return False
-
-
 def post(url, body, headers):
     request = urllib.request.Request(url, json.dumps(body).encode(), {"Content-Type": "application/json", **headers})
     try:
         return urllib.request.urlopen(request, timeout=5).status
     except urllib.error.HTTPError as error:
         return error.code
-
-
-def begun(run):
-    """When the services were begun: s6 makes each one's folder of supervision then."""
-    path = run / "boots" / "mission_control"
-    return path.stat().st_mtime if path.exists() else None
 
 
 def kill_service(run, name):
@@ -209,8 +196,6 @@ def main():
     parser.add_argument("--pictures", type=pathlib.Path, required=True)
     arguments = parser.parse_args()
     url = f"http://127.0.0.1:{arguments.port}/"
-    wait_for("the page is up", lambda: is_up(url))
-    print(f"page up {time.time() - begun(arguments.run):.1f} s after its service was started", flush=True)
     pages = []
     try:
         pages = [Page(url, 1440, 900), Page(url, 1440, 900)]

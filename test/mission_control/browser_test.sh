@@ -10,6 +10,16 @@ RUN=$WORK/run
 (cd "$SOURCE" && exec "$BUILD/bin/rover_launcher" run config/scenarios/seed_traverse_1.yaml --out "$RUN" --bus "$BUS" \
   --record reduced --allow-injection --set mission_control.port="$PAGE_PORT") >"$WORK/run.log" 2>&1 &
 launcher=$!
+while [ ! -e "$RUN/boots/mission_control" ]; do
+  kill -0 "$launcher" || { cat "$WORK/run.log" >&2; fail "no run"; }
+  sleep 0.02
+done
+begun=$(date +%s.%N)
+until curl -sfo /dev/null "http://127.0.0.1:$PAGE_PORT/"; do
+  kill -0 "$launcher" || { cat "$WORK/run.log" >&2; fail "no page"; }
+  sleep 0.02
+done
+echo "page up $(date +%s.%N) $begun" | awk '{ printf "page up %.2f s after the services were begun\n", $3 - $4 }'
 /usr/bin/python3 "$(dirname "$0")/browser_test.py" --port "$PAGE_PORT" --run "$RUN" --pictures "${ROVER_PICTURES:-$WORK}" ||
   { tail -5 "$WORK/run.log" >&2; fail "the page in the browser"; }
 kill -TERM "$launcher"
