@@ -11,6 +11,7 @@ namespace {
 using nlohmann::json;
 
 constexpr size_t kLongestName = 64;
+constexpr int kDeepest = 4;
 
 struct Form {
   const char* name;
@@ -30,10 +31,17 @@ constexpr std::array kForms = {Form{"go", CommandKind::kGo, nullptr},
                                Form{"kill", CommandKind::kKill, "service"},
                                Form{"hang", CommandKind::kHang, "service"}};
 
-// Null where the text is no JSON object.
+// Null where the text is no JSON object, or nests deeper than any request: copies of a value recurse, and a few thousand
+// brackets would take the stack.
 json object_from(const std::string& text) {
-  json parsed = json::parse(text, nullptr, false);
-  return parsed.is_object() ? parsed : json();
+  bool too_deep = false;
+  const auto keep = [&](int depth, json::parse_event_t, json&) {
+    too_deep = too_deep || depth > kDeepest;
+    return !too_deep;
+  };
+  json parsed = json::parse(text, keep, false);
+  if (too_deep || !parsed.is_object()) return {};
+  return parsed;
 }
 
 const Form* find_form(const json& request) {
