@@ -31,8 +31,8 @@ constexpr std::array kForms = {Form{"go", CommandKind::kGo, nullptr},
                                Form{"kill", CommandKind::kKill, "service"},
                                Form{"hang", CommandKind::kHang, "service"}};
 
-// Null where the text is no JSON object, or nests deeper than any request: copies of a value recurse, and a few thousand
-// brackets would take the stack.
+// Null where the text is no JSON object, or nests deeper than any request: copies of a value recurse, and a few
+// thousand brackets would take the stack.
 json object_from(const std::string& text) {
   bool too_deep = false;
   const auto keep = [&](int depth, json::parse_event_t, json&) {
