@@ -10,8 +10,8 @@
 #include <optional>
 #include <vector>
 
-#include "path_planner/dubins.hpp"
 #include "common/core/fast_marching.hpp"
+#include "path_planner/dubins.hpp"
 #include "path_planner/terrain.hpp"
 
 namespace rover::planning {
