@@ -56,6 +56,7 @@ TEST(WorldTruth, TheOrbitalMapLiesSouthFirst) {
   RunFolder folder = folder_with(kPlane);
   folder.orbital_map = folder.dir + "/orbital_map.tif";
   ElevationRaster raster = plane_raster(8.0, 6.0, 0.5, 0.0, 0.0);
+  raster.projection_wkt.clear();
   write_geotiff(folder.orbital_map, raster);
   EXPECT_TRUE(load_orbital_map(folder).empty());  // no projection
   raster.at(0, 0) = 7.0F;
