@@ -58,7 +58,8 @@ constexpr size_t kCount = 1 + 1 + 2 * kPoseSize + 1 + 3 + kErrorSize * kErrorSiz
 
 bool sound(const Checkpoint& c) {
   return is_finite(c.T_odom_body) && is_finite(c.T_map_odom) && c.gyro_bias_radps.allFinite() && c.P.allFinite() &&
-         (c.P.diagonal().array() >= 0.0).all() && std::isfinite(c.travelled_m) && c.gravity_mps2 > 0.0;
+         c.visual_newest <= c.utime && (c.P.diagonal().array() >= 0.0).all() && std::isfinite(c.travelled_m) &&
+         c.gravity_mps2 > 0.0;
 }
 
 }  // namespace

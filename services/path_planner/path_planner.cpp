@@ -68,8 +68,7 @@ std::string PathPlanner::set_global_path(const GlobalPath& path) {
   if (!(path.goal_tolerance_m > 0.0)) global_->goal_tolerance_m = config_.goal_tolerance_m;
   if (!(path.corridor_half_width_m > 0.0)) global_->corridor_half_width_m = config_.corridor_half_width_m;
   global_map_ = rounded(path.points, config_.rounding);
-  global_odom_ = Route();
-  active_ = Active();
+  forget_way();
   failures_ = 0;
   retreats_ = 0;
   dead_ends_.clear();
@@ -113,9 +112,15 @@ void PathPlanner::take_start_area() {
   const Point2 center = apply(inverse(planar(newest.T_map_odom)), start_area_->center_map);
   if (start_area_->radius_m > 0.0) memory_.mark_seen(center, start_area_->radius_m);
   start_area_.reset();
+  forget_way();
+  new_ground_ = true;
+}
+
+void PathPlanner::forget_way() {
   global_odom_ = Route();
   active_ = Active();
-  new_ground_ = true;
+  agenda_.restart();
+  firm_agenda_.restart();
 }
 
 bool PathPlanner::add_hazards(const HazardGrid& grid) {
@@ -235,6 +240,7 @@ bool PathPlanner::retreat(PlannerOutput& out) {
   ++retreats_;
   dead_ends_.push_back(position(rover()));
   failures_ = 0;
+  turning_ = false;  // whatever turn was begun, the rover backs out of it
   std::vector<RoutePoint> points;
   for (const Point2& p : back) points.push_back({p, kNaN, global_odom_.level_at(global_progress_m_)});
   active_.corridor_half_width_m = config_.retreat_corridor_m;
@@ -276,7 +282,7 @@ double PathPlanner::seen_way(const Terrain& terrain, const std::vector<Pose2>& p
 // would look blocked in the middle of each turn beside a rock, and the next plan would turn it back.
 void PathPlanner::track_turn() {
   const double error = std::abs(wrap_angle(active_.route.pose_at(active_.progress_m).yaw_rad - rover().yaw_rad));
-  const bool driving = history_.newest().forward_mps > kTurnCreepMps;
+  const bool driving = std::abs(history_.newest().forward_mps) > kTurnCreepMps;
   turning_ = error > config_.turn_threshold_rad || (turning_ && error > config_.turn_stop_rad && !driving);
 }
 
@@ -317,11 +323,11 @@ bool PathPlanner::goal_near() const {
 PathPlanner::SearchEnd PathPlanner::search(const Terrain& terrain, const std::vector<WayDemand>& demands,
                                            RepairAgenda& agenda) {
   const std::vector<LeadIn> leads = lead_ins();
+  agenda.fit(demands.size());
   for (int work = 0; work < config_.frame_work; work += last_repair_.expansions + kFieldWork) {
     last_lead_ = leads[std::min(agenda.lead(), leads.size() - 1)];
     last_margin_m_ = agenda.margin() == 0 ? config_.margin_m : config_.tight_margin_m;
-    last_repair_ =
-        plan_repair(terrain, last_lead_, last_margin_m_, demands[std::min(agenda.demand(), demands.size() - 1)]);
+    last_repair_ = plan_repair(terrain, last_lead_, last_margin_m_, demands[agenda.demand()]);
     if (last_repair_.status == RepairStatus::kFound) {
       agenda.restart();
       return SearchEnd::kFound;

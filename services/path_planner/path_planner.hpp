@@ -143,6 +143,7 @@ class PathPlanner {
   bool ready(Utime now) const;
   Pose2 rover() const { return planar(history_.newest().T_odom_body); }
   void take_start_area();
+  void forget_way();
   void lay_global_path();
   void send_again(PlannerOutput& out);
   LocalPath published() const;

@@ -42,6 +42,10 @@ class RepairAgenda {
   }
 
   void restart() { *this = RepairAgenda(); }
+  // Demands come and go with the rover's place: from the beginning where this one is no more.
+  void fit(size_t demands) {
+    if (demand_ >= demands) restart();
+  }
 
  private:
   size_t demand_ = 0;
