@@ -13,7 +13,7 @@ LOGS=logs/bench/page
 [[ $ROUNDS =~ ^[1-9][0-9]?$ ]] || { echo "bench page: '$ROUNDS' is not a number of rounds, as in: ./rover bench page 3" >&2; exit 2; }
 command -v chromium >/dev/null || { echo "bench page: chromium is missing; install it with: apt-get install chromium" >&2; exit 2; }
 mkdir -p test/results "$LOGS"
-profile=$(mktemp -d /tmp/rover-browser-XXXXXX)
+profile=$(mktemp -d -t rover-browser-XXXXXX)
 browser=
 close_browser() {
   [ -z "$browser" ] || kill -- "-$browser" 2>/dev/null || true

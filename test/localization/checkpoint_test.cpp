@@ -46,6 +46,9 @@ TEST(Checkpoint, RefusesWhatItIsNot) {
   Checkpoint bad = sample();
   bad.T_odom_body.translation().x() = kNaN;
   EXPECT_FALSE(from_bytes(to_bytes(bad)).has_value());
+  Checkpoint early = sample();
+  early.visual_newest = early.utime + 1;
+  EXPECT_FALSE(from_bytes(to_bytes(early)).has_value()) << "stale odometry would look fresh";
 }
 
 }  // namespace

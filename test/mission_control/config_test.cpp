@@ -9,33 +9,28 @@
 
 #include "common/bus/config.hpp"
 #include "common/bus/vehicle_config.hpp"
+#include "test/common/temp_folder.hpp"
 
 namespace rover::mission {
 namespace {
 
 class PageConfigTest : public testing::Test {
  protected:
-  PageConfigTest() {
-    std::string dir = std::filesystem::temp_directory_path() / "rover-page-XXXXXX";
-    dir_ = mkdtemp(dir.data());
-  }
-  ~PageConfigTest() override { std::filesystem::remove_all(dir_); }
-
   std::string token_file(const std::string& token, mode_t mode) const {
-    const std::string file = dir_ + "/token";
+    const std::string file = folder_.file("token");
     std::ofstream(file) << token << "\n";
     chmod(file.c_str(), mode);
     return file;
   }
 
   PageConfig load(const std::string& address, const std::string& token, const std::string& more = "") const {
-    std::ofstream(dir_ + "/mission_control.yaml")
+    std::ofstream(folder_.file("mission_control.yaml"))
         << "address: " << address << "\ntoken_file: \"" << token << "\"\npath: {}\n"
         << more;
-    return load_page_config(dir_);
+    return load_page_config(folder_.path());
   }
 
-  std::string dir_;
+  testing_support::TempFolder folder_;
 };
 
 TEST_F(PageConfigTest, TheProjectsOwnIsLoopbackWithoutToken) {
@@ -59,7 +54,7 @@ TEST_F(PageConfigTest, ATokenThatOthersCanReadOrGuessIsNone) {
   EXPECT_THROW(load("0.0.0.0", token_file("short", 0600)), ConfigError);
   EXPECT_THROW(load("0.0.0.0", token_file("", 0600)), ConfigError);
   EXPECT_THROW(load("0.0.0.0", token_file("0123456789abcdef;Path=/", 0600)), ConfigError);
-  EXPECT_THROW(load("0.0.0.0", dir_ + "/none"), ConfigError);
+  EXPECT_THROW(load("0.0.0.0", folder_.file("none")), ConfigError);
 }
 
 TEST_F(PageConfigTest, UnknownKeysAndPortsOutOfRangeAreRefused) {

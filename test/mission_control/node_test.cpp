@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "common/bus/convert.hpp"
+#include "test/common/temp_folder.hpp"
 #include "test/trajectory_control/bus_world.hpp"
 
 namespace rover {
@@ -214,14 +215,10 @@ TEST_F(MissionControlTest, WhatHappensIsNoted) {
   EXPECT_TRUE(noted("stereo is silent"));
 }
 
-class RestartedMissionControlTest : public MissionControlTest {
+// The folder outlives the service that writes into it.
+class RestartedMissionControlTest : testing_support::TempFolder, public MissionControlTest {
  protected:
-  RestartedMissionControlTest() : MissionControlTest(make_dir()) {}
-  ~RestartedMissionControlTest() override { std::filesystem::remove_all(run_dir_); }
-  static std::string make_dir() {
-    std::string dir = std::filesystem::temp_directory_path() / "rover-mission-XXXXXX";
-    return mkdtemp(dir.data());
-  }
+  RestartedMissionControlTest() : MissionControlTest(TempFolder::path()) {}
 };
 
 // A start pose given again would put the rover back to where it began.

@@ -91,19 +91,17 @@ int free_port() {
 }
 
 TestServer::TestServer(std::function<void(PageConfig&, PageContext&)> change) : port_(free_port()) {
-  std::string dir = std::filesystem::temp_directory_path() / "rover-page-XXXXXX";
-  dir_ = mkdtemp(dir.data());
   // Flat in the south, 20 deg in the north.
   ElevationRaster raster = plane_raster(100.0, 100.0, 1.0, 0.0, 0.0);
   for (int row = 50; row < raster.height; ++row)
     for (int column = 0; column < raster.width; ++column)
       raster.at(column, row) = static_cast<float>(std::tan(0.35) * (row - 50));
-  write_geotiff(dir_ + "/orbital_map.tif", raster);
+  write_geotiff(folder_.file("orbital_map.tif"), raster);
   PageConfig config;
   config.guard.port = port_;
   config.most_pages = 4;
   PageContext context;
-  context.run_dir = dir_;
+  context.run_dir = folder_.path();
   context.run_name = "test";
   context.services = {"stereo", "localization"};
   context.setup = nlohmann::json::object();
@@ -137,7 +135,6 @@ TestServer::~TestServer() {
   server_.reset();
   running_ = false;
   node_.join();
-  std::filesystem::remove_all(dir_);
 }
 
 std::vector<Command> TestServer::taken() {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "mission_control/page_server.hpp"
+#include "test/common/temp_folder.hpp"
 
 namespace rover::mission::test {
 
@@ -40,7 +41,7 @@ class TestServer {
 
  private:
   int port_;
-  std::string dir_;
+  testing_support::TempFolder folder_;
   lcm::LCM bus_{"memq://"};
   Station station_;
   std::mutex mutex_;

@@ -1,6 +1,7 @@
 // ./rover plan as a whole: what it writes, what it says to bad input, and the scenario that was made with it.
 #include "orbital_planner/command.hpp"
 
+#include <gtest/gtest.h>
 #include <sys/wait.h>
 
 #include <algorithm>
@@ -18,7 +19,7 @@
 #include "rover_simulator/world/dtm_reader.hpp"
 #include "rover_simulator/world/geotiff_writer.hpp"
 #include "rover_simulator/world/scenario.hpp"
-#include "temp_dir.hpp"
+#include "test/common/temp_folder.hpp"
 
 namespace rover::orbital {
 namespace {
@@ -39,36 +40,39 @@ std::string yaml_path_of(const std::string& scenario_text) {
   return scenario_text.substr(from, to + 1 - from);
 }
 
-class PlanCommand : public TempDir {
+class PlanCommand : public testing::Test {
  protected:
+  testing_support::TempFolder folder_;
+
   Arguments arguments(const std::string& start = "60.5,270.5", const std::string& goal = "120.5,60.5") const {
     Arguments arguments;
     arguments.map = kGale;
     arguments.start = start;
     arguments.goal = goal;
-    arguments.out = path("out");
+    arguments.out = folder_.file("out");
     arguments.config_dir = kSource + "/config";
     return arguments;
   }
 
   // The written section, as a scenario reads it.
   PlannedPath written_path() const {
-    std::ofstream(path("scenario.yaml")) << "world: {dtm: " << kGale << "}\n" << text_of(path("out/path.yaml"));
-    return load_scenario(path("scenario.yaml")).path;
+    std::ofstream(folder_.file("scenario.yaml")) << "world: {dtm: " << kGale << "}\n"
+                                                 << text_of(folder_.file("out/path.yaml"));
+    return load_scenario(folder_.file("scenario.yaml")).path;
   }
 
   // Status and stderr of the program.
   std::pair<int, std::string> execute(const std::string& words) const {
-    const std::string command = "cd " + kSource + " && " + kProgram + " " + words + " --out " + path("out") + " >" +
-                                path("stdout") + " 2>" + path("stderr");
+    const std::string command = "cd " + kSource + " && " + kProgram + " " + words + " --out " + folder_.file("out") +
+                                " >" + folder_.file("stdout") + " 2>" + folder_.file("stderr");
     const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(path("stderr"))};
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(folder_.file("stderr"))};
   }
 };
 
 TEST_F(PlanCommand, ThePlannerTakesTheMessage) {
   run(arguments());
-  lcm::LogFile log(path("out/path.lcm"), "r");
+  lcm::LogFile log(folder_.file("out/path.lcm"), "r");
   ASSERT_TRUE(log.good());
   const lcm::LogEvent* event = log.readNextEvent();
   ASSERT_NE(event, nullptr);
@@ -88,7 +92,7 @@ TEST_F(PlanCommand, ThePlannerTakesTheMessage) {
 
 TEST_F(PlanCommand, GeojsonMessageAndScenarioSayTheSame) {
   run(arguments());
-  const nlohmann::json geojson = nlohmann::json::parse(text_of(path("out/path.geojson")));
+  const nlohmann::json geojson = nlohmann::json::parse(text_of(folder_.file("out/path.geojson")));
   EXPECT_EQ(geojson["type"], "FeatureCollection");
   const PlannedPath planned = written_path();
   const Geography geography(read_elevation(kGale));
@@ -139,7 +143,7 @@ TEST_F(PlanCommand, LongitudeAndLatitudeGiveTheSamePlan) {
 
 TEST_F(PlanCommand, ThePictureShowsBothLevels) {
   run(arguments());
-  const cv::Mat picture = cv::imread(path("out/path.png"));
+  const cv::Mat picture = cv::imread(folder_.file("out/path.png"));
   ASSERT_FALSE(picture.empty());
   for (Level level : {Level::kEfficient, Level::kFull}) {
     cv::Mat mask;
@@ -153,12 +157,12 @@ TEST_F(PlanCommand, TheSameCommandWritesTheSameBytes) {
   run(arguments());
   std::vector<std::string> first;
   for (const char* name : {"path.geojson", "path.yaml", "path.lcm", "path.png", "terrain.tif"})
-    first.push_back(text_of(path(std::string("out/") + name)));
+    first.push_back(text_of(folder_.file(std::string("out/") + name)));
   run(arguments());
   size_t i = 0;
   for (const char* name : {"path.geojson", "path.yaml", "path.lcm", "path.png", "terrain.tif"}) {
     EXPECT_FALSE(first[i].empty());
-    EXPECT_EQ(text_of(path(std::string("out/") + name)), first[i++]) << name;
+    EXPECT_EQ(text_of(folder_.file(std::string("out/") + name)), first[i++]) << name;
   }
 }
 
@@ -168,7 +172,7 @@ TEST_F(PlanCommand, TheScenarioCombined500IsWhatThePlannerGives) {
   Arguments made = arguments("284,158", "236,31");
   made.via = {"150,225", "152,180"};
   run(made);
-  EXPECT_EQ(text_of(path("out/path.yaml")), yaml_path_of(text_of(file)));
+  EXPECT_EQ(text_of(folder_.file("out/path.yaml")), yaml_path_of(text_of(file)));
   const Scenario scenario = load_scenario(file);
   EXPECT_NEAR(scenario.path_length_m(), 500.0, 2.0);
   const long full = std::count(scenario.path.level.begin(), scenario.path.level.end(), 1);
@@ -187,23 +191,24 @@ TEST_F(PlanCommand, TheScenarioCombined500IsWhatThePlannerGives) {
 TEST_F(PlanCommand, BadInputEndsWithStatus2AndOneLine) {
   ElevationRaster raster = read_elevation(kGale);
   for (int y = 0; y < raster.height; ++y) raster.at(100, y) = std::numeric_limits<float>::quiet_NaN();
-  write_geotiff(path("split.tif"), raster);
+  write_geotiff(folder_.file("split.tif"), raster);
   raster.projection_wkt.clear();
-  write_geotiff(path("nowhere.tif"), raster);
-  std::ofstream(path("cut.tif"), std::ios::binary) << text_of(kGale).substr(0, 90000);
+  write_geotiff(folder_.file("nowhere.tif"), raster);
+  std::ofstream(folder_.file("cut.tif"), std::ios::binary) << text_of(kGale).substr(0, 90000);
   const std::pair<std::string, std::string> cases[] = {
-      {path("none.tif") + " --start 60,270 --goal 120,60", "none.tif: orbital map not found"},
-      {path("cut.tif") + " --start 60,270 --goal 120,60", "cut.tif: "},
-      {path("nowhere.tif") + " --start 60,270 --goal 120,60", "nowhere.tif: orbital map has no georeference"},
+      {folder_.file("none.tif") + " --start 60,270 --goal 120,60", "none.tif: orbital map not found"},
+      {folder_.file("cut.tif") + " --start 60,270 --goal 120,60", "cut.tif: "},
+      {folder_.file("nowhere.tif") + " --start 60,270 --goal 120,60", "nowhere.tif: orbital map has no georeference"},
       {kGale + " --start -3,270 --goal 120,60", "--start -3,270: lies outside of the map"},
       {kGale + " --start 60,270 --goal 400,60", "--goal 400,60: lies outside of the map"},
-      {path("split.tif") + " --start 100.5,270 --goal 120,60", "--start 100.5,270: lies where the map has no data"},
-      {path("split.tif") + " --start 60,270 --goal 200,270", "--goal 200,270: cannot be reached"},
+      {folder_.file("split.tif") + " --start 100.5,270 --goal 120,60",
+       "--start 100.5,270: lies where the map has no data"},
+      {folder_.file("split.tif") + " --start 60,270 --goal 200,270", "--goal 200,270: cannot be reached"},
       {kGale + " --start 60,270 --via 180,300 --goal 120,60", "--via 180,300: lies 1.0 m from an obstacle"},
       {kGale + " --start 60:270 --goal 120,60", "--start '60:270': two numbers"},
       {kGale + " --start nan,270 --goal 120,60", "--start 'nan,270': two numbers"},
       {kGale + " --start 137.4,-4.6 --goal 120,600 --lonlat", "--goal 120,600: no longitude and latitude"},
-      {kGale + " --start 60,270 --goal 120,60 --config " + path("none"), "none/orbital_planner.yaml"},
+      {kGale + " --start 60,270 --goal 120,60 --config " + folder_.file("none"), "none/orbital_planner.yaml"},
   };
   for (const auto& [words, expected] : cases) {
     const auto [status, line] = execute(words);
@@ -223,9 +228,9 @@ TEST_F(PlanCommand, AWrongConfigurationIsNamed) {
     std::string text = good;
     const size_t at = text.find(from);
     EXPECT_NE(at, std::string::npos) << from;
-    std::ofstream(path("orbital_planner.yaml")) << text.replace(at, from.size(), to);
+    std::ofstream(folder_.file("orbital_planner.yaml")) << text.replace(at, from.size(), to);
     Arguments wrong = arguments();
-    wrong.config_dir = dir_.string();
+    wrong.config_dir = folder_.path();
     try {
       run(wrong);
     } catch (const ConfigError& error) {

@@ -2,6 +2,7 @@
 #include "orbital_planner/map_file.hpp"
 
 #include <gdal_priv.h>
+#include <gtest/gtest.h>
 
 #include <array>
 #include <fstream>
@@ -10,7 +11,7 @@
 #include "map_fixture.hpp"
 #include "rover_simulator/world/dtm_reader.hpp"
 #include "rover_simulator/world/geotiff_writer.hpp"
-#include "temp_dir.hpp"
+#include "test/common/temp_folder.hpp"
 
 namespace rover::orbital {
 namespace {
@@ -59,14 +60,16 @@ double metres_per_degree() {
   return to_rad(1.0) * kMarsRadiusM;
 }
 
-class MapFile : public TempDir {
+class MapFile : public testing::Test {
  protected:
-  OrbitalMap read(const std::string& name) const { return read_map(path(name), path("copy.tif")); }
+  testing_support::TempFolder folder_;
+
+  OrbitalMap read(const std::string& name) const { return read_map(folder_.file(name), folder_.file("copy.tif")); }
 
   // One line that starts with the file's name.
   std::string complaint(const std::string& file) const {
     try {
-      read_map(file, path("copy.tif"));
+      read_map(file, folder_.file("copy.tif"));
     } catch (const DtmError& error) {
       const std::string text = error.what();
       EXPECT_EQ(text.rfind(file + ": ", 0), 0u) << text;
@@ -79,9 +82,9 @@ class MapFile : public TempDir {
 };
 
 TEST_F(MapFile, AMapInMetresIsReadAsItIs) {
-  const OrbitalMap map = read_map(kGale, path("copy.tif"));
+  const OrbitalMap map = read_map(kGale, folder_.file("copy.tif"));
   EXPECT_FALSE(map.reprojected);
-  EXPECT_FALSE(fs::exists(path("copy.tif")));
+  EXPECT_FALSE(fs::exists(folder_.file("copy.tif")));
   EXPECT_EQ(map.raster.z_m, read_elevation(kGale).z_m);
 }
 
@@ -89,7 +92,7 @@ TEST_F(MapFile, VoidsAreNoData) {
   ElevationRaster raster = read_elevation(kGale);
   raster.at(100, 120) = kVoid;
   raster.at(7, 8) = std::numeric_limits<float>::infinity();
-  write_geotiff(path("void.tif"), raster);
+  write_geotiff(folder_.file("void.tif"), raster);
   const OrbitalMap map = read("void.tif");
   EXPECT_TRUE(std::isnan(map.raster.at(100, 120)));
   EXPECT_TRUE(std::isnan(map.raster.at(7, 8)));
@@ -102,10 +105,10 @@ TEST_F(MapFile, AMapInDegreesIsReprojectedToSquareMetres) {
   sample.wkt = kMars;
   sample.transform = {137.0, 2e-4, 0.0, 60.0, 0.0, -2e-4};
   const double slope = std::tan(to_rad(6.0));
-  write(path("degrees.tif"), sample, [&](int, int row) { return -slope * 2e-4 * row * metres_per_degree(); });
+  write(folder_.file("degrees.tif"), sample, [&](int, int row) { return -slope * 2e-4 * row * metres_per_degree(); });
   const OrbitalMap map = read("degrees.tif");
   EXPECT_TRUE(map.reprojected);
-  EXPECT_TRUE(fs::exists(path("copy.tif")));
+  EXPECT_TRUE(fs::exists(folder_.file("copy.tif")));
   EXPECT_NEAR(map.raster.width_m(), 60 * 2e-4 * metres_per_degree() * 0.5, 3 * map.raster.resolution_m);
   EXPECT_NEAR(map.raster.height_m(), 50 * 2e-4 * metres_per_degree(), 3 * map.raster.resolution_m);
   const int x = map.raster.width / 2, y = map.raster.height / 2;
@@ -118,12 +121,12 @@ TEST_F(MapFile, TurnedAndOblongPixelsAreReprojected) {
   Sample turned;
   turned.wkt = wkt;
   turned.transform = {8146000.0, 0.8, 0.6, -270000.0, 0.6, -0.8};
-  write(path("turned.tif"), turned, [](int, int) { return 3.0; });
+  write(folder_.file("turned.tif"), turned, [](int, int) { return 3.0; });
   EXPECT_TRUE(read("turned.tif").reprojected);
   Sample oblong;
   oblong.wkt = wkt;
   oblong.transform = {8146000.0, 2.0, 0.0, -270000.0, 0.0, -1.0};
-  write(path("oblong.tif"), oblong, [](int, int) { return 3.0; });
+  write(folder_.file("oblong.tif"), oblong, [](int, int) { return 3.0; });
   const OrbitalMap map = read("oblong.tif");
   EXPECT_NEAR(map.raster.width_m(), 120.0, 6.0);
   EXPECT_NEAR(map.raster.height_m(), 50.0, 6.0);
@@ -136,13 +139,13 @@ TEST_F(MapFile, AProjectionThatIsNotTrueToScaleThereIsReprojected) {
                ",PROJECTION[\"Equirectangular\"],PARAMETER[\"standard_parallel_1\",0],"
                "PARAMETER[\"central_meridian\",0],UNIT[\"metre\",1]]";
   sample.transform = {100000.0, 1.0, 0.0, 40.0 * metres_per_degree(), 0.0, -1.0};
-  write(path("eqc.tif"), sample, [](int, int) { return 3.0; });
+  write(folder_.file("eqc.tif"), sample, [](int, int) { return 3.0; });
   const OrbitalMap map = read("eqc.tif");
   EXPECT_TRUE(map.reprojected);
   EXPECT_NEAR(map.raster.width_m(), 60 * std::cos(to_rad(40.0)), 2.0);
   EXPECT_NEAR(map.raster.height_m(), 50.0, 2.0);
   sample.transform[3] = 2.0 * metres_per_degree();
-  write(path("equator.tif"), sample, [](int, int) { return 3.0; });
+  write(folder_.file("equator.tif"), sample, [](int, int) { return 3.0; });
   EXPECT_FALSE(read("equator.tif").reprojected);
 }
 
@@ -152,7 +155,8 @@ TEST_F(MapFile, ScaledHeightsAreMadeMetres) {
   sample.transform = {8146000.0, 1.0, 0.0, -270000.0, 0.0, -1.0};
   sample.scale = 0.5;
   sample.offset = -100.0;
-  write(path("scaled.tif"), sample, [](int column, int row) { return column == 30 && row == 25 ? -9999.0 : 40.0; });
+  write(folder_.file("scaled.tif"), sample,
+        [](int column, int row) { return column == 30 && row == 25 ? -9999.0 : 40.0; });
   const OrbitalMap map = read("scaled.tif");
   EXPECT_TRUE(map.reprojected);
   EXPECT_NEAR(map.raster.at(10, 10), -80.0, 1e-4);
@@ -165,11 +169,11 @@ TEST_F(MapFile, ScaledHeightsAreMadeMetres) {
 }
 
 TEST_F(MapFile, BadFilesAreNamed) {
-  EXPECT_NE(complaint(path("none.tif")).find("not found"), std::string::npos);
-  std::ofstream(path("text.tif")) << "this is no map\n";
-  EXPECT_NE(complaint(path("text.tif")).find("not a readable map"), std::string::npos);
-  std::ofstream(path("plain.pgm"), std::ios::binary) << "P5 20 20 255\n" << std::string(400, 'a');
-  EXPECT_NE(complaint(path("plain.pgm")).find("no georeference"), std::string::npos);
+  EXPECT_NE(complaint(folder_.file("none.tif")).find("not found"), std::string::npos);
+  std::ofstream(folder_.file("text.tif")) << "this is no map\n";
+  EXPECT_NE(complaint(folder_.file("text.tif")).find("not a readable map"), std::string::npos);
+  std::ofstream(folder_.file("plain.pgm"), std::ios::binary) << "P5 20 20 255\n" << std::string(400, 'a');
+  EXPECT_NE(complaint(folder_.file("plain.pgm")).find("no georeference"), std::string::npos);
 }
 
 TEST_F(MapFile, CutFilesAreNoticed) {
@@ -177,35 +181,36 @@ TEST_F(MapFile, CutFilesAreNoticed) {
   sample.wkt = kMars;
   sample.transform = {137.0, 1e-5, 0.0, -4.0, 0.0, -1e-5};
   sample.width = sample.height = 400;
-  write(path("degrees.tif"), sample, [](int column, int row) { return 0.1 * column + 0.2 * row; });
-  for (const std::string& whole : {kGale, path("degrees.tif")})
+  write(folder_.file("degrees.tif"), sample, [](int column, int row) { return 0.1 * column + 0.2 * row; });
+  for (const std::string& whole : {kGale, folder_.file("degrees.tif")})
     for (double share : {0.01, 0.3, 0.9}) {
-      fs::copy_file(whole, path("cut.tif"), fs::copy_options::overwrite_existing);
-      fs::permissions(path("cut.tif"), fs::perms::owner_all);
-      fs::resize_file(path("cut.tif"), static_cast<std::uintmax_t>(share * static_cast<double>(fs::file_size(whole))));
-      complaint(path("cut.tif"));
+      fs::copy_file(whole, folder_.file("cut.tif"), fs::copy_options::overwrite_existing);
+      fs::permissions(folder_.file("cut.tif"), fs::perms::owner_all);
+      fs::resize_file(folder_.file("cut.tif"),
+                      static_cast<std::uintmax_t>(share * static_cast<double>(fs::file_size(whole))));
+      complaint(folder_.file("cut.tif"));
     }
 }
 
 TEST_F(MapFile, AMapWithoutHeightsIsNoticed) {
   ElevationRaster raster = read_elevation(kGale);
   std::fill(raster.z_m.begin(), raster.z_m.end(), kVoid);
-  write_geotiff(path("empty.tif"), raster);
-  EXPECT_NE(complaint(path("empty.tif")).find("no heights"), std::string::npos);
+  write_geotiff(folder_.file("empty.tif"), raster);
+  EXPECT_NE(complaint(folder_.file("empty.tif")).find("no heights"), std::string::npos);
 }
 
 TEST_F(MapFile, AMapTooLargeToPlanOnIsNoticedBeforeItIsRead) {
-  std::ofstream(path("huge.vrt")) << "<VRTDataset rasterXSize=\"60000\" rasterYSize=\"50000\"><SRS>" << kMars
-                                  << "</SRS><GeoTransform>137,1e-5,0,-4,0,-1e-5</GeoTransform>"
-                                  << "<VRTRasterBand dataType=\"Float32\" band=\"1\"/></VRTDataset>";
-  EXPECT_NE(complaint(path("huge.vrt")).find("too large"), std::string::npos);
+  std::ofstream(folder_.file("huge.vrt")) << "<VRTDataset rasterXSize=\"60000\" rasterYSize=\"50000\"><SRS>" << kMars
+                                          << "</SRS><GeoTransform>137,1e-5,0,-4,0,-1e-5</GeoTransform>"
+                                          << "<VRTRasterBand dataType=\"Float32\" band=\"1\"/></VRTDataset>";
+  EXPECT_NE(complaint(folder_.file("huge.vrt")).find("too large"), std::string::npos);
 }
 
 TEST_F(MapFile, LongitudeAndLatitudeLeadThereAndBack) {
   Sample sample;
   sample.wkt = kMars;
   sample.transform = {-137.0, 2e-4, 0.0, 60.0, 0.0, -2e-4};
-  write(path("degrees.tif"), sample, [](int, int) { return 1.0; });
+  write(folder_.file("degrees.tif"), sample, [](int, int) { return 1.0; });
   for (const ElevationRaster& raster : {read_elevation(kGale), read("degrees.tif").raster}) {
     const Geography geography(raster);
     for (double u : {0.0, 0.3, 1.0})

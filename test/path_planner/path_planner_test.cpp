@@ -23,6 +23,15 @@ std::vector<Rock> ring(double radius_m) {
   return rocks;
 }
 
+// The whole ring is looked at, as a rover that turns would.
+void look_around(PlannerRig& rig, int frames) {
+  for (int deg = -180; deg <= 180; deg += 20) {
+    rig.odom.yaw_rad = to_rad(deg);
+    rig.look(frames);
+  }
+  rig.odom.yaw_rad = 0.0;
+}
+
 TEST(PathPlanner, WithoutAGlobalPathItIsIdle) {
   PlannerRig rig;
   const PlannerOutput out = rig.look();
@@ -230,12 +239,7 @@ TEST(PathPlanner, EnclosedByRocksItSaysThatThereIsNoWay) {
   PlannerRig rig;
   rig.send_path(kAhead);
   rig.rocks = ring(1.7);
-  // The whole ring is looked at, as a rover that turns would.
-  for (int deg = -180; deg <= 180; deg += 20) {
-    rig.odom.yaw_rad = to_rad(deg);
-    rig.look(2);
-  }
-  rig.odom.yaw_rad = 0.0;
+  look_around(rig, 2);
   const PlannerOutput out = rig.look(10);
   EXPECT_EQ(out.status.state, PlannerState::kNoPath);
   EXPECT_EQ(out.status.block_kind, BlockKind::kHazard);
@@ -246,18 +250,14 @@ TEST(PathPlanner, EnclosedByRocksItSaysThatThereIsNoWay) {
   EXPECT_EQ(rig.paths.size(), before) << "no path through rocks";
 }
 
-// As EnclosedByRocks below, with a share of work that allows one search a frame.
+// As EnclosedByRocks above, with a share of work that allows one search a frame.
 TEST(PathPlanner, ASearchThatTakesMoreThanAFramesShareGoesOnAtTheNext) {
   PathPlannerConfig config = testing_support::planner_config();
   config.frame_work = 1;
   PlannerRig rig(config);
   rig.send_path(kAhead);
   rig.rocks = ring(1.7);
-  for (int deg = -180; deg <= 180; deg += 20) {
-    rig.odom.yaw_rad = to_rad(deg);
-    rig.look(1);
-  }
-  rig.odom.yaw_rad = 0.0;
+  look_around(rig, 1);
   const PlannerOutput out = rig.look(20);
   EXPECT_EQ(out.status.state, PlannerState::kNoPath);
   EXPECT_EQ(out.status.text, "hazards leave no way to the global path");

@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "status/running_run.hpp"
+#include "test/common/temp_folder.hpp"
 
 namespace rover::status {
 namespace {
@@ -16,13 +17,8 @@ namespace fs = std::filesystem;
 
 class Folder : public testing::Test {
  protected:
-  Folder() {
-    std::string name = testing::TempDir() + "/rover-status-XXXXXX";
-    root_ = mkdtemp(name.data());
-  }
   ~Folder() override {
     for (const int fd : open_) close(fd);
-    fs::remove_all(root_);
   }
   // A run's folder as s6-svscan leaves it; `running`: with a reader of its control pipe.
   fs::path run(const std::string& name, bool running) {
@@ -37,7 +33,8 @@ class Folder : public testing::Test {
                         fs::file_time_type::clock::now() - std::chrono::seconds(seconds_ago));
   }
 
-  fs::path root_;
+  testing_support::TempFolder folder_;
+  fs::path root_ = folder_.path();
   std::vector<int> open_;
 };
 
