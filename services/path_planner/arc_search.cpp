@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <utility>
 
 namespace rover::planning {
 namespace {
@@ -38,7 +39,8 @@ class ArcSearch {
 
   SearchResult run() {
     offer({problem_.start, problem_.start_curvature_per_m, 0.0, 0.0, -1});
-    put({problem_.stopped, 0.0, config_.turn_cost_m, 0.0, -1, false, true});
+    const double turn_cost_m = config_.turn_cost_m + turn_bend_cost(problem_.start_curvature_per_m);
+    put({problem_.stopped, 0.0, turn_cost_m, 0.0, -1, false, true});
     int left = config_.max_expansions;
     while (!open_.empty() && left-- > 0) {
       const auto [estimate, index] = pop();
@@ -124,6 +126,11 @@ class ArcSearch {
     return config_.bend_cost_m * std::abs(to_per_m - from_per_m) / config_.max_curvature_per_m;
   }
 
+  // The wheels stand across before and after a point turn; towards a tight arc they have twice as far to steer.
+  double turn_bend_cost(double curvature_per_m) const {
+    return config_.turn_bend_cost_m * std::abs(curvature_per_m) / config_.max_curvature_per_m;
+  }
+
   // Cost of an arc from the pose, infinity where it is not free; passes are noted for what follows.
   double arc_cost(const Pose2& from, const ArcSegment& arc, double way_before_m) {
     const int samples = std::max(1, static_cast<int>(std::ceil(arc.length_m / kSampleM - 1e-6)));
@@ -169,6 +176,7 @@ class ArcSearch {
       next.turned = false;
       next.pose = advanced(from.pose, arc.length_m, arc.curvature_per_m);
       next.cost += bend_cost(from.curvature_per_m, arc.curvature_per_m);
+      if (from.turned) next.cost += turn_bend_cost(arc.curvature_per_m);
       if (next.cost + arc.length_m + travel_from(next.pose) >= result_.cost) continue;
       next.cost += arc_cost(from.pose, arc, from.way_m);
       next.curvature_per_m = arc.curvature_per_m;
@@ -179,7 +187,7 @@ class ArcSearch {
     ArcNode halt = from;
     halt.parent = index;
     halt.curvature_per_m = 0.0;
-    halt.cost += config_.turn_cost_m;
+    halt.cost += config_.turn_cost_m + turn_bend_cost(from.curvature_per_m);
     halt.turned = false;
     halt.to_be_turned = true;
     put(halt);
@@ -227,8 +235,10 @@ class ArcSearch {
     Pose2 pose = node.pose;
     double way = node.way_m;
     double curvature = node.curvature_per_m;
+    bool turned = node.turned;
     for (const ArcSegment& arc : path->segments) {
       if (arc.length_m < 1e-6) continue;
+      if (std::exchange(turned, false)) cost += turn_bend_cost(arc.curvature_per_m);
       cost += bend_cost(curvature, arc.curvature_per_m) + arc_cost(pose, arc, way);
       if (cost >= result_.cost) return;
       pose = advanced(pose, arc.length_m, arc.curvature_per_m);

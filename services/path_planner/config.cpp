@@ -43,6 +43,7 @@ void read_search(const Config& c, ArcSearchConfig& out) {
   c.read("step_m", out.step_m, {0.1, 1.0});
   c.read("turn_cost_m", out.turn_cost_m, {0.0, 50.0});
   c.read("turn_cost_per_rad_m", out.turn_cost_per_rad_m, {0.0, 50.0});
+  c.read("turn_bend_cost_m", out.turn_bend_cost_m, {0.0, 50.0});
   c.read("bend_cost_m", out.bend_cost_m, {0.0, 5.0});
   c.read("curvature_cost", out.curvature_cost, {0.0, 5.0});
   c.read("unseen_way_cost", out.unseen_way_cost, {0.0, 20.0});
