@@ -113,12 +113,19 @@ std::string services_section(const ComparedRun& a, const ComparedRun& b) {
   return out + "</table>\n";
 }
 
+// A path of a hundred points tells nobody anything.
+std::string shortened(const std::string& text) {
+  constexpr size_t kLongest = 90;
+  return text.size() <= kLongest ? text : fmt::format("{} ... ({} characters)", text.substr(0, kLongest), text.size());
+}
+
 std::string configuration_section(const std::vector<ConfigDifference>& differences) {
   if (differences.empty()) return "<h2>Configuration</h2><p>The same in both.</p>\n";
-  std::string out = "<h2>Configuration: what differs</h2><table><tr><th>file: key</th><th>A</th><th>B</th></tr>\n";
+  std::string out =
+      "<h2>Configuration: what differs</h2><table class=\"thirds\"><tr><th>file: key</th><th>A</th><th>B</th></tr>\n";
   for (const ConfigDifference& d : differences)
     out += fmt::format("<tr><td>{}</td><td><code>{}</code></td><td><code>{}</code></td></tr>\n", escaped(d.key),
-                       escaped(d.a), escaped(d.b));
+                       escaped(shortened(d.a)), escaped(shortened(d.b)));
   return out + "</table>\n";
 }
 
@@ -140,11 +147,11 @@ std::string compare_html(const ComparedRun& a, const ComparedRun& b,
                          const std::vector<ConfigDifference>& configuration) {
   std::string body = "<h1>Two runs side by side</h1><div class=\"pair\">" + title_of(a) + title_of(b) + "</div>\n";
   body += layered_maps(pair(a.pictures.map, b.pictures.map));
-  body += figures_section(a, b) + configuration_section(configuration) + services_section(a, b);
+  body += figures_section(a, b) + services_section(a, b);
   body += "<h2>Over the distance driven, in metres</h2><section class=\"plots\">\n";
   for (size_t i = 0; i < std::min(a.pictures.plots.size(), b.pictures.plots.size()); ++i)
     body += pair(a.pictures.plots[i], b.pictures.plots[i]);
-  body += pair(a.pictures.states, b.pictures.states) + "</section>\n";
+  body += pair(a.pictures.states, b.pictures.states) + "</section>\n" + configuration_section(configuration);
   return document("Compared: " + a.name + ", " + b.name, body);
 }
 

@@ -35,6 +35,7 @@ svg{max-width:100%;height:auto;display:block}
 figure{margin:0}figure svg+svg{margin-top:6px}
 td.load{background:linear-gradient(to left,#cfe0f5 var(--load),transparent var(--load)) no-repeat}
 .pair{display:grid;grid-template-columns:1fr 1fr;gap:18px 26px}.pair>*{min-width:0}
+table.thirds{table-layout:fixed}
 td.better{color:var(--good);font-weight:600}
 code{font:12px "DejaVu Sans Mono",Menlo,Consolas,monospace;overflow-wrap:anywhere}
 .plots svg{margin-bottom:14px}
