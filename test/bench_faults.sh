@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# One fault of the table in each of many runs of the default scenario, by seed: which fault, when, on whom. Writes
+# Two faults of the table, a minute apart, in each of many runs of the default scenario, by seed: which, when, on whom. Writes
 # test/results/faults.md. Called by ./rover bench faults [--seeds a..b] [--resume] [--jobs N] [--part stack|rendered];
 # the part `stack` is bench_faults_stack.sh, and comes first where none is chosen.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
 BUILD=$1
 shift
-first=1 last=60 resume= jobs=2 part=
+first=1 last=30 resume= jobs=2 part=
 while [ $# -gt 0 ]; do
   case $1 in
     --seeds) IFS=. read -r first _ last <<<"$2" && shift ;;
@@ -44,25 +44,32 @@ CASES=(
   "full_disk recorder - 10"
 )
 
+# The runs go through the table once and then begin it anew, so that a fault comes at another time, before or after another.
 case_of() { echo "${CASES[$((($1 - 1) % ${#CASES[@]}))]}"; }
 
-scenario_of() {  # SEED FAULT TARGET AMOUNT FOR: the default scenario with this fault at a time of the seed's
-  cat config/scenarios/default.yaml
-  local keys="fault: $2, target: '$3', at_s: $((15 + $1 * 37 % 60))"
+fault_line() {  # AT FAULT TARGET AMOUNT FOR
+  local keys="fault: $2, target: '$3', at_s: $1"
   [ "$4" = - ] || keys="$keys, amount: $4"
   [ "$5" = - ] || keys="$keys, for_s: $5"
-  echo "faults:"
   echo "  - {$keys}"
+}
+
+scenario_of() {  # SEED: the default scenario with this seed's faults, at times of the seed's
+  cat config/scenarios/default.yaml
+  echo "faults:"
+  set -f  # a target may be a star
+  # shellcheck disable=SC2046
+  fault_line $((15 + $1 * 37 % 40)) $(case_of $((2 * $1 - 1)))
+  # shellcheck disable=SC2046
+  fault_line $((75 + $1 * 23 % 40)) $(case_of $((2 * $1)))
+  set +f
 }
 
 run_one() {  # SEED
   local seed=$1 dir="$LOGS/run-$1" fault
-  fault=$(case_of "$seed")
+  fault="$(case_of $((2 * seed - 1))); $(case_of $((2 * seed)))"
   rm -rf "$dir"
-  set -f  # a target may be a star
-  # shellcheck disable=SC2086
-  scenario_of "$seed" $fault >"$LOGS/seed-$seed.yaml"
-  set +f
+  scenario_of "$seed" >"$LOGS/seed-$seed.yaml"
   sed -i "s|\.\./terrain|$PWD/config/terrain|" "$LOGS/seed-$seed.yaml"
   "$BUILD/bin/rover_launcher" run "$LOGS/seed-$seed.yaml" --seed "$seed" --out "$dir" --record reduced \
     --bus "udpm://239.255.76.67:$((7900 + seed))?ttl=0&recv_buf_size=4194304" >"$LOGS/seed-$seed.log" 2>&1 || true
@@ -87,16 +94,16 @@ wait
   echo
   echo "Command: \`./rover bench faults --seeds $first..$last\`; commit $COMMIT; $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1), $(nproc) cores."
   echo
-  echo "One fault in each run of the default scenario; the rover is on its own until the end."
+  echo "Two faults in each run of the default scenario, a minute apart; the rover is on its own until the end."
   echo
   jq -rs --arg commit "$COMMIT" '
     map(select(.commit == $commit)) |
     "| demand | measured |", "|---|---|",
-    "| runs | \(length) |",
+    "| runs; faults in them | \(length); \(2 * length) |",
     "| 0 collisions | \(map(.collisions // 0) | add) |",
     "| at least 95 % reach the goal without a person | \(map(select(.outcome == "goal_reached")) | length) of \(length) |",
     "| 0 s of motion without lease, by the truth | \(map(.unleased_s // 0) | add) s |",
-    "", "| seed | fault, target, amount, seconds | outcome | first row | last row | collisions | deterministic | s |", "|---|---|---|---|---|---|---|---|",
+    "", "| seed | faults: which, target, amount, seconds | outcome | first row | last row | collisions | deterministic | s |", "|---|---|---|---|---|---|---|---|",
     (sort_by(.seed)[] | "| \(.seed) | \(.fault) | \(.outcome) | \(.first) | \(.last) | \(.collisions // "-") | \(.deterministic) | \(.duration_s // 0 | round) |")' "$ROWS"
 } >"$OUT"
 cat "$OUT"

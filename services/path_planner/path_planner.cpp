@@ -251,10 +251,16 @@ bool PathPlanner::retreat(PlannerOutput& out) {
 
 // At its end, or where the rover is not let on along it.
 void PathPlanner::look_from_retreat(PlannerOutput& out) {
-  const bool at_end = active_.route.length_m() - active_.progress_m <= kRetreatEndM;
-  if (!standing() || !(at_end || strayed())) return;
+  if (!standing() || !(at_retreat_end() || strayed())) return;
   if (repair(true, out) || failures_ < config_.patience_frames) return;
   retreat(out);
+}
+
+// A track that was driven to and fro lies twice in one place, and progress may be taken for that of the first.
+bool PathPlanner::at_retreat_end() const {
+  const double left_m = active_.route.length_m() - active_.progress_m;
+  const double straight_m = distance(active_.route.points().back().p, position(rover()));
+  return left_m <= kRetreatEndM || (left_m <= kSearchAheadM && straight_m <= kRetreatEndM);
 }
 
 // Repairs are sure for their first metres only. Where the rest does not become so on approach, another way is sought

@@ -155,6 +155,7 @@ class PathPlanner {
   bool strayed() const;
   bool retreat(PlannerOutput& out);
   void look_from_retreat(PlannerOutput& out);
+  bool at_retreat_end() const;
   void track_driven_way();
   void leave_repair(PlannerOutput& out);
   void judge();

@@ -302,6 +302,28 @@ TEST(PathPlanner, WhereNoWayLeadsOnItGoesBackOverItsTrack) {
   EXPECT_LT(retreat->points.back().p.x_m, rig.odom.x_m - 0.4);
 }
 
+// The rover had turned and come back on its own track, so the retreat's end lies on its beginning.
+TEST(PathPlanner, ARetreatThatLeadsToAndFroEndsWhereItEnds) {
+  PlannerRig rig;
+  rig.send_path(kAhead);
+  rig.camera.far_m = 0.0;
+  for (rig.odom.x_m = 0.0; rig.odom.x_m < 2.0; rig.odom.x_m += 0.05) rig.step();
+  for (; rig.odom.x_m > 1.2; rig.odom.x_m -= 0.05) rig.step();
+  rig.look(20);
+  const LocalPath retreat = rig.paths.back();
+  ASSERT_EQ(retreat.kind, PathKind::kRetreat);
+  ASSERT_GT(retreat.points.back().p.x_m, 1.2 + 0.1);
+  rig.forward_mps = -0.1;
+  for (const RoutePoint& point : retreat.points) {
+    rig.odom = {point.p.x_m, point.p.y_m, 0.0};
+    rig.look();
+    ASSERT_EQ(rig.paths.back().id, retreat.id);
+  }
+  rig.forward_mps = 0.0;
+  rig.look(20);
+  EXPECT_NE(rig.paths.back().id, retreat.id);
+}
+
 TEST(PathPlanner, AGoalUnderARockIsReachedBesideIt) {
   PlannerRig rig;
   rig.send_path({{0.0, 0.0}, {6.0, 0.0}});
