@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "common/bus/command_line.hpp"
 #include "common/bus/config.hpp"
 #include "launcher/bench_command.hpp"
 #include "launcher/inject_command.hpp"
@@ -26,8 +27,8 @@ void add_run_options(CLI::App& command, rover::RunArguments& run) {
 void add_status_options(CLI::App& command, rover::status::StatusArguments& status) {
   CLI::Option* json = command.add_flag("--json", status.json, "one JSON document");
   command.add_flag("--watch", status.watch, "again each second, until Ctrl-C")->excludes(json);
-  command.add_option("--run", status.run, "folder of the run; default: the newest in logs/ that runs");
-  command.add_option("--bus", status.bus, "LCM URL; default: the run's. Without a run: the bus alone");
+  command.add_option("--run", status.target.run, "folder of the run; default: the newest in logs/ that runs");
+  command.add_option("--bus", status.target.bus, "LCM URL; default: the run's. Without a run: the bus alone");
 }
 
 CLI::App* add_inject_command(CLI::App& app, rover::InjectArguments& inject) {
@@ -46,6 +47,7 @@ CLI::App* add_inject_command(CLI::App& app, rover::InjectArguments& inject) {
 
 int main(int argc, char** argv) {
   CLI::App app("./rover: guidance, navigation and control of a planetary rover");
+  app.name("./rover");
   app.require_subcommand(1);
   rover::RunArguments run;
   run.source_dir = std::filesystem::current_path();
@@ -73,7 +75,7 @@ int main(int argc, char** argv) {
   add_run_options(*bench_command, run);
 
   rover::status::StatusArguments status;
-  status.logs_dir = run.source_dir + "/logs";
+  status.target.logs_dir = run.source_dir + "/logs";
   CLI::App* status_command =
       app.add_subcommand("status", "what the running rover does. Example: ./rover status --watch");
   add_status_options(*status_command, status);
@@ -84,7 +86,7 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
+    return rover::end_of_parse(app, error);
   }
   try {
     if (status_command->parsed()) return rover::status::show_status(status);

@@ -14,7 +14,7 @@ RecorderNode::RecorderNode(Node& node, const RecorderConfig& config, const std::
   if (free_gb < config_.min_free_start_gb)
     throw ConfigError(log_path + ": " + std::to_string(free_gb) + " GB free on the disk, min_free_start_gb asks for " +
                       std::to_string(config_.min_free_start_gb));
-  log_ = std::make_unique<LogFile>(log_path);
+  log_ = std::make_unique<LogFile>(log_path, static_cast<std::int64_t>(config_.part_gb * kBytesPerGb));
   node_.subscribe_raw([this](const RawMessage& raw) { take(raw); }, find_channel_type);
   node_.on_injection([this](const injection_t& injection) {
     if (injection.fault == "full_disk") full_disk_ = injection;
@@ -23,7 +23,9 @@ RecorderNode::RecorderNode(Node& node, const RecorderConfig& config, const std::
 }
 
 RecorderNode::~RecorderNode() {
-  if (log_) write(buffer_.take_all());
+  if (!log_) return;
+  write(buffer_.take_all());
+  if (log_ && !log_->close()) stop_recording("write failed");
 }
 
 void RecorderNode::take(const RawMessage& raw) {
@@ -36,6 +38,7 @@ void RecorderNode::step(Utime now) {
   if (!log_) return;
   // All that is released before this tick has arrived, the answers to the tick before included.
   write(buffer_.take_before(now - policy_.hold()));
+  if (log_ && !log_->flush()) return stop_recording("write failed");
   if (checked_ != kNever && now - checked_ < kCheckPeriod) return;
   checked_ = now;
   check_disk(now);
@@ -55,7 +58,6 @@ double RecorderNode::free_gb(Utime now) const {
 
 void RecorderNode::check_disk(Utime now) {
   if (!log_) return;
-  if (!log_->flush()) return stop_recording("write failed");
   const double left_gb = free_gb(now);
   if (left_gb < config_.min_free_gb) stop_recording("free_gb=" + std::to_string(left_gb));
 }

@@ -178,6 +178,13 @@ TEST_F(RecorderNodeTest, AWriteThatFailsStopsTheRecordNotTheNode) {
   EXPECT_EQ(world.heartbeats_.back().status, std::int8_t{heartbeat_t::DEGRADED});
 }
 
+// What a kill can take is not older than the tick.
+TEST_F(RecorderNodeTest, EachTickIsOnTheDiskBeforeTheNext) {
+  World world(path_, config(), [] { return kPlenty; });
+  for (Utime t = 0; t <= 100'000; t += kTickUs) world.tick(t);
+  EXPECT_GE(count("TICK"), 5u);
+}
+
 TEST_F(RecorderNodeTest, ReducedKeepsImagesAroundAStop) {
   World world(path_, config(true), [] { return kPlenty; });
   for (Utime t = 0; t <= 10'000'000; t += kTickUs) {
