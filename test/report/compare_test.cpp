@@ -76,7 +76,8 @@ TEST(ConfigDifference, OnlyWhatDiffersByFileAndKey) {
 TEST(SlopeMap, SteepGroundHasTheLastClass) {
   HeightRaster raster{20, 20, 1.0, {}};
   for (int row = 0; row < 20; ++row)
-    for (int column = 0; column < 20; ++column) raster.z_m.push_back(column < 10 ? 0.0F : 0.6F * (column - 9));
+    for (int column = 0; column < 20; ++column)
+      raster.z_m.push_back(column < 10 ? 0.0F : 0.6F * static_cast<float>(column - 9));
   const auto colour = [&](const Box& box) {
     const cv::Mat picture = cv::imdecode(slope_jpeg(raster, box, 16, 16), cv::IMREAD_COLOR);
     return picture.at<cv::Vec3b>(8, 8);
