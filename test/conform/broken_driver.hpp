@@ -80,10 +80,10 @@ class BrokenDriver {
   bool at_rest() const { return trial_ == nullptr; }
   lcm::LCM& bus() { return bus_; }
   // Tells the driver what nobody has said.
-  void tell(wheel_command_t command) {
-    command.header.utime = command.header.release_utime = now_;
-    command.valid_until_utime = now_ + 10 * kTickUs;
-    driver_bus_.publish(channel::kWheelCommand, &command);
+  void tell(wheel_command_t said) {
+    said.header.utime = said.header.release_utime = now_;
+    said.valid_until_utime = now_ + 10 * kTickUs;
+    driver_bus_.publish(channel::kWheelCommand, &said);
   }
 
   Hook<tick_t> tick;

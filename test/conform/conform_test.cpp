@@ -268,7 +268,7 @@ TEST_P(BrokenDrivers, FailExactlyTheirLine) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, BrokenDrivers, testing::ValuesIn(kFaults),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& fault) { return std::string(fault.param.name); });
 
 TEST(Conform, EveryLineHasADriverThatFailsIt) {
   BrokenDriver driver;
