@@ -7,6 +7,7 @@
 #include "report/map_layers.hpp"
 #include "report/map_picture.hpp"
 #include "report/metrics_json.hpp"
+#include "report/no_truth.hpp"
 #include "report/rasterise.hpp"
 #include "report/run_folder.hpp"
 #include "report/run_plots.hpp"
@@ -41,9 +42,13 @@ Pictures draw(const Scene& scene) {
 
 }  // namespace
 
-std::string write_report(const RunFolder& folder, const RunRecord& run, const std::optional<TrueWorld>& world,
+std::string write_report(const RunFolder& folder, const RunRecord& recorded, const std::optional<TrueWorld>& world,
                          const HeightRaster& orbital) {
-  const Judgement judgement = judge(run, folder.info, folder.footprint, world);
+  const bool true_run = !recorded.truth.empty();
+  const RunRecord estimated = true_run ? RunRecord{} : with_estimate_for_truth(recorded);
+  const RunRecord& run = true_run ? recorded : estimated;
+  Judgement judgement = judge(run, folder.info, folder.footprint, world);
+  if (!true_run) leave_out_truth_figures(judgement.metrics);
   write_file(folder.dir + "/metrics.json", metrics_json(judgement.metrics).dump(2) + "\n");
   const Scene scene{run, judgement, folder.footprint, orbital, world};
   const Pictures pictures = draw(scene);
@@ -51,8 +56,9 @@ std::string write_report(const RunFolder& folder, const RunRecord& run, const st
   write_png(pictures.map, kPngScale, folder.dir + "/traverse.png");
   write_file(folder.dir + "/report.html", report_html(scene, pictures, configuration_texts(folder)));
   const Metrics& m = judgement.metrics;
-  return fmt::format("{}: {}, {:.1f} m driven of {:.1f} m planned, {} repairs, {} collisions", folder.dir, m.outcome,
-                     m.driven_length_m, m.planned_length_m, m.replans, m.collisions);
+  return fmt::format("{}: {}, {:.1f} m driven of {:.1f} m planned, {} repairs, {}", folder.dir, m.outcome,
+                     m.driven_length_m, m.planned_length_m, m.replans,
+                     has_truth(m) ? fmt::format("{} collisions", m.collisions) : "no truth");
 }
 
 std::string make_report(const std::string& run_dir, const std::string& default_config_dir) {
