@@ -5,6 +5,7 @@
 #include "common/bus/command_line.hpp"
 #include "common/bus/config.hpp"
 #include "launcher/bench_command.hpp"
+#include "launcher/drive_command.hpp"
 #include "launcher/inject_command.hpp"
 #include "launcher/run_command.hpp"
 #include "status/status_command.hpp"
@@ -40,6 +41,24 @@ CLI::App* add_inject_command(CLI::App& app, rover::InjectArguments& inject) {
   command->add_option("--run", inject.run_dir, "the run's folder; default: the newest that runs");
   command->add_flag("--list", inject.list, "list the faults");
   inject.source_dir = std::filesystem::current_path();
+  return command;
+}
+
+CLI::App* add_drive_command(CLI::App& app, rover::DriveArguments& drive) {
+  CLI::App* command = app.add_subcommand(
+      "drive", "the stack for a vehicle's drivers. Example: ./rover drive --ground ground.yaml --map map.tif");
+  command->add_option("--config", drive.config_dir, "folder of the configuration; default: config");
+  command->add_option("--ground", drive.ground, "start pose and path; default: ground.yaml of the configuration");
+  command->add_option("--map", drive.map, "orbital map (GeoTIFF) for the page and the report");
+  command->add_option("--bus", drive.bus, "LCM URL; default: of bus.yaml");
+  command->add_option("--out", drive.out, "folder of the run; default: logs/<time>-drive");
+  command->add_option("--record", drive.record, "full or reduced")->check(CLI::IsMember({"full", "reduced"}));
+  command->add_option("--patience", drive.patience_s, "seconds to wait for the driver's first TICK")
+      ->check(CLI::Range(1.0, 3600.0))
+      ->capture_default_str();
+  command->add_flag("--headless", drive.headless, "no page");
+  command->add_flag("--until-goal", drive.until_goal, "end at the goal, without an order to stop");
+  command->add_option("--set", drive.set, "set a value of the configuration: file.key=value, repeatable");
   return command;
 }
 
@@ -83,6 +102,11 @@ int main(int argc, char** argv) {
   rover::InjectArguments inject;
   CLI::App* inject_command = add_inject_command(app, inject);
 
+  rover::DriveArguments drive;
+  drive.source_dir = run.source_dir;
+  drive.bin_dir = run.bin_dir;
+  CLI::App* drive_command = add_drive_command(app, drive);
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -91,6 +115,7 @@ int main(int argc, char** argv) {
   try {
     if (status_command->parsed()) return rover::status::show_status(status);
     if (run_command->parsed()) return rover::run(run).exit_status;
+    if (drive_command->parsed()) return rover::drive(drive);
     if (inject_command->parsed()) return rover::inject(inject);
     bench.run = run;
     bench.seeds = rover::parse_seeds(seeds);

@@ -25,17 +25,6 @@ std::string time_stamp() {
   return text;
 }
 
-fs::path folder_for(const RunArguments& arguments) {
-  if (!arguments.out.empty()) return fs::absolute(arguments.out);
-  return fs::absolute(fs::path(arguments.source_dir) / "logs" /
-                      (time_stamp() + "-" + scenario_name(arguments.scenario)));
-}
-
-void copy_configuration(const fs::path& from, const fs::path& to) {
-  for (const auto& entry : fs::directory_iterator(from))
-    if (entry.path().extension() == ".yaml") fs::copy_file(entry.path(), to / entry.path().filename());
-}
-
 void write_yaml(const fs::path& file, const YAML::Node& node) {
   YAML::Emitter out;
   out.SetDoublePrecision(17);
@@ -60,33 +49,6 @@ YAML::Node load_yaml(const fs::path& file) {
   } catch (const YAML::Exception& error) {
     throw ConfigError(file.string() + ":" + std::to_string(error.mark.line + 1) + ": not valid YAML: " + error.msg);
   }
-}
-
-// One setting "file.key.key=value" in the run's copy of the configuration.
-void apply_setting(const std::string& setting, const fs::path& config_dir) {
-  static const std::regex form(R"(([A-Za-z0-9_]+)\.([A-Za-z0-9_.]+)=(.*))");
-  std::smatch match;
-  if (!std::regex_match(setting, match, form))
-    throw ConfigError("--set " + setting + ": file.key=value is expected, as in path_planner.margin_m=0.2");
-  const fs::path file = config_dir / (match[1].str() + ".yaml");
-  if (!fs::exists(file)) throw ConfigError("--set " + setting + ": there is no config/" + match[1].str() + ".yaml");
-  const YAML::Node root = load_yaml(file);
-  YAML::Node node = root;
-  std::string rest = match[2];
-  for (size_t dot = rest.find('.'); dot != std::string::npos; dot = rest.find('.')) {
-    YAML::Node child = node[rest.substr(0, dot)];
-    if (!child.IsDefined() || !child.IsMap())
-      throw ConfigError("--set " + setting + ": no section '" + rest.substr(0, dot) + "' in " +
-                        file.filename().string());
-    node.reset(child);
-    rest = rest.substr(dot + 1);
-  }
-  try {
-    node[rest] = YAML::Load(match[3]);
-  } catch (const YAML::Exception& error) {
-    throw ConfigError("--set " + setting + ": not a value: " + error.msg);
-  }
-  write_yaml(file, root);
 }
 
 // What the ground knows and orders: the start by its own belief, the height from the orbital map.
@@ -116,17 +78,8 @@ double height_at(const ElevationRaster& raster, double x_m, double y_m) {
   return raster.at(column, row);
 }
 
-void create_folders(const fs::path& dir) {
-  std::error_code error;
-  if (fs::exists(dir) && !fs::is_empty(dir, error))
-    throw ConfigError(dir.string() + ": exists already and is not empty");
-  fs::create_directories(dir / "config", error);
-  fs::create_directories(dir / "service_logs", error);
-  if (error) throw ConfigError(dir.string() + ": cannot be made: " + error.message());
-}
-
 void fill_run_folder(const RunArguments& arguments, const std::string& dtm_file, RunFolder& folder) {
-  copy_configuration(fs::path(arguments.source_dir) / "config", folder.config_dir);
+  copy_configuration(arguments.source_dir + "/config", folder.config_dir);
   copy_scenario(arguments.scenario, dtm_file, folder.scenario);
   if (arguments.headless) apply_setting("mission_control.page=false", folder.config_dir);
   if (!arguments.record.empty()) apply_setting("recorder.record=" + arguments.record, folder.config_dir);
@@ -146,8 +99,54 @@ void fill_run_folder(const RunArguments& arguments, const std::string& dtm_file,
 
 }  // namespace
 
+std::string run_dir_for(const std::string& source_dir, const std::string& out, const std::string& name) {
+  if (!out.empty()) return fs::absolute(out);
+  return fs::absolute(fs::path(source_dir) / "logs" / (time_stamp() + "-" + name));
+}
+
+void copy_configuration(const std::string& from, const std::string& to) {
+  for (const auto& entry : fs::directory_iterator(from))
+    if (entry.path().extension() == ".yaml") fs::copy_file(entry.path(), fs::path(to) / entry.path().filename());
+}
+
+void apply_setting(const std::string& setting, const std::string& config_dir) {
+  static const std::regex form(R"(([A-Za-z0-9_]+)\.([A-Za-z0-9_.]+)=(.*))");
+  std::smatch match;
+  if (!std::regex_match(setting, match, form))
+    throw ConfigError("--set " + setting + ": file.key=value is expected, as in path_planner.margin_m=0.2");
+  const fs::path file = fs::path(config_dir) / (match[1].str() + ".yaml");
+  if (!fs::exists(file)) throw ConfigError("--set " + setting + ": there is no config/" + match[1].str() + ".yaml");
+  const YAML::Node root = load_yaml(file);
+  YAML::Node node = root;
+  std::string rest = match[2];
+  for (size_t dot = rest.find('.'); dot != std::string::npos; dot = rest.find('.')) {
+    YAML::Node child = node[rest.substr(0, dot)];
+    if (!child.IsDefined() || !child.IsMap())
+      throw ConfigError("--set " + setting + ": no section '" + rest.substr(0, dot) + "' in " +
+                        file.filename().string());
+    node.reset(child);
+    rest = rest.substr(dot + 1);
+  }
+  try {
+    node[rest] = YAML::Load(match[3]);
+  } catch (const YAML::Exception& error) {
+    throw ConfigError("--set " + setting + ": not a value: " + error.msg);
+  }
+  write_yaml(file, root);
+}
+
+void create_folders(const std::string& run_dir) {
+  const fs::path dir(run_dir);
+  std::error_code error;
+  if (fs::exists(dir) && !fs::is_empty(dir, error))
+    throw ConfigError(dir.string() + ": exists already and is not empty");
+  fs::create_directories(dir / "config", error);
+  fs::create_directories(dir / "service_logs", error);
+  if (error) throw ConfigError(dir.string() + ": cannot be made: " + error.message());
+}
+
 RunFolder make_run_folder(const RunArguments& arguments) {
-  const fs::path dir = folder_for(arguments);
+  const fs::path dir = run_dir_for(arguments.source_dir, arguments.out, scenario_name(arguments.scenario));
   if (!fs::is_regular_file(arguments.scenario)) throw ConfigError(arguments.scenario + ": no such file");
   // Before anything is made, so that what is wrong is named in the user's own file.
   const std::string dtm_file = load_scenario(arguments.scenario).dtm_file;

@@ -26,4 +26,13 @@ std::string in_users_files(std::string message, const RunFolder& folder, const R
 // Takes back what make_run_folder made, for a run that never began.
 void remove_run_folder(const RunFolder& folder);
 
+// The steps of it, for other kinds of run.
+// Absolute; `out` empty: logs/<time>-<name>.
+std::string run_dir_for(const std::string& source_dir, const std::string& out, const std::string& name);
+// Makes the folder with its parts; throws ConfigError where it is there already and not empty.
+void create_folders(const std::string& run_dir);
+void copy_configuration(const std::string& from, const std::string& to);
+// One setting "file.key.key=value" in the run's copy of the configuration.
+void apply_setting(const std::string& setting, const std::string& config_dir);
+
 }  // namespace rover

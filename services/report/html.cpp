@@ -7,16 +7,18 @@
 
 #include "report/html_parts.hpp"
 #include "report/map_layers.hpp"
+#include "report/no_truth.hpp"
 #include "report/svg.hpp"
 
 namespace rover::report {
 namespace {
 
 std::string header(const Metrics& m) {
+  const char* whose = has_truth(m) ? "" : " &middot; no truth: by the rover's own estimate";
   return fmt::format(
       "<header><div><h1>Traverse: {}</h1><div class=\"meta\">{}</div></div>"
       "<div class=\"badge {}\">{}</div></header>\n",
-      escaped(m.info.scenario), run_facts(m.info), m.outcome == "goal_reached" ? "good" : "bad",
+      escaped(m.info.scenario), run_facts(m.info) + whose, m.outcome == "goal_reached" ? "good" : "bad",
       escaped(outcome_text(m.outcome)));
 }
 
@@ -31,9 +33,9 @@ std::string cards(const Metrics& m) {
   out += card(shown(m.mean_speed_m_per_h, 0, "m/h"), fmt::format("mean speed, duty {}", shown(100.0 * m.duty, 0, "%")));
   out += card(shown(m.duration_s, 0, "s"), fmt::format("{} times real time", shown(m.realtime_factor, 1)));
   out += card(std::to_string(m.replans), fmt::format("repairs; hazard stops: {}", m.hazard_stops));
-  out += card(std::to_string(m.collisions),
+  out += card(has_truth(m) ? std::to_string(m.collisions) : "n/a",
               fmt::format("collisions, least clearance {}", shown(m.min_clearance_m, 2, "m")),
-              verdict(true, m.collisions == 0));
+              verdict(has_truth(m), m.collisions == 0));
   out += card(shown(m.rocks_missed), fmt::format("rocks missed of {} met", shown(m.rocks_encountered)),
               verdict(m.rocks_missed.has_value(), m.rocks_missed == 0));
   out += card(shown(m.false_stops), "stops or repairs without a cause",

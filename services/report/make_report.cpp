@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "report/metrics_json.hpp"
+#include "report/no_truth.hpp"
 #include "report/rasterise.hpp"
 
 namespace rover::report {
@@ -16,8 +17,9 @@ std::string write_report(const Study& study) {
   write_file(folder.dir + "/traverse.svg", "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" + pictures.map);
   write_png(pictures.map, kPngScale, folder.dir + "/traverse.png");
   write_file(folder.dir + "/report.html", report_html(study.scene(), pictures, configuration_texts(folder)));
-  return fmt::format("{}: {}, {:.1f} m driven of {:.1f} m planned, {} repairs, {} collisions", folder.dir, m.outcome,
-                     m.driven_length_m, m.planned_length_m, m.replans, m.collisions);
+  return fmt::format("{}: {}, {:.1f} m driven of {:.1f} m planned, {} repairs, {}", folder.dir, m.outcome,
+                     m.driven_length_m, m.planned_length_m, m.replans,
+                     has_truth(m) ? fmt::format("{} collisions", m.collisions) : "no truth");
 }
 
 std::string make_report(const std::string& run_dir, const std::string& default_config_dir) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "report/map_layers.hpp"
+#include "report/no_truth.hpp"
 #include "report/palette.hpp"
 #include "report/slope_map.hpp"
 
@@ -98,7 +99,7 @@ void draw_hazards(Svg& svg, const MapView& view, const Scene& scene) {
 
 void draw_tracks(Svg& svg, const MapView& view, const Scene& scene) {
   svg.polyline(view.px(true_line(scene)), stroke("#ffffff", 5.4, "stroke-opacity:.75"));
-  svg.polyline(view.px(true_line(scene)), stroke(palette::kTruth, 3.0));
+  if (has_truth(scene.judgement.metrics)) svg.polyline(view.px(true_line(scene)), stroke(palette::kTruth, 3.0));
   svg.polyline(view.px(estimated_line(scene)), stroke(palette::kEstimate, 1.8, "stroke-dasharray:6 5"));
 }
 
@@ -156,7 +157,7 @@ struct LegendEntry {
   std::function<void(double x, double y)> symbol;
 };
 
-void draw_legend(Svg& svg, double left, double top, double right) {
+void draw_legend(Svg& svg, double left, double top, double right, bool has_truth) {
   const auto bar = [&](const std::string& style) {
     return [&svg, style](double x, double y) { svg.line(x, y, x + 30.0, y, style); };
   };
@@ -167,7 +168,7 @@ void draw_legend(Svg& svg, double left, double top, double right) {
   const auto disc = [&](const std::string& style) {
     return [&svg, style](double x, double y) { svg.circle(x + 9.0, y, 7.0, style); };
   };
-  const std::vector<LegendEntry> entries = {
+  std::vector<LegendEntry> entries = {
       {"planned path", 122, 38,
        [&](double x, double y) {
          svg.line(x, y, x + 30.0, y, stroke("#3b2a1e", 4.5));
@@ -183,6 +184,7 @@ void draw_legend(Svg& svg, double left, double top, double right) {
       {"repair", 66, 24, disc(fmt::format("fill:#fff;stroke:{};stroke-width:2", palette::kRepair))},
       {"hazard stop", 100, 24, disc(fmt::format("fill:#fff;stroke:{};stroke-width:2", palette::kBad))},
   };
+  if (!has_truth) std::erase_if(entries, [](const LegendEntry& entry) { return entry.text == "true track"; });
   double x = left;
   double y = top + 12.0;
   for (const LegendEntry& entry : entries) {
@@ -216,7 +218,7 @@ std::string draw_map(const Scene& scene) {
   svg.rect(view.left, view.top, view.width(), view.height(), "fill:none;stroke:#5b4636;stroke-width:1.2");
   draw_scale_bar(svg, view, true_line(scene));
   draw_north(svg, view);
-  draw_legend(svg, view.left, bottom + 6.0, kMapWidth - 8.0);
+  draw_legend(svg, view.left, bottom + 6.0, kMapWidth - 8.0, has_truth(scene.judgement.metrics));
   return svg.str();
 }
 

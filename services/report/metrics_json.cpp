@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "report/no_truth.hpp"
+
 namespace rover::report {
 namespace {
 
@@ -80,6 +82,7 @@ void add_run(const Metrics& m, Json& json) {
   json["commit"] = text(m.info.commit);
   json["level"] = text(m.info.level);
   json["deterministic"] = optional(m.info.deterministic);
+  json["truth"] = has_truth(m);
   json["outcome"] = m.outcome;
 }
 
@@ -94,7 +97,7 @@ void add_drive(const Metrics& m, Json& json) {
   json["replans"] = m.replans;
   json["replans_per_m"] = number(m.replans_per_m);
   json["level_switches"] = switches_json(m);
-  json["collisions"] = m.collisions;
+  json["collisions"] = has_truth(m) ? Json(m.collisions) : Json(nullptr);
   json["min_clearance_m"] = number(m.min_clearance_m);
   json["max_roll_deg"] = number(m.max_roll_deg);
   json["max_pitch_deg"] = number(m.max_pitch_deg);

@@ -7,6 +7,7 @@
 #include "report/log_reader.hpp"
 #include "report/map_layers.hpp"
 #include "report/map_picture.hpp"
+#include "report/no_truth.hpp"
 #include "report/run_plots.hpp"
 #include "report/world_truth.hpp"
 
@@ -41,7 +42,10 @@ Study study_run(const std::string& run_dir, const std::string& default_config_di
   study.run = read_log(study.folder.log, study.folder.info.sim_s);
   study.world = load_true_world(study.folder, surroundings(study.run));
   study.orbital = load_orbital_map(study.folder);
+  const bool true_run = !study.run.truth.empty();
+  if (!true_run) study.run = with_estimate_for_truth(study.run);
   study.judgement = judge(study.run, study.folder.info, study.folder.footprint, study.world);
+  if (!true_run) leave_out_truth_figures(study.judgement.metrics);
   return study;
 }
 

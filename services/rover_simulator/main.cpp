@@ -78,7 +78,11 @@ int main(int argc, char** argv) {
   app.add_option("--participants", arguments.options.participants, "services that the ticks wait for")->delimiter(',');
   app.add_option("--boot-id", arguments.options.boot_id, "start number");
   app.add_flag("--allow-injection", arguments.options.allow_injection, "obey INJECT");
-  app.add_flag("--realtime", arguments.options.realtime, "pace by the clock");
+  CLI::Option* realtime = app.add_flag("--realtime", arguments.options.realtime, "pace by the clock");
+  app.add_option("--pace", arguments.options.pace, "slower or faster than the clock, for machines that cannot keep up")
+      ->needs(realtime)
+      ->check(CLI::Range(0.05, 10.0))
+      ->capture_default_str();
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

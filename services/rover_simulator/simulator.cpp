@@ -134,7 +134,8 @@ SimulationSummary Simulator::run(const std::function<bool()>& running) {
     if ((t - kStart) % kFramePeriod == 0) start_exposure(t);
     publish_due_images(t);
     if (options_.realtime)
-      std::this_thread::sleep_until(started + std::chrono::microseconds(t - kStart));
+      std::this_thread::sleep_until(started + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(
+                                                  to_seconds(t - kStart) / options_.pace)));
     else
       wait_for_barrier(t, running);
     give_tick(t);

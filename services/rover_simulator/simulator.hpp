@@ -30,6 +30,7 @@ struct SimulatorOptions {
   std::vector<std::string> participants;  // nodes that the ticks wait for
   std::int64_t boot_id = 1;
   bool realtime = false;
+  double pace = 1.0;                  // of message time against the clock, with realtime
   bool allow_injection = false;       // obeys INJECT
   std::vector<ScriptedFault> faults;  // done whether injection is allowed or not
   RunEndConfig end;

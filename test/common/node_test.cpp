@@ -84,6 +84,23 @@ TEST_F(NodeTest, TicksOfTheClockThatStopAreNoticedOnce) {
   }
 }
 
+TEST_F(NodeTest, ATickOfTheClockThatNamesNobodyIsForAll) {
+  Node node({.name = "node"}, bus_);
+  std::vector<Utime> steps;
+  node.on_step([&](Utime now) { steps.push_back(now); });
+  const auto nameless_tick = [&](Utime utime, std::int8_t mode) {
+    tick_t tick{};
+    tick.header = world_.next(channel::kTick, utime, utime);
+    tick.mode = mode;
+    bus_.publish(channel::kTick, &tick);
+    drain(node);
+  };
+  nameless_tick(20'000, tick_t::LOCKSTEP);  // there nobody may join unasked
+  EXPECT_TRUE(steps.empty());
+  nameless_tick(40'000, tick_t::REALTIME);
+  EXPECT_EQ(steps, std::vector<Utime>{40'000});
+}
+
 TEST_F(NodeTest, TakesInputsByReleaseNotByArrival) {
   Node node({.name = "node"}, bus_);
   std::vector<double> taken;

@@ -1,10 +1,12 @@
 // From a log on disk to the files of a report.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <lcm/lcm-cpp.hpp>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <rover/slip_t.hpp>
@@ -177,6 +179,38 @@ TEST_F(ReportTest, WithoutTheWorldRocksAreNotJudged) {
   EXPECT_TRUE(m["seed"].is_null());
   EXPECT_TRUE(m["deterministic"].is_null());
   EXPECT_EQ(m["outcome"], "goal_reached");
+}
+
+// A vehicle's log: everything but TRUTH.
+void copy_without_truth(const std::string& from, const std::string& to) {
+  lcm::LogFile in(from, "r");
+  lcm::LogFile out(to, "w");
+  ASSERT_TRUE(in.good() && out.good());
+  while (const lcm::LogEvent* event = in.readNextEvent()) {
+    if (event->channel == "TRUTH") continue;
+    lcm::LogEvent copy = *event;
+    out.writeEvent(&copy);
+  }
+}
+
+TEST_F(ReportTest, WithoutTruthTheReportSaysSoAndTellsWhatTheEstimateCan) {
+  const std::string other = testing::TempDir() + "/report_test_no_truth";
+  fs::remove_all(other);
+  fs::create_directories(other);
+  copy_without_truth(dir_ + "/traverse.lcm", other + "/traverse.lcm");
+  EXPECT_THAT(make_report(other, kConfig), testing::HasSubstr("no truth"));
+  const nlohmann::json m = nlohmann::json::parse(read_file(other + "/metrics.json"));
+  EXPECT_EQ(m["truth"], false);
+  EXPECT_EQ(m["outcome"], "goal_reached");
+  const double driven_m = metrics()["driven_length_m"];
+  EXPECT_NEAR(m["driven_length_m"].get<double>(), driven_m, 0.01 * driven_m);
+  EXPECT_EQ(m["replans"], metrics()["replans"]);
+  for (const char* key : {"collisions", "odometry_drift_percent", "final_error_m", "truth_deviation_max_m",
+                          "final_truth_pose", "motion_without_lease_s", "mean_slip"})
+    EXPECT_TRUE(m[key].is_null()) << key;
+  EXPECT_THAT(read_file(other + "/report.html"), testing::HasSubstr("no truth"));
+  EXPECT_THAT(read_file(other + "/report.html"), testing::Not(testing::HasSubstr("true track")));
+  EXPECT_EQ(metrics()["truth"], true);
 }
 
 TEST_F(ReportTest, ACutLogLosesItsEndOnly) {

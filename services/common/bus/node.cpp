@@ -25,6 +25,12 @@ bool is_power_of_two(std::int64_t n) {
   return (n & (n - 1)) == 0;
 }
 
+// A vehicle's driver need not know who listens: its ticks name nobody and are for all.
+bool is_for(const std::string& name, const tick_t& tick) {
+  if (tick.members.empty() && tick.mode == tick_t::REALTIME) return true;
+  return std::find(tick.members.begin(), tick.members.end(), name) != tick.members.end();
+}
+
 input_health_t nothing_yet(const std::string& channel) {
   input_health_t health{};
   health.channel = channel;
@@ -224,8 +230,7 @@ void Node::receive_tick(const lcm::ReceiveBuffer* buffer, const std::string& cha
     const bool foreign = size >= kFingerprintBytes && peek_fingerprint(buffer->data, size) != tick_t::getHash();
     return count_malformed(ticks_health_, channel, foreign ? "foreign fingerprint" : "truncated or damaged");
   }
-  const auto& members = queued.tick.members;
-  if (std::find(members.begin(), members.end(), options_.name) == members.end()) return;
+  if (!is_for(options_.name, queued.tick)) return;
   const Utime latest = ticks_.empty() ? now_ : ticks_.back().tick.header.utime;
   if (queued.tick.header.utime > latest) {
     ticks_.push_back(std::move(queued));

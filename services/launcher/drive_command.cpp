@@ -1,0 +1,178 @@
+#include "launcher/drive_command.hpp"
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <lcm/lcm-cpp.hpp>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "common/bus/config.hpp"
+#include "common/bus/s6_client.hpp"
+#include "common/bus/service_names.hpp"
+#include "launcher/arguments.hpp"
+#include "launcher/drive_folder.hpp"
+#include "launcher/drive_watch.hpp"
+#include "launcher/preflight.hpp"
+#include "launcher/progress.hpp"
+#include "launcher/s6_tree.hpp"
+
+namespace rover {
+namespace {
+
+volatile std::sig_atomic_t interrupted = 0;
+
+void interrupt(int) {
+  interrupted = 1;
+}
+
+// What went wrong before the drive began: exit status 2, and no folder is left.
+struct NotBegun {
+  std::string why;
+};
+
+std::vector<ServiceCommand> service_commands(const DriveArguments& arguments, const RunFolder& folder) {
+  std::vector<ServiceCommand> commands;
+  for (const std::string name : kServiceNames)
+    commands.push_back({name, "'" + arguments.bin_dir + "/" + name + "' --config '" + folder.config_dir + "' --bus '" +
+                                  folder.bus_url + "' --run-dir '" + folder.dir + "'"});
+  return commands;
+}
+
+void check_bus(const RunFolder& folder, const BusLock& lock) {
+  const auto problems = bus_problems(folder.bus_url);
+  if (!problems.empty()) throw NotBegun{problems.front()};
+  if (!lock.held())
+    throw NotBegun{"bus: another rover runs on " + folder.bus_url +
+                   ". Stop it, or give this one a bus: --bus udpm://..."};
+}
+
+// The first service that ended for good; waits a while for its last words.
+class FailureWatch {
+ public:
+  explicit FailureWatch(std::string run_dir) : run_dir_(std::move(run_dir)) {}
+  std::optional<std::string> look() {
+    constexpr int kSilentLooks = 100;
+    const auto failed = failed_services(run_dir_);
+    if (failed.empty() || (failed.front().said.empty() && ++silent_looks_ <= kSilentLooks)) return {};
+    const FailedService& first = failed.front();
+    return first.said.empty() ? first.name + ": ended with exit status 2" : first.said;
+  }
+
+ private:
+  std::string run_dir_;
+  int silent_looks_ = 0;
+};
+
+void handle_for(lcm::LCM& lcm, std::chrono::milliseconds period) {
+  const auto until = std::chrono::steady_clock::now() + period;
+  for (auto left = period; left.count() > 0 && !interrupted;
+       left = std::chrono::duration_cast<std::chrono::milliseconds>(until - std::chrono::steady_clock::now()))
+    lcm.handleTimeout(static_cast<int>(left.count()));
+}
+
+// Returns where the drive is over; throws NotBegun or ConfigError.
+void attend(const DriveArguments& arguments, const RunFolder& folder, S6Session& session) {
+  constexpr double kTicksLostS = 2.0;
+  lcm::LCM lcm(folder.bus_url);
+  DriveWatch watch(lcm);
+  Progress progress(lcm, true);
+  FailureWatch failures(folder.dir);
+  bool told_of_silence = false;
+  while (!interrupted) {
+    handle_for(lcm, std::chrono::milliseconds(100));
+    progress.show();
+    if (const auto failure = failures.look()) {
+      if (progress.started()) throw ConfigError(*failure);
+      throw NotBegun{*failure};
+    }
+    if (!session.running()) throw std::runtime_error("s6-svscan has ended; see " + folder.dir + "/service_logs/s6.log");
+    if (!watch.ticks_heard() && watch.silence_s() > arguments.patience_s)
+      throw NotBegun{"drive: no TICK on " + folder.bus_url + " within " +
+                     std::to_string(static_cast<int>(arguments.patience_s)) +
+                     " s. Start the vehicle's driver on this bus (to try it out: build/bin/example_driver); "
+                     "./rover conform checks it"};
+    if (const std::string problem = watch.driver_problem(); !problem.empty()) throw NotBegun{"drive: " + problem};
+    const bool silent = watch.ticks_heard() && watch.silence_s() > kTicksLostS;
+    if (silent && !told_of_silence) std::printf("\nno TICK any more: the rover's time stands still\n");
+    told_of_silence = silent;
+    if (progress.supervisor_hangs()) {
+      kill_service(folder.dir, "supervisor");
+      progress.supervisor_killed();
+    }
+    if (watch.goal_reached() && (arguments.until_goal || watch.stop_ordered())) break;
+  }
+  progress.finish();
+}
+
+void write_json(const std::string& file, const nlohmann::json& facts) {
+  std::ofstream(file) << facts.dump(2) << "\n";
+}
+
+int report(const DriveArguments& arguments, const RunFolder& folder) {
+  const std::string command = "'" + arguments.bin_dir + "/rover_report' '" + folder.dir + "' > '" + folder.dir +
+                              "/service_logs/report.log' 2>&1";
+  if (std::system(command.c_str()) != 0) {
+    std::fprintf(stderr, "the report failed; see %s/service_logs/report.log\n", folder.dir.c_str());
+    return 1;
+  }
+  std::ifstream in(folder.dir + "/metrics.json");
+  const nlohmann::json metrics = nlohmann::json::parse(in, nullptr, false);
+  const auto number = [&](const char* key) {
+    return metrics.contains(key) && metrics[key].is_number() ? metrics[key].get<double>() : 0.0;
+  };
+  const std::string outcome = metrics.value("outcome", "unknown");
+  const bool truth = metrics.value("truth", false);
+  std::printf("%s: %.1f m driven for %.1f m planned in %.0f s, %.0f repairs, %.0f hazard stops%s\n", outcome.c_str(),
+              number("driven_length_m"), number("planned_length_m"), number("duration_s"), number("replans"),
+              number("hazard_stops"), truth ? "" : "; no truth: by the rover's own estimate");
+  std::printf("report: %s/report.html\n", folder.dir.c_str());
+  return outcome == "goal_reached" ? 0 : 1;
+}
+
+int drive_in(const DriveArguments& arguments, const RunFolder& folder) {
+  std::signal(SIGINT, interrupt);
+  std::signal(SIGTERM, interrupt);
+  std::printf("run: %s\n", folder.dir.c_str());
+  if (const std::string line = page_line(folder.config_dir); !line.empty()) std::printf("%s\n", line.c_str());
+  std::fflush(stdout);
+  write_json(folder.dir + "/launch.json", {{"bus", folder.bus_url}, {"allow_injection", false}});
+  write_s6_tree(folder.dir, service_commands(arguments, folder));
+  {
+    S6Session session(folder.dir);
+    attend(arguments, folder, session);
+    session.stop();
+  }
+  write_json(folder.dir + "/run.json", {{"scenario", "drive"},
+                                        {"commit", commit_of(arguments.source_dir)},
+                                        {"realtime", true},
+                                        {"interrupted", interrupted != 0},
+                                        {"outcome", "stopped"}});
+  return report(arguments, folder);
+}
+
+}  // namespace
+
+int drive(const DriveArguments& arguments) {
+  const RunFolder folder = make_drive_folder(arguments);
+  const BusLock lock(folder.bus_url);
+  try {
+    check_bus(folder, lock);
+    return drive_in(arguments, folder);
+  } catch (const NotBegun& problem) {
+    remove_run_folder(folder);
+    std::fprintf(stderr, "%s\n", in_users_files(problem.why, folder, arguments).c_str());
+    return 2;
+  } catch (const ConfigError& error) {  // a service that met it only after the drive had begun
+    std::fprintf(stderr, "%s\n", in_users_files(error.what(), folder, arguments).c_str());
+    return 2;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+}
+
+}  // namespace rover

@@ -1,0 +1,79 @@
+#!/usr/bin/env bash
+# Two hosts, as network namespaces joined by a cable: the simulator in one, as the vehicle's driver; the stack in the
+# other. TTL 1. The drive of `default` reaches its goal; the clocks' offset is measured, and limited.
+. "$(dirname "$0")/lib.sh"
+cd "$SOURCE"
+
+VEHICLE=rv$$
+STACK=rs$$
+CABLE=v$$
+remove_hosts() {
+  ip netns del $VEHICLE 2>/dev/null || true
+  ip netns del $STACK 2>/dev/null || true
+}
+trap 'cleanup; remove_hosts' EXIT
+if ! ip netns add $VEHICLE 2>/dev/null || ! ip netns add $STACK 2>/dev/null ||
+  ! ip link add ${CABLE}a netns $VEHICLE type veth peer name ${CABLE}b netns $STACK 2>/dev/null; then
+  echo "SKIPPED: network namespaces are not permitted here (run it as root)"
+  exit 77
+fi
+join() {  # HOST DEVICE ADDRESS
+  ip -n "$1" link set lo up
+  ip -n "$1" address add "$3/24" dev "$2"
+  ip -n "$1" link set "$2" up
+  ip -n "$1" route add 224.0.0.0/4 dev "$2"
+}
+join $VEHICLE ${CABLE}a 10.77.0.1
+join $STACK ${CABLE}b 10.77.0.2
+BUS="udpm://239.255.76.67:$PORT?ttl=1&recv_buf_size=4194304"
+
+# The ground's side of the scenario, as `./rover run` writes it, and its orbital map.
+SCENARIO=${1:-config/scenarios/default.yaml}
+"$BUILD/bin/rover_launcher" run "$SCENARIO" --headless --out "$WORK/ground" --bus "udpm://239.255.76.67:$PORT?ttl=0&recv_buf_size=4194304" \
+  >"$WORK/ground.txt" 2>&1 &
+first=$!
+until [ -s "$WORK/ground/config/ground.yaml" ] && [ -s "$WORK/ground/launch.json" ]; do
+  kill -0 $first 2>/dev/null || fail "no ground.yaml: $(cat "$WORK/ground.txt")"
+  sleep 0.1
+done
+cp "$WORK/ground/config/ground.yaml" "$WORK/ground/orbital_map.tif" "$WORK/"
+kill -INT $first
+wait $first || true
+
+# Slower than the clock, so that a busy machine keeps up: two cores are two computers here.
+PACE=${ROVER_PACE:-0.25}
+ip netns exec $VEHICLE "$BUILD/bin/rover_simulator" --config config --scenario "$SCENARIO" --bus "$BUS" --realtime \
+  --pace $PACE --seed "$(sed -n 's/^seed: *//p' "$SCENARIO")" >"$WORK/vehicle.txt" 2>&1 &
+vehicle=$!
+ip netns exec $STACK "$BUILD/bin/rover_launcher" drive --headless --until-goal --ground "$WORK/ground.yaml" \
+  --map "$WORK/orbital_map.tif" --out "$WORK/run" --bus "$BUS" --patience 60 >"$WORK/drive.txt" 2>&1 &
+drive=$!
+until grep -q DRIVING "$WORK/drive.txt"; do
+  kill -0 $drive 2>/dev/null || fail "the drive ended early: $(tail -5 "$WORK/drive.txt"); $(tail -3 "$WORK/vehicle.txt")"
+  sleep 0.2
+done
+# From the stack's host, while it drives: what the driver's clocks are apart from TICK.
+ip netns exec $STACK "$BUILD/bin/rover_conform" --bus "$BUS" --listen 5 >"$WORK/conform.txt" || true
+grep "  clock  " "$WORK/conform.txt" || fail "no offset was measured: $(cat "$WORK/conform.txt")"
+grep -q "^pass  clock  " "$WORK/conform.txt" || fail "the clocks are apart: $(cat "$WORK/conform.txt")"
+grep -q "^pass  seq  " "$WORK/conform.txt" || fail "messages were lost on the way: $(cat "$WORK/conform.txt")"
+
+status=0
+wait $drive || status=$?
+[ $status = 0 ] || fail "the drive ended with $status: $(tail -5 "$WORK/drive.txt")"
+tail -2 "$WORK/drive.txt"
+[ "$(metric "$WORK/run" outcome)" = goal_reached ] || fail "outcome: $(metric "$WORK/run" outcome)"
+[ "$(metric "$WORK/run" collisions)" = 0 ] || fail "collisions: $(metric "$WORK/run" collisions)"
+kill $vehicle 2>/dev/null || true
+wait $vehicle || true
+
+# Beyond the cable nothing is heard with the TTL of 0 that is the default.
+LOCAL="udpm://239.255.76.67:$((PORT + 1))?ttl=0&recv_buf_size=4194304"
+ip netns exec $VEHICLE "$BUILD/bin/example_driver" --bus "$LOCAL" >/dev/null &
+quiet=$!
+status=0
+ip netns exec $STACK "$BUILD/bin/rover_conform" --bus "$LOCAL" --listen 2 >/dev/null 2>"$WORK/said" || status=$?
+[ $status = 2 ] || fail "a bus of TTL 0 crosses the cable: $(cat "$WORK/said")"
+kill $quiet
+wait $quiet || true
+echo "two hosts drive together"
