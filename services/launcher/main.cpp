@@ -7,6 +7,7 @@
 #include "launcher/bench_command.hpp"
 #include "launcher/drive_command.hpp"
 #include "launcher/inject_command.hpp"
+#include "launcher/replay_command.hpp"
 #include "launcher/run_command.hpp"
 #include "status/status_command.hpp"
 
@@ -41,6 +42,27 @@ CLI::App* add_inject_command(CLI::App& app, rover::InjectArguments& inject) {
   command->add_option("--run", inject.run_dir, "the run's folder; default: the newest that runs");
   command->add_flag("--list", inject.list, "list the faults");
   inject.source_dir = std::filesystem::current_path();
+  return command;
+}
+
+CLI::App* add_replay_command(CLI::App& app, rover::ReplayArguments& replay) {
+  CLI::App* command = app.add_subcommand(
+      "replay", "play a log back. Example: ./rover replay logs/RUN --services stereo,visual_odometry --speed 2");
+  command->add_option("log", replay.log, "an LCM log, or the folder of a run")->required();
+  command->add_option("--services", replay.services, "run live; what they said in the log is muted; all: every one")
+      ->delimiter(',');
+  CLI::Option* check =
+      command->add_flag("--check", replay.check, "compare what the services say with the log, byte by byte");
+  command->add_option("--from", replay.from_s, "begin at this message time [s]")
+      ->check(CLI::NonNegativeNumber)
+      ->excludes(check);
+  command->add_option("--until", replay.until_s, "end at this message time [s]")->check(CLI::NonNegativeNumber);
+  command->add_option("--speed", replay.speed, "times real time, or max")->excludes(check)->capture_default_str();
+  command->add_flag("--loop", replay.loop, "again and again, until q or Ctrl-C")->excludes(check);
+  command->add_option("--config", replay.config_dir, "configuration; default: that beside the log, or the project's");
+  command->add_option("--set", replay.run.set, "set a value of the configuration: file.key=value, repeatable");
+  command->add_option("--out", replay.run.out, "folder of the replay; default: logs/<time>-replay-<log>");
+  command->add_option("--bus", replay.run.bus, "LCM URL; default: of the configuration");
   return command;
 }
 
@@ -102,6 +124,11 @@ int main(int argc, char** argv) {
   rover::InjectArguments inject;
   CLI::App* inject_command = add_inject_command(app, inject);
 
+  rover::ReplayArguments replay;
+  replay.run.source_dir = run.source_dir;
+  replay.run.bin_dir = run.bin_dir;
+  CLI::App* replay_command = add_replay_command(app, replay);
+
   rover::DriveArguments drive;
   drive.source_dir = run.source_dir;
   drive.bin_dir = run.bin_dir;
@@ -117,6 +144,7 @@ int main(int argc, char** argv) {
     if (run_command->parsed()) return rover::run(run).exit_status;
     if (drive_command->parsed()) return rover::drive(drive);
     if (inject_command->parsed()) return rover::inject(inject);
+    if (replay_command->parsed()) return rover::replay_log(replay);
     bench.run = run;
     bench.seeds = rover::parse_seeds(seeds);
     bench.command = command_line(argc, argv);

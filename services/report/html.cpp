@@ -9,6 +9,7 @@
 #include "report/map_layers.hpp"
 #include "report/no_truth.hpp"
 #include "report/svg.hpp"
+#include "report/trajectory_section.hpp"
 
 namespace rover::report {
 namespace {
@@ -237,7 +238,7 @@ std::string report_html(const Scene& scene, const Pictures& pictures,
                         const std::vector<std::pair<std::string, std::string>>& configuration) {
   const Metrics& m = scene.judgement.metrics;
   std::string body = header(m) + cards(m) + layered_maps(pictures.map);
-  body += comparison_table(m) + events_section(scene, pictures);
+  body += trajectory_section(m) + comparison_table(m) + events_section(scene, pictures);
   body += "<h2>Over the distance driven, in metres</h2><section class=\"plots\">\n";
   for (const std::string& plot : pictures.plots) body += plot;
   body += pictures.states + "</section>\n";

@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <limits>
 #include <rover/slam_pose_t.hpp>
-#include <rover/vo_motion_t.hpp>
 #include <tuple>
 
 #include "common/bus/channels.hpp"
@@ -73,10 +72,7 @@ class Reader {
                        [this](const correction_t& m) { run_.corrections.push_back(correction_from(m)); });
     take<heartbeat_t>(channel::kHeartbeat, [this](const heartbeat_t& m) { add_heartbeat(m, run_.services); });
     take<slam_pose_t>(channel::kSlamPose, [this](const slam_pose_t&) { ++run_.slam_poses; });
-    take<vo_motion_t>(channel::kVo, [this](const vo_motion_t& m) {
-      ++run_.vo_frames;
-      run_.vo_lost += m.status == vo_motion_t::LOST ? 1 : 0;
-    });
+    take<vo_motion_t>(channel::kVo, [this](const vo_motion_t& m) { run_.visual.push_back(visual_from(m)); });
   }
 
   void add(const LogEvent& event) {
