@@ -57,6 +57,7 @@ refused "comparison over a file of mine" "exists already and is no comparison" \
 [ ! -e "$WORK/c.html" ] || fail "a refused comparison leaves a file"
 
 # completes EXPECTED WORDS...: the last word is the one that is typed.
+cd "$SOURCE"  # files are completed from where the user is
 "$rover" completion >"$WORK/completion.bash"
 . "$WORK/completion.bash"
 completes() {
