@@ -49,7 +49,7 @@ fi
   [ -z "$skipped" ] || printf '\n%s\n' "$skipped"
   echo
   echo "Demanded: end error at most 1.0 %, every pair accounted for. *Visual odometry*: its motions put together. *Published"
-  echo "pose*: \`POSE\` of localization at the exposure, so before the pair was seen; it bridges 0.24 s with the last speed."
+  echo "pose*: \`POSE\` of localization at the exposure, so before the pair was seen: it bridges 0.24 s with the last speed, and stands still until the first motion has come."
   echo "Unaccounted: pairs but the first of which visual odometry said nothing. The error after alignment is that of the"
   echo "rigid motion that fits best (rms)."
   echo
