@@ -18,6 +18,7 @@ constexpr double kTop = 34.0;
 constexpr double kHeight = 132.0;  // of the field
 constexpr double kBottom = 22.0;
 constexpr int kColumns = 700;
+constexpr double kFlat = 1e-9;
 
 Axis value_axis(const Plot& plot) {
   double low = kInfinity;
@@ -31,6 +32,8 @@ Axis value_axis(const Plot& plot) {
     for (const Eigen::Vector2d& p : series.points) include(p.y());
   for (const double limit : plot.limits) include(limit);
   if (plot.from_zero) include(0.0);
+  // Differences by rounding alone are a flat line: steps between them would be too small to count by.
+  if (low <= high && high - low < kFlat) low = high = std::abs(high) < kFlat ? 0.0 : high;
   return low <= high ? round_axis(low, high, 4) : Axis{};
 }
 

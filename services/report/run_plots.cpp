@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "report/no_truth.hpp"
 #include "report/palette.hpp"
 
 namespace rover::report {
@@ -139,9 +140,13 @@ const char* state_colour(State state) {
 
 std::vector<Plot> run_plots(const Scene& scene) {
   const DistanceAxis axis(scene);
-  return {cross_track_plot(scene, axis), drift_plot(scene, axis), drift_percent_plot(scene, axis),
-          attitude_plot(scene, axis),    slip_plot(scene, axis),  current_plot(scene, axis),
-          speed_plot(scene, axis)};
+  std::vector<Plot> plots{cross_track_plot(scene, axis)};
+  if (has_truth(scene.judgement.metrics)) {
+    plots.push_back(drift_plot(scene, axis));
+    plots.push_back(drift_percent_plot(scene, axis));
+  }
+  for (const auto& plot : {attitude_plot, slip_plot, current_plot, speed_plot}) plots.push_back(plot(scene, axis));
+  return plots;
 }
 
 PlotMarks incident_marks(const Scene& scene) {

@@ -25,7 +25,7 @@ refused "no driver" "no TICK on .* within 2 s. Start the vehicle's driver" --gro
 "$BUILD/bin/example_driver" --bus "$BUS" --pace 0.33 >"$WORK/driver.txt" &
 driver=$!
 "$BUILD/bin/rover_launcher" drive --headless --until-goal --ground $GROUND --out "$WORK/run" --bus "$BUS" \
-  >"$WORK/drive.txt" 2>&1 || fail "the drive ended with $?: $(tail -5 "$WORK/drive.txt")"
+  >"$WORK/drive.txt" 2>&1 || fail "the drive ended with $?: $(tail -n 5 "$WORK/drive.txt" "$WORK/run/service_logs/report.log")"
 kill -0 $driver || fail "the driver died"
 [ "$(metric "$WORK/run" outcome)" = goal_reached ] || fail "outcome: $(metric "$WORK/run" outcome)"
 [ "$(metric "$WORK/run" truth)" = false ] || fail "the report knows a truth"

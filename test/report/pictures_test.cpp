@@ -48,6 +48,14 @@ TEST(Plot, AxesAreRoundAndCoverTheirRange) {
   }
 }
 
+TEST(Plot, ValuesThatDifferByRoundingAloneAreAFlatLine) {
+  for (const double base : {0.0, 5.0}) {
+    Plot plot{"rounding", "m", {}, {}, base == 0.0};
+    plot.series.push_back({"", "#000", 1.0, false, {{0.0, base}, {1.0, base + 1e-15}, {2.0, base - 3e-17}}});
+    EXPECT_LT(draw_plot(plot, {}, 2.0, "plot").size(), 20'000u);
+  }
+}
+
 TEST(Plot, TheEnvelopeKeepsPeaksAndGaps) {
   Points points;
   for (int i = 0; i < 10'000; ++i) points.emplace_back(i * 0.01, 0.0);

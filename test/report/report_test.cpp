@@ -210,6 +210,8 @@ TEST_F(ReportTest, WithoutTruthTheReportSaysSoAndTellsWhatTheEstimateCan) {
     EXPECT_TRUE(m[key].is_null()) << key;
   EXPECT_THAT(read_file(other + "/report.html"), testing::HasSubstr("no truth"));
   EXPECT_THAT(read_file(other + "/report.html"), testing::Not(testing::HasSubstr("true track")));
+  EXPECT_THAT(read_file(other + "/report.html"), testing::Not(testing::HasSubstr("Odometry drift [m]")));
+  EXPECT_THAT(read_file(dir_ + "/report.html"), testing::HasSubstr("Odometry drift [m]"));
   EXPECT_EQ(metrics()["truth"], true);
 }
 
