@@ -2,10 +2,12 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "common/bus/command_line.hpp"
 #include "common/bus/config.hpp"
 #include "launcher/bench_command.hpp"
 #include "launcher/drive_command.hpp"
 #include "launcher/inject_command.hpp"
+#include "launcher/replay_command.hpp"
 #include "launcher/run_command.hpp"
 #include "status/status_command.hpp"
 
@@ -27,8 +29,8 @@ void add_run_options(CLI::App& command, rover::RunArguments& run) {
 void add_status_options(CLI::App& command, rover::status::StatusArguments& status) {
   CLI::Option* json = command.add_flag("--json", status.json, "one JSON document");
   command.add_flag("--watch", status.watch, "again each second, until Ctrl-C")->excludes(json);
-  command.add_option("--run", status.run, "folder of the run; default: the newest in logs/ that runs");
-  command.add_option("--bus", status.bus, "LCM URL; default: the run's. Without a run: the bus alone");
+  command.add_option("--run", status.target.run, "folder of the run; default: the newest in logs/ that runs");
+  command.add_option("--bus", status.target.bus, "LCM URL; default: the run's. Without a run: the bus alone");
 }
 
 CLI::App* add_inject_command(CLI::App& app, rover::InjectArguments& inject) {
@@ -40,6 +42,27 @@ CLI::App* add_inject_command(CLI::App& app, rover::InjectArguments& inject) {
   command->add_option("--run", inject.run_dir, "the run's folder; default: the newest that runs");
   command->add_flag("--list", inject.list, "list the faults");
   inject.source_dir = std::filesystem::current_path();
+  return command;
+}
+
+CLI::App* add_replay_command(CLI::App& app, rover::ReplayArguments& replay) {
+  CLI::App* command = app.add_subcommand(
+      "replay", "play a log back. Example: ./rover replay logs/RUN --services stereo,visual_odometry --speed 2");
+  command->add_option("log", replay.log, "an LCM log, or the folder of a run")->required();
+  command->add_option("--services", replay.services, "run live; what they said in the log is muted; all: every one")
+      ->delimiter(',');
+  CLI::Option* check =
+      command->add_flag("--check", replay.check, "compare what the services say with the log, byte by byte");
+  command->add_option("--from", replay.from_s, "begin at this message time [s]")
+      ->check(CLI::NonNegativeNumber)
+      ->excludes(check);
+  command->add_option("--until", replay.until_s, "end at this message time [s]")->check(CLI::NonNegativeNumber);
+  command->add_option("--speed", replay.speed, "times real time, or max")->excludes(check)->capture_default_str();
+  command->add_flag("--loop", replay.loop, "again and again, until q or Ctrl-C")->excludes(check);
+  command->add_option("--config", replay.config_dir, "configuration; default: that beside the log, or the project's");
+  command->add_option("--set", replay.run.set, "set a value of the configuration: file.key=value, repeatable");
+  command->add_option("--out", replay.run.out, "folder of the replay; default: logs/<time>-replay-<log>");
+  command->add_option("--bus", replay.run.bus, "LCM URL; default: of the configuration");
   return command;
 }
 
@@ -65,6 +88,7 @@ CLI::App* add_drive_command(CLI::App& app, rover::DriveArguments& drive) {
 
 int main(int argc, char** argv) {
   CLI::App app("./rover: guidance, navigation and control of a planetary rover");
+  app.name("./rover");
   app.require_subcommand(1);
   rover::RunArguments run;
   run.source_dir = std::filesystem::current_path();
@@ -92,13 +116,18 @@ int main(int argc, char** argv) {
   add_run_options(*bench_command, run);
 
   rover::status::StatusArguments status;
-  status.logs_dir = run.source_dir + "/logs";
+  status.target.logs_dir = run.source_dir + "/logs";
   CLI::App* status_command =
       app.add_subcommand("status", "what the running rover does. Example: ./rover status --watch");
   add_status_options(*status_command, status);
 
   rover::InjectArguments inject;
   CLI::App* inject_command = add_inject_command(app, inject);
+
+  rover::ReplayArguments replay;
+  replay.run.source_dir = run.source_dir;
+  replay.run.bin_dir = run.bin_dir;
+  CLI::App* replay_command = add_replay_command(app, replay);
 
   rover::DriveArguments drive;
   drive.source_dir = run.source_dir;
@@ -108,13 +137,14 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
+    return rover::end_of_parse(app, error);
   }
   try {
     if (status_command->parsed()) return rover::status::show_status(status);
     if (run_command->parsed()) return rover::run(run).exit_status;
     if (drive_command->parsed()) return rover::drive(drive);
     if (inject_command->parsed()) return rover::inject(inject);
+    if (replay_command->parsed()) return rover::replay_log(replay);
     bench.run = run;
     bench.seeds = rover::parse_seeds(seeds);
     bench.command = command_line(argc, argv);

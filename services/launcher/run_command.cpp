@@ -78,7 +78,7 @@ End wait_for_end(const RunArguments& arguments, const RunFolder& folder, S6Sessi
 // Several services may stumble over the same value: one is told.
 void tell(const FailedService& failed, const RunArguments& arguments, const RunFolder& folder) {
   const std::string line = failed.said.empty() ? failed.name + ": ended with exit status 2" : failed.said;
-  std::fprintf(stderr, "%s\n", in_users_files(line, folder, arguments).c_str());
+  std::fprintf(stderr, "%s\n", in_users_files(line, folder, arguments.source_dir + "/config").c_str());
 }
 
 nlohmann::json read_json(const std::string& file) {

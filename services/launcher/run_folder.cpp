@@ -78,14 +78,18 @@ double height_at(const ElevationRaster& raster, double x_m, double y_m) {
   return raster.at(column, row);
 }
 
-void fill_run_folder(const RunArguments& arguments, const std::string& dtm_file, RunFolder& folder) {
-  copy_configuration(arguments.source_dir + "/config", folder.config_dir);
-  copy_scenario(arguments.scenario, dtm_file, folder.scenario);
+void apply_arguments(const RunArguments& arguments, RunFolder& folder) {
   if (arguments.headless) apply_setting("mission_control.page=false", folder.config_dir);
   if (!arguments.record.empty()) apply_setting("recorder.record=" + arguments.record, folder.config_dir);
   for (const std::string& setting : arguments.set) apply_setting(setting, folder.config_dir);
   if (!folder.bus_url.empty()) apply_setting("bus.url=" + folder.bus_url, folder.config_dir);
   folder.bus_url = Config::load(folder.config_dir + "/bus.yaml").text("url");
+}
+
+void fill_run_folder(const RunArguments& arguments, const std::string& dtm_file, RunFolder& folder) {
+  copy_configuration(arguments.source_dir + "/config", folder.config_dir);
+  copy_scenario(arguments.scenario, dtm_file, folder.scenario);
+  apply_arguments(arguments, folder);
 
   const Scenario scenario = load_scenario(folder.scenario);
   folder.has_faults = !scenario.faults.empty();
@@ -156,13 +160,30 @@ RunFolder make_run_folder(const RunArguments& arguments) {
     fill_run_folder(arguments, dtm_file, folder);
   } catch (const std::exception& error) {
     remove_run_folder(folder);
-    throw ConfigError(in_users_files(error.what(), folder, arguments));
+    throw ConfigError(in_users_files(error.what(), folder, arguments.source_dir + "/config"));
   }
   return folder;
 }
 
-std::string in_users_files(std::string message, const RunFolder& folder, const RunArguments& arguments) {
-  const std::string own = (fs::path(arguments.source_dir) / "config").lexically_normal().string();
+RunFolder make_replay_folder(const RunArguments& arguments, const std::string& name, const std::string& config_from,
+                             const std::string& log_dir) {
+  const fs::path dir = run_dir_for(arguments.source_dir, arguments.out, "replay-" + name);
+  RunFolder folder{dir, dir / "config", dir / "config" / "scenario.yaml", arguments.bus, 0, false, !fs::exists(dir)};
+  create_folders(dir);
+  try {
+    copy_configuration(config_from, folder.config_dir);
+    const fs::path orbital_map = fs::path(log_dir) / "orbital_map.tif";
+    if (fs::exists(orbital_map)) fs::copy_file(orbital_map, dir / "orbital_map.tif");
+    apply_arguments(arguments, folder);
+  } catch (const std::exception& error) {
+    remove_run_folder(folder);
+    throw ConfigError(in_users_files(error.what(), folder, config_from));
+  }
+  return folder;
+}
+
+std::string in_users_files(std::string message, const RunFolder& folder, const std::string& users_config_dir) {
+  const std::string own = fs::path(users_config_dir).lexically_normal().string();
   size_t at = message.find(folder.config_dir);
   for (; at != std::string::npos; at = message.find(folder.config_dir, at + own.size()))
     message.replace(at, folder.config_dir.size(), own);

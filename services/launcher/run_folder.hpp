@@ -21,8 +21,12 @@ struct RunFolder {
 // Throws ConfigError with one line where the scenario, a key or a value is not right, or the folder is not writable;
 // nothing is left of the folder then.
 RunFolder make_run_folder(const RunArguments& arguments);
-// A message that names files of the run's own configuration, with the names of the user's instead.
-std::string in_users_files(std::string message, const RunFolder& folder, const RunArguments& arguments);
+// Of a replay: the configuration in `config_from`, and the orbital map where the folder of the log has one. Throws
+// likewise.
+RunFolder make_replay_folder(const RunArguments& arguments, const std::string& name, const std::string& config_from,
+                             const std::string& log_dir);
+// A message that names files of the run's own configuration, with the names of the user's folder instead.
+std::string in_users_files(std::string message, const RunFolder& folder, const std::string& users_config_dir);
 // Takes back what make_run_folder made, for a run that never began.
 void remove_run_folder(const RunFolder& folder);
 

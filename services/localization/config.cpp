@@ -68,6 +68,13 @@ LocalizationConfig load_config(const std::string& config_dir) {
   read_slip(config.section("slip"), out.slip);
   read_map(config.section("map"), out.map);
   read_status(config.section("status"), out);
+  config.read("max_speed_mps", out.max_speed_mps, {0.1, 200});
+  if (config.has("cameras_alone")) {
+    const Config cameras = config.section("cameras_alone");
+    cameras.read("enabled", out.cameras_alone.enabled);
+    cameras.read_deg("roll_deg", out.cameras_alone.roll_rad, {-180, 180});
+    cameras.read_deg("pitch_deg", out.cameras_alone.pitch_rad, {-90, 90});
+  }
   if (out.chain_s > out.history_s) config.fail("chain_s", "longer than history_s");
   config.finish();
   return out;

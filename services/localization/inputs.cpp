@@ -12,7 +12,6 @@ constexpr double kMaxRateRadps = 5.0;
 constexpr double kMaxForceMps2 = 50.0;
 constexpr double kMaxIntervalS = 0.2;
 constexpr double kMaxWheelRateRadps = 50.0;
-constexpr double kMaxSpeedMps = 20.0;
 constexpr double kMaxPositionM = 1e6;
 
 template <size_t N>
@@ -55,13 +54,13 @@ std::string_view flaw_of(const WheelCommand& c) {
   return {};
 }
 
-std::string_view flaw_of(const VisualMotion& m) {
+std::string_view flaw_of(const VisualMotion& m, double max_speed_mps) {
   if (m.utime < 0 || m.previous_utime > m.utime) return "times contradict each other";
   if (m.status == VisualStatus::kLost) return {};
   if (m.previous_utime == m.utime || m.keyframe_utime > m.previous_utime) return "times contradict each other";
   if (!is_finite(m.T_prev_cur)) return "motion not finite";
   if (!is_covariance(m.cov)) return "no covariance";
-  if (m.T_prev_cur.translation().norm() > kMaxSpeedMps * to_seconds(m.utime - m.previous_utime))
+  if (m.T_prev_cur.translation().norm() > max_speed_mps * to_seconds(m.utime - m.previous_utime))
     return "motion out of range";
   return {};
 }

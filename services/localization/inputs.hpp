@@ -66,7 +66,7 @@ struct MapMeasurement {
 std::string_view flaw_of(const ImuSample& sample);
 std::string_view flaw_of(const WheelSample& sample);
 std::string_view flaw_of(const WheelCommand& command);
-std::string_view flaw_of(const VisualMotion& motion);
+std::string_view flaw_of(const VisualMotion& motion, double max_speed_mps);
 std::string_view flaw_of(const StartPose& start);
 std::string_view flaw_of(const MapMeasurement& measurement);
 

@@ -65,7 +65,7 @@ std::string_view Localization::take_wheel_command(const WheelCommand& command) {
 }
 
 std::string_view Localization::take_visual(const VisualMotion& motion) {
-  if (const auto flaw = flaw_of(motion); !flaw.empty()) return flaw;
+  if (const auto flaw = flaw_of(motion, config_.max_speed_mps); !flaw.empty()) return flaw;
   if (motion.status == VisualStatus::kLost || !initialised_) return {};
   return use_visual(motion);
 }
@@ -132,7 +132,7 @@ void Localization::step(Utime now) {
 }
 
 std::optional<MotionRecord> Localization::next_record(Utime now) {
-  Utime end = record_end_ == kNever ? kNever : record_end_ + kTickUs;
+  Utime end = record_end_ == kNever ? (config_.cameras_alone.enabled ? now : kNever) : record_end_ + kTickUs;
   bool measured = false;
   for (const ImuSample& s : imu_waiting_)
     if (s.utime <= now) end = measured ? std::max(end, s.utime) : s.utime, measured = true;
@@ -230,6 +230,13 @@ void Localization::judge_standing(MotionRecord& record) {
 }
 
 void Localization::initialise(const MotionRecord& record) {
+  if (config_.cameras_alone.enabled) {
+    const Eigen::Matrix3d R = rotation_from_rpy(config_.cameras_alone.roll_rad, config_.cameras_alone.pitch_rad, 0.0);
+    tip_ = latest_ = filter_.start(record.end, R, Eigen::Vector3d::Zero());
+    initialised_utime_ = record.end;
+    initialised_ = true;
+    return;
+  }
   const auto level = levelling_.add(record);
   if (!level) return;
   filter_.set_gravity(level->gravity_mps2);
@@ -351,6 +358,11 @@ void Localization::judge(Utime now) {
   if (!map_.known()) return set(PoseStatus::kUninitialised, "no start pose yet");
   const double visual_age = to_seconds(now - std::max(visual_newest_, initialised_utime_));
   const double wheels_age = to_seconds(now - wheels_newest_);
+  if (config_.cameras_alone.enabled) {
+    if (visual_age > config_.nothing_lost_s) return set(PoseStatus::kLost, "no visual odometry");
+    if (blind_m_ > config_.blind_distance_m) return set(PoseStatus::kLost, "too far without visual odometry");
+    return set(PoseStatus::kOk, {});
+  }
   const bool imu_alive = imu_monitor_.alive(now);
   if (imu_alive) imu_alive_utime_ = now;
   if (to_seconds(now - imu_alive_utime_) > config_.imu_lost_s) return set(PoseStatus::kLost, "no IMU for too long");

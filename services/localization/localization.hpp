@@ -24,6 +24,13 @@
 
 namespace rover::loc {
 
+// A recording of pictures without IMU and wheels. The attitude at the start, which gravity gives a rover, is told.
+struct CamerasAloneConfig {
+  bool enabled = false;
+  double roll_rad = 0.0;
+  double pitch_rad = 0.0;
+};
+
 struct LocalizationConfig {
   FilterConfig filter;
   ImuMonitorConfig imu;
@@ -41,6 +48,8 @@ struct LocalizationConfig {
   double standing_s = 0.4;                    // after so long
   double smoothing_s = 0.4;                   // time constant with which the pose takes up late corrections
   int conflicts_until_imu_suspect = 5;        // visual motions in a row that contradict the gyro
+  double max_speed_mps = 20.0;                // a faster visual motion is nonsense
+  CamerasAloneConfig cameras_alone;
 };
 
 enum class PoseStatus { kOk, kDegraded, kLost, kUninitialised };

@@ -22,6 +22,8 @@ void read_steering(const Config& c, LocomotionConfig& out) {
   c.read_deg("aligned_deg", out.aligned_rad, {0.1, 20.0});
   c.read_deg("slow_from_deg", out.steering_slow_rad, {0.1, 30.0});
   c.read_deg("stop_from_deg", out.steering_stop_rad, {0.2, 45.0});
+  c.read_deg("hold_slack_deg", out.hold_slack_rad, {0.1, 20.0});
+  c.read("hold_patience_s", out.hold_patience_s, {0.1, 20.0});
   c.read("slow_from_curvature_per_m", out.curvature_slow_per_m, {0.01, 2.0});
   c.read("stop_from_curvature_per_m", out.curvature_stop_per_m, {0.02, 4.0});
   if (out.steering_stop_rad <= out.steering_slow_rad) c.fail("stop_from_deg", "must be larger than slow_from_deg");
@@ -31,7 +33,7 @@ void read_steering(const Config& c, LocomotionConfig& out) {
 
 void read_stall(const Config& c, SteeringStallConfig& out) {
   c.read("patience_s", out.patience_s, {0.2, 20.0});
-  c.read_deg("most_error_deg", out.most_error_rad, {0.0, 60.0});
+  c.read_deg("most_mean_error_deg", out.most_mean_error_rad, {0.0, 45.0});
   c.read("speed_mps", out.speed_mps, {0.005, 0.1});
   c.read("way_m", out.way_m, {0.0, 1.0});
 }

@@ -19,6 +19,12 @@ double falling(double value, double slow, double stop) {
   return std::clamp((stop - value) / (stop - slow), 0.0, 1.0);
 }
 
+double mean_difference(const std::array<double, 4>& a, const std::array<double, 4>& b) {
+  double sum = 0.0;
+  for (size_t k = 0; k < 4; ++k) sum += std::abs(a[k] - b[k]);
+  return sum / 4.0;
+}
+
 double largest_difference(const std::array<double, 4>& a, const std::array<double, 4>& b) {
   double largest = 0.0;
   for (size_t k = 0; k < 4; ++k) largest = std::max(largest, std::abs(a[k] - b[k]));
@@ -57,7 +63,7 @@ WheelCommand Locomotion::step(Utime now, const MotionCommand& command, const Dri
     out.state = drive(target_of(command, permit), wheels, dt_s);
   } else {
     ramp(0.0, config_.emergency_deceleration_mps2, dt_s);
-    if (wheels_known && motion_mps_ == 0.0 && !held_) hold(wheels);
+    if (wheels_known && motion_mps_ == 0.0) rest(wheels, dt_s);
   }
   out.valid = started_ && wheels_known;
   out.wheels = setpoints();
@@ -65,9 +71,15 @@ WheelCommand Locomotion::step(Utime now, const MotionCommand& command, const Dri
   return out;
 }
 
-// Once at rest, not at each tick: angles that give way a little would creep on.
+// Not held anew at each tick: angles that give way a little would creep on.
+void Locomotion::rest(const WheelReading& wheels, double dt_s) {
+  pushed_off_s_ = held_ && steering_error(wheels) > config_.hold_slack_rad ? pushed_off_s_ + dt_s : 0.0;
+  if (!held_ || pushed_off_s_ > config_.hold_patience_s) hold(wheels);
+}
+
 void Locomotion::hold(const WheelReading& wheels) {
   held_ = true;
+  pushed_off_s_ = 0.0;
   steer_rad_ = wheels.steer_angle_rad;
 }
 
@@ -94,7 +106,8 @@ double Locomotion::freeing_speed_mps(const Target& target, const WheelReading& w
   if (error <= config_.aligned_rad) stall_.clear();
   const bool steering_done =
       target.geometry == geometry_ && curvature_per_m_ == target.curvature_per_m && steer_rad_ == geometry_angles();
-  return steering_done && error > config_.aligned_rad ? stall_.freeing_speed_mps(error, motion_mps_, dt_s) : 0.0;
+  if (!steering_done || error <= config_.aligned_rad) return 0.0;
+  return stall_.freeing_speed_mps(mean_difference(steer_rad_, wheels.steer_angle_rad), motion_mps_, dt_s);
 }
 
 bool Locomotion::usable(const WheelReading& wheels, Utime now) const {

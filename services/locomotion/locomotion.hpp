@@ -3,8 +3,8 @@
 // While the rover rolls, the steering moves along the curvature, not wheel by wheel: at each moment all wheels share
 // one centre of rotation. Between arc and point turn the rover stands until the wheels have reached their angles. A
 // wheel that cannot, because it stands against a rock, is rolled on a little: that frees it (steering_stall.hpp).
-// Without a lease a standing rover keeps the angles that its wheels have, not those that were asked for: no servo
-// pushes on against what stopped it.
+// Without a lease a standing rover keeps the angles that its wheels have, not those that were asked for, nor those from
+// which they have been pushed: no servo pushes on against what stopped it.
 #pragma once
 
 #include <array>
@@ -25,9 +25,11 @@ struct LocomotionConfig {
   double steering_rate_share = 0.9;          // of the motors' rate while rolling, so that they can follow
   double max_curvature_per_m = 1.0;
   double max_turn_rate_radps = 0.25;
-  double aligned_rad = 0.052;          // 3 deg: the steering has arrived, motion may start
-  double steering_slow_rad = 0.07;     // 4 deg behind: slower
-  double steering_stop_rad = 0.175;    // 10 deg behind: wait
+  double aligned_rad = 0.052;        // 3 deg: the steering has arrived, motion may start
+  double steering_slow_rad = 0.07;   // 4 deg behind: slower
+  double steering_stop_rad = 0.175;  // 10 deg behind: wait
+  double hold_slack_rad = 0.026;     // 1.5 deg: a wheel at rest that was pushed so far off for so long is held there
+  double hold_patience_s = 1.0;
   double curvature_slow_per_m = 0.20;  // as above, of the commanded curvature not yet set
   double curvature_stop_per_m = 1.00;
   SteeringStallConfig stall;
@@ -66,6 +68,7 @@ class Locomotion {
   };
 
   LocomotionState drive(const Target& target, const WheelReading& wheels, double dt_s);
+  void rest(const WheelReading& wheels, double dt_s);
   void hold(const WheelReading& wheels);
   void go_on(const WheelReading& wheels);
   double freeing_speed_mps(const Target& target, const WheelReading& wheels, double dt_s);
@@ -89,6 +92,7 @@ class Locomotion {
   SteeringStall stall_;
   bool started_ = false;
   bool held_ = false;  // steer_rad_ are the angles that the wheels had when they came to rest
+  double pushed_off_s_ = 0.0;
   Utime last_step_ = kNever;
   Geometry geometry_ = Geometry::kArc;
   bool aligned_ = false;

@@ -6,8 +6,8 @@
 namespace rover::locomotion {
 
 struct SteeringStallConfig {
-  double patience_s = 0.5;       // the setpoints have arrived, the wheels have not: free ones lag by 0.1 s
-  double most_error_rad = 0.61;  // 35 deg: one wheel of six scrubs that much; beyond, the rover stands
+  double patience_s = 0.5;             // the setpoints have arrived, the wheels have not: free ones lag by 0.1 s
+  double most_mean_error_rad = 0.262;  // 15 deg of the four: one scrubs by 60 deg, or all a little
   double speed_mps = 0.04;
   double way_m = 0.20;  // more than a wheel's radius
 };
@@ -17,7 +17,7 @@ class SteeringStall {
   explicit SteeringStall(const SteeringStallConfig& config) : config_(config) {}
 
   // One tick in which the rover waits for its steering: the speed at which it may roll to free it, 0: stand.
-  double freeing_speed_mps(double error_rad, double motion_mps, double dt_s);
+  double freeing_speed_mps(double mean_error_rad, double motion_mps, double dt_s);
   // The steering has arrived.
   void clear() { waited_s_ = rolled_m_ = 0.0; }
 

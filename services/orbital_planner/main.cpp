@@ -3,11 +3,15 @@
 #include <cstdio>
 #include <opencv2/core.hpp>
 
+#include "common/bus/command_line.hpp"
 #include "orbital_planner/command.hpp"
 
 int main(int argc, char** argv) {
   rover::orbital::Arguments arguments;
-  CLI::App app("./rover plan: the globally best path on an orbital map, with the level of autonomy of each stretch");
+  CLI::App app(
+      "The globally best path on an orbital map, with the level of autonomy of each stretch.\n"
+      "Example: ./rover plan config/terrain/gale/gale_hirise_dtm_1m_348x337.tif --start 96,262 --goal 118,255");
+  app.name("./rover plan");
   app.add_option("map", arguments.map, "elevation model with georeference, any format that GDAL reads")->required();
   app.add_option("--start", arguments.start, "X,Y in metres from the map's lower left corner")->required();
   app.add_option("--via", arguments.via, "a place to pass by on the way, repeatable")->expected(1)->take_all();
@@ -18,7 +22,7 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
+    return rover::end_of_parse(app, error);
   }
   if (arguments.out.empty()) arguments.out = rover::orbital::default_folder(arguments.map);
   cv::setNumThreads(1);

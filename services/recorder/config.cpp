@@ -12,6 +12,7 @@ RecorderConfig load_config(const std::string& file) {
   yaml.read("images_before_s", config.keep.before_s, {0.0, 60.0});
   yaml.read("images_after_s", config.keep.after_s, {0.0, 60.0});
   yaml.read("image_every", config.keep.every, {1, 1e6});
+  yaml.read("part_gb", config.part_gb, {0.0, 1e6});
   yaml.read("min_free_start_gb", config.min_free_start_gb, {0.0, 1e6});
   yaml.read("min_free_gb", config.min_free_gb, {0.0, 1e6});
   yaml.finish();

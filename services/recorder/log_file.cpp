@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <memory>
 
 #include "common/bus/config.hpp"
+#include "common/bus/event_log.hpp"
 
 namespace rover::recorder {
 namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::int64_t kHeadBytes = 28;  // of a record, in front of channel and message
 
 struct Whole {
   std::int64_t events = 0;
@@ -15,40 +19,58 @@ struct Whole {
   Utime newest = 0;
 };
 
-// The part of a log that holds whole records: lcm-logger's readers stop at a cut one and would hide all that follows.
+// Of a log: up to its last whole record.
 Whole whole_part(const std::string& path) {
   Whole whole;
-  const auto close = [](lcm_eventlog_t* log) { lcm_eventlog_destroy(log); };
-  const std::unique_ptr<lcm_eventlog_t, decltype(close)> log(lcm_eventlog_create(path.c_str(), "r"), close);
-  if (!log) return whole;
-  while (lcm_eventlog_event_t* event = lcm_eventlog_read_next_event(log.get())) {
-    ++whole.events;
-    whole.bytes = ftello(log->f);
-    whole.newest = event->timestamp;
-    lcm_eventlog_free_event(event);
-  }
+  EventLogReader reader(path);
+  for (LogEvent event; reader.next(event);) whole = {whole.events + 1, event.end, event.time};
   return whole;
+}
+
+void cut(const std::string& path, std::int64_t bytes) {
+  std::error_code error;  // on a failing disk the readers pass over what is cut
+  if (fs::is_regular_file(path, error)) fs::resize_file(path, static_cast<std::uintmax_t>(bytes), error);
 }
 
 }  // namespace
 
-LogFile::LogFile(const std::string& path) : path_(path) {
+LogFile::LogFile(const std::string& path, std::int64_t part_bytes) : path_(path), part_bytes_(part_bytes) {
+  open_part(static_cast<int>(log_parts(path).size()));
+}
+
+LogFile::~LogFile() {
+  close();
+}
+
+void LogFile::open_part(int number) {
+  part_ = number;
+  const std::string path = log_part(path_, number);
   Whole whole;
-  if (std::filesystem::is_regular_file(path)) {
+  if (fs::is_regular_file(path)) {
     whole = whole_part(path);
-    std::filesystem::resize_file(path, static_cast<std::uintmax_t>(whole.bytes));
+    cut(path, whole.bytes);
   }
   log_ = lcm_eventlog_create(path.c_str(), "a");
   if (log_ == nullptr) throw ConfigError(path + ": cannot be written");
   log_->eventcount = whole.events;
-  newest_ = whole.newest;
+  bytes_ = flushed_bytes_ = whole.bytes;
+  newest_ = std::max(newest_, whole.newest);
 }
 
-LogFile::~LogFile() {
-  lcm_eventlog_destroy(log_);
+bool LogFile::next_part() {
+  if (!close()) return false;
+  try {
+    open_part(part_ + 1);
+  } catch (const ConfigError&) {  // a full disk takes no new file
+    failed_ = true;
+  }
+  return !failed_;
 }
 
 bool LogFile::write(const Event& event) {
+  const auto size = kHeadBytes + static_cast<std::int64_t>(event.channel.size() + event.bytes.size());
+  if (part_bytes_ > 0 && bytes_ > 0 && bytes_ + size > part_bytes_ && !next_part()) return false;
+  if (failed_ || log_ == nullptr) return false;
   // Time stamps never fall, as the search by time in a log wants; only a late answer would make them.
   newest_ = std::max(newest_, event.release);
   lcm_eventlog_event_t record{};
@@ -57,16 +79,30 @@ bool LogFile::write(const Event& event) {
   record.datalen = static_cast<std::int32_t>(event.bytes.size());
   record.channel = const_cast<char*>(event.channel.data());
   record.data = const_cast<std::uint8_t*>(event.bytes.data());
-  return lcm_eventlog_write_event(log_, &record) == 0;
+  failed_ = lcm_eventlog_write_event(log_, &record) != 0;
+  bytes_ += size;
+  return !failed_;
 }
 
 bool LogFile::flush() {
-  return fflush(log_->f) == 0;
+  if (log_ == nullptr) return false;
+  failed_ = failed_ || fflush(log_->f) != 0;
+  if (!failed_) flushed_bytes_ = bytes_;
+  return !failed_;
+}
+
+bool LogFile::close() {
+  if (log_ == nullptr) return !failed_;
+  flush();
+  lcm_eventlog_destroy(log_);
+  log_ = nullptr;
+  if (failed_) cut(log_part(path_, part_), flushed_bytes_);
+  return !failed_;
 }
 
 std::uintmax_t free_disk_bytes(const std::string& path) {
   std::error_code error;
-  const std::filesystem::space_info space = std::filesystem::space(path, error);
+  const fs::space_info space = fs::space(path, error);
   return error ? 0 : space.available;
 }
 

@@ -5,16 +5,17 @@ namespace {
 
 constexpr double kBytesPerGb = 1e9;
 constexpr Utime kCheckPeriod = 1'000'000;
+constexpr Utime kTryAgain = 10'000'000;  // after a record that stopped
 
 }  // namespace
 
 RecorderNode::RecorderNode(Node& node, const RecorderConfig& config, const std::string& log_path, FreeBytes free_bytes)
-    : node_(node), config_(config), free_bytes_(std::move(free_bytes)), policy_(config.keep) {
+    : node_(node), config_(config), log_path_(log_path), free_bytes_(std::move(free_bytes)), policy_(config.keep) {
   const double free_gb = static_cast<double>(free_bytes_()) / kBytesPerGb;
   if (free_gb < config_.min_free_start_gb)
     throw ConfigError(log_path + ": " + std::to_string(free_gb) + " GB free on the disk, min_free_start_gb asks for " +
                       std::to_string(config_.min_free_start_gb));
-  log_ = std::make_unique<LogFile>(log_path);
+  open_log();
   node_.subscribe_raw([this](const RawMessage& raw) { take(raw); }, find_channel_type);
   node_.on_injection([this](const injection_t& injection) {
     if (injection.fault == "full_disk") full_disk_ = injection;
@@ -22,8 +23,14 @@ RecorderNode::RecorderNode(Node& node, const RecorderConfig& config, const std::
   node_.on_step([this](Utime now) { step(now); });
 }
 
+void RecorderNode::open_log() {
+  log_ = std::make_unique<LogFile>(log_path_, static_cast<std::int64_t>(config_.part_gb * kBytesPerGb));
+}
+
 RecorderNode::~RecorderNode() {
-  if (log_) write(buffer_.take_all());
+  if (!log_) return;
+  write(buffer_.take_all());
+  if (log_ && !log_->close()) stop_recording("write failed");
 }
 
 void RecorderNode::take(const RawMessage& raw) {
@@ -33,9 +40,10 @@ void RecorderNode::take(const RawMessage& raw) {
 }
 
 void RecorderNode::step(Utime now) {
-  if (!log_) return;
+  if (!log_) return try_again(now);
   // All that is released before this tick has arrived, the answers to the tick before included.
   write(buffer_.take_before(now - policy_.hold()));
+  if (log_ && !log_->flush()) return stop_recording("write failed");
   if (checked_ != kNever && now - checked_ < kCheckPeriod) return;
   checked_ = now;
   check_disk(now);
@@ -55,13 +63,26 @@ double RecorderNode::free_gb(Utime now) const {
 
 void RecorderNode::check_disk(Utime now) {
   if (!log_) return;
-  if (!log_->flush()) return stop_recording("write failed");
   const double left_gb = free_gb(now);
   if (left_gb < config_.min_free_gb) stop_recording("free_gb=" + std::to_string(left_gb));
 }
 
+// The disk may have been cleared: a record with a gap is more than none.
+void RecorderNode::try_again(Utime now) {
+  if (now - stopped_ < kTryAgain || free_gb(now) < config_.min_free_start_gb) return;
+  stopped_ = now;
+  try {
+    open_log();
+  } catch (const ConfigError&) {
+    return;  // as it was
+  }
+  node_.set_status(heartbeat_t::OK, "");
+  node_.log("WARN", "RECORDING goes on after a gap");
+}
+
 void RecorderNode::stop_recording(const std::string& why) {
   log_.reset();
+  stopped_ = node_.now();
   buffer_.take_all();
   node_.set_status(heartbeat_t::DEGRADED, "disk full: recording stopped (" + why + ")");
   node_.log("ERROR", "DISK_FULL recording stopped, " + why);

@@ -28,17 +28,21 @@ class RecorderNode {
   void take(const RawMessage& raw);
   void step(Utime now);
   void write(const std::vector<Event>& events);
+  void open_log();
+  void try_again(Utime now);
   void check_disk(Utime now);
   double free_gb(Utime now) const;
   void stop_recording(const std::string& why);
 
   Node& node_;
   RecorderConfig config_;
+  std::string log_path_;
   FreeBytes free_bytes_;
   KeepPolicy policy_;
   TriggerFinder triggers_;
   EventBuffer buffer_;
   std::unique_ptr<LogFile> log_;  // empty: recording has stopped
+  Utime stopped_ = kNever;
   Utime checked_ = kNever;
   std::optional<injection_t> full_disk_;  // an injected fault
 };

@@ -46,6 +46,12 @@ PoseSample pose_from(const pose_t& message) {
           rover::pose_from(message.position_map_odom_m, message.quat_map_odom_wxyz)};
 }
 
+VisualSample visual_from(const vo_motion_t& message) {
+  const Eigen::Isometry3d T = rover::pose_from(message.position_m, message.quat_wxyz);
+  const bool lost = message.status == vo_motion_t::LOST || !is_finite(T);
+  return {to_seconds(message.previous_utime), to_seconds(message.header.utime), lost, T};
+}
+
 ControlSample control_from(const control_status_t& message) {
   return {to_seconds(message.header.utime), following_of(message.state), message.path_id, message.cross_track_m};
 }

@@ -13,6 +13,7 @@
 #include <rover/slip_t.hpp>
 #include <rover/supervisor_state_t.hpp>
 #include <rover/truth_t.hpp>
+#include <rover/vo_motion_t.hpp>
 #include <rover/wheel_state_t.hpp>
 
 #include "report/run_record.hpp"
@@ -21,6 +22,7 @@ namespace rover::report {
 
 TruthSample truth_from(const truth_t& message);
 PoseSample pose_from(const pose_t& message);
+VisualSample visual_from(const vo_motion_t& message);
 ControlSample control_from(const control_status_t& message);
 WheelSample wheels_from(const wheel_state_t& message);
 SlipSample slip_from(const slip_t& message);

@@ -2,48 +2,25 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
-#include "report/html_style.hpp"
+#include "report/html_parts.hpp"
 #include "report/map_layers.hpp"
 #include "report/no_truth.hpp"
 #include "report/svg.hpp"
+#include "report/trajectory_section.hpp"
 
 namespace rover::report {
 namespace {
 
-std::string shown(double value, int decimals, const char* unit = "") {
-  return std::isfinite(value) ? fmt::format("{:.{}f}{}{}", value, decimals, *unit != '\0' ? " " : "", unit) : "n/a";
-}
-std::string shown(const std::optional<int>& value) {
-  return value ? std::to_string(*value) : "n/a";
-}
-
-std::string verdict(bool known, bool good) {
-  return !known ? "" : good ? "good" : "bad";
-}
-
-std::string outcome_text(const std::string& outcome) {
-  if (outcome == "goal_reached") return "Goal reached";
-  if (outcome == "fault_stop") return "Fault stop";
-  if (outcome == "no_path") return "No path";
-  if (outcome == "collision") return "Collision";
-  return outcome == "timeout" ? "Timeout" : outcome;
-}
-
 std::string header(const Metrics& m) {
-  std::string meta;
-  const auto add = [&meta](const std::string& text) { meta += (meta.empty() ? "" : " &middot; ") + escaped(text); };
-  if (m.info.seed) add("seed " + std::to_string(*m.info.seed));
-  if (!m.info.level.empty()) add("level " + m.info.level);
-  if (!m.info.commit.empty()) add("commit " + m.info.commit);
-  if (m.info.deterministic) add(*m.info.deterministic ? "deterministic" : "not deterministic");
-  if (m.info.realtime && *m.info.realtime) add("real time");
-  if (!has_truth(m)) add("no truth: by the rover's own estimate");
+  const char* whose = has_truth(m) ? "" : " &middot; no truth: by the rover's own estimate";
   return fmt::format(
       "<header><div><h1>Traverse: {}</h1><div class=\"meta\">{}</div></div>"
       "<div class=\"badge {}\">{}</div></header>\n",
-      escaped(m.info.scenario), meta, m.outcome == "goal_reached" ? "good" : "bad", escaped(outcome_text(m.outcome)));
+      escaped(m.info.scenario), run_facts(m.info) + whose, m.outcome == "goal_reached" ? "good" : "bad",
+      escaped(outcome_text(m.outcome)));
 }
 
 std::string card(const std::string& value, const std::string& what, const std::string& kind = "") {
@@ -139,9 +116,13 @@ std::string events_section(const Scene& scene, const Pictures& pictures) {
   if (incidents.empty()) return out + "<p>None: nothing stood in the way.</p>\n";
   out +=
       "<p class=\"meta\">Each seen from above at the moment of the event, on the true ground: the path followed until "
-      "then (white), the repaired one (violet), the hazard cells that caused it (red), the track driven (blue).</p>"
+      "then (white), the repaired one (violet), the hazard cells that caused it (red), the track driven (blue). Below, "
+      "what "
+      "the LocCam saw then, with the hazard cells of that exposure.</p>"
       "<div class=\"gallery\">\n";
-  for (const std::string& picture : pictures.incidents) out += "<figure style=\"margin:0\">" + picture + "</figure>\n";
+  for (size_t i = 0; i < pictures.incidents.size(); ++i)
+    out +=
+        "<figure>" + pictures.incidents[i] + (i < pictures.cameras.size() ? pictures.cameras[i] : "") + "</figure>\n";
   out +=
       "</div>\n<table style=\"margin-top:22px\"><tr><th>#</th><th class=\"n\">time [s]</th><th class=\"n\">driven "
       "[m]</th><th>event</th><th class=\"n\">tallest rock [m]</th><th class=\"n\">hazard "
@@ -177,27 +158,78 @@ std::string faults_section(const Metrics& m) {
   return out + "</table>\n";
 }
 
+struct Happening {
+  double t_s;
+  std::string kind;
+  std::string text;
+};
+
+// Changes of state, faults and corrections, in the order in which they came.
+std::vector<Happening> happenings(const RunRecord& run) {
+  std::vector<Happening> all;
+  bool full = false;
+  for (const StateChange& change : run.states) {
+    std::string text = state_name(change.state) + (change.cause.empty() ? "" : ", because: " + change.cause);
+    if (change.full != full) text += change.full ? "; level FULL" : "; level EFFICIENT";
+    full = change.full;
+    all.push_back({change.t_s, "state", text});
+  }
+  for (const FaultRecord& fault : run.faults) {
+    const std::string what = fault.standing
+                                 ? fmt::format(" raised: {} beyond {}", shown(fault.value, 3), shown(fault.limit, 3))
+                                 : " cleared";
+    all.push_back({fault.t_s, "fault", fault.id + what});
+  }
+  for (const CorrectionRecord& correction : run.corrections)
+    all.push_back({correction.t_s, "correction", correction.accepted ? "accepted" : "not accepted"});
+  std::stable_sort(all.begin(), all.end(), [](const Happening& a, const Happening& b) { return a.t_s < b.t_s; });
+  return all;
+}
+
+std::string happenings_section(const Scene& scene) {
+  const std::vector<Happening> all = happenings(scene.run);
+  if (all.empty()) return "";
+  const double begin_s = scene.judgement.metrics.window.begin_s;
+  std::string out = fmt::format(
+      "<h2>Events</h2><details{}><summary>{} changes of state, faults and corrections</summary><table><tr><th "
+      "class=\"n\">time [s]</th><th></th><th>event</th></tr>\n",
+      all.size() <= 30 ? " open" : "", all.size());
+  for (const Happening& happening : all)
+    out += fmt::format("<tr><td class=\"n\">{:.2f}</td><td class=\"{}\">{}</td><td>{}</td></tr>\n",
+                       happening.t_s - begin_s, happening.kind == "fault" ? "bad" : "", happening.kind,
+                       escaped(happening.text));
+  return out + "</table></details>\n";
+}
+
+// The share of one core's simulated time, as a bar behind the figure.
+std::string load_cell(double share, double largest) {
+  return fmt::format("<td class=\"n load\" style=\"--load:{:.0f}%\">{}</td>",
+                     share > 0.0 && std::isfinite(share) ? 100.0 * share / largest : 0.0, shown(100.0 * share, 1, "%"));
+}
+
 std::string services_section(const Metrics& m) {
+  double largest = 0.0;
+  for (const auto& [name, s] : m.services) largest = std::max(largest, s.cpu_s / m.duration_s);
   std::string out =
-      "<h2>Services</h2><table><tr><th>service</th><th class=\"n\">CPU [s]</th><th class=\"n\">CPU per metre "
-      "[s/m]</th><th class=\"n\">memory [MB]</th><th class=\"n\">step, median [ms]</th><th class=\"n\">step, p99 "
-      "[ms]</th><th class=\"n\">restarts</th></tr>\n";
+      "<h2>Services</h2><table><tr><th>service</th><th class=\"n\">CPU [s]</th><th class=\"n\">of the drive's "
+      "time</th><th class=\"n\">CPU per metre [s/m]</th><th class=\"n\">memory [MB]</th><th class=\"n\">step, "
+      "median [ms]</th><th class=\"n\">step, p99 [ms]</th><th class=\"n\">restarts</th></tr>\n";
   for (const auto& [name, s] : m.services)
     out += fmt::format(
-        "<tr><td>{}</td><td class=\"n\">{:.1f}</td><td class=\"n\">{}</td><td class=\"n\">{:.0f}</td><td "
-        "class=\"n\">{:.2f}"
-        "</td><td class=\"n\">{:.2f}</td><td class=\"n\">{}</td></tr>\n",
-        escaped(name), s.cpu_s, shown(s.cpu_s_per_m, 3), s.rss_mb, s.p50_ms, s.p99_ms, s.restarts);
+        "<tr><td>{}</td><td class=\"n\">{:.1f}</td>{}<td class=\"n\">{}</td><td class=\"n\">{:.0f}</td><td "
+        "class=\"n\">{:.2f}</td><td class=\"n\">{:.2f}</td><td class=\"n{}\">{}</td></tr>\n",
+        escaped(name), s.cpu_s, load_cell(s.cpu_s / m.duration_s, largest), shown(s.cpu_s_per_m, 3), s.rss_mb, s.p50_ms,
+        s.p99_ms, s.restarts > 0 ? " bad" : "", s.restarts);
   return out + "</table>\n";
 }
 
 std::string configuration_section(const std::vector<std::pair<std::string, std::string>>& configuration) {
   if (configuration.empty()) return "";
-  std::string out = "<h2>Configuration</h2>\n";
+  std::string out = "<section class=\"configuration\"><h2>Configuration</h2>\n";
   for (size_t i = 0; i < configuration.size(); ++i)
     out += fmt::format("<details{}><summary>{}</summary><pre>{}</pre></details>\n", i == 0 ? " open" : "",
                        escaped(configuration[i].first), escaped(configuration[i].second));
-  return out;
+  return out + "</section>\n";
 }
 
 }  // namespace
@@ -205,17 +237,14 @@ std::string configuration_section(const std::vector<std::pair<std::string, std::
 std::string report_html(const Scene& scene, const Pictures& pictures,
                         const std::vector<std::pair<std::string, std::string>>& configuration) {
   const Metrics& m = scene.judgement.metrics;
-  std::string body = header(m) + cards(m) + "<section class=\"map\">" + pictures.map + "</section>\n";
-  body += comparison_table(m) + events_section(scene, pictures);
+  std::string body = header(m) + cards(m) + layered_maps(pictures.map);
+  body += trajectory_section(m) + comparison_table(m) + events_section(scene, pictures);
   body += "<h2>Over the distance driven, in metres</h2><section class=\"plots\">\n";
   for (const std::string& plot : pictures.plots) body += plot;
   body += pictures.states + "</section>\n";
-  body += figures_table(m) + faults_section(m) + services_section(m) + configuration_section(configuration);
-  return fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
-      "content=\"width=device-width,initial-scale=1\"><title>Traverse: {}</title><style>{}</style></head>\n"
-      "<body><main>\n{}</main></body></html>\n",
-      escaped(m.info.scenario), kStyleSheet, body);
+  body += figures_table(m) + happenings_section(scene) + faults_section(m) + services_section(m) +
+          configuration_section(configuration);
+  return document("Traverse: " + m.info.scenario, body);
 }
 
 }  // namespace rover::report

@@ -12,6 +12,7 @@ namespace rover::report {
 struct Pictures {
   std::string map;  // SVG documents
   std::vector<std::string> incidents;
+  std::vector<std::string> cameras;  // one for each of them; empty where the log has no picture
   std::string states;
   std::vector<std::string> plots;
 };

@@ -24,7 +24,20 @@ p{margin:6px 0}
 .card span{display:block;font-size:12.5px;color:var(--muted)}
 .card i{font-style:normal;font-size:14px;font-weight:500;color:var(--muted)}
 svg{max-width:100%;height:auto;display:block}
-.map{margin-top:26px}
+.map{margin-top:22px}
+.map>input{position:absolute;opacity:0}
+.map>label{display:inline-block;margin:0 6px 10px 0;padding:3px 12px;border:1px solid #c3cad1;border-radius:14px;
+ font-size:12.5px;color:var(--muted);cursor:pointer;user-select:none}
+.map>input:checked+label{background:var(--ink);border-color:var(--ink);color:#fff}
+.map>input:focus-visible+label{outline:2px solid #1458b8;outline-offset:2px}
+.slope-key{display:none;font-size:12px;color:var(--muted)}#show-slope:checked~.slope-key{display:inline}
+.slope-key i{display:inline-block;width:14px;height:11px;margin:0 4px 0 10px}
+figure{margin:0}figure svg+svg{margin-top:6px}
+td.load{background:linear-gradient(to left,#cfe0f5 var(--load),transparent var(--load)) no-repeat}
+.pair{display:grid;grid-template-columns:1fr 1fr;gap:18px 26px}.pair>*{min-width:0}
+table.thirds{table-layout:fixed}
+td.better{color:var(--good);font-weight:600}
+code{font:12px "DejaVu Sans Mono",Menlo,Consolas,monospace;overflow-wrap:anywhere}
 .plots svg{margin-bottom:14px}
 .gallery{display:grid;grid-template-columns:repeat(3,1fr);gap:20px 22px}
 table{border-collapse:collapse;width:100%;font-size:13.5px}
@@ -39,9 +52,14 @@ pre{background:var(--soft);padding:12px 14px;font-size:12px;line-height:1.45;ove
 @media(max-width:820px){.cards{grid-template-columns:repeat(2,1fr)}main{padding:22px 16px}.gallery{grid-template-columns:1fr 1fr}.two{grid-template-columns:1fr}
  header{flex-direction:column}}
 @media print{@page{size:A4;margin:12mm}body{background:#fff;font-size:11.5px}main{max-width:none;padding:0}
- .badge,.card,.cards *{-webkit-print-color-adjust:exact;print-color-adjust:exact}
- h2{break-after:avoid}svg,tr,.card,figure{break-inside:avoid}.cards{grid-template-columns:repeat(5,1fr)}
- .card b{font-size:17px}}
+ *{-webkit-print-color-adjust:exact;print-color-adjust:exact}
+ .map>label{display:none}header{flex-direction:row}.two{grid-template-columns:1fr 1fr;gap:0 24px}
+ h2{break-after:avoid;margin-top:24px}svg,tr,.card,figure{break-inside:avoid}.cards{grid-template-columns:repeat(5,1fr)}
+ .card b{font-size:17px}.card span{font-size:10.5px}table{font-size:10.5px}.meta{font-size:10.5px}
+ .gallery{grid-template-columns:repeat(3,1fr);gap:12px 14px}
+ details::details-content{content-visibility:visible;display:block}
+ .configuration{break-before:page;columns:2;column-gap:8mm}.configuration h2{column-span:all}
+ summary{list-style:none;break-after:avoid;font-size:10.5px}pre{font-size:7px;line-height:1.35;padding:6px 8px}}
 )css";
 
 }  // namespace rover::report

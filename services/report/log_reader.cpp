@@ -1,18 +1,14 @@
 #include "report/log_reader.hpp"
 
-#include <lcm/eventlog.h>
-
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <limits>
-#include <memory>
 #include <rover/slam_pose_t.hpp>
-#include <rover/vo_motion_t.hpp>
 #include <tuple>
 
 #include "common/bus/channels.hpp"
 #include "common/bus/config.hpp"
+#include "common/bus/event_log.hpp"
 #include "common/bus/streams.hpp"
 #include "report/convert.hpp"
 
@@ -76,10 +72,7 @@ class Reader {
                        [this](const correction_t& m) { run_.corrections.push_back(correction_from(m)); });
     take<heartbeat_t>(channel::kHeartbeat, [this](const heartbeat_t& m) { add_heartbeat(m, run_.services); });
     take<slam_pose_t>(channel::kSlamPose, [this](const slam_pose_t&) { ++run_.slam_poses; });
-    take<vo_motion_t>(channel::kVo, [this](const vo_motion_t& m) {
-      ++run_.vo_frames;
-      run_.vo_lost += m.status == vo_motion_t::LOST ? 1 : 0;
-    });
+    take<vo_motion_t>(channel::kVo, [this](const vo_motion_t& m) { run_.visual.push_back(visual_from(m)); });
   }
 
   void add(const LogEvent& event) {
@@ -139,30 +132,13 @@ class Reader {
 
 }  // namespace
 
-LogLength for_each_event(const std::string& path, const std::function<void(const LogEvent&)>& take) {
-  const auto close = [](lcm_eventlog_t* log) { lcm_eventlog_destroy(log); };
-  const std::unique_ptr<lcm_eventlog_t, decltype(close)> log(lcm_eventlog_create(path.c_str(), "r"), close);
-  if (!log) throw ConfigError(path + ": no such log");
-  LogLength length;
-  std::int64_t end = 0;
-  while (lcm_eventlog_event_t* event = lcm_eventlog_read_next_event(log.get())) {
-    take({std::string(event->channel, static_cast<size_t>(event->channellen)),
-          static_cast<const std::uint8_t*>(event->data), event->datalen});
-    lcm_eventlog_free_event(event);
-    ++length.records;
-    end = ftell(log->f);
-  }
-  length.left_bytes = static_cast<std::int64_t>(std::filesystem::file_size(path)) - end;
-  return length;
-}
-
 RunRecord read_log(const std::string& path, std::optional<double> run_s) {
   Reader reader(run_s ? to_utime(*run_s - kUncountedS) : std::numeric_limits<Utime>::max());
   const LogLength length = for_each_event(path, [&](const LogEvent& event) { reader.add(event); });
   if (length.records == 0) throw ConfigError(path + ": holds no messages");
   if (length.left_bytes > 0) {
-    std::fprintf(stderr, "%s: cut short or damaged after %lld messages; the %lld bytes behind them are left out\n",
-                 path.c_str(), static_cast<long long>(length.records), static_cast<long long>(length.left_bytes));
+    std::fprintf(stderr, "%s: cut short or damaged: %lld messages are whole, %lld bytes are left out\n", path.c_str(),
+                 static_cast<long long>(length.records), static_cast<long long>(length.left_bytes));
     reader.count_damaged();
   }
   return reader.finish();

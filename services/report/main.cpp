@@ -1,24 +1,39 @@
-// rover_report RUN_DIR: judges a run from its log.
+// rover_report RUN_DIR: judges a run from its log. Two folders: compares them.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <opencv2/core.hpp>
 
+#include "common/bus/command_line.hpp"
+#include "report/compare_runs.hpp"
 #include "report/make_report.hpp"
 
 int main(int argc, char** argv) {
-  std::string run_dir;
+  std::vector<std::string> run_dirs;
   std::string config_dir = "config";
-  CLI::App app("Writes metrics.json, report.html, traverse.svg and traverse.png of a run");
-  app.add_option("run_dir", run_dir, "the run's folder")->required();
+  std::string out;
+  CLI::App app(
+      "One run: makes its metrics.json, report.html, traverse.svg and traverse.png again. Two: compares them in one "
+      "page.\n"
+      "Examples: ./rover report logs/RUN       ./rover report logs/RUN_A logs/RUN_B");
+  app.name("./rover report");
+  app.add_option("run_dir", run_dirs, "the run's folder, or two")->required()->expected(1, 2);
+  app.add_option("--out", out, "of a comparison; default: compare-A-B.html in the current folder");
   app.add_option("--config", config_dir, "vehicle of a run whose folder holds no configuration")->capture_default_str();
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
+    return rover::end_of_parse(app, error);
+  }
+  if (run_dirs.size() == 1 && !out.empty()) {
+    std::fprintf(stderr, "rover_report: --out is for a comparison; the report of one run goes into its folder\n");
+    return 2;
   }
   cv::setNumThreads(1);
   try {
-    std::printf("%s\n", rover::report::make_report(run_dir, config_dir).c_str());
+    const std::string said = run_dirs.size() == 1
+                                 ? rover::report::make_report(run_dirs[0], config_dir)
+                                 : rover::report::compare_runs(run_dirs[0], run_dirs[1], config_dir, out);
+    std::printf("%s\n", said.c_str());
   } catch (const std::exception& error) {
     std::fprintf(stderr, "rover_report: %s\n", error.what());
     return 2;

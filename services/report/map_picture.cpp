@@ -8,6 +8,7 @@
 #include "report/map_layers.hpp"
 #include "report/no_truth.hpp"
 #include "report/palette.hpp"
+#include "report/slope_map.hpp"
 
 namespace rover::report {
 namespace {
@@ -19,6 +20,16 @@ constexpr double kCellM = 0.1;
 
 std::string stroke(const char* colour, double width, const std::string& more = "") {
   return fmt::format("stroke:{};stroke-width:{};stroke-linejoin:round;stroke-linecap:round;{}", colour, width, more);
+}
+
+// What the page can switch off, and on; the picture alone shows what is on at first.
+template <class Draw>
+void in_layer(Svg& svg, MapLayer layer, Draw draw) {
+  const MapLayerInfo& info = kMapLayers[static_cast<size_t>(layer)];
+  svg.begin_group(fmt::format("class=\"layer-{}\"{}{}", info.id, info.on ? "" : " display=\"none\"",
+                              layer == MapLayer::kSlope ? " opacity=\".7\"" : ""));
+  draw();
+  svg.end();
 }
 
 Points all_global_points(const Scene& scene) {
@@ -37,13 +48,20 @@ MapView map_view(const Scene& scene) {
 }
 
 void draw_ground(Svg& svg, const MapView& view, const HeightRaster& orbital) {
-  if (orbital.empty()) {
-    svg.rect(view.left, view.top, view.width(), view.height(), "fill:#e9d9c6");
-    return;
-  }
+  svg.rect(view.left, view.top, view.width(), view.height(), "fill:#e9d9c6");
+  if (orbital.empty()) return;
   const auto pixels = [](double px) { return std::max(8, static_cast<int>(std::lround(px))); };
-  svg.jpeg(view.left, view.top, view.width(), view.height(),
-           relief_jpeg(orbital, view.box, pixels(view.width()), pixels(view.height()), ReliefStyle{}));
+  const int columns = pixels(view.width());
+  const int rows = pixels(view.height());
+  in_layer(svg, MapLayer::kRelief, [&] {
+    svg.jpeg(view.left, view.top, view.width(), view.height(),
+             relief_jpeg(orbital, view.box, columns, rows, ReliefStyle{}));
+  });
+  // A coarser picture will do for it.
+  in_layer(svg, MapLayer::kSlope, [&] {
+    svg.jpeg(view.left, view.top, view.width(), view.height(),
+             slope_jpeg(orbital, view.box, std::max(8, columns / 2), std::max(8, rows / 2)));
+  });
 }
 
 void draw_axes(Svg& svg, const MapView& view) {
@@ -79,6 +97,12 @@ void draw_hazards(Svg& svg, const MapView& view, const Scene& scene) {
   draw_cells(svg, view, holes, kCellM, fmt::format("fill:{};fill-opacity:.5", palette::kHole));
 }
 
+void draw_tracks(Svg& svg, const MapView& view, const Scene& scene) {
+  svg.polyline(view.px(true_line(scene)), stroke("#ffffff", 5.4, "stroke-opacity:.75"));
+  if (has_truth(scene.judgement.metrics)) svg.polyline(view.px(true_line(scene)), stroke(palette::kTruth, 3.0));
+  svg.polyline(view.px(estimated_line(scene)), stroke(palette::kEstimate, 1.8, "stroke-dasharray:6 5"));
+}
+
 void draw_paths(Svg& svg, const MapView& view, const Scene& scene) {
   const Points global = view.px(all_global_points(scene));
   svg.polyline(global, stroke("#3b2a1e", 4.0, "stroke-opacity:.55"));
@@ -86,9 +110,6 @@ void draw_paths(Svg& svg, const MapView& view, const Scene& scene) {
   for (const Incident& incident : scene.judgement.incidents)
     if (!incident.new_path.empty())
       svg.polyline(view.px(thinned(incident.new_path, 0.1)), stroke(palette::kRepair, 2.0, "stroke-opacity:.75"));
-  svg.polyline(view.px(true_line(scene)), stroke("#ffffff", 5.4, "stroke-opacity:.75"));
-  if (has_truth(scene.judgement.metrics)) svg.polyline(view.px(true_line(scene)), stroke(palette::kTruth, 3.0));
-  svg.polyline(view.px(estimated_line(scene)), stroke(palette::kEstimate, 1.8, "stroke-dasharray:6 5"));
 }
 
 void draw_markers(Svg& svg, const MapView& view, const Scene& scene) {
@@ -186,11 +207,12 @@ std::string draw_map(const Scene& scene) {
   svg.rect(0.0, 0.0, kMapWidth, bottom + kLegend, "fill:#fff");
   svg.begin_clip("map-frame", view.left, view.top, view.width(), view.height());
   draw_ground(svg, view, scene.orbital);
-  draw_rocks(svg, view, scene, RockStyle::kFilled);
-  draw_hazards(svg, view, scene);
-  draw_paths(svg, view, scene);
+  in_layer(svg, MapLayer::kRocks, [&] { draw_rocks(svg, view, scene, RockStyle::kFilled); });
+  in_layer(svg, MapLayer::kHazards, [&] { draw_hazards(svg, view, scene); });
+  in_layer(svg, MapLayer::kPaths, [&] { draw_paths(svg, view, scene); });
+  in_layer(svg, MapLayer::kTracks, [&] { draw_tracks(svg, view, scene); });
   draw_ends(svg, view, scene);
-  draw_markers(svg, view, scene);
+  in_layer(svg, MapLayer::kEvents, [&] { draw_markers(svg, view, scene); });
   svg.end();
   draw_axes(svg, view);
   svg.rect(view.left, view.top, view.width(), view.height(), "fill:none;stroke:#5b4636;stroke-width:1.2");

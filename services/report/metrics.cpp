@@ -100,7 +100,7 @@ void judge_control(const RunRecord& run, Metrics& m) {
 void judge_lease(const RunRecord& run, Metrics& m) {
   constexpr double kStopS = 3.0;  // from top speed at the vehicle's deceleration, and what the commands need
   constexpr double kMovingMps = 0.03;
-  if (run.truth.empty()) return;
+  if (run.truth.empty() || m.info.data_set_pairs) return;
   m.motion_without_lease_s = 0.0;
   double lease_s = -kInfinity;
   double before_s = run.truth.front().t_s;
@@ -225,8 +225,9 @@ void judge_sensing(const RunRecord& run, Metrics& m) {
     coverage.add(map.coverage);
   }
   m.hazard_coverage_mean = coverage.mean();
-  m.vo_frames = run.vo_frames;
-  m.vo_lost = run.vo_lost;
+  m.vo_frames = static_cast<int>(run.visual.size());
+  m.vo_lost = static_cast<int>(
+      std::count_if(run.visual.begin(), run.visual.end(), [](const VisualSample& motion) { return motion.lost; }));
   Spread current;
   for (const WheelSample& sample : run.wheels)
     if (m.window.contains(sample.t_s))
@@ -264,6 +265,8 @@ Judgement judge(const RunRecord& run, const RunInfo& info, const Footprint& foot
   judge_deviation(run, truth, m);
   judge_drift(run, truth, m);
   judge_goal(run, truth, m);
+  m.visual_odometry = trajectory_error(visual_poses(run, truth));
+  m.published_pose = trajectory_error(published_poses(run, truth));
   m.replans = count_replans(run, m.window);
   judge_states(run, m);
   judge_corrections(run, truth, m);

@@ -10,6 +10,7 @@
 #include "report/run_record.hpp"
 #include "report/stop_judge.hpp"
 #include "report/track.hpp"
+#include "report/trajectory_error.hpp"
 
 namespace rover::report {
 
@@ -86,6 +87,8 @@ struct Metrics {
   double hazard_coverage_mean = kNaN;
   int vo_frames = 0;
   int vo_lost = 0;
+  TrajectoryError visual_odometry;  // its motions alone
+  TrajectoryError published_pose;   // POSE at the exposures
 };
 
 // What the figures and the pictures share.

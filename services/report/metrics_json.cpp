@@ -110,6 +110,25 @@ void add_drive(const Metrics& m, Json& json) {
   json["point_turn_s"] = m.point_turn_s;
 }
 
+Json trajectory_json(const TrajectoryError& error) {
+  const auto segment = [](const SegmentError& s) {
+    return Json{{"length_m", number(s.length_m)},
+                {"count", s.count},
+                {"translation_percent", number(s.translation_percent)},
+                {"rotation_deg_per_m", number(s.rotation_deg_per_m)}};
+  };
+  Json segments = Json::array();
+  for (const SegmentError& s : error.segments) segments.push_back(segment(s));
+  return {{"poses", error.poses},
+          {"length_m", number(error.length_m)},
+          {"end_error_m", number(error.end_error_m)},
+          {"end_error_percent", number(error.end_error_percent)},
+          {"ate_rmse_m", number(error.ate_rmse_m)},
+          {"ate_max_m", number(error.ate_max_m)},
+          {"segments", segments},
+          {"all_segments", segment(error.all_segments)}};
+}
+
 void add_accuracy(const Metrics& m, Json& json) {
   json["cross_track_rms_m"] = number(m.cross_track_rms_m);
   json["cross_track_max_m"] = number(m.cross_track_max_m);
@@ -120,6 +139,9 @@ void add_accuracy(const Metrics& m, Json& json) {
   json["final_error_m"] = number(m.final_error_m);
   json["final_estimate_error_m"] = number(m.final_estimate_error_m);
   json["global_corrections"] = corrections_json(m);
+  json["trajectory"] = {{"data_set_pairs", optional(m.info.data_set_pairs)},
+                        {"visual_odometry", trajectory_json(m.visual_odometry)},
+                        {"published_pose", trajectory_json(m.published_pose)}};
 }
 
 void add_hazards(const Metrics& m, Json& json) {

@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "common/core/frames.hpp"
+#include "report/raster_view.hpp"
 
 namespace rover::report {
 namespace {
@@ -58,27 +59,8 @@ std::vector<std::uint8_t> jpeg_of(const cv::Mat& picture) {
 
 std::vector<std::uint8_t> relief_jpeg(const HeightRaster& raster, const Box& box, int width_px, int height_px,
                                       const ReliefStyle& style) {
-  cv::Mat south_first(raster.rows, raster.columns, CV_32F, const_cast<float*>(raster.z_m.data()));
-  cv::Mat z;
-  cv::flip(south_first, z, 0);
-  const double sigma_px = style.smoothing_m / raster.resolution_m;
-  if (sigma_px > 0.0) cv::GaussianBlur(z, z, cv::Size(), sigma_px, sigma_px, cv::BORDER_REPLICATE);
-  // From picture pixels to raster pixels, centres at half integers in both.
-  const double step_m = box.width_m() / width_px;
-  cv::Mat map_x(height_px, width_px, CV_32F);
-  cv::Mat map_y(height_px, width_px, CV_32F);
-  for (int v = 0; v < height_px; ++v)
-    for (int u = 0; u < width_px; ++u) {
-      const double x = box.x0_m + (u + 0.5) * step_m;
-      const double y = box.y1_m - (v + 0.5) * box.height_m() / height_px;
-      map_x.at<float>(v, u) = static_cast<float>(x / raster.resolution_m - 0.5);
-      map_y.at<float>(v, u) = static_cast<float>(raster.rows - y / raster.resolution_m - 0.5);
-    }
-  cv::Mat picture;
-  cv::remap(z, picture, map_x, map_y, cv::INTER_CUBIC, cv::BORDER_REPLICATE);
-  const double blur_px = 0.5 * raster.resolution_m / step_m;  // hides the patches of the interpolation
-  cv::GaussianBlur(picture, picture, cv::Size(), blur_px, blur_px, cv::BORDER_REPLICATE);
-  return jpeg_of(shade(picture, step_m, style));
+  return jpeg_of(
+      shade(heights_in(raster, box, width_px, height_px, style.smoothing_m), box.width_m() / width_px, style));
 }
 
 std::vector<std::uint8_t> relief_jpeg(const std::function<double(double, double)>& height_m, const Box& box,

@@ -49,6 +49,7 @@ RunInfo read_info(const std::string& dir) {
       read_optional(run, "simulated_s", info.sim_s);
       read_optional(run, "outcome", info.outcome_hint);
       read_optional(run, "services", info.restarts);
+      if (const auto set = run.find("data_set"); set != run.end()) read_optional(*set, "pairs", info.data_set_pairs);
     } catch (const json::exception& error) {
       throw ConfigError(dir + name + ": " + error.what());
     }

@@ -29,6 +29,14 @@ struct PoseSample {
   Eigen::Isometry3d T_map_odom = Eigen::Isometry3d::Identity();
 };
 
+// Each VO message.
+struct VisualSample {
+  double from_s = 0.0;
+  double to_s = 0.0;
+  bool lost = false;
+  Eigen::Isometry3d T_from_to = Eigen::Isometry3d::Identity();
+};
+
 enum class Following { kIdle, kFollowing, kPointTurn, kOther };
 
 struct ControlSample {
@@ -154,8 +162,7 @@ struct RunRecord {
   std::vector<CorrectionRecord> corrections;
   std::map<std::string, ServiceRecord> services;
   int slam_poses = 0;
-  int vo_frames = 0;
-  int vo_lost = 0;
+  std::vector<VisualSample> visual;
   BusRecord bus;
 };
 
@@ -171,6 +178,7 @@ struct RunInfo {
   std::optional<double> sim_s;
   std::string outcome_hint;
   std::map<std::string, int> restarts;
+  std::optional<int> data_set_pairs;  // of stereo pictures; empty: no imported data set
 };
 
 // The ground that the rover covers, about the body origin, and how high that is above flat ground.

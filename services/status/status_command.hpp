@@ -1,14 +1,12 @@
 // ./rover status: finds the run, listens to its bus for a moment, and shows.
 #pragma once
 
-#include <string>
+#include "status/target.hpp"
 
 namespace rover::status {
 
 struct StatusArguments {
-  std::string logs_dir = "logs";  // holds the runs
-  std::string run;                // run folder; empty: the one in logs_dir that runs
-  std::string bus;                // LCM URL; empty: the run's. Without a run: the bus alone
+  TargetArguments target;
   bool json = false;
   bool watch = false;
 };

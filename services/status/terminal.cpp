@@ -3,32 +3,12 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstdio>
 
-#include "status/screen.hpp"
-
 namespace rover::status {
-namespace {
 
 bool on_terminal() {
   return isatty(STDOUT_FILENO) == 1;
-}
-
-// One row stays free: a newline in the last one would move the whole screen.
-ScreenOptions fitting() {
-  ScreenOptions options{.colours = true};
-  winsize size{};
-  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_row < 2 || size.ws_col == 0) return options;
-  options.rows = size.ws_row - size_t{1};
-  options.columns = std::min<size_t>(options.columns, size.ws_col);
-  return options;
-}
-
-}  // namespace
-
-void print_once(const Snapshot& snapshot) {
-  std::fputs(screen(snapshot, {.colours = on_terminal()}).c_str(), stdout);
 }
 
 Terminal::Terminal() : terminal_(on_terminal()) {
@@ -40,13 +20,23 @@ Terminal::~Terminal() {
   std::fflush(stdout);
 }
 
-void Terminal::redraw(const Snapshot& snapshot) {
+// One row stays free: a newline in the last one would move the whole screen.
+ScreenOptions Terminal::options() const {
+  ScreenOptions options{.colours = terminal_};
+  winsize size{};
+  if (!terminal_ || ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_row < 2 || size.ws_col == 0) return options;
+  options.rows = size.ws_row - size_t{1};
+  options.columns = size.ws_col;
+  return options;
+}
+
+void Terminal::redraw(std::string screen) {
   if (!terminal_) {
-    std::printf("%s\n", screen(snapshot, {}).c_str());
+    std::printf("%s\n", screen.c_str());
   } else {
-    std::string text = screen(snapshot, fitting());
-    for (size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at + 4)) text.insert(at, "\033[K");
-    std::printf("\033[H%s\033[J", text.c_str());
+    for (size_t at = screen.find('\n'); at != std::string::npos; at = screen.find('\n', at + 4))
+      screen.insert(at, "\033[K");
+    std::printf("\033[H%s\033[J", screen.c_str());
   }
   std::fflush(stdout);
 }

@@ -1,12 +1,13 @@
 // Standard output: a terminal, with colours and redrawing in place, or a plain file.
 #pragma once
 
-#include "status/snapshot.hpp"
+#include <string>
+
+#include "status/screen.hpp"
 
 namespace rover::status {
 
-// One screen, whatever the height of the terminal.
-void print_once(const Snapshot& snapshot);
+bool on_terminal();
 
 // Redraws in place and hides the cursor as long as it lives; into a file it writes one screen after the other.
 class Terminal {
@@ -15,7 +16,10 @@ class Terminal {
   ~Terminal();
   Terminal(const Terminal&) = delete;
   Terminal& operator=(const Terminal&) = delete;
-  void redraw(const Snapshot& snapshot);
+  // What fits on it; a plain file takes all.
+  ScreenOptions options() const;
+  // Lines that end with a newline each.
+  void redraw(std::string screen);
 
  private:
   bool terminal_;

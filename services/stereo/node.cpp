@@ -45,9 +45,11 @@ void StereoNode::drop_unpaired(Slot& slot) {
 }
 
 void StereoNode::process(Utime utime) {
-  const auto result = core_.step(left_.image, right_.image);
-  left_.utime = right_.utime = kNever;
+  auto result = core_.step(left_.image, right_.image);
+  const bool left_frozen = retire(left_);
+  const bool frozen = retire(right_) || left_frozen;
   if (!result) return;
+  if (frozen) result->disparity = Disparity(result->disparity.width, result->disparity.height);
   image_t image{};
   image.exposure_s = left_.exposure_s;
   image_to(result->left, image);
@@ -58,16 +60,30 @@ void StereoNode::process(Utime utime) {
   disparity_t disparity{};
   disparity_to(result->disparity, core_.camera(), disparity);
   node_.publish(channel::kDisparity, disparity, utime);
-  report(disparity.valid_fraction);
+  report(frozen                                      ? "camera frozen"
+         : disparity.valid_fraction < kBlindFraction ? "no stereo"
+                                                     : "",
+         disparity.valid_fraction);
 }
 
-void StereoNode::report(double valid_fraction) {
-  const bool blind = valid_fraction < kBlindFraction;
-  if (blind == blind_) return;
-  blind_ = blind;
-  node_.set_status(blind ? heartbeat_t::DEGRADED : heartbeat_t::OK, blind ? "no stereo" : "");
-  node_.log(blind ? "WARN" : "INFO",
-            (blind ? "NO_STEREO valid_fraction=" : "STEREO_BACK valid_fraction=") + std::to_string(valid_fraction));
+// The pair is done with. True where the picture is the one before again: noise never repeats, so that camera has not
+// looked, and motion of the rover would be taken for standing.
+bool StereoNode::retire(Slot& slot) {
+  const bool again = slot.image.data == slot.before.data;
+  slot.utime = kNever;
+  slot.before = std::move(slot.image);
+  return again;
+}
+
+void StereoNode::report(const std::string& trouble, double valid_fraction) {
+  if (trouble == trouble_) return;
+  trouble_ = trouble;
+  const std::string figure = " valid_fraction=" + std::to_string(valid_fraction);
+  node_.set_status(trouble.empty() ? heartbeat_t::OK : heartbeat_t::DEGRADED, trouble);
+  if (trouble.empty())
+    node_.log("INFO", "STEREO_BACK" + figure);
+  else
+    node_.log("WARN", "NO_STEREO why=" + trouble + figure);
 }
 
 std::shared_ptr<StereoNode> make_stereo(Node& node, const std::string& config_dir) {

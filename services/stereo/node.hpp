@@ -22,19 +22,21 @@ class StereoNode {
     std::string channel;
     Utime utime = kNever;  // kNever: empty
     GrayImage image;
+    GrayImage before;  // of the last pair
     float exposure_s = 0.0F;
   };
 
   void take(Slot& own, Slot& other, const image_t& message);
   void drop_unpaired(Slot& slot);
   void process(Utime utime);
-  void report(double valid_fraction);
+  bool retire(Slot& slot);
+  void report(const std::string& trouble, double valid_fraction);
 
   Node& node_;
   Stereo core_;
   Slot left_;
   Slot right_;
-  bool blind_ = false;
+  std::string trouble_;  // empty: none
 };
 
 std::shared_ptr<StereoNode> make_stereo(Node& node, const std::string& config_dir);

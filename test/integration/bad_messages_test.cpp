@@ -175,6 +175,8 @@ class StandingWorld {
     wheel_state_t wheels{};
     send(channel::kWheelState, wheels, t, t);
     if ((t - kStart) % kFramePeriod != 0) return;
+    left_.data.back() ^= 1;  // noise: what never changes is a frozen camera's
+    right_.data.back() ^= 1;
     send(channel::kLocCamLeft, left_, t, t + kCameraLatency);
     send(channel::kLocCamRight, right_, t, t + kCameraLatency);
     slam_pose_t slam{};

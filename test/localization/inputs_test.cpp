@@ -30,7 +30,7 @@ TEST(Inputs, SoundOnesPass) {
   EXPECT_EQ(flaw_of(imu()), "");
   EXPECT_EQ(flaw_of(WheelSample{}), "");
   EXPECT_EQ(flaw_of(WheelCommand{}), "");
-  EXPECT_EQ(flaw_of(visual()), "");
+  EXPECT_EQ(flaw_of(visual(), 20.0), "");
   EXPECT_EQ(flaw_of(StartPose{{1, 2, 3}, 0.5, 0.1, 0.1}), "");
   ImuSample no_fog = imu();
   no_fog.fog_delta_yaw_rad = kNaN;
@@ -70,12 +70,12 @@ TEST(Inputs, FlawsOfVisualMotionAreFound) {
   for (size_t i = 0; i < flaws.size(); ++i) {
     VisualMotion m = visual();
     flaws[i](m);
-    EXPECT_NE(flaw_of(m), "") << i;
+    EXPECT_NE(flaw_of(m, 20.0), "") << i;
   }
   VisualMotion lost;
   lost.utime = 1;
   lost.previous_utime = 0;
-  EXPECT_EQ(flaw_of(lost), "") << "a lost frame says so and has no numbers";
+  EXPECT_EQ(flaw_of(lost, 20.0), "") << "a lost frame says so and has no numbers";
 }
 
 TEST(Inputs, FlawsOfStartPoseAndMeasurementAreFound) {

@@ -53,6 +53,38 @@ TEST(Localization, IsNotLevelledWhileMoving) {
   EXPECT_FALSE(is_finite(drive.localization.pose().T_odom_body));
 }
 
+// A car on a road, seen by cameras alone: 12 m/s from the first picture on.
+TEST(Localization, FollowsCamerasAloneAtTheSpeedOfACar) {
+  LocalizationConfig config;
+  config.cameras_alone = {true, 0.02, -0.03};
+  config.filter.blind_rate_radps = 10.0;
+  config.blind_distance_m = 50.0;
+  SyntheticDrive drive(config, 2);
+  drive.imu_on = drive.wheels_on = drive.rolling_ground = false;
+  drive.command = [](double t) { return Twist{12.0, 0.1 * std::sin(0.5 * t)}; };
+  drive.run(0.2);
+  EXPECT_EQ(drive.localization.take_start_pose({Vector3d(3.0, 4.0, 0.0), 0.0, 0.1, 0.01}), "");
+  drive.run(10.0);
+  EXPECT_EQ(drive.localization.pose().status, PoseStatus::kOk);
+  const Vector3d rpy = rpy_of(drive.localization.pose().T_odom_body.linear());
+  EXPECT_NEAR(rpy.x(), 0.02, 0.01) << "the attitude that was told";
+  EXPECT_NEAR(rpy.y(), -0.03, 0.01);
+  EXPECT_NEAR(drive.localization.pose().travelled_m, drive.driven_m(), 8.0) << "pictures come each 0.4 s";
+  drive.visual_on = false;
+  drive.run(3.0);
+  EXPECT_EQ(drive.localization.pose().status, PoseStatus::kLost);
+}
+
+TEST(Localization, RefusesVisualMotionsBeyondItsTopSpeed) {
+  LocalizationConfig config;
+  config.max_speed_mps = 0.1;
+  SyntheticDrive drive(config, 2);
+  drive.begin();
+  drive.command = [](double) { return Twist{0.2, 0.0}; };
+  drive.run(6.0);
+  EXPECT_EQ(drive.localization.pose().status, PoseStatus::kDegraded) << "no visual odometry is left";
+}
+
 TEST(Localization, LevelsToGravity) {
   SyntheticDrive drive({}, 3);
   drive.run(2.0);

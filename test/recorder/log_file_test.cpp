@@ -1,10 +1,15 @@
 #include "recorder/log_file.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <csignal>
 #include <filesystem>
+#include <numeric>
 
+#include "../common/temp_folder.hpp"
 #include "common/bus/config.hpp"
+#include "common/bus/event_log.hpp"
 #include "read_back.hpp"
 
 namespace rover::recorder {
@@ -68,6 +73,82 @@ TEST_F(LogFileTest, AFullDiskIsReportedNotFatal) {
   LogFile log("/dev/full");
   log.write(event(20, "IMU", {1, 2, 3}));
   EXPECT_FALSE(log.flush());
+}
+
+// Files that may not grow stand in for a disk that is full.
+class SmallDisk {
+ public:
+  explicit SmallDisk(rlim_t bytes) {
+    std::signal(SIGXFSZ, SIG_IGN);
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~SmallDisk() { setrlimit(RLIMIT_FSIZE, &before_); }
+
+ private:
+  rlimit before_{};
+};
+
+TEST(LogFileOnAFullDisk, EndsWithItsLastWholeRecord) {
+  const testing_support::TempFolder folder;
+  const std::string path = folder.file("log.lcm");
+  int taken = 0;
+  {
+    const SmallDisk disk(10'050);  // 76 records of 132 bytes, and a part of one
+    LogFile log(path);
+    while (log.write(event(taken, "DATA", std::vector<std::uint8_t>(100, 7))) && log.flush()) ++taken;
+    EXPECT_EQ(taken, 76);
+    EXPECT_FALSE(log.close());
+    EXPECT_FALSE(log.write(event(99, "DATA", {1})));
+  }
+  EXPECT_EQ(std::filesystem::file_size(path), 76U * 132);
+  EXPECT_EQ(read_back(path).size(), 76U);
+}
+
+class LogFileParts : public testing::Test {
+ protected:
+  void write(int from, int to) {
+    LogFile log(path_, 1000);  // seven records of 132 bytes
+    for (int i = from; i < to; ++i) ASSERT_TRUE(log.write(event(i, "DATA", std::vector<std::uint8_t>(100, 7))));
+  }
+  std::vector<Utime> times() const {
+    std::vector<Utime> out;
+    for_each_event(path_, [&](const LogEvent& e) { out.push_back(e.time); });
+    return out;
+  }
+  testing_support::TempFolder folder_;
+  std::string path_ = folder_.file("log.lcm");
+};
+
+TEST_F(LogFileParts, AreEachALogOfBoundedSize) {
+  write(0, 20);
+  EXPECT_EQ(log_parts(path_).size(), 3U);
+  for (const std::string& part : log_parts(path_)) {
+    EXPECT_LE(std::filesystem::file_size(part), 1000U);
+    EXPECT_EQ(read_back(part).front().number, 0);
+  }
+  std::vector<Utime> all(20);
+  std::iota(all.begin(), all.end(), 0);
+  EXPECT_EQ(times(), all);
+}
+
+TEST_F(LogFileParts, ARestartGoesOnInTheLast) {
+  write(0, 10);
+  const std::string last = log_parts(path_).back();
+  std::filesystem::resize_file(last, std::filesystem::file_size(last) - 5);  // a kill has cut record 9
+  write(10, 12);
+  EXPECT_EQ(log_parts(path_).size(), 2U);
+  EXPECT_EQ(times(), (std::vector<Utime>{0, 1, 2, 3, 4, 5, 6, 7, 8, 10, 11}));
+}
+
+TEST_F(LogFileParts, AMessageLargerThanAPartHasOneOfItsOwn) {
+  LogFile log(path_, 50);
+  EXPECT_TRUE(log.write(event(0, "DATA", std::vector<std::uint8_t>(100, 7))));
+  EXPECT_TRUE(log.write(event(1, "DATA", std::vector<std::uint8_t>(100, 7))));
+  EXPECT_TRUE(log.close());
+  EXPECT_EQ(times(), (std::vector<Utime>{0, 1}));
+  EXPECT_EQ(log_parts(path_).size(), 2U);
 }
 
 TEST_F(LogFileTest, APlaceThatCannotBeWrittenIsNamed) {

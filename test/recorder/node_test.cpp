@@ -156,6 +156,21 @@ TEST_F(RecorderNodeTest, AFullDiskStopsTheRecordNotTheNode) {
   EXPECT_LE(ticks, 205u);
 }
 
+TEST_F(RecorderNodeTest, ADiskThatIsClearedIsRecordedOnAgain) {
+  std::uintmax_t free_bytes = kPlenty;
+  World world(path_, config(), [&] { return free_bytes; });
+  Utime t = 0;
+  for (; t <= 3'000'000; t += kTickUs) world.tick(t);
+  free_bytes = 1'000'000;
+  for (; t <= 6'000'000; t += kTickUs) world.tick(t);
+  free_bytes = kPlenty;
+  for (; t <= 30'000'000; t += kTickUs) world.tick(t);
+  EXPECT_EQ(world.heartbeats_.back().status, std::int8_t{heartbeat_t::OK});
+  const size_t ticks = count("TICK");
+  EXPECT_GE(ticks, 150u + 750u);
+  EXPECT_LE(ticks, 1501u - 450u);
+}
+
 TEST_F(RecorderNodeTest, AnInjectedFullDiskIsOneLikeAnyOther) {
   World world(path_, config(), [] { return kPlenty; });
   Utime t = 0;
@@ -176,6 +191,13 @@ TEST_F(RecorderNodeTest, AWriteThatFailsStopsTheRecordNotTheNode) {
   World world("/dev/full", config(), [] { return kPlenty; });
   for (Utime t = 0; t <= 3'000'000; t += kTickUs) world.tick(t);
   EXPECT_EQ(world.heartbeats_.back().status, std::int8_t{heartbeat_t::DEGRADED});
+}
+
+// What a kill can take is not older than the tick.
+TEST_F(RecorderNodeTest, EachTickIsOnTheDiskBeforeTheNext) {
+  World world(path_, config(), [] { return kPlenty; });
+  for (Utime t = 0; t <= 100'000; t += kTickUs) world.tick(t);
+  EXPECT_GE(count("TICK"), 5u);
 }
 
 TEST_F(RecorderNodeTest, ReducedKeepsImagesAroundAStop) {

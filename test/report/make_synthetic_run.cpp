@@ -32,8 +32,12 @@ int main(int argc, char** argv) {
   }
   run.rocks = truth.rocks;
   write_synthetic_run(run, argv[1]);
-  const RunFolder folder = open_run_folder(argv[1], ROVER_SOURCE_DIR "/config");
+  Study study;
+  study.folder = open_run_folder(argv[1], ROVER_SOURCE_DIR "/config");
+  study.run = read_log(study.folder.log);
+  study.world = truth;
   rover::ElevationRaster orbital = world.orbital_map(1.0);
-  const HeightRaster raster{orbital.width, orbital.height, orbital.resolution_m, orbital.z_m};
-  std::puts(write_report(folder, read_log(folder.log), truth, raster).c_str());
+  study.orbital = {orbital.width, orbital.height, orbital.resolution_m, orbital.z_m};
+  study.judgement = judge(study.run, study.folder.info, study.folder.footprint, study.world);
+  std::puts(write_report(study).c_str());
 }

@@ -17,6 +17,7 @@
 #include "message_log.hpp"
 #include "report/log_reader.hpp"
 #include "report/make_report.hpp"
+#include "report/map_picture.hpp"
 #include "report/metrics_json.hpp"
 #include "synthetic_run.hpp"
 
@@ -47,8 +48,16 @@ class ReportTest : public testing::Test {
     fs::remove_all(dir_);
     fs::create_directories(dir_);
     write_synthetic_run(short_run(), dir_);
-    const RunFolder folder = open_run_folder(dir_, kConfig);
-    write_report(folder, read_log(folder.log), world_of(short_run()), {});
+    write_report(study());
+  }
+  // With the world of the construction, which no scenario makes again.
+  static Study study() {
+    Study study;
+    study.folder = open_run_folder(dir_, kConfig);
+    study.run = read_log(study.folder.log);
+    study.world = world_of(short_run());
+    study.judgement = judge(study.run, study.folder.info, study.folder.footprint, study.world);
+    return study;
   }
   static nlohmann::json metrics() { return nlohmann::json::parse(read_file(dir_ + "/metrics.json")); }
   static inline std::string dir_;
@@ -125,6 +134,24 @@ TEST_F(ReportTest, ThePageNeedsNothingBesideItself) {
   EXPECT_EQ(html.find("nan"), std::string::npos);
 }
 
+TEST_F(ReportTest, TheMapsLayersCanBeSwitched) {
+  const std::string html = read_file(dir_ + "/report.html");
+  for (const MapLayerInfo& layer : kMapLayers) {
+    const std::string id = layer.id;
+    EXPECT_NE(html.find("<input type=\"checkbox\" id=\"show-" + id + "\""), std::string::npos) << id;
+    EXPECT_NE(html.find("#show-" + id + ":not(:checked)~.maps .layer-" + id + "{display:none}"), std::string::npos)
+        << id;
+  }
+  for (const char* id : {"rocks", "hazards", "paths", "tracks", "events"})
+    EXPECT_NE(html.find("<g class=\"layer-" + std::string(id) + "\">"), std::string::npos) << id;
+}
+
+TEST_F(ReportTest, EventsAreTold) {
+  const std::string html = read_file(dir_ + "/report.html");
+  EXPECT_NE(html.find("<h2>Events</h2>"), std::string::npos);
+  EXPECT_NE(html.find("<td>GOAL_REACHED"), std::string::npos);
+}
+
 TEST_F(ReportTest, ThePictureDecodes) {
   const cv::Mat picture = cv::imread(dir_ + "/traverse.png");
   EXPECT_EQ(picture.cols, 1400);
@@ -135,8 +162,7 @@ TEST_F(ReportTest, ThePictureDecodes) {
 TEST_F(ReportTest, MadeAgainItIsTheSame) {
   const std::string html = read_file(dir_ + "/report.html");
   const std::string figures = read_file(dir_ + "/metrics.json");
-  const RunFolder folder = open_run_folder(dir_, kConfig);
-  write_report(folder, read_log(folder.log), world_of(short_run()), {});
+  write_report(study());
   EXPECT_EQ(read_file(dir_ + "/report.html"), html);
   EXPECT_EQ(read_file(dir_ + "/metrics.json"), figures);
 }

@@ -77,7 +77,7 @@ TEST_F(StereoNodeTest, UnpairedImagesAreCountedAndDropped) {
   world_.send(channel::kLocCamRight, right_, 1'220'000);
   world_.tick(1'220'000);
   world_.tick(1'400'000);
-  EXPECT_EQ(disparities_.size(), 2u);
+  ASSERT_EQ(disparities_.size(), 2u);
   EXPECT_EQ(world_.malformed(channel::kLocCamLeft), 1);
   EXPECT_EQ(world_.malformed(channel::kLocCamRight), 1);
 }
@@ -109,6 +109,27 @@ TEST_F(StereoNodeTest, ABlindPairIsPublishedAsSuch) {
   EXPECT_EQ(disparities_[0].valid_fraction, 0.0f);
   EXPECT_TRUE(std::all_of(disparities_[0].disparity_px16.begin(), disparities_[0].disparity_px16.end(),
                           [](int d) { return d == disparity_t::INVALID; }));
+}
+
+// Odometry on a picture that stands would say that the rover does.
+TEST_F(StereoNodeTest, AFrozenCameraSeesNothing) {
+  Utime t = 20'000;
+  const auto send = [&](bool left_moves, bool right_moves) {
+    left_.data[1000] ^= static_cast<std::uint8_t>(left_moves);
+    right_.data[1000] ^= static_cast<std::uint8_t>(right_moves);
+    world_.send(channel::kLocCamLeft, left_, t);
+    world_.send(channel::kLocCamRight, right_, t);
+    world_.tick(t);
+    world_.tick(t + 20'000);
+    t += 400'000;
+    return disparities_.back().valid_fraction;
+  };
+  EXPECT_GT(send(true, true), 0.85F);
+  EXPECT_EQ(send(false, false), 0.0F);
+  EXPECT_EQ(send(true, false), 0.0F);
+  EXPECT_EQ(send(false, true), 0.0F);
+  EXPECT_GT(send(true, true), 0.85F);
+  EXPECT_EQ(disparities_.size(), 5u);
 }
 
 TEST(StereoConfigTest, AnUnknownKeyOrAWrongRangeStopsTheStart) {

@@ -41,7 +41,7 @@ namespace {
 
 template <class Message>
 ChannelType carries() {
-  return {Message::getHash(), [](const void* data, int size) {
+  return {Message::getTypeName(), Message::getHash(), [](const void* data, int size) {
             Message message;
             return decode_message(data, size, message);
           }};
@@ -95,6 +95,12 @@ const std::map<std::string, ChannelType>& types() {
 const ChannelType* find_channel_type(const std::string& channel) {
   const auto it = types().find(channel);
   return it == types().end() ? nullptr : &it->second;
+}
+
+std::vector<std::string> typed_channels() {
+  std::vector<std::string> names;
+  for (const auto& [name, type] : types()) names.push_back(name);
+  return names;
 }
 
 }  // namespace rover

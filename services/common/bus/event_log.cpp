@@ -1,0 +1,141 @@
+// A record: the word 0xEDA1DA01, number and time stamp in 8 bytes each, lengths of channel and message in 4 each,
+// channel, message; all big-endian.
+#include "common/bus/event_log.hpp"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <utility>
+
+#include "common/bus/channel_types.hpp"
+#include "common/bus/config.hpp"
+
+namespace rover {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<std::uint8_t, 4> kSync = {0xED, 0xA1, 0xDA, 0x01};
+constexpr int kLongestChannel = 999;  // LCM's reader takes no longer ones
+
+std::int64_t big_endian(const std::uint8_t* bytes, int count) {
+  std::uint64_t value = 0;
+  for (int i = 0; i < count; ++i) value = (value << 8U) | bytes[i];
+  return count == 4 ? static_cast<std::int32_t>(value) : static_cast<std::int64_t>(value);
+}
+
+// At the end of a cut file a part of the word is all there is.
+bool begins_with_sync(const std::vector<std::uint8_t>& bytes) {
+  const size_t count = std::min(bytes.size(), kSync.size());
+  return std::equal(bytes.begin(), bytes.begin() + static_cast<long>(count), kSync.begin());
+}
+
+}  // namespace
+
+EventLogReader::EventLogReader(const std::string& path) : file_(nullptr, &fclose) {
+  if (!fs::is_regular_file(path)) throw ConfigError(path + ": no such log");
+  file_.reset(fopen(path.c_str(), "rb"));
+  if (!file_) throw ConfigError(path + ": cannot be read");
+  size_ = static_cast<std::int64_t>(fs::file_size(path));
+  read_head();
+}
+
+bool EventLogReader::next(LogEvent& event) {
+  while (at_ < size_) {
+    if (read_record(event)) {
+      in_damage_ = false;
+      ++length_.records;
+      return true;
+    }
+    length_.damages += in_damage_ ? 0 : 1;
+    in_damage_ = true;
+    if (!find_next_head()) break;
+  }
+  return false;
+}
+
+bool EventLogReader::read_record(LogEvent& event) {
+  if (head_.size() < kHeadBytes || !begins_with_sync(head_)) return false;
+  const std::int64_t channel_size = big_endian(&head_[20], 4);
+  const std::int64_t data_size = big_endian(&head_[24], 4);
+  if (channel_size < 1 || channel_size > kLongestChannel || data_size < 0) return false;
+  const std::int64_t end = at_ + static_cast<std::int64_t>(kHeadBytes) + channel_size + data_size;
+  if (end > size_) return false;
+  body_.resize(static_cast<size_t>(channel_size + data_size));
+  if (fread(body_.data(), 1, body_.size(), file_.get()) != body_.size()) return false;
+  event.channel.assign(body_.begin(), body_.begin() + channel_size);
+  event.data = body_.data() + channel_size;
+  event.size = static_cast<int>(data_size);
+  event.time = big_endian(&head_[12], 8);
+  event.begin = at_;
+  event.end = end;
+  const std::int64_t begin = std::exchange(at_, end);
+  const std::vector<std::uint8_t> head = head_;
+  read_head();
+  if (is_whole(event)) return true;
+  at_ = begin;
+  head_ = head;
+  return false;
+}
+
+// Its lengths are right where the next record begins at its end, or where its message decodes.
+bool EventLogReader::is_whole(const LogEvent& event) const {
+  if (begins_with_sync(head_)) return true;
+  const ChannelType* type = find_channel_type(event.channel);
+  return type != nullptr && type->decodes(event.data, event.size);
+}
+
+void EventLogReader::read_head() {
+  head_.resize(kHeadBytes);
+  head_.resize(fread(head_.data(), 1, kHeadBytes, file_.get()));
+}
+
+bool EventLogReader::find_next_head() {
+  constexpr size_t kChunk = 65536;
+  std::vector<std::uint8_t> chunk(kChunk);
+  for (std::int64_t from = at_ + 1; from < size_; from += kChunk - (kSync.size() - 1)) {
+    fseeko(file_.get(), from, SEEK_SET);
+    const size_t got = fread(chunk.data(), 1, kChunk, file_.get());
+    const auto end = chunk.begin() + static_cast<long>(got);
+    const auto found = std::search(chunk.begin(), end, kSync.begin(), kSync.end());
+    if (found == end) continue;
+    const std::int64_t next = from + (found - chunk.begin());
+    length_.left_bytes += next - at_;
+    at_ = next;
+    fseeko(file_.get(), at_, SEEK_SET);
+    read_head();
+    return true;
+  }
+  length_.left_bytes += size_ - at_;
+  at_ = size_;
+  return false;
+}
+
+std::string log_part(const std::string& path, int number) {
+  if (number == 1) return path;
+  const std::string digits = std::to_string(number);
+  const fs::path first(path);
+  const std::string name = first.stem().string() + "-" + std::string(3 - std::min<size_t>(3, digits.size()), '0') +
+                           digits + first.extension().string();
+  return (first.parent_path() / name).string();
+}
+
+std::vector<std::string> log_parts(const std::string& path) {
+  std::vector<std::string> parts = {path};
+  for (int number = 2; fs::is_regular_file(log_part(path, number)); ++number) parts.push_back(log_part(path, number));
+  return parts;
+}
+
+LogLength for_each_event(const std::string& path, const std::function<void(const LogEvent&)>& take) {
+  LogLength sum;
+  for (const std::string& part : log_parts(path)) {
+    EventLogReader reader(part);
+    for (LogEvent event; reader.next(event);) take(event);
+    sum.records += reader.length().records;
+    sum.left_bytes += reader.length().left_bytes;
+    sum.damages += reader.length().damages;
+  }
+  return sum;
+}
+
+}  // namespace rover

@@ -1,0 +1,183 @@
+#include "common/bus/message_fields.hpp"
+
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <type_traits>
+
+#include "common/bus/channel_types.hpp"
+#include "common/bus/streams.hpp"
+#include "common/core/check.hpp"
+
+namespace rover {
+namespace {
+
+// The big-endian bytes of a message. Once it has run out of them it is bad and gives zeros.
+class Reader {
+ public:
+  Reader(const void* data, size_t size) : at_(static_cast<const std::uint8_t*>(data)), left_(size) {}
+
+  template <class Integer>
+  Integer integer() {
+    std::make_unsigned_t<Integer> value = 0;
+    if (!take(sizeof(Integer))) return 0;
+    for (size_t i = 0; i < sizeof(Integer); ++i)
+      value = static_cast<std::make_unsigned_t<Integer>>((std::uint64_t{value} << 8U) | taken_[i]);
+    return static_cast<Integer>(value);
+  }
+  // Its length counts the zero at its end.
+  std::string text() {
+    const auto length = integer<std::int32_t>();
+    if (length < 1 || !take(static_cast<size_t>(length))) return fail();
+    return {reinterpret_cast<const char*>(taken_), static_cast<size_t>(length - 1)};
+  }
+  Field::Bytes bytes(size_t count) {
+    if (!take(count)) return {};
+    return {taken_, taken_ + count};
+  }
+  std::string fail() {
+    good_ = false;
+    return {};
+  }
+  bool good() const { return good_; }
+  size_t left() const { return left_; }
+
+ private:
+  bool take(size_t count) {
+    good_ = good_ && count <= left_;
+    if (!good_) return false;
+    taken_ = at_;
+    at_ += count;
+    left_ -= count;
+    return true;
+  }
+
+  const std::uint8_t* at_;
+  const std::uint8_t* taken_ = nullptr;
+  size_t left_;
+  bool good_ = true;
+};
+
+template <class Value, class Read>
+std::vector<Value> read_all(Reader& reader, size_t count, Read read) {
+  std::vector<Value> values;
+  // A damaged length ends with the bytes, before it costs memory.
+  for (size_t i = 0; i < count && reader.good(); ++i) values.push_back(read());
+  return values;
+}
+
+Fields read_message(Reader& reader, const MessageSchema& schema);
+
+void read_values(Reader& reader, size_t count, Field& field) {
+  const auto integers = [&]<class Integer>(Integer) {
+    field.values = read_all<std::int64_t>(reader, count, [&] { return reader.integer<Integer>(); });
+  };
+  const std::string& type = field.type;
+  if (type == "int8_t" || type == "boolean") return integers(std::int8_t{});
+  if (type == "int16_t") return integers(std::int16_t{});
+  if (type == "int32_t") return integers(std::int32_t{});
+  if (type == "int64_t") return integers(std::int64_t{});
+  if (type == "byte") {
+    field.values = reader.bytes(count);
+  } else if (type == "float") {
+    field.values =
+        read_all<double>(reader, count, [&] { return std::bit_cast<float>(reader.integer<std::int32_t>()); });
+  } else if (type == "double") {
+    field.values =
+        read_all<double>(reader, count, [&] { return std::bit_cast<double>(reader.integer<std::int64_t>()); });
+  } else if (type == "string") {
+    field.values = read_all<std::string>(reader, count, [&] { return reader.text(); });
+  } else {
+    const MessageSchema* schema = find_schema(type);
+    ROVER_CHECK(schema != nullptr, type);
+    field.values = read_all<Fields>(reader, count, [&] { return read_message(reader, *schema); });
+  }
+}
+
+Fields read_message(Reader& reader, const MessageSchema& schema) {
+  Fields fields;
+  std::map<std::string, std::int64_t> lengths;
+  for (const FieldSchema& described : schema.fields) {
+    Field field{described.name, described.type, {}, {}};
+    size_t count = 1;
+    for (const FieldSchema::Dimension& dimension : described.dimensions) {
+      const std::int64_t length = dimension.length_field.empty() ? dimension.length : lengths[dimension.length_field];
+      if (length < 0) reader.fail();
+      if (!reader.good()) return fields;
+      field.shape.push_back(static_cast<int>(length));
+      count *= static_cast<size_t>(length);
+    }
+    read_values(reader, count, field);
+    const auto* integers = std::get_if<Field::Integers>(&field.values);
+    if (integers != nullptr && integers->size() == 1) lengths[field.name] = integers->front();
+    fields.push_back(std::move(field));
+  }
+  return fields;
+}
+
+template <class Number>
+std::string shortest(Number value) {
+  std::array<char, 32> text;
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value);
+  return {text.data(), end.ptr};
+}
+
+// "[1][2]" for the value at `index` of a field of this shape.
+std::string subscript(const std::vector<int>& shape, size_t index) {
+  std::string text;
+  for (auto length = shape.rbegin(); length != shape.rend(); ++length) {
+    const auto size = static_cast<size_t>(*length);
+    text = "[" + std::to_string(index % size) + "]" + text;
+    index /= size;
+  }
+  return text;
+}
+
+void visit(const std::string& prefix, const Fields& fields, const std::function<void(const Leaf&)>& take) {
+  for (const Field& field : fields) {
+    const auto* messages = std::get_if<Field::Messages>(&field.values);
+    for (size_t i = 0; i < field.size(); ++i) {
+      const std::string path = prefix + field.name + subscript(field.shape, i);
+      if (messages == nullptr) {
+        take({path, field, i});
+      } else {
+        visit(path + ".", (*messages)[i], take);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+size_t Field::size() const {
+  return std::visit([](const auto& all) { return all.size(); }, values);
+}
+
+std::optional<Fields> decode_fields(const std::string& channel, const void* data, int size) {
+  const ChannelType* type = find_channel_type(channel);
+  if (type == nullptr || peek_fingerprint(data, size) != type->fingerprint) return std::nullopt;
+  const MessageSchema* schema = find_schema(type->name);
+  ROVER_CHECK(schema != nullptr, type->name);
+  Reader reader(data, static_cast<size_t>(size));
+  reader.integer<std::int64_t>();
+  Fields fields = read_message(reader, *schema);
+  if (!reader.good() || reader.left() > 0) return std::nullopt;
+  return fields;
+}
+
+std::string text_of(const Field& field, size_t index) {
+  if (const auto* texts = std::get_if<Field::Texts>(&field.values)) return texts->at(index);
+  if (const auto* integers = std::get_if<Field::Integers>(&field.values)) return std::to_string(integers->at(index));
+  if (const auto* bytes = std::get_if<Field::Bytes>(&field.values)) return std::to_string(bytes->at(index));
+  const double value = std::get<Field::Reals>(field.values).at(index);
+  if (std::isnan(value)) return "nan";  // without the sign that an x86 gives it
+  return field.type == "float" ? shortest(static_cast<float>(value)) : shortest(value);
+}
+
+void visit_leaves(const Fields& fields, const std::function<void(const Leaf&)>& take) {
+  visit("", fields, take);
+}
+
+}  // namespace rover

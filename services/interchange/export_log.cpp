@@ -1,0 +1,254 @@
+#include "interchange/export_log.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <optional>
+#include <rover/path_t.hpp>
+#include <rover/truth_t.hpp>
+
+#include "common/bus/channel_types.hpp"
+#include "common/bus/channels.hpp"
+#include "common/bus/config.hpp"
+#include "common/bus/convert.hpp"
+#include "common/bus/event_log.hpp"
+#include "common/bus/streams.hpp"
+#include "interchange/csv_table.hpp"
+#include "interchange/foxglove.hpp"
+#include "interchange/mcap_writer.hpp"
+#include "interchange/message_json.hpp"
+#include "interchange/tracks.hpp"
+#include "orbital_planner/map_file.hpp"
+
+namespace rover::interchange {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kTrackStepM = 0.05;
+
+std::ofstream open_file(const fs::path& path) {
+  std::ofstream file(path, std::ios::binary);
+  if (!file) throw ConfigError(path.string() + ": cannot be written");
+  return file;
+}
+
+void close_file(std::ofstream& file, const fs::path& path) {
+  file.close();
+  if (!file) throw ConfigError(path.string() + ": cannot be written");
+}
+
+template <class Message>
+std::optional<Message> decoded(const LogEvent& event) {
+  Message message{};
+  if (!decode_message(event.data, event.size, message)) return std::nullopt;
+  return message;
+}
+
+class CsvExport {
+ public:
+  explicit CsvExport(fs::path dir) : dir_(std::move(dir)) { fs::create_directory(dir_); }
+
+  void add(const LogEvent& event, const Fields& fields) {
+    Table& table = tables_[event.channel];
+    if (table.columns.empty()) {
+      table.columns = csv_columns(find_channel_type(event.channel)->name);
+      table.file = open_file(dir_ / (event.channel + ".csv"));
+      write_csv_header(table.file, table.columns);
+    }
+    write_csv_row(table.file, table.columns, fields);
+  }
+  void finish() {
+    for (auto& [channel, table] : tables_) close_file(table.file, dir_ / (channel + ".csv"));
+  }
+
+ private:
+  struct Table {
+    std::vector<std::string> columns;
+    std::ofstream file;
+  };
+  fs::path dir_;
+  std::map<std::string, Table> tables_;
+};
+
+class McapExport {
+ public:
+  explicit McapExport(const fs::path& file) : writer_(file.string()) {}
+
+  void add(const LogEvent& event, const header_t& header, const Fields& fields) {
+    const std::string type = find_channel_type(event.channel)->name;
+    if (type == "image_t") {
+      if (const auto image = decoded<image_t>(event))
+        write("/" + event.channel, foxglove::kCompressedImage, header,
+              foxglove::compressed_image(*image, event.channel));
+      return;
+    }
+    if (type == "disparity_t") {
+      if (const auto disparity = decoded<disparity_t>(event))
+        write("/" + event.channel, foxglove::kRawImage, header, foxglove::raw_image(*disparity, event.channel));
+      return;
+    }
+    write("/" + event.channel, type, header, json_text(fields));
+    if (event.channel != channel::kPose) return;
+    if (const auto pose = decoded<pose_t>(event))
+      write("/tf", foxglove::kFrameTransforms, header, foxglove::frame_transforms(*pose));
+  }
+  void finish() { writer_.finish(); }
+
+ private:
+  void write(const std::string& topic, const std::string& schema, const header_t& header, const std::string& data) {
+    if (data.empty()) return;
+    auto it = channels_.find(topic);
+    if (it == channels_.end()) {
+      const bool is_foxglove = schema.rfind("foxglove.", 0) == 0;
+      const std::string text = is_foxglove ? foxglove::schema(schema) : json_schema(schema);
+      it = channels_.emplace(topic, writer_.add_channel(topic, is_foxglove ? schema : "rover." + schema, text)).first;
+    }
+    const auto ns = [](Utime utime) { return static_cast<std::uint64_t>(std::max<Utime>(utime, 0)) * 1000; };
+    writer_.write(it->second, static_cast<std::uint32_t>(header.seq), ns(header.release_utime), ns(header.utime), data);
+  }
+
+  McapWriter writer_;
+  std::map<std::string, std::uint16_t> channels_;
+};
+
+class TrackExport {
+ public:
+  void add(const LogEvent& event) {
+    if (event.channel == channel::kTruth) {
+      if (const auto m = decoded<truth_t>(event))
+        add(tracks_.truth, m->header.utime, pose_from(m->position_map_body_m, m->quat_map_body_wxyz));
+    } else if (event.channel == channel::kPose) {
+      const auto m = decoded<pose_t>(event);
+      if (!m) return;
+      const Eigen::Isometry3d T_odom_body = pose_from(m->position_odom_body_m, m->quat_odom_body_wxyz);
+      add(tracks_.odometry, m->header.utime, T_odom_body);
+      add(tracks_.estimate, m->header.utime, pose_from(m->position_map_odom_m, m->quat_map_odom_wxyz) * T_odom_body);
+    } else if (event.channel == channel::kGlobalPath) {
+      if (const auto m = decoded<path_t>(event)) add_path(*m);
+    }
+  }
+  const Tracks& tracks() const { return tracks_; }
+
+ private:
+  static void add(Trajectory& trajectory, Utime utime, const Eigen::Isometry3d& T) {
+    if (is_finite(T)) trajectory.push_back({utime, T});
+  }
+  // A path may be sent again.
+  void add_path(const path_t& message) {
+    const auto same = [&](const Path& path) { return path.id == message.path_id; };
+    if (std::any_of(tracks_.global_paths.begin(), tracks_.global_paths.end(), same)) return;
+    Path path{message.path_id, message.header.utime, {}};
+    for (size_t i = 0; i < message.x_m.size(); ++i) path.points.emplace_back(message.x_m[i], message.y_m[i]);
+    tracks_.global_paths.push_back(std::move(path));
+  }
+
+  Tracks tracks_;
+};
+
+// Places by the run's orbital map, where that knows its place on a planet.
+ToLonLat planet_of(const fs::path& log) {
+  const fs::path map = log.parent_path() / "orbital_map.tif";
+  if (!fs::exists(map)) return {};
+  try {
+    const auto geography =
+        std::make_shared<orbital::Geography>(orbital::read_map(map.string(), "/vsimem/orbital_map.tif").raster);
+    return [geography](const Eigen::Vector2d& p) { return geography->to_lon_lat(p); };
+  } catch (const std::exception&) {  // a map without projection: metres then
+    return {};
+  }
+}
+
+void write_trajectories(const fs::path& dir, const Tracks& tracks, std::vector<std::string>& lines) {
+  fs::create_directory(dir);
+  for (const auto& [name, trajectory] : {std::pair{"truth", &tracks.truth}, std::pair{"estimate", &tracks.estimate},
+                                         std::pair{"odometry", &tracks.odometry}}) {
+    if (trajectory->empty()) {
+      lines.push_back(std::string("tum/") + name + ".txt: the log has no such poses; not written");
+      continue;
+    }
+    std::ofstream file = open_file(dir / (std::string(name) + ".txt"));
+    write_tum(file, *trajectory);
+    close_file(file, dir / name);
+  }
+}
+
+fs::path log_file_of(const std::string& given) {
+  const fs::path path = fs::is_directory(given) ? fs::path(given) / "traverse.lcm" : fs::path(given);
+  if (!fs::is_regular_file(path)) throw ConfigError(path.string() + ": no such log");
+  return fs::absolute(path);
+}
+
+std::vector<std::string> write_all(const ExportOptions& options, const fs::path& log, const fs::path& dir) {
+  const auto wants = [&](const char* format) { return options.formats.contains(format); };
+  std::optional<CsvExport> csv;
+  if (wants("csv")) csv.emplace(dir / "csv");
+  std::optional<McapExport> mcap;
+  if (wants("mcap")) mcap.emplace(dir / "traverse.mcap");
+  TrackExport tracks;
+  std::map<std::string, std::int64_t> damaged;
+  std::int64_t taken = 0;
+  const LogLength length = for_each_event(log.string(), [&](const LogEvent& event) {
+    if (!options.channels.empty() && !options.channels.contains(event.channel)) return;
+    header_t header{};
+    const auto fields = decode_fields(event.channel, event.data, event.size);
+    if (!fields || !peek_header(event.data, event.size, header)) {
+      ++damaged[event.channel];
+      return;
+    }
+    ++taken;
+    if (csv) csv->add(event, *fields);
+    if (mcap) mcap->add(event, header, *fields);
+    tracks.add(event);
+  });
+  if (taken == 0)
+    throw ConfigError(log.string() + ": holds no messages of a rover" +
+                      (options.channels.empty() ? "" : " on the channels asked for"));
+  if (csv) csv->finish();
+  if (mcap) mcap->finish();
+  std::vector<std::string> lines;
+  if (wants("tum")) write_trajectories(dir / "tum", tracks.tracks(), lines);
+  if (wants("geojson")) {
+    std::ofstream file = open_file(dir / "tracks.geojson");
+    file << geojson(tracks.tracks(), planet_of(log), kTrackStepM);
+    close_file(file, dir / "tracks.geojson");
+  }
+  for (const auto& [channel, count] : damaged)
+    lines.push_back(channel + ": " + std::to_string(count) + " messages do not decode; left out");
+  if (length.left_bytes > 0)
+    lines.push_back(log.string() + ": cut short or damaged; " + std::to_string(length.left_bytes) +
+                    " bytes are left out");
+  lines.push_back(std::to_string(taken) + " messages");
+  return lines;
+}
+
+}  // namespace
+
+std::vector<std::string> export_log(const ExportOptions& options) {
+  for (const std::string& format : options.formats)
+    if (!kExportFormats.contains(format))
+      throw ConfigError("--format: no format '" + format + "'; there are: csv, geojson, mcap, tum");
+  for (const std::string& channel : options.channels)
+    if (find_channel_type(channel) == nullptr) throw ConfigError("--channels: no channel '" + channel + "'");
+  const fs::path log = log_file_of(options.log);
+  const fs::path out = fs::absolute(options.out);
+  if (fs::exists(out)) throw ConfigError(out.string() + ": exists already; name another folder by --out");
+  // Whole or not at all.
+  const fs::path unfinished = out.string() + ".unfinished";
+  std::error_code error;
+  if (fs::exists(unfinished) || !fs::create_directories(unfinished, error))
+    throw ConfigError(unfinished.string() + ": cannot be made" + (error ? ": " + error.message() : ""));
+  try {
+    std::vector<std::string> lines = write_all(options, log, unfinished);
+    fs::rename(unfinished, out);
+    lines.push_back("exported: " + out.string());
+    return lines;
+  } catch (const std::exception& failure) {
+    fs::remove_all(unfinished, error);
+    throw ConfigError(failure.what());
+  }
+}
+
+}  // namespace rover::interchange

@@ -1,0 +1,31 @@
+// rover_repair LOG: makes a damaged log whole.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "common/bus/command_line.hpp"
+#include "recorder/repair.hpp"
+
+int main(int argc, char** argv) {
+  rover::recorder::RepairArguments repair;
+  CLI::App app(
+      "Keeps every whole message of a log that was cut or damaged, and leaves out the rest. The log itself stays as "
+      "it\n"
+      "is unless --in-place is given.\n"
+      "Example: ./rover repair logs/RUN/traverse.lcm");
+  app.name("./rover repair");
+  app.add_option("log", repair.log, "a log, or a run's folder")->required();
+  CLI::Option* out = app.add_option("--out", repair.out, "the whole log; default: NAME.repaired.lcm beside it");
+  app.add_flag("--in-place", repair.in_place, "replace the damaged log")->excludes(out);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return rover::end_of_parse(app, error);
+  }
+  try {
+    rover::recorder::repair(repair);
+  } catch (const std::exception& error) {  // ConfigError, the file system's
+    std::fprintf(stderr, "%s\n", error.what());
+    return 2;
+  }
+  return 0;
+}

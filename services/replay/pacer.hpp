@@ -1,0 +1,35 @@
+// When a tick of the log is due by the clock: speed, pause, seek.
+#pragma once
+
+#include "common/core/time.hpp"
+
+namespace rover::replay {
+
+// Wall times are arguments [s]; they need not begin at zero.
+class Pacer {
+ public:
+  // speed 0: as fast as possible.
+  explicit Pacer(double speed) : speed_(speed) {}
+
+  // Message time goes on from t: at the beginning and after a seek.
+  void go_from(Utime t, double wall_s);
+  void pause(double wall_s);
+  void resume(double wall_s);
+  void set_speed(double speed, double wall_s);
+
+  // Seconds of wall time until t is due, 0 where it is due now; infinity while paused.
+  double wait_s(Utime t, double wall_s) const;
+  bool paused() const { return paused_; }
+  double speed() const { return speed_; }
+
+ private:
+  // Message time that is due [us].
+  double due(double wall_s) const;
+
+  double speed_;
+  bool paused_ = false;
+  double anchor_us_ = 0.0;  // message time at anchor_wall_s_
+  double anchor_wall_s_ = 0.0;
+};
+
+}  // namespace rover::replay

@@ -1,0 +1,118 @@
+#include "spy/spy_command.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+
+#include "common/bus/channel_types.hpp"
+#include "common/bus/config.hpp"
+#include "common/bus/event_log.hpp"
+#include "spy/bus_ear.hpp"
+#include "spy/figures_json.hpp"
+#include "spy/table.hpp"
+#include "status/interrupt.hpp"
+#include "status/running_run.hpp"
+#include "status/terminal.hpp"
+
+namespace rover::spy {
+namespace {
+
+constexpr double kOnceS = 1.2;  // as ./rover status
+constexpr double kRefreshS = 1.0;
+constexpr int kPollMs = 50;
+
+status::ScreenOptions everything() {
+  constexpr size_t kAll = std::numeric_limits<size_t>::max();
+  return {.colours = status::on_terminal(), .columns = kAll, .rows = kAll};
+}
+
+std::string names_of(const Figures& figures) {
+  std::string names;
+  for (const auto& [name, channel] : figures.channels) names += " " + name;
+  return names.empty() ? " none" : names;
+}
+
+// 0 where there is something to show; else says what is not there.
+int find_fault(const Figures& figures, const std::string& source, const std::set<std::string>& chosen) {
+  if (figures.channels.empty()) {
+    std::fprintf(stderr, "%s: nothing was heard. Is a rover running there? ./rover status tells\n", source.c_str());
+    return 1;
+  }
+  for (const std::string& channel : chosen) {
+    if (figures.channels.contains(channel)) continue;
+    const bool known = find_channel_type(channel) != nullptr;
+    std::fprintf(stderr, "%s: %s %s; heard:%s\n", source.c_str(), known ? "no message on" : "there is no channel",
+                 channel.c_str(), names_of(figures).c_str());
+    return known ? 1 : 2;
+  }
+  return 0;
+}
+
+int show_once(const Figures& figures, const std::string& source, const SpyArguments& arguments) {
+  if (const int fault = find_fault(figures, source, arguments.channels); fault != 0) return fault;
+  using Json = nlohmann::ordered_json;
+  const std::string text =
+      arguments.json
+          ? figures_json(figures, source, arguments.channels).dump(2, ' ', false, Json::error_handler_t::replace) + "\n"
+          : table(figures, source, arguments.channels, everything());
+  std::fputs(text.c_str(), stdout);
+  return 0;
+}
+
+int spy_on_log(const SpyArguments& arguments) {
+  const bool folder = std::filesystem::is_directory(arguments.log);
+  const std::string log = folder ? arguments.log + "/traverse.lcm" : arguments.log;
+  Traffic traffic(Traffic::Rates::kWhole);
+  Utime last = 0;
+  const LogLength length = for_each_event(log, [&](const LogEvent& event) {
+    traffic.hear(event.channel, event.data, event.size, to_seconds(event.time));
+    last = event.time;
+  });
+  if (length.records == 0) throw ConfigError(log + ": holds no messages; is it an LCM log?");
+  const int status = show_once(traffic.figures(to_seconds(last)), log, arguments);
+  if (length.left_bytes > 0)
+    std::fprintf(stderr, "%s: damaged, %lld bytes are left out; ./rover repair %s makes it whole\n", log.c_str(),
+                 static_cast<long long>(length.left_bytes), log.c_str());
+  return status;
+}
+
+// Takes what comes until then, Ctrl-C, or the end of the run.
+void listen_until(BusEar& ear, double end_s) {
+  while (status::going() && status::wall_s() < end_s)
+    ear.listen(std::clamp(static_cast<int>((end_s - status::wall_s()) * 1e3), 1, kPollMs));
+}
+
+int watch(BusEar& ear, Traffic& traffic, const status::Target& target, const SpyArguments& arguments) {
+  const double end_s =
+      arguments.for_s > 0.0 ? status::wall_s() + arguments.for_s : std::numeric_limits<double>::infinity();
+  const auto over = [&] { return !target.run_dir.empty() && !status::is_running(target.run_dir); };
+  {
+    status::Terminal terminal;
+    while (status::going() && status::wall_s() < end_s && !over()) {
+      listen_until(ear, std::min(end_s, status::wall_s() + kRefreshS));
+      const status::ScreenOptions options = status::on_terminal() ? terminal.options() : everything();
+      terminal.redraw(table(traffic.figures(status::wall_s()), target.bus_url, arguments.channels, options));
+    }
+  }
+  return find_fault(traffic.figures(status::wall_s()), target.bus_url, arguments.channels);
+}
+
+int spy_on_bus(const SpyArguments& arguments) {
+  const std::optional<status::Target> target = status::find_target(arguments.target);
+  if (!target) return 1;
+  Traffic traffic(Traffic::Rates::kRecent);
+  BusEar ear(target->bus_url, traffic);
+  status::catch_interrupts();
+  if (!arguments.once && !arguments.json) return watch(ear, traffic, *target, arguments);
+  listen_until(ear, status::wall_s() + (arguments.for_s > 0.0 ? arguments.for_s : kOnceS));
+  return show_once(traffic.figures(status::wall_s()), target->bus_url, arguments);
+}
+
+}  // namespace
+
+int spy(const SpyArguments& arguments) {
+  return arguments.log.empty() ? spy_on_bus(arguments) : spy_on_log(arguments);
+}
+
+}  // namespace rover::spy

@@ -1,0 +1,68 @@
+// A small log: a world that measures, and a service that answers one tick later.
+#pragma once
+
+#include <lcm/lcm-cpp.hpp>
+#include <rover/imu_t.hpp>
+#include <rover/slip_t.hpp>
+#include <rover/tick_t.hpp>
+#include <string>
+#include <vector>
+
+#include "common/bus/channels.hpp"
+#include "common/bus/streams.hpp"
+
+namespace rover::replay {
+
+template <class Message>
+std::vector<std::uint8_t> encoded(const Message& message) {
+  std::vector<std::uint8_t> bytes(static_cast<size_t>(message.getEncodedSize()));
+  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  return bytes;
+}
+
+// At each tick k = 1 .. count, 20 ms apart from 1 s on: the world's IMU with dt_s = k, and what the service "echo" said
+// one tick before: SLIP with slip_ratio = k - 1.
+class MadeLog {
+ public:
+  static Utime tick_time(int k) { return 1'000'000 + (k - 1) * kTickUs; }
+
+  MadeLog(const std::string& path, int count) : path_(path), log_(path, "w"), world_("world", 1), echo_("echo", 1) {
+    for (int k = 1; k <= count; ++k) {
+      const Utime t = tick_time(k);
+      imu_t imu{};
+      imu.header = world_.next(channel::kImu, t, t);
+      imu.dt_s = k;
+      write(channel::kImu, encoded(imu), t);
+      if (k > 1) {
+        slip_t slip{};
+        slip.header = echo_.next(channel::kSlip, tick_time(k - 1), t);
+        slip.slip_ratio = k - 1;
+        write(channel::kSlip, encoded(slip), t);
+      }
+      tick_t tick{};
+      tick.header = world_.next(channel::kTick, t, t);
+      tick.mode = tick_t::LOCKSTEP;
+      tick.members = {"echo"};
+      tick.member_count = 1;
+      tick.stream_count = 0;
+      write(channel::kTick, encoded(tick), t);
+    }
+  }
+
+ private:
+  void write(const char* channel, std::vector<std::uint8_t> bytes, Utime t) {
+    lcm::LogEvent event{};
+    event.timestamp = t;
+    event.channel = channel;
+    event.data = bytes.data();
+    event.datalen = static_cast<std::int32_t>(bytes.size());
+    log_.writeEvent(&event);
+  }
+
+  std::string path_;
+  lcm::LogFile log_;
+  StreamCounter world_;
+  StreamCounter echo_;
+};
+
+}  // namespace rover::replay

@@ -1,0 +1,142 @@
+#include "replay/player.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <thread>
+
+#include "../common/temp_folder.hpp"
+#include "common/bus/bus_url.hpp"
+#include "common/bus/node.hpp"
+#include "made_log.hpp"
+
+namespace rover::replay {
+namespace {
+
+constexpr char kBus[] = "udpm://239.255.76.67:21763?ttl=0";
+
+// The service of the log: SLIP with the IMU's dt_s as slip ratio; from `odd_from` on with another one.
+class Echo {
+ public:
+  explicit Echo(double odd_from = 1e9)
+      : bus_(kBus), reports_(reports_url(kBus)), node_({.name = "echo"}, bus_, &reports_) {
+    node_.subscribe<imu_t>(channel::kImu, [this, odd_from](const imu_t& imu) {
+      slip_t slip{};
+      slip.slip_ratio = imu.dt_s + (imu.dt_s >= odd_from ? 0.5 : 0.0);
+      node_.publish(channel::kSlip, slip, node_.now());
+    });
+    thread_ = std::thread([this] { node_.run([this] { return running_.load(); }); });
+  }
+  ~Echo() {
+    running_ = false;
+    thread_.join();
+  }
+
+ private:
+  lcm::LCM bus_;
+  lcm::LCM reports_;
+  Node node_;
+  std::atomic<bool> running_{true};
+  std::thread thread_;
+};
+
+class PlayerTest : public testing::Test {
+ protected:
+  PlayerTest() { const MadeLog log(path_, 200); }
+
+  std::vector<StreamVerdict> check(double odd_from) {
+    const Echo echo(odd_from);
+    RecordedLog log(path_);
+    lcm::LCM bus(kBus), reports(reports_url(kBus));
+    Comparison judge;
+    Player player({.live = {"echo"}, .speed = 0.0}, log, bus, reports, &judge);
+    const Played played = player.play({});
+    EXPECT_EQ(played.first, MadeLog::tick_time(1));
+    EXPECT_EQ(played.last, MadeLog::tick_time(200));
+    return judge.finish(played.last);
+  }
+
+  testing_support::TempFolder folder_;
+  std::string path_ = folder_.file("made.lcm");
+};
+
+TEST_F(PlayerTest, a_live_service_says_again_what_it_said) {
+  const auto verdicts = check(1e9);
+  ASSERT_EQ(verdicts.size(), 1U);
+  EXPECT_EQ(verdicts[0].publisher, "echo");
+  EXPECT_EQ(verdicts[0].identical, 199);
+  EXPECT_FALSE(verdicts[0].first);
+}
+
+TEST_F(PlayerTest, a_service_that_says_other_things_is_found_out) {
+  const auto first = first_of(check(120.0));
+  ASSERT_TRUE(first);
+  EXPECT_EQ(first->name.seq, 120);
+  EXPECT_EQ(first->kind, Difference::Kind::kContent);
+}
+
+// What a log played alone puts on a bus in memory.
+struct Heard {
+  std::vector<std::string> channels;
+  std::vector<Utime> ticks;
+};
+
+Heard play_alone(RecordedLog& log, const PlayerOptions& options, PlayerHooks hooks = {}) {
+  lcm::LCM bus("memq://");
+  Heard heard;
+  bus.subscribeFunction(
+      ".*",
+      +[](const lcm::ReceiveBuffer* buffer, const std::string& channel, Heard* out) {
+        out->channels.push_back(channel);
+        tick_t tick{};
+        if (channel == channel::kTick && decode_message(buffer->data, static_cast<int>(buffer->data_size), tick))
+          out->ticks.push_back(tick.header.utime);
+      },
+      &heard);
+  Player player(options, log, bus, bus, nullptr);
+  player.play(hooks);
+  while (bus.handleTimeout(0) > 0) {
+  }
+  return heard;
+}
+
+TEST_F(PlayerTest, without_live_services_everything_comes_as_recorded) {
+  RecordedLog log(path_);
+  const Heard heard = play_alone(log, {.speed = 0.0});
+  ASSERT_EQ(heard.channels.size(), 3 * 200 - 1U);
+  EXPECT_EQ(heard.channels[2], channel::kImu);
+  EXPECT_EQ(heard.channels[3], channel::kSlip);
+  EXPECT_EQ(heard.channels[4], channel::kTick);
+  EXPECT_EQ(heard.ticks, log.ticks());
+}
+
+TEST_F(PlayerTest, plays_from_and_until) {
+  RecordedLog log(path_);
+  const Heard heard = play_alone(log, {.speed = 0.0, .from = MadeLog::tick_time(50), .until = MadeLog::tick_time(60)});
+  ASSERT_EQ(heard.ticks.size(), 11U);
+  EXPECT_EQ(heard.ticks.front(), MadeLog::tick_time(50));
+}
+
+TEST_F(PlayerTest, keys_seek_both_ways_and_end) {
+  { const MadeLog longer(path_, 2000); }
+  RecordedLog log(path_);
+  int count = 0;
+  PlayerHooks hooks;
+  // The keys come before the ticks 3, 4, 5 ... of those that are played.
+  hooks.key = [&]() -> std::optional<Key> {
+    ++count;
+    if (count == 3) return Key::kForward;
+    if (count == 6) return Key::kBack;
+    if (count == 9) return Key::kQuit;
+    return std::nullopt;
+  };
+  const std::vector<Utime> ticks = play_alone(log, {.speed = 0.0}, hooks).ticks;
+  ASSERT_GE(ticks.size(), 4U);
+  ASSERT_LE(ticks.size(), 8U);
+  EXPECT_EQ(ticks[1], MadeLog::tick_time(2));
+  EXPECT_EQ(ticks[2], MadeLog::tick_time(3) + 10'000'000);
+  EXPECT_LT(ticks.back(), 2'000'000);
+}
+
+}  // namespace
+}  // namespace rover::replay
