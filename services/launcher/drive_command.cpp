@@ -103,7 +103,7 @@ void attend(const DriveArguments& arguments, const RunFolder& folder, S6Session&
       kill_service(folder.dir, "supervisor");
       progress.supervisor_killed();
     }
-    if (watch.goal_reached() && (arguments.until_goal || watch.stop_ordered())) break;
+    if (watch.rests_at_goal() && (arguments.until_goal || watch.stop_ordered())) break;
   }
   progress.finish();
 }

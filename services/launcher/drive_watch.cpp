@@ -58,12 +58,11 @@ DriveWatch::DriveWatch(lcm::LCM& lcm) {
 }
 
 void DriveWatch::on_state(const supervisor_state_t& state) {
-  at_goal_ = state.state == supervisor_state_t::GOAL_REACHED;
-  goal_reached_ = goal_reached_ || at_goal_;
+  states_at_goal_ = state.state == supervisor_state_t::GOAL_REACHED ? states_at_goal_ + 1 : 0;
 }
 
 void DriveWatch::on_command(const ground_command_t& command) {
-  if (at_goal_ && command.kind == ground_command_t::STOP) stop_ordered_ = true;
+  if (states_at_goal_ > 0 && command.kind == ground_command_t::STOP) stop_ordered_ = true;
 }
 
 void DriveWatch::on_tick() {

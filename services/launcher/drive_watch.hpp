@@ -20,7 +20,8 @@ class DriveWatch {
   // Judged once, when the driver has been heard for a while: what is missing of it, or how far the clocks of its parts
   // are from the one that gives TICK. Empty: nothing is known yet, or all is well.
   std::string driver_problem();
-  bool goal_reached() const { return goal_reached_; }
+  // For a second of its time: the record holds it then.
+  bool rests_at_goal() const { return states_at_goal_ >= 10; }
   // Asked for at the goal: elsewhere STOP is an order to the rover.
   bool stop_ordered() const { return stop_ordered_; }
   // Wall time since ticks came last, or since the beginning.
@@ -34,8 +35,7 @@ class DriveWatch {
 
   std::optional<conform::Listener> driver_;  // until it is judged
   bool ticks_heard_ = false;
-  bool goal_reached_ = false;
-  bool at_goal_ = false;
+  int states_at_goal_ = 0;
   bool stop_ordered_ = false;
   Clock::time_point ticked_ = Clock::now();
 };

@@ -41,7 +41,7 @@ kill -INT $first
 wait $first || true
 
 # Slower than the clock, so that a busy machine keeps up: two cores are two computers here.
-PACE=${ROVER_PACE:-0.25}
+PACE=${ROVER_PACE:-0.4}
 ip netns exec $VEHICLE "$BUILD/bin/rover_simulator" --config config --scenario "$SCENARIO" --bus "$BUS" --realtime \
   --pace $PACE --seed "$(sed -n 's/^seed: *//p' "$SCENARIO")" >"$WORK/vehicle.txt" 2>&1 &
 vehicle=$!
