@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Two hosts, as network namespaces joined by a cable: the simulator in one, as the vehicle's driver; the stack in the
-# other. TTL 1. The drive of `default` reaches its goal; the clocks' offset is measured, and limited.
+# other. TTL 1. The drive reaches its goal; the clocks' offset is measured, and limited.
+#   two_hosts_test.sh [SCENARIO]      default: 6 m on a plane; config/scenarios/default.yaml takes ten minutes
 . "$(dirname "$0")/lib.sh"
 cd "$SOURCE"
 
@@ -28,7 +29,17 @@ join $STACK ${CABLE}b 10.77.0.2
 BUS="udpm://239.255.76.67:$PORT?ttl=1&recv_buf_size=4194304"
 
 # The ground's side of the scenario, as `./rover run` writes it, and its orbital map.
-SCENARIO=${1:-config/scenarios/default.yaml}
+SCENARIO=${1:-$WORK/plane.yaml}
+[ $# -gt 0 ] || cat >"$SCENARIO" <<'TEXT'
+seed: 1
+world:
+  plane: {width_m: 40.0, height_m: 40.0, slope_deg: 0.0, toward_deg: 0.0}
+  rock_area_k: 0.0
+  roughness_rms_m: 0.0
+  soil: {everywhere: firm}
+path: {x_m: [10.0, 16.0], y_m: [20.0, 20.0], corridor_half_width_m: 1.5, goal_tolerance_m: 0.5}
+timeout_s: 200
+TEXT
 "$BUILD/bin/rover_launcher" run "$SCENARIO" --headless --out "$WORK/ground" --bus "udpm://239.255.76.67:$PORT?ttl=0&recv_buf_size=4194304" \
   >"$WORK/ground.txt" 2>&1 &
 first=$!
