@@ -12,7 +12,8 @@ pkg_check_modules(NLOPT REQUIRED IMPORTED_TARGET nlopt)
 
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+  # Without this leave ccache does not keep what was compiled with a precompiled header.
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE_PROGRAM})
 endif()
 find_program(MOLD_PROGRAM mold)
 if(MOLD_PROGRAM)
@@ -40,14 +41,29 @@ if(ROVER_SANITIZE)
   target_compile_definitions(rover_flags INTERFACE EIGEN_INITIALIZE_MATRICES_BY_NAN)
 endif()
 
+# What most files read, compiled once: a quarter less to build. Targets take it with rover_precompiled; those with flags
+# of their own (HOT) cannot.
+# -pthread: LCM's users have it, and all must be the same.
+target_compile_options(rover_flags INTERFACE -fpch-preprocess -pthread)
+function(rover_precompiled name)
+  target_precompile_headers(${name} REUSE_FROM rover_precompiled_headers)
+endfunction()
+add_library(rover_precompiled_headers OBJECT ${CMAKE_SOURCE_DIR}/cmake/precompiled.cpp)
+target_link_libraries(rover_precompiled_headers PRIVATE rover_flags Eigen3::Eigen)
+target_precompile_headers(rover_precompiled_headers PRIVATE <Eigen/Cholesky> <Eigen/Core> <Eigen/Geometry> <algorithm>
+  <array> <chrono> <cmath> <cstdint> <cstdio> <deque> <filesystem> <fstream> <functional> <limits> <map> <memory>
+  <optional> <set> <sstream> <stdexcept> <string> <string_view> <variant> <vector>)
+
 # OpenCV's and other packages' headers are not ours to warn about.
 add_library(rover_opencv INTERFACE)
 target_include_directories(rover_opencv SYSTEM INTERFACE ${OpenCV_INCLUDE_DIRS})
 target_link_libraries(rover_opencv INTERFACE ${OpenCV_LIBS})
 
-# runtime: what ./rover run needs. unit_tests: the programs of the unit tests. core_tests: those of them that also run
-# under the sanitizers in each ./rover test. benchmarks: those of ./rover bench micro.
+# runtime: what ./rover run needs. tools: that, and what the other commands use. unit_tests: the programs of the unit
+# tests. core_tests: those of them that also run under the sanitizers in each ./rover test. benchmarks: those of ./rover
+# bench micro.
 add_custom_target(runtime)
+add_custom_target(tools)
 add_custom_target(unit_tests)
 add_custom_target(core_tests)
 add_custom_target(benchmarks)
@@ -61,23 +77,36 @@ function(rover_core name)
   target_link_libraries(${name} PUBLIC rover_flags Eigen3::Eigen ${ARG_LINK})
   if(ARG_HOT AND NOT ROVER_SANITIZE)
     target_compile_options(${name} PRIVATE -O3)
+  else()
+    rover_precompiled(${name})
   endif()
+endfunction()
+
+# rover_library(NAME SOURCES...): a library that may link anything.
+function(rover_library name)
+  add_library(${name} STATIC ${ARGN})
+  rover_precompiled(${name})
 endfunction()
 
 # rover_node(SERVICE SOURCES ... LINK ...): library <service>_node over <service>_core, and its executable from main.cpp.
 function(rover_node service)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
-  add_library(${service}_node STATIC ${ARG_SOURCES})
+  rover_library(${service}_node ${ARG_SOURCES})
   target_link_libraries(${service}_node PUBLIC ${service}_core rover_bus ${ARG_LINK})
   add_executable(${service} main.cpp)
   target_link_libraries(${service} PRIVATE ${service}_node)
   rover_program(${service})
 endfunction()
 
-# rover_program(NAME): an executable that ./rover uses, in build/bin.
+# rover_program(NAME), rover_tool(NAME): an executable in build/bin that ./rover run needs, or that other commands use.
 function(rover_program name)
-  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+  rover_tool(${name})
   add_dependencies(runtime ${name})
+endfunction()
+function(rover_tool name)
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+  rover_precompiled(${name})
+  add_dependencies(tools ${name})
 endfunction()
 
 # rover_benchmark(NAME SOURCES ... LINK ...): a Google Benchmark program, in build/bench.
@@ -107,6 +136,7 @@ function(rover_test name)
   target_link_libraries(${name} PRIVATE ${ARG_LINK} GTest::gtest_main)
   target_compile_definitions(${name} PRIVATE
     ROVER_SOURCE_DIR="${CMAKE_SOURCE_DIR}" ROVER_BINARY_DIR="${CMAKE_BINARY_DIR}")
+  rover_precompiled(${name})
   add_test(NAME ${name} COMMAND ${name})
   set_tests_properties(${name} PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT})
   if(ARG_LABEL STREQUAL unit)

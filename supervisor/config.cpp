@@ -19,7 +19,6 @@ std::vector<std::string> split(const std::string& words) {
 
 using enum State;
 
-constexpr StateSet kUnderWay = {kDriving, kHazardStop, kRepairing, kSweeping, kCorrecting, kFaultStop};
 constexpr StateSet kMotion = {kDriving, kHazardStop, kRepairing, kSweeping, kCorrecting, kFaultStop, kTeleop};
 // Nothing is judged before all inputs have once been there.
 constexpr StateSet kAlways = {kStandby, kDriving,     kHazardStop, kRepairing, kSweeping, kCorrecting,
@@ -30,7 +29,7 @@ const std::vector<std::string> kResponses = {"log", "slow", "stop", "stop_replan
 void read_armed(const Config& c, MonitorRow& row) {
   const std::string armed =
       c.has("armed") ? c.one_of("armed", {"always", "under_way", "motion", "full"}) : std::string("always");
-  row.armed = armed == "always" ? kAlways : armed == "motion" ? kMotion : kUnderWay;
+  row.armed = armed == "always" ? kAlways : armed == "motion" ? kMotion : kUnderWayOrFaultStop;
   row.full_only = armed == "full";
 }
 

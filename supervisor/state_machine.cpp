@@ -9,7 +9,6 @@ namespace {
 using enum State;
 using F = Fact;
 
-constexpr StateSet kUnderWay = {kDriving, kHazardStop, kRepairing, kSweeping, kCorrecting};
 constexpr StateSet kAllButSafe = {kBoot,       kStandby, kDriving,     kHazardStop, kRepairing, kSweeping,
                                   kCorrecting, kPaused,  kGoalReached, kFaultStop,  kTeleop};
 

@@ -103,6 +103,12 @@ using FactSet = EnumSet<Fact>;
 using LevelFactSet = EnumSet<LevelFact>;
 using StateSet = EnumSet<State>;
 
+// On the way to the goal, or standing on it for a moment; and with the stop of a fault that may clear.
+inline constexpr StateSet kUnderWay = {State::kDriving, State::kHazardStop, State::kRepairing, State::kSweeping,
+                                       State::kCorrecting};
+inline constexpr StateSet kUnderWayOrFaultStop = {State::kDriving,  State::kHazardStop, State::kRepairing,
+                                                  State::kSweeping, State::kCorrecting, State::kFaultStop};
+
 // From any of the states, where all of `needs` and none of `bars` hold.
 struct Transition {
   StateSet from;

@@ -8,8 +8,6 @@ namespace {
 
 using enum State;
 
-constexpr StateSet kUnderWay = {kDriving, kHazardStop, kRepairing, kSweeping, kCorrecting, kFaultStop};
-
 std::optional<Fact> fact_of(CommandKind kind) {
   switch (kind) {
     case CommandKind::kGo:
@@ -305,7 +303,7 @@ double Supervisor::speed_limit_mps() const {
 
 void Supervisor::restore(const Memory& memory) {
   state_ = memory.state;
-  if (kUnderWay.has(state_)) state_ = kFaultStop;
+  if (kUnderWayOrFaultStop.has(state_)) state_ = kFaultStop;
   if (state_ == kTeleop) state_ = kStandby;
   level_ = memory.level;
   raised_by_path_ = memory.raised_by_path;

@@ -1,11 +1,11 @@
 #include <CLI/CLI.hpp>
-#include <atomic>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <thread>
 
+#include "common/bus/command_line.hpp"
 #include "common/bus/config.hpp"
+#include "common/bus/interrupt.hpp"
 #include "common/bus/node_main.hpp"
 #include "common/bus/vehicle_config.hpp"
 #include "driver/driver.hpp"
@@ -14,19 +14,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-std::atomic<bool> running{true};
-
 struct Arguments {
   std::string config_dir = "config";
   std::string bus;
   double pace = 1.0;
 };
-
-// A start number larger than any before, without a file to keep it in.
-std::int64_t boot_id() {
-  return std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
 
 // Message time is this host's monotonic clock: it goes on when the driver is started again, and never jumps.
 rover::Utime clock_now() {
@@ -36,7 +28,7 @@ rover::Utime clock_now() {
 void drive(example::Driver& driver, double pace) {
   const auto started = Clock::now();
   const rover::Utime first = (clock_now() / rover::kTickUs + 1) * rover::kTickUs;
-  for (rover::Utime t = first; running; t += rover::kTickUs) {
+  for (rover::Utime t = first; rover::going(); t += rover::kTickUs) {
     const auto due = std::chrono::duration<double>(rover::to_seconds(t - first) / pace);
     std::this_thread::sleep_until(started + std::chrono::duration_cast<Clock::duration>(due));
     driver.tick(t);
@@ -48,7 +40,7 @@ int run(const Arguments& arguments) {
   lcm::LCM lcm(bus);
   if (!lcm.good()) throw rover::ConfigError("bus: cannot join " + bus);
   example::DriverConfig config;
-  config.boot_id = boot_id();
+  config.boot_id = rover::boot_id_from_clock();
   example::Driver driver(config, rover::load_vehicle(arguments.config_dir),
                          rover::load_stereo_rig(arguments.config_dir, "loccam"), lcm);
   std::printf("example_driver: TICK, IMU, WHEEL_STATE, LOCCAM on %s\n", bus.c_str());
@@ -61,7 +53,7 @@ int run(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
   Arguments arguments;
-  CLI::App app("example_driver: a rover on a painted plane, in place of a vehicle");
+  CLI::App app("A rover on a painted plane, in place of a vehicle", "example_driver");
   app.add_option("--config", arguments.config_dir, "folder of the configuration")->capture_default_str();
   app.add_option("--bus", arguments.bus, "LCM URL instead of the one in bus.yaml");
   app.add_option("--pace", arguments.pace, "of message time against the clock; a vehicle's is 1")
@@ -70,10 +62,9 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
+    return rover::end_of_parse(app, error);
   }
-  std::signal(SIGTERM, [](int) { running = false; });
-  std::signal(SIGINT, [](int) { running = false; });
+  rover::catch_interrupts();
   try {
     return run(arguments);
   } catch (const std::exception& error) {

@@ -9,6 +9,7 @@
 
 #include "calibration/cameras_yaml.hpp"
 #include "calibration/read.hpp"
+#include "common/bus/command_line.hpp"
 #include "common/bus/config.hpp"
 #include "common/bus/vehicle_config.hpp"
 #include "common/core/frames.hpp"
@@ -98,6 +99,7 @@ int main(int argc, char** argv) {
       "./rover calibration FILE...: cameras.yaml from a calibration of OpenCV's (intrinsics and extrinsics) or "
       "Kalibr's (camchain)\nExample: ./rover calibration camchain-imucam.yaml --imu-rpy 0 0 0 --out "
       "my_config/cameras.yaml");
+  app.name("./rover calibration");
   app.add_option("files", arguments.files, "calibration files")->required();
   app.add_option("--camera", arguments.camera, "whose section")
       ->check(CLI::IsMember({"loccam", "navcam"}))
@@ -118,7 +120,7 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
+    return end_of_parse(app, error);
   }
   try {
     convert(arguments);

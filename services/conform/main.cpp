@@ -2,16 +2,16 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <atomic>
-#include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <optional>
 #include <string>
 
+#include "common/bus/command_line.hpp"
 #include "common/bus/config.hpp"
+#include "common/bus/interrupt.hpp"
 #include "common/bus/node_main.hpp"
 #include "common/bus/vehicle_config.hpp"
+#include "common/bus/wall_clock.hpp"
 #include "conform/listener.hpp"
 #include "conform/speaker.hpp"
 #include "conform/table.hpp"
@@ -20,9 +20,6 @@ namespace {
 
 using namespace rover;
 using namespace rover::conform;
-using Clock = std::chrono::steady_clock;
-
-std::atomic<bool> running{true};
 
 struct Arguments {
   std::string config_dir = "config";
@@ -32,19 +29,10 @@ struct Arguments {
   double patience_s = 10.0;
 };
 
-double clock_s() {
-  return std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
-}
-
-std::int64_t boot_id() {
-  return std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
-
 class Examination {
  public:
   Examination(const Arguments& arguments, const StereoRig& loccam, lcm::LCM& lcm)
-      : arguments_(arguments), loccam_(loccam), lcm_(lcm), listener_(lcm, clock_s) {}
+      : arguments_(arguments), loccam_(loccam), lcm_(lcm), listener_(lcm, wall_s) {}
 
   std::vector<Line> run() {
     wait_for_driver();
@@ -77,21 +65,21 @@ class Examination {
   template <class Over>
   void handle_until(Over over) {
     Utime last = listener_.now();
-    double since = clock_s();
-    while (running && !over()) {
+    double since = wall_s();
+    while (going() && !over()) {
       lcm_.handleTimeout(20);
       if (listener_.now() != last) {
         last = listener_.now();
-        since = clock_s();
+        since = wall_s();
       }
-      if (clock_s() - since > arguments_.patience_s) return;
+      if (wall_s() - since > arguments_.patience_s) return;
     }
-    if (!running) throw ConfigError("conform: interrupted");
+    if (!going()) throw ConfigError("conform: interrupted");
   }
 
   void wait_for_driver() {
-    const double begun = clock_s();
-    handle_until([&] { return listener_.now() != kNever || clock_s() - begun > arguments_.patience_s; });
+    const double begun = wall_s();
+    handle_until([&] { return listener_.now() != kNever || wall_s() - begun > arguments_.patience_s; });
     if (listener_.now() != kNever) return;
     throw ConfigError("conform: no TICK within " + std::to_string(static_cast<int>(arguments_.patience_s)) +
                       " s. Start the driver (to try it out: build/bin/example_driver), on the same bus");
@@ -110,7 +98,7 @@ class Examination {
   std::vector<Line> trial() {
     if (arguments_.move) warn();
     const Trial trial({.move = arguments_.move}, listener_.now() + kTickUs);
-    Speaker speaker(lcm_, boot_id());
+    Speaker speaker(lcm_, boot_id_from_clock());
     Utime said = kNever;
     handle_until([&] {
       if (listener_.now() != said) speaker.say(trial, said = listener_.now());
@@ -148,6 +136,7 @@ int main(int argc, char** argv) {
   CLI::App app(
       "./rover conform: does a running driver do its duties (docs/drivers.md)?\n"
       "Example: ./rover conform --move");
+  app.name("./rover conform");
   app.add_option("--config", arguments.config_dir, "folder of the configuration: cameras.yaml, bus.yaml")
       ->capture_default_str();
   app.add_option("--bus", arguments.bus, "LCM URL instead of the one in bus.yaml");
@@ -158,10 +147,9 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
+    return end_of_parse(app, error);
   }
-  std::signal(SIGTERM, [](int) { running = false; });
-  std::signal(SIGINT, [](int) { running = false; });
+  catch_interrupts();
   try {
     return examine(arguments);
   } catch (const std::exception& error) {

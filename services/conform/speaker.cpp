@@ -6,18 +6,10 @@
 #include <vector>
 
 #include "common/bus/channels.hpp"
+#include "common/bus/streams.hpp"
 
 namespace rover::conform {
-namespace {
-
-template <class Message>
-std::vector<std::uint8_t> encoded(const Message& message) {
-  std::vector<std::uint8_t> bytes(static_cast<size_t>(message.getEncodedSize()));
-  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-  return bytes;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 void Speaker::say(const Trial& trial, Utime now) {
   if (const auto said = trial.step(now)) std::visit([&](const auto& what) { give(what, now); }, *said);

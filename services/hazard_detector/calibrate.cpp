@@ -59,11 +59,6 @@ std::vector<double> minimise(Problem& problem, const std::vector<double>& start,
   return x;
 }
 
-bool same_camera(const StereoCamera& a, const StereoCamera& b) {
-  return a.width == b.width && a.height == b.height && a.focal_px == b.focal_px && a.cx_px == b.cx_px &&
-         a.cy_px == b.cy_px && a.baseline_m == b.baseline_m;
-}
-
 }  // namespace
 
 bool CalibrationFrames::add(const Disparity& disparity, const StereoCamera& camera) {
@@ -72,7 +67,7 @@ bool CalibrationFrames::add(const Disparity& disparity, const StereoCamera& came
     sum_px_.assign(disparity.px16.size(), 0.0);
     count_.assign(disparity.px16.size(), 0);
   }
-  if (!same_camera(camera, camera_) || disparity.px16.size() != sum_px_.size()) return false;
+  if (!camera.same_optics(camera_) || disparity.px16.size() != sum_px_.size()) return false;
   for (size_t i = 0; i < sum_px_.size(); ++i) {
     if (disparity.px16[i] <= 0) continue;
     sum_px_[i] += disparity.px16[i] / 16.0;

@@ -9,8 +9,7 @@ namespace rover::hazard {
 namespace {
 
 bool same_camera(const StereoCamera& a, const StereoCamera& b) {
-  return a.width == b.width && a.height == b.height && a.focal_px == b.focal_px && a.cx_px == b.cx_px &&
-         a.cy_px == b.cy_px && a.baseline_m == b.baseline_m && a.T_body_cam.matrix() == b.T_body_cam.matrix();
+  return a.same_optics(b) && a.T_body_cam.matrix() == b.T_body_cam.matrix();
 }
 
 // Cell of a point, -1 outside the grid.

@@ -59,7 +59,7 @@ std::string without_subscripts(const std::string& path) {
   return column;
 }
 
-std::string quoted(const std::string& cell) {
+std::string csv_cell(const std::string& cell) {
   if (cell.find_first_of(",\"\r\n") == std::string::npos) return cell;
   std::string text = "\"";
   for (const char c : cell) text += c == '"' ? "\"\"" : std::string(1, c);
@@ -92,7 +92,7 @@ void write_csv_row(std::ostream& out, const std::vector<std::string>& columns, c
     if (!cell->second.empty()) cell->second += ' ';
     cell->second += text_of(leaf.field, leaf.index);
   });
-  for (size_t i = 0; i < columns.size(); ++i) out << (i > 0 ? "," : "") << quoted(cells[columns[i]]);
+  for (size_t i = 0; i < columns.size(); ++i) out << (i > 0 ? "," : "") << csv_cell(cells[columns[i]]);
   out << "\r\n";
 }
 

@@ -15,6 +15,7 @@
 #include "common/bus/config.hpp"
 #include "common/bus/convert.hpp"
 #include "common/bus/streams.hpp"
+#include "common/bus/yaml_file.hpp"
 #include "common/core/frames.hpp"
 #include "interchange/stereo_data_set.hpp"
 
@@ -38,8 +39,7 @@ class LogWriter {
   template <class Message>
   void write(const char* channel, Message message, Utime utime) {
     message.header = streams_.next(channel, utime, utime);
-    std::vector<std::uint8_t> bytes(static_cast<size_t>(message.getEncodedSize()));
-    message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+    std::vector<std::uint8_t> bytes = encoded(message);
     lcm::LogEvent event{};
     event.timestamp = utime;
     event.channel = channel;
@@ -115,13 +115,7 @@ void write_log(const StereoDataSet& set, const std::string& path) {
 void change_yaml(const fs::path& file, const std::function<void(YAML::Node&)>& change) {
   YAML::Node root = YAML::LoadFile(file.string());
   change(root);
-  YAML::Emitter out;
-  out.SetDoublePrecision(17);
-  out << root;
-  std::ofstream stream(file);
-  stream << out.c_str() << "\n";
-  stream.close();
-  if (!stream) throw ConfigError(file.string() + ": cannot be written");
+  write_yaml(file, root);
 }
 
 YAML::Node camera_node(const PinholeCamera& camera) {

@@ -1,9 +1,7 @@
 #include "launcher/drive_command.hpp"
 
 #include <chrono>
-#include <csignal>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <lcm/lcm-cpp.hpp>
@@ -11,6 +9,7 @@
 #include <optional>
 
 #include "common/bus/config.hpp"
+#include "common/bus/interrupt.hpp"
 #include "common/bus/s6_client.hpp"
 #include "common/bus/service_names.hpp"
 #include "launcher/arguments.hpp"
@@ -18,16 +17,11 @@
 #include "launcher/drive_watch.hpp"
 #include "launcher/preflight.hpp"
 #include "launcher/progress.hpp"
+#include "launcher/run_report.hpp"
 #include "launcher/s6_tree.hpp"
 
 namespace rover {
 namespace {
-
-volatile std::sig_atomic_t interrupted = 0;
-
-void interrupt(int) {
-  interrupted = 1;
-}
 
 // What went wrong before the drive began: exit status 2, and no folder is left.
 struct NotBegun {
@@ -37,17 +31,14 @@ struct NotBegun {
 std::vector<ServiceCommand> service_commands(const DriveArguments& arguments, const RunFolder& folder) {
   std::vector<ServiceCommand> commands;
   for (const std::string name : kServiceNames)
-    commands.push_back({name, "'" + arguments.bin_dir + "/" + name + "' --config '" + folder.config_dir + "' --bus '" +
-                                  folder.bus_url + "' --run-dir '" + folder.dir + "'"});
+    commands.push_back(service_command(name, arguments.bin_dir, folder, false));
   return commands;
 }
 
-void check_bus(const RunFolder& folder, const BusLock& lock) {
-  const auto problems = bus_problems(folder.bus_url);
-  if (!problems.empty()) throw NotBegun{problems.front()};
-  if (!lock.held())
-    throw NotBegun{"bus: another rover runs on " + folder.bus_url +
-                   ". Stop it, or give this one a bus: --bus udpm://..."};
+void check_bus(const RunFolder& folder, const BusLock& lock) try {
+  demand_bus(folder.bus_url, lock);
+} catch (const ConfigError& error) {
+  throw NotBegun{error.what()};
 }
 
 // The first service that ended for good; waits a while for its last words.
@@ -58,8 +49,7 @@ class FailureWatch {
     constexpr int kSilentLooks = 100;
     const auto failed = failed_services(run_dir_);
     if (failed.empty() || (failed.front().said.empty() && ++silent_looks_ <= kSilentLooks)) return {};
-    const FailedService& first = failed.front();
-    return first.said.empty() ? first.name + ": ended with exit status 2" : first.said;
+    return failed.front().line();
   }
 
  private:
@@ -69,7 +59,7 @@ class FailureWatch {
 
 void handle_for(lcm::LCM& lcm, std::chrono::milliseconds period) {
   const auto until = std::chrono::steady_clock::now() + period;
-  for (auto left = period; left.count() > 0 && !interrupted;
+  for (auto left = period; left.count() > 0 && going();
        left = std::chrono::duration_cast<std::chrono::milliseconds>(until - std::chrono::steady_clock::now()))
     lcm.handleTimeout(static_cast<int>(left.count()));
 }
@@ -82,7 +72,7 @@ void attend(const DriveArguments& arguments, const RunFolder& folder, S6Session&
   Progress progress(lcm, true);
   FailureWatch failures(folder.dir);
   bool told_of_silence = false;
-  while (!interrupted) {
+  while (going()) {
     handle_for(lcm, std::chrono::milliseconds(100));
     progress.show();
     if (const auto failure = failures.look()) {
@@ -113,17 +103,9 @@ void write_json(const std::string& file, const nlohmann::json& facts) {
 }
 
 int report(const DriveArguments& arguments, const RunFolder& folder) {
-  const std::string command = "'" + arguments.bin_dir + "/rover_report' '" + folder.dir + "' > '" + folder.dir +
-                              "/service_logs/report.log' 2>&1";
-  if (std::system(command.c_str()) != 0) {
-    std::fprintf(stderr, "the report failed; see %s/service_logs/report.log\n", folder.dir.c_str());
-    return 1;
-  }
-  std::ifstream in(folder.dir + "/metrics.json");
-  const nlohmann::json metrics = nlohmann::json::parse(in, nullptr, false);
-  const auto number = [&](const char* key) {
-    return metrics.contains(key) && metrics[key].is_number() ? metrics[key].get<double>() : 0.0;
-  };
+  if (!make_report(arguments.bin_dir, folder)) return 1;
+  const nlohmann::json metrics = read_metrics(folder);
+  const auto number = [&](const char* key) { return figure(metrics, key); };
   const std::string outcome = metrics.value("outcome", "unknown");
   const bool truth = metrics.value("truth", false);
   std::printf("%s: %.1f m driven for %.1f m planned in %.0f s, %.0f repairs, %.0f hazard stops%s\n", outcome.c_str(),
@@ -134,8 +116,7 @@ int report(const DriveArguments& arguments, const RunFolder& folder) {
 }
 
 int drive_in(const DriveArguments& arguments, const RunFolder& folder) {
-  std::signal(SIGINT, interrupt);
-  std::signal(SIGTERM, interrupt);
+  catch_interrupts();
   std::printf("run: %s\n", folder.dir.c_str());
   if (const std::string line = page_line(folder.config_dir); !line.empty()) std::printf("%s\n", line.c_str());
   std::fflush(stdout);
@@ -149,7 +130,7 @@ int drive_in(const DriveArguments& arguments, const RunFolder& folder) {
   write_json(folder.dir + "/run.json", {{"scenario", "drive"},
                                         {"commit", commit_of(arguments.source_dir)},
                                         {"realtime", true},
-                                        {"interrupted", interrupted != 0},
+                                        {"interrupted", !going()},
                                         {"outcome", "stopped"}});
   return report(arguments, folder);
 }

@@ -6,16 +6,13 @@
 
 #include "common/bus/channels.hpp"
 #include "common/bus/streams.hpp"
+#include "common/bus/wall_clock.hpp"
 #include "conform/duties.hpp"
 
 namespace rover {
 namespace {
 
 constexpr size_t kJudgedAfterTicks = 150;  // 3 s: some pictures, and none is late by its start alone
-
-double clock_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 template <class Message>
 bool decoded(const lcm::ReceiveBuffer* buffer, Message& message) {
@@ -37,7 +34,7 @@ std::string silent_channels(const conform::Heard& heard) {
 }  // namespace
 
 DriveWatch::DriveWatch(lcm::LCM& lcm) {
-  driver_.emplace(lcm, clock_s);
+  driver_.emplace(lcm, wall_s);
   lcm.subscribeFunction(
       channel::kTick, +[](const lcm::ReceiveBuffer*, const std::string&, DriveWatch* watch) { watch->on_tick(); },
       this);

@@ -85,6 +85,14 @@ BusLock::~BusLock() {
   if (fd_ >= 0) close(fd_);
 }
 
+void demand_bus(const std::string& bus_url, const BusLock& lock) {
+  std::string lines;
+  for (const std::string& problem : bus_problems(bus_url)) lines += (lines.empty() ? "" : "\n") + problem;
+  if (!lines.empty()) throw ConfigError(lines);
+  if (!lock.held())
+    throw ConfigError("bus: another rover runs on " + bus_url + ". Stop it, or give this one a bus: --bus udpm://...");
+}
+
 std::string page_line(const std::string& config_dir) try {
   const Config config = Config::load(config_dir + "/mission_control.yaml");
   bool served = true;

@@ -22,6 +22,9 @@ class BusLock {
   int fd_ = -1;
 };
 
+// Throws ConfigError, with one line for each problem, where the bus cannot be used or is another rover's.
+void demand_bus(const std::string& bus_url, const BusLock& lock);
+
 // Where the run's page will be, as one line for the user; empty where it has none. A taken port takes the page from a
 // run, not the run.
 std::string page_line(const std::string& config_dir);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -13,6 +12,7 @@
 #include "common/bus/bus_url.hpp"
 #include "common/bus/channels.hpp"
 #include "common/bus/config.hpp"
+#include "common/bus/interrupt.hpp"
 #include "common/bus/service_names.hpp"
 #include "launcher/preflight.hpp"
 #include "launcher/run_folder.hpp"
@@ -26,12 +26,6 @@ namespace fs = std::filesystem;
 namespace {
 
 using replay::RecordedLog;
-
-volatile std::sig_atomic_t interrupted = 0;
-
-void interrupt(int) {
-  interrupted = 1;
-}
 
 // What is asked for, looked through before anything starts.
 struct Plan {
@@ -158,11 +152,9 @@ Plan make_plan(const ReplayArguments& arguments, const RecordedLog& log, const s
 }
 
 std::vector<ServiceCommand> service_commands(const Plan& plan, const RunArguments& arguments, const RunFolder& folder) {
-  const std::string common = " --config '" + folder.config_dir + "' --bus '" + folder.bus_url + "' --run-dir '" +
-                             folder.dir + "'" + (plan.injects ? " --allow-injection" : "");
   std::vector<ServiceCommand> commands;
   for (const std::string& name : plan.live)
-    commands.push_back({name, "'" + arguments.bin_dir + "/" + name + "'" + common});
+    commands.push_back(service_command(name, arguments.bin_dir, folder, plan.injects));
   return commands;
 }
 
@@ -226,7 +218,7 @@ replay::Played play_once(const Plan& plan, RecordedLog& log, const std::string& 
   if (!bus.good() || !reports.good()) throw ConfigError("bus: cannot join " + bus_url);
   Display display(log.ticks().back(), plan.live.empty());
   replay::PlayerHooks hooks;
-  hooks.running = [&] { return !interrupted && watch.fine(); };
+  hooks.running = [&] { return going() && watch.fine(); };
   hooks.key = [&] { return keyboard.take(); };
   hooks.show = [&](Utime now, const replay::Pacer& pacer) { display.show(now, pacer); };
   replay::Player player(plan.player, log, bus, reports, judge);
@@ -290,10 +282,8 @@ int play_live(const ReplayArguments& arguments, const Plan& plan, RecordedLog& l
   quit = played.quit;
   // Read again: what a service has said is there when its logger has ended.
   if (const auto all = failed_services(folder.dir); !all.empty()) {
-    const FailedService& failed = all.front();
-    const std::string line = failed.said.empty() ? failed.name + ": ended with exit status 2" : failed.said;
     remove_run_folder(folder);
-    throw ConfigError(in_users_files(line, folder, plan.config_from));
+    throw ConfigError(in_users_files(all.front().line(), folder, plan.config_from));
   }
   if (!gone.empty()) {
     std::fprintf(stderr, "replay: %s; see %s/service_logs\n", gone.c_str(), folder.dir.c_str());
@@ -315,13 +305,6 @@ int play_log_alone(const Plan& plan, RecordedLog& log, const replay::Keyboard& k
   return 0;
 }
 
-void demand_bus(const std::string& url, const BusLock& lock) {
-  const auto problems = bus_problems(url);
-  if (!problems.empty()) throw ConfigError(problems.front());
-  if (!lock.held())
-    throw ConfigError("bus: another rover runs on " + url + ". Stop it, or give this one a bus: --bus udpm://...");
-}
-
 }  // namespace
 
 int replay_log(const ReplayArguments& arguments) {
@@ -336,8 +319,7 @@ int replay_log(const ReplayArguments& arguments) {
                  log_file.c_str());
   const BusLock lock(plan.bus_url);
   demand_bus(plan.bus_url, lock);
-  std::signal(SIGINT, interrupt);
-  std::signal(SIGTERM, interrupt);
+  catch_interrupts();
   const replay::Keyboard keyboard;
   bool quit = false;
   int status = 0;

@@ -1,6 +1,5 @@
 #include "launcher/run_command.hpp"
 
-#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -8,41 +7,36 @@
 #include <nlohmann/json.hpp>
 
 #include "common/bus/config.hpp"
+#include "common/bus/interrupt.hpp"
 #include "common/bus/s6_client.hpp"
 #include "common/bus/service_names.hpp"
 #include "launcher/preflight.hpp"
 #include "launcher/progress.hpp"
 #include "launcher/run_folder.hpp"
+#include "launcher/run_report.hpp"
 #include "launcher/s6_tree.hpp"
 
 namespace rover {
 namespace fs = std::filesystem;
 namespace {
 
-volatile std::sig_atomic_t interrupted = 0;
-
-void interrupt(int) {
-  interrupted = 1;
-}
-
 bool allows_injection(const RunArguments& arguments, const RunFolder& folder) {
   return arguments.allow_injection || folder.has_faults;
 }
 
 std::vector<ServiceCommand> service_commands(const RunArguments& arguments, const RunFolder& folder) {
-  const std::string common = " --config '" + folder.config_dir + "' --bus '" + folder.bus_url + "' --run-dir '" +
-                             folder.dir + "'" + (allows_injection(arguments, folder) ? " --allow-injection" : "");
+  const bool injects = allows_injection(arguments, folder);
   std::vector<ServiceCommand> commands;
   std::string participants;
   for (const std::string name : kServiceNames) {
-    commands.push_back({name, "'" + arguments.bin_dir + "/" + name + "'" + common, false});
+    commands.push_back(service_command(name, arguments.bin_dir, folder, injects));
     participants += (participants.empty() ? "" : ",") + name;
   }
-  commands.push_back({"rover_simulator",
-                      "'" + arguments.bin_dir + "/rover_simulator'" + common + " --scenario '" + folder.scenario +
-                          "' --seed " + std::to_string(folder.seed) + " --participants " + participants +
-                          (arguments.realtime ? " --realtime" : ""),
-                      true});
+  ServiceCommand simulator = service_command("rover_simulator", arguments.bin_dir, folder, injects);
+  simulator.command += " --scenario '" + folder.scenario + "' --seed " + std::to_string(folder.seed) +
+                       " --participants " + participants + (arguments.realtime ? " --realtime" : "");
+  simulator.once = true;
+  commands.push_back(simulator);
   return commands;
 }
 
@@ -55,7 +49,7 @@ End wait_for_end(const RunArguments& arguments, const RunFolder& folder, S6Sessi
   // On a busy machine a service may end before the logger of its words has started.
   constexpr int kSilentLooks = 100;
   int silent_looks = 0;
-  while (!interrupted) {
+  while (going()) {
     lcm.handleTimeout(100);
     progress.show();
     if (progress.supervisor_hangs()) {
@@ -77,13 +71,7 @@ End wait_for_end(const RunArguments& arguments, const RunFolder& folder, S6Sessi
 
 // Several services may stumble over the same value: one is told.
 void tell(const FailedService& failed, const RunArguments& arguments, const RunFolder& folder) {
-  const std::string line = failed.said.empty() ? failed.name + ": ended with exit status 2" : failed.said;
-  std::fprintf(stderr, "%s\n", in_users_files(line, folder, arguments.source_dir + "/config").c_str());
-}
-
-nlohmann::json read_json(const std::string& file) {
-  std::ifstream in(file);
-  return nlohmann::json::parse(in, nullptr, false);
+  std::fprintf(stderr, "%s\n", in_users_files(failed.line(), folder, arguments.source_dir + "/config").c_str());
 }
 
 // The launcher's part of the run's facts, for the report.
@@ -93,7 +81,7 @@ void write_run_json(const RunArguments& arguments, const RunFolder& folder) {
                                 {"commit", commit_of(arguments.source_dir)},
                                 {"level", arguments.level},
                                 {"realtime", arguments.realtime},
-                                {"interrupted", interrupted != 0}};
+                                {"interrupted", !going()}};
   std::ofstream(folder.dir + "/run.json") << facts.dump(2) << "\n";
 }
 
@@ -103,16 +91,8 @@ void write_launch_json(const RunArguments& arguments, const RunFolder& folder) {
   std::ofstream(folder.dir + "/launch.json") << facts.dump(2) << "\n";
 }
 
-int make_report(const RunArguments& arguments, const RunFolder& folder) {
-  const std::string command = "'" + arguments.bin_dir + "/rover_report' '" + folder.dir + "' > '" + folder.dir +
-                              "/service_logs/report.log' 2>&1";
-  return std::system(command.c_str());
-}
-
 void print_result(const RunFolder& folder, const nlohmann::json& metrics) {
-  const auto number = [&](const char* key) {
-    return metrics.contains(key) && metrics[key].is_number() ? metrics[key].get<double>() : 0.0;
-  };
+  const auto number = [&](const char* key) { return figure(metrics, key); };
   std::printf(
       "%s: %.1f m driven for %.1f m planned in %.0f s, %.0f repairs, %.0f hazard stops, %.0f collisions, "
       "drift %.2f %%, %.1f times real time\n",
@@ -136,20 +116,17 @@ RunResult run(const RunArguments& given) {
     result.exit_status = 2;
     return result;
   }
-  const auto problems = bus_problems(folder.bus_url);
-  for (const std::string& problem : problems) std::fprintf(stderr, "%s\n", problem.c_str());
   const BusLock lock(folder.bus_url);
-  if (problems.empty() && !lock.held())
-    std::fprintf(stderr, "bus: another rover runs on %s. Stop it, or give this one a bus: --bus udpm://...\n",
-                 folder.bus_url.c_str());
-  if (!problems.empty() || !lock.held()) {
+  try {
+    demand_bus(folder.bus_url, lock);
+  } catch (const ConfigError& error) {
+    std::fprintf(stderr, "%s\n", error.what());
     remove_run_folder(folder);
     result.exit_status = 2;
     return result;
   }
   result.dir = folder.dir;
-  std::signal(SIGINT, interrupt);
-  std::signal(SIGTERM, interrupt);
+  catch_interrupts();
   if (!arguments.quiet) std::printf("run: %s\n", folder.dir.c_str());
   if (const std::string line = page_line(folder.config_dir); !arguments.quiet && !line.empty())
     std::printf("%s\n", line.c_str());
@@ -172,11 +149,8 @@ RunResult run(const RunArguments& given) {
     return result;
   }
   write_run_json(arguments, folder);
-  if (make_report(arguments, folder) != 0) {
-    std::fprintf(stderr, "the report failed; see %s/service_logs/report.log\n", folder.dir.c_str());
-    return result;
-  }
-  const nlohmann::json metrics = read_json(folder.dir + "/metrics.json");
+  if (!make_report(arguments.bin_dir, folder)) return result;
+  const nlohmann::json metrics = read_metrics(folder);
   if (!arguments.quiet) print_result(folder, metrics);
   const bool success = metrics.value("outcome", "") == "goal_reached" && metrics.value("collisions", 1) == 0;
   result.exit_status = success ? 0 : 1;

@@ -10,6 +10,7 @@
 #include <regex>
 
 #include "common/bus/config.hpp"
+#include "common/bus/yaml_file.hpp"
 #include "rover_simulator/world/dtm_reader.hpp"
 #include "rover_simulator/world/geotiff_writer.hpp"
 #include "rover_simulator/world/scenario.hpp"
@@ -23,16 +24,6 @@ std::string time_stamp() {
   char text[32];
   std::strftime(text, sizeof text, "%Y%m%d-%H%M%S", std::localtime(&now));
   return text;
-}
-
-void write_yaml(const fs::path& file, const YAML::Node& node) {
-  YAML::Emitter out;
-  out.SetDoublePrecision(17);
-  out << node;
-  std::ofstream stream(file);
-  stream << out.c_str() << "\n";
-  stream.close();
-  if (!stream) throw ConfigError(file.string() + ": cannot be written");
 }
 
 // The elevation model is named absolutely in the run's copy, which lies elsewhere.

@@ -34,10 +34,13 @@ std::string run_script(const std::string& run_dir, const ServiceCommand& service
 }
 
 // s6 starts a service again unless its finish script exits with 125: after bad configuration (2), and after a clean end
-// of one that runs once.
+// of one that runs once. It waits a second first; one that was up for two, and is still wanted, is asked for at once.
 std::string finish_script(const std::string& run_dir, const ServiceCommand& service) {
+  const std::string dir = "services/" + service.name;
   return "cd '" + run_dir + "' || exit 0\necho \"$1 $2\" >> exits/" + service.name + "\n[ \"$1\" = 2 ] && exit 125\n" +
-         (service.once ? "[ \"$1\" = 0 ] && exit 125\n" : "") + "exit 0\n";
+         (service.once ? "[ \"$1\" = 0 ] && exit 125\n" : "") + "[ -n \"$(find boots/" + service.name +
+         " -newermt '-2 seconds')\" ] && exit 0\n(sleep 0.02; [ \"$(s6-svstat -o wantedup " + dir +
+         ")\" = true ] && exec s6-svc -u " + dir + ") >/dev/null 2>&1 &\nexit 0\n";
 }
 
 std::string last_line(const fs::path& file) {
@@ -49,6 +52,12 @@ std::string last_line(const fs::path& file) {
 }
 
 }  // namespace
+
+ServiceCommand service_command(const std::string& name, const std::string& bin_dir, const RunFolder& folder,
+                               bool allow_injection) {
+  return {name, "'" + bin_dir + "/" + name + "' --config '" + folder.config_dir + "' --bus '" + folder.bus_url +
+                    "' --run-dir '" + folder.dir + "'" + (allow_injection ? " --allow-injection" : "")};
+}
 
 void write_s6_tree(const std::string& run_dir, const std::vector<ServiceCommand>& services) {
   const fs::path root(run_dir);

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "launcher/run_folder.hpp"
+
 namespace rover {
 
 struct ServiceCommand {
@@ -11,6 +13,10 @@ struct ServiceCommand {
   std::string command;  // executed by sh, in the run's folder
   bool once = false;    // not started again after a clean exit
 };
+
+// A service of `folder`'s run as the launcher starts it.
+ServiceCommand service_command(const std::string& name, const std::string& bin_dir, const RunFolder& folder,
+                               bool allow_injection);
 
 void write_s6_tree(const std::string& run_dir, const std::vector<ServiceCommand>& services);
 
@@ -34,6 +40,7 @@ class S6Session {
 struct FailedService {
   std::string name;
   std::string said;  // the last line of its log, empty while that lags behind
+  std::string line() const { return said.empty() ? name + ": ended with exit status 2" : said; }
 };
 // Those that have said why come first, in the order of their names.
 std::vector<FailedService> failed_services(const std::string& run_dir);

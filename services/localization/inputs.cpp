@@ -11,7 +11,6 @@ namespace {
 constexpr double kMaxRateRadps = 5.0;
 constexpr double kMaxForceMps2 = 50.0;
 constexpr double kMaxIntervalS = 0.2;
-constexpr double kMaxWheelRateRadps = 50.0;
 constexpr double kMaxPositionM = 1e6;
 
 template <size_t N>

@@ -10,6 +10,8 @@
 
 namespace rover::loc {
 
+inline constexpr double kMaxWheelRateRadps = 50.0;
+
 // Increments over the interval that ends at utime, in body axes.
 struct ImuSample {
   Utime utime = kNever;

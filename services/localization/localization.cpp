@@ -11,7 +11,6 @@ constexpr Utime kEncoderGapUs = 500'000;  // after a longer silence the wheels' 
 constexpr double kMinCover = 0.5;         // of a record's time; what is missing is taken to go on alike
 constexpr double kStillRad = 0.01;        // a wheel that turned less stands: above encoder noise
 constexpr double kVertexM = 0.05;         // the driven track is measured in chords of this length
-constexpr double kMaxWheelRateRadps = 50.0;
 
 Eigen::Vector3d planar_motion(const Eigen::Isometry3d& T) {
   return {T.translation().x(), T.translation().y(), yaw_of(T)};

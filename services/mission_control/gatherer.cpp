@@ -18,7 +18,7 @@ constexpr Utime kPoseHistory = 4'000'000;
 constexpr size_t kImagesKept = 8;  // hazards follow their image by about one more
 constexpr Utime kHazardsAwaited = 1'500'000;
 constexpr int kLargestGrid = 2048;
-constexpr std::int64_t kMostBoots = 100'000;  // a larger boot number is a clock's, of a process started by hand
+constexpr std::int64_t kMostCountedBoots = 100'000;  // a larger boot number is a clock's, of a process started by hand
 
 const std::array kResponses = {"log", "slow", "stop", "stop and replan", "restart service", "safe"};
 
@@ -212,7 +212,7 @@ ServiceView Gatherer::view_of(const ServiceRecord& record) const {
   out.age_s = std::max(0.0, to_seconds(view_.now - record.heard));
   out.rss_mb = record.rss_mb;
   out.text = record.text;
-  if (record.boot_id < kMostBoots) out.restarts = static_cast<int>(record.boot_id) - 1;
+  if (record.boot_id < kMostCountedBoots) out.restarts = static_cast<int>(record.boot_id) - 1;
   const auto& [wall_0, cpu_0] = record.cpu.front();
   const auto& [wall_1, cpu_1] = record.cpu.back();
   if (wall_1 - wall_0 > 0.3) out.cpu_percent = 100.0 * (cpu_1 - cpu_0) / (wall_1 - wall_0);

@@ -38,7 +38,7 @@ json position(const Eigen::Vector2d& map_m, const ToLonLat& to_lon_lat) {
   return {rounded_to(p.x(), 1e-9), rounded_to(p.y(), 1e-9)};
 }
 
-json on_map(const Eigen::Vector2d& p) {
+json point_json(const Eigen::Vector2d& p) {
   return {rounded_to(p.x(), 1e-4), rounded_to(p.y(), 1e-4)};
 }
 
@@ -46,7 +46,7 @@ json stretch_feature(const Plan& plan, const Stretch& stretch, const ToLonLat& t
   json coordinates = json::array(), map_xy = json::array();
   for (size_t i = stretch.first; i <= stretch.last; ++i) {
     coordinates.push_back(position(plan.line[i], to_lon_lat));
-    map_xy.push_back(on_map(plan.line[i]));
+    map_xy.push_back(point_json(plan.line[i]));
   }
   return {{"type", "Feature"},
           {"geometry", {{"type", "LineString"}, {"coordinates", coordinates}}},
@@ -62,7 +62,7 @@ json waypoint_feature(const Line& waypoints, size_t i, const ToLonLat& to_lon_la
   const char* role = i == 0 ? "start" : i + 1 == waypoints.size() ? "goal" : "via";
   return {{"type", "Feature"},
           {"geometry", {{"type", "Point"}, {"coordinates", position(waypoints[i], to_lon_lat)}}},
-          {"properties", {{"role", role}, {"map_xy_m", on_map(waypoints[i])}}}};
+          {"properties", {{"role", role}, {"map_xy_m", point_json(waypoints[i])}}}};
 }
 
 }  // namespace

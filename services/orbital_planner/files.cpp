@@ -6,6 +6,7 @@
 
 #include "common/bus/channels.hpp"
 #include "common/bus/config.hpp"
+#include "common/bus/streams.hpp"
 #include "common/core/frames.hpp"
 #include "orbital_planner/convert.hpp"
 #include "orbital_planner/layers_file.hpp"
@@ -24,8 +25,7 @@ void write_log(const std::string& file, path_t message) {
   message.header.seq = 1;
   message.header.boot_id = 1;
   message.header.publisher = "orbital_planner";
-  std::vector<std::uint8_t> bytes(static_cast<size_t>(message.getEncodedSize()));
-  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  std::vector<std::uint8_t> bytes = encoded(message);
   lcm::LogFile log(file, "w");
   lcm::LogEvent event{};
   event.channel = channel::kGlobalPath;

@@ -30,13 +30,13 @@ double difficulty_at(const Eigen::Vector2d& p, const TerrainLayers& layers, doub
   return count > 0 ? sum / count : 1.0;
 }
 
-struct Stretch {
+struct HardStretch {
   double from_m, to_m;
 };
 
-std::vector<Stretch> hard_stretches(const std::vector<double>& way, const std::vector<double>& difficulty,
-                                    const LevelConfig& config) {
-  std::vector<Stretch> hard;
+std::vector<HardStretch> hard_stretches(const std::vector<double>& way, const std::vector<double>& difficulty,
+                                        const LevelConfig& config) {
+  std::vector<HardStretch> hard;
   bool full = false;
   for (size_t i = 0; i < way.size(); ++i) {
     const bool was = full;
@@ -47,7 +47,7 @@ std::vector<Stretch> hard_stretches(const std::vector<double>& way, const std::v
   return hard;
 }
 
-void lengthen(Stretch& stretch, double way_m, const LevelConfig& config) {
+void lengthen(HardStretch& stretch, double way_m, const LevelConfig& config) {
   stretch.from_m = std::max(0.0, stretch.from_m - config.lead_m);
   const double missing = config.least_stretch_m - (stretch.to_m - stretch.from_m);
   if (missing <= 0.0) return;
@@ -57,9 +57,9 @@ void lengthen(Stretch& stretch, double way_m, const LevelConfig& config) {
 }
 
 // Full where what is left between two of them, or at an end, would be too short for Efficient.
-std::vector<Stretch> joined(const std::vector<Stretch>& stretches, double way_m, double least_m) {
-  std::vector<Stretch> all;
-  for (const Stretch& s : stretches) {
+std::vector<HardStretch> joined(const std::vector<HardStretch>& stretches, double way_m, double least_m) {
+  std::vector<HardStretch> all;
+  for (const HardStretch& s : stretches) {
     if (!all.empty() && s.from_m - all.back().to_m < least_m)
       all.back() = {std::min(all.back().from_m, s.from_m), std::max(all.back().to_m, s.to_m)};
     else
@@ -89,10 +89,10 @@ std::vector<double> difficulty_along(const Line& line, const TerrainLayers& laye
 
 std::vector<Level> levels_along(const Line& line, const std::vector<double>& difficulty, const LevelConfig& config) {
   const std::vector<double> way = way_along(line);
-  std::vector<Stretch> stretches = hard_stretches(way, difficulty, config);
-  for (Stretch& stretch : stretches) lengthen(stretch, way.back(), config);
+  std::vector<HardStretch> stretches = hard_stretches(way, difficulty, config);
+  for (HardStretch& stretch : stretches) lengthen(stretch, way.back(), config);
   std::vector<Level> levels(line.size(), Level::kEfficient);
-  for (const Stretch& s : joined(stretches, way.back(), config.least_stretch_m))
+  for (const HardStretch& s : joined(stretches, way.back(), config.least_stretch_m))
     for (size_t i = 0; i + 1 < line.size(); ++i)
       if (way[i + 1] > s.from_m && way[i] < s.to_m) levels[i] = Level::kFull;
   if (levels.size() > 1) levels.back() = levels[levels.size() - 2];

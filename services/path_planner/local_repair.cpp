@@ -5,7 +5,6 @@
 namespace rover::planning {
 namespace {
 
-constexpr double kPoseStepM = 0.05;
 constexpr double kPathStepM = 0.1;
 constexpr double kBorderM = 0.5;        // of the map, where nothing is joined
 constexpr double kShortestJoinM = 0.5;  // ahead of the rover

@@ -12,6 +12,8 @@
 
 namespace rover::planning {
 
+inline constexpr double kPoseStepM = 0.05;  // between the poses of a way that are tested
+
 struct LocalRepairConfig {
   Footprint footprint;
   ViewArea view;

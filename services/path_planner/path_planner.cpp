@@ -16,7 +16,6 @@ constexpr double kLongestPathM = 1e5;
 constexpr double kMaxCurvatureNow = 1.0;
 constexpr double kCorridorReserveM = 0.05;
 constexpr double kCellHalfM = 0.05;
-constexpr double kPoseStepM = 0.05;
 constexpr double kGoalNearM = 1.0;
 constexpr double kGainM = 1.0;  // of the global path, with which an attempt counts as a success
 constexpr double kLeastRetreatM = 0.4;

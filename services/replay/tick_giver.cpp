@@ -6,6 +6,7 @@
 
 #include "common/bus/channels.hpp"
 #include "common/bus/s6_client.hpp"
+#include "common/bus/streams.hpp"
 
 namespace rover::replay {
 namespace {
@@ -84,8 +85,7 @@ void TickGiver::give(Utime t, const Running& running) {
   listed_.clear();
   tick.stream_count = static_cast<std::int32_t>(tick.streams.size());
   tick.header = streams_.next(channel::kTick, t, t);
-  last_tick_.resize(static_cast<size_t>(tick.getEncodedSize()));
-  tick.encode(last_tick_.data(), 0, static_cast<int>(last_tick_.size()));
+  last_tick_ = encoded(tick);
   bus_.publish(channel::kTick, last_tick_.data(), static_cast<unsigned int>(last_tick_.size()));
 }
 

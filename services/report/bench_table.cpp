@@ -23,14 +23,14 @@ struct PaperTraverse {
 const std::map<std::string, PaperTraverse> kPaper = {{"seed_traverse_1", {5, "86.0", "", "", "6"}},
                                                      {"seed_traverse_2", {8, "62.2", "", "", "10"}}};
 
-std::string shown(double value, int decimals) {
+std::string decimal(double value, int decimals) {
   return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "n/a";
 }
 
 using Rows = std::vector<BenchRow>;
-using Figure = std::function<double(const BenchRow&)>;
+using RowFigure = std::function<double(const BenchRow&)>;
 
-std::vector<double> values(const Rows& rows, const Figure& figure) {
+std::vector<double> values(const Rows& rows, const RowFigure& figure) {
   std::vector<double> out;
   for (const BenchRow& row : rows) out.push_back(figure(row));
   return out;
@@ -56,7 +56,7 @@ Rows counted(const Rows& rows) {
 }
 
 // A figure that is not known does not meet its demand.
-Gate all_gate(const Rows& rows, const std::string& demand, int decimals, const Figure& figure,
+Gate all_gate(const Rows& rows, const std::string& demand, int decimals, const RowFigure& figure,
               const std::function<bool(const BenchRow&, double)>& met) {
   Gate gate{demand, "", !rows.empty()};
   double worst = -kInfinity;
@@ -68,38 +68,39 @@ Gate all_gate(const Rows& rows, const std::string& demand, int decimals, const F
     if (std::isfinite(value)) worst = std::max(worst, value);
   }
   gate.met = gate.met && failed == 0;
-  gate.measured = fmt::format("largest {}{}", shown(worst, decimals),
+  gate.measured = fmt::format("largest {}{}", decimal(worst, decimals),
                               failed > 0 ? fmt::format(", {} of {} runs fail", failed, rows.size()) : "");
   return gate;
 }
 
-Gate median_gate(const Rows& rows, const std::string& demand, int decimals, const Figure& figure, double most) {
+Gate median_gate(const Rows& rows, const std::string& demand, int decimals, const RowFigure& figure, double most) {
   const double value = median(values(rows, figure));
-  return {demand, shown(value, decimals), value <= most};
+  return {demand, decimal(value, decimals), value <= most};
 }
 
-Gate least_gate(const Rows& rows, const std::string& demand, int decimals, const Figure& figure, double least) {
+Gate least_gate(const Rows& rows, const std::string& demand, int decimals, const RowFigure& figure, double least) {
   const std::vector<double> all = values(rows, figure);
   const bool met = !all.empty() && std::all_of(all.begin(), all.end(), [least](double v) { return v >= least; });
   double lowest = kInfinity;
   for (const double v : all) lowest = std::fmin(lowest, v);
-  return {demand, fmt::format("least {}, median {}", shown(lowest, decimals), shown(median(all), decimals)), met};
+  return {demand, fmt::format("least {}, median {}", decimal(lowest, decimals), decimal(median(all), decimals)), met};
 }
 
-double sum(const Rows& rows, const Figure& figure) {
+double sum(const Rows& rows, const RowFigure& figure) {
   double total = 0.0;
   for (const BenchRow& row : rows) total += figure(row);
   return total;
 }
 
 std::string row_line(const BenchRow& row) {
-  return fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n",
-                     row.scenario, row.seed, row.outcome, shown(row.planned_length_m, 1), shown(row.driven_length_m, 1),
-                     shown(row.path_ratio, 3), shown(row.replans, 0), shown(row.hazard_stops, 0),
-                     shown(row.collisions, 0), shown(row.rocks_missed, 0) + " / " + shown(row.rocks_encountered, 0),
-                     shown(row.false_stops, 0), shown(row.odometry_drift_percent, 2), shown(row.cross_track_rms_m, 3),
-                     shown(row.final_error_m, 2), shown(row.mean_speed_m_per_h, 0), shown(row.duty, 3),
-                     shown(row.realtime_factor, 1), row.deterministic ? "yes" : "no");
+  return fmt::format(
+      "| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", row.scenario,
+      row.seed, row.outcome, decimal(row.planned_length_m, 1), decimal(row.driven_length_m, 1),
+      decimal(row.path_ratio, 3), decimal(row.replans, 0), decimal(row.hazard_stops, 0), decimal(row.collisions, 0),
+      decimal(row.rocks_missed, 0) + " / " + decimal(row.rocks_encountered, 0), decimal(row.false_stops, 0),
+      decimal(row.odometry_drift_percent, 2), decimal(row.cross_track_rms_m, 3), decimal(row.final_error_m, 2),
+      decimal(row.mean_speed_m_per_h, 0), decimal(row.duty, 3), decimal(row.realtime_factor, 1),
+      row.deterministic ? "yes" : "no");
 }
 
 constexpr char kHead[] =
@@ -109,7 +110,9 @@ constexpr char kHead[] =
     "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
 
 std::string median_line(const std::string& scenario, const Rows& rows) {
-  const auto mid = [&](const Figure& figure, int decimals) { return shown(median(values(rows, figure)), decimals); };
+  const auto mid = [&](const RowFigure& figure, int decimals) {
+    return decimal(median(values(rows, figure)), decimals);
+  };
   return fmt::format(
       "| **{}** | **median of {}** | | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | |\n",
       scenario, rows.size(), mid([](const BenchRow& r) { return r.planned_length_m; }, 1),
@@ -139,7 +142,9 @@ std::string paper_table(const Rows& runs) {
       "| paper, both | 148.2 | 176.9 | 1.19 | 16 |\n";
   for (const auto& [scenario, paper] : kPaper) {
     const Rows rows = of_scenario(runs, scenario);
-    const auto mid = [&](const Figure& figure, int decimals) { return shown(median(values(rows, figure)), decimals); };
+    const auto mid = [&](const RowFigure& figure, int decimals) {
+      return decimal(median(values(rows, figure)), decimals);
+    };
     out += fmt::format("| here, {}, median of {} | {} | {} | {} | {} |\n", scenario, rows.size(),
                        mid([](const BenchRow& r) { return r.planned_length_m; }, 1),
                        mid([](const BenchRow& r) { return r.driven_length_m; }, 1),
@@ -148,9 +153,9 @@ std::string paper_table(const Rows& runs) {
   }
   const double planned = sum(runs, [](const BenchRow& r) { return r.planned_length_m; });
   const double driven = sum(runs, [](const BenchRow& r) { return r.driven_length_m; });
-  return out + fmt::format("| here, all {} runs | {} | {} | {} | {} |\n", runs.size(), shown(planned, 1),
-                           shown(driven, 1), shown(driven / planned, 3),
-                           shown(sum(runs, [](const BenchRow& r) { return r.replans; }), 0));
+  return out + fmt::format("| here, all {} runs | {} | {} | {} | {} |\n", runs.size(), decimal(planned, 1),
+                           decimal(driven, 1), decimal(driven / planned, 3),
+                           decimal(sum(runs, [](const BenchRow& r) { return r.replans; }), 0));
 }
 
 // What bounds the duty: shares of the drives' time, and what the driving itself loses to point turns and slow ground.
@@ -167,8 +172,8 @@ std::string time_lines(const Rows& runs) {
   if (total <= 0.0) return "";
   std::string out = "\nWhere the time goes:";
   for (const auto& [state, seconds] : spent)
-    if (seconds > 0.0) out += fmt::format(" {} {} %,", state, shown(100.0 * seconds / total, 1));
-  return out + fmt::format(" of it in point turns {} %.\n", shown(100.0 * turning / total, 1));
+    if (seconds > 0.0) out += fmt::format(" {} {} %,", state, decimal(100.0 * seconds / total, 1));
+  return out + fmt::format(" of it in point turns {} %.\n", decimal(100.0 * turning / total, 1));
 }
 
 }  // namespace
@@ -207,6 +212,9 @@ std::vector<Gate> seed_gates(const std::vector<BenchRow>& all) {
   gates.push_back(all_gate(
       rows, "0 rocks missed", 0, [](const BenchRow& r) { return r.rocks_missed; },
       [](const BenchRow&, double v) { return v == 0.0; }));
+  gates.push_back(all_gate(
+      rows, "no row of the table of faults raised", 0, [](const BenchRow& r) { return r.faults; },
+      [](const BenchRow&, double v) { return v == 0.0; }));
   gates.push_back(median_gate(
       rows, "median path ratio at most 1.12", 3, [](const BenchRow& r) { return r.path_ratio; }, 1.12));
   gates.push_back(median_gate(
@@ -244,7 +252,7 @@ std::string bench_table(const BenchContext& context, const std::vector<BenchRow>
   for (const Gate& gate : seed_gates(rows))
     out += fmt::format("| {} | {} | {} |\n", gate.demand, gate.measured, gate.met ? "yes" : "**no**");
   out += fmt::format("\nMean speed, median: {} m/h.\n",
-                     shown(median(values(runs, [](const BenchRow& r) { return r.mean_speed_m_per_h; })), 0));
+                     decimal(median(values(runs, [](const BenchRow& r) { return r.mean_speed_m_per_h; })), 0));
   out += time_lines(runs);
   out +=
       "\nRuns share the machine when there is more than one at a time; real time is measured by `./rover bench "

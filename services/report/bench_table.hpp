@@ -26,6 +26,7 @@ struct BenchRow {
   double rocks_missed = kNaN;
   double rocks_encountered = kNaN;
   double false_stops = kNaN;
+  double faults = kNaN;  // rows of the table of faults that were raised
   double odometry_drift_percent = kNaN;
   double cross_track_rms_m = kNaN;
   double final_error_m = kNaN;

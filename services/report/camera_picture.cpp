@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgcodecs.hpp>
 
+#include "report/jpeg.hpp"
 #include "report/palette.hpp"
 #include "report/svg.hpp"
 
@@ -15,11 +15,9 @@ namespace {
 constexpr double kSide = 340.0;  // as draw_incident
 constexpr double kLookBackS = 3.0;
 
-std::vector<std::uint8_t> jpeg_of(const CameraPicture& picture) {
+std::vector<std::uint8_t> grey_jpeg(const CameraPicture& picture) {
   const cv::Mat grey(picture.height, picture.width, CV_8U, const_cast<std::uint8_t*>(picture.grey.data()));
-  std::vector<std::uint8_t> bytes;
-  cv::imencode(".jpg", grey, bytes, {cv::IMWRITE_JPEG_QUALITY, 80});
-  return bytes;
+  return jpeg_of(grey, kCameraQuality);
 }
 
 const HazardMap* map_of(const RunRecord& run, double exposure_s) {
@@ -54,7 +52,7 @@ std::string draw_camera(const CameraPicture& picture, const RunRecord& run, doub
   const double scale = kSide / picture.width;
   const double height = scale * picture.height;
   Svg svg(kSide, height);
-  svg.jpeg(0.0, 0.0, kSide, height, jpeg_of(picture));
+  svg.jpeg(0.0, 0.0, kSide, height, grey_jpeg(picture));
   const HazardMap* map = picture.rectified ? map_of(run, picture.t_s) : nullptr;
   if (map != nullptr)
     for (const HazardCell& cell : map->cells) {

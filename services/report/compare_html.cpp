@@ -99,7 +99,7 @@ std::string service_cells(const Metrics& m, const std::string& name) {
                      shown(s.cpu_s_per_m, 3), s.p99_ms, s.rss_mb);
 }
 
-std::string services_section(const ComparedRun& a, const ComparedRun& b) {
+std::string compared_services(const ComparedRun& a, const ComparedRun& b) {
   std::set<std::string> names;
   for (const ComparedRun* run : {&a, &b})
     for (const auto& [name, service] : run->metrics.services) names.insert(name);
@@ -119,7 +119,7 @@ std::string shortened(const std::string& text) {
   return text.size() <= kLongest ? text : fmt::format("{} ... ({} characters)", text.substr(0, kLongest), text.size());
 }
 
-std::string configuration_section(const std::vector<ConfigDifference>& differences) {
+std::string differences_section(const std::vector<ConfigDifference>& differences) {
   if (differences.empty()) return "<h2>Configuration</h2><p>The same in both.</p>\n";
   std::string out =
       "<h2>Configuration: what differs</h2><table class=\"thirds\"><tr><th>file: key</th><th>A</th><th>B</th></tr>\n";
@@ -147,11 +147,11 @@ std::string compare_html(const ComparedRun& a, const ComparedRun& b,
                          const std::vector<ConfigDifference>& configuration) {
   std::string body = "<h1>Two runs side by side</h1><div class=\"pair\">" + title_of(a) + title_of(b) + "</div>\n";
   body += layered_maps(pair(a.pictures.map, b.pictures.map));
-  body += figures_section(a, b) + services_section(a, b);
+  body += figures_section(a, b) + compared_services(a, b);
   body += "<h2>Over the distance driven, in metres</h2><section class=\"plots\">\n";
   for (size_t i = 0; i < std::min(a.pictures.plots.size(), b.pictures.plots.size()); ++i)
     body += pair(a.pictures.plots[i], b.pictures.plots[i]);
-  body += pair(a.pictures.states, b.pictures.states) + "</section>\n" + configuration_section(configuration);
+  body += pair(a.pictures.states, b.pictures.states) + "</section>\n" + differences_section(configuration);
   return document("Compared: " + a.name + ", " + b.name, body);
 }
 

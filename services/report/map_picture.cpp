@@ -16,7 +16,7 @@ namespace {
 constexpr double kMapWidth = 1400.0;
 constexpr double kAxis = 34.0;  // room for the coordinates, left and below
 constexpr double kLegend = 40.0;
-constexpr double kCellM = 0.1;
+constexpr double kHazardCellM = 0.1;
 
 std::string stroke(const char* colour, double width, const std::string& more = "") {
   return fmt::format("stroke:{};stroke-width:{};stroke-linejoin:round;stroke-linecap:round;{}", colour, width, more);
@@ -93,8 +93,8 @@ void draw_hazards(Svg& svg, const MapView& view, const Scene& scene) {
     for (const HazardCell& cell : map.cells)
       (cell.hole ? holes : obstacles).push_back(cell_in_map(cell, T_map_body, scene.footprint.origin_height_m));
   }
-  draw_cells(svg, view, obstacles, kCellM, fmt::format("fill:{};fill-opacity:.5", palette::kHazard));
-  draw_cells(svg, view, holes, kCellM, fmt::format("fill:{};fill-opacity:.5", palette::kHole));
+  draw_cells(svg, view, obstacles, kHazardCellM, fmt::format("fill:{};fill-opacity:.5", palette::kHazard));
+  draw_cells(svg, view, holes, kHazardCellM, fmt::format("fill:{};fill-opacity:.5", palette::kHole));
 }
 
 void draw_tracks(Svg& svg, const MapView& view, const Scene& scene) {
@@ -250,7 +250,7 @@ std::string draw_incident(const Scene& scene, size_t index) {
              relief_jpeg(scene.world->height_m, view.box, kPixels, kPixels, style));
   }
   draw_rocks(svg, view, scene, shaded ? RockStyle::kOutlined : RockStyle::kFilled);
-  draw_cells(svg, view, incident.cells, kCellM, fmt::format("fill:{};fill-opacity:.5", palette::kHazard));
+  draw_cells(svg, view, incident.cells, kHazardCellM, fmt::format("fill:{};fill-opacity:.5", palette::kHazard));
   svg.polyline(view.px(incident.old_path), stroke("#3b2a1e", 4.2, "stroke-opacity:.5"));
   svg.polyline(view.px(incident.old_path), stroke(palette::kGlobalPath, 2.4, "stroke-dasharray:7 5"));
   svg.polyline(view.px(incident.new_path), stroke(palette::kRepair, 3.0));

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "common/core/frames.hpp"
+#include "report/jpeg.hpp"
 #include "report/raster_view.hpp"
 
 namespace rover::report {
@@ -49,18 +49,13 @@ cv::Mat shade(const cv::Mat& z, double step_m, const ReliefStyle& style) {
   return picture;
 }
 
-std::vector<std::uint8_t> jpeg_of(const cv::Mat& picture) {
-  std::vector<std::uint8_t> bytes;
-  cv::imencode(".jpg", picture, bytes, {cv::IMWRITE_JPEG_QUALITY, 88});
-  return bytes;
-}
-
 }  // namespace
 
 std::vector<std::uint8_t> relief_jpeg(const HeightRaster& raster, const Box& box, int width_px, int height_px,
                                       const ReliefStyle& style) {
   return jpeg_of(
-      shade(heights_in(raster, box, width_px, height_px, style.smoothing_m), box.width_m() / width_px, style));
+      shade(heights_in(raster, box, width_px, height_px, style.smoothing_m), box.width_m() / width_px, style),
+      kMapQuality);
 }
 
 std::vector<std::uint8_t> relief_jpeg(const std::function<double(double, double)>& height_m, const Box& box,
@@ -71,7 +66,7 @@ std::vector<std::uint8_t> relief_jpeg(const std::function<double(double, double)
     for (int u = 0; u < width_px; ++u)
       z.at<float>(v, u) = static_cast<float>(
           height_m(box.x0_m + (u + 0.5) * step_m, box.y1_m - (v + 0.5) * box.height_m() / height_px));
-  return jpeg_of(shade(z, step_m, style));
+  return jpeg_of(shade(z, step_m, style), kMapQuality);
 }
 
 }  // namespace rover::report

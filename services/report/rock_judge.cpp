@@ -6,7 +6,7 @@
 namespace rover::report {
 namespace {
 
-constexpr double kCellM = 1.0;
+constexpr double kBucketM = 1.0;
 
 // Poses of the true track at most 2 cm and 1 deg apart are enough for a footprint in motion.
 constexpr double kPoseStepM = 0.02;
@@ -53,8 +53,8 @@ void judge_detection(const RunRecord& run, const TrueTrack& truth, double origin
 
 RockIndex::RockIndex(std::vector<Rock> rocks) : rocks_(std::move(rocks)) {
   for (size_t i = 0; i < rocks_.size(); ++i) {
-    const int ix = static_cast<int>(std::floor(rocks_[i].x_m / kCellM));
-    const int iy = static_cast<int>(std::floor(rocks_[i].y_m / kCellM));
+    const int ix = static_cast<int>(std::floor(rocks_[i].x_m / kBucketM));
+    const int iy = static_cast<int>(std::floor(rocks_[i].y_m / kBucketM));
     cells_[key(ix, iy)].push_back(i);
     largest_radius_m_ = std::max(largest_radius_m_, rocks_[i].radius_m);
   }
@@ -66,7 +66,7 @@ std::int64_t RockIndex::key(int ix, int iy) {
 
 std::vector<size_t> RockIndex::near(const Eigen::Vector2d& p, double reach_m) const {
   const double r = reach_m + largest_radius_m_;
-  const auto cell = [](double v) { return static_cast<int>(std::floor(v / kCellM)); };
+  const auto cell = [](double v) { return static_cast<int>(std::floor(v / kBucketM)); };
   std::vector<size_t> found;
   for (int ix = cell(p.x() - r); ix <= cell(p.x() + r); ++ix)
     for (int iy = cell(p.y() - r); iy <= cell(p.y() + r); ++iy) {

@@ -13,22 +13,21 @@ namespace rover::report {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
 
 template <class T>
-void read_optional(const json& from, const char* key, T& value) {
+void read_optional(const nlohmann::json& from, const char* key, T& value) {
   if (const auto it = from.find(key); it != from.end() && !it->is_null()) value = it->get<T>();
 }
 template <class T>
-void read_optional(const json& from, const char* key, std::optional<T>& value) {
+void read_optional(const nlohmann::json& from, const char* key, std::optional<T>& value) {
   if (const auto it = from.find(key); it != from.end() && !it->is_null()) value = it->get<T>();
 }
 
-json read_json(const std::string& path) {
-  if (!fs::exists(path)) return json::object();
+nlohmann::json read_json(const std::string& path) {
+  if (!fs::exists(path)) return nlohmann::json::object();
   try {
-    return json::parse(read_file(path));
-  } catch (const json::exception& error) {
+    return nlohmann::json::parse(read_file(path));
+  } catch (const nlohmann::json::exception& error) {
     throw ConfigError(path + ": " + error.what());
   }
 }
@@ -37,7 +36,7 @@ json read_json(const std::string& path) {
 RunInfo read_info(const std::string& dir) {
   RunInfo info;
   for (const char* name : {"/run.json", "/simulation.json"}) {
-    const json run = read_json(dir + name);
+    const nlohmann::json run = read_json(dir + name);
     try {
       read_optional(run, "scenario", info.scenario);
       read_optional(run, "seed", info.seed);
@@ -50,7 +49,7 @@ RunInfo read_info(const std::string& dir) {
       read_optional(run, "outcome", info.outcome_hint);
       read_optional(run, "services", info.restarts);
       if (const auto set = run.find("data_set"); set != run.end()) read_optional(*set, "pairs", info.data_set_pairs);
-    } catch (const json::exception& error) {
+    } catch (const nlohmann::json::exception& error) {
       throw ConfigError(dir + name + ": " + error.what());
     }
   }

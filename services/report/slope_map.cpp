@@ -2,10 +2,10 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "common/core/frames.hpp"
+#include "report/jpeg.hpp"
 #include "report/raster_view.hpp"
 
 namespace rover::report {
@@ -37,9 +37,7 @@ std::vector<std::uint8_t> slope_jpeg(const HeightRaster& raster, const Box& box,
   for (int v = 0; v < z.rows; ++v)
     for (int u = 0; u < z.cols; ++u)
       picture.at<cv::Vec3b>(v, u) = colour_of(to_deg(std::atan(std::hypot(dx.at<float>(v, u), dy.at<float>(v, u)))));
-  std::vector<std::uint8_t> bytes;
-  cv::imencode(".jpg", picture, bytes, {cv::IMWRITE_JPEG_QUALITY, 88});
-  return bytes;
+  return jpeg_of(picture, kMapQuality);
 }
 
 }  // namespace rover::report

@@ -23,9 +23,7 @@ std::vector<CommandInbox::Waiting> CommandInbox::take_released(Utime t) {
 }
 
 void CommandInbox::pass(const wheel_command_t& command, Tap& tap, std::vector<Waiting>& passed) {
-  Tap::Bytes bytes(static_cast<size_t>(command.getEncodedSize()));
-  command.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-  for (const Tap::Passed& through : tap.pass(channel::kWheelCommand, command.header, std::move(bytes))) {
+  for (const Tap::Passed& through : tap.pass(channel::kWheelCommand, command.header, encoded(command))) {
     Waiting next{command.header.release_utime + through.delay, {}, true};
     if (!decode_message(through.bytes.data(), static_cast<int>(through.bytes.size()), next.command)) continue;
     next.command.header = command.header;

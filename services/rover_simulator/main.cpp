@@ -1,19 +1,16 @@
 #include <CLI/CLI.hpp>
-#include <atomic>
-#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "common/bus/bus_url.hpp"
+#include "common/bus/interrupt.hpp"
 #include "common/bus/vehicle_config.hpp"
 #include "rover_simulator/simulator.hpp"
 #include "rover_simulator/world/scenario.hpp"
 
 namespace {
-
-std::atomic<bool> running{true};
 
 struct Arguments {
   std::string config_dir = "config";
@@ -59,7 +56,7 @@ int simulate(Arguments& arguments) {
   arguments.options.end.timeout_s = scenario.timeout_s;
   arguments.options.faults = scenario.faults;
   rover::Simulator simulator(arguments.options, rover_and_world, lcm, &reports);
-  const rover::SimulationSummary summary = simulator.run([] { return running.load(); });
+  const rover::SimulationSummary summary = simulator.run(rover::going);
   for (const std::string& left : summary.left) std::printf("%s\n", left.c_str());
   if (!arguments.run_dir.empty()) write_summary(arguments.run_dir, summary);
   return 0;
@@ -88,8 +85,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
-  std::signal(SIGTERM, [](int) { running = false; });
-  std::signal(SIGINT, [](int) { running = false; });
+  rover::catch_interrupts();
   try {
     return simulate(arguments);
   } catch (const std::exception& error) {

@@ -11,6 +11,7 @@
 
 #include "common/bus/channels.hpp"
 #include "common/bus/s6_client.hpp"
+#include "common/bus/streams.hpp"
 #include "rover_simulator/convert.hpp"
 
 namespace rover {
@@ -47,7 +48,8 @@ RoverPhase phase_of(const supervisor_state_t& state) {
     case supervisor_state_t::GOAL_REACHED:
       return RoverPhase::kArrived;
     case supervisor_state_t::SAFE:
-      return RoverPhase::kGivenUp;
+      // Whoever pressed the emergency stop may clear it and go on.
+      return state.cause == "emergency_stop" ? RoverPhase::kFaultStop : RoverPhase::kGivenUp;
     case supervisor_state_t::FAULT_STOP:
       return state.cause == "no_path" ? RoverPhase::kGivenUp : RoverPhase::kFaultStop;
     default:
@@ -295,8 +297,7 @@ void Simulator::give_tick(Utime t) {
   });
   tick.stream_count = static_cast<std::int32_t>(tick.streams.size());
   tick.header = streams_.next(channel::kTick, t, t);
-  last_tick_.resize(static_cast<size_t>(tick.getEncodedSize()));
-  tick.encode(last_tick_.data(), 0, static_cast<int>(last_tick_.size()));
+  last_tick_ = encoded(tick);
   lcm_.publish(channel::kTick, last_tick_.data(), static_cast<unsigned int>(last_tick_.size()));
 }
 

@@ -1,5 +1,6 @@
 #include "rover_simulator/world_faults.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -31,13 +32,22 @@ void break_sensor(const injection_t& injection, SensorFaults& sensors) {
   if (injection.fault == "encoder_stuck") sensors.encoder_stuck.at(std::stoul(injection.target)) = true;
 }
 
-// Gravity as the vehicle would feel it with this roll or pitch on a slope that it faces as it does now.
-Eigen::Vector3d tilted(const injection_t& injection, double heading_rad, const Eigen::Vector3d& down) {
-  const double angle = to_rad(injection.amount);
+// It comes and goes as when a rover drives on and off a slope, at this rate.
+double tilt_rad(const injection_t& injection, Utime now) {
+  constexpr double kRateRadps = to_rad(15.0);
+  const double most = std::abs(to_rad(injection.amount));
+  const double risen = kRateRadps * to_seconds(now - injection.from_utime);
+  const double left = most - kRateRadps * to_seconds(now - injection.until_utime);
+  return std::copysign(std::clamp(std::min(risen, left), 0.0, most), injection.amount);
+}
+
+// The ground under a vehicle that has this roll or pitch on it with its heading.
+Eigen::Matrix3d tilted(const injection_t& injection, double heading_rad, Utime now) {
+  const double angle = tilt_rad(injection, now);
   const Eigen::Matrix3d heading = rotation_from_rpy(0.0, 0.0, heading_rad);
   const Eigen::Matrix3d tilt =
       injection.fault == "tilt_roll" ? rotation_from_rpy(angle, 0.0, 0.0) : rotation_from_rpy(0.0, angle, 0.0);
-  return heading * tilt.transpose() * heading.transpose() * down;
+  return heading * tilt * heading.transpose();
 }
 
 }  // namespace
@@ -59,10 +69,11 @@ SensorFaults WorldFaults::sensors(Utime now) const {
 VehicleFaults WorldFaults::vehicle(Utime now) const {
   VehicleFaults vehicle;
   for (const auto& [injection, heading_rad] : active_) {
+    if (injection.fault.rfind("tilt_", 0) == 0)
+      vehicle.R_level_ground = tilted(injection, heading_rad, now) * vehicle.R_level_ground;
     if (!stands(injection, now)) continue;
     if (injection.fault == "wheel_jammed") vehicle.jammed.at(std::stoul(injection.target)) = true;
     if (injection.fault == "loose_sand") vehicle.loose_sand = true;
-    if (injection.fault.rfind("tilt_", 0) == 0) vehicle.down = tilted(injection, heading_rad, vehicle.down);
   }
   return vehicle;
 }

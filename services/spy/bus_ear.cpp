@@ -6,7 +6,8 @@
 
 #include "common/bus/bus_url.hpp"
 #include "common/bus/config.hpp"
-#include "status/interrupt.hpp"
+#include "common/bus/interrupt.hpp"
+#include "common/bus/wall_clock.hpp"
 
 namespace rover::spy {
 
@@ -22,7 +23,7 @@ void BusEar::subscribe(lcm::LCM& lcm) {
       ".*",
       +[](const lcm::ReceiveBuffer* buffer, const std::string& channel, BusEar* self) {
         if (channel != "LCM_SELF_TEST")
-          self->traffic_.hear(channel, buffer->data, static_cast<int>(buffer->data_size), status::wall_s());
+          self->traffic_.hear(channel, buffer->data, static_cast<int>(buffer->data_size), wall_s());
       },
       this);
   // What LCM drops from a full queue would look like a gap of the bus.
@@ -35,7 +36,7 @@ void BusEar::listen(int timeout_ms) {
   for (lcm::LCM* lcm : {&bus_, &reports_}) {
     int handled = 1;
     while (handled > 0) handled = lcm->handleTimeout(0);
-    if (handled < 0 && status::going()) throw ConfigError("bus: " + url_ + " has failed");
+    if (handled < 0 && going()) throw ConfigError("bus: " + url_ + " has failed");
   }
 }
 

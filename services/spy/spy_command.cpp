@@ -8,10 +8,11 @@
 #include "common/bus/channel_types.hpp"
 #include "common/bus/config.hpp"
 #include "common/bus/event_log.hpp"
+#include "common/bus/interrupt.hpp"
+#include "common/bus/wall_clock.hpp"
 #include "spy/bus_ear.hpp"
 #include "spy/figures_json.hpp"
 #include "spy/table.hpp"
-#include "status/interrupt.hpp"
 #include "status/running_run.hpp"
 #include "status/terminal.hpp"
 
@@ -51,11 +52,11 @@ int find_fault(const Figures& figures, const std::string& source, const std::set
 
 int show_once(const Figures& figures, const std::string& source, const SpyArguments& arguments) {
   if (const int fault = find_fault(figures, source, arguments.channels); fault != 0) return fault;
-  using Json = nlohmann::ordered_json;
-  const std::string text =
-      arguments.json
-          ? figures_json(figures, source, arguments.channels).dump(2, ' ', false, Json::error_handler_t::replace) + "\n"
-          : table(figures, source, arguments.channels, everything());
+  const std::string text = arguments.json
+                               ? figures_json(figures, source, arguments.channels)
+                                         .dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
+                                     "\n"
+                               : table(figures, source, arguments.channels, everything());
   std::fputs(text.c_str(), stdout);
   return 0;
 }
@@ -79,23 +80,21 @@ int spy_on_log(const SpyArguments& arguments) {
 
 // Takes what comes until then, Ctrl-C, or the end of the run.
 void listen_until(BusEar& ear, double end_s) {
-  while (status::going() && status::wall_s() < end_s)
-    ear.listen(std::clamp(static_cast<int>((end_s - status::wall_s()) * 1e3), 1, kPollMs));
+  while (going() && wall_s() < end_s) ear.listen(std::clamp(static_cast<int>((end_s - wall_s()) * 1e3), 1, kPollMs));
 }
 
 int watch(BusEar& ear, Traffic& traffic, const status::Target& target, const SpyArguments& arguments) {
-  const double end_s =
-      arguments.for_s > 0.0 ? status::wall_s() + arguments.for_s : std::numeric_limits<double>::infinity();
+  const double end_s = arguments.for_s > 0.0 ? wall_s() + arguments.for_s : std::numeric_limits<double>::infinity();
   const auto over = [&] { return !target.run_dir.empty() && !status::is_running(target.run_dir); };
   {
     status::Terminal terminal;
-    while (status::going() && status::wall_s() < end_s && !over()) {
-      listen_until(ear, std::min(end_s, status::wall_s() + kRefreshS));
+    while (going() && wall_s() < end_s && !over()) {
+      listen_until(ear, std::min(end_s, wall_s() + kRefreshS));
       const status::ScreenOptions options = status::on_terminal() ? terminal.options() : everything();
-      terminal.redraw(table(traffic.figures(status::wall_s()), target.bus_url, arguments.channels, options));
+      terminal.redraw(table(traffic.figures(wall_s()), target.bus_url, arguments.channels, options));
     }
   }
-  return find_fault(traffic.figures(status::wall_s()), target.bus_url, arguments.channels);
+  return find_fault(traffic.figures(wall_s()), target.bus_url, arguments.channels);
 }
 
 int spy_on_bus(const SpyArguments& arguments) {
@@ -103,10 +102,10 @@ int spy_on_bus(const SpyArguments& arguments) {
   if (!target) return 1;
   Traffic traffic(Traffic::Rates::kRecent);
   BusEar ear(target->bus_url, traffic);
-  status::catch_interrupts();
+  catch_interrupts();
   if (!arguments.once && !arguments.json) return watch(ear, traffic, *target, arguments);
-  listen_until(ear, status::wall_s() + (arguments.for_s > 0.0 ? arguments.for_s : kOnceS));
-  return show_once(traffic.figures(status::wall_s()), target->bus_url, arguments);
+  listen_until(ear, wall_s() + (arguments.for_s > 0.0 ? arguments.for_s : kOnceS));
+  return show_once(traffic.figures(wall_s()), target->bus_url, arguments);
 }
 
 }  // namespace

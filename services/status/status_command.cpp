@@ -5,7 +5,8 @@
 #include <lcm/lcm-cpp.hpp>
 
 #include "common/bus/config.hpp"
-#include "status/interrupt.hpp"
+#include "common/bus/interrupt.hpp"
+#include "common/bus/wall_clock.hpp"
 #include "status/listener.hpp"
 #include "status/processes.hpp"
 #include "status/running_run.hpp"

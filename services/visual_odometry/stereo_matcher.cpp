@@ -54,8 +54,8 @@ std::optional<double> search_small(const Patch& patch, const cv::Mat& right, con
   return best;
 }
 
-std::optional<StereoMatch> searched(const ImagePyramid& left, const ImagePyramid& right, const Eigen::Vector2f& corner,
-                                    const StereoMatchConfig& config) {
+std::optional<StereoMatch> searched_along_row(const ImagePyramid& left, const ImagePyramid& right,
+                                              const Eigen::Vector2f& corner, const StereoMatchConfig& config) {
   const int top = std::min(kSearchLevel, left.count() - 1);
   Patch patch;
   Eigen::Vector2f shift = Eigen::Vector2f::Zero();
@@ -81,7 +81,7 @@ std::optional<StereoMatch> match_corner(const ImagePyramid& left, const ImagePyr
                                         const Eigen::Vector2f& corner, const StereoMatchConfig& config) {
   std::optional<StereoMatch> match;
   if (seed) match = seeded(*seed, corner);
-  if (!match && config.search_without_seed) match = searched(left, right, corner, config);
+  if (!match && config.search_without_seed) match = searched_along_row(left, right, corner, config);
   if (!match) return std::nullopt;
   Eigen::Matrix2f A_right_left;
   A_right_left << static_cast<float>(1.0 - match->gradient.x()), static_cast<float>(-match->gradient.y()), 0.0F, 1.0F;

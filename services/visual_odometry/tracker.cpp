@@ -50,8 +50,8 @@ std::optional<Prediction> predict(const Keyframe& key, const KeyPoint& point, co
 }
 
 // The best place in the window, or the guess where none is good.
-Eigen::Vector2f searched(const Patch& patch, const cv::Mat& image, const Eigen::Vector2f& guess,
-                         const TrackerConfig& config) {
+Eigen::Vector2f searched_about(const Patch& patch, const cv::Mat& image, const Eigen::Vector2f& guess,
+                               const TrackerConfig& config) {
   auto best_score = static_cast<float>(config.min_score_coarse);
   Eigen::Vector2f best = guess;
   for (int dy = -config.search_px; dy <= config.search_px; ++dy)
@@ -75,7 +75,7 @@ Track coarse(const Keyframe& key, const KeyPoint& point, const ImagePyramid& lef
     const auto scale = static_cast<float>(1 << level);
     // A window that leaves a small image is not lost on the larger ones.
     if (!make_patch(key.left.levels[level], point.pixel / scale, prediction.A_key_left, patch)) continue;
-    if (search && level == left.count() - 1) p = searched(patch, left.levels[level], p / scale, config) * scale;
+    if (search && level == left.count() - 1) p = searched_about(patch, left.levels[level], p / scale, config) * scale;
     const Alignment a = align(patch, left.levels[level], p / scale, static_cast<float>(config.max_shift_coarse_px));
     if (a.ok) p = a.position * scale;
     if (level == last) track.left = a.ok && a.score > config.min_score_coarse;

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "common/bus/channels.hpp"
+#include "common/bus/streams.hpp"
 #include "common/core/frames.hpp"
 #include "test/bench_faults/judge/table.hpp"
 #include "test/bench_faults/log.hpp"
@@ -50,8 +51,7 @@ class JudgeTest : public testing::Test {
     message.header.publisher = "test";
     message.header.boot_id = 1;
     message.header.seq = ++seq_;
-    std::vector<std::uint8_t> bytes(static_cast<size_t>(message.getEncodedSize()));
-    message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+    std::vector<std::uint8_t> bytes = encoded(message);
     judge_.take(channel, bytes.data(), static_cast<int>(bytes.size()));
   }
   void say_state(std::int8_t state) {

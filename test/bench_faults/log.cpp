@@ -3,6 +3,7 @@
 #include <set>
 
 #include "common/bus/channels.hpp"
+#include "common/bus/streams.hpp"
 
 namespace rover::bench_faults {
 namespace {
@@ -29,9 +30,7 @@ void Log::take(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
 
 void Log::note(const char* channel, injection_t what) {
   what.header.utime = what.header.release_utime = now_;
-  std::vector<std::uint8_t> bytes(static_cast<size_t>(what.getEncodedSize()));
-  what.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-  log_.put_bytes(channel, std::move(bytes), now_);
+  log_.put_bytes(channel, encoded(what), now_);
 }
 
 }  // namespace rover::bench_faults

@@ -44,7 +44,7 @@ TEST(Config, BrokenYamlAndMissingFileAreOneLine) {
 }
 
 TEST(Config, ShippedVehicleAndCamerasLoad) {
-  const std::string dir = std::string(ROVER_SOURCE_DIR) + "/config";
+  const std::string dir = ROVER_SOURCE_DIR "/config";
   const Vehicle vehicle = load_vehicle(dir);
   EXPECT_NEAR(vehicle.footprint_half_length_m(), 0.875, 1e-9);
   EXPECT_NEAR(vehicle.footprint_half_width_m(), 0.47, 1e-9);

@@ -8,6 +8,7 @@
 #include <rover/slip_t.hpp>
 
 #include "common/bus/config.hpp"
+#include "common/bus/streams.hpp"
 #include "temp_folder.hpp"
 
 namespace rover {
@@ -19,9 +20,7 @@ using Bytes = std::vector<std::uint8_t>;
 Bytes slip_bytes() {
   slip_t message{};
   message.header.publisher = "somebody";
-  Bytes bytes(static_cast<size_t>(message.getEncodedSize()));
-  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-  return bytes;
+  return encoded(message);
 }
 
 // By LCM's own writer.

@@ -14,6 +14,7 @@
 
 #include "common/bus/channel_types.hpp"
 #include "common/bus/channels.hpp"
+#include "common/bus/streams.hpp"
 
 namespace rover {
 namespace {
@@ -22,13 +23,6 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::IsSupersetOf;
 using ::testing::Pair;
-
-template <class Message>
-std::vector<std::uint8_t> encoded(const Message& message) {
-  std::vector<std::uint8_t> bytes(static_cast<size_t>(message.getEncodedSize()));
-  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-  return bytes;
-}
 
 std::optional<Fields> decoded(const std::string& channel, const std::vector<std::uint8_t>& bytes) {
   return decode_fields(channel, bytes.data(), static_cast<int>(bytes.size()));

@@ -6,6 +6,7 @@
 #include <rover/pose_t.hpp>
 #include <rover/slip_t.hpp>
 
+#include "common/bus/streams.hpp"
 #include "common/core/frames.hpp"
 
 namespace rover {
@@ -200,8 +201,7 @@ TEST_F(NodeTest, GarbageIsCountedAndChangesNothing) {
   foreign.header = world_.next(channel::kSlip, 0, 0);
   bus_.publish(channel::kSlip, &foreign);
   slip_t good = slip(1.0, 0, 20'000);
-  std::vector<std::uint8_t> cut(static_cast<size_t>(good.getEncodedSize()));
-  good.encode(cut.data(), 0, static_cast<int>(cut.size()));
+  std::vector<std::uint8_t> cut = encoded(good);
   bus_.publish(channel::kSlip, cut.data(), static_cast<unsigned int>(cut.size() - 4));
   tick(node, 20'000);
   EXPECT_EQ(taken, 0);
@@ -218,8 +218,7 @@ TEST_F(NodeTest, ADamagedCopyDoesNotStandInForTheMessage) {
   node.subscribe<slip_t>(channel::kSlip, [&](const slip_t& message) { taken.push_back(message.wheel_mps); });
   slip_t good = slip(1.0, 0, 20'000);
   slip_t next = slip(2.0, 10, 20'000);
-  std::vector<std::uint8_t> cut(static_cast<size_t>(good.getEncodedSize()));
-  good.encode(cut.data(), 0, static_cast<int>(cut.size()));
+  std::vector<std::uint8_t> cut = encoded(good);
   bus_.publish(channel::kSlip, cut.data(), static_cast<unsigned int>(cut.size() - 4));
   bus_.publish(channel::kSlip, &good);
   bus_.publish(channel::kSlip, &next);

@@ -13,13 +13,6 @@ namespace {
 
 using Bytes = Tap::Bytes;
 
-template <class Message>
-Bytes encoded(const Message& message) {
-  Bytes bytes(static_cast<size_t>(message.getEncodedSize()));
-  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-  return bytes;
-}
-
 slip_t slip(std::int64_t seq, Utime utime, double value = 1.0) {
   slip_t message{};
   message.header.seq = seq;

@@ -25,9 +25,7 @@ class RenderedTest : public testing::Test {
   static World make_world(double k) {
     WorldConfig config;
     config.rocks.k = k;
-    return World(config,
-                 read_elevation(std::string(ROVER_SOURCE_DIR) + "/config/terrain/gale/gale_hirise_dtm_1m_348x337.tif"),
-                 5);
+    return World(config, read_elevation(ROVER_SOURCE_DIR "/config/terrain/gale/gale_hirise_dtm_1m_348x337.tif"), 5);
   }
 
   // The six wheels on the ground (not on rocks), in the least-squares sense.

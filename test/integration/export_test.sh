@@ -4,8 +4,7 @@
 . "$(dirname "$0")/lib.sh"
 cd "$SOURCE"
 
-# A drive of 10 s of message time.
-sed "s#\.\./terrain#$SOURCE/config/terrain#; s/^timeout_s:.*/timeout_s: 10/" config/scenarios/default.yaml >"$WORK/short.yaml"
+default_for 10 "$WORK/short.yaml"
 drive "$WORK/run" "$WORK/short.yaml" --headless >/dev/null || true
 "$BUILD/bin/rover_export" "$WORK/run" >"$WORK/out" || fail "export: $(cat "$WORK/out")"
 out=$WORK/run/export

@@ -7,8 +7,7 @@
 scenario() {
   local file=$1
   shift
-  sed 's/^  x_m: .*/  x_m: [10.0, 12.0, 14.0, 16.0]/; s/^  y_m: .*/  y_m: [20.0, 20.0, 20.0, 20.0]/; /^ \{8\}/d' \
-    "$SOURCE/config/scenarios/flat.yaml" >"$file"
+  six_metres "$file"
   [ $# = 0 ] || { echo "faults:" && printf '  - %s\n' "$@"; } >>"$file"
 }
 

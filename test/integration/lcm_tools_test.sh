@@ -4,7 +4,8 @@
 
 lcm-logger --lcm-url="$BUS" "$WORK/beside.lcm" >/dev/null 2>&1 &
 logger=$!
-drive "$WORK/run" config/scenarios/flat.yaml --seed 5 --record full || true
+six_metres "$WORK/short.yaml"
+drive "$WORK/run" "$WORK/short.yaml" --seed 5 --record full || true
 sleep 1
 kill -INT $logger
 wait $logger || true

@@ -19,5 +19,12 @@ trap cleanup EXIT
 fail() { echo "FAIL: $*" >&2; exit 1; }
 # drive OUT ARGS...: a run in lockstep on this test's bus.
 drive() { local out=$1; shift; (cd "$SOURCE" && "$BUILD/bin/rover_launcher" run "$@" --out "$out" --bus "$BUS"); }
+# default_for SECONDS FILE: the default scenario, over after so many seconds of message time.
+default_for() { sed "s#\.\./terrain#$SOURCE/config/terrain#; s/^timeout_s:.*/timeout_s: $1/" "$SOURCE/config/scenarios/default.yaml" >"$2"; }
+# six_metres FILE: so much of the flat scenario.
+six_metres() {
+  sed 's/^  x_m: .*/  x_m: [10.0, 12.0, 14.0, 16.0]/; s/^  y_m: .*/  y_m: [20.0, 20.0, 20.0, 20.0]/; /^ \{8\}/d' \
+    "$SOURCE/config/scenarios/flat.yaml" >"$1"
+}
 # metric RUN_DIR KEY
 metric() { jq -r ".$2" "$1/metrics.json"; }

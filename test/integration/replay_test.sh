@@ -16,8 +16,7 @@ refused() {
   [ ! -e "$WORK/refused" ] || fail "$name: leaves a folder"
 }
 
-# A drive of 12 s of message time.
-sed "s#\.\./terrain#$SOURCE/config/terrain#; s/^timeout_s:.*/timeout_s: 12/" config/scenarios/default.yaml >"$WORK/short.yaml"
+default_for 12 "$WORK/short.yaml"
 drive "$WORK/run" "$WORK/short.yaml" --headless >/dev/null || true
 [ -s "$WORK/run/traverse.lcm" ] || fail "no log"
 

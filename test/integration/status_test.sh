@@ -63,7 +63,8 @@ status --bus "$BUS" --json >"$WORK/bus.json"
 jq -e '.run == null and .services.stereo.alive and .services.stereo.restarts == null' "$WORK/bus.json" >/dev/null ||
   fail "of the bus alone: $(cat "$WORK/bus.json")"
 
-status --watch --run "$WORK/run" >"$WORK/watched" &
+touch "$WORK/watched"
+(exec "$BUILD/bin/rover_launcher" status --watch --run "$WORK/run") >"$WORK/watched" &
 watch=$!
 until [ "$(grep -c '^SERVICE ' "$WORK/watched")" -ge 2 ]; do
   kill -0 $watch 2>/dev/null || fail "--watch ended"
@@ -71,6 +72,7 @@ until [ "$(grep -c '^SERVICE ' "$WORK/watched")" -ge 2 ]; do
 done
 kill -INT $watch
 wait $watch || fail "--watch: exit status $? after an interrupt"
+kill -0 $run 2>/dev/null || fail "--watch ended with the run, not by the interrupt"
 
 kill -TERM $run
 wait $run || true

@@ -12,17 +12,20 @@ remove_hosts() {
   ip netns del $VEHICLE 2>/dev/null || true
   ip netns del $STACK 2>/dev/null || true
 }
+# on HOST COMMAND...: takes the shell's place. Not `ip netns exec` and `ip -n`, which mount a /sys of the namespace's
+# own: not every container lets them.
+on() { exec nsenter --net="/run/netns/$1" "${@:2}"; }
 trap 'cleanup; remove_hosts' EXIT
-if ! ip netns add $VEHICLE 2>/dev/null || ! ip netns add $STACK 2>/dev/null ||
+if ! ip netns add $VEHICLE 2>/dev/null || ! ip netns add $STACK 2>/dev/null || ! (on $STACK true) ||
   ! ip link add ${CABLE}a netns $VEHICLE type veth peer name ${CABLE}b netns $STACK 2>/dev/null; then
   echo "SKIPPED: network namespaces are not permitted here (run it as root)"
   exit 77
 fi
 join() {  # HOST DEVICE ADDRESS
-  ip -n "$1" link set lo up
-  ip -n "$1" address add "$3/24" dev "$2"
-  ip -n "$1" link set "$2" up
-  ip -n "$1" route add 224.0.0.0/4 dev "$2"
+  (on "$1" ip link set lo up)
+  (on "$1" ip address add "$3/24" dev "$2")
+  (on "$1" ip link set "$2" up)
+  (on "$1" ip route add 224.0.0.0/4 dev "$2")
 }
 join $VEHICLE ${CABLE}a 10.77.0.1
 join $STACK ${CABLE}b 10.77.0.2
@@ -53,10 +56,10 @@ wait $first || true
 
 # Slower than the clock, so that a busy machine keeps up: two cores are two computers here.
 PACE=${ROVER_PACE:-0.4}
-ip netns exec $VEHICLE "$BUILD/bin/rover_simulator" --config config --scenario "$SCENARIO" --bus "$BUS" --realtime \
+on $VEHICLE "$BUILD/bin/rover_simulator" --config config --scenario "$SCENARIO" --bus "$BUS" --realtime \
   --pace $PACE --seed "$(sed -n 's/^seed: *//p' "$SCENARIO")" >"$WORK/vehicle.txt" 2>&1 &
 vehicle=$!
-ip netns exec $STACK "$BUILD/bin/rover_launcher" drive --headless --until-goal --ground "$WORK/ground.yaml" \
+on $STACK "$BUILD/bin/rover_launcher" drive --headless --until-goal --ground "$WORK/ground.yaml" \
   --map "$WORK/orbital_map.tif" --out "$WORK/run" --bus "$BUS" --patience 60 >"$WORK/drive.txt" 2>&1 &
 drive=$!
 until grep -q DRIVING "$WORK/drive.txt"; do
@@ -64,7 +67,7 @@ until grep -q DRIVING "$WORK/drive.txt"; do
   sleep 0.2
 done
 # From the stack's host, while it drives: what the driver's clocks are apart from TICK.
-ip netns exec $STACK "$BUILD/bin/rover_conform" --bus "$BUS" --listen 5 >"$WORK/conform.txt" || true
+(on $STACK "$BUILD/bin/rover_conform" --bus "$BUS" --listen 5) >"$WORK/conform.txt" || true
 grep "  clock  " "$WORK/conform.txt" || fail "no offset was measured: $(cat "$WORK/conform.txt")"
 grep -q "^pass  clock  " "$WORK/conform.txt" || fail "the clocks are apart: $(cat "$WORK/conform.txt")"
 grep -q "^pass  seq  " "$WORK/conform.txt" || fail "messages were lost on the way: $(cat "$WORK/conform.txt")"
@@ -80,10 +83,10 @@ wait $vehicle || true
 
 # Beyond the cable nothing is heard with the TTL of 0 that is the default.
 LOCAL="udpm://239.255.76.67:$((PORT + 1))?ttl=0&recv_buf_size=4194304"
-ip netns exec $VEHICLE "$BUILD/bin/example_driver" --bus "$LOCAL" >/dev/null &
+on $VEHICLE "$BUILD/bin/example_driver" --bus "$LOCAL" >/dev/null &
 quiet=$!
 status=0
-ip netns exec $STACK "$BUILD/bin/rover_conform" --bus "$LOCAL" --listen 2 >/dev/null 2>"$WORK/said" || status=$?
+(on $STACK "$BUILD/bin/rover_conform" --bus "$LOCAL" --listen 2) >/dev/null 2>"$WORK/said" || status=$?
 [ $status = 2 ] || fail "a bus of TTL 0 crosses the cable: $(cat "$WORK/said")"
 kill $quiet
 wait $quiet || true

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "common/bus/channels.hpp"
+#include "common/bus/streams.hpp"
 #include "common/core/frames.hpp"
 
 namespace rover::interchange {
@@ -15,8 +16,7 @@ namespace {
 
 template <class Message>
 Fields fields_of(const char* channel, const Message& message) {
-  std::vector<std::uint8_t> bytes(static_cast<size_t>(message.getEncodedSize()));
-  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  std::vector<std::uint8_t> bytes = encoded(message);
   return decode_fields(channel, bytes.data(), static_cast<int>(bytes.size())).value();
 }
 

@@ -8,6 +8,7 @@
 #include <rover/slip_t.hpp>
 
 #include "common/bus/channels.hpp"
+#include "common/bus/streams.hpp"
 #include "common/core/frames.hpp"
 #include "interchange/foxglove.hpp"
 
@@ -18,8 +19,7 @@ using nlohmann::json;
 
 template <class Message>
 json as_json(const char* channel, const Message& message) {
-  std::vector<std::uint8_t> bytes(static_cast<size_t>(message.getEncodedSize()));
-  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  std::vector<std::uint8_t> bytes = encoded(message);
   return json::parse(json_text(decode_fields(channel, bytes.data(), static_cast<int>(bytes.size())).value()));
 }
 

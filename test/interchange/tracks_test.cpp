@@ -33,26 +33,26 @@ TEST(GeoJson, HasALineForEachTrack) {
   for (int i = 0; i <= 100; ++i) tracks.truth.push_back(at(i * 20'000, 0.01 * i));
   tracks.estimate = {at(0, 0.0)};
   tracks.global_paths.push_back({7, 0, {{0.0, 0.0}, {5.0, 1.0}}});
-  const auto json = nlohmann::json::parse(geojson(tracks, {}, 0.1));
-  EXPECT_EQ(json["type"], "FeatureCollection");
-  ASSERT_EQ(json["features"].size(), 3U);
-  const auto& truth = json["features"][0];
+  const auto parsed = nlohmann::json::parse(geojson(tracks, {}, 0.1));
+  EXPECT_EQ(parsed["type"], "FeatureCollection");
+  ASSERT_EQ(parsed["features"].size(), 3U);
+  const auto& truth = parsed["features"][0];
   EXPECT_EQ(truth["properties"]["track"], "truth");
   EXPECT_EQ(truth["properties"]["coordinates"], "map, metres");
   EXPECT_EQ(truth["geometry"]["type"], "LineString");
   EXPECT_LE(truth["geometry"]["coordinates"].size(), 12U);
   EXPECT_EQ(truth["geometry"]["coordinates"].back()[0], 1.0);
-  EXPECT_EQ(json["features"][1]["geometry"]["coordinates"].size(), 2U) << "a line has two points at least";
-  EXPECT_EQ(json["features"][2]["properties"]["path_id"], 7);
+  EXPECT_EQ(parsed["features"][1]["geometry"]["coordinates"].size(), 2U) << "a line has two points at least";
+  EXPECT_EQ(parsed["features"][2]["properties"]["path_id"], 7);
 }
 
 TEST(GeoJson, CoordinatesAreThoseOfThePlanet) {
   Tracks tracks;
   tracks.truth = {at(0, 10.0), at(1, 20.0)};
-  const auto json = nlohmann::json::parse(geojson(
+  const auto parsed = nlohmann::json::parse(geojson(
       tracks, [](const Eigen::Vector2d& p) { return Eigen::Vector2d(137.0 + 1e-5 * p.x(), -4.5); }, 0.1));
-  EXPECT_EQ(json["features"][0]["geometry"]["coordinates"][1][0], 137.0002);
-  EXPECT_EQ(json["features"][0]["properties"]["coordinates"], "longitude, latitude");
+  EXPECT_EQ(parsed["features"][0]["geometry"]["coordinates"][1][0], 137.0002);
+  EXPECT_EQ(parsed["features"][0]["properties"]["coordinates"], "longitude, latitude");
 }
 
 }  // namespace

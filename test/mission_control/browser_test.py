@@ -187,6 +187,8 @@ def drive(page, second, url, run, pictures):
     wait_for("the emergency stop leads to SAFE", lambda: page.text("state") == "SAFE")
     check("out of which GO is refused", page.click("[data-command=go]") or wait_for(
         "with the reason", lambda: "go: refused, not possible in SAFE" in page.text("answer")))
+    page.click("#clear-safe")
+    wait_for("until the ground has cleared it", lambda: page.text("state") == "STANDBY")
 
 
 def main():

@@ -11,7 +11,7 @@
 namespace rover::mission {
 namespace {
 
-constexpr SlopeLimits kLimits{0.1745, 0.2618};  // 10 and 15 deg
+constexpr SlopeLimits kSlopeLimits{0.1745, 0.2618};  // 10 and 15 deg
 
 // Flat in the west, rising eastwards by the slope beyond x = 40 m.
 GroundMap ramp(double slope_rad, double resolution_m = 1.0) {
@@ -20,7 +20,7 @@ GroundMap ramp(double slope_rad, double resolution_m = 1.0) {
     for (int column = 0; column < heights.columns; ++column)
       heights.z_m.push_back(
           static_cast<float>(std::max(0.0, (column + 0.5) * resolution_m - 40.0) * std::tan(slope_rad)));
-  return GroundMap(heights, kLimits, 1.75);
+  return GroundMap(heights, kSlopeLimits, 1.75);
 }
 
 TEST(GroundMap, FindsTheSlopeOfAPlane) {

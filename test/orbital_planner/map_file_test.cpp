@@ -17,7 +17,7 @@ namespace rover::orbital {
 namespace {
 
 namespace fs = std::filesystem;
-const std::string kGale = std::string(ROVER_SOURCE_DIR) + "/config/terrain/gale/gale_hirise_dtm_1m_348x337.tif";
+const std::string kGaleMap = std::string(ROVER_SOURCE_DIR) + "/config/terrain/gale/gale_hirise_dtm_1m_348x337.tif";
 constexpr double kMarsRadiusM = 3396190.0;
 const char* const kMars =
     "GEOGCS[\"Mars\",DATUM[\"D_Mars\",SPHEROID[\"Mars\",3396190,0]],PRIMEM[\"Reference meridian\",0],"
@@ -82,14 +82,14 @@ class MapFile : public testing::Test {
 };
 
 TEST_F(MapFile, AMapInMetresIsReadAsItIs) {
-  const OrbitalMap map = read_map(kGale, folder_.file("copy.tif"));
+  const OrbitalMap map = read_map(kGaleMap, folder_.file("copy.tif"));
   EXPECT_FALSE(map.reprojected);
   EXPECT_FALSE(fs::exists(folder_.file("copy.tif")));
-  EXPECT_EQ(map.raster.z_m, read_elevation(kGale).z_m);
+  EXPECT_EQ(map.raster.z_m, read_elevation(kGaleMap).z_m);
 }
 
 TEST_F(MapFile, VoidsAreNoData) {
-  ElevationRaster raster = read_elevation(kGale);
+  ElevationRaster raster = read_elevation(kGaleMap);
   raster.at(100, 120) = kVoid;
   raster.at(7, 8) = std::numeric_limits<float>::infinity();
   write_geotiff(folder_.file("void.tif"), raster);
@@ -117,7 +117,7 @@ TEST_F(MapFile, AMapInDegreesIsReprojectedToSquareMetres) {
 }
 
 TEST_F(MapFile, TurnedAndOblongPixelsAreReprojected) {
-  const std::string wkt = read_elevation(kGale).projection_wkt;
+  const std::string wkt = read_elevation(kGaleMap).projection_wkt;
   Sample turned;
   turned.wkt = wkt;
   turned.transform = {8146000.0, 0.8, 0.6, -270000.0, 0.6, -0.8};
@@ -151,7 +151,7 @@ TEST_F(MapFile, AProjectionThatIsNotTrueToScaleThereIsReprojected) {
 
 TEST_F(MapFile, ScaledHeightsAreMadeMetres) {
   Sample sample;
-  sample.wkt = read_elevation(kGale).projection_wkt;
+  sample.wkt = read_elevation(kGaleMap).projection_wkt;
   sample.transform = {8146000.0, 1.0, 0.0, -270000.0, 0.0, -1.0};
   sample.scale = 0.5;
   sample.offset = -100.0;
@@ -182,7 +182,7 @@ TEST_F(MapFile, CutFilesAreNoticed) {
   sample.transform = {137.0, 1e-5, 0.0, -4.0, 0.0, -1e-5};
   sample.width = sample.height = 400;
   write(folder_.file("degrees.tif"), sample, [](int column, int row) { return 0.1 * column + 0.2 * row; });
-  for (const std::string& whole : {kGale, folder_.file("degrees.tif")})
+  for (const std::string& whole : {kGaleMap, folder_.file("degrees.tif")})
     for (double share : {0.01, 0.3, 0.9}) {
       fs::copy_file(whole, folder_.file("cut.tif"), fs::copy_options::overwrite_existing);
       fs::permissions(folder_.file("cut.tif"), fs::perms::owner_all);
@@ -193,7 +193,7 @@ TEST_F(MapFile, CutFilesAreNoticed) {
 }
 
 TEST_F(MapFile, AMapWithoutHeightsIsNoticed) {
-  ElevationRaster raster = read_elevation(kGale);
+  ElevationRaster raster = read_elevation(kGaleMap);
   std::fill(raster.z_m.begin(), raster.z_m.end(), kVoid);
   write_geotiff(folder_.file("empty.tif"), raster);
   EXPECT_NE(complaint(folder_.file("empty.tif")).find("no heights"), std::string::npos);
@@ -211,7 +211,7 @@ TEST_F(MapFile, LongitudeAndLatitudeLeadThereAndBack) {
   sample.wkt = kMars;
   sample.transform = {-137.0, 2e-4, 0.0, 60.0, 0.0, -2e-4};
   write(folder_.file("degrees.tif"), sample, [](int, int) { return 1.0; });
-  for (const ElevationRaster& raster : {read_elevation(kGale), read("degrees.tif").raster}) {
+  for (const ElevationRaster& raster : {read_elevation(kGaleMap), read("degrees.tif").raster}) {
     const Geography geography(raster);
     for (double u : {0.0, 0.3, 1.0})
       for (double v : {0.0, 0.6, 1.0}) {
@@ -223,7 +223,7 @@ TEST_F(MapFile, LongitudeAndLatitudeLeadThereAndBack) {
 
 TEST_F(MapFile, LongitudeAndLatitudeAreThoseOfTheMap) {
   // Gale crater lies at 137.4 deg east, 4.6 deg south.
-  const ElevationRaster gale = read_elevation(kGale);
+  const ElevationRaster gale = read_elevation(kGaleMap);
   const Geography geography(gale);
   const Eigen::Vector2d corner = geography.to_lon_lat({0.0, 0.0});
   EXPECT_NEAR(corner.x(), 137.4, 0.2);
@@ -235,7 +235,7 @@ TEST_F(MapFile, LongitudeAndLatitudeAreThoseOfTheMap) {
 }
 
 TEST_F(MapFile, WhatIsNoPlaceOnThePlanetIsNone) {
-  const Geography geography(read_elevation(kGale));
+  const Geography geography(read_elevation(kGaleMap));
   EXPECT_FALSE(geography.to_map({kNaN, 4.0}).allFinite());
   EXPECT_FALSE(geography.to_map({10.0, 400.0}).allFinite());
 }

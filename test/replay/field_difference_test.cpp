@@ -5,14 +5,13 @@
 #include <rover/slip_t.hpp>
 
 #include "common/bus/channels.hpp"
+#include "common/bus/streams.hpp"
 
 namespace rover::replay {
 namespace {
 
 Bytes bytes_of(const slip_t& message) {
-  Bytes bytes(static_cast<size_t>(message.getEncodedSize()));
-  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-  return bytes;
+  return encoded(message);
 }
 
 TEST(FieldDifference, names_the_first_field_that_differs) {

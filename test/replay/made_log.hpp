@@ -13,13 +13,6 @@
 
 namespace rover::replay {
 
-template <class Message>
-std::vector<std::uint8_t> encoded(const Message& message) {
-  std::vector<std::uint8_t> bytes(static_cast<size_t>(message.getEncodedSize()));
-  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-  return bytes;
-}
-
 // At each tick k = 1 .. count, 20 ms apart from 1 s on: the world's IMU with dt_s = k, and what the service "echo" said
 // one tick before: SLIP with slip_ratio = k - 1.
 class MadeLog {

@@ -13,7 +13,7 @@
 namespace rover::replay {
 namespace {
 
-constexpr char kBus[] = "udpm://239.255.76.67:21763?ttl=0";
+constexpr char kBus[] = "udpm://239.255.76.67:21763?ttl=0&recv_buf_size=4194304";
 
 // The service of the log: SLIP with the IMU's dt_s as slip ratio; from `odd_from` on with another one.
 class Echo {

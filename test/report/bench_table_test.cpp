@@ -20,7 +20,7 @@ BenchRow good(const std::string& scenario, std::int64_t seed) {
   row.path_ratio = 1.05;
   row.replans = 9;
   row.hazard_stops = 1;
-  row.collisions = row.rocks_missed = row.false_stops = 0;
+  row.collisions = row.rocks_missed = row.false_stops = row.faults = 0;
   row.rocks_encountered = 20;
   row.odometry_drift_percent = 0.4;
   row.cross_track_rms_m = 0.03;
@@ -63,6 +63,7 @@ TEST(BenchTable, EachFigureFailsItsOwnDemand) {
   const std::vector<std::function<void(BenchRow&)>> faults = {[](BenchRow& r) { r.outcome = "timeout"; },
                                                               [](BenchRow& r) { r.collisions = 1; },
                                                               [](BenchRow& r) { r.rocks_missed = 1; },
+                                                              [](BenchRow& r) { r.faults = 1; },
                                                               [](BenchRow& r) { r.path_ratio = 1.13; },
                                                               [](BenchRow& r) { r.odometry_drift_percent = 1.1; },
                                                               [](BenchRow& r) { r.cross_track_rms_m = 0.11; },

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "common/bus/streams.hpp"
 #include "common/core/time.hpp"
 
 namespace rover::report {
@@ -28,8 +29,7 @@ class MessageLog {
     message.header.publisher = publisher;
     message.header.boot_id = boot_id;
     message.header.seq = ++seq_[channel + '/' + publisher + '/' + std::to_string(boot_id)];
-    std::vector<std::uint8_t> bytes(static_cast<size_t>(message.getEncodedSize()));
-    message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+    std::vector<std::uint8_t> bytes = encoded(message);
     put_bytes(channel, bytes, utime + latency);
   }
 

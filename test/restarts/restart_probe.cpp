@@ -26,7 +26,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Wall = Clock::time_point;
 
-constexpr double kSteadyS = 8.5;    // of driving before each kill: five stops in ten metres would end the drive
+constexpr double kSteadyS = 13.0;   // of driving before each kill: five stops in ten metres would end the drive
 constexpr double kMostS = 30.0;     // for a service to come back and the drive to go on
 constexpr double kGiveUpS = 120.0;  // without motion the run is over
 constexpr double kTurningRadps = 0.5;
@@ -86,7 +86,7 @@ class Ear {
 bool wait_until_driving(Ear& ear) {
   for (const Wall begin = Clock::now(); seconds(begin, Clock::now()) < kGiveUpS;) {
     if (!ear.listen()) return false;
-    if (ear.driving_s() > kSteadyS) return true;
+    if (std::min(ear.driving_s(), seconds(begin, Clock::now())) > kSteadyS) return true;
   }
   return false;
 }

@@ -10,7 +10,7 @@
 namespace rover {
 namespace {
 
-constexpr Utime kStart = 1'000'000;
+constexpr Utime kScriptStart = 1'000'000;
 
 TEST(FaultScript, GivesEachFaultOnceWhenItsTimeWayOrStateHasCome) {
   std::vector<ScriptedFault> faults(3);
@@ -20,16 +20,16 @@ TEST(FaultScript, GivesEachFaultOnceWhenItsTimeWayOrStateHasCome) {
   faults[1].at_m = 1.0;
   faults[2].order.fault = "by_state";
   faults[2].at_state = std::int8_t{2};
-  FaultScript script(faults, kStart);
-  EXPECT_TRUE(script.take_due(kStart + 1'980'000, 0.9).empty());
-  EXPECT_EQ(script.take_due(kStart + 2'000'000, 0.9).at(0).fault, "by_time");
-  EXPECT_EQ(script.take_due(kStart + 2'020'000, 1.0).at(0).fault, "by_way");
+  FaultScript script(faults, kScriptStart);
+  EXPECT_TRUE(script.take_due(kScriptStart + 1'980'000, 0.9).empty());
+  EXPECT_EQ(script.take_due(kScriptStart + 2'000'000, 0.9).at(0).fault, "by_time");
+  EXPECT_EQ(script.take_due(kScriptStart + 2'020'000, 1.0).at(0).fault, "by_way");
   script.entered(1);
-  EXPECT_TRUE(script.take_due(kStart + 2'040'000, 2.0).empty());
+  EXPECT_TRUE(script.take_due(kScriptStart + 2'040'000, 2.0).empty());
   script.entered(2);
   script.entered(1);
-  EXPECT_EQ(script.take_due(kStart + 2'060'000, 2.0).at(0).fault, "by_state");
-  EXPECT_TRUE(script.take_due(kStart + 9'000'000, 9.0).empty());
+  EXPECT_EQ(script.take_due(kScriptStart + 2'060'000, 2.0).at(0).fault, "by_state");
+  EXPECT_TRUE(script.take_due(kScriptStart + 9'000'000, 9.0).empty());
 }
 
 TEST(ProcessFaults, ARestartLoopStrikesEachTimeTheServiceIsBack) {

@@ -20,7 +20,7 @@
 namespace rover {
 namespace {
 
-const std::string kConfig = std::string(ROVER_SOURCE_DIR) + "/config";
+const std::string kConfigDir = std::string(ROVER_SOURCE_DIR) + "/config";
 constexpr Utime kStart = 1'000'000;
 
 // Keeps all messages of a channel.
@@ -127,7 +127,7 @@ Heard drive(std::vector<ScriptedFault> faults, double seconds = 2.0) {
   plane.rocks.k = 0.0;
   plane.roughness.rms_m = 0.0;
   auto world = std::make_unique<World>(plane, plane_raster(40.0, 40.0, 1.0, 0.0, 0.0), 1);
-  SimulatedRover rover(config, load_vehicle(kConfig), load_stereo_rig(kConfig, "loccam"), std::move(world),
+  SimulatedRover rover(config, load_vehicle(kConfigDir), load_stereo_rig(kConfigDir, "loccam"), std::move(world),
                        {20.0, 20.0, 0.0}, 1);
   SimulatorOptions options;
   options.participants = {"driver"};
@@ -227,14 +227,29 @@ TEST(SimulatorFaults, LooseSandSlips) {
 }
 
 TEST(SimulatorFaults, ATiltIsFeltAsASlope) {
-  const Heard heard = drive({at_second(1.0, "tilt_pitch", "ground", 20.0)}, 3.0);
+  const Heard heard = drive({at_second(1.0, "tilt_pitch", "ground", 20.0)}, 4.0);
   // On a slope that falls ahead by 20 degrees specific force points up, that is backwards in the body.
-  double forward = 0.0, up = 0.0;
+  double forward = 0.0, up = 0.0, turned = 0.0;
+  for (const imu_t& imu : heard.imu) turned += imu.delta_angle_rad[1];
+  EXPECT_NEAR(turned, to_rad(20.0), to_rad(2.0));
   for (size_t i = heard.imu.size() - 50; i < heard.imu.size(); ++i) {
     forward += heard.imu[i].delta_velocity_mps[0];
     up += heard.imu[i].delta_velocity_mps[2];
   }
   EXPECT_NEAR(std::atan2(-forward, up), to_rad(20.0), to_rad(4.0));
+}
+
+TEST(SimulatorFaults, ATiltGoesAsItCame) {
+  ScriptedFault tilt = at_second(1.0, "tilt_roll", "ground", 20.0);
+  tilt.order.for_s = 2.0;
+  const Heard heard = drive({tilt}, 5.5);
+  double turned = 0.0, most = 0.0;
+  for (const imu_t& imu : heard.imu) {
+    turned += imu.delta_angle_rad[0];
+    most = std::max(most, turned);
+  }
+  EXPECT_NEAR(most, to_rad(20.0), to_rad(2.0));
+  EXPECT_NEAR(turned, 0.0, to_rad(2.0));
 }
 
 TEST(SimulatorFaults, TheClockStepsOnceAndTheRunGoesOn) {

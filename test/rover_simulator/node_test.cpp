@@ -5,6 +5,7 @@
 #include <rover/truth_t.hpp>
 
 #include "common/bus/channels.hpp"
+#include "common/bus/streams.hpp"
 #include "common/bus/vehicle_config.hpp"
 #include "rover_simulator/simulator.hpp"
 
@@ -13,13 +14,6 @@ namespace {
 
 const std::string kConfig = std::string(ROVER_SOURCE_DIR) + "/config";
 using Bytes = std::vector<std::uint8_t>;
-
-template <class Message>
-Bytes encoded(const Message& message) {
-  Bytes bytes(static_cast<size_t>(message.getEncodedSize()));
-  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-  return bytes;
-}
 
 // Answers each tick with all that the simulator listens to; on demand with bad copies in front.
 class Participant {

@@ -37,7 +37,7 @@ Line fit(const std::vector<Sample>& samples) {
 
 // The right motors are mounted the other way round, and the nose points up where the pitch is negative.
 std::vector<Sample> cuadriga() {
-  std::ifstream file(std::string(ROVER_SOURCE_DIR) + "/test/rover_simulator/data/cuadriga_slopes.csv");
+  std::ifstream file(ROVER_SOURCE_DIR "/test/rover_simulator/data/cuadriga_slopes.csv");
   std::vector<Sample> samples;
   for (std::string line; std::getline(file, line);) {
     std::replace(line.begin(), line.end(), ',', ' ');

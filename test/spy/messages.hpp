@@ -6,16 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "common/bus/streams.hpp"
 #include "common/core/time.hpp"
 
 namespace rover::spy {
-
-template <class Message>
-std::vector<std::uint8_t> encoded(const Message& message) {
-  std::vector<std::uint8_t> bytes(static_cast<size_t>(message.getEncodedSize()));
-  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-  return bytes;
-}
 
 template <class Message>
 Message made(Utime utime, std::int64_t seq, const std::string& publisher) {

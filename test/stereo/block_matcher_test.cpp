@@ -44,7 +44,7 @@ PaddedPair padded(const std::string& name, const MatcherConfig& config, const cv
 }
 
 PaddedPair recorded(const std::string& left, const std::string& right) {
-  const std::string data = std::string(ROVER_SOURCE_DIR) + "/test/data/";
+  const std::string data = ROVER_SOURCE_DIR "/test/data/";
   MatcherConfig config;
   config.residual_min_px = 0;
   return padded(left, config, cv::imread(data + left, cv::IMREAD_GRAYSCALE),

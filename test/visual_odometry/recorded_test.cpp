@@ -17,7 +17,7 @@ namespace {
 // KITTI odometry benchmark, sequence 06, frames 0-50 (not shipped): where it lies on this machine.
 std::string kitti_folder() {
   const char* given = std::getenv("ROVER_SHARED_DATA");
-  const std::string root = given ? given : std::string(ROVER_SOURCE_DIR) + "/../shared/data";
+  const std::string root = given ? given : ROVER_SOURCE_DIR "/../shared/data";
   return root + "/kitti_06_0_50";
 }
 
@@ -72,7 +72,7 @@ TEST(Recorded, KittiRoadDriveEndsWithinOnePercent) {
 }
 
 TEST(Recorded, MinnieMotionIsWithinFiveMillimetres) {
-  const std::string base = std::string(ROVER_SOURCE_DIR) + "/test/data/minnie/MinnieRectDeg3";
+  const std::string base = ROVER_SOURCE_DIR "/test/data/minnie/MinnieRectDeg3";
   const StereoCamera camera{
       640, 400, 1018.6 / 3.0, 956.501 / 3.0, 617.314 / 3.0, 0.2675, Eigen::Isometry3d::Identity()};
   Odometry odometry(OdometryConfig{});

@@ -184,8 +184,7 @@ void Node::publish(const std::string& channel, Message& message, Utime utime, Ut
 
 template <class Message>
 void Node::send(lcm::LCM& lcm, const std::string& channel, const Message& message) {
-  std::vector<std::uint8_t> bytes(static_cast<size_t>(message.getEncodedSize()));
-  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  std::vector<std::uint8_t> bytes = encoded(message);
   send_bytes(lcm, channel, bytes);
 }
 

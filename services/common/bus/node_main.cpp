@@ -3,29 +3,15 @@
 #include <sys/resource.h>
 
 #include <CLI/CLI.hpp>
-#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
 
 #include "common/bus/bus_url.hpp"
+#include "common/bus/interrupt.hpp"
 
 namespace rover {
 namespace {
-
-std::atomic<bool> running{true};
-
-void stop(int) {
-  running = false;
-}
-
-void install_signals() {
-  struct sigaction action {};
-  action.sa_handler = stop;
-  sigaction(SIGTERM, &action, nullptr);
-  sigaction(SIGINT, &action, nullptr);
-  std::signal(SIGPIPE, SIG_IGN);
-}
 
 // A damaged length in a message then costs an exception, not the machine's memory.
 void limit_memory() {
@@ -34,13 +20,12 @@ void limit_memory() {
   setrlimit(RLIMIT_AS, &limit);
 }
 
-// A process started by hand is newer than any that was started before it.
+}  // namespace
+
 std::int64_t boot_id_from_clock() {
   return std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::system_clock::now().time_since_epoch())
       .count();
 }
-
-}  // namespace
 
 std::string load_bus_url(const std::string& config_dir) {
   const Config config = Config::load(config_dir + "/bus.yaml");
@@ -67,7 +52,8 @@ int node_main(int argc, char** argv, const std::string& service, const NodeFacto
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
-  install_signals();
+  catch_interrupts();
+  std::signal(SIGPIPE, SIG_IGN);
   limit_memory();
   try {
     if (bus.empty()) bus = load_bus_url(config_dir);
@@ -77,7 +63,7 @@ int node_main(int argc, char** argv, const std::string& service, const NodeFacto
     Node node(options, lcm, parse_udpm(bus) ? &reports : nullptr);
     const std::shared_ptr<void> keep = factory({node, config_dir, lcm});
     node.log("INFO", "STARTED boot=" + std::to_string(options.boot_id));
-    node.run([] { return running.load(); });
+    node.run(going);
     node.log("INFO", "STOPPED");
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s: %s\n", service.c_str(), error.what());

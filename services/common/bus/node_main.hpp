@@ -1,6 +1,7 @@
 // The common part of every service's main: arguments, configuration, bus, signals, exit status.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -22,6 +23,9 @@ using NodeFactory = std::function<std::shared_ptr<void>(const NodeContext&)>;
 
 // The bus of config/bus.yaml.
 std::string load_bus_url(const std::string& config_dir);
+
+// A process started by hand is newer than any that was started before it.
+std::int64_t boot_id_from_clock();
 
 // Exit status 0 at SIGTERM or SIGINT, 2 on bad arguments or configuration.
 int node_main(int argc, char** argv, const std::string& service, const NodeFactory& factory);

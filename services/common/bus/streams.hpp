@@ -58,6 +58,12 @@ inline constexpr int kFingerprintBytes = 8;
 
 // Reads the header of any message without knowing its type. False where the bytes are too short for one.
 bool peek_header(const void* data, int size, header_t& header);
+template <class Message>
+std::vector<std::uint8_t> encoded(const Message& message) {
+  std::vector<std::uint8_t> bytes(static_cast<size_t>(message.getEncodedSize()));
+  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  return bytes;
+}
 // Decodes a whole message. False where it is truncated, of another type or has trailing bytes.
 template <class Message>
 bool decode_message(const void* data, int size, Message& message) {

@@ -47,6 +47,11 @@ struct StereoCamera {
   double baseline_m = 0.0;
   Eigen::Isometry3d T_body_cam = Eigen::Isometry3d::Identity();
 
+  // The same pictures, wherever it is mounted.
+  bool same_optics(const StereoCamera& other) const {
+    return width == other.width && height == other.height && focal_px == other.focal_px && cx_px == other.cx_px &&
+           cy_px == other.cy_px && baseline_m == other.baseline_m;
+  }
   double depth_m(double disparity_px) const { return focal_px * baseline_m / disparity_px; }
   // Point in camera axes of pixel (u, v) with the disparity.
   Eigen::Vector3d point(double u, double v, double disparity_px) const {

@@ -62,18 +62,21 @@ class VehicleSim::Impl {
   void advance(double dt_s, const WheelCommand& command) {
     const int steps = static_cast<int>(std::lround(dt_s / config_.step_s));
     ROVER_CHECK(steps > 0 && std::abs(steps * config_.step_s - dt_s) < 1e-9, dt_s, config_.step_s);
-    const Eigen::Matrix3d R_before = pose().linear();
+    const Eigen::Matrix3d R_before = R_level_ground_felt_ * pose().linear();
     begin_interval();
     for (int i = 0; i < steps; ++i) step(command);
     truth_.interval_s = dt_s;
-    truth_.delta_angle_rad = log_so3(R_before.transpose() * pose().linear());
+    R_level_ground_felt_ = R_level_ground_;
+    truth_.delta_angle_rad = log_so3(R_before.transpose() * (R_level_ground_felt_ * pose().linear()));
     truth_.specific_force_body_mps2 = truth_.delta_velocity_mps / dt_s;
     end_interval();
   }
 
   void set_faults(const VehicleFaults& faults) {
     loose_sand_ = faults.loose_sand;
-    Eigen::Map<Eigen::Vector3d>{model_->opt.gravity} = config_.gravity_mps2 * faults.down.normalized();
+    R_level_ground_ = faults.R_level_ground;
+    Eigen::Map<Eigen::Vector3d>{model_->opt.gravity} =
+        R_level_ground_.transpose() * Eigen::Vector3d(0.0, 0.0, -config_.gravity_mps2);
     for (int i = 0; i < 6; ++i)
       model_->dof_damping[model_->jnt_dofadr[drive_[i]]] = faults.jammed[i] ? kJammedNms : 0.0;
   }
@@ -257,6 +260,8 @@ class VehicleSim::Impl {
   std::array<SteerMotor, 4> steer_motor_;
   std::array<double, 6> along_mps_{}, rim_mps_{};  // sums over the interval
   bool loose_sand_ = false;
+  Eigen::Matrix3d R_level_ground_ = Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d R_level_ground_felt_ = Eigen::Matrix3d::Identity();  // at the end of the last advance()
   VehicleTruth truth_;
 };
 

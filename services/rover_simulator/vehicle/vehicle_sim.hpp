@@ -40,8 +40,8 @@ struct VehicleSimConfig {
 struct VehicleFaults {
   std::array<bool, 6> jammed{};  // the wheel does not turn, its motor goes on trying
   bool loose_sand = false;       // under all wheels
-  // Down, as on a slope: in map axes, of any length.
-  Eigen::Vector3d down = -Eigen::Vector3d::UnitZ();
+  // The ground as if it had been turned, under a map that stays: gravity and gyros feel it, cameras do not see it.
+  Eigen::Matrix3d R_level_ground = Eigen::Matrix3d::Identity();
 };
 
 enum class Collision : std::int8_t { kNone = 0, kBodyContact = 1, kWheelClimb = 2 };

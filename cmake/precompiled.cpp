@@ -1,0 +1,1 @@
+// No code: the target that carries the precompiled headers needs a file.

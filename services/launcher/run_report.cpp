@@ -1,0 +1,26 @@
+#include "launcher/run_report.hpp"
+
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+
+namespace rover {
+
+bool make_report(const std::string& bin_dir, const RunFolder& folder) {
+  const std::string log = folder.dir + "/service_logs/report.log";
+  const std::string command = "'" + bin_dir + "/rover_report' '" + folder.dir + "' > '" + log + "' 2>&1";
+  if (std::system(command.c_str()) == 0) return true;
+  std::fprintf(stderr, "the report failed; see %s\n", log.c_str());
+  return false;
+}
+
+nlohmann::json read_metrics(const RunFolder& folder) {
+  std::ifstream in(folder.dir + "/metrics.json");
+  return nlohmann::json::parse(in, nullptr, false);
+}
+
+double figure(const nlohmann::json& metrics, const char* key) {
+  return metrics.contains(key) && metrics[key].is_number() ? metrics[key].get<double>() : 0.0;
+}
+
+}  // namespace rover

@@ -1,0 +1,18 @@
+// The report of a run that has ended, and its figures.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "launcher/run_folder.hpp"
+
+namespace rover {
+
+// False where it failed; that is said on the terminal.
+bool make_report(const std::string& bin_dir, const RunFolder& folder);
+// metrics.json; discarded where it cannot be read.
+nlohmann::json read_metrics(const RunFolder& folder);
+// A figure of it, 0 where it is absent or null.
+double figure(const nlohmann::json& metrics, const char* key);
+
+}  // namespace rover

@@ -1,0 +1,13 @@
+#include "report/jpeg.hpp"
+
+#include <opencv2/imgcodecs.hpp>
+
+namespace rover::report {
+
+std::vector<std::uint8_t> jpeg_of(const cv::Mat& picture, int quality) {
+  std::vector<std::uint8_t> bytes;
+  cv::imencode(".jpg", picture, bytes, {cv::IMWRITE_JPEG_QUALITY, quality});
+  return bytes;
+}
+
+}  // namespace rover::report
