@@ -59,11 +59,15 @@ add_library(rover_opencv INTERFACE)
 target_include_directories(rover_opencv SYSTEM INTERFACE ${OpenCV_INCLUDE_DIRS})
 target_link_libraries(rover_opencv INTERFACE ${OpenCV_LIBS})
 
-# runtime: what ./rover run needs. tools: that, and what the other commands use. unit_tests: the programs of the unit
+# runtime: what ./rover run needs. full: that, and the services of the Full level. tools: runtime, and what the other
+# commands use. unit_tests: the programs of the unit
 # tests. core_tests: those of them that also run under the sanitizers in each ./rover test. benchmarks: those of ./rover
 # bench micro.
 add_custom_target(runtime)
+add_custom_target(full)
+add_dependencies(full runtime)
 add_custom_target(tools)
+add_dependencies(tools runtime)
 add_custom_target(unit_tests)
 add_custom_target(core_tests)
 add_custom_target(benchmarks)
@@ -98,15 +102,22 @@ function(rover_node service)
   rover_program(${service})
 endfunction()
 
-# rover_program(NAME), rover_tool(NAME): an executable in build/bin that ./rover run needs, or that other commands use.
+# rover_program(NAME), rover_tool(NAME): an executable in build/bin that ./rover run needs, at the Full level alone for its
+# services, or that other commands use.
 function(rover_program name)
-  rover_tool(${name})
-  add_dependencies(runtime ${name})
+  set(users runtime)
+  if(name IN_LIST ROVER_FULL_SERVICES)
+    set(users full)
+  endif()
+  rover_executable(${name} ${users})
 endfunction()
 function(rover_tool name)
+  rover_executable(${name} tools)
+endfunction()
+function(rover_executable name users)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
   rover_precompiled(${name})
-  add_dependencies(tools ${name})
+  add_dependencies(${users} ${name})
 endfunction()
 
 # rover_benchmark(NAME SOURCES ... LINK ...): a Google Benchmark program, in build/bench.

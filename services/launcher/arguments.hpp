@@ -12,7 +12,7 @@ struct RunArguments {
   std::string bin_dir;           // holds the services' executables
   std::string scenario;          // file; empty for run(): config/scenarios/default.yaml
   std::int64_t seed = -1;        // -1: the scenario's own
-  std::string level = "auto";
+  std::string level;             // efficient, auto or full; empty: the scenario's own
   std::vector<std::string> set;  // file.key.key=value
   std::string out;               // run folder; empty: logs/<time>-<scenario>
   std::string bus;               // LCM URL; empty: of config/bus.yaml

@@ -133,7 +133,7 @@ void run_jobs(const BenchArguments& arguments, const std::vector<Job>& jobs, Row
 int bench(const BenchArguments& arguments) {
   if (arguments.suite != "seed")
     throw ConfigError("bench: no suite '" + arguments.suite +
-                      "'; there are: seed, speed, micro, faults, restarts, page, data");
+                      "'; there are: seed, full, slam, correction, speed, micro, faults, restarts, page, data");
   Rows rows(arguments.run.source_dir + "/logs/bench/" + arguments.suite + "/rows.jsonl",
             commit_of(arguments.run.source_dir), arguments.resume);
   for (const auto& [scenario, least] : kLeastRepairs) {

@@ -28,14 +28,19 @@ struct NotBegun {
   std::string why;
 };
 
+std::vector<std::string> services_of(const DriveArguments& arguments) {
+  return service_names(arguments.level != "efficient");
+}
+
 std::vector<ServiceCommand> service_commands(const DriveArguments& arguments, const RunFolder& folder) {
   std::vector<ServiceCommand> commands;
-  for (const std::string name : kServiceNames)
+  for (const std::string& name : services_of(arguments))
     commands.push_back(service_command(name, arguments.bin_dir, folder, false));
   return commands;
 }
 
-void check_bus(const RunFolder& folder, const BusLock& lock) try {
+void check_machine(const DriveArguments& arguments, const RunFolder& folder, const BusLock& lock) try {
+  demand_programs(services_of(arguments), arguments.bin_dir);
   demand_bus(folder.bus_url, lock);
 } catch (const ConfigError& error) {
   throw NotBegun{error.what()};
@@ -141,7 +146,7 @@ int drive(const DriveArguments& arguments) {
   const RunFolder folder = make_drive_folder(arguments);
   const BusLock lock(folder.bus_url);
   try {
-    check_bus(folder, lock);
+    check_machine(arguments, folder, lock);
     return drive_in(arguments, folder);
   } catch (const NotBegun& problem) {
     remove_run_folder(folder);

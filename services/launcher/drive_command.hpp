@@ -7,16 +7,17 @@
 namespace rover {
 
 struct DriveArguments {
-  std::string source_dir = ".";  // holds config/ and logs/
-  std::string bin_dir;           // holds the services' executables
-  std::string config_dir;        // empty: source_dir/config
-  std::string ground;            // what the ground believes and wants; empty: config_dir/ground.yaml
-  std::string map;               // orbital map; empty: none
-  std::string bus;               // LCM URL; empty: of bus.yaml
-  std::string out;               // run folder; empty: logs/<time>-drive
-  std::string record;            // full or reduced; empty: of recorder.yaml
-  std::vector<std::string> set;  // file.key.key=value
-  double patience_s = 20.0;      // for the driver's first TICK
+  std::string source_dir = ".";     // holds config/ and logs/
+  std::string bin_dir;              // holds the services' executables
+  std::string config_dir;           // empty: source_dir/config
+  std::string ground;               // what the ground believes and wants; empty: config_dir/ground.yaml
+  std::string map;                  // orbital map; empty: none
+  std::string bus;                  // LCM URL; empty: of bus.yaml
+  std::string out;                  // run folder; empty: logs/<time>-drive
+  std::string record;               // full or reduced; empty: of recorder.yaml
+  std::string level = "efficient";  // or auto: with the services of the Full level
+  std::vector<std::string> set;     // file.key.key=value
+  double patience_s = 20.0;         // for the driver's first TICK
   bool headless = false;
   bool until_goal = false;
 };

@@ -69,6 +69,7 @@ LiveRun find_run(const InjectArguments& arguments) {
 }
 
 void signal_through_s6(const LiveRun& run, const std::string& service, const char* option) {
+  if (!keeps_service(run.dir, service)) throw ConfigError("inject: this run has no service " + service);
   if (!control_service(run.dir, service, option)) throw ConfigError("inject: s6-svc has failed on " + service);
 }
 

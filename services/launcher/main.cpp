@@ -20,9 +20,8 @@ std::string command_line(int argc, char** argv) {
 }
 
 void add_run_options(CLI::App& command, rover::RunArguments& run) {
-  command.add_option("--level", run.level, "autonomy level: auto, efficient or full")
-      ->check(CLI::IsMember({"auto", "efficient", "full"}))
-      ->capture_default_str();
+  command.add_option("--level", run.level, "autonomy level: efficient, auto or full; default: the scenario's")
+      ->check(CLI::IsMember({"auto", "efficient", "full"}));
   command.add_option("--set", run.set, "set a value of the configuration: file.key=value, repeatable");
 }
 
@@ -77,6 +76,9 @@ CLI::App* add_drive_command(CLI::App& app, rover::DriveArguments& drive) {
   command->add_option("--record", drive.record, "full or reduced")->check(CLI::IsMember({"full", "reduced"}));
   command->add_option("--patience", drive.patience_s, "seconds to wait for the driver's first TICK")
       ->check(CLI::Range(1.0, 3600.0))
+      ->capture_default_str();
+  command->add_option("--level", drive.level, "autonomy level: efficient, or auto: up to Full where it is needed")
+      ->check(CLI::IsMember({"auto", "efficient"}))
       ->capture_default_str();
   command->add_flag("--headless", drive.headless, "no page");
   command->add_flag("--until-goal", drive.until_goal, "end at the goal, without an order to stop");

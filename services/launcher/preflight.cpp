@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <filesystem>
 #include <fstream>
 
 #include "common/bus/bus_url.hpp"
@@ -83,6 +84,12 @@ BusLock::BusLock(const std::string& bus_url) {
 
 BusLock::~BusLock() {
   if (fd_ >= 0) close(fd_);
+}
+
+void demand_programs(const std::vector<std::string>& services, const std::string& bin_dir) {
+  for (const std::string& service : services)
+    if (!std::filesystem::exists(bin_dir + "/" + service))
+      throw ConfigError(service + " is not built; ./rover build builds everything");
 }
 
 void demand_bus(const std::string& bus_url, const BusLock& lock) {

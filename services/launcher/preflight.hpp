@@ -22,6 +22,9 @@ class BusLock {
   int fd_ = -1;
 };
 
+// Throws ConfigError where one of the services is not built.
+void demand_programs(const std::vector<std::string>& services, const std::string& bin_dir);
+
 // Throws ConfigError, with one line for each problem, where the bus cannot be used or is another rover's.
 void demand_bus(const std::string& bus_url, const BusLock& lock);
 

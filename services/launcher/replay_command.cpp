@@ -52,13 +52,9 @@ std::string config_from(const ReplayArguments& arguments, const std::string& log
   return dir;
 }
 
-bool is_service(const std::string& name) {
-  return std::find(kServiceNames.begin(), kServiceNames.end(), name) != kServiceNames.end();
-}
-
 std::vector<std::string> speaking_services(const RecordedLog& log) {
   std::vector<std::string> names;
-  for (const std::string name : kServiceNames)
+  for (const std::string& name : service_names(true))
     if (name != "recorder" && name != "mission_control" && !replay::boots_of(log, name).empty()) names.push_back(name);
   return names;
 }
@@ -71,10 +67,11 @@ std::vector<std::string> live_services(const ReplayArguments& arguments, const R
     return names;
   }
   std::vector<std::string> names;
+  const std::vector<std::string> services = service_names(true);
   for (const std::string& name : arguments.services) {
-    if (!is_service(name)) {
+    if (std::find(services.begin(), services.end(), name) == services.end()) {
       std::string known;
-      for (const std::string service : kServiceNames) known += (known.empty() ? "" : ", ") + service;
+      for (const std::string& service : services) known += (known.empty() ? "" : ", ") + service;
       throw ConfigError("--services: no service '" + name + "'; there are: " + known);
     }
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
@@ -317,6 +314,7 @@ int replay_log(const ReplayArguments& arguments) {
   if (arguments.check && log.by_the_clock())
     std::fprintf(stderr, "%s: this run followed the clock; in lockstep its services may say other things\n",
                  log_file.c_str());
+  demand_programs(plan.live, arguments.run.bin_dir);
   const BusLock lock(plan.bus_url);
   demand_bus(plan.bus_url, lock);
   catch_interrupts();

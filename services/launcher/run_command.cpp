@@ -20,6 +20,10 @@ namespace rover {
 namespace fs = std::filesystem;
 namespace {
 
+std::vector<std::string> services_of(const RunFolder& folder) {
+  return service_names(folder.level != "efficient");
+}
+
 bool allows_injection(const RunArguments& arguments, const RunFolder& folder) {
   return arguments.allow_injection || folder.has_faults;
 }
@@ -28,7 +32,7 @@ std::vector<ServiceCommand> service_commands(const RunArguments& arguments, cons
   const bool injects = allows_injection(arguments, folder);
   std::vector<ServiceCommand> commands;
   std::string participants;
-  for (const std::string name : kServiceNames) {
+  for (const std::string& name : services_of(folder)) {
     commands.push_back(service_command(name, arguments.bin_dir, folder, injects));
     participants += (participants.empty() ? "" : ",") + name;
   }
@@ -79,7 +83,7 @@ void write_run_json(const RunArguments& arguments, const RunFolder& folder) {
   const nlohmann::json facts = {{"scenario", scenario_name(arguments.scenario)},
                                 {"seed", folder.seed},
                                 {"commit", commit_of(arguments.source_dir)},
-                                {"level", arguments.level},
+                                {"level", folder.level},
                                 {"realtime", arguments.realtime},
                                 {"interrupted", !going()}};
   std::ofstream(folder.dir + "/run.json") << facts.dump(2) << "\n";
@@ -118,6 +122,7 @@ RunResult run(const RunArguments& given) {
   }
   const BusLock lock(folder.bus_url);
   try {
+    demand_programs(services_of(folder), arguments.bin_dir);
     demand_bus(folder.bus_url, lock);
   } catch (const ConfigError& error) {
     std::fprintf(stderr, "%s\n", error.what());

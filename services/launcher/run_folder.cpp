@@ -84,12 +84,13 @@ void fill_run_folder(const RunArguments& arguments, const std::string& dtm_file,
 
   const Scenario scenario = load_scenario(folder.scenario);
   folder.has_faults = !scenario.faults.empty();
+  folder.level = arguments.level.empty() ? scenario.level : arguments.level;
   folder.seed = arguments.seed >= 0 ? arguments.seed : static_cast<std::int64_t>(scenario.seed);
   const World world(scenario.world, scenario.dtm, static_cast<std::uint64_t>(folder.seed));
   const ElevationRaster orbital = world.orbital_map(scenario.orbital_resolution_m);
   write_geotiff(folder.dir + "/orbital_map.tif", orbital);
   const Pose2 start = scenario.start_pose();
-  write_ground(scenario, arguments.level, height_at(orbital, start.x_m, start.y_m), folder.config_dir + "/ground.yaml");
+  write_ground(scenario, folder.level, height_at(orbital, start.x_m, start.y_m), folder.config_dir + "/ground.yaml");
 }
 
 }  // namespace

@@ -14,8 +14,9 @@ struct RunFolder {
   std::string scenario;    // dir/config/scenario.yaml
   std::string bus_url;
   std::int64_t seed = 0;
-  bool has_faults = false;  // the scenario injects some
-  bool is_new = true;       // false: an empty folder was there already
+  bool has_faults = false;          // the scenario injects some
+  bool is_new = true;               // false: an empty folder was there already
+  std::string level = "efficient";  // auto, full: with the services of the Full level
 };
 
 // Throws ConfigError with one line where the scenario, a key or a value is not right, or the folder is not writable;

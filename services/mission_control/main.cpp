@@ -19,7 +19,8 @@ PageContext page_context(const NodeContext& context) {
   page.run_dir = run_dir;
   page.run_name = run_dir.empty() ? "by hand" : std::filesystem::path(run_dir).filename().string();
   page.allow_injection = context.node.options().allow_injection;
-  page.services.assign(kServiceNames.begin(), kServiceNames.end());
+  for (const std::string& name : service_names(true))
+    if (run_dir.empty() || keeps_service(run_dir, name)) page.services.push_back(name);
   page.rover_length_m = 2.0 * vehicle.footprint_half_length_m();
   page.setup = page_setup(context.config_dir, vehicle);
   page.inject = [run_dir](const std::string& service, CommandKind kind) {

@@ -15,9 +15,13 @@ bool process_alive(int pid) {
   return pid > 0 && (kill(pid, 0) == 0 || errno == EPERM);
 }
 
+bool keeps_service(const std::string& run_dir, const std::string& service) {
+  return !run_dir.empty() && std::filesystem::exists(run_dir + "/services/" + service);
+}
+
 bool control_service(const std::string& run_dir, const std::string& service, const char* option) {
+  if (!keeps_service(run_dir, service)) return false;
   const std::string dir = run_dir + "/services/" + service;
-  if (run_dir.empty() || !std::filesystem::exists(dir)) return false;
   const char* command[] = {"s6-svc", option, dir.c_str(), nullptr};
   pid_t pid = 0;
   if (posix_spawnp(&pid, command[0], nullptr, nullptr, const_cast<char**>(command), environ) != 0) return false;

@@ -148,6 +148,7 @@ Scenario load_scenario(const std::string& file) {
   scenario.name = fs::path(file).stem().string();
   if (config.has("seed")) scenario.seed = static_cast<std::uint64_t>(config.integer64("seed", {0, 9e15}));
   read_world(config.section("world"), file, scenario);
+  if (config.has("level")) scenario.level = config.one_of("level", {"efficient", "auto", "full"});
   scenario.path = read_path(config.section("path"), scenario.dtm);
   if (config.has("start")) scenario.start = read_start(config.section("start"));
   if (config.has("sun")) read_sun(config.section("sun"), scenario);

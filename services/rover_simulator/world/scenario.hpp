@@ -40,6 +40,8 @@ struct Scenario {
   double sun_elevation_rad = to_rad(40.0);
   double sun_azimuth_rad = to_rad(135.0);  // towards the sun, counter-clockwise from east
   double calibration_error_px = 0.2;       // rms, of the true cameras against config/cameras.yaml
+  std::string level =
+      "efficient";  // full: everywhere; auto: as the path's segments say, and as the rover finds the ground
   PlannedStart start;
   PlannedPath path;
   double timeout_s = 3600.0;
