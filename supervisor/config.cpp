@@ -27,10 +27,12 @@ constexpr StateSet kAlways = {kStandby, kDriving,     kHazardStop, kRepairing, k
 const std::vector<std::string> kResponses = {"log", "slow", "stop", "stop_replan", "restart_service", "safe"};
 
 void read_armed(const Config& c, MonitorRow& row) {
-  const std::string armed =
-      c.has("armed") ? c.one_of("armed", {"always", "under_way", "motion", "full"}) : std::string("always");
-  row.armed = armed == "always" ? kAlways : armed == "motion" ? kMotion : kUnderWayOrFaultStop;
-  row.full_only = armed == "full";
+  const std::string armed = c.has("armed") ? c.one_of("armed", {"always", "under_way", "motion", "full", "efficient"})
+                                           : std::string("always");
+  const bool ever = armed == "always" || armed == "efficient";
+  row.armed = ever ? kAlways : armed == "motion" ? kMotion : kUnderWayOrFaultStop;
+  if (armed == "full") row.level = Level::kFull;
+  if (armed == "efficient") row.level = Level::kEfficient;
 }
 
 FdirLine read_line(const Config& c) {
@@ -50,8 +52,11 @@ FdirLine read_line(const Config& c) {
   c.read("latched", row.latched);
   const std::string response = c.one_of("response", kResponses);
   row.response = static_cast<Response>(std::find(kResponses.begin(), kResponses.end(), response) - kResponses.begin());
-  const bool of_service = quantity->expansion == Expansion::kEachRequired;
+  const bool of_service =
+      quantity->expansion == Expansion::kEachRequired || quantity->expansion == Expansion::kEachFull;
   if (row.response == Response::kRestartService && !of_service) c.fail("response", "no service to start anew");
+  c.read("stops", row.stops);
+  if (!row.stops && row.response != Response::kRestartService) c.fail("stops", "belongs to restart_service");
   read_armed(c, row);
   return line;
 }
@@ -91,7 +96,12 @@ void take_ages(SupervisorConfig& out) {
   take_age(out.fdir.lines, "wheel_state_age_s", out.wheels_max_age_s);
   take_age(out.fdir.lines, "hazards_age_s", out.hazards_max_age_s);
   take_age(out.fdir.lines, "heartbeat_age_s", out.heartbeat_max_age_s);
-  take_age(out.fdir.lines, "terrain_age_s", out.terrain_max_age_s);
+}
+
+// Whatever the row's own response is: without the map the rover stops to sweep.
+void take_terrain_way(SupervisorConfig& out) {
+  for (const FdirLine& line : out.fdir.lines)
+    if (line.quantity == "terrain_way_m") out.terrain_max_way_m = std::min(out.terrain_max_way_m, line.row.limit);
 }
 
 void read_level(const Config& c, LevelConfig& out) {
@@ -101,6 +111,14 @@ void read_level(const Config& c, LevelConfig& out) {
   c.read("least_hazards", out.least_hazards, {1.0, 1000.0});
   c.read("easy_difficulty", out.easy_difficulty, {0.0, 1.0});
   c.read("easy_way_m", out.easy_way_m, {0.0, 1000.0});
+  c.read("failing_starts", out.failing_starts, {1.0, 100.0});
+  c.read("failing_sweep_s", out.failing_sweep_s, {1.0, 600.0});
+}
+
+void read_sweep(const Config& c, SupervisorConfig& out) {
+  c.read("known_ahead", out.terrain_known_ahead, {0.01, 1.0});
+  c.read("known_around", out.terrain_known_around, {0.01, 1.0});
+  c.read("patience_s", out.sweep_patience_s, {1.0, 600.0});
 }
 
 void read_hazard_stop(const Config& c, SupervisorConfig& out) {
@@ -126,10 +144,11 @@ SupervisorConfig load_config(const std::string& config_dir) {
   take_vehicle(vehicle, out);
   out.fdir.lines = read_lines(config_dir, vehicle);
   take_ages(out);
+  take_terrain_way(out);
   const Config config = Config::load(config_dir + "/supervisor.yaml");
   out.fdir.required_services = split(config.text("required_services"));
   out.fdir.optional_services = split(config.text("optional_services"));
-  out.full_services = split(config.text("full_services"));
+  out.fdir.full_services = split(config.text("full_services"));
   config.read("max_speed_mps", out.max_speed_mps, {0.01, vehicle.top_speed_mps});
   config.read("slow_speed_mps", out.slow_speed_mps, {0.01, vehicle.top_speed_mps});
   config.read("teleop_speed_mps", out.teleop_speed_mps, {0.01, vehicle.top_speed_mps});
@@ -137,6 +156,7 @@ SupervisorConfig load_config(const std::string& config_dir) {
   config.read("permit_validity_s", out.permit_validity_s, {0.04, 0.2});
   config.read("goal_tolerance_m", out.goal_tolerance_m, {0.05, 5.0});
   read_hazard_stop(config.section("hazard_stop"), out);
+  read_sweep(config.section("sweep"), out);
   read_level(config.section("level"), out.level);
   const Config restarts = config.section("restarts");
   restarts.read("patience_s", out.keeper.patience_s, {1.0, 60.0});

@@ -96,14 +96,18 @@ ImuReport report_from(const imu_t& message) {
   return {message.header.utime, message.status != imu_t::OK || !finite};
 }
 
-TerrainReport report_from(const traversability_t& message) {
+TerrainReport report_from(const traversability_t& message, const Pose2& body_odom) {
   TerrainReport out;
   out.utime = message.header.utime;
   out.difficulty = message.difficulty;
-  const auto known = std::count_if(message.cells.begin(), message.cells.end(),
-                                   [](auto cost) { return cost != traversability_t::UNKNOWN; });
-  out.known = message.cells.empty() ? 0.0 : static_cast<double>(known) / static_cast<double>(message.cells.size());
+  const CostView map{message.cell_m,  message.origin_x_m, message.origin_y_m,       message.cells_x,
+                     message.cells_y, message.cells,      traversability_t::UNKNOWN};
+  out.known = known_shares(map, body_odom);
   return out;
+}
+
+SlamReport report_from(const slam_pose_t& message) {
+  return {message.header.utime, message.status == slam_pose_t::LOST};
 }
 
 ServiceReport report_from(const heartbeat_t& message) {

@@ -11,6 +11,7 @@
 #include <rover/path_t.hpp>
 #include <rover/planner_status_t.hpp>
 #include <rover/pose_t.hpp>
+#include <rover/slam_pose_t.hpp>
 #include <rover/slip_t.hpp>
 #include <rover/supervisor_state_t.hpp>
 #include <rover/traversability_t.hpp>
@@ -27,7 +28,9 @@ ControlReport report_from(const control_status_t& message);
 SlipReport report_from(const slip_t& message);
 WheelReport report_from(const wheel_state_t& message);
 ImuReport report_from(const imu_t& message);
-TerrainReport report_from(const traversability_t& message);
+// `body_odom`: the newest pose in odom.
+TerrainReport report_from(const traversability_t& message, const Pose2& body_odom);
+SlamReport report_from(const slam_pose_t& message);
 ServiceReport report_from(const heartbeat_t& message);
 PathLevels levels_from(const path_t& message);
 GroundCommand command_from(const ground_command_t& message);

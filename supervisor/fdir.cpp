@@ -27,6 +27,8 @@ void Fdir::expand(const FdirLine& line, const FdirConfig& config) {
       return each_service(config.required_services);
     case Expansion::kEachOptional:
       return each_service(config.optional_services);
+    case Expansion::kEachFull:
+      return each_service(config.full_services);
     case Expansion::kEachDrive:
       return each_motor(kDriveNames);
     case Expansion::kEachSteer:
@@ -45,7 +47,7 @@ std::vector<FaultChange> Fdir::step(const Now& now, State state, Level level) {
   std::vector<FaultChange> changes;
   for (Watch& watch : watches_) {
     const MonitorRow& row = watch.monitor.row();
-    const bool armed = row.armed.has(state) && (!row.full_only || level == Level::kFull);
+    const bool armed = row.armed.has(state) && row.level.value_or(level) == level;
     if (watch.monitor.step(now.utime, armed, watch.quantity->read(now, watch.subject, row.limit)))
       changes.push_back(record(watch));
   }

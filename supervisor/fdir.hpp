@@ -19,6 +19,7 @@ struct FdirConfig {
   std::vector<FdirLine> lines;
   std::vector<std::string> required_services;  // without one of them the rover stands
   std::vector<std::string> optional_services;
+  std::vector<std::string> full_services;  // required at the Full level
 };
 
 struct FaultChange {

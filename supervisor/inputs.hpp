@@ -8,6 +8,7 @@
 
 #include "common/core/frames.hpp"
 #include "common/core/time.hpp"
+#include "supervisor/terrain_view.hpp"
 
 namespace rover::supervisor {
 
@@ -78,7 +79,13 @@ struct ImuReport {
 struct TerrainReport {
   Utime utime = kNever;
   double difficulty = kNaN;  // 0 easy .. 1 hard
-  double known = 0.0;        // share of the map that has been seen
+  KnownShares known;
+  double travelled_m = 0.0;  // where it came
+};
+
+struct SlamReport {
+  Utime utime = kNever;
+  bool lost = false;
 };
 
 enum class ServiceStatus : std::int8_t { kOk = 0, kDegraded = 1, kFault = 2 };
@@ -102,6 +109,7 @@ struct Inputs {
   WheelReport wheels;
   ImuReport imu;
   TerrainReport terrain;
+  SlamReport slam;
   Utime motion_command_utime = kNever;
   std::map<std::string, ServiceReport> services;
 };

@@ -17,6 +17,8 @@ struct LevelConfig {
   double least_hazards = 4;    // before they count
   double easy_difficulty = 0.25;
   double easy_way_m = 8.0;
+  double failing_starts = 2.0;    // of one of the Full level's services within a minute: down
+  double failing_sweep_s = 40.0;  // a sweep that shows nothing for that long: down
 };
 
 class LevelJudge {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "common/core/frames.hpp"
@@ -27,7 +28,8 @@ struct MonitorRow {
   bool latched = false;  // cleared by the ground, or where the row is not armed
   Response response = Response::kStop;
   StateSet armed;
-  bool full_only = false;  // armed in the Full level alone
+  std::optional<Level> level;  // armed in that level alone
+  bool stops = true;           // restart_service: the rover stands meanwhile
 };
 
 struct Reading {
@@ -52,7 +54,7 @@ class Monitor {
 
   const MonitorRow& row() const { return row_; }
   bool standing() const { return standing_; }
-  bool blocks() const { return standing_ && row_.response >= Response::kStop; }
+  bool blocks() const { return standing_ && row_.stops && row_.response >= Response::kStop; }
   const Reading& reading() const { return reading_; }
   double limit() const { return std::isnan(reading_.limit) ? row_.limit : reading_.limit; }
   // utime of the message that completed the persistence.

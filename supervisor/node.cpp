@@ -4,6 +4,7 @@
 #include <rover/motion_command_t.hpp>
 #include <sstream>
 
+#include "common/bus/convert.hpp"
 #include "common/bus/s6_client.hpp"
 #include "supervisor/convert.hpp"
 #include "supervisor/memory_codec.hpp"
@@ -55,15 +56,21 @@ void SupervisorNode::subscribe() {
     pids_[m.header.publisher] = m.pid;
     supervisor_.on_service(m.header.publisher, report_from(m));
   });
-  node_.subscribe<pose_t>(channel::kPose, [this](const pose_t& m) { supervisor_.on_pose(report_from(m)); });
+  node_.subscribe<pose_t>(channel::kPose, [this](const pose_t& m) {
+    body_odom_ = planar(pose_from(m.position_odom_body_m, m.quat_odom_body_wxyz));
+    supervisor_.on_pose(report_from(m));
+  });
   node_.subscribe<hazards_t>(channel::kHazards, [this](const hazards_t& m) { supervisor_.on_hazards(report_from(m)); });
   node_.subscribe<planner_status_t>(channel::kPlannerStatus,
                                     [this](const planner_status_t& m) { supervisor_.on_planner(report_from(m)); });
   node_.subscribe<path_t>(channel::kPath, [this](const path_t& m) { supervisor_.on_path(levels_from(m)); });
   node_.subscribe<control_status_t>(channel::kControlStatus,
                                     [this](const control_status_t& m) { supervisor_.on_control(report_from(m)); });
-  node_.subscribe<traversability_t>(channel::kTraversability,
-                                    [this](const traversability_t& m) { supervisor_.on_terrain(report_from(m)); });
+  node_.subscribe<traversability_t>(channel::kTraversability, [this](const traversability_t& m) {
+    supervisor_.on_terrain(report_from(m, body_odom_));
+  });
+  node_.subscribe<slam_pose_t>(channel::kSlamPose,
+                               [this](const slam_pose_t& m) { supervisor_.on_slam(report_from(m)); });
   node_.subscribe<ground_command_t>(channel::kGroundCommand, [this](const ground_command_t& m) {
     // Localization takes the start pose, and answers for it.
     if (m.kind != ground_command_t::SET_START_POSE) supervisor_.on_command(command_from(m));

@@ -33,6 +33,7 @@ class SupervisorNode {
   Node& node_;
   KeptState kept_;
   Kill kill_;
+  Pose2 body_odom_{};  // newest
   Supervisor supervisor_;
   Memory saved_;
   std::map<std::string, int> pids_;

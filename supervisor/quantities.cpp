@@ -45,6 +45,21 @@ Reading stereo_coverage(const Now& now, const Subject&, double limit) {
   return below_reading(now.in.hazards.coverage, limit, now.in.hazards.utime, now.utime);
 }
 
+// The map comes with the way, not with time: what ages it is ground that was driven since.
+Reading terrain_way(const Now& now, const Subject&, double limit) {
+  if (now.in.terrain.utime < 0) return age_reading(kNever, now.utime, limit);
+  const double way = std::abs(now.in.pose.travelled_m - now.in.terrain.travelled_m);
+  return above_reading(way, limit, now.in.pose.utime, now.utime);
+}
+
+Reading sweep_time(const Now& now, const Subject&, double limit) {
+  return above_reading(now.sweep_s, limit, now.utime, now.utime);
+}
+
+Reading slam_lost(const Now& now, const Subject&, double) {
+  return flag_reading(now.in.slam.lost, now.in.slam.utime, now.utime);
+}
+
 Reading corridor_deviation(const Now& now, const Subject&, double) {
   const ControlReport& control = now.in.control;
   Reading out = flag_reading(control.out_of_corridor, control.utime, now.utime);
@@ -188,7 +203,9 @@ constexpr std::array kQuantities = {
     Quantity{"planner_age_s", kOne, age<&Inputs::planner>},
     Quantity{"control_age_s", kOne, age<&Inputs::control>},
     Quantity{"motion_command_age_s", kOne, motion_command_age},
-    Quantity{"terrain_age_s", kOne, age<&Inputs::terrain>},
+    Quantity{"terrain_way_m", kOne, terrain_way},
+    Quantity{"sweep_s", kOne, sweep_time},
+    Quantity{"slam_lost", kOne, slam_lost},
     Quantity{"path_mismatch", kOne, path_mismatch},
     Quantity{"no_path", kOne, no_path},
     Quantity{"blocked", kOne, blocked},
@@ -198,6 +215,11 @@ constexpr std::array kQuantities = {
     Quantity{"log_lost", kOne, log_lost},
     Quantity{"starts_per_minute", kEachRequired, service_starts},
     Quantity{"restart_tries", kEachRequired, restart_tries},
+    Quantity{"full_heartbeat_age_s", kEachFull, heartbeat_age},
+    Quantity{"full_idle_heartbeat_age_s", kEachFull, optional_heartbeat_age},
+    Quantity{"full_service_fault", kEachFull, service_status<ServiceStatus::kFault>},
+    Quantity{"full_starts_per_minute", kEachFull, service_starts},
+    Quantity{"full_restart_tries", kEachFull, restart_tries},
     Quantity{"lost_share", kOne, lost_share},
     Quantity{"clock_step_s", kOne, derived_above<&Derived::clock_step_s>},
     Quantity{"unpermitted_motion_s", kOne, derived_above<&Derived::unpermitted_s>},

@@ -32,7 +32,7 @@ struct Subject {
 };
 
 // Which rows one line of the table becomes.
-enum class Expansion { kOne, kEachRequired, kEachOptional, kEachDrive, kEachSteer };
+enum class Expansion { kOne, kEachRequired, kEachOptional, kEachFull, kEachDrive, kEachSteer };
 
 struct Now {
   const Inputs& in;
@@ -42,6 +42,7 @@ struct Now {
   bool waits_before_block;  // in a state that waits for a way past a hazard
   double blocked_in_m;
   double stop_distance_m;
+  double sweep_s;  // for how long the rover stands and sweeps
 };
 
 struct Quantity {

@@ -95,7 +95,8 @@ constexpr std::array kPermitRules = {
 using L = LevelFact;
 
 // The ground's word first, then the path's, then what the rover finds on its way. What raised the level lowers it: a
-// segment's end only what a segment began. The windows of the measured facts start anew at each change (hysteresis).
+// segment's end only what a segment began; where the path leaves the choice, so do services that fail. The windows of
+// the measured facts start anew at each change (hysteresis).
 constexpr std::array kLevelTransitions = {
     LevelTransition{Level::kEfficient, {L::kForcedFull, L::kFullReady}, {}, Level::kFull, "forced", L::kForcedFull},
     LevelTransition{Level::kFull, {L::kForcedEfficient}, {}, Level::kEfficient, "forced", L::kForcedEfficient},
@@ -107,13 +108,13 @@ constexpr std::array kLevelTransitions = {
                     L::kPathFull},
     LevelTransition{Level::kEfficient,
                     {L::kSlowProgress, L::kFullReady},
-                    {L::kForcedEfficient},
+                    {L::kForcedEfficient, L::kFullFailing},
                     Level::kFull,
                     "slow_progress",
                     L::kSlowProgress},
     LevelTransition{Level::kEfficient,
                     {L::kManyHazards, L::kFullReady},
-                    {L::kForcedEfficient},
+                    {L::kForcedEfficient, L::kFullFailing},
                     Level::kFull,
                     "many_hazards",
                     L::kManyHazards},
@@ -129,6 +130,12 @@ constexpr std::array kLevelTransitions = {
                     Level::kEfficient,
                     "easy_terrain",
                     L::kEasyAhead},
+    LevelTransition{Level::kFull,
+                    {L::kFullFailing},
+                    {L::kPathFull, L::kForcedFull},
+                    Level::kEfficient,
+                    "full_failing",
+                    L::kFullFailing},
 };
 
 constexpr std::array<const char*, kStateCount> kStateNames = {"BOOT",         "STANDBY",    "DRIVING",    "HAZARD_STOP",
@@ -140,8 +147,8 @@ constexpr std::array<const char*, kFactCount> kFactNames = {
     "GO",           "STOP",       "PAUSE",        "RESUME",         "EMERGENCY_STOP", "CLEAR_SAFE",   "TELEOP"};
 constexpr std::array<const char*, 2> kLevelNames = {"EFFICIENT", "FULL"};
 constexpr std::array<const char*, kLevelFactCount> kLevelFactNames = {
-    "full_ready",     "forced_full",   "forced_efficient", "path_full",
-    "raised_by_path", "slow_progress", "many_hazards",     "easy_ahead"};
+    "full_ready",    "forced_full",  "forced_efficient", "path_full",   "raised_by_path",
+    "slow_progress", "many_hazards", "easy_ahead",       "full_failing"};
 
 template <class Enum, size_t N>
 std::string names(EnumSet<Enum> facts, const std::array<const char*, N>& of, const char* prefix) {

@@ -68,8 +68,9 @@ enum class LevelFact : int {
   kSlowProgress,  // effective speed below its limit, over a whole window
   kManyHazards,   // per way, over a whole window
   kEasyAhead,     // difficulty of the ground ahead below its limit, for the whole of a way
+  kFullFailing,   // one of the Full level's services dies over and over, or a sweep is in vain
 };
-inline constexpr int kLevelFactCount = 8;
+inline constexpr int kLevelFactCount = 9;
 
 // A small set of enumerators.
 template <class Enum>

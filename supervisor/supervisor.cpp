@@ -61,6 +61,11 @@ void Supervisor::on_wheels(const WheelReport& wheels) {
   derive_.on_wheels(wheels);
 }
 
+void Supervisor::on_terrain(const TerrainReport& terrain) {
+  in_.terrain = terrain;
+  in_.terrain.travelled_m = in_.pose.travelled_m;
+}
+
 SupervisorOutput Supervisor::step(Utime now) {
   if (since_ == kNever) begin(now);
   SupervisorOutput out;
@@ -88,7 +93,7 @@ void Supervisor::begin(Utime now) {
 
 Now Supervisor::judged(Utime now) const {
   const bool waits = state_ == kHazardStop || state_ == kRepairing;
-  return {in_, derive_.values(), now, standing_still(), waits, blocked_in_m(), stop_distance_m()};
+  return {in_, derive_.values(), now, standing_still(), waits, blocked_in_m(), stop_distance_m(), sweep_s(now)};
 }
 
 void Supervisor::run_rows(Utime now, SupervisorOutput& out) {
@@ -109,7 +114,9 @@ LevelFactSet Supervisor::level_facts(Utime now) {
   const bool followed = path_.path_id >= 0 && path_.path_id == in_.control.path_id;
   const bool path_full = followed && path_.at(in_.control.arc_length_m) == Level::kFull;
   const LevelConfig& limits = judge_.config();
-  set_level_fact(out, F::kFullReady, !config_.full_services.empty() && alive(config_.full_services, now), {});
+  const std::vector<std::string>& full = config_.fdir.full_services;
+  set_level_fact(out, F::kFullReady, !full.empty() && alive(full, now), {});
+  failing_fact(out, now);
   set_level_fact(out, F::kForcedFull, forced_ == ForcedLevel::kFull, {"forced_level", 1.0, 1.0, 0.0, 0.0});
   set_level_fact(out, F::kForcedEfficient, forced_ == ForcedLevel::kEfficient, {"forced_level", 0.0, 0.0, 0.0, 0.0});
   set_level_fact(out, F::kPathFull, path_full,
@@ -120,9 +127,48 @@ LevelFactSet Supervisor::level_facts(Utime now) {
   set_level_fact(out, F::kManyHazards, judge_.many_hazards(),
                  {"hazards_per_m", judge_.hazards_per_m(), limits.hazards_per_m, limits.window_s, planner_age});
   set_level_fact(
-      out, F::kEasyAhead, judge_.easy_ahead() && fresh(in_.terrain.utime, now, config_.terrain_max_age_s),
+      out, F::kEasyAhead, judge_.easy_ahead() && terrain_fresh(),
       {"terrain_difficulty", in_.terrain.difficulty, limits.easy_difficulty, 0.0, age_s(in_.terrain.utime, now)});
   return out;
+}
+
+void Supervisor::failing_fact(LevelFactSet& facts, Utime now) {
+  const LevelConfig& limits = judge_.config();
+  const double starts = failing_starts();
+  if (starts >= limits.failing_starts)
+    return set_level_fact(facts, LevelFact::kFullFailing, true,
+                          {"starts_per_minute", starts, limits.failing_starts, 0.0, 0.0});
+  set_level_fact(facts, LevelFact::kFullFailing, sweep_s(now) > limits.failing_sweep_s,
+                 {"sweep_s", sweep_s(now), limits.failing_sweep_s, 0.0, 0.0});
+}
+
+// The largest count over the services of the Full level: of starts, and of kills that were to bring one about.
+double Supervisor::failing_starts() const {
+  int most = 0;
+  for (const std::string& service : config_.fdir.full_services)
+    for (const auto* counts : {&derive_.values().starts, &derive_.values().tries})
+      if (const auto it = counts->find(service); it != counts->end()) most = std::max(most, it->second);
+  return most;
+}
+
+bool Supervisor::terrain_fresh() const {
+  return in_.terrain.utime >= 0 &&
+         std::abs(in_.pose.travelled_m - in_.terrain.travelled_m) <= config_.terrain_max_way_m;
+}
+
+double Supervisor::sweep_s(Utime now) const {
+  return state_ == kSweeping ? to_seconds(now - since_) : 0.0;
+}
+
+// A sweep goes on until it shows both sides too, unless there is nothing to be seen of them.
+void Supervisor::terrain_fact(FactSet& facts, Utime now) {
+  const KnownShares& known = in_.terrain.known;
+  const bool swept =
+      state_ != kSweeping || known.around >= config_.terrain_known_around || sweep_s(now) > config_.sweep_patience_s;
+  const bool ahead = known.ahead >= config_.terrain_known_ahead;
+  set_fact(facts, Fact::kTerrainKnown, terrain_fresh() && ahead && swept,
+           {"terrain_known_ahead", terrain_fresh() ? known.ahead : 0.0, config_.terrain_known_ahead, 0.0,
+            age_s(in_.terrain.utime, now)});
 }
 
 FactSet Supervisor::facts(Utime now) {
@@ -131,8 +177,6 @@ FactSet Supervisor::facts(Utime now) {
   const double pose_age = age_s(pose.utime, now);
   const double planner_age = age_s(in_.planner.utime, now);
   const double control_age = age_s(in_.control.utime, now);
-  const double terrain_age = age_s(in_.terrain.utime, now);
-  const bool terrain = terrain_age <= config_.terrain_max_age_s && in_.terrain.known > config_.terrain_known_share;
   const bool arrived = in_.control.path_end && in_.planner.goal_distance_m < config_.goal_tolerance_m;
   set_fact(out, Fact::kInputsReady, inputs_ready(now), {});
   set_fact(out, Fact::kPoseFresh, pose.usable && fresh(pose.utime, now, config_.pose_max_age_s),
@@ -145,11 +189,10 @@ FactSet Supervisor::facts(Utime now) {
            {"goal_distance_m", in_.planner.goal_distance_m, config_.goal_tolerance_m, 0.0,
             std::max(planner_age, control_age)});
   set_fact(out, Fact::kLevelFull, level_ == Level::kFull, {"level", level_ == Level::kFull ? 1.0 : 0.0, 1.0, 0.0, 0.0});
-  set_fact(out, Fact::kTerrainKnown, terrain,
-           {"terrain_known_share", in_.terrain.known, config_.terrain_known_share, 0.0, terrain_age});
   set_fact(out, Fact::kCorrectionWanted, correction_wanted_, {});
   set_fact(out, Fact::kTeleopFresh, fresh(teleop_utime_, now, config_.teleop_max_age_s),
            {"teleop_age_s", age_s(teleop_utime_, now), config_.teleop_max_age_s, 0.0, 0.0});
+  terrain_fact(out, now);
   path_facts(out, planner_age);
   fault_facts(out);
   return out;

@@ -23,7 +23,6 @@ struct SupervisorConfig {
   DeriveConfig derive;
   LevelConfig level;
   ServiceKeeperConfig keeper;
-  std::vector<std::string> full_services;  // of the Full level
   double max_speed_mps = 0.2;
   double slow_speed_mps = 0.05;  // while a row with the response "slow" stands
   double teleop_speed_mps = 0.1;
@@ -36,8 +35,10 @@ struct SupervisorConfig {
   double wheels_max_age_s = 0.2;
   double hazards_max_age_s = 1.2;
   double heartbeat_max_age_s = 1.0;
-  double terrain_max_age_s = 3.0;
-  double terrain_known_share = 0.02;
+  double terrain_max_way_m = 1.5;  // driven since the newest map of the Full level
+  double terrain_known_ahead = 0.3;
+  double terrain_known_around = 0.5;  // ends a sweep ...
+  double sweep_patience_s = 20.0;     // ... which after that time is content with what is known ahead
   double hazard_stop_m = 0.5;
   double unseen_stop_m = 0.25;
   double stop_hysteresis_m = 0.15;
@@ -133,7 +134,8 @@ class Supervisor {
   void on_slip(const SlipReport& slip) { in_.slip = slip; }
   void on_wheels(const WheelReport& wheels);
   void on_imu(const ImuReport& imu) { in_.imu = imu; }
-  void on_terrain(const TerrainReport& terrain) { in_.terrain = terrain; }
+  void on_terrain(const TerrainReport& terrain);
+  void on_slam(const SlamReport& slam) { in_.slam = slam; }
   void on_motion_command(Utime utime) { in_.motion_command_utime = utime; }
   void on_path(PathLevels path) { path_ = std::move(path); }
   void on_correction_wanted(bool wanted) { correction_wanted_ = wanted; }
@@ -161,7 +163,12 @@ class Supervisor {
   void run_rows(Utime now, SupervisorOutput& out);
   void run_level(Utime now, SupervisorOutput& out);
   LevelFactSet level_facts(Utime now);
+  void failing_fact(LevelFactSet& facts, Utime now);
+  double failing_starts() const;
   FactSet facts(Utime now);
+  void terrain_fact(FactSet& facts, Utime now);
+  bool terrain_fresh() const;
+  double sweep_s(Utime now) const;
   bool inputs_ready(Utime now) const;
   bool alive(const std::vector<std::string>& services, Utime now) const;
   bool standing_still() const;

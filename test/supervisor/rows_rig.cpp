@@ -27,13 +27,15 @@ RowsRig::RowsRig(Bus bus)
   control.corridor_half_width_m = 0.75;
   hazards.coverage = 0.9f;
   slip.valid = 1;
+  terrain.cell_m = 2000.0;
+  terrain.origin_x_m = terrain.origin_y_m = -1000.0;
   terrain.cells_x = terrain.cells_y = 1;
   terrain.size = 1;
   terrain.cells = {0};
   terrain.difficulty = 0.8;
   for (const std::string& name : config_.fdir.required_services) services[name] = {};
   for (const std::string& name : config_.fdir.optional_services) services[name] = {};
-  for (const std::string& name : config_.full_services) services[name] = {};
+  for (const std::string& name : config_.fdir.full_services) services[name] = {};
 }
 
 template <class Message>
@@ -81,6 +83,7 @@ void RowsRig::send_decisions() {
   send(channel::kMotionCommand, motion_command_t{});
   if (ticks_ % 20 == 0) send(channel::kHazards, hazards);
   if (ticks_ % 50 == 0) send(channel::kTraversability, terrain);
+  if (ticks_ % 50 == 0) send(channel::kSlamPose, slam);
 }
 
 void RowsRig::send_heartbeats() {

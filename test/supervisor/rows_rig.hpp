@@ -13,6 +13,7 @@
 #include <rover/motion_command_t.hpp>
 #include <rover/planner_status_t.hpp>
 #include <rover/pose_t.hpp>
+#include <rover/slam_pose_t.hpp>
 #include <rover/slip_t.hpp>
 #include <rover/traversability_t.hpp>
 #include <rover/wheel_state_t.hpp>
@@ -70,6 +71,7 @@ class RowsRig {
   wheel_state_t wheels{};
   imu_t imu{};
   traversability_t terrain{};
+  slam_pose_t slam{};
   bool wheels_follow = true;  // the permit
   bool odometry_lives = true;
   std::set<std::string> silent;  // channels on which nothing is sent

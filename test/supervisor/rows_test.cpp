@@ -78,6 +78,30 @@ RowCase mute_service(const std::string& line, const std::string& service, double
   return {line, line + "." + service, [=](RowsRig& rig) { rig.services[service].silent = true; },
           [=](RowsRig& rig) { rig.services[service].silent = false; }, within_s};
 }
+RowCase starting_over(const std::string& line, const std::string& service) {
+  return {line,
+          line + "." + service,
+          [=](RowsRig& rig) {
+            rig.each_tick = [&rig, service, n = 0]() mutable {
+              if (++n % 50 == 0) ++rig.services[service].boot_id;
+            };
+          },
+          [](RowsRig& rig) { rig.each_tick = [] {}; },
+          10.0,
+          70.0,
+          false,
+          "safe"};
+}
+RowCase silent_for_good(const std::string& line, const std::string& service) {
+  return {line,
+          line + "." + service,
+          [=](RowsRig& rig) { rig.services[service].silent = true; },
+          [=](RowsRig& rig) { rig.services[service].silent = false; },
+          40.0,
+          70.0,
+          false,
+          "safe"};
+}
 RowCase no_odometry(const std::string& line, double within_s) {
   return {line, "", [](RowsRig& rig) { rig.odometry_lives = false; }, [](RowsRig& rig) { rig.odometry_lives = true; },
           within_s};
@@ -141,7 +165,23 @@ std::vector<RowCase> sight_cases() {
        [](RowsRig& rig) { rig.hazards.state = hazards_t::CLEAR; }, 3.0},
       coverage("stereo_coverage_low", 0.3f),
       coverage("stereo_coverage", 0.1f),
-      silence("terrain_age", channel::kTraversability, 5.0),
+  };
+}
+
+// At the Full level.
+std::vector<RowCase> full_cases() {
+  return {
+      silence("terrain_way", channel::kTraversability, 10.0),
+      {"sweep_in_vain", "", [](RowsRig& rig) { rig.terrain.cells = {traversability_t::UNKNOWN}; },
+       [](RowsRig& rig) { rig.terrain.cells = {traversability_t::FREE}; }, 70.0, 2.0, false, "fault"},
+      {"slam_lost", "", [](RowsRig& rig) { rig.slam.status = slam_pose_t::LOST; },
+       [](RowsRig& rig) { rig.slam.status = slam_pose_t::OK; }, 8.0},
+      mute_service("full_heartbeat", "slam", 2.0),
+      {"full_service_fault", "full_service_fault.pan_tilt",
+       [](RowsRig& rig) { rig.services["pan_tilt"].status = heartbeat_t::FAULT; },
+       [](RowsRig& rig) { rig.services["pan_tilt"].status = heartbeat_t::OK; }},
+      starting_over("full_starts", "traversability"),
+      silent_for_good("full_restart_failed", "point_cloud"),
   };
 }
 
@@ -188,15 +228,9 @@ std::vector<RowCase> service_cases() {
       {"service_fault", "service_fault.localization",
        [](RowsRig& rig) { rig.services["localization"].status = heartbeat_t::FAULT; },
        [](RowsRig& rig) { rig.services["localization"].status = heartbeat_t::OK; }},
-      {"starts", "starts.locomotion",
-       [](RowsRig& rig) {
-         rig.each_tick = [&rig, n = 0]() mutable {
-           if (++n % 50 == 0) ++rig.services["locomotion"].boot_id;
-         };
-       },
-       [](RowsRig& rig) { rig.each_tick = [] {}; }, 10.0, 70.0, false, "safe"},
-      {"restart_failed", "restart_failed.stereo", [](RowsRig& rig) { rig.services["stereo"].silent = true; },
-       [](RowsRig& rig) { rig.services["stereo"].silent = false; }, 40.0, 70.0, false, "safe"},
+      mute_service("full_idle_heartbeat", "slam", 2.0),
+      starting_over("starts", "locomotion"),
+      silent_for_good("restart_failed", "stereo"),
       mute_service("optional_heartbeat", "recorder", 8.0),
       {"log_disk", "", [](RowsRig& rig) { rig.services["recorder"].status = heartbeat_t::DEGRADED; },
        [](RowsRig& rig) { rig.services["recorder"].status = heartbeat_t::OK; }},
@@ -227,13 +261,21 @@ std::vector<RowCase> service_cases() {
   };
 }
 
+std::set<std::string> armed_at(const std::string& when) {
+  std::set<std::string> out;
+  for (const YAML::Node& row : YAML::LoadFile(ROVER_SOURCE_DIR "/config/fdir.yaml")["rows"])
+    if (row["armed"] && row["armed"].as<std::string>() == when) out.insert(row["id"].as<std::string>());
+  return out;
+}
+
 std::vector<RowCase> all_cases() {
   std::vector<RowCase> out;
-  for (const auto& group : {sensor_cases(), pose_cases(), sight_cases(), path_cases(), service_cases()})
+  for (const auto& group : {sensor_cases(), pose_cases(), sight_cases(), path_cases(), service_cases(), full_cases()})
     out.insert(out.end(), group.begin(), group.end());
+  const std::set<std::string> full = armed_at("full");
   for (RowCase& c : out) {
     if (c.row.empty()) c.row = c.line;
-    c.full = c.line == "terrain_age";
+    c.full = full.contains(c.line);
   }
   return out;
 }

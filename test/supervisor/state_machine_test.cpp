@@ -213,10 +213,12 @@ void for_all_levels(Visit visit) {
 TEST(LevelMachine, ChangesByItsRulesAlone) {
   for_all_levels([](Level level, LevelFactSet facts) {
     const LevelTransition* row = next_level(level, facts);
-    const bool up = facts.has(L::kForcedFull) || (!facts.has(L::kForcedEfficient) &&
-                                                  facts.has_any({L::kPathFull, L::kSlowProgress, L::kManyHazards}));
-    const bool down = facts.has(L::kForcedEfficient) || (!facts.has_any({L::kForcedFull, L::kPathFull}) &&
-                                                         facts.has_any({L::kRaisedByPath, L::kEasyAhead}));
+    const bool found_hard = facts.has_any({L::kSlowProgress, L::kManyHazards}) && !facts.has(L::kFullFailing);
+    const bool up =
+        facts.has(L::kForcedFull) || (!facts.has(L::kForcedEfficient) && (facts.has(L::kPathFull) || found_hard));
+    const bool down =
+        facts.has(L::kForcedEfficient) || (!facts.has_any({L::kForcedFull, L::kPathFull}) &&
+                                           facts.has_any({L::kRaisedByPath, L::kEasyAhead, L::kFullFailing}));
     const bool changes = level == Level::kEfficient ? up && facts.has(L::kFullReady) : down;
     ASSERT_EQ(row != nullptr, changes) << name(level);
     if (row != nullptr) {

@@ -748,19 +748,20 @@ TEST_F(SupervisorTest, RestartedWhileDrivingItResumesWhenAllIsSeenToBeWell) {
   }
 }
 
-// Until the Full level is there: its services and its map, as the supervisor sees them.
+// The Full level's services and its map, as the supervisor sees them.
 class LevelTest : public SupervisorTest {
  protected:
   void drive(double seconds, double speed_mps) {
     for (Utime end = now_ + to_utime(seconds); now_ < end;) {
       if (full_alive_ && now_ % 200'000 == 0)
-        for (const std::string& service : config_.full_services) {
+        for (const std::string& service : config_.fdir.full_services) {
+          if (service == hung_) continue;
           ServiceReport report;
           report.utime = now_;
-          report.boot_id = 1;
+          report.boot_id = service == dying_ ? 1 + now_ / to_utime(5.0) : 1;
           supervisor_.on_service(service, report);
         }
-      if (full_alive_) supervisor_.on_terrain({now_, difficulty_, known_});
+      if (full_alive_ && map_alive_) supervisor_.on_terrain({now_, difficulty_, known_});
       const double way = out_.permit.granted ? speed_mps * to_seconds(kTickUs) : 0.0;
       pose_.travelled_m += way;
       planner_.goal_distance_m -= way;
@@ -780,7 +781,10 @@ class LevelTest : public SupervisorTest {
 
   bool full_alive_ = true;
   double difficulty_ = 0.8;
-  double known_ = 0.5;
+  KnownShares known_{0.5, 0.6};
+  bool map_alive_ = true;
+  std::string hung_;
+  std::string dying_;
 };
 
 TEST_F(LevelTest, SlowProgressRaisesAndEasyTerrainLowers) {
@@ -851,19 +855,136 @@ TEST_F(LevelTest, WithoutItsServicesThereIsNoFullLevel) {
 
 TEST_F(LevelTest, AnEmptyMapIsSweptBeforeTheRoverDrivesOn) {
   begin();
-  known_ = 0.0;
+  known_ = {0.0, 0.0};
   drive(1.0, 0.1);
   command(CommandKind::kForceLevel, "", ForcedLevel::kFull);
   drive(1.0, 0.1);
   EXPECT_EQ(supervisor_.state(), State::kSweeping);
   EXPECT_FALSE(out_.permit.granted);
-  known_ = 0.3;
+  known_ = {0.9, 0.3};
+  drive(1.0, 0.1);
+  EXPECT_EQ(supervisor_.state(), State::kSweeping);  // both sides are to be seen too
+  known_ = {0.9, 0.6};
   drive(0.1, 0.1);
   EXPECT_EQ(supervisor_.state(), State::kDriving);
   EXPECT_TRUE(out_.permit.granted);
-  full_alive_ = false;  // the map ages
+  known_ = {0.9, 0.3};
+  drive(10.0, 0.1);
+  EXPECT_EQ(supervisor_.state(), State::kDriving);  // which a drive straight on does not show again
+}
+
+TEST_F(LevelTest, ASweepIsContentWithTheGroundAheadInTheEnd) {
+  begin();
+  known_ = {0.4, 0.3};
+  map_alive_ = false;
+  drive(1.0, 0.1);
+  command(CommandKind::kForceLevel, "", ForcedLevel::kFull);
+  drive(1.0, 0.1);
+  map_alive_ = true;
+  drive(17.0, 0.1);
+  EXPECT_EQ(supervisor_.state(), State::kSweeping);
   drive(4.0, 0.1);
+  EXPECT_EQ(supervisor_.state(), State::kDriving);
+}
+
+TEST_F(LevelTest, WithoutNewMapsTheRoverStopsToSweep) {
+  begin();
+  drive(1.0, 0.1);
+  command(CommandKind::kForceLevel, "", ForcedLevel::kFull);
+  drive(1.0, 0.1);
+  ASSERT_EQ(supervisor_.state(), State::kDriving);
+  map_alive_ = false;
+  const double before_m = pose_.travelled_m;
+  drive(60.0, 0.1);
+  EXPECT_EQ(supervisor_.state(), State::kSweeping);
   EXPECT_FALSE(out_.permit.granted);
+  EXPECT_NEAR(pose_.travelled_m - before_m, 1.5, 0.01);
+}
+
+TEST_F(LevelTest, ASweepInVainLowersTheLevelWhereThePathAllowsIt) {
+  begin();
+  for (int i = 0; i < 8 && supervisor_.level() == Level::kEfficient; ++i) {
+    planner_.replans += 1;
+    drive(10.0, 0.15);
+  }
+  ASSERT_EQ(supervisor_.level(), Level::kFull);
+  map_alive_ = false;
+  drive(15.0, 0.15);
+  ASSERT_EQ(supervisor_.state(), State::kSweeping);
+  drive(40.0, 0.15);
+  EXPECT_EQ(supervisor_.level(), Level::kEfficient);
+  EXPECT_EQ(last_level_change()->cause, "full_failing");
+  EXPECT_EQ(last_level_change()->evidence.quantity, "sweep_s");
+  EXPECT_TRUE(out_.permit.granted);
+}
+
+TEST_F(LevelTest, ASweepInVainEndsTheDriveWhereThePathAsksForTheMap) {
+  begin();
+  supervisor_.on_path({1, {0.0}, {Level::kFull}});
+  known_ = {0.0, 0.0};
+  drive(58.0, 0.15);
+  EXPECT_EQ(supervisor_.state(), State::kSweeping);
+  drive(5.0, 0.15);
+  EXPECT_EQ(supervisor_.state(), State::kFaultStop);
+  known_ = {0.9, 0.9};
+  drive(10.0, 0.15);
+  EXPECT_FALSE(out_.permit.granted);  // the ground's to clear
+  EXPECT_TRUE(command(CommandKind::kClearFault, "sweep_in_vain").accepted);
+  drive(2.0, 0.15);
+  EXPECT_TRUE(out_.permit.granted);
+}
+
+TEST_F(LevelTest, AHungServiceOfTheFullLevelIsNoReasonToStandAtTheEfficientOne) {
+  begin();
+  drive(5.0, 0.15);
+  hung_ = "slam";
+  const double before_m = pose_.travelled_m;
+  drive(10.0, 0.15);
+  EXPECT_NEAR(pose_.travelled_m - before_m, 1.5, 0.01);
+  EXPECT_NE(std::find(restarts_.begin(), restarts_.end(), "slam"), restarts_.end());
+  EXPECT_EQ(supervisor_.level(), Level::kEfficient);
+}
+
+TEST_F(LevelTest, AHungServiceOfTheFullLevelStopsThere) {
+  begin();
+  drive(1.0, 0.1);
+  command(CommandKind::kForceLevel, "", ForcedLevel::kFull);
+  drive(1.0, 0.1);
+  hung_ = "slam";
+  drive(2.0, 0.1);
+  EXPECT_EQ(supervisor_.state(), State::kFaultStop);
+  EXPECT_NE(std::find(restarts_.begin(), restarts_.end(), "slam"), restarts_.end());
+  hung_ = "";
+  drive(3.0, 0.1);
+  EXPECT_TRUE(out_.permit.granted);
+}
+
+TEST_F(LevelTest, ServicesThatDieOverAndOverLowerTheLevelWhereThePathAllowsIt) {
+  begin();
+  for (int i = 0; i < 8 && supervisor_.level() == Level::kEfficient; ++i) {
+    planner_.replans += 1;
+    drive(10.0, 0.15);
+  }
+  ASSERT_EQ(supervisor_.level(), Level::kFull);
+  dying_ = "point_cloud";
+  drive(12.0, 0.15);
+  EXPECT_EQ(supervisor_.level(), Level::kEfficient);
+  EXPECT_EQ(last_level_change()->cause, "full_failing");
+  EXPECT_EQ(last_level_change()->evidence.quantity, "starts_per_minute");
+  drive(60.0, 0.15);
+  EXPECT_EQ(supervisor_.level(), Level::kEfficient);
+  EXPECT_EQ(supervisor_.state(), State::kDriving);
+}
+
+TEST_F(LevelTest, ServicesThatDieOverAndOverEndTheDriveWhereThePathAsksForThem) {
+  begin();
+  supervisor_.on_path({1, {0.0}, {Level::kFull}});
+  drive(5.0, 0.15);
+  ASSERT_EQ(supervisor_.level(), Level::kFull);
+  dying_ = "point_cloud";
+  drive(30.0, 0.15);
+  EXPECT_EQ(supervisor_.state(), State::kSafe);
+  EXPECT_EQ(supervisor_.level(), Level::kFull);
 }
 
 }  // namespace
