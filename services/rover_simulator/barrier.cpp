@@ -1,6 +1,7 @@
 #include "rover_simulator/barrier.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace rover {
 
@@ -10,15 +11,21 @@ Barrier::Barrier(const std::vector<std::string>& participants) : names_(particip
 
 void Barrier::ready(const std::string& name, std::int64_t boot_id, int pid) {
   const auto it = members_.find(name);
-  if (it == members_.end() || it->second.state == State::kWorking || boot_id <= it->second.boot_id) return;
-  it->second.state = State::kReady;
-  it->second.boot_id = boot_id;
-  it->second.pid = pid;
+  if (it == members_.end() || boot_id <= it->second.boot_id) return;
+  Member& member = it->second;
+  if (member.state == State::kWorking) {
+    member.successor = Process{boot_id, pid};
+    return;
+  }
+  member.state = State::kReady;
+  member.boot_id = boot_id;
+  member.pid = pid;
 }
 
 void Barrier::done(const std::string& name, std::int64_t boot_id, int pid, Utime tick, Utime promise, bool busy) {
   const auto it = members_.find(name);
-  if (it == members_.end() || boot_id != it->second.boot_id) return;
+  if (it == members_.end() || boot_id < it->second.boot_id) return;
+  if (boot_id > it->second.boot_id) return ready(name, boot_id, pid);
   Member& member = it->second;
   if (member.state == State::kAbsent && !member.may_wake) return;
   member.pid = pid;
@@ -64,6 +71,7 @@ void Barrier::leave(const std::string& name, Cause cause, Utime now, Utime retur
   member.awaited = true;
   member.up_from = now + return_after / 2;
   member.expected_from = now + return_after;
+  if (const auto successor = std::exchange(member.successor, {})) ready(name, successor->boot_id, successor->pid);
 }
 
 void Barrier::give_up(const std::string& name) {

@@ -16,7 +16,8 @@ class Barrier {
   explicit Barrier(const std::vector<std::string>& participants);
 
   // A process of the participant is up and waits for its first tick. Ignored for others, and for boots not newer than
-  // one that has died.
+  // one that has died. One that is up before its predecessor was missed may have taken the predecessor's ticks, and
+  // then reports those: it counts as up from when the predecessor leaves.
   void ready(const std::string& name, std::int64_t boot_id, int pid);
   // The participant has done the tick and publishes nothing that is released before `promise`. Busy: it has only begun
   // long work on the tick, and reports it again when that is done.
@@ -47,16 +48,21 @@ class Barrier {
 
  private:
   enum class State { kAbsent, kReady, kWorking };
+  struct Process {
+    std::int64_t boot_id = 0;
+    int pid = 0;
+  };
   struct Member {
     State state = State::kAbsent;
     std::int64_t boot_id = 0;
     int pid = 0;
-    bool may_wake = false;         // absent because it was silent
-    bool awaited = true;           // while absent
-    Utime finished = kNever;       // last tick of which all work is done
-    Utime clear_until = kNever;    // TICK(t) may be given for t up to here
-    Utime up_from = kNever;        // while absent: ticks from here on wait for its process
-    Utime expected_from = kNever;  // and from here on it takes part
+    std::optional<Process> successor;  // reported while this one still counts as working
+    bool may_wake = false;             // absent because it was silent
+    bool awaited = true;               // while absent
+    Utime finished = kNever;           // last tick of which all work is done
+    Utime clear_until = kNever;        // TICK(t) may be given for t up to here
+    Utime up_from = kNever;            // while absent: ticks from here on wait for its process
+    Utime expected_from = kNever;      // and from here on it takes part
   };
   std::vector<std::string> names_;
   std::map<std::string, Member> members_;

@@ -83,6 +83,21 @@ TEST_F(BarrierTest, ASilentProcessReturnsByItsNextReport) {
   EXPECT_FALSE(waits_at(13 * kTickUs));
 }
 
+// s6 starts it again within 0.15 s, and the world misses the old one only when it owes something.
+TEST_F(BarrierTest, AProcessThatIsUpBeforeItsPredecessorIsMissedReturns) {
+  barrier_.done("node", 5, 100, 0, 10 * kTickUs);
+  barrier_.ready("node", 6, 101);
+  barrier_.admit(kTickUs);
+  barrier_.done("node", 6, 101, kTickUs, 20 * kTickUs);  // it took its predecessor's tick
+  EXPECT_EQ(barrier_.pid_of("node"), 100);
+  EXPECT_TRUE(waits_at(10 * kTickUs));
+  barrier_.leave("node", Barrier::Cause::kDied, 10 * kTickUs, 10 * kTickUs);
+  EXPECT_EQ(barrier_.pid_of("node"), 101);
+  EXPECT_TRUE(barrier_.admit(19 * kTickUs).empty());
+  EXPECT_FALSE(waits_at(20 * kTickUs));
+  EXPECT_EQ(barrier_.admit(20 * kTickUs), Names{"node"});
+}
+
 TEST_F(BarrierTest, ASilentProcessThatIsReplacedReturnsAsTheNewOne) {
   barrier_.leave("node", Barrier::Cause::kSilent, 2 * kTickUs, 10 * kTickUs);
   barrier_.done("node", 5, 100, kTickUs, kNever);
