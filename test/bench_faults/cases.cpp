@@ -18,7 +18,8 @@ const std::vector<std::string> kDrives = {"FL", "FR", "ML", "MR", "RL", "RR"};
 const std::vector<std::string> kSteers = {"FL", "FR", "RL", "RR"};
 const std::vector<std::string> kServices = {"stereo",       "visual_odometry",    "localization", "hazard_detector",
                                             "path_planner", "trajectory_control", "locomotion"};
-const std::vector<std::string> kOptional = {"recorder", "mission_control"};
+const std::vector<std::string> kOptional = {"recorder", "mission_control", "global_localization"};
+const std::vector<std::string> kFull = {"point_cloud", "pan_tilt", "slam", "traversability"};
 constexpr double kQuickRestartS = 0.2;  // as s6 starts a process again
 
 size_t index_of(const std::vector<std::string>& names, Who who) {
@@ -258,7 +259,20 @@ std::vector<Case> of_seeing_and_following() {
       {"no_path", {}, kUnderWay, {unreachable_path()}},
       {"blocked", {}, kUnderWay, {looks_blocked()}},
       {"idle_drive", {}, kRolling, {standing()}},
-      {"terrain_age", {}, kUnderWay, {drop("TRAVERSABILITY", 4.2)}, true},
+  };
+}
+
+// In the order of the table: at the Full level but for the one of services that idle.
+std::vector<Case> of_the_full_level() {
+  return {
+      {"terrain_way", {}, kRolling, {drop("TRAVERSABILITY", 12.0)}, true},
+      {"sweep_in_vain", {}, kRolling, {drop("TRAVERSABILITY", 80.0)}, true},
+      {"slam_lost", {}, kUnderWay, {tap("offset", "SLAM_POSE.status", 2.0, 6.0)}, true},
+      {"full_heartbeat", kFull, kUnderWay, {hang(2.0)}, true},
+      {"full_idle_heartbeat", kFull, kEver, {hang(2.0)}},
+      {"full_service_fault", kFull, kUnderWay, {reports(heartbeat_t::FAULT, false)}, true},
+      {"full_starts", kFull, kUnderWay, {restart_loop()}, true},
+      {"full_restart_failed", kFull, kUnderWay, {reports(heartbeat_t::FAULT, true)}, true},
   };
 }
 
@@ -286,7 +300,7 @@ std::vector<Case> of_services() {
 
 std::vector<Case> all_cases() {
   std::vector<Case> all = of_sensors_and_motors();
-  for (auto* part : {&of_pose, &of_seeing_and_following, &of_services}) {
+  for (auto* part : {&of_pose, &of_seeing_and_following, &of_the_full_level, &of_services}) {
     std::vector<Case> more = part();
     std::move(more.begin(), more.end(), std::back_inserter(all));
   }

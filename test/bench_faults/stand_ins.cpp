@@ -1,6 +1,9 @@
 #include "test/bench_faults/stand_ins.hpp"
 
+#include <cmath>
 #include <rover/disparity_t.hpp>
+#include <rover/pose_t.hpp>
+#include <rover/slam_pose_t.hpp>
 #include <rover/traversability_t.hpp>
 #include <rover/vo_motion_t.hpp>
 
@@ -11,6 +14,8 @@ namespace {
 
 constexpr Utime kExposurePeriodUs = 400'000;
 constexpr Utime kTerrainPeriodUs = 1'000'000;
+constexpr double kTerrainCellM = 0.1;
+constexpr std::int16_t kTerrainCells = 200;
 constexpr Utime kDisparityLatencyUs = 160'000;  // HAZARDS then are 0.24 s late, as on the whole rover
 constexpr Utime kVisualLatencyUs = 220'000;
 constexpr double kReachM = 6.0;
@@ -75,17 +80,36 @@ std::shared_ptr<void> make_visual_odometry(Node& node, const StandInRover& rover
   return std::make_shared<VisualOdometry>(node, rover, blindness);
 }
 
-std::shared_ptr<void> make_traversability(Node& node) {
+std::shared_ptr<void> make_slam(Node& node) {
   node.on_step([&node](Utime now) {
     if (now % kTerrainPeriodUs != 0) return;
+    slam_pose_t out{};
+    out.status = slam_pose_t::NO_INFORMATION;
+    node.publish(channel::kSlamPose, out, now);
+  });
+  return nullptr;
+}
+
+std::shared_ptr<void> make_traversability(Node& node) {
+  const auto at = std::make_shared<Eigen::Vector3d>(Eigen::Vector3d::Zero());
+  node.subscribe<pose_t>(channel::kPose, [at](const pose_t& m) { *at = Eigen::Vector3d(m.position_odom_body_m); });
+  node.on_step([&node, at](Utime now) {
+    if (now % kTerrainPeriodUs != 0 || !at->allFinite()) return;
     traversability_t out{};
-    out.cells.assign(1, 0);
-    out.size = 1;
-    out.cells_x = out.cells_y = 1;
+    out.cell_m = kTerrainCellM;
+    out.cells_x = out.cells_y = kTerrainCells;
+    out.size = kTerrainCells * kTerrainCells;
+    out.cells.assign(static_cast<size_t>(out.size), traversability_t::FREE);
+    // Cells keep to one grid wherever the rover is.
+    const auto corner = [](double centre_m) {
+      return kTerrainCellM * (std::floor(centre_m / kTerrainCellM) - kTerrainCells / 2);
+    };
+    out.origin_x_m = corner(at->x());
+    out.origin_y_m = corner(at->y());
     out.difficulty = 0.5;
     node.publish(channel::kTraversability, out, now);
   });
-  return nullptr;
+  return at;
 }
 
 std::shared_ptr<void> make_silent(Node&) {

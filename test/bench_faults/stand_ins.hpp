@@ -25,7 +25,9 @@ std::shared_ptr<void> make_stereo(Node& node, const StandInRover& rover, Field& 
                                   Blindness& blindness);
 // VO between exposures, exact but for its stated covariance.
 std::shared_ptr<void> make_visual_odometry(Node& node, const StandInRover& rover, const Blindness& blindness);
-// TRAVERSABILITY of easy ground.
+// SLAM_POSE that agrees with the odometry.
+std::shared_ptr<void> make_slam(Node& node);
+// TRAVERSABILITY of easy ground around the newest POSE.
 std::shared_ptr<void> make_traversability(Node& node);
 // Heartbeats alone.
 std::shared_ptr<void> make_silent(Node& node);

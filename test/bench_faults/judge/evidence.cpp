@@ -61,6 +61,8 @@ void Evidence::take(const Delivery& delivery) {
   if (from == channel::kPlannerStatus) planner_ = decoded<planner_status_t>(delivery);
   if (from == channel::kControlStatus) control_ = decoded<control_status_t>(delivery);
   if (from == channel::kSlip) slip_ = decoded<slip_t>(delivery);
+  if (from == channel::kSlamPose) slam_ = decoded<slam_pose_t>(delivery);
+  if (from == channel::kTraversability) terrain_at_m_ = pose_.travelled_m;
   if (from == channel::kHeartbeat) take_heartbeat(decoded<heartbeat_t>(delivery));
   if (from != channel::kHazards) return;
   hazards_ = decoded<hazards_t>(delivery);
@@ -142,6 +144,8 @@ bool Evidence::armed(const Row& row) const {
       return under_way;
     case Armed::kFull:
       return under_way && state_.level == S::FULL;
+    case Armed::kEfficient:
+      return state_.level == S::EFFICIENT;
   }
   return false;
 }
@@ -172,15 +176,15 @@ Measurement Evidence::measure(const Row& row) const {
                                                            {"hazards_age_s", channel::kHazards},
                                                            {"planner_age_s", channel::kPlannerStatus},
                                                            {"control_age_s", channel::kControlStatus},
-                                                           {"motion_command_age_s", channel::kMotionCommand},
-                                                           {"terrain_age_s", channel::kTraversability}};
+                                                           {"motion_command_age_s", channel::kMotionCommand}};
   if (const auto stream = kAges.find(row.quantity); stream != kAges.end()) {
     const auto newest = headers_.find(stream->second);
     return newest == headers_.end() ? Measurement{} : age(newest->second.utime);
   }
   using Measure = Measurement (Evidence::*)(const Row&) const;
-  for (const Measure part : {&Evidence::measure_pose, &Evidence::measure_wheels, &Evidence::measure_seen,
-                             &Evidence::measure_followed, &Evidence::measure_service, &Evidence::measure_own})
+  for (const Measure part :
+       {&Evidence::measure_pose, &Evidence::measure_wheels, &Evidence::measure_seen, &Evidence::measure_followed,
+        &Evidence::measure_full, &Evidence::measure_service, &Evidence::measure_own})
     if (const Measurement found = (this->*part)(row); found.utime != kNever) return found;
   return {};
 }
@@ -252,8 +256,22 @@ Measurement Evidence::measure_followed(const Row& row) const {
   return {};
 }
 
-Measurement Evidence::measure_service(const Row& row) const {
+Measurement Evidence::measure_full(const Row& row) const {
   const std::string& q = row.quantity;
+  if (q == "terrain_way_m") return of(pose_.header, !(pose_.travelled_m - terrain_at_m_ <= row.limit));
+  if (q == "slam_lost") return of(slam_.header, slam_.status == slam_pose_t::LOST);
+  if (q == "sweep_s") {
+    const bool sweeps = state_.state == supervisor_state_t::SWEEPING;
+    return counted(sweeps ? to_seconds(now_ - state_.since_utime) : 0.0, row);
+  }
+  return {};
+}
+
+// Of the services of the Full level the same is asked, by names of their own.
+Measurement Evidence::measure_service(const Row& row) const {
+  std::string q = row.quantity;
+  for (const std::string prefix : {"full_idle_", "full_"})
+    if (q.starts_with(prefix)) q.erase(0, prefix.size());
   const auto known = services_.find(q == "log_lost" ? "recorder" : row.service);
   if (known == services_.end()) return {};
   const Service& service = known->second;

@@ -12,11 +12,13 @@
 #include <rover/imu_t.hpp>
 #include <rover/planner_status_t.hpp>
 #include <rover/pose_t.hpp>
+#include <rover/slam_pose_t.hpp>
 #include <rover/slip_t.hpp>
 #include <rover/supervisor_state_t.hpp>
 #include <rover/wheel_state_t.hpp>
 #include <string>
 
+#include "common/core/frames.hpp"
 #include "test/bench_faults/judge/deliveries.hpp"
 #include "test/bench_faults/judge/visibility.hpp"
 
@@ -59,6 +61,7 @@ class Evidence {
   Measurement measure_wheels(const Row& row) const;
   Measurement measure_seen(const Row& row) const;
   Measurement measure_followed(const Row& row) const;
+  Measurement measure_full(const Row& row) const;
   Measurement measure_service(const Row& row) const;
   Measurement measure_own(const Row& row) const;
   bool standing() const;
@@ -75,6 +78,8 @@ class Evidence {
   planner_status_t planner_{};
   control_status_t control_{};
   slip_t slip_{};
+  slam_pose_t slam_{};
+  double terrain_at_m_ = kNaN;  // travelled when the newest TRAVERSABILITY came
   int blind_in_a_row_ = 0;
   std::map<std::string, header_t> headers_;  // the newest of each channel
   std::array<double, 6> drive_heat_{};

@@ -25,6 +25,8 @@ const std::map<std::string, std::set<std::string>> kLower = {{"pose_sigma", {"po
                                                              {"message_loss", {"message_loss_high"}},
                                                              {"heartbeat", {"heartbeat_late"}},
                                                              {"restart_failed", {"service_fault"}},
+                                                             {"full_restart_failed", {"full_service_fault"}},
+                                                             {"sweep_in_vain", {"terrain_way"}},
                                                              {"fault_stops", {"pose_status"}}};
 
 }  // namespace

@@ -22,13 +22,18 @@ Names words(const std::string& text) {
 }
 
 // Whom a line with the quantity makes a row for.
-Names subjects(const std::string& quantity, const Names& required, const Names& optional) {
+struct Services {
+  Names required, optional, full;
+};
+
+Names subjects(const std::string& quantity, const Services& services) {
   if (quantity.starts_with("drive_")) return kDrives;
   if (quantity.starts_with("steer_")) return kSteers;
-  if (quantity == "optional_heartbeat_age_s") return optional;
+  if (quantity == "optional_heartbeat_age_s") return services.optional;
+  if (quantity.starts_with("full_")) return services.full;
   const Names of_services = {"heartbeat_age_s", "service_fault", "starts_per_minute", "restart_tries"};
   for (const std::string& name : of_services)
-    if (quantity == name) return required;
+    if (quantity == name) return services.required;
   return kOne;
 }
 
@@ -43,17 +48,21 @@ Row read_row(const Config& c) {
   c.read("persistence_s", row.persistence_s, {0.0, 600.0});
   const std::string response = c.text("response");
   row.stops = response != "log" && response != "slow";
-  static const std::map<std::string, Armed> kArmed = {
-      {"always", Armed::kAlways}, {"motion", Armed::kMotion}, {"under_way", Armed::kUnderWay}, {"full", Armed::kFull}};
+  c.read("stops", row.stops);
+  static const std::map<std::string, Armed> kArmed = {{"always", Armed::kAlways},
+                                                      {"motion", Armed::kMotion},
+                                                      {"under_way", Armed::kUnderWay},
+                                                      {"full", Armed::kFull},
+                                                      {"efficient", Armed::kEfficient}};
   if (c.has("armed")) row.armed = kArmed.at(c.text("armed"));
   return row;
 }
 
-std::vector<Row> read_rows(const std::string& config_dir, const Names& required, const Names& optional) {
+std::vector<Row> read_rows(const std::string& config_dir, const Services& services) {
   std::vector<Row> rows;
   for (const Config& c : Config::load(config_dir + "/fdir.yaml").list("rows")) {
     const Row line = read_row(c);
-    const Names who = subjects(line.quantity, required, optional);
+    const Names who = subjects(line.quantity, services);
     for (size_t i = 0; i < who.size(); ++i) {
       rows.push_back(line);
       rows.back().id = who[i].empty() ? line.line : line.line + "." + who[i];
@@ -71,7 +80,8 @@ Settings read_settings(const std::string& config_dir) {
   Settings out;
   const Config supervisor = Config::load(config_dir + "/supervisor.yaml");
   out.rows =
-      read_rows(config_dir, words(supervisor.text("required_services")), words(supervisor.text("optional_services")));
+      read_rows(config_dir, {words(supervisor.text("required_services")), words(supervisor.text("optional_services")),
+                             words(supervisor.text("full_services"))});
   out.restart_window_s = supervisor.section("restarts").number("window_s", kAny);
   out.motor_time_s = supervisor.section("motors").number("thermal_time_s", kAny);
   const Config stop = supervisor.section("hazard_stop");

@@ -6,7 +6,7 @@
 
 namespace rover::bench_faults {
 
-enum class Armed { kAlways, kMotion, kUnderWay, kFull };
+enum class Armed { kAlways, kMotion, kUnderWay, kFull, kEfficient };
 
 struct Row {
   std::string id;    // with its motor or service: "drive_heat.FL"
