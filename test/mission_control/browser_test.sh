@@ -21,7 +21,7 @@ until curl -sfo /dev/null "http://127.0.0.1:$PAGE_PORT/"; do
 done
 echo "page up $(date +%s.%N) $begun" | awk '{ printf "page up %.2f s after the services were begun\n", $3 - $4 }'
 /usr/bin/python3 "$(dirname "$0")/browser_test.py" --port "$PAGE_PORT" --run "$RUN" --pictures "${ROVER_PICTURES:-$WORK}" ||
-  { tail -5 "$WORK/run.log" >&2; fail "the page in the browser"; }
+  { tail -5 "$WORK/run.log"; tail -n 20 "$RUN"/service_logs/{supervisor,rover_simulator}/current; fail "the page in the browser"; } >&2
 kill -TERM "$launcher"
 wait "$launcher" || true
 echo "the page works in a browser"
