@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <tuple>
 
-#include "common/bus/channels.hpp"
 #include "common/bus/streams.hpp"
 
 namespace rover {
 
-std::vector<CommandInbox::Waiting> CommandInbox::take_released(Utime t) {
+template <class Command>
+auto CommandInbox<Command>::take_released(Utime t) -> std::vector<Waiting> {
   const auto later = [t](const Waiting& waiting) { return waiting.release > t; };
   const auto split = std::stable_partition(waiting_.begin(), waiting_.end(), later);
   std::vector<Waiting> released(split, waiting_.end());
@@ -22,8 +22,9 @@ std::vector<CommandInbox::Waiting> CommandInbox::take_released(Utime t) {
   return released;
 }
 
-void CommandInbox::pass(const wheel_command_t& command, Tap& tap, std::vector<Waiting>& passed) {
-  for (const Tap::Passed& through : tap.pass(channel::kWheelCommand, command.header, encoded(command))) {
+template <class Command>
+void CommandInbox<Command>::pass(const Command& command, Tap& tap, std::vector<Waiting>& passed) {
+  for (const Tap::Passed& through : tap.pass(channel_, command.header, encoded(command))) {
     Waiting next{command.header.release_utime + through.delay, {}, true};
     if (!decode_message(through.bytes.data(), static_cast<int>(through.bytes.size()), next.command)) continue;
     next.command.header = command.header;
@@ -31,7 +32,8 @@ void CommandInbox::pass(const wheel_command_t& command, Tap& tap, std::vector<Wa
   }
 }
 
-std::optional<wheel_command_t> CommandInbox::take(Utime t, Tap* tap) {
+template <class Command>
+std::optional<Command> CommandInbox<Command>::take(Utime t, Tap* tap) {
   std::vector<Waiting> passed;
   for (Waiting& waiting : take_released(t)) {
     if (tap != nullptr && !waiting.tapped)
@@ -39,7 +41,7 @@ std::optional<wheel_command_t> CommandInbox::take(Utime t, Tap* tap) {
     else
       passed.push_back(std::move(waiting));
   }
-  std::optional<wheel_command_t> newest;
+  std::optional<Command> newest;
   for (const Waiting& waiting : passed) {
     const header_t& header = waiting.command.header;
     if (std::tie(header.boot_id, header.seq) <= std::tie(boot_id_, seq_)) continue;
@@ -49,5 +51,8 @@ std::optional<wheel_command_t> CommandInbox::take(Utime t, Tap* tap) {
   }
   return newest;
 }
+
+template class CommandInbox<wheel_command_t>;
+template class CommandInbox<ptu_command_t>;
 
 }  // namespace rover

@@ -61,6 +61,18 @@ image_t image_message(const GrayImage& image, double exposure_s) {
   return message;
 }
 
+ptu_state_t ptu_state_message(const PanTiltState& state) {
+  ptu_state_t message{};
+  message.pan_rad = state.pan_rad;
+  message.tilt_rad = state.tilt_rad;
+  message.moving = state.moving ? 1 : 0;
+  return message;
+}
+
+PanTiltCommand pan_tilt_command_from(const ptu_command_t& message) {
+  return {message.pan_rad, message.tilt_rad, message.take_image != 0};
+}
+
 WheelCommand wheel_command_from(const wheel_command_t& message) {
   WheelCommand command;
   std::copy(std::begin(message.drive_rate_radps), std::end(message.drive_rate_radps), command.drive_rate_radps.begin());

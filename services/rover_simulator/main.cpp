@@ -48,8 +48,10 @@ int simulate(Arguments& arguments) {
   const rover::Vehicle vehicle = rover::load_vehicle(arguments.config_dir);
   const rover::StereoRig loccam = rover::load_stereo_rig(arguments.config_dir, "loccam");
   auto world = std::make_unique<rover::World>(scenario.world, scenario.dtm, arguments.seed);
-  rover::SimulatedRover rover_and_world(rover_config(scenario, arguments.seed), vehicle, loccam, std::move(world),
-                                        scenario.start_pose(), arguments.seed);
+  rover::SimulatedRoverConfig config = rover_config(scenario, arguments.seed);
+  if (vehicle.pan_tilt) config.navcam = rover::load_stereo_rig(arguments.config_dir, "navcam");
+  rover::SimulatedRover rover_and_world(config, vehicle, loccam, std::move(world), scenario.start_pose(),
+                                        arguments.seed);
   lcm::LCM lcm(arguments.bus);
   lcm::LCM reports(rover::reports_url(arguments.bus));
   if (!lcm.good() || !reports.good()) throw rover::ConfigError("bus: cannot join " + arguments.bus);

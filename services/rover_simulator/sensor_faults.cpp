@@ -32,9 +32,10 @@ WheelSample FaultySensors::wheels(const SensorFaults& faults, WheelSample sample
   return sample;
 }
 
-StereoCameraSim::Pair FaultySensors::pictures(const SensorFaults& faults, StereoCameraSim::Pair pair) {
-  pair.left = picture(faults.camera[0], std::move(pair.left), last_[0]);
-  pair.right = picture(faults.camera[1], std::move(pair.right), last_[1]);
+StereoCameraSim::Pair FaultySensors::pictures(const SensorFaults& faults, Lenses lenses, StereoCameraSim::Pair pair) {
+  const size_t left = static_cast<size_t>(lenses), right = left + 1;
+  pair.left = picture(faults.camera[left], std::move(pair.left), last_[left]);
+  pair.right = picture(faults.camera[right], std::move(pair.right), last_[right]);
   return pair;
 }
 

@@ -16,7 +16,7 @@ struct CameraFault {
 };
 
 struct SensorFaults {
-  std::array<CameraFault, 2> camera;  // left, right
+  std::array<CameraFault, 4> camera;  // left, right; LocCam, then NavCam
   bool imu_dead = false;
   double yaw_bias_radps = 0.0;
   double forward_bias_mps2 = 0.0;
@@ -28,13 +28,14 @@ class FaultySensors {
  public:
   ImuSample imu(const SensorFaults& faults, ImuSample sample) const;
   WheelSample wheels(const SensorFaults& faults, WheelSample sample);
-  StereoCameraSim::Pair pictures(const SensorFaults& faults, StereoCameraSim::Pair pair);
+  enum class Lenses : size_t { kLocCam = 0, kNavCam = 2 };  // the left one, the right one follows
+  StereoCameraSim::Pair pictures(const SensorFaults& faults, Lenses lenses, StereoCameraSim::Pair pair);
 
  private:
   GrayImage picture(const CameraFault& fault, GrayImage image, GrayImage& last) const;
 
   WheelSample last_wheels_;
-  std::array<GrayImage, 2> last_;
+  std::array<GrayImage, 4> last_;
 };
 
 }  // namespace rover

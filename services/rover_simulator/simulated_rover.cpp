@@ -2,11 +2,13 @@
 
 #include <random>
 
+#include "common/core/check.hpp"
+
 namespace rover {
 namespace {
 
 // Each part draws from a stream of its own, so that one more draw in one part changes no other.
-enum class Stream : std::uint64_t { kSensors = 1, kCamera = 2, kStart = 3 };
+enum class Stream : std::uint64_t { kSensors = 1, kCamera = 2, kStart = 3, kNavCam = 4, kPanTilt = 5 };
 
 std::uint64_t seed_of(std::uint64_t seed, Stream stream) {
   std::seed_seq sequence{seed, static_cast<std::uint64_t>(stream)};
@@ -29,17 +31,41 @@ Pose2 true_start(const SimulatedRoverConfig& config, const Pose2& believed, std:
 
 SimulatedRover::SimulatedRover(const SimulatedRoverConfig& config, const Vehicle& vehicle, const StereoRig& loccam,
                                std::unique_ptr<World> world, const Pose2& believed_start, std::uint64_t seed)
-    : world_(std::move(world)),
+    : config_(config),
+      geometry_(vehicle),
+      world_(std::move(world)),
       vehicle_(vehicle, config.vehicle, *world_, true_start(config, believed_start, seed_of(seed, Stream::kStart))),
       sensors_(config.sensors, seed_of(seed, Stream::kSensors)),
-      loccam_(loccam, config.loccam, *world_, seed_of(seed, Stream::kCamera)) {
+      scene_(std::make_shared<TileScene>(*world_, config.loccam.scene)),
+      loccam_(loccam, config.loccam, scene_, seed_of(seed, Stream::kCamera)),
+      navcam_seed_(seed_of(seed, Stream::kNavCam)) {
+  if (config.navcam && vehicle.pan_tilt)
+    pan_tilt_.emplace(*vehicle.pan_tilt, config.pan_tilt_repeatability_rad, seed_of(seed, Stream::kPanTilt));
   advance(to_seconds(kTickUs), hold_command());
 }
 
 void SimulatedRover::advance(double dt_s, const WheelCommand& command) {
   vehicle_.advance(dt_s, command);
+  if (pan_tilt_) pan_tilt_->advance(dt_s);
   imu_ = sensors_.sample_imu(vehicle_.truth());
   wheels_ = sensors_.sample_wheels(vehicle_.truth());
+}
+
+Eigen::Isometry3d SimulatedRover::T_map_navcam() const {
+  ROVER_CHECK(pan_tilt_.has_value());
+  return T_map_body() *
+         T_body_navcam(*geometry_.pan_tilt, config_.navcam->T_body_left, pan_tilt_->pan_rad(), pan_tilt_->tilt_rad());
+}
+
+StereoCameraSim::Pair SimulatedRover::expose_loccam(const Eigen::Isometry3d& T_map_body, std::int64_t frame) {
+  const std::lock_guard lock(scene_mutex_);
+  return loccam_.render(T_map_body, frame);
+}
+
+StereoCameraSim::Pair SimulatedRover::expose_navcam(const Eigen::Isometry3d& T_map_left, std::int64_t frame) {
+  const std::lock_guard lock(scene_mutex_);
+  if (!navcam_) navcam_ = std::make_unique<StereoCameraSim>(*config_.navcam, config_.loccam, scene_, navcam_seed_);
+  return navcam_->render_from(T_map_left, frame);
 }
 
 WheelCommand SimulatedRover::hold_command() const {

@@ -2,11 +2,14 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
+#include <optional>
 
 #include "common/core/camera_rig.hpp"
 #include "common/core/time.hpp"
 #include "common/core/vehicle.hpp"
 #include "rover_simulator/camera/stereo_camera_sim.hpp"
+#include "rover_simulator/vehicle/pan_tilt_sim.hpp"
 #include "rover_simulator/vehicle/sensors.hpp"
 #include "rover_simulator/vehicle/vehicle_sim.hpp"
 #include "rover_simulator/world/world.hpp"
@@ -17,7 +20,9 @@ struct SimulatedRoverConfig {
   VehicleSimConfig vehicle;
   SensorConfig sensors;
   CameraSimConfig loccam;
-  double start_sigma_m = 0.0;  // the true start differs from the ground's belief by this much
+  std::optional<StereoRig> navcam;  // none: a rover without one. It sees the LocCam's scene with its calibration error.
+  double pan_tilt_repeatability_rad = to_rad(0.02);  // estimate: 0.05 deg between extremes
+  double start_sigma_m = 0.0;                        // the true start differs from the ground's belief by this much
   double start_sigma_yaw_rad = 0.0;
 };
 
@@ -36,16 +41,26 @@ class SimulatedRover {
   // Of the interval that the last advance() ended.
   const ImuSample& imu() const { return imu_; }
   const WheelSample& wheels() const { return wheels_; }
-  // Thread safe against advance().
-  StereoCameraSim::Pair expose_loccam(const Eigen::Isometry3d& T_map_body, std::int64_t frame) {
-    return loccam_.render(T_map_body, frame);
-  }
+  // Null for a rover without NavCam.
+  PanTiltSim* pan_tilt() { return pan_tilt_ ? &*pan_tilt_ : nullptr; }
+  // The true left NavCam, as its unit stands.
+  Eigen::Isometry3d T_map_navcam() const;
+  // Thread safe against advance() and each other.
+  StereoCameraSim::Pair expose_loccam(const Eigen::Isometry3d& T_map_body, std::int64_t frame);
+  StereoCameraSim::Pair expose_navcam(const Eigen::Isometry3d& T_map_left, std::int64_t frame);
 
  private:
+  SimulatedRoverConfig config_;
+  Vehicle geometry_;
   std::unique_ptr<World> world_;
   VehicleSim vehicle_;
   SensorSuite sensors_;
+  std::optional<PanTiltSim> pan_tilt_;
+  std::mutex scene_mutex_;  // one camera at a time looks at the scene
+  std::shared_ptr<TileScene> scene_;
   StereoCameraSim loccam_;
+  std::unique_ptr<StereoCameraSim> navcam_;  // made by its first picture
+  std::uint64_t navcam_seed_;
   ImuSample imu_;
   WheelSample wheels_;
 };

@@ -67,6 +67,10 @@ Simulator::Simulator(const SimulatorOptions& options, SimulatedRover& rover, lcm
       streams_("rover_simulator", options.boot_id),
       barrier_(options.participants),
       end_(options.end, kStart),
+      wheel_commands_(channel::kWheelCommand),
+      ptu_commands_(channel::kPtuCommand),
+      loccam_{channel::kLocCamLeft, channel::kLocCamRight, FaultySensors::Lenses::kLocCam},
+      navcam_{channel::kNavCamLeft, channel::kNavCamRight, FaultySensors::Lenses::kNavCam},
       script_(options.faults, kStart),
       way_mark_(rover.T_map_body().translation().head<2>()) {
   const auto listen = [this](lcm::LCM& bus, const char* channel, auto handler) {
@@ -75,7 +79,9 @@ Simulator::Simulator(const SimulatorOptions& options, SimulatedRover& rover, lcm
     subscription->setQueueCapacity(0);
   };
   listen(reports_, channel::kDone, &Simulator::on_done);
-  listen(lcm_, channel::kWheelCommand, &Simulator::on_wheel_command);
+  listen(lcm_, channel::kWheelCommand, &Simulator::on_command<wheel_command_t, &Simulator::wheel_commands_>);
+  if (rover_.pan_tilt() != nullptr)
+    listen(lcm_, channel::kPtuCommand, &Simulator::on_command<ptu_command_t, &Simulator::ptu_commands_>);
   listen(lcm_, channel::kState, &Simulator::on_state);
   if (options_.allow_injection) listen(lcm_, channel::kInject, &Simulator::on_inject);
 }
@@ -108,10 +114,11 @@ std::vector<stream_seq_t> Simulator::take_grown(Utime t) {
   return grown;
 }
 
-void Simulator::on_wheel_command(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
-  wheel_command_t command{};
+template <class Command, CommandInbox<Command> Simulator::*inbox>
+void Simulator::on_command(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
+  Command command{};
   if (!decode(buffer, channel, command) || !ledger_.arrived(channel, command.header)) return;
-  commands_.add(command);
+  (this->*inbox).add(command);
 }
 
 void Simulator::on_state(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
@@ -133,8 +140,9 @@ SimulationSummary Simulator::run(const std::function<bool()>& running) {
     do_faults(t, running);
     if (t > kStart) step_world(t);
     publish_sensors(t);
-    if ((t - kStart) % kFramePeriod == 0) start_exposure(t);
-    publish_due_images(t);
+    start_exposures(t);
+    publish_due_images(loccam_, t);
+    publish_due_images(navcam_, t);
     if (options_.realtime)
       std::this_thread::sleep_until(started + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(
                                                   to_seconds(t - kStart) / options_.pace)));
@@ -176,7 +184,7 @@ bool Simulator::wait_for_start(const std::function<bool()>& running) {
 }
 
 WheelCommand Simulator::command_at(Utime t) {
-  if (auto newest = commands_.take(t, tap_.get())) command_ = std::move(newest);
+  if (auto newest = wheel_commands_.take(t, tap_.get())) command_ = std::move(newest);
   if (!command_ || command_->valid_until_utime < t || !all_finite(*command_)) return rover_.hold_command();
   return wheel_command_from(*command_);
 }
@@ -192,6 +200,7 @@ Utime Simulator::next_tick(Utime t, const std::function<bool()>& running) {
 }
 
 void Simulator::step_world(Utime t) {
+  move_pan_tilt(t - kTickUs);
   rover_.set_faults(world_faults_.vehicle(t));
   rover_.advance(to_seconds(kTickUs), command_at(t - kTickUs));
   measure_way();
@@ -205,29 +214,58 @@ void Simulator::publish_sensors(Utime t) {
   if (!broken_.imu_dead) publish(channel::kImu, imu, t, t);
   publish(channel::kWheelState, wheels, t, t);
   publish(channel::kTruth, truth, t, t);
+  publish_pan_tilt(t);
 }
 
-void Simulator::start_exposure(Utime t) {
-  if (exposure_) publish_due_images(exposure_->release);
-  if (exposure_) return;  // late by the clock: a camera that is still busy takes no other picture
-  PendingPair pending{t, t + kCameraLatency, {}};
-  pending.pair = std::async(std::launch::async, [this, T_map_body = rover_.T_map_body(), frame = frame_++] {
-    return rover_.expose_loccam(T_map_body, frame);
+// The newest command counts; the one before is void, with its picture.
+void Simulator::move_pan_tilt(Utime t) {
+  if (const auto newest = ptu_commands_.take(t, tap_.get())) {
+    rover_.pan_tilt()->command(pan_tilt_command_from(*newest));
+    ptu_on_ = true;
+  }
+}
+
+// The unit is switched on by its first command: while the rover drives without it, it says and costs nothing.
+void Simulator::publish_pan_tilt(Utime t) {
+  if (!ptu_on_) return;
+  ptu_state_t state = ptu_state_message(rover_.pan_tilt()->state());
+  publish(channel::kPtuState, state, t, t);
+}
+
+void Simulator::start_exposures(Utime t) {
+  if ((t - kStart) % kFramePeriod == 0)
+    expose(loccam_, t, [this, T_map_body = rover_.T_map_body()](std::int64_t frame) {
+      return rover_.expose_loccam(T_map_body, frame);
+    });
+  PanTiltSim* unit = rover_.pan_tilt();
+  if (unit == nullptr || !unit->picture_due() || navcam_.exposure) return;
+  unit->picture_taken();
+  expose(navcam_, t, [this, T_map_left = rover_.T_map_navcam()](std::int64_t frame) {
+    return rover_.expose_navcam(T_map_left, frame);
   });
-  exposure_ = std::move(pending);
 }
 
-void Simulator::publish_due_images(Utime t) {
-  if (!exposure_ || exposure_->release > t) return;
-  const bool finished = exposure_->pair.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+void Simulator::expose(Camera& camera, Utime t, Render render) {
+  if (camera.exposure) publish_due_images(camera, camera.exposure->release);
+  if (camera.exposure) return;  // late by the clock: a camera that is still busy takes no other picture
+  PendingPair pending{t, t + kCameraLatency, {}};
+  pending.pair = std::async(std::launch::async, std::move(render), camera.frames++);
+  camera.exposure = std::move(pending);
+}
+
+void Simulator::publish_due_images(Camera& camera, Utime t) {
+  if (!camera.exposure || camera.exposure->release > t) return;
+  PendingPair& pending = *camera.exposure;
+  const bool finished = pending.pair.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
   if (options_.realtime && !finished) {
-    exposure_->release = t + kTickUs;  // late by the clock: released when it is there
+    pending.release = t + kTickUs;  // late by the clock: released when it is there
     return;
   }
-  const StereoCameraSim::Pair pair = sensors_.pictures(world_faults_.sensors(exposure_->utime), exposure_->pair.get());
-  publish_image(channel::kLocCamLeft, pair.left, pair.exposure_s, *exposure_);
-  publish_image(channel::kLocCamRight, pair.right, pair.exposure_s, *exposure_);
-  exposure_.reset();
+  const StereoCameraSim::Pair pair =
+      sensors_.pictures(world_faults_.sensors(pending.utime), camera.lenses, pending.pair.get());
+  publish_image(camera.left_channel, pair.left, pair.exposure_s, pending);
+  publish_image(camera.right_channel, pair.right, pair.exposure_s, pending);
+  camera.exposure.reset();
 }
 
 void Simulator::publish_image(const char* channel, const GrayImage& image, double exposure_s,

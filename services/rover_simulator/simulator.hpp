@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <rover/done_t.hpp>
+#include <rover/ptu_command_t.hpp>
 #include <rover/supervisor_state_t.hpp>
 #include <rover/wheel_command_t.hpp>
 #include <string>
@@ -60,12 +61,24 @@ class Simulator {
     Utime release;
     std::future<StereoCameraSim::Pair> pair;
   };
+  // A stereo camera on the bus.
+  struct Camera {
+    const char* left_channel;
+    const char* right_channel;
+    FaultySensors::Lenses lenses;
+    std::optional<PendingPair> exposure;
+    std::int64_t frames = 0;
+  };
+  using Render = std::function<StereoCameraSim::Pair(std::int64_t frame)>;
 
   bool wait_for_start(const std::function<bool()>& running);
   void step_world(Utime t);
   void publish_sensors(Utime t);
-  void start_exposure(Utime t);
-  void publish_due_images(Utime t);
+  void move_pan_tilt(Utime t);
+  void publish_pan_tilt(Utime t);
+  void start_exposures(Utime t);
+  void expose(Camera& camera, Utime t, Render render);
+  void publish_due_images(Camera& camera, Utime t);
   void publish_image(const char* channel, const GrayImage& image, double exposure_s, const PendingPair& pending);
   void wait_for_barrier(Utime t, const std::function<bool()>& running);
   void wait_for_answers(const std::function<bool()>& running);
@@ -86,7 +99,8 @@ class Simulator {
   std::vector<stream_seq_t> take_grown(Utime t);
   WheelCommand command_at(Utime t);
   void on_done(const lcm::ReceiveBuffer* buffer, const std::string& channel);
-  void on_wheel_command(const lcm::ReceiveBuffer* buffer, const std::string& channel);
+  template <class Command, CommandInbox<Command> Simulator::*inbox>
+  void on_command(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void on_state(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void count_malformed(const std::string& channel);
   template <class Message>
@@ -104,11 +118,13 @@ class Simulator {
   ArrivalLedger ledger_;
   std::vector<done_t> dones_;          // whose streams no tick has listed yet
   std::vector<stream_seq_t> awaited_;  // reported, on channels taken here
-  CommandInbox commands_;
+  CommandInbox<wheel_command_t> wheel_commands_;
+  CommandInbox<ptu_command_t> ptu_commands_;
   std::deque<supervisor_state_t> states_;
   std::optional<wheel_command_t> command_;
-  std::optional<PendingPair> exposure_;
-  std::int64_t frame_ = 0;
+  bool ptu_on_ = false;  // somebody has commanded the pan-tilt unit
+  Camera loccam_;
+  Camera navcam_;
   Utime now_ = kNever;
   std::map<std::string, std::int64_t> malformed_;
   std::vector<std::uint8_t> last_tick_;

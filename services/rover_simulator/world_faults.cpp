@@ -23,8 +23,10 @@ void break_camera(const injection_t& injection, CameraFault& camera) {
 
 void break_sensor(const injection_t& injection, SensorFaults& sensors) {
   if (injection.fault.rfind("camera_", 0) == 0) {
-    if (injection.target != "right") break_camera(injection, sensors.camera[0]);
-    if (injection.target != "left") break_camera(injection, sensors.camera[1]);
+    static const std::array<std::string, 4> kLenses = {"left", "right", "navcam_left", "navcam_right"};
+    for (size_t i = 0; i < kLenses.size(); ++i)
+      if (injection.target == kLenses[i] || injection.target == (i < 2 ? "both" : "navcam"))
+        break_camera(injection, sensors.camera[i]);
   }
   if (injection.fault == "imu_dead") sensors.imu_dead = true;
   if (injection.fault == "gyro_bias") sensors.yaw_bias_radps += injection.amount;

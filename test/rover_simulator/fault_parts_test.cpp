@@ -3,6 +3,7 @@
 
 #include <csignal>
 
+#include "common/bus/channels.hpp"
 #include "rover_simulator/command_inbox.hpp"
 #include "rover_simulator/fault_script.hpp"
 #include "rover_simulator/process_faults.hpp"
@@ -74,7 +75,7 @@ wheel_command_t command(std::int64_t seq, Utime utime) {
 }
 
 TEST(CommandInbox, GivesTheNewestReleased) {
-  CommandInbox inbox;
+  CommandInbox<wheel_command_t> inbox(channel::kWheelCommand);
   for (int i = 1; i <= 3; ++i) inbox.add(command(i, i * kTickUs));
   EXPECT_FALSE(inbox.take(kTickUs, nullptr));
   EXPECT_EQ(inbox.take(3 * kTickUs, nullptr)->header.seq, 2);
@@ -90,7 +91,7 @@ TEST(CommandInbox, OldCommandsThatComeLateAreVoid) {
   delay.amount = 0.1;
   delay.until_utime = kTickUs;
   ASSERT_TRUE(tap.inject(delay));
-  CommandInbox inbox;
+  CommandInbox<wheel_command_t> inbox(channel::kWheelCommand);
   inbox.add(command(1, kTickUs));
   inbox.add(command(2, 3 * kTickUs));
   EXPECT_FALSE(inbox.take(2 * kTickUs, &tap));

@@ -37,6 +37,9 @@ class Participant {
     command.valid_until_utime = t + 10 * kTickUs;
     for (double& rate : command.drive_rate_radps) rate = 1.0;
     send(channel::kWheelCommand, command, t);
+    ptu_command_t look{};
+    look.pan_rad = 0.1;
+    send(channel::kPtuCommand, look, t);
     supervisor_state_t state{};
     state.state = supervisor_state_t::DRIVING;
     send(channel::kState, state, t);
@@ -91,6 +94,7 @@ struct Drive {
 // One second on a plane.
 Drive drive(bool disturbed) {
   SimulatedRoverConfig config;
+  config.navcam = load_stereo_rig(kConfig, "navcam");
   config.loccam.scene.fine_radius_m = 4.5;
   config.loccam.scene.middle_radius_m = 8.0;
   config.loccam.scene.far_radius_m = 30.0;
@@ -127,7 +131,7 @@ TEST(SimulatorNode, BadMessagesAreCountedAndNamedAndChangeNothing) {
   EXPECT_TRUE(disturbed.summary.left.empty());
   ASSERT_GE(calm.truth.size(), 50u);
   EXPECT_TRUE(disturbed.truth == calm.truth);
-  ASSERT_GE(disturbed.malformed.size(), 3u);
+  ASSERT_GE(disturbed.malformed.size(), 4u);
   // Every channel that the simulator takes, also one that comes later, must be among those disturbed here.
   EXPECT_EQ(disturbed.malformed, disturbed.sent);
   for (const auto& [channel, count] : disturbed.malformed)

@@ -20,6 +20,8 @@ constexpr Range kShare{0.0, 1.0};
 constexpr double kMust = std::numeric_limits<double>::quiet_NaN();
 const std::vector<std::string> kWheels = {"0", "1", "2", "3", "4", "5"};
 
+const std::vector<std::string> kLenses = {"left", "right", "both", "navcam_left", "navcam_right", "navcam"};
+
 const std::vector<FaultKind>& table() {
   static const std::vector<FaultKind> kTable = {
       {"kill", kService, {}, "", kNone, 0.0, false, "ends the process at once; s6 starts it again"},
@@ -35,10 +37,10 @@ const std::vector<FaultKind>& table() {
       {"nan", kField, {}, "share", kShare, 1.0, true, "numbers become NaN"},
       {"offset", kField, {}, "field's unit", {-1e6, 1e6}, kMust, true, "is added to one field's numbers"},
       {"loss", kBus, {"*"}, "share", {0.01, 0.5}, 0.1, true, "messages of all channels are lost"},
-      {"camera_blind", kWorld, {"left", "right", "both"}, "", kNone, 0.0, true, "black pictures of the LocCam"},
-      {"camera_frozen", kWorld, {"left", "right", "both"}, "", kNone, 0.0, true, "the same picture again and again"},
-      {"camera_rows", kWorld, {"left", "right", "both"}, "px", {-50, 50}, 3.0, true, "pictures shifted downwards"},
-      {"camera_columns", kWorld, {"left", "right", "both"}, "px", {-50, 50}, 3.0, true, "shifted to the right"},
+      {"camera_blind", kWorld, kLenses, "", kNone, 0.0, true, "black pictures; both: of the LocCam"},
+      {"camera_frozen", kWorld, kLenses, "", kNone, 0.0, true, "the same picture again and again"},
+      {"camera_rows", kWorld, kLenses, "px", {-50, 50}, 3.0, true, "pictures shifted downwards"},
+      {"camera_columns", kWorld, kLenses, "px", {-50, 50}, 3.0, true, "shifted to the right"},
       {"imu_dead", kWorld, {"imu"}, "", kNone, 0.0, true, "no IMU messages"},
       {"gyro_bias", kWorld, {"imu"}, "rad/s", {-2, 2}, 0.05, true, "on the yaw rate, fibre-optic gyro included"},
       {"accel_bias", kWorld, {"imu"}, "m/s2", {-20, 20}, 0.5, true, "on the forward acceleration"},
@@ -70,8 +72,9 @@ std::string usual_target(const FaultKind& kind) {
 }
 
 std::string service_problem(const std::string& target) {
-  if (std::find(kServiceNames.begin(), kServiceNames.end(), target) != kServiceNames.end()) return "";
-  return "'" + target + "' is not a service; there are " + joined({kServiceNames.begin(), kServiceNames.end()});
+  const std::vector<std::string> names = service_names(true);
+  if (std::find(names.begin(), names.end(), target) != names.end()) return "";
+  return "'" + target + "' is not a service; there are " + joined(names);
 }
 
 // TICK, DONE and INJECT are the machinery itself.

@@ -68,6 +68,16 @@ void read_limits(const Config& limits, Vehicle& v) {
   v.hazard_height_m = limits.number("hazard_height_m", kMetres);
 }
 
+PanTiltUnit read_pan_tilt(const Config& config) {
+  PanTiltUnit unit;
+  unit.p_body_axes = vector3(config, "axes_position_m", kSignedMetres);
+  unit.pan_max_rad = to_rad(config.number("pan_max_deg", {0, 180}));
+  unit.tilt_min_rad = to_rad(config.number("tilt_min_deg", {-90, 0}));
+  unit.tilt_max_rad = to_rad(config.number("tilt_max_deg", {0, 90}));
+  unit.rate_radps = to_rad(config.number("rate_degps", {0.1, 720}));
+  return unit;
+}
+
 }  // namespace
 
 Vehicle load_vehicle(const std::string& config_dir) {
@@ -78,6 +88,7 @@ Vehicle load_vehicle(const std::string& config_dir) {
   read_motors(config.section("steering"), config.section("drive"), vehicle);
   read_limits(config.section("limits"), vehicle);
   if (config.has("imu")) vehicle.imu_position_m = vector3(config.section("imu"), "position_m", kSignedMetres);
+  if (config.has("pan_tilt")) vehicle.pan_tilt = read_pan_tilt(config.section("pan_tilt"));
   config.finish();
   return vehicle;
 }

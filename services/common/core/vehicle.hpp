@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+
+#include "common/core/pan_tilt.hpp"
 
 namespace rover {
 
@@ -36,6 +39,7 @@ struct Vehicle {
   double max_climb_m = 0.0;
   double hazard_height_m = 0.0;
   Eigen::Vector3d imu_position_m = Eigen::Vector3d::Zero();
+  std::optional<PanTiltUnit> pan_tilt;  // none: no NavCam, and so no Full level
 
   // Half extents of the ground that wheels and body cover, about the body origin.
   double footprint_half_length_m() const {
