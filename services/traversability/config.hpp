@@ -1,0 +1,20 @@
+// config/traversability.yaml and vehicle.yaml into what the core needs.
+#pragma once
+
+#include <string>
+
+#include "common/core/time.hpp"
+#include "traversability/traversability_config.hpp"
+
+namespace rover::trav {
+
+struct NodeConfig {
+  TraversabilityConfig core;
+  Utime latency_us = 100'000;
+  double max_map_age_s = 2.0;   // of an elevation map, to be judged
+  double max_pose_age_s = 0.5;  // for a judgement of the ground ahead
+};
+
+NodeConfig load_config(const std::string& config_dir);
+
+}  // namespace rover::trav
