@@ -1,6 +1,6 @@
 // The planner's memory as bytes: global path, active path, local map, counters. The pose comes anew with the next POSE.
+#include "common/core/state_bytes.hpp"
 #include "path_planner/path_planner.hpp"
-#include "path_planner/state_bytes.hpp"
 
 namespace rover::planning {
 namespace {

@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace rover::planning {
+namespace rover {
 
 class StateWriter {
  public:
@@ -54,4 +54,4 @@ class StateReader {
   bool ok_ = true;
 };
 
-}  // namespace rover::planning
+}  // namespace rover

@@ -1,0 +1,17 @@
+// config/slam.yaml into what the core needs.
+#pragma once
+
+#include <string>
+
+#include "slam/slam.hpp"
+
+namespace rover::slam {
+
+struct NodeConfig {
+  SlamConfig core;
+  Utime latency_us = 100'000;
+};
+
+NodeConfig load_config(const std::string& config_dir);
+
+}  // namespace rover::slam

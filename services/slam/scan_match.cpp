@@ -1,0 +1,147 @@
+#include "slam/scan_match.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <cmath>
+
+namespace rover::slam {
+namespace {
+
+constexpr int kStartIterations = 6;
+
+float square(float v) {
+  return v * v;
+}
+
+}  // namespace
+
+ScanMatcher::ToCells::ToCells(const MatchSurface& surface, const Pose2& pose) {
+  const double per_cell = 1.0 / surface.cell_m();
+  cos = static_cast<float>(std::cos(pose.yaw_rad) * per_cell);
+  sin = static_cast<float>(std::sin(pose.yaw_rad) * per_cell);
+  x = static_cast<float>((pose.x_m - surface.corner_x_m()) * per_cell);
+  y = static_cast<float>((pose.y_m - surface.corner_y_m()) * per_cell);
+}
+
+void ScanMatcher::prepare(const std::vector<Patch>& patches, const MatchSurface& surface, const Pose2& reference) {
+  surface_ = &surface;
+  points_.clear();
+  const ToCells to(surface, reference);
+  const auto model2 = static_cast<float>(config_.model_sigma_m * config_.model_sigma_m);
+  const auto blur = static_cast<float>(config_.blur_m);
+  const size_t stride = 1 + patches.size() / static_cast<size_t>(config_.max_patches);
+  for (size_t i = 0; i < patches.size(); i += stride) {
+    const Patch& patch = patches[i];
+    Point point{patch.x_m, patch.y_m, patch.z_m, 0.0F};
+    const auto sample = surface.sample(to.u(point), to.v(point));
+    if (!sample) continue;
+    // The slope in the rover's axes, per metre.
+    const auto c = static_cast<float>(std::cos(reference.yaw_rad)), s = static_cast<float>(std::sin(reference.yaw_rad));
+    const float along = c * sample->slope_x + s * sample->slope_y, across = c * sample->slope_y - s * sample->slope_x;
+    const float by_depth = along * patch.ray_x_m + across * patch.ray_y_m;
+    const float by_blur2 = (square(along) + square(across)) * square(blur);
+    point.weight = 1.0F / (patch.variance_m2 + sample->variance_m2 + model2 + square(by_depth) + by_blur2);
+    points_.push_back(point);
+  }
+  start_plane_.setZero();
+  if (!points_.empty()) start_plane_ = fit(reference, kStartIterations).plane;
+}
+
+void ScanMatcher::residuals_at(const Pose2& pose) const {
+  const ToCells to(*surface_, pose);
+  residual_.resize(points_.size());
+  for (size_t i = 0; i < points_.size(); ++i)
+    residual_[i] = points_[i].z - surface_->height(to.u(points_[i]), to.v(points_[i]));
+}
+
+// One step of reweighted least squares.
+Eigen::Vector3f ScanMatcher::fitted_plane(const Eigen::Vector3f& from) const {
+  const auto kernel2 = static_cast<float>(square(static_cast<float>(config_.kernel_sigma)));
+  float s1 = 0, sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0, r1 = 0, rx = 0, ry = 0;
+  for (size_t i = 0; i < points_.size(); ++i) {
+    if (std::isnan(residual_[i])) continue;
+    const Point& p = points_[i];
+    const float share = kernel2 / (kernel2 + square(off(i, from)) * p.weight);
+    const float w = p.weight * share * share, wr = w * residual_[i];
+    s1 += w, sx += w * p.x, sy += w * p.y;
+    sxx += w * p.x * p.x, sxy += w * p.x * p.y, syy += w * p.y * p.y;
+    r1 += wr, rx += wr * p.x, ry += wr * p.y;
+  }
+  const auto temper = static_cast<float>(config_.temper);
+  Eigen::Matrix3f A;
+  A << s1, sx, sy, sx, sxx, sxy, sy, sxy, syy;
+  A *= temper;
+  A(0, 0) += 1.0F / square(static_cast<float>(config_.height_sigma_m));
+  A(1, 1) += 1.0F / square(static_cast<float>(config_.tilt_sigma_rad));
+  A(2, 2) += 1.0F / square(static_cast<float>(config_.tilt_sigma_rad));
+  return A.ldlt().solve(temper * Eigen::Vector3f(r1, rx, ry));
+}
+
+MatchFit ScanMatcher::judged(const Eigen::Vector3f& plane) const {
+  const auto kernel2 = square(static_cast<float>(config_.kernel_sigma));
+  // Off the map a point costs what a fitting one does, so that the map's border neither draws nor repels.
+  const float neutral = 1.0F / (kernel2 + 1.0F);
+  float cost = 0.0F;
+  int on_map = 0, fitting = 0;
+  for (size_t i = 0; i < points_.size(); ++i) {
+    const float x = square(off(i, plane)) * points_[i].weight;
+    cost += std::isnan(x) ? neutral : x / (kernel2 + x);
+    on_map += std::isnan(x) ? 0 : 1;
+    fitting += x < kernel2 ? 1 : 0;
+  }
+  const double height = plane.x() / config_.height_sigma_m, tilt = plane.tail<2>().norm() / config_.tilt_sigma_rad;
+  const double log_likelihood =
+      -0.5 * (config_.temper * static_cast<double>(kernel2 * cost) + height * height + tilt * tilt);
+  return {log_likelihood, on_map > 0 ? static_cast<double>(fitting) / on_map : 0.0, plane};
+}
+
+MatchFit ScanMatcher::fit(const Pose2& pose, int iterations) const {
+  residuals_at(pose);
+  Eigen::Vector3f plane = start_plane_;
+  for (int i = 0; i < iterations; ++i) plane = fitted_plane(plane);
+  return judged(plane);
+}
+
+// By differences over a few centimetres: what noise draws into heights is without slope over that way, and does not
+// pass for information.
+Eigen::Matrix3d ScanMatcher::curvature(const Pose2& pose) const {
+  const Eigen::Vector3d step(config_.probe_m, config_.probe_m, config_.probe_m / config_.lever_m);
+  const auto at = [&](const Eigen::Vector3d& off) {
+    return fit({pose.x_m + off.x(), pose.y_m + off.y(), pose.yaw_rad + off.z()}).log_likelihood;
+  };
+  const double center = at(Eigen::Vector3d::Zero());
+  Eigen::Matrix3d H;  // in steps
+  const auto fall = [&](const Eigen::Vector3d& way) {
+    const Eigen::Vector3d off = step.cwiseProduct(way);
+    return 2.0 * center - at(off) - at(-off);
+  };
+  for (int i = 0; i < 3; ++i) H(i, i) = fall(Eigen::Vector3d::Unit(i));
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < i; ++j) {
+      const double both = fall((Eigen::Vector3d::Unit(i) + Eigen::Vector3d::Unit(j)) * std::sqrt(0.5));
+      H(i, j) = H(j, i) = both - 0.5 * (H(i, i) + H(j, j));
+    }
+  const Eigen::Vector3d per_step = step.cwiseInverse();
+  return per_step.asDiagonal() * H * per_step.asDiagonal();
+}
+
+MatchInformation ScanMatcher::information(const Pose2& pose) const {
+  MatchInformation told;
+  if (!enough()) return told;
+  told.matrix = curvature(pose);
+  const Eigen::DiagonalMatrix<double, 3> scale(1.0, 1.0, config_.lever_m), unscale(1.0, 1.0, 1.0 / config_.lever_m);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> parts(unscale * told.matrix * unscale);
+  Eigen::Matrix3d keep = Eigen::Matrix3d::Zero();
+  for (int i = 0; i < 3; ++i) {
+    const double told_of = parts.eigenvalues()(i);
+    if (told_of * config_.blind_sigma_m * config_.blind_sigma_m < 1.0) continue;
+    if (told.directions == 0) told.weakest = std::sqrt(told_of);  // in growing order
+    keep += parts.eigenvectors().col(i) * parts.eigenvectors().col(i).transpose();
+    ++told.directions;
+  }
+  told.informed = unscale * keep * scale;
+  return told;
+}
+
+}  // namespace rover::slam

@@ -1,0 +1,121 @@
+// What SLAM knows as bytes: particles, frames, and the map's seen cells behind a mask of one bit a cell.
+#include <cmath>
+
+#include "common/core/state_bytes.hpp"
+#include "slam/slam.hpp"
+
+namespace rover::slam {
+namespace {
+
+constexpr std::uint32_t kVersion = 1;
+
+bool sane(const Pose2& pose) {
+  return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.yaw_rad);
+}
+
+void put_pose(StateWriter& out, const Eigen::Isometry3d& T) {
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 4; ++column) out.put(T.matrix()(row, column));
+}
+
+Eigen::Isometry3d get_pose(StateReader& in) {
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 4; ++column) T.matrix()(row, column) = in.get<double>();
+  return T;
+}
+
+void put_map(StateWriter& out, const GridMap<ElevationCell>& grid) {
+  out.put(grid.cells());
+  out.put(grid.origin());
+  std::uint8_t mask = 0;
+  int bits = 0;
+  grid.for_each([&](CellIndex, const ElevationCell& cell) {
+    mask = static_cast<std::uint8_t>(mask << 1 | (cell.seen() ? 1 : 0));
+    if (++bits % 8 == 0) out.put(mask);
+  });
+  for (; bits % 8 != 0; ++bits) {
+    mask = static_cast<std::uint8_t>(mask << 1);
+    if (bits % 8 == 7) out.put(mask);
+  }
+  grid.for_each([&](CellIndex, const ElevationCell& cell) {
+    if (!cell.seen()) return;
+    out.put(cell.height_m);
+    out.put(cell.variance_m2);
+    out.put(cell.seen_way_m);
+    out.put(cell.contradictions);
+  });
+}
+
+// False where the stored map has another size.
+bool get_map(StateReader& in, GridMap<ElevationCell>& grid) {
+  if (in.get<int>() != grid.cells()) return false;
+  const CellIndex origin = in.get<CellIndex>();
+  const CellIndex center{origin.ix + grid.cells() / 2, origin.iy + grid.cells() / 2};
+  grid.move_to(grid.center_x_m(center), grid.center_y_m(center));
+  std::vector<std::uint8_t> mask((static_cast<size_t>(grid.cells()) * grid.cells() + 7) / 8);
+  for (std::uint8_t& byte : mask) byte = in.get<std::uint8_t>();
+  size_t k = 0;
+  bool sound = true;
+  grid.for_each([&](CellIndex, ElevationCell& cell) {
+    cell = ElevationCell{};
+    const bool seen = (mask[k / 8] >> (7 - k % 8) & 1) != 0;
+    ++k;
+    if (!seen) return;
+    cell.height_m = in.get<float>();
+    cell.variance_m2 = in.get<float>();
+    cell.seen_way_m = in.get<float>();
+    cell.contradictions = in.get<std::uint8_t>();
+    sound = sound && std::isfinite(cell.height_m) && cell.variance_m2 >= 0.0F && std::isfinite(cell.seen_way_m);
+  });
+  return sound;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> Slam::save() const {
+  StateWriter out;
+  out.put(kVersion);
+  out.put(utime_);
+  put_pose(out, last_.T_odom_body);
+  out.put(last_.position_sigma_m);
+  out.put(last_.yaw_sigma_rad);
+  out.put(z_m_);
+  out.put(way_m_);
+  out.put(anchor_way_m_);
+  out.put(lost_);
+  out.put(anchor_.anchored() ? anchor_.T_map_slam() : Pose2{});
+  out.put(static_cast<std::uint64_t>(filter_.particles().size()));
+  for (const Particle& particle : filter_.particles()) out.put(particle);
+  put_map(out, map_.grid());
+  return out.take();
+}
+
+bool Slam::restore(const std::vector<std::uint8_t>& bytes) {
+  StateReader in(bytes);
+  if (in.get<std::uint32_t>() != kVersion) return false;
+  Slam fresh(config_);
+  fresh.utime_ = in.get<Utime>();
+  fresh.last_.T_odom_body = get_pose(in);
+  fresh.last_.position_sigma_m = in.get<double>();
+  fresh.last_.yaw_sigma_rad = in.get<double>();
+  fresh.z_m_ = in.get<double>();
+  fresh.way_m_ = in.get<double>();
+  fresh.anchor_way_m_ = in.get<double>();
+  fresh.lost_ = in.get<int>();
+  const auto T_map_slam = in.get<Pose2>();
+  fresh.anchor_.restore(T_map_slam);
+  std::vector<Particle> particles(in.count(sizeof(Particle)));
+  bool sound =
+      !particles.empty() && sane(T_map_slam) && is_finite(fresh.last_.T_odom_body) && std::isfinite(fresh.z_m_);
+  for (Particle& particle : particles) {
+    particle = in.get<Particle>();
+    sound = sound && sane(particle.pose) && std::isfinite(particle.log_weight);
+  }
+  fresh.filter_.restore(std::move(particles));
+  if (!get_map(in, fresh.map_.restored_grid()) || !in.finished() || !sound) return false;
+  *this = std::move(fresh);
+  return true;
+}
+
+}  // namespace rover::slam
