@@ -68,8 +68,13 @@ SlipSample slip_from(const slip_t& message) {
 }
 
 StateChange state_from(const supervisor_state_t& message) {
-  return {to_seconds(message.header.utime), static_cast<State>(message.state),
-          message.level == supervisor_state_t::FULL, message.cause};
+  return {to_seconds(message.header.utime),
+          static_cast<State>(message.state),
+          message.level == supervisor_state_t::FULL,
+          message.cause,
+          message.quantity,
+          message.value,
+          message.threshold};
 }
 
 PathRecord path_from(const path_t& message) {
@@ -111,13 +116,22 @@ FaultRecord fault_from(const fault_t& message) {
 }
 
 CorrectionRecord correction_from(const correction_t& message) {
-  return {to_seconds(message.header.utime), message.accepted != 0, {message.x_m, message.y_m, message.yaw_rad}};
+  return {to_seconds(message.header.utime),
+          message.accepted != 0,
+          {message.x_m, message.y_m, message.yaw_rad},
+          to_seconds(message.header.release_utime),
+          message.reason};
+}
+
+SlamSample slam_from(const slam_pose_t& message) {
+  return {to_seconds(message.header.utime), {message.x_m, message.y_m, message.yaw_rad}};
 }
 
 void add_heartbeat(const heartbeat_t& message, std::map<std::string, ServiceRecord>& services) {
   ServiceRecord& service = services[message.service];
   const std::int64_t boot = message.header.boot_id;
   service.cpu_s_of_boot[boot] = message.cpu_s;
+  service.cpu.push_back({to_seconds(message.header.utime), boot, message.cpu_s});
   service.rss_mb = std::max(service.rss_mb, message.rss_mb);
   service.p50_ms = message.step_p50_ms;
   service.p99_ms = std::max(service.p99_ms, message.step_p99_ms);

@@ -10,6 +10,7 @@
 #include <rover/path_t.hpp>
 #include <rover/planner_status_t.hpp>
 #include <rover/pose_t.hpp>
+#include <rover/slam_pose_t.hpp>
 #include <rover/slip_t.hpp>
 #include <rover/supervisor_state_t.hpp>
 #include <rover/truth_t.hpp>
@@ -32,6 +33,7 @@ HazardMap hazards_from(const hazards_t& message);
 PlannerSample planner_from(const planner_status_t& message);
 FaultRecord fault_from(const fault_t& message);
 CorrectionRecord correction_from(const correction_t& message);
+SlamSample slam_from(const slam_pose_t& message);
 void add_heartbeat(const heartbeat_t& message, std::map<std::string, ServiceRecord>& services);
 
 }  // namespace rover::report

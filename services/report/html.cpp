@@ -110,6 +110,35 @@ std::string figures_table(const Metrics& m) {
   return "<h2>Further figures</h2><div class=\"two\"><table>" + left + "</table><table>" + right + "</table></div>\n";
 }
 
+std::string corrections_table(const Metrics& m) {
+  if (m.global_corrections.empty()) return "";
+  std::string out =
+      "<table><tr><th class=\"n\">time [s]</th><th>global correction</th><th class=\"n\">error before [m]</th>"
+      "<th class=\"n\">after [m]</th><th>why not</th></tr>\n";
+  for (const CorrectionFigure& c : m.global_corrections)
+    out += fmt::format(
+        "<tr><td class=\"n\">{:.1f}</td><td class=\"{}\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>"
+        "<td>{}</td></tr>\n",
+        c.t_s - m.window.begin_s, c.accepted ? "good" : "", c.accepted ? "accepted" : "abstained", shown(c.before_m, 2),
+        shown(c.after_m, 2), escaped(c.reason));
+  return out + "</table>\n";
+}
+
+// Of the Full level, where the run was at it.
+std::string full_section(const Metrics& m, const Pictures& pictures) {
+  if (pictures.elevation.empty() && pictures.levels.empty()) return "";
+  std::string out = "<h2>Levels of autonomy</h2>\n<figure>" + pictures.levels + "</figure>\n";
+  if (!pictures.elevation.empty())
+    out += fmt::format(
+        "<h2>Ground mapped</h2><p class=\"meta\">Heights by the NavCam along the track, over the orbital map. Drift of "
+        "SLAM's "
+        "own poses {}, of the odometry {}; largest error of the estimate {}, since the first correction {}.</p>\n"
+        "<figure>{}</figure>\n",
+        shown(m.slam_drift_percent, 2, "%"), shown(m.odometry_drift_percent, 2, "%"),
+        shown(m.estimate_error_max_m, 2, "m"), shown(m.fixed_error_max_m, 2, "m"), pictures.elevation);
+  return out + corrections_table(m);
+}
+
 std::string events_section(const Scene& scene, const Pictures& pictures) {
   const std::vector<Incident>& incidents = scene.judgement.incidents;
   std::string out = "<h2>Stops and repairs</h2>\n";
@@ -238,7 +267,7 @@ std::string report_html(const Scene& scene, const Pictures& pictures,
                         const std::vector<std::pair<std::string, std::string>>& configuration) {
   const Metrics& m = scene.judgement.metrics;
   std::string body = header(m) + cards(m) + layered_maps(pictures.map);
-  body += trajectory_section(m) + comparison_table(m) + events_section(scene, pictures);
+  body += full_section(m, pictures) + trajectory_section(m) + comparison_table(m) + events_section(scene, pictures);
   body += "<h2>Over the distance driven, in metres</h2><section class=\"plots\">\n";
   for (const std::string& plot : pictures.plots) body += plot;
   body += pictures.states + "</section>\n";

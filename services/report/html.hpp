@@ -13,6 +13,8 @@ struct Pictures {
   std::string map;  // SVG documents
   std::vector<std::string> incidents;
   std::vector<std::string> cameras;  // one for each of them; empty where the log has no picture
+  std::string elevation;             // empty where the run was not at the Full level
+  std::string levels;                // likewise
   std::string states;
   std::vector<std::string> plots;
 };

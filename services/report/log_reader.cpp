@@ -1,9 +1,10 @@
 #include "report/log_reader.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <limits>
-#include <rover/slam_pose_t.hpp>
+#include <rover/elevation_t.hpp>
 #include <tuple>
 
 #include "common/bus/channels.hpp"
@@ -16,6 +17,7 @@ namespace rover::report {
 namespace {
 
 constexpr double kUncountedS = 0.1;
+constexpr double kElevationEveryM = 1.0;  // of way: each map shows 20 m
 
 // Counts what was published on the bus, by sequence numbers: a reduced log leaves images out, and on a busy machine a
 // tick is given again to a node that is late, which is no other message.
@@ -71,7 +73,8 @@ class Reader {
     take<correction_t>(channel::kCorrection,
                        [this](const correction_t& m) { run_.corrections.push_back(correction_from(m)); });
     take<heartbeat_t>(channel::kHeartbeat, [this](const heartbeat_t& m) { add_heartbeat(m, run_.services); });
-    take<slam_pose_t>(channel::kSlamPose, [this](const slam_pose_t&) { ++run_.slam_poses; });
+    take<slam_pose_t>(channel::kSlamPose, [this](const slam_pose_t& m) { add_slam(slam_from(m)); });
+    take<elevation_t>(channel::kElevation, [this](const elevation_t& m) { add_elevation(m); });
     take<vo_motion_t>(channel::kVo, [this](const vo_motion_t& m) { run_.visual.push_back(visual_from(m)); });
   }
 
@@ -115,6 +118,17 @@ class Reader {
     const PoseSample sample = pose_from(message);
     if (is_finite(sample.T_odom_body) && is_finite(sample.T_map_odom)) run_.poses.push_back(sample);
   }
+  void add_slam(const SlamSample& sample) {
+    const Pose2& p = sample.T_map_odom;
+    if (std::isfinite(p.x_m) && std::isfinite(p.y_m) && std::isfinite(p.yaw_rad)) run_.slam.push_back(sample);
+  }
+  void add_elevation(const elevation_t& message) {
+    if (run_.poses.empty()) return;
+    const Eigen::Vector3d at = run_.poses.back().T_odom_body.translation();
+    if ((at - elevation_at_).head<2>().norm() < kElevationEveryM) return;
+    elevation_at_ = at;
+    run_.elevation.add(message.cell_m, message.origin_x_m, message.origin_y_m, message.cells_x, message.height_m);
+  }
   // A path is repeated each second.
   void add_path(PathRecord path) {
     if (run_.local_paths.empty() || run_.local_paths.back().id != path.id) run_.local_paths.push_back(std::move(path));
@@ -126,6 +140,7 @@ class Reader {
   }
 
   RunRecord run_;
+  Eigen::Vector3d elevation_at_ = Eigen::Vector3d::Constant(kInfinity);  // odom, of the newest map taken
   BusCounter counter_;
   std::map<std::string, std::function<bool(const LogEvent&)>> handlers_;
 };

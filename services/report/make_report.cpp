@@ -16,6 +16,8 @@ std::string write_report(const Study& study) {
   const Pictures pictures = draw_pictures(study);
   write_file(folder.dir + "/traverse.svg", "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" + pictures.map);
   write_png(pictures.map, kPngScale, folder.dir + "/traverse.png");
+  if (!pictures.elevation.empty()) write_png(pictures.elevation, kPngScale, folder.dir + "/elevation.png");
+  if (!pictures.levels.empty()) write_png(pictures.levels, kPngScale, folder.dir + "/levels.png");
   write_file(folder.dir + "/report.html", report_html(study.scene(), pictures, configuration_texts(folder)));
   return fmt::format("{}: {}, {:.1f} m driven of {:.1f} m planned, {} repairs, {}", folder.dir, m.outcome,
                      m.driven_length_m, m.planned_length_m, m.replans,

@@ -30,6 +30,39 @@ double round_length(double limit) {
 
 }  // namespace
 
+MapView map_view(const Scene& scene) {
+  const Box lines = bounds({true_line(scene), planned_line(scene)});
+  const double margin = std::max(3.0, 0.06 * std::max(lines.width_m(), lines.height_m()));
+  MapView view;
+  view.box = with_aspect(lines.grown(margin), 0.36, 0.95);
+  view.left = kMapAxis + 8.0;
+  view.top = 8.0;
+  view.px_per_m = (kMapWidth - view.left - 8.0) / view.box.width_m();
+  return view;
+}
+
+void draw_axes(Svg& svg, const MapView& view) {
+  const double step = view.box.width_m() > 60.0 ? 10.0 : 5.0;
+  const std::string style = fmt::format("fill:{}", palette::kMuted);
+  const std::string grid = "stroke:#5b4636;stroke-opacity:.16;stroke-width:1";
+  for (double x = std::ceil(view.box.x0_m / step) * step; x <= view.box.x1_m; x += step) {
+    const double u = view.px(Eigen::Vector2d(x, 0.0)).x();
+    svg.line(u, view.top, u, view.top + view.height(), grid);
+    svg.text(u, view.top + view.height() + 17.0, number_text(x), 12, style, Anchor::kMiddle);
+  }
+  for (double y = std::ceil(view.box.y0_m / step) * step; y <= view.box.y1_m; y += step) {
+    const double v = view.px(Eigen::Vector2d(0.0, y)).y();
+    svg.line(view.left, v, view.left + view.width(), v, grid);
+    svg.text(view.left - 6.0, v + 4.0, number_text(y), 12, style, Anchor::kEnd);
+  }
+  svg.text(view.left + view.width(), view.top + view.height() + 31.0, "x east, y north in the map frame [m]", 12, style,
+           Anchor::kEnd);
+}
+
+std::string stroke(const char* colour, double width, const std::string& more) {
+  return fmt::format("stroke:{};stroke-width:{};stroke-linejoin:round;stroke-linecap:round;{}", colour, width, more);
+}
+
 Points MapView::px(const Points& line) const {
   Points out;
   for (const Eigen::Vector2d& p : line) out.push_back(px(p));

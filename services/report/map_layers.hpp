@@ -23,6 +23,15 @@ struct MapView {
   Points px(const Points& line) const;
 };
 
+inline constexpr double kMapWidth = 1400.0;
+inline constexpr double kMapAxis = 34.0;  // room for the coordinates, left and below
+
+// Of a whole traverse, its planned path included.
+MapView map_view(const Scene& scene);
+void draw_axes(Svg& svg, const MapView& view);
+// Style of a line.
+std::string stroke(const char* colour, double width, const std::string& more = "");
+
 // The box grown until height / width lies in the range.
 Box with_aspect(Box box, double least, double most);
 Box bounds(const std::vector<Points>& lines);

@@ -13,14 +13,8 @@
 namespace rover::report {
 namespace {
 
-constexpr double kMapWidth = 1400.0;
-constexpr double kAxis = 34.0;  // room for the coordinates, left and below
 constexpr double kLegend = 40.0;
 constexpr double kHazardCellM = 0.1;
-
-std::string stroke(const char* colour, double width, const std::string& more = "") {
-  return fmt::format("stroke:{};stroke-width:{};stroke-linejoin:round;stroke-linecap:round;{}", colour, width, more);
-}
 
 // What the page can switch off, and on; the picture alone shows what is on at first.
 template <class Draw>
@@ -30,21 +24,6 @@ void in_layer(Svg& svg, MapLayer layer, Draw draw) {
                               layer == MapLayer::kSlope ? " opacity=\".7\"" : ""));
   draw();
   svg.end();
-}
-
-Points all_global_points(const Scene& scene) {
-  return scene.run.global_paths.empty() ? Points{} : scene.run.global_paths.back().points;
-}
-
-MapView map_view(const Scene& scene) {
-  const Box lines = bounds({true_line(scene), all_global_points(scene)});
-  const double margin = std::max(3.0, 0.06 * std::max(lines.width_m(), lines.height_m()));
-  MapView view;
-  view.box = with_aspect(lines.grown(margin), 0.36, 0.95);
-  view.left = kAxis + 8.0;
-  view.top = 8.0;
-  view.px_per_m = (kMapWidth - view.left - 8.0) / view.box.width_m();
-  return view;
 }
 
 void draw_ground(Svg& svg, const MapView& view, const HeightRaster& orbital) {
@@ -62,24 +41,6 @@ void draw_ground(Svg& svg, const MapView& view, const HeightRaster& orbital) {
     svg.jpeg(view.left, view.top, view.width(), view.height(),
              slope_jpeg(orbital, view.box, std::max(8, columns / 2), std::max(8, rows / 2)));
   });
-}
-
-void draw_axes(Svg& svg, const MapView& view) {
-  const double step = view.box.width_m() > 60.0 ? 10.0 : 5.0;
-  const std::string style = fmt::format("fill:{}", palette::kMuted);
-  const std::string grid = "stroke:#5b4636;stroke-opacity:.16;stroke-width:1";
-  for (double x = std::ceil(view.box.x0_m / step) * step; x <= view.box.x1_m; x += step) {
-    const double u = view.px(Eigen::Vector2d(x, 0.0)).x();
-    svg.line(u, view.top, u, view.top + view.height(), grid);
-    svg.text(u, view.top + view.height() + 17.0, number_text(x), 12, style, Anchor::kMiddle);
-  }
-  for (double y = std::ceil(view.box.y0_m / step) * step; y <= view.box.y1_m; y += step) {
-    const double v = view.px(Eigen::Vector2d(0.0, y)).y();
-    svg.line(view.left, v, view.left + view.width(), v, grid);
-    svg.text(view.left - 6.0, v + 4.0, number_text(y), 12, style, Anchor::kEnd);
-  }
-  svg.text(view.left + view.width(), view.top + view.height() + 31.0, "x east, y north in the map frame [m]", 12, style,
-           Anchor::kEnd);
 }
 
 void draw_hazards(Svg& svg, const MapView& view, const Scene& scene) {
@@ -104,7 +65,7 @@ void draw_tracks(Svg& svg, const MapView& view, const Scene& scene) {
 }
 
 void draw_paths(Svg& svg, const MapView& view, const Scene& scene) {
-  const Points global = view.px(all_global_points(scene));
+  const Points global = view.px(planned_line(scene));
   svg.polyline(global, stroke("#3b2a1e", 4.0, "stroke-opacity:.55"));
   svg.polyline(global, stroke(palette::kGlobalPath, 2.4, "stroke-dasharray:9 6"));
   for (const Incident& incident : scene.judgement.incidents)
@@ -137,7 +98,7 @@ void draw_ends(Svg& svg, const MapView& view, const Scene& scene) {
     draw_footprint(svg, view, truth.planar_at(window.begin_s), scene.footprint, rover);
     draw_footprint(svg, view, truth.planar_at(window.end_s), scene.footprint, rover);
   }
-  const Points global = all_global_points(scene);
+  const Points global = planned_line(scene);
   if (global.empty()) return;
   const auto label = [&](const Eigen::Vector2d& at, const std::string& text, const char* colour) {
     const Eigen::Vector2d p = view.px(at);
@@ -202,7 +163,7 @@ void draw_legend(Svg& svg, double left, double top, double right, bool has_truth
 
 std::string draw_map(const Scene& scene) {
   const MapView view = map_view(scene);
-  const double bottom = view.top + view.height() + kAxis + 6.0;
+  const double bottom = view.top + view.height() + kMapAxis + 6.0;
   Svg svg(kMapWidth, bottom + kLegend);
   svg.rect(0.0, 0.0, kMapWidth, bottom + kLegend, "fill:#fff");
   svg.begin_clip("map-frame", view.left, view.top, view.width(), view.height());

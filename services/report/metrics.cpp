@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/core/time.hpp"
+
 namespace rover::report {
 namespace {
 
@@ -146,7 +148,29 @@ void judge_drift(const RunRecord& run, const TrueTrack& truth, Metrics& m) {
   const PoseSample* end = newest(run.poses, m.window.end_s);
   const Eigen::Isometry3d T_map_body = end->T_map_odom * end->T_odom_body;
   m.final_estimate_error_m = (T_map_body.translation() - truth.at(end->t_s).translation()).head<2>().norm();
-  if (run.slam_poses > 0) m.slam_drift_percent = percent(m.final_estimate_error_m);
+}
+
+// Over the way since SLAM's first pose: it may have begun in the middle of the drive.
+void judge_slam(const RunRecord& run, const TrueTrack& truth, Metrics& m) {
+  const std::vector<DriftSample> drift = slam_track(run, truth, m.window).drift;
+  if (drift.size() < 2) return;
+  const double way_m = drift.back().distance_m - drift.front().distance_m;
+  const double error_m = std::hypot(drift.back().error_x_m, drift.back().error_y_m);
+  if (way_m > 0.0) m.slam_drift_percent = 100.0 * error_m / way_m;
+}
+
+void judge_estimate(const RunRecord& run, const TrueTrack& truth, Metrics& m) {
+  if (truth.empty()) return;
+  const auto fixed = std::find_if(run.corrections.begin(), run.corrections.end(),
+                                  [](const CorrectionRecord& correction) { return correction.accepted; });
+  const double fixed_s = fixed == run.corrections.end() ? kInfinity : fixed->released_s + to_seconds(kTickUs);
+  for (const PoseSample& pose : run.poses) {
+    if (!m.window.contains(pose.t_s)) continue;
+    const Eigen::Vector3d p = (pose.T_map_odom * pose.T_odom_body).translation();
+    const double error_m = (p - truth.at(pose.t_s).translation()).head<2>().norm();
+    m.estimate_error_max_m = std::fmax(m.estimate_error_max_m, error_m);
+    if (pose.t_s >= fixed_s) m.fixed_error_max_m = std::fmax(m.fixed_error_max_m, error_m);
+  }
 }
 
 void judge_goal(const RunRecord& run, const TrueTrack& truth, Metrics& m) {
@@ -155,18 +179,31 @@ void judge_goal(const RunRecord& run, const TrueTrack& truth, Metrics& m) {
   m.final_error_m = (run.global_paths.back().points.back() - end).norm();
 }
 
-void judge_states(const RunRecord& run, Metrics& m) {
+// Within the drive.
+double driven_at(const TrueTrack& truth, const Window& window, double t_s) {
+  if (truth.empty()) return 0.0;
+  return truth.distance_m(std::clamp(t_s, window.begin_s, window.end_s)) - truth.distance_m(window.begin_s);
+}
+
+void judge_states(const RunRecord& run, const TrueTrack& truth, Metrics& m) {
   for (size_t i = 0; i < run.states.size(); ++i) {
     const StateChange& change = run.states[i];
     const bool first = i == 0;
+    LevelFigures& level = change.full ? m.full : m.efficient;
     if (change.state == State::kHazardStop && (first || run.states[i - 1].state != State::kHazardStop) &&
-        m.window.contains(change.t_s))
+        m.window.contains(change.t_s)) {
       ++m.hazard_stops;
+      ++level.hazard_stops;
+    }
     if (!first && change.full != run.states[i - 1].full)
-      m.level_switches.push_back({change.t_s, change.full, change.cause});
+      m.level_switches.push_back({change.t_s, change.full, change.cause, driven_at(truth, m.window, change.t_s),
+                                  change.quantity, change.value, change.threshold});
     const double until = i + 1 < run.states.size() ? run.states[i + 1].t_s : m.window.end_s;
     const double spent = std::min(until, m.window.end_s) - std::max(change.t_s, m.window.begin_s);
-    if (spent > 0.0) m.time_in_state_s[state_name(change.state)] += rounded(spent);
+    if (!(spent > 0.0)) continue;
+    m.time_in_state_s[state_name(change.state)] += rounded(spent);
+    level.time_s += rounded(spent);
+    level.way_m += driven_at(truth, m.window, until) - driven_at(truth, m.window, change.t_s);
   }
   if (m.driven_length_m > 0.0) m.replans_per_m = m.replans / m.driven_length_m;
 }
@@ -185,7 +222,7 @@ int count_replans(const RunRecord& run, const Window& window) {
 
 void judge_corrections(const RunRecord& run, const TrueTrack& truth, Metrics& m) {
   for (const CorrectionRecord& correction : run.corrections) {
-    CorrectionFigure figure{correction.t_s, kNaN, kNaN, correction.accepted};
+    CorrectionFigure figure{correction.t_s, kNaN, kNaN, correction.accepted, correction.reason};
     const PoseSample* pose = newest(run.poses, correction.t_s);
     if (pose != nullptr && !truth.empty()) {
       const Eigen::Vector2d p = truth.at(pose->t_s).translation().head<2>();
@@ -198,11 +235,30 @@ void judge_corrections(const RunRecord& run, const TrueTrack& truth, Metrics& m)
   }
 }
 
+// What the process used between two heartbeats is the level's at the second of them.
+void judge_cpu_by_level(const RunRecord& run, const ServiceRecord& record, const Metrics& m, ServiceFigures& figures) {
+  double efficient_s = 0.0;
+  double full_s = 0.0;
+  const CpuSample* before = nullptr;
+  for (const CpuSample& sample : record.cpu) {
+    const bool goes_on = before != nullptr && before->boot_id == sample.boot_id;
+    if (goes_on && m.window.contains(sample.t_s)) {
+      const StateChange* state = newest(run.states, sample.t_s);
+      (state != nullptr && state->full ? full_s : efficient_s) += sample.cpu_s - before->cpu_s;
+    }
+    before = &sample;
+  }
+  constexpr double kLeastWayM = 1.0;
+  if (m.efficient.way_m > kLeastWayM) figures.cpu_s_per_m_efficient = efficient_s / m.efficient.way_m;
+  if (m.full.way_m > kLeastWayM) figures.cpu_s_per_m_full = full_s / m.full.way_m;
+}
+
 void judge_services(const RunRecord& run, Metrics& m) {
   for (const auto& [name, record] : run.services) {
     ServiceFigures figures;
     for (const auto& [boot, cpu_s] : record.cpu_s_of_boot) figures.cpu_s += cpu_s;
     if (m.driven_length_m > 0.0) figures.cpu_s_per_m = figures.cpu_s / m.driven_length_m;
+    judge_cpu_by_level(run, record, m, figures);
     figures.rss_mb = record.rss_mb;
     figures.p50_ms = record.p50_ms;
     figures.p99_ms = record.p99_ms;
@@ -264,11 +320,13 @@ Judgement judge(const RunRecord& run, const RunInfo& info, const Footprint& foot
   judge_control(run, m);
   judge_deviation(run, truth, m);
   judge_drift(run, truth, m);
+  judge_slam(run, truth, m);
+  judge_estimate(run, truth, m);
   judge_goal(run, truth, m);
   m.visual_odometry = trajectory_error(visual_poses(run, truth));
   m.published_pose = trajectory_error(published_poses(run, truth));
   m.replans = count_replans(run, m.window);
-  judge_states(run, m);
+  judge_states(run, truth, m);
   judge_corrections(run, truth, m);
   judge_services(run, m);
   judge_sensing(run, m);

@@ -18,6 +18,17 @@ struct LevelSwitch {
   double t_s = 0.0;
   bool to_full = false;
   std::string reason;
+  double at_m = kNaN;    // driven until then
+  std::string quantity;  // behind the reason; empty: none
+  double value = kNaN;
+  double threshold = kNaN;
+};
+
+// What was driven at one level of autonomy.
+struct LevelFigures {
+  double way_m = 0.0;
+  double time_s = 0.0;
+  int hazard_stops = 0;
 };
 
 struct CorrectionFigure {
@@ -25,11 +36,14 @@ struct CorrectionFigure {
   double before_m = kNaN;
   double after_m = kNaN;
   bool accepted = false;
+  std::string reason;  // of an abstention
 };
 
 struct ServiceFigures {
   double cpu_s = 0.0;
   double cpu_s_per_m = kNaN;
+  double cpu_s_per_m_efficient = kNaN;  // at that level
+  double cpu_s_per_m_full = kNaN;
   double rss_mb = 0.0;
   int restarts = 0;
   double p50_ms = 0.0;
@@ -50,6 +64,8 @@ struct Metrics {
   int replans = 0;
   double replans_per_m = kNaN;
   std::vector<LevelSwitch> level_switches;
+  LevelFigures efficient;
+  LevelFigures full;
   int collisions = 0;
   double min_clearance_m = kNaN;
   double max_roll_deg = kNaN;
@@ -61,7 +77,9 @@ struct Metrics {
   double truth_deviation_max_m = kNaN;
   double odometry_drift_percent = kNaN;
   double odometry_drift_max_m = kNaN;
-  double slam_drift_percent = kNaN;
+  double slam_drift_percent = kNaN;      // SLAM's own poses, the first of them on the truth
+  double estimate_error_max_m = kNaN;    // of the pose in map
+  double fixed_error_max_m = kNaN;       // the same since the first accepted correction
   double final_error_m = kNaN;           // true end of the drive against the goal
   double final_estimate_error_m = kNaN;  // estimated against true end of the drive, in map
   std::vector<CorrectionFigure> global_corrections;

@@ -42,8 +42,16 @@ Json switches_json(const Metrics& m) {
     list.push_back({{"t_s", change.t_s},
                     {"from", change.to_full ? "EFFICIENT" : "FULL"},
                     {"to", change.to_full ? "FULL" : "EFFICIENT"},
-                    {"reason", change.reason}});
+                    {"reason", change.reason},
+                    {"at_m", number(change.at_m)},
+                    {"quantity", text(change.quantity)},
+                    {"value", number(change.value)},
+                    {"threshold", number(change.threshold)}});
   return list;
+}
+
+Json level_json(const LevelFigures& level) {
+  return {{"way_m", level.way_m}, {"time_s", level.time_s}, {"hazard_stops", level.hazard_stops}};
 }
 
 Json corrections_json(const Metrics& m) {
@@ -52,7 +60,8 @@ Json corrections_json(const Metrics& m) {
     list.push_back({{"t_s", correction.t_s},
                     {"before_m", number(correction.before_m)},
                     {"after_m", number(correction.after_m)},
-                    {"accepted", correction.accepted}});
+                    {"accepted", correction.accepted},
+                    {"reason", text(correction.reason)}});
   return list;
 }
 
@@ -70,9 +79,14 @@ Json fdir_json(const Metrics& m) {
 Json services_json(const Metrics& m) {
   Json services = Json::object();
   for (const auto& [name, s] : m.services)
-    services[name] = {{"cpu_s", s.cpu_s},   {"cpu_s_per_m", number(s.cpu_s_per_m)},
-                      {"rss_mb", s.rss_mb}, {"restarts", s.restarts},
-                      {"p50_ms", s.p50_ms}, {"p99_ms", s.p99_ms}};
+    services[name] = {{"cpu_s", s.cpu_s},
+                      {"cpu_s_per_m", number(s.cpu_s_per_m)},
+                      {"cpu_s_per_m_efficient", number(s.cpu_s_per_m_efficient)},
+                      {"cpu_s_per_m_full", number(s.cpu_s_per_m_full)},
+                      {"rss_mb", s.rss_mb},
+                      {"restarts", s.restarts},
+                      {"p50_ms", s.p50_ms},
+                      {"p99_ms", s.p99_ms}};
   return services;
 }
 
@@ -97,6 +111,7 @@ void add_drive(const Metrics& m, Json& json) {
   json["replans"] = m.replans;
   json["replans_per_m"] = number(m.replans_per_m);
   json["level_switches"] = switches_json(m);
+  json["levels"] = {{"EFFICIENT", level_json(m.efficient)}, {"FULL", level_json(m.full)}};
   json["collisions"] = has_truth(m) ? Json(m.collisions) : Json(nullptr);
   json["min_clearance_m"] = number(m.min_clearance_m);
   json["max_roll_deg"] = number(m.max_roll_deg);
@@ -136,6 +151,8 @@ void add_accuracy(const Metrics& m, Json& json) {
   json["odometry_drift_percent"] = number(m.odometry_drift_percent);
   json["odometry_drift_max_m"] = number(m.odometry_drift_max_m);
   json["slam_drift_percent"] = number(m.slam_drift_percent);
+  json["estimate_error_max_m"] = number(m.estimate_error_max_m);
+  json["fixed_error_max_m"] = number(m.fixed_error_max_m);
   json["final_error_m"] = number(m.final_error_m);
   json["final_estimate_error_m"] = number(m.final_estimate_error_m);
   json["global_corrections"] = corrections_json(m);

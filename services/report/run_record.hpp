@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "common/core/frames.hpp"
+#include "report/elevation_mosaic.hpp"
 
 namespace rover::report {
 
@@ -79,6 +80,9 @@ struct StateChange {
   State state = State::kBoot;
   bool full = false;
   std::string cause;
+  std::string quantity;  // measured, behind the cause; empty: none
+  double value = kNaN;
+  double threshold = kNaN;
 };
 
 struct PathRecord {
@@ -130,10 +134,26 @@ struct CorrectionRecord {
   double t_s = 0.0;  // of the local map
   bool accepted = false;
   Pose2 T_map_odom;
+  double released_s = kNaN;
+  std::string reason;  // of an abstention
+};
+
+// Each SLAM_POSE.
+struct SlamSample {
+  double t_s = 0.0;  // of its cloud
+  Pose2 T_map_odom;
+};
+
+// CPU time of a process so far, by its heartbeats.
+struct CpuSample {
+  double t_s = 0.0;
+  std::int64_t boot_id = 0;
+  double cpu_s = 0.0;
 };
 
 struct ServiceRecord {
   std::map<std::int64_t, double> cpu_s_of_boot;
+  std::vector<CpuSample> cpu;
   double rss_mb = 0.0;
   double p50_ms = 0.0;
   double p99_ms = 0.0;
@@ -161,7 +181,8 @@ struct RunRecord {
   std::vector<FaultRecord> faults;
   std::vector<CorrectionRecord> corrections;
   std::map<std::string, ServiceRecord> services;
-  int slam_poses = 0;
+  std::vector<SlamSample> slam;
+  ElevationMosaic elevation;  // of the Full level
   std::vector<VisualSample> visual;
   BusRecord bus;
 };

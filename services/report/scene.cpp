@@ -23,4 +23,17 @@ Points estimated_line(const Scene& scene) {
   return thinned(line, 0.05);
 }
 
+Points odometry_line(const Scene& scene) {
+  const TrueTrack truth(scene.run.truth);
+  const Pose2 align = start_alignment(scene.run, truth, scene.judgement.metrics.window);
+  Points line;
+  for (const PoseSample& pose : scene.run.poses)
+    line.push_back(transform(align, pose.T_odom_body.translation().head<2>()));
+  return thinned(line, 0.05);
+}
+
+Points planned_line(const Scene& scene) {
+  return scene.run.global_paths.empty() ? Points{} : scene.run.global_paths.back().points;
+}
+
 }  // namespace rover::report

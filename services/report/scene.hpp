@@ -21,5 +21,8 @@ Points thinned(const Points& line, double step_m);
 Points true_line(const Scene& scene);
 // By the rover's own estimate, in map.
 Points estimated_line(const Scene& scene);
+// By the odometry alone, its start on the truth.
+Points odometry_line(const Scene& scene);
+Points planned_line(const Scene& scene);
 
 }  // namespace rover::report

@@ -4,6 +4,8 @@
 
 #include "report/camera_picture.hpp"
 #include "report/camera_reader.hpp"
+#include "report/elevation_picture.hpp"
+#include "report/level_picture.hpp"
 #include "report/log_reader.hpp"
 #include "report/map_layers.hpp"
 #include "report/map_picture.hpp"
@@ -55,6 +57,8 @@ Pictures draw_pictures(const Study& study) {
   pictures.map = draw_map(scene);
   for (size_t i = 0; i < study.judgement.incidents.size(); ++i) pictures.incidents.push_back(draw_incident(scene, i));
   pictures.cameras = draw_cameras(study);
+  pictures.elevation = draw_elevation(scene);
+  pictures.levels = draw_levels(scene);
   pictures.states = draw_state_timeline(scene);
   const PlotMarks marks = incident_marks(scene);
   const std::vector<Plot> plots = run_plots(scene);

@@ -59,4 +59,11 @@ struct DriftSample {
 // Error of T_odom_body with its start aligned, at each POSE in the window.
 std::vector<DriftSample> odometry_drift(const RunRecord& run, const TrueTrack& truth, const Window& window);
 
+// The rover's place in map by SLAM's own T_map_odom, put on the truth at the first of its poses in the window.
+struct SlamTrack {
+  std::vector<DriftSample> drift;  // at each SLAM_POSE
+  Points line;                     // map, at each POSE from the first SLAM_POSE on
+};
+SlamTrack slam_track(const RunRecord& run, const TrueTrack& truth, const Window& window);
+
 }  // namespace rover::report

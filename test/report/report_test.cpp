@@ -107,7 +107,10 @@ TEST_F(ReportTest, NamesAreTheProjectsContract) {
                            "odometry_drift_percent",
                            "slam_drift_percent",
                            "final_error_m",
+                           "estimate_error_max_m",
+                           "fixed_error_max_m",
                            "global_corrections",
+                           "levels",
                            "rocks_encountered",
                            "rocks_missed",
                            "false_stops",
@@ -117,7 +120,8 @@ TEST_F(ReportTest, NamesAreTheProjectsContract) {
                            "realtime_factor",
                            "final_truth_pose"})
     EXPECT_TRUE(m.contains(name)) << name;
-  for (const char* name : {"cpu_s", "cpu_s_per_m", "rss_mb", "restarts", "p50_ms", "p99_ms"})
+  for (const char* name :
+       {"cpu_s", "cpu_s_per_m", "cpu_s_per_m_efficient", "cpu_s_per_m_full", "rss_mb", "restarts", "p50_ms", "p99_ms"})
     EXPECT_TRUE(m["services"]["stereo"].contains(name)) << name;
   for (const char* name : {"messages", "lost", "bytes"}) EXPECT_TRUE(m["bus"].contains(name)) << name;
 }
