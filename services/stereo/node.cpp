@@ -15,64 +15,31 @@ constexpr double kBlindFraction = 0.02;  // less valid stereo than this is worth
 StereoNode::StereoNode(Node& node, const NodeConfig& config)
     : node_(node),
       core_(config.core, config.rig, config.ground_below_m),
-      left_{channel::kLocCamLeft},
-      right_{channel::kLocCamRight} {
+      pairs_(
+          node,
+          {channel::kLocCamLeft, channel::kLocCamRight, core_.camera().width, core_.camera().height, config.latency_us},
+          [this](const ImagePair& pair) { process(pair); }) {
   cv::setNumThreads(1);
-  node_.subscribe_slow<image_t>(left_.channel, config.latency_us,
-                                [this](const image_t& message) { take(left_, right_, message); });
-  node_.subscribe_slow<image_t>(right_.channel, config.latency_us,
-                                [this](const image_t& message) { take(right_, left_, message); });
 }
 
-void StereoNode::take(Slot& own, Slot& other, const image_t& message) {
-  GrayImage image = image_from(message);
-  if (image.width != core_.camera().width || image.height != core_.camera().height) {
-    node_.reject(own.channel, "size or encoding is not the rig's");
-    return;
-  }
-  drop_unpaired(own);
-  own.utime = message.header.utime;
-  own.exposure_s = message.exposure_s;
-  own.image = std::move(image);
-  if (other.utime < own.utime) drop_unpaired(other);
-  if (other.utime == own.utime) process(own.utime);
-}
-
-void StereoNode::drop_unpaired(Slot& slot) {
-  if (slot.utime == kNever) return;
-  node_.reject(slot.channel, "no partner of the same utime");
-  slot.utime = kNever;
-}
-
-void StereoNode::process(Utime utime) {
-  auto result = core_.step(left_.image, right_.image);
-  const bool left_frozen = retire(left_);
-  const bool frozen = retire(right_) || left_frozen;
+void StereoNode::process(const ImagePair& pair) {
+  auto result = core_.step(pair.left, pair.right);
   if (!result) return;
-  if (frozen) result->disparity = Disparity(result->disparity.width, result->disparity.height);
+  if (pair.frozen) result->disparity = Disparity(result->disparity.width, result->disparity.height);
   image_t image{};
-  image.exposure_s = left_.exposure_s;
+  image.exposure_s = pair.left_exposure_s;
   image_to(result->left, image);
-  node_.publish(channel::kLocCamRectLeft, image, utime);
-  image.exposure_s = right_.exposure_s;
+  node_.publish(channel::kLocCamRectLeft, image, pair.utime);
+  image.exposure_s = pair.right_exposure_s;
   image_to(result->right, image);
-  node_.publish(channel::kLocCamRectRight, image, utime);
+  node_.publish(channel::kLocCamRectRight, image, pair.utime);
   disparity_t disparity{};
   disparity_to(result->disparity, core_.camera(), disparity);
-  node_.publish(channel::kDisparity, disparity, utime);
-  report(frozen                                      ? "camera frozen"
+  node_.publish(channel::kDisparity, disparity, pair.utime);
+  report(pair.frozen                                 ? "camera frozen"
          : disparity.valid_fraction < kBlindFraction ? "no stereo"
                                                      : "",
          disparity.valid_fraction);
-}
-
-// The pair is done with. True where the picture is the one before again: noise never repeats, so that camera has not
-// looked, and motion of the rover would be taken for standing.
-bool StereoNode::retire(Slot& slot) {
-  const bool again = slot.image.data == slot.before.data;
-  slot.utime = kNever;
-  slot.before = std::move(slot.image);
-  return again;
 }
 
 void StereoNode::report(const std::string& trouble, double valid_fraction) {

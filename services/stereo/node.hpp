@@ -2,10 +2,9 @@
 #pragma once
 
 #include <memory>
-#include <rover/image_t.hpp>
 #include <string>
 
-#include "common/bus/node.hpp"
+#include "common/bus/image_pairs.hpp"
 #include "stereo/config.hpp"
 
 namespace rover::stereo {
@@ -17,25 +16,12 @@ class StereoNode {
   StereoNode& operator=(const StereoNode&) = delete;
 
  private:
-  // An image that waits for its partner.
-  struct Slot {
-    std::string channel;
-    Utime utime = kNever;  // kNever: empty
-    GrayImage image;
-    GrayImage before;  // of the last pair
-    float exposure_s = 0.0F;
-  };
-
-  void take(Slot& own, Slot& other, const image_t& message);
-  void drop_unpaired(Slot& slot);
-  void process(Utime utime);
-  bool retire(Slot& slot);
+  void process(const ImagePair& pair);
   void report(const std::string& trouble, double valid_fraction);
 
   Node& node_;
   Stereo core_;
-  Slot left_;
-  Slot right_;
+  ImagePairs pairs_;
   std::string trouble_;  // empty: none
 };
 

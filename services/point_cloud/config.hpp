@@ -1,0 +1,21 @@
+// config/point_cloud.yaml, with the NavCam of cameras.yaml and the pan-tilt unit of vehicle.yaml.
+#pragma once
+
+#include <string>
+
+#include "common/core/time.hpp"
+#include "point_cloud/point_cloud.hpp"
+
+namespace rover::cloud {
+
+struct NodeConfig {
+  PointCloudConfig core;
+  StereoRig rig;
+  PanTiltUnit unit;
+  double ground_below_m = 0.0;  // of the body origin
+  Utime latency_us = 200'000;
+};
+
+NodeConfig load_config(const std::string& config_dir);
+
+}  // namespace rover::cloud

@@ -1,0 +1,74 @@
+#include "point_cloud/point_cloud.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "common/core/check.hpp"
+
+namespace rover::cloud {
+namespace {
+
+// Largest power of two that is not above the number, 1 to 8.
+int stride_of(double pixels) {
+  return static_cast<int>(std::bit_floor(static_cast<unsigned>(std::clamp(pixels, 1.0, 8.0))));
+}
+
+double valid_fraction(const Disparity& disparity) {
+  const auto valid = std::count_if(disparity.px16.begin(), disparity.px16.end(), [](int px16) { return px16 > 0; });
+  return static_cast<double>(valid) / static_cast<double>(disparity.px16.size());
+}
+
+}  // namespace
+
+PointCloud::PointCloud(const PointCloudConfig& config, const StereoRig& rig, const PanTiltUnit& unit,
+                       double ground_below_m)
+    : config_(config), rig_(rig), unit_(unit), ground_below_m_(ground_below_m) {}
+
+std::optional<CloudResult> PointCloud::step(const GrayImage& left, const GrayImage& right, double pan_rad,
+                                            double tilt_rad) {
+  ROVER_CHECK(std::isfinite(pan_rad) && std::isfinite(tilt_rad), pan_rad, tilt_rad);
+  View& view = view_at(tilt_rad);
+  const auto seen = view.stereo.step(left, right);
+  if (!seen) return std::nullopt;
+  CloudResult result;
+  result.cloud = filtered(points_of(seen->disparity, view.stereo.camera()), config_.filter);
+  result.T_body_cam = T_body_navcam(unit_, rig_.T_body_left, pan_rad, tilt_rad) * view.T_left_rectified;
+  result.valid_fraction = valid_fraction(seen->disparity);
+  return result;
+}
+
+double PointCloud::sigma_m(double depth_m, const StereoCamera& camera) const {
+  return config_.sigma_floor_m + depth_m * depth_m / (camera.focal_px * camera.baseline_m) * config_.sigma_disparity_px;
+}
+
+// Pan does not matter: flat ground looks the same from there.
+PointCloud::View& PointCloud::view_at(double tilt_rad) {
+  const int step = static_cast<int>(std::lround(unit_.clamp_tilt(tilt_rad) / config_.tilt_step_rad));
+  const auto found = views_.find(step);
+  if (found != views_.end()) return found->second;
+  StereoRig tilted = rig_;
+  tilted.T_body_left = T_body_navcam(unit_, rig_.T_body_left, 0.0, step * config_.tilt_step_rad);
+  stereo::Stereo stereo({.matcher = config_.matcher}, tilted, ground_below_m_);
+  const Eigen::Isometry3d T_left_rectified = tilted.T_body_left.inverse() * stereo.camera().T_body_cam;
+  return views_.emplace(step, View{std::move(stereo), T_left_rectified}).first->second;
+}
+
+// Of a pixel's neighbours on a surface across the view none is nearer than sample_m; along the view, where ground is
+// seen at a grazing angle, rows are four times as dense.
+Cloud PointCloud::points_of(const Disparity& disparity, const StereoCamera& camera) const {
+  Cloud cloud;
+  for (int v = 0; v < disparity.height; ++v)
+    for (int u = 0; u < disparity.width; ++u) {
+      if (!disparity.valid(u, v)) continue;
+      const double z = camera.depth_m(disparity.px(u, v));
+      if (z < config_.min_depth_m || z > config_.max_depth_m) continue;
+      const int stride = stride_of(config_.sample_m * camera.focal_px / z);
+      if (u % stride != 0 || v % std::max(1, stride / 4) != 0) continue;
+      const Eigen::Vector3f p = camera.point(u, v, disparity.px(u, v)).cast<float>();
+      cloud.push_back({p.x(), p.y(), p.z(), static_cast<float>(sigma_m(z, camera))});
+    }
+  return cloud;
+}
+
+}  // namespace rover::cloud

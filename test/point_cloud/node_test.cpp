@@ -1,0 +1,171 @@
+#include "point_cloud/node.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <rover/cloud_t.hpp>
+
+#include "common/bus/convert.hpp"
+#include "test/point_cloud/navcam_world.hpp"
+#include "test/stereo/one_node_world.hpp"
+
+namespace rover::cloud {
+namespace {
+
+const std::string kConfig = std::string(ROVER_SOURCE_DIR) + "/config";
+
+// One pair for all tests: it takes long to draw.
+const synthetic::RawPair& pictures() {
+  static const synthetic::RawPair kPair = look({}, to_rad(30.0), to_rad(10.0));
+  return kPair;
+}
+
+image_t message_of(const GrayImage& image) {
+  image_t message{};
+  image_to(image, message);
+  return message;
+}
+
+class PointCloudNodeTest : public testing::Test {
+ protected:
+  PointCloudNodeTest()
+      : world_("point_cloud"),
+        service_(make_point_cloud(world_.node(), kConfig)),
+        left_(message_of(pictures().left)),
+        right_(message_of(pictures().right)) {
+    world_.hear(channel::kCloud, clouds_);
+  }
+
+  void send_state(Utime utime, bool moving = false, double pan_rad = to_rad(30.0)) {
+    ptu_state_t state{};
+    state.pan_rad = pan_rad;
+    state.tilt_rad = to_rad(10.0);
+    state.moving = moving ? 1 : 0;
+    world_.send(channel::kPtuState, state, utime);
+  }
+  void send_pair(Utime utime) {
+    world_.send(channel::kNavCamLeft, left_, utime);
+    world_.send(channel::kNavCamRight, right_, utime);
+  }
+  // Another picture, as noise makes it.
+  void change_pictures() {
+    left_.data[0] ^= 1;
+    right_.data[0] ^= 1;
+  }
+  std::int64_t refused() { return world_.malformed(channel::kNavCamLeft); }
+
+  test::OneNodeWorld world_;
+  std::shared_ptr<PointCloudNode> service_;
+  image_t left_, right_;
+  std::vector<cloud_t> clouds_;
+};
+
+TEST_F(PointCloudNodeTest, APairWithTheUnitsStateBecomesACloudOfItsExposure) {
+  send_state(100'000);
+  world_.tick(100'000);
+  send_pair(100'000);
+  world_.tick(160'000);
+  world_.tick(400'000);
+  ASSERT_EQ(clouds_.size(), 1u);
+  const cloud_t& cloud = clouds_[0];
+  EXPECT_EQ(cloud.header.utime, 100'000);
+  EXPECT_EQ(cloud.header.release_utime, 360'000);
+  EXPECT_GT(cloud.point_count, 2000);
+  EXPECT_EQ(cloud.x_m.size(), static_cast<size_t>(cloud.point_count));
+  EXPECT_LT(encoded(cloud).size(), 500'000u);
+  const Eigen::Isometry3d T_body_cam = pose_from(cloud.position_body_cam_m, cloud.quat_body_cam_wxyz);
+  double squares = 0.0;
+  for (size_t i = 0; i < cloud.x_m.size(); ++i)
+    squares += std::pow((T_body_cam * Eigen::Vector3d(cloud.x_m[i], cloud.y_m[i], cloud.z_m[i])).z() + 0.62, 2);
+  EXPECT_LT(std::sqrt(squares / cloud.point_count), 0.02);
+}
+
+TEST_F(PointCloudNodeTest, WithoutTheUnitsStateOrWhileItMovesNothingIsMade) {
+  send_pair(100'000);
+  world_.tick(160'000);
+  send_state(200'000);
+  send_state(500'000, true);
+  world_.tick(500'000);
+  change_pictures();
+  send_pair(500'000);
+  world_.tick(600'000);
+  change_pictures();
+  send_pair(900'000);
+  world_.tick(1'000'000);
+  world_.tick(1'300'000);
+  EXPECT_TRUE(clouds_.empty());
+  EXPECT_EQ(refused(), 3);
+}
+
+TEST_F(PointCloudNodeTest, AFrozenPictureAndAnUnpairedOneAreRefused) {
+  for (Utime t : {100'000, 600'000}) {
+    send_state(t);
+    world_.tick(t);
+    send_pair(t);
+    world_.tick(t + 60'000);
+  }
+  world_.tick(1'000'000);
+  EXPECT_EQ(clouds_.size(), 1u);
+  EXPECT_EQ(refused(), 1);
+  world_.send(channel::kNavCamLeft, left_, 1'100'000);
+  world_.tick(1'100'000);
+  world_.send(channel::kNavCamRight, right_, 1'200'000);
+  world_.tick(1'300'000);
+  world_.tick(1'600'000);
+  EXPECT_EQ(clouds_.size(), 1u);
+  EXPECT_EQ(refused(), 2);
+}
+
+TEST_F(PointCloudNodeTest, UnusableStatesAreCounted) {
+  send_state(100'000, false, kNaN);
+  send_state(120'000, false, 3.0);
+  world_.tick(120'000);
+  send_pair(120'000);
+  world_.tick(200'000);
+  world_.tick(500'000);
+  EXPECT_EQ(world_.malformed(channel::kPtuState), 2);
+  EXPECT_TRUE(clouds_.empty());
+}
+
+TEST_F(PointCloudNodeTest, PicturesWithoutTextureGiveAnEmptyCloud) {
+  std::fill(left_.data.begin(), left_.data.end(), std::uint8_t{90});
+  right_ = left_;
+  send_state(100'000);
+  world_.tick(100'000);
+  send_pair(100'000);
+  world_.tick(160'000);
+  world_.tick(500'000);
+  ASSERT_EQ(clouds_.size(), 1u);
+  EXPECT_EQ(clouds_[0].point_count, 0);
+}
+
+TEST(PointCloudConfigTest, TheShippedNavCamIsTheTests) {
+  const NodeConfig config = load_config(kConfig);
+  EXPECT_TRUE(config.rig.T_body_left.isApprox(navcam_rig().T_body_left, 1e-12));
+  EXPECT_TRUE(config.unit.p_body_axes.isApprox(navcam_unit().p_body_axes, 1e-12));
+  EXPECT_EQ(config.core.matcher.residual_min_px, PointCloudConfig{}.matcher.residual_min_px);
+}
+
+TEST(PointCloudConfigTest, WrongKeysRangesAndAVehicleWithoutUnitStopTheStart) {
+  const auto dir = std::filesystem::path(testing::TempDir()) / "point_cloud_config";
+  std::filesystem::remove_all(dir);
+  std::filesystem::create_directories(dir);
+  for (const char* file : {"vehicle.yaml", "cameras.yaml"})
+    std::filesystem::copy_file(kConfig + "/" + file, dir / file);
+  for (const char* text : {"matcher: {}\nfilter: {voxel: 1}\n", "matcher: {block_px: 4}\nfilter: {}\n",
+                           "max_depth_m: 1\nmin_depth_m: 2\nmatcher: {}\nfilter: {}\n", "matcher: {}\n"}) {
+    std::ofstream(dir / "point_cloud.yaml") << text;
+    EXPECT_THROW(load_config(dir.string()), ConfigError) << text;
+  }
+  std::ofstream(dir / "point_cloud.yaml") << "matcher: {}\nfilter: {}\n";
+  EXPECT_NO_THROW(load_config(dir.string()));
+  std::ifstream shipped(dir / "vehicle.yaml");
+  std::stringstream text;
+  text << shipped.rdbuf();
+  std::ofstream(dir / "vehicle.yaml") << text.str().substr(0, text.str().find("pan_tilt:"));
+  EXPECT_THROW(load_config(dir.string()), ConfigError);
+}
+
+}  // namespace
+}  // namespace rover::cloud

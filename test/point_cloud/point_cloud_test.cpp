@@ -1,0 +1,113 @@
+#include "point_cloud/point_cloud.hpp"
+
+#include <gtest/gtest.h>
+
+#include "test/point_cloud/navcam_world.hpp"
+
+namespace rover::cloud {
+namespace {
+
+PointCloud make_cloud() {
+  return PointCloud({}, navcam_rig(), navcam_unit(), kGroundBelow);
+}
+
+CloudResult cloud_of(const synthetic::World& world, double pan_rad, double tilt_rad) {
+  const synthetic::RawPair pair = look(world, pan_rad, tilt_rad);
+  PointCloud core = make_cloud();
+  return *core.step(pair.left, pair.right, pan_rad, tilt_rad);
+}
+
+// Root mean square height over the plane, in body axes, of the points within the depth.
+double ground_error_m(const CloudResult& result, const synthetic::World& world, double max_depth_m) {
+  double squares = 0.0;
+  int count = 0;
+  for (const Point& point : result.cloud) {
+    if (point.z_m > max_depth_m) continue;
+    const Eigen::Vector3d p = in_body(result, point);
+    squares += std::pow(p.z() - world.ground_m(p.x(), p.y()), 2);
+    ++count;
+  }
+  return std::sqrt(squares / count);
+}
+
+TEST(PointCloud, FlatGroundIsWhereItIsFromEveryPanAndTilt) {
+  struct Case {
+    double pan_deg, tilt_deg;
+    size_t least_points;
+  };
+  for (const auto& [pan_deg, tilt_deg, least_points] : {Case{0, 0, 12000}, {50, 8, 5000}, {-60, 25, 900}}) {
+    const CloudResult result = cloud_of({}, to_rad(pan_deg), to_rad(tilt_deg));
+    EXPECT_GT(result.cloud.size(), least_points) << pan_deg;
+    EXPECT_LE(result.cloud.size(), 20000u) << pan_deg;
+    EXPECT_LT(ground_error_m(result, {}, 6.0), 0.01) << pan_deg;
+    EXPECT_LT(ground_error_m(result, {}, 12.0), 0.02) << pan_deg;
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    for (const Point& point : result.cloud) mean += in_body(result, point) - navcam_unit().p_body_axes;
+    EXPECT_NEAR(std::atan2(mean.y(), mean.x()), to_rad(pan_deg), to_rad(5.0)) << pan_deg;
+  }
+}
+
+TEST(PointCloud, CoversTheGroundFromNearToFar) {
+  const CloudResult ahead = cloud_of({}, 0.0, 0.0);
+  std::array<int, 12> per_metre{};
+  for (const Point& point : ahead.cloud)
+    ++per_metre.at(static_cast<size_t>(std::clamp(in_body(ahead, point).x(), 0.0, 11.9)));
+  for (size_t x = 3; x <= 9; ++x) EXPECT_GT(per_metre[x], 200) << x;
+  const CloudResult down = cloud_of({}, 0.0, to_rad(30.0));
+  double nearest_m = kInfinity;
+  for (const Point& point : down.cloud) nearest_m = std::min(nearest_m, in_body(down, point).x());
+  EXPECT_LT(nearest_m, 1.3);
+}
+
+TEST(PointCloud, RocksAndSlopesStandInIt) {
+  synthetic::World world;
+  world.slope_x = 0.2;
+  world.z0_m -= 0.2 * 1.5;
+  world.rocks = {{3.0, 0.2, 0.25, 0.35}};
+  const CloudResult result = cloud_of(world, 0.0, 0.0);
+  double highest_m = 0.0;
+  for (const Point& point : result.cloud) {
+    const Eigen::Vector3d p = in_body(result, point);
+    if (std::hypot(p.x() - 3.0, p.y() - 0.2) < 0.25)
+      highest_m = std::max(highest_m, p.z() - world.ground_m(p.x(), p.y()));
+  }
+  EXPECT_NEAR(highest_m, 0.35, 0.05);
+  world.rocks.clear();
+  EXPECT_LT(ground_error_m(cloud_of(world, 0.0, 0.0), world, 8.0), 0.02);
+}
+
+// The fault of the original: sigma from the distance to the world's origin makes every map worse along the way.
+TEST(PointCloud, SigmaIsTheDepthsFromTheCameraWhereverTheRoverStands) {
+  const CloudResult result = cloud_of({}, 0.0, 0.0);
+  const double per_m2 = 0.25 / (818.0 * 0.24);
+  for (const Point& point : result.cloud)
+    EXPECT_NEAR(point.depth_sigma_m, 0.005 + per_m2 * point.z_m * point.z_m, 0.05 * point.depth_sigma_m + 2e-4);
+  // A rover that stands 500 m from the origin sees the same pictures, and its map's points have the same sigmas.
+  PointCloud core = make_cloud();
+  const synthetic::RawPair pair = look({}, 0.0, 0.0);
+  const CloudResult here = *core.step(pair.left, pair.right, 0.0, 0.0);
+  const Eigen::Isometry3d T_odom_body = make_pose(rotation_from_rpy(0.0, 0.0, 0.7), {400.0, -300.0, 5.0});
+  ASSERT_EQ(here.cloud.size(), result.cloud.size());
+  for (size_t i = 0; i < here.cloud.size(); ++i) {
+    EXPECT_EQ(here.cloud[i].depth_sigma_m, result.cloud[i].depth_sigma_m);
+    EXPECT_LT(here.cloud[i].depth_sigma_m, 1e-3 * (T_odom_body * in_body(here, here.cloud[i])).norm());
+  }
+}
+
+TEST(PointCloud, WithoutTextureTheCloudIsEmpty) {
+  PointCloud core = make_cloud();
+  const GrayImage grey(640, 480, 90);
+  const auto result = core.step(grey, grey, 0.0, 0.0);
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(result->cloud.empty());
+  EXPECT_EQ(result->valid_fraction, 0.0);
+  EXPECT_TRUE(is_finite(result->T_body_cam));
+}
+
+TEST(PointCloud, AnImageOfAnotherSizeIsRefused) {
+  PointCloud core = make_cloud();
+  EXPECT_FALSE(core.step(GrayImage(640, 480), GrayImage(640, 479), 0.0, 0.0));
+}
+
+}  // namespace
+}  // namespace rover::cloud
