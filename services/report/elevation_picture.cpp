@@ -47,16 +47,16 @@ HeightRange range_of(const cv::Mat& z) {
   return range;
 }
 
-// Sun from the north-west. A neighbour that was not seen is taken as level.
-double light_at(const cv::Mat& z, int v, int u, double step_m) {
+// Sun from the north-west, on the slope between pixels `reach` away. One that was not seen is taken as level.
+double light_at(const cv::Mat& z, int v, int u, double step_m, int reach) {
   constexpr double kExaggeration = 1.5;
   const auto height = [&](int dv, int du) {
     const int row = std::clamp(v + dv, 0, z.rows - 1), column = std::clamp(u + du, 0, z.cols - 1);
     const float at = z.at<float>(row, column);
     return std::isfinite(at) ? at : z.at<float>(v, u);
   };
-  const double gx = kExaggeration * (height(0, 1) - height(0, -1)) / (2.0 * step_m);
-  const double gy = kExaggeration * (height(-1, 0) - height(1, 0)) / (2.0 * step_m);
+  const double gx = kExaggeration * (height(0, reach) - height(0, -reach)) / (2.0 * reach * step_m);
+  const double gy = kExaggeration * (height(-reach, 0) - height(reach, 0)) / (2.0 * reach * step_m);
   const double towards_sun = (0.64 + 0.54 * gx - 0.54 * gy) / std::sqrt(1.0 + gx * gx + gy * gy);
   return std::clamp(0.55 + 0.7 * towards_sun, 0.25, 1.25);
 }
@@ -74,7 +74,8 @@ cv::Vec3b scaled(const cv::Vec3b& colour, double by) {
 }
 
 // Where nothing was seen the orbital map in grey.
-cv::Mat paint(const cv::Mat& z, const cv::Mat& ground, const HeightRange& range, double step_m) {
+cv::Mat paint(const cv::Mat& z, const cv::Mat& ground, const HeightRange& range, double step_m, double cell_m) {
+  const int reach = std::max(1, static_cast<int>(std::lround(cell_m / step_m)));
   const cv::Mat colours = colour_table();
   const cv::Vec3b grey(214, 218, 222);
   cv::Mat picture(z.size(), CV_8UC3, cv::Scalar(grey[0], grey[1], grey[2]));
@@ -83,9 +84,9 @@ cv::Mat paint(const cv::Mat& z, const cv::Mat& ground, const HeightRange& range,
       const float height = z.at<float>(v, u);
       if (std::isfinite(height)) {
         const int index = static_cast<int>(std::lround(255.0 * range.share(height)));
-        picture.at<cv::Vec3b>(v, u) = scaled(colours.at<cv::Vec3b>(0, index), light_at(z, v, u, step_m));
+        picture.at<cv::Vec3b>(v, u) = scaled(colours.at<cv::Vec3b>(0, index), light_at(z, v, u, step_m, reach));
       } else if (!ground.empty()) {
-        picture.at<cv::Vec3b>(v, u) = scaled(grey, light_at(ground, v, u, step_m));
+        picture.at<cv::Vec3b>(v, u) = scaled(grey, light_at(ground, v, u, step_m, 1));
       }
     }
   return picture;
@@ -145,8 +146,9 @@ std::string draw_elevation(const Scene& scene) {
   Svg svg(kMapWidth, bottom + kLegend);
   svg.rect(0.0, 0.0, kMapWidth, bottom + kLegend, "fill:#fff");
   svg.begin_clip("elevation-frame", view.left, view.top, view.width(), view.height());
-  svg.jpeg(view.left, view.top, view.width(), view.height(),
-           jpeg_of(paint(z, ground, range, view.box.width_m() / size.width), kMapQuality));
+  svg.jpeg(
+      view.left, view.top, view.width(), view.height(),
+      jpeg_of(paint(z, ground, range, view.box.width_m() / size.width, scene.run.elevation.cell_m()), kMapQuality));
   svg.polyline(view.px(true_line(scene)), stroke("#ffffff", 5.0, "stroke-opacity:.7"));
   svg.polyline(view.px(true_line(scene)), stroke(palette::kTruth, 3.0));
   svg.polyline(view.px(odometry_line(scene)), stroke(palette::kEstimate, 2.2, "stroke-dasharray:6 5"));
