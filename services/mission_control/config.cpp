@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "common/bus/config.hpp"
+#include "common/bus/vehicle_config.hpp"
 
 namespace rover {
 namespace {
@@ -54,6 +55,14 @@ nlohmann::json gauge_limits(const std::string& config_dir, const Vehicle& vehicl
   }
   out["current_a"]["warn"] = vehicle.drive_current_nominal_a;
   return out;
+}
+
+// From where the NavCam turns, and how wide it looks to either side; null: the vehicle has none.
+nlohmann::json navcam_view(const std::string& config_dir, const Vehicle& vehicle) {
+  if (!vehicle.pan_tilt) return nullptr;
+  const StereoRig rig = load_stereo_rig(config_dir, "navcam");
+  const Eigen::Vector3d& axes = vehicle.pan_tilt->p_body_axes;
+  return {{"x_m", axes.x()}, {"y_m", axes.y()}, {"half_width", std::atan(0.5 * rig.width / rig.left.fx_px)}};
 }
 
 }  // namespace
@@ -131,6 +140,7 @@ nlohmann::json page_setup(const std::string& config_dir, const Vehicle& vehicle)
             {"steered", kSteeredWheels},
             {"top_speed_mps", vehicle.top_speed_mps}}},
           {"gauges", gauge_limits(config_dir, vehicle)},
+          {"navcam", navcam_view(config_dir, vehicle)},
           {"roi",
            {{"near_m", coverage.number("roi_near_m", {0, 100})}, {"far_m", coverage.number("roi_far_m", {0, 100})}}}};
 }

@@ -70,6 +70,9 @@ void Ear::begin() {
   hear<hazards_t>(channel::kHazards);
   hear<traversability_t>(channel::kTraversability);
   hear<elevation_t>(channel::kElevation);
+  hear<ptu_state_t>(channel::kPtuState);
+  hear<slam_pose_t>(channel::kSlamPose);
+  hear<correction_t>(channel::kCorrection);
   hear<image_t>(channel::kLocCamRectLeft, [this](const image_t& image) { gatherer_.take_loccam(image); });
   hear<image_t>(channel::kNavCamLeft, [this](const image_t& image) { gatherer_.take_navcam(image); });
   // Large, and all that is wanted of it is the camera, which does not change.

@@ -150,11 +150,31 @@ void Gatherer::take(const hazards_t& m) {
 void Gatherer::take(const traversability_t& m) {
   if (!sane(m.cells_x, m.cells_y, m.cells.size(), m.cell_m)) return;
   place("traversability", m.header, {}, m.cell_m, m.origin_x_m, m.origin_y_m, m.cells_x, m.cells_y).cells = m.cells;
+  const auto unknown = std::count(m.cells.begin(), m.cells.end(), traversability_t::UNKNOWN);
+  view_.terrain = {m.header.utime, m.difficulty,
+                   1.0 - static_cast<double>(unknown) / static_cast<double>(m.cells.size())};
 }
 
 void Gatherer::take(const elevation_t& m) {
   if (!sane(m.cells_x, m.cells_y, m.height_m.size(), m.cell_m)) return;
   place("elevation", m.header, {}, m.cell_m, m.origin_x_m, m.origin_y_m, m.cells_x, m.cells_y).heights_m = m.height_m;
+}
+
+void Gatherer::take(const ptu_state_t& m) {
+  view_.pan_tilt = {m.header.utime, m.pan_rad, m.tilt_rad, m.moving != 0};
+}
+
+void Gatherer::take(const slam_pose_t& m) {
+  view_.slam = {m.header.utime, m.status, m.information, m.particles};
+}
+
+// It comes before localization has used it: what it moves is told by the pose as it still is.
+void Gatherer::take(const correction_t& m) {
+  const Pose2 corrected{m.x_m, m.y_m, m.yaw_rad};
+  const Pose2 odom = poses_.empty() ? Pose2{kNaN, kNaN, kNaN} : poses_.back().second;
+  const Eigen::Vector3d at = from_planar(odom).translation();
+  const double moved_m = (from_planar(corrected) * at - from_planar(view_.pose.map_odom) * at).head<2>().norm();
+  view_.correction = {m.header.utime, m.accepted != 0, m.accepted ? moved_m : kNaN, m.score, m.reason};
 }
 
 void Gatherer::take_loccam(const image_t& message) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <rover/control_status_t.hpp>
+#include <rover/correction_t.hpp>
 #include <rover/disparity_t.hpp>
 #include <rover/drive_permit_t.hpp>
 #include <rover/elevation_t.hpp>
@@ -15,6 +16,8 @@
 #include <rover/path_t.hpp>
 #include <rover/planner_status_t.hpp>
 #include <rover/pose_t.hpp>
+#include <rover/ptu_state_t.hpp>
+#include <rover/slam_pose_t.hpp>
 #include <rover/slip_t.hpp>
 #include <rover/supervisor_state_t.hpp>
 #include <rover/tick_t.hpp>
@@ -57,6 +60,9 @@ class Gatherer {
   void take(const hazards_t& message);
   void take(const traversability_t& message);
   void take(const elevation_t& message);
+  void take(const ptu_state_t& message);
+  void take(const slam_pose_t& message);
+  void take(const correction_t& message);
   void take_loccam(const image_t& message);
   void take_navcam(const image_t& message);
   void take(const disparity_t& message);

@@ -108,6 +108,35 @@ struct ImageView {
   int height = 0;
 };
 
+// The Full level's services. `utime` kNever: not heard.
+struct PanTiltView {
+  Utime utime = kNever;
+  double pan_rad = kNaN;   // positive to the left
+  double tilt_rad = kNaN;  // positive down
+  bool moving = false;
+};
+
+struct TerrainView {
+  Utime utime = kNever;
+  double difficulty = kNaN;   // of the ground ahead
+  double known_share = kNaN;  // of the map's cells
+};
+
+struct SlamView {
+  Utime utime = kNever;
+  int status = 0;  // of slam_pose_t
+  double information = kNaN;
+  int particles = 0;
+};
+
+struct CorrectionView {
+  Utime utime = kNever;
+  bool accepted = false;
+  double moved_m = kNaN;  // of the rover in map, by an accepted one
+  double score = kNaN;
+  std::string reason;  // of an abstention
+};
+
 struct TruthView {
   Utime utime = kNever;
   Eigen::Vector3d position_map_m = Eigen::Vector3d::Constant(kNaN);
@@ -124,6 +153,10 @@ struct View {
   PoseView pose;
   PlannerView planner;
   MotionView motion;
+  PanTiltView pan_tilt;
+  TerrainView terrain;
+  SlamView slam;
+  CorrectionView correction;
   std::map<std::string, ServiceView> services;
   LocalPathView path;
   std::map<std::string, GridView> grids;    // hazards, traversability, elevation

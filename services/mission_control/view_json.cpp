@@ -95,6 +95,36 @@ json of(const MotionView& m) {
           {"steer", steering}};
 }
 
+// Null: not heard.
+json of(const PanTiltView& p) {
+  if (p.utime == kNever) return nullptr;
+  return {{"pan", angle(p.pan_rad)}, {"tilt", angle(p.tilt_rad)}, {"moving", p.moving}};
+}
+
+json of(const TerrainView& t, Utime now) {
+  if (t.utime == kNever) return nullptr;
+  return {{"age_s", since(t.utime, now)},
+          {"difficulty", rounded(t.difficulty, 0.01)},
+          {"known", rounded(t.known_share, 0.01)}};
+}
+
+json of(const SlamView& s, Utime now) {
+  if (s.utime == kNever) return nullptr;
+  return {{"age_s", since(s.utime, now)},
+          {"status", s.status},
+          {"information", rounded(s.information, 0.01)},
+          {"particles", s.particles}};
+}
+
+json of(const CorrectionView& c, Utime now) {
+  if (c.utime == kNever) return nullptr;
+  return {{"age_s", since(c.utime, now)},
+          {"accepted", c.accepted},
+          {"moved_m", rounded(c.moved_m, 0.01)},
+          {"score", rounded(c.score, 0.01)},
+          {"reason", c.reason}};
+}
+
 json of(const std::map<std::string, ServiceView>& services) {
   json out = json::array();
   for (const auto& [name, s] : services)
@@ -155,6 +185,10 @@ std::string to_json(const View& v, const BookView& book) {
                     {"pose", of(v.pose, v.now)},
                     {"planner", of(v.planner)},
                     {"motion", of(v.motion)},
+                    {"pan_tilt", of(v.pan_tilt)},
+                    {"terrain", of(v.terrain, v.now)},
+                    {"slam", of(v.slam, v.now)},
+                    {"correction", of(v.correction, v.now)},
                     {"services", of(v.services)},
                     {"path", v.path.id},
                     {"grids", of(v.grids, v.now)},

@@ -71,5 +71,15 @@ TEST_F(PageConfigTest, TheGaugesHaveTheLimitsOfTheTableOfFaults) {
   }
 }
 
+TEST_F(PageConfigTest, TheNavCamLooksFromThePanTiltUnitWhereThereIsOne) {
+  const std::string dir = ROVER_SOURCE_DIR "/config";
+  Vehicle vehicle = load_vehicle(dir);
+  const auto navcam = page_setup(dir, vehicle)["navcam"];
+  EXPECT_NEAR(navcam["half_width"].get<double>(), to_rad(21.4), to_rad(0.5));
+  EXPECT_EQ(navcam["x_m"].get<double>(), vehicle.pan_tilt->p_body_axes.x());
+  vehicle.pan_tilt.reset();
+  EXPECT_TRUE(page_setup(dir, vehicle)["navcam"].is_null());
+}
+
 }  // namespace
 }  // namespace rover::mission

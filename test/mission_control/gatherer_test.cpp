@@ -157,6 +157,57 @@ TEST(Gatherer, TheMapsOfTheFullLevelAreShownWhenTheyCome) {
   EXPECT_FALSE(cv::imdecode(*pictures.camera("navcam", *gatherer.image("navcam")), cv::IMREAD_UNCHANGED).empty());
 }
 
+TEST(Gatherer, TheFullLevelsServicesAreHeard) {
+  Gatherer gatherer({});
+  EXPECT_EQ(gatherer.view(0.0).slam.utime, kNever);
+  ptu_state_t unit{};
+  unit.header.utime = 1;
+  unit.pan_rad = 0.4;
+  unit.moving = 1;
+  gatherer.take(unit);
+  slam_pose_t slam{};
+  slam.header.utime = 2;
+  slam.status = slam_pose_t::NO_INFORMATION;
+  slam.particles = 80;
+  gatherer.take(slam);
+  traversability_t terrain{};
+  terrain.header.utime = 3;
+  terrain.cell_m = 0.1;
+  terrain.cells_x = terrain.cells_y = 10;
+  terrain.cells.assign(100, traversability_t::UNKNOWN);
+  std::fill_n(terrain.cells.begin(), 25, 0);
+  terrain.size = 100;
+  terrain.difficulty = 0.3;
+  gatherer.take(terrain);
+  const View view = gatherer.view(0.0);
+  EXPECT_EQ(view.pan_tilt.pan_rad, 0.4);
+  EXPECT_TRUE(view.pan_tilt.moving);
+  EXPECT_EQ(view.slam.status, 1);
+  EXPECT_EQ(view.slam.particles, 80);
+  EXPECT_EQ(view.terrain.difficulty, 0.3);
+  EXPECT_DOUBLE_EQ(view.terrain.known_share, 0.25);
+}
+
+TEST(Gatherer, ACorrectionMovesTheRoverNotTheOriginOfItsOdometry) {
+  Gatherer gatherer({});
+  pose_t pose{};
+  pose_to(from_planar({30.0, 40.0, 1.0}), pose.position_odom_body_m, pose.quat_odom_body_wxyz);
+  pose_to(from_planar({0.0, 0.0, 0.0}), pose.position_map_odom_m, pose.quat_map_odom_wxyz);
+  gatherer.take(pose);
+  correction_t correction{};
+  correction.header.utime = 5;
+  correction.accepted = 1;
+  correction.yaw_rad = 0.01;  // turns the rover, 50 m away, about the origin
+  gatherer.take(correction);
+  EXPECT_TRUE(gatherer.view(0.0).correction.accepted);
+  EXPECT_NEAR(gatherer.view(0.0).correction.moved_m, 0.5, 1e-3);
+  correction.accepted = 0;
+  correction.reason = "flat";
+  gatherer.take(correction);
+  EXPECT_TRUE(std::isnan(gatherer.view(0.0).correction.moved_m));
+  EXPECT_EQ(gatherer.view(0.0).correction.reason, "flat");
+}
+
 TEST(Gatherer, MessagesThatContradictThemselvesAreNotShown) {
   Gatherer gatherer({});
   hazards_t hazards = hazards_at(1);

@@ -38,6 +38,27 @@ TEST(ViewJson, FiguresComeThroughRounded) {
   EXPECT_EQ(out["book"]["forced"], "FULL");
 }
 
+TEST(ViewJson, TheFullLevelsServicesAreNullUntilTheyAreHeard) {
+  View view;
+  for (const char* part : {"pan_tilt", "terrain", "slam", "correction"})
+    EXPECT_TRUE(json::parse(to_json(view, BookView{}))[part].is_null()) << part;
+  view.now = 9'000'000;
+  view.pan_tilt = {8'900'000, 0.3, -0.1, true};
+  view.terrain = {8'000'000, kNaN, 0.456};
+  view.slam = {8'000'000, 1, 0.25, 90};
+  view.correction = {4'000'000, false, kNaN, 0.4, "flat"};
+  const json out = json::parse(to_json(view, BookView{}));
+  EXPECT_EQ(out["pan_tilt"]["pan"], 0.3);
+  EXPECT_EQ(out["pan_tilt"]["moving"], true);
+  EXPECT_TRUE(out["terrain"]["difficulty"].is_null());
+  EXPECT_EQ(out["terrain"]["known"], 0.46);
+  EXPECT_EQ(out["slam"]["status"], 1);
+  EXPECT_EQ(out["slam"]["particles"], 90);
+  EXPECT_EQ(out["correction"]["age_s"], 5.0);
+  EXPECT_EQ(out["correction"]["accepted"], false);
+  EXPECT_EQ(out["correction"]["reason"], "flat");
+}
+
 TEST(ViewJson, InfinityAndBadTextStayJson) {
   View view;
   view.planner.blocked_in_m = kInfinity;

@@ -115,7 +115,7 @@ export function createCamera(setup) {
       const both = view.images.loccam && view.images.navcam;
       byId("camera-choice").hidden = !both;
       byId("camera-title").hidden = Boolean(both);
-      if (!both && !switched && view.images.navcam) chosen = "navcam";
+      if (!switched) chosen = view.images.navcam && (view.state.level === "FULL" || !view.images.loccam) ? "navcam" : "loccam";
       for (const button of byId("camera-choice").children) button.classList.toggle("on", button.dataset.camera === chosen);
       document.querySelector(".cameras .legend").hidden = chosen !== "loccam";
       byId("camera-title").textContent = chosen === "loccam" ? "LocCam" : "NavCam";

@@ -9,6 +9,8 @@ const apply = (pose, x, y) => {
   const c = Math.cos(pose[2]), s = Math.sin(pose[2]);
   return [pose[0] + c * x - s * y, pose[1] + s * x + c * y];
 };
+const NAVCAM_REACH_M = 8;
+const OLD_MAP_S = 10;
 const finite = (...values) => values.every((v) => Number.isFinite(v));
 
 // A picture whose pixels are cells of a grid that may be turned against the map.
@@ -26,6 +28,8 @@ const GridLayer = L.Layer.extend({
     this.image = null;
     map.off("zoom viewreset", this.place, this);
   },
+  // Of a time long gone: what the Full level left behind.
+  fade(old) { if (this.image) this.image.classList.toggle("old", old); },
   // The picture and its place change together.
   set(grid, mapOdom) {
     this.latest = [grid, mapOdom];
@@ -114,6 +118,7 @@ export function createMap(setup, { onTruth }) {
   const layers = {
     relief: picture("relief", {}), slope: picture("slope", { opacity: .75, zIndex: 2 }), difficulty: picture("difficulty", { opacity: .75, zIndex: 2 }),
     elevation: new GridLayer("elevation"), traversability: new GridLayer("traversability"), hazards: new GridLayer("hazards"),
+    navcam: L.polygon([], { color: "#dbe2ea", weight: 1, opacity: .55, fillColor: "#dbe2ea", fillOpacity: .1, interactive: false }),
     global: L.layerGroup(), local: line("#5cc8ff", 3.5), track: line("#ffb454", 3), truth: L.layerGroup(),
   };
   const planned = line("#ffffff", 2.5, { dashArray: "7 6", opacity: .9 });
@@ -127,23 +132,24 @@ export function createMap(setup, { onTruth }) {
   layers.truth.addLayer(trueTrack).addLayer(trueRover.group);
 
   if (setup.map) layers.relief.addTo(map);
-  for (const name of ["elevation", "traversability", "hazards", "global", "track", "local"]) layers[name].addTo(map);
+  for (const name of ["elevation", "traversability", "hazards", "navcam", "global", "track", "local"]) layers[name].addTo(map);
   rover.group.addTo(map);
 
   const control = L.control.layers(null, {}, { collapsed: true }).addTo(map);
   const names = {
     relief: "Relief", slope: "Slope", difficulty: "Difficulty", elevation: "Elevation map", traversability: "Traversability",
-    hazards: "Hazards", global: "Global path", local: "Local path", track: "Driven track", truth: "True pose (simulation)",
+    hazards: "Hazards", navcam: "NavCam's view", global: "Global path", local: "Local path", track: "Driven track", truth: "True pose (simulation)",
   };
   for (const [key, name] of Object.entries(names))
-    if (setup.map || !["relief", "slope", "difficulty"].includes(key)) control.addOverlay(layers[key], name);
+    if (key === "navcam" ? setup.navcam : setup.map || !["relief", "slope", "difficulty"].includes(key)) control.addOverlay(layers[key], name);
   map.on("overlayadd overlayremove", ({ layer }) => { if (layer === layers.truth) onTruth(map.hasLayer(layers.truth)); });
 
   const legend = L.control({ position: "bottomleft" });
   legend.onAdd = () => {
     const box = L.DomUtil.create("div", "map-legend");
     box.innerHTML = `<span><i class="dash" style="color:#fff"></i>global path</span><span><i style="color:#5cc8ff"></i>local path</span>
-      <span><i style="color:#ffb454"></i>driven</span><span class="truth-key" hidden><i class="dash" style="color:#e48bff"></i>true</span>`;
+      <span><i style="color:#ffb454"></i>driven</span><span class="terrain-key" hidden><i class="ramp cost"></i>cost</span><span class="terrain-key" hidden><i class="ramp height"></i>height</span>
+      <span class="truth-key" hidden><i class="dash" style="color:#e48bff"></i>true</span>`;
     return box;
   };
   legend.addTo(map);
@@ -184,6 +190,19 @@ export function createMap(setup, { onTruth }) {
   }
   const widths = () => { if (globalPath) corridor.setStyle({ weight: Math.max(1, 2 * globalPath.corridor_half_width_m * 2 ** map.getZoom()) }); };
   map.on("zoomend", widths);
+
+  // Where the pan-tilt unit has the NavCam look, as far as it sees well.
+  function drawNavCam(view) {
+    const n = setup.navcam, p = view.pose, unit = view.pan_tilt;
+    const looks = n && unit && view.state.level === "FULL" && finite(p.x_m, p.y_m, p.yaw, unit.pan);
+    if (!looks) return layers.navcam.setLatLngs([]);
+    const eye = compose([p.x_m, p.y_m, p.yaw], [n.x_m, n.y_m, unit.pan]), points = [apply(eye, 0, 0)], steps = 6;
+    for (let i = -steps; i <= steps; i++) {
+      const a = (n.half_width * i) / steps;
+      points.push(apply(eye, NAVCAM_REACH_M * Math.cos(a), NAVCAM_REACH_M * Math.sin(a)));
+    }
+    return layers.navcam.setLatLngs(points.map(([x, y]) => at(x, y)));
+  }
 
   const drawLocal = () => {
     if (!localPath || !finite(...mapOdom)) return;
@@ -270,8 +289,13 @@ export function createMap(setup, { onTruth }) {
         } else if (following && !sketch.on) map.panTo(at(p.x_m, p.y_m), { animate: false });
       }
       if (p.odom.some((v, i) => v !== mapOdom[i])) { mapOdom = p.odom; drawLocal(); }
+      drawNavCam(view);
       for (const name of ["hazards", "traversability", "elevation"])
         if (view.grids[name]) layers[name].set(view.grids[name], p.odom);
+      for (const name of ["traversability", "elevation"])
+        layers[name].fade(view.state.level !== "FULL" && view.grids[name]?.age_s > OLD_MAP_S);
+      if (view.grids.elevation || view.grids.traversability)
+        for (const key of document.querySelectorAll(".terrain-key")) key.hidden = false;
     },
     showTruth(truth) {
       trueRover.set([truth.x_m, truth.y_m, truth.yaw], null);

@@ -12,7 +12,10 @@ const TONE = {
   DRIVING: "good", TELEOP: "good", GOAL_REACHED: "good", REPAIRING: "warn", HAZARD_STOP: "warn", PAUSED: "warn", SWEEPING: "warn",
   CORRECTING: "warn", FAULT_STOP: "bad", SAFE: "bad",
 };
+const MANY_SERVICES = 13;
 const WHEELS = ["FL", "FR", "ML", "MR", "RL", "RR"];
+const SLAM = ["ok", "no relief", "lost"];
+const looks = (pan) => (Math.abs(pan) < .5 ? "ahead" : `${Math.abs(pan).toFixed(0)}° ${pan > 0 ? "left" : "right"}`);
 const RED_HOLD_MS = 1500;  // long enough to be seen
 
 function clock(t_s) {
@@ -126,6 +129,7 @@ export function createPanels(setup, commands) {
     }
     byId("services").append(tr);
     rows.set(name, { tr, cells });
+    byId("services").classList.toggle("many", rows.size > MANY_SERVICES);
     return rows.get(name);
   }
 
@@ -143,6 +147,24 @@ export function createPanels(setup, commands) {
     }
   }
 
+  // Hidden as long as the Full level has nothing to tell.
+  function mapping(view) {
+    const { terrain, slam, correction, pan_tilt: unit, grids } = view;
+    byId("mapping").hidden = view.state.level !== "FULL" && !(terrain || slam || correction || grids.elevation);
+    if (byId("mapping").hidden) return;
+    byId("difficulty").textContent = terrain ? fixed(terrain.difficulty, 2) : "–";
+    byId("known").textContent = terrain ? fixed(100 * terrain.known, 0, " %") : "–";
+    byId("map-age").textContent = grids.elevation ? fixed(grids.elevation.age_s, 1, " s") : "–";
+    byId("navcam-at").textContent = unit && Number.isFinite(unit.pan) ? looks(deg(unit.pan)) : "–";
+    byId("slam").textContent = slam ? SLAM[slam.status] || "?" : "–";
+    byId("slam").title = slam ? `${slam.particles} particles, information ${fixed(slam.information, 2)}` : "";
+    byId("correction").textContent = !correction ? "–" : correction.accepted ? fixed(correction.moved_m, 2, " m") : "none";
+    byId("correction").title = correction ? `${clock(correction.age_s)} ago, score ${fixed(correction.score, 2)}` : "no match to the orbital map yet";
+    const why = correction && !correction.accepted ? `Not matched to the orbital map: ${words(correction.reason)}` : "";
+    byId("correction-why").hidden = !why;
+    byId("correction-why").textContent = byId("correction-why").title = why;
+  }
+
   function eventItem(event) {
     const item = element("li", event.tone);
     item.append(element("time", "", clock(event.t_s)), element("i"), element("span", "", words(event.text)));
@@ -157,6 +179,7 @@ export function createPanels(setup, commands) {
       roll(deg(view.pose.roll));
       pitch(deg(view.pose.pitch));
       if (view.motion.currents_a.some(Number.isFinite)) currents.forEach((set, i) => set(view.motion.currents_a[i]));
+      mapping(view);
       services(view);
     },
     setEvents(events) { byId("events").replaceChildren(...events.toReversed().map(eventItem)); },
