@@ -76,7 +76,7 @@ void ElevationMap::count_ray(const Eigen::Vector3f& camera_m, const Patch& patch
     const ElevationCell& cell = grid_.at({corner.ix + column, corner.iy + row});
     if (!cell.seen()) continue;
     const auto ray_m = static_cast<float>(pose.z_m) + camera_m.z() + fall * along;
-    const float above = cell.height_m - ray_m - static_cast<float>(config_.see_through_margin_m);
+    const float above = cell.top_m - ray_m - static_cast<float>(config_.see_through_margin_m);
     if (above <= 0.0F || above * above < 4.0F * variance_m2(cell, pose.way_m)) continue;
     std::uint8_t& count = passed_[static_cast<size_t>(row) * grid_.cells() + column];
     if (count < 255) ++count;
@@ -108,7 +108,8 @@ void ElevationMap::fuse(ElevationCell& cell, const Patch& patch, const CloudPose
   const auto z = static_cast<float>(pose.z_m) + patch.z_m;
   const float R = measured_variance_m2(patch);
   const auto floor2 = static_cast<float>(config_.min_sigma_m * config_.min_sigma_m);
-  const ElevationCell fresh{z, std::max(R, floor2), static_cast<float>(pose.way_m), 0};
+  const float top = static_cast<float>(pose.z_m) + patch.top_m;
+  const ElevationCell fresh{z, top, std::max(R, floor2), static_cast<float>(pose.way_m), 0};
   if (!cell.seen()) {
     cell = fresh;
     return;
@@ -125,6 +126,7 @@ void ElevationMap::fuse(ElevationCell& cell, const Patch& patch, const CloudPose
   }
   const float K = P / (P + R);
   cell.height_m += K * off;
+  cell.top_m += K * (top - cell.top_m);
   cell.variance_m2 = std::max((1.0F - K) * P, floor2);
   cell.seen_way_m = static_cast<float>(pose.way_m);
   cell.contradictions = 0;

@@ -22,7 +22,8 @@ struct ElevationConfig {
 };
 
 struct ElevationCell {
-  float height_m = 0.0F;
+  float height_m = 0.0F;      // mean
+  float top_m = 0.0F;         // of the upper part where there is a step within the cell, else the same
   float variance_m2 = -1.0F;  // negative: never seen
   float seen_way_m = 0.0F;    // the rover's way when it was last seen
   std::uint8_t contradictions = 0;

@@ -34,7 +34,7 @@ void PatchGatherer::sort_in(const LevelCloud& cloud, const Pose2& pose) {
   cos_ = static_cast<float>(std::cos(pose.yaw_rad));
   sin_ = static_cast<float>(std::sin(pose.yaw_rad));
   const auto per_cell = static_cast<float>(1.0 / cell);
-  bins_.assign(static_cast<size_t>(cells_) * cells_, Bin{1e9F, -1e9F, 0.0F, 0, {}, {}});
+  bins_.assign(static_cast<size_t>(cells_) * cells_, Bin{1e9F, -1e9F, 0.0F, 0, {}, 0.0F, 0.0F, 0});
   const size_t n = cloud.points.size();
   bin_of_.assign(n, -1);
   x_m_.resize(n);
@@ -62,8 +62,8 @@ bool PatchGatherer::is_step(const Bin& bin) const {
 }
 
 Patch PatchGatherer::patch_of(const Bin& bin, int column, int row) const {
-  const bool step = is_step(bin) && bin.upper.count >= kMinUpperPoints;
-  const Sums& sums = step ? bin.upper : bin.all;
+  const bool step = is_step(bin) && bin.upper_count >= kMinUpperPoints;
+  const Sums& sums = bin.all;
   const auto n = static_cast<float>(sums.count);
   const float independent = std::min(n, static_cast<float>(config_.correlated_points));
   const auto rough = static_cast<float>(config_.roughness_m * config_.roughness_m);
@@ -77,8 +77,8 @@ Patch PatchGatherer::patch_of(const Bin& bin, int column, int row) const {
   patch.variance_m2 = sums.variance / n / independent + rough / n;
   patch.ray_x_m = (cos_ * sums.ray_x - sin_ * sums.ray_y) / n * shrink;
   patch.ray_y_m = (sin_ * sums.ray_x + cos_ * sums.ray_y) / n * shrink;
+  patch.top_m = step ? bin.upper_z / bin.upper_weight : patch.z_m;
   patch.points = sums.count;
-  patch.step = step;
   // What a step leaves open: where within the cell it stands.
   if (step) patch.variance_m2 += 0.01F * (bin.highest - bin.lowest) * (bin.highest - bin.lowest);
   return patch;
@@ -91,7 +91,10 @@ const std::vector<Patch>& PatchGatherer::gather(const LevelCloud& cloud, const P
     Bin& bin = bins_[static_cast<size_t>(bin_of_[i])];
     const LevelPoint& p = cloud.points[i];
     bin.all.add(p, x_m_[i], y_m_[i]);
-    if (p.z_m > 0.5F * (bin.lowest + bin.highest)) bin.upper.add(p, x_m_[i], y_m_[i]);
+    if (p.z_m <= 0.5F * (bin.lowest + bin.highest)) continue;
+    bin.upper_weight += 1.0F / p.variance_m2;
+    bin.upper_z += p.z_m / p.variance_m2;
+    ++bin.upper_count;
   }
   patches_.clear();
   for (int row = 0; row < cells_; ++row)

@@ -1,6 +1,6 @@
 // A cloud's points gathered in the cells of a lattice: one height for each cell that the cloud sees.
-// Where a cell holds a step (a rock's flank) its height is that of the upper part: it is what a wheel meets, and from
-// afar and from near the same part of the rock is seen.
+// Where a cell holds a step (a rock's flank) it has two: the mean, which noise of depth does not shift and with which
+// clouds are matched, and that of the upper part, which a wheel meets.
 #pragma once
 
 #include <vector>
@@ -15,11 +15,11 @@ struct Patch {
   float x_m = 0.0F;  // mean of the points, from the body's origin in the lattice's axes, as all that follows
   float y_m = 0.0F;
   float z_m = 0.0F;
+  float top_m = 0.0F;        // of the upper part; z_m where there is no step
   float variance_m2 = 0.0F;  // of z_m
   float ray_x_m = 0.0F;      // one sigma of depth, as in LevelPoint, of the mean
   float ray_y_m = 0.0F;
   int points = 0;
-  bool step = false;
 };
 
 struct PatchConfig {
@@ -48,7 +48,9 @@ class PatchGatherer {
   struct Bin {
     float lowest, highest, variance;
     int count;
-    Sums all, upper;
+    Sums all;
+    float upper_weight, upper_z;
+    int upper_count;
   };
 
   void sort_in(const LevelCloud& cloud, const Pose2& pose);

@@ -30,8 +30,10 @@ Slam::Slam(const SlamConfig& config)
       filter_(config.filter),
       anchor_(config.anchor) {}
 
-void Slam::take_pose(Utime utime, const Eigen::Isometry3d& T_map_odom, const Eigen::Isometry3d& T_odom_body) {
-  if (anchor_.take(utime, T_map_odom, T_odom_body) && running()) anchor();
+bool Slam::take_pose(Utime utime, const Eigen::Isometry3d& T_map_odom, const Eigen::Isometry3d& T_odom_body) {
+  const bool moved = anchor_.take(utime, T_map_odom, T_odom_body) && running();
+  if (moved) anchor();
+  return moved;
 }
 
 // From here on the error counts anew.
@@ -174,7 +176,7 @@ OdomElevation Slam::elevation() const {
       const double x = grid.center_x_m({out.corner.ix + column, 0}), y = grid.center_y_m({0, out.corner.iy + row});
       const ElevationCell& cell = grid.get(grid.index_of(T.x_m + c * x - s * y, T.y_m + s * x + c * y));
       const float nan = std::numeric_limits<float>::quiet_NaN();
-      out.height_m.push_back(cell.seen() ? static_cast<float>(cell.height_m - up) : nan);
+      out.height_m.push_back(cell.seen() ? static_cast<float>(cell.top_m - up) : nan);
       out.sigma_m.push_back(cell.seen() ? std::sqrt(map_.variance_m2(cell, way_m_)) : nan);
     }
   return out;

@@ -86,8 +86,9 @@ class Slam {
  public:
   explicit Slam(const SlamConfig& config);
 
-  // Each POSE, for how map lies to odom.
-  void take_pose(Utime utime, const Eigen::Isometry3d& T_map_odom, const Eigen::Isometry3d& T_odom_body);
+  // Each POSE, for how map lies to odom. True where something else than SLAM has moved map, and SLAM begins anew from
+  // it.
+  bool take_pose(Utime utime, const Eigen::Isometry3d& T_map_odom, const Eigen::Isometry3d& T_odom_body);
   SlamResult step(const Cloud& cloud, const Odometry& odometry);
   OdomElevation elevation() const;
   // Planar, and the height that has to be added to odom's.

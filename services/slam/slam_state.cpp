@@ -41,6 +41,7 @@ void put_map(StateWriter& out, const GridMap<ElevationCell>& grid) {
   grid.for_each([&](CellIndex, const ElevationCell& cell) {
     if (!cell.seen()) return;
     out.put(cell.height_m);
+    out.put(cell.top_m);
     out.put(cell.variance_m2);
     out.put(cell.seen_way_m);
     out.put(cell.contradictions);
@@ -63,10 +64,12 @@ bool get_map(StateReader& in, GridMap<ElevationCell>& grid) {
     ++k;
     if (!seen) return;
     cell.height_m = in.get<float>();
+    cell.top_m = in.get<float>();
     cell.variance_m2 = in.get<float>();
     cell.seen_way_m = in.get<float>();
     cell.contradictions = in.get<std::uint8_t>();
-    sound = sound && std::isfinite(cell.height_m) && cell.variance_m2 >= 0.0F && std::isfinite(cell.seen_way_m);
+    sound = sound && std::isfinite(cell.height_m) && std::isfinite(cell.top_m) && cell.variance_m2 >= 0.0F &&
+            std::isfinite(cell.seen_way_m);
   });
   return sound;
 }

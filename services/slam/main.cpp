@@ -1,0 +1,8 @@
+#include "common/bus/node_main.hpp"
+#include "slam/node.hpp"
+
+int main(int argc, char** argv) {
+  return rover::node_main(argc, argv, "slam", [](const rover::NodeContext& context) {
+    return rover::slam::make_slam(context.node, context.config_dir);
+  });
+}
