@@ -1,0 +1,19 @@
+// config/pan_tilt.yaml, with the unit of vehicle.yaml and the NavCam of cameras.yaml.
+#pragma once
+
+#include <string>
+
+#include "pan_tilt/pan_tilt.hpp"
+
+namespace rover::gaze {
+
+struct NodeConfig {
+  PanTiltConfig core;
+  PanTiltUnit unit;
+  CameraMount mount;
+  double max_state_age_s = 1.0;  // of the supervisor's
+};
+
+NodeConfig load_config(const std::string& config_dir);
+
+}  // namespace rover::gaze

@@ -1,0 +1,85 @@
+#include "pan_tilt/pan_tilt.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rover::gaze {
+
+PanTilt::PanTilt(const PanTiltConfig& config, const PanTiltUnit& unit, const CameraMount& mount)
+    : config_(config), unit_(unit), mount_(mount), sweep_(sweep_views(config.sweep)) {}
+
+std::optional<Gaze> PanTilt::step(Utime now, Task task) {
+  if (task != task_) begin(now, task);
+  if (task_ == Task::kIdle || picture_pending(now)) return std::nullopt;
+  auto view = next_view(now);
+  if (!view) return std::nullopt;
+  *view = {unit_.clamp_pan(view->pan_rad), unit_.clamp_tilt(view->tilt_rad)};
+  pending_ = Pending{*view, now};
+  return view;
+}
+
+void PanTilt::begin(Utime now, Task task) {
+  if (task_ == Task::kIdle) {
+    pending_.reset();
+    last_image_.reset();
+  }
+  task_ = task;
+  task_since_ = now;
+  sweep_next_ = 0;
+}
+
+// A new command voids the one before, so a picture that was asked for comes first.
+bool PanTilt::picture_pending(Utime now) {
+  if (!pending_) return false;
+  const auto off = [&](double is, double wanted) { return std::abs(is - wanted) > config_.arrival_rad; };
+  const bool there = unit_state_.utime > pending_->since && !unit_state_.moving &&
+                     !off(unit_state_.gaze.pan_rad, pending_->gaze.pan_rad) &&
+                     !off(unit_state_.gaze.tilt_rad, pending_->gaze.tilt_rad);
+  if (there && pending_->arrived == kNever) pending_->arrived = now;
+  const bool done = pending_->arrived != kNever && to_seconds(now - pending_->arrived) >= config_.dwell_s;
+  const bool late =
+      pending_->arrived == kNever && to_seconds(now - pending_->since) > longest_move_s() + config_.arrival_slack_s;
+  if (!done && !late) return true;
+  unit_fails_ = late;
+  pending_.reset();
+  return false;
+}
+
+double PanTilt::longest_move_s() const {
+  return std::max(2.0 * unit_.pan_max_rad, unit_.tilt_max_rad - unit_.tilt_min_rad) / unit_.rate_radps;
+}
+
+std::optional<Gaze> PanTilt::next_view(Utime now) {
+  if (task_ == Task::kSweep) {
+    sweep_next_ %= sweep_.size();  // again and again while it is asked for
+    return sweep_on();
+  }
+  if (task_ == Task::kStuck && to_seconds(now - task_since_) >= config_.stuck_s && sweep_next_ < sweep_.size())
+    return sweep_on();
+  return ahead(now);
+}
+
+// After it the unit looks ahead at once.
+std::optional<Gaze> PanTilt::sweep_on() {
+  last_image_.reset();
+  return sweep_[sweep_next_++];
+}
+
+std::optional<Gaze> PanTilt::ahead(Utime now) {
+  const double age_s = to_seconds(now - pose_.utime);
+  if (pose_.utime == kNever || age_s < 0.0 || age_s > config_.max_pose_age_s) return std::nullopt;
+  const Gaze gaze = look_ahead(path_, pose_.odom, mount_, config_.ahead);
+  const double heading = pose_.odom.yaw_rad + gaze.pan_rad;
+  if (last_image_ && !moved_on(heading)) return std::nullopt;
+  last_image_ = pose_;
+  last_heading_rad_ = heading;
+  return gaze;
+}
+
+bool PanTilt::moved_on(double heading_rad) const {
+  const auto turned = [&](double from, double to) { return std::abs(wrap_angle(to - from)) >= config_.image_turn_rad; };
+  return std::abs(pose_.travelled_m - last_image_->travelled_m) >= config_.image_way_m ||
+         turned(last_image_->odom.yaw_rad, pose_.odom.yaw_rad) || turned(last_heading_rad_, heading_rad);
+}
+
+}  // namespace rover::gaze
