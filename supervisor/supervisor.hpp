@@ -38,7 +38,7 @@ struct SupervisorConfig {
   double terrain_max_way_m = 1.5;  // driven since the newest map of the Full level
   double terrain_known_ahead = 0.3;
   double terrain_known_around = 0.5;  // ends a sweep ...
-  double sweep_patience_s = 20.0;     // ... which after that time is content with what is known ahead
+  double sweep_patience_s = 25.0;     // ... which after that time is content with what is known ahead
   double hazard_stop_m = 0.5;
   double unseen_stop_m = 0.25;
   double stop_hysteresis_m = 0.15;

@@ -1,5 +1,6 @@
 #include "supervisor/terrain_view.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace rover::supervisor {
@@ -34,15 +35,16 @@ bool CostView::known(double x_m, double y_m) const {
 }
 
 KnownShares known_shares(const CostView& map, const Pose2& body_odom) {
-  Tally ahead(map, body_odom), around(map, body_odom);
+  Tally ahead(map, body_odom), left(map, body_odom), right(map, body_odom);
   for (int i = 0; i <= 18; ++i)
     for (int j = -6; j <= 6; ++j) ahead.look(1.2 + 0.1 * i, 0.1 * j);
   for (int i = 0; i <= 10; ++i)
-    for (int j = -10; j <= 10; ++j) {
+    for (int j = 2; j <= 10; ++j) {
       const double range_m = 1.5 + 0.25 * i, bearing_rad = to_rad(5.0 * j);
-      around.look(range_m * std::cos(bearing_rad), range_m * std::sin(bearing_rad));
+      left.look(range_m * std::cos(bearing_rad), range_m * std::sin(bearing_rad));
+      right.look(range_m * std::cos(bearing_rad), -range_m * std::sin(bearing_rad));
     }
-  return {ahead.share(), around.share()};
+  return {ahead.share(), std::min(left.share(), right.share())};
 }
 
 }  // namespace rover::supervisor

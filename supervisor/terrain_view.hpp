@@ -25,7 +25,7 @@ struct CostView {
 // Shares 0 .. 1 of what a sweep of the NavCam shows, on the next metres of a straight way and to both sides.
 struct KnownShares {
   double ahead = 0.0;   // 1.2 .. 3 m before the body's origin, 0.6 m to each side
-  double around = 0.0;  // 1.5 .. 4 m away, up to 50 deg to each side
+  double around = 0.0;  // 1.5 .. 4 m away, 10 .. 50 deg to the side of which less is known
 };
 
 KnownShares known_shares(const CostView& map, const Pose2& body_odom);

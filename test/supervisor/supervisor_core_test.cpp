@@ -881,7 +881,7 @@ TEST_F(LevelTest, ASweepIsContentWithTheGroundAheadInTheEnd) {
   command(CommandKind::kForceLevel, "", ForcedLevel::kFull);
   drive(1.0, 0.1);
   map_alive_ = true;
-  drive(17.0, 0.1);
+  drive(22.0, 0.1);
   EXPECT_EQ(supervisor_.state(), State::kSweeping);
   drive(4.0, 0.1);
   EXPECT_EQ(supervisor_.state(), State::kDriving);

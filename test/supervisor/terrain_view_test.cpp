@@ -27,7 +27,9 @@ TEST(TerrainView, CountsWhatIsKnownBeforeTheRoverWhereverItLooks) {
     const Pose2 body{3.0, -40.0, yaw};
     const KnownShares right = shares(body, [](double, double left) { return left < 0.0; });
     EXPECT_NEAR(right.ahead, 0.5, 0.1);
-    EXPECT_NEAR(right.around, 0.5, 0.1);
+    EXPECT_EQ(right.around, 0.0) << "of both sides the lesser";
+    const KnownShares near = shares(body, [](double forward, double left) { return std::hypot(forward, left) < 2.8; });
+    EXPECT_NEAR(near.around, 0.5, 0.1);
     const KnownShares strip = shares(body, [](double, double left) { return std::abs(left) < 0.8; });
     EXPECT_EQ(strip.ahead, 1.0);
     EXPECT_LT(strip.around, 0.5);
