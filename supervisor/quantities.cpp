@@ -45,8 +45,10 @@ Reading stereo_coverage(const Now& now, const Subject&, double limit) {
   return below_reading(now.in.hazards.coverage, limit, now.in.hazards.utime, now.utime);
 }
 
-// The map comes with the way, not with time: what ages it is ground that was driven since.
+// The map comes with the way, not with time: what ages it is ground that was driven since. A rover that sweeps is about
+// to have a new one.
 Reading terrain_way(const Now& now, const Subject&, double limit) {
+  if (now.sweep_s > 0.0) return flag_reading(false, now.utime, now.utime);
   if (now.in.terrain.utime < 0) return age_reading(kNever, now.utime, limit);
   const double way = std::abs(now.in.pose.travelled_m - now.in.terrain.travelled_m);
   return above_reading(way, limit, now.in.pose.utime, now.utime);

@@ -112,15 +112,16 @@ LevelFactSet Supervisor::level_facts(Utime now) {
   LevelFactSet out;
   const double planner_age = age_s(in_.planner.utime, now);
   const bool followed = path_.path_id >= 0 && path_.path_id == in_.control.path_id;
-  const bool path_full = followed && path_.at(in_.control.arc_length_m) == Level::kFull;
+  // Of a new path one of the two is heard of first.
+  if (followed) path_full_ = path_.at(in_.control.arc_length_m) == Level::kFull;
   const LevelConfig& limits = judge_.config();
   const std::vector<std::string>& full = config_.fdir.full_services;
   set_level_fact(out, F::kFullReady, !full.empty() && alive(full, now), {});
   failing_fact(out, now);
   set_level_fact(out, F::kForcedFull, forced_ == ForcedLevel::kFull, {"forced_level", 1.0, 1.0, 0.0, 0.0});
   set_level_fact(out, F::kForcedEfficient, forced_ == ForcedLevel::kEfficient, {"forced_level", 0.0, 0.0, 0.0, 0.0});
-  set_level_fact(out, F::kPathFull, path_full,
-                 {"path_level", path_full ? 1.0 : 0.0, 1.0, 0.0, age_s(in_.control.utime, now)});
+  set_level_fact(out, F::kPathFull, path_full_,
+                 {"path_level", path_full_ ? 1.0 : 0.0, 1.0, 0.0, age_s(in_.control.utime, now)});
   set_level_fact(out, F::kRaisedByPath, raised_by_path_, {});
   set_level_fact(out, F::kSlowProgress, judge_.slow_progress(),
                  {"effective_speed_mps", judge_.speed_mps(), limits.slow_mps, limits.window_s, planner_age});

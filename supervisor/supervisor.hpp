@@ -205,6 +205,7 @@ class Supervisor {
   State state_ = State::kBoot;
   Level level_ = Level::kEfficient;
   bool raised_by_path_ = false;
+  bool path_full_ = false;  // the path asks for it, where the rover was when both were last known
   ForcedLevel forced_ = ForcedLevel::kAuto;
   Utime since_ = kNever;
   Utime teleop_utime_ = kNever;

@@ -155,8 +155,8 @@ void list_switches(Svg& svg, const Metrics& m, double left, double top) {
     y += kLine;
     const LevelSwitch& change = m.level_switches[i];
     svg.text(left, y,
-             fmt::format("{}  at {:.1f} m, {:.0f} s: {}", i + 1, change.at_m, change.t_s - m.window.begin_s,
-                         switch_text(change)),
+             fmt::format("{}  at {:.1f} m, {:.0f} s: {}", i + 1, change.at_m,
+                         std::max(0.0, change.t_s - m.window.begin_s), switch_text(change)),
              13, "");
   }
 }

@@ -830,6 +830,29 @@ TEST_F(LevelTest, ThePathsSegmentsRaiseAndLower) {
   EXPECT_EQ(supervisor_.level(), Level::kEfficient);
 }
 
+// Continuous planning gives a new path each second, which the controller takes up a tick after it is heard of here.
+TEST_F(LevelTest, ANewPathOfTheSameLevelChangesNothing) {
+  begin();
+  supervisor_.on_path({1, {0.0}, {Level::kFull}});
+  drive(2.0, 0.15);
+  ASSERT_EQ(supervisor_.level(), Level::kFull);
+  changes_.clear();
+  for (std::int64_t id = 2; id < 20; ++id) {
+    supervisor_.on_path({id, {0.0}, {Level::kFull}});
+    drive(0.04, 0.15);
+    planner_.path_id = control_.path_id = id;
+    control_.arc_length_m = 0.0;
+    drive(1.0, 0.15);
+  }
+  EXPECT_EQ(last_level_change(), nullptr);
+  supervisor_.on_path({20, {0.0}, {Level::kEfficient}});
+  drive(0.04, 0.15);
+  EXPECT_EQ(supervisor_.level(), Level::kFull);
+  planner_.path_id = control_.path_id = 20;
+  drive(0.04, 0.15);
+  EXPECT_EQ(supervisor_.level(), Level::kEfficient);
+}
+
 TEST_F(LevelTest, TheGroundForcesAndReleases) {
   begin();
   drive(1.0, 0.1);

@@ -258,7 +258,10 @@ Measurement Evidence::measure_followed(const Row& row) const {
 
 Measurement Evidence::measure_full(const Row& row) const {
   const std::string& q = row.quantity;
-  if (q == "terrain_way_m") return of(pose_.header, !(pose_.travelled_m - terrain_at_m_ <= row.limit));
+  if (q == "terrain_way_m") {
+    const bool sweeps = state_.state == supervisor_state_t::SWEEPING;
+    return of(pose_.header, !sweeps && !(pose_.travelled_m - terrain_at_m_ <= row.limit));
+  }
   if (q == "slam_lost") return of(slam_.header, slam_.status == slam_pose_t::LOST);
   if (q == "sweep_s") {
     const bool sweeps = state_.state == supervisor_state_t::SWEEPING;
