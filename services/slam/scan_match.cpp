@@ -33,7 +33,7 @@ void ScanMatcher::prepare(const std::vector<Patch>& patches, const MatchSurface&
   const size_t stride = 1 + patches.size() / static_cast<size_t>(config_.max_patches);
   for (size_t i = 0; i < patches.size(); i += stride) {
     const Patch& patch = patches[i];
-    Point point{patch.x_m, patch.y_m, patch.z_m, 0.0F};
+    Point point{patch.x_m, patch.y_m, patch.z_m, 0.0F, 0.0F};
     const auto sample = surface.sample(to.u(point), to.v(point));
     if (!sample) continue;
     // The slope in the rover's axes, per metre.
@@ -45,7 +45,13 @@ void ScanMatcher::prepare(const std::vector<Patch>& patches, const MatchSurface&
     points_.push_back(point);
   }
   start_plane_.setZero();
-  if (!points_.empty()) start_plane_ = fit(reference, kStartIterations).plane;
+  if (points_.empty()) return;
+  start_plane_ = fit(reference, kStartIterations).plane;
+  const auto kernel2 = square(static_cast<float>(config_.kernel_sigma));
+  for (size_t i = 0; i < points_.size(); ++i) {
+    const float x = square(off(i, start_plane_)) * points_[i].weight;
+    points_[i].neutral = x / (kernel2 + x);
+  }
 }
 
 void ScanMatcher::residuals_at(const Pose2& pose) const {
@@ -80,13 +86,11 @@ Eigen::Vector3f ScanMatcher::fitted_plane(const Eigen::Vector3f& from) const {
 
 MatchFit ScanMatcher::judged(const Eigen::Vector3f& plane) const {
   const auto kernel2 = square(static_cast<float>(config_.kernel_sigma));
-  // Off the map a point costs what a fitting one does, so that the map's border neither draws nor repels.
-  const float neutral = 1.0F / (kernel2 + 1.0F);
   float cost = 0.0F;
   int on_map = 0, fitting = 0;
   for (size_t i = 0; i < points_.size(); ++i) {
     const float x = square(off(i, plane)) * points_[i].weight;
-    cost += std::isnan(x) ? neutral : x / (kernel2 + x);
+    cost += std::isnan(x) ? points_[i].neutral : x / (kernel2 + x);
     on_map += std::isnan(x) ? 0 : 1;
     fitting += x < kernel2 ? 1 : 0;
   }

@@ -59,7 +59,9 @@ class ScanMatcher {
  private:
   struct Point {
     float x, y, z;
-    float weight;  // 1 / variance
+    float weight;   // 1 / variance
+    float neutral;  // what it costs off the map: as much as at the reference, so that the map's border neither draws
+                    // nor repels
   };
   // From the rover's axes to the surface's cells.
   struct ToCells {

@@ -123,13 +123,16 @@ Slam::Weighed Slam::weigh(const LevelCloud& cloud, Random& random) {
   const MatchSurface surface(map_, z_m_, way_m_);
   matcher_.prepare(gatherer_.gather(cloud, Pose2{}), surface, predicted);
   if (!matcher_.enough()) return weighed;
-  const MatchInformation told = matcher_.information(predicted);
-  if (told.directions > 0) {
+  ParticleFilter trial = filter_;
+  trial.weigh([&](const Pose2& pose) { return matcher_.fit(pose).log_likelihood; });
+  const MatchInformation told = matcher_.information(trial.mean());
+  if (told.directions == 3) filter_ = std::move(trial);
+  // Along the others the particles weigh the same wherever they are.
+  if (told.directions == 1 || told.directions == 2)
     filter_.weigh(
         [&](const Pose2& pose) { return matcher_.fit(only_informed(pose, predicted, told.informed)).log_likelihood; });
-    weighed.status = Status::kOk;
-    weighed.information = told.weakest;
-  }
+  weighed.status = told.directions > 0 ? Status::kOk : Status::kNoInformation;
+  weighed.information = told.weakest;
   const MatchFit fit = matcher_.fit(filter_.mean(), 2);
   weighed.plane = fit.plane;
   if (fit.fitting_share < config_.min_fitting_share) weighed.status = Status::kLost;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "rover_simulator/world/noise.hpp"
 #include "slam/cloud.hpp"
 #include "slam/random.hpp"
 
@@ -83,7 +84,7 @@ struct Ground {
  private:
   static double rock(double x, double y) {
     const int ix = static_cast<int>(std::floor(x / 1.5)), iy = static_cast<int>(std::floor(y / 1.5));
-    Random random(static_cast<std::uint64_t>(ix * 7919 + iy * 104729 + 1000003));
+    HashStream random(hash_cell(1, ix, iy));
     if (random.unit() > 0.5) return 0.0;
     const double radius = 0.12 + 0.25 * random.unit();
     const double cx = 1.5 * ix + 0.4 + 0.7 * random.unit(), cy = 1.5 * iy + 0.4 + 0.7 * random.unit();

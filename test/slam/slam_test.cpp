@@ -1,0 +1,269 @@
+// SLAM as a whole: laws, and what the originals did wrong.
+#include "slam/slam.hpp"
+
+#include <gtest/gtest.h>
+
+#include "test/slam/navcam.hpp"
+
+namespace rover::slam {
+namespace {
+
+using namespace testing_support;
+
+// Drives over a ground; odometry is what the test makes of the true motion.
+class Drive {
+ public:
+  explicit Drive(const Ground& ground, std::uint64_t seed = 1, const SlamConfig& config = {})
+      : ground_(ground), random_(seed), slam_(config) {}
+
+  // One step of the true motion, and what odometry made of it; a cloud at its end.
+  // `sigma`: by how much less sure it is than before.
+  SlamResult step(const Pose2& motion, const Pose2& measured, double sigma_m = 0.0, double sigma_rad = 0.0) {
+    truth_ = compose(truth_, motion);
+    odometry_ = compose(odometry_, measured);
+    sigma_m_ += sigma_m;
+    sigma_rad_ += sigma_rad;
+    return look();
+  }
+  SlamResult look() { return slam_.step(view(), {upright(odometry_, kOriginHeightM), sigma_m_, sigma_rad_}); }
+  Cloud view() {
+    t_ += 2'500'000;
+    return cloud_of(ground_, upright(truth_, kOriginHeightM), camera_, random_, t_);
+  }
+  Pose2 error() const { return between(truth_, compose(slam_.T_slam_odom(), odometry_)); }
+  double error_m() const { return std::hypot(error().x_m, error().y_m); }
+  double odometry_error_m() const { return std::hypot(odometry_.x_m - truth_.x_m, odometry_.y_m - truth_.y_m); }
+  Slam& slam() { return slam_; }
+  Utime now() const { return t_; }
+  const Pose2& odometry() const { return odometry_; }
+
+ private:
+  Ground ground_;
+  NavcamModel camera_{.step_px = 6};
+  Random random_;
+  Slam slam_;
+  Pose2 truth_, odometry_;
+  double sigma_m_ = 0.0, sigma_rad_ = 0.0;
+  Utime t_ = 0;
+};
+
+TEST(Slam, AnOffsetOfOdometryIsFound) {
+  Drive drive({});
+  drive.look();
+  for (int i = 0; i < 6; ++i) drive.step({0.5, 0, 0.02}, {0.5, 0, 0.02});
+  // Odometry has lost 4 cm and 0.4 deg at once, and knows that it is not sure.
+  const SlamResult result = drive.step({0.5, 0, 0}, {0.46, 0.03, to_rad(0.4)}, 0.03, to_rad(0.3));
+  EXPECT_TRUE(result.refusal.empty());
+  EXPECT_EQ(result.status, Status::kOk);
+  EXPECT_GT(drive.odometry_error_m(), 0.04);
+  EXPECT_LT(drive.error_m(), 0.02);
+}
+
+TEST(Slam, ADriveWithAWrongScaleDriftsLessThanOdometry) {
+  Drive drive({});
+  drive.look();
+  for (int i = 0; i < 30; ++i) drive.step({0.5, 0, 0.01}, {0.51, 0.0, 0.01});
+  EXPECT_GT(drive.odometry_error_m(), 0.28);
+  EXPECT_LT(drive.error_m(), 0.6 * drive.odometry_error_m());
+}
+
+TEST(Slam, WithPerfectOdometryItStaysWhereItIs) {
+  Drive drive({});
+  drive.look();
+  for (int i = 0; i < 20; ++i) drive.step({0.5, 0, 0}, {0.5, 0, 0});
+  EXPECT_LT(drive.error_m(), 0.05);
+}
+
+TEST(Slam, FlatGroundTellsNothingAndOdometryIsFollowed) {
+  Drive drive(Ground{0.0, 0.0});
+  drive.look();
+  int informed = 0;
+  for (int i = 0; i < 20; ++i) {
+    const SlamResult result = drive.step({0.5, 0, 0.01}, {0.5025, 0.001, 0.0101});
+    informed += result.status == Status::kOk;
+    EXPECT_EQ(result.information > 0.0, result.status == Status::kOk);
+  }
+  EXPECT_EQ(informed, 0);
+  EXPECT_LT(drive.error_m(), 1.1 * drive.odometry_error_m() + 0.005);
+}
+
+TEST(Slam, ASlopeTellsNothingEither) {
+  Drive drive(Ground{0.0, 0.15});
+  drive.look();
+  SlamResult result;
+  for (int i = 0; i < 5; ++i) result = drive.step({0, 0, 0.1}, {0, 0, 0.1});
+  EXPECT_EQ(result.status, Status::kNoInformation);
+  EXPECT_EQ(result.information, 0.0);
+}
+
+// The originals' fault: with its own cloud in the map every cloud would fit best where odometry said it was.
+TEST(Slam, ACloudIsMatchedBeforeItEntersTheMap) {
+  Drive drive({});
+  const SlamResult first = drive.look();
+  EXPECT_EQ(first.status, Status::kNoInformation);
+  EXPECT_GT(drive.slam().map().seen_cells(), 1000);
+  // Turned away from all that is mapped: nothing to match, although the new cloud is dense.
+  const SlamResult away = drive.step({0, 0, 1.2}, {0, 0, 1.2});
+  EXPECT_EQ(away.status, Status::kNoInformation);
+}
+
+TEST(Slam, TheSameSeedGivesTheSameBytesAnotherDoesNot) {
+  const auto run = [](std::uint64_t seed) {
+    SlamConfig config;
+    config.seed = seed;
+    Drive drive({}, 1, config);
+    drive.look();
+    for (int i = 0; i < 5; ++i) drive.step({0.5, 0, 0.02}, {0.505, 0, 0.02});
+    return drive.slam().save();
+  };
+  EXPECT_EQ(run(1), run(1));
+  EXPECT_NE(run(1), run(2));
+}
+
+TEST(Slam, ARestoredOneGoesOnAsIfNothingHadBeen) {
+  Drive drive({});
+  drive.look();
+  for (int i = 0; i < 4; ++i) drive.step({0.5, 0, 0.02}, {0.505, 0, 0.02});
+  const auto bytes = drive.slam().save();
+  EXPECT_LT(bytes.size(), 450'000u);
+  Slam other({});
+  ASSERT_TRUE(other.restore(bytes));
+  EXPECT_EQ(other.save(), bytes);
+  const Cloud next = drive.view();
+  const Odometry odometry{upright(drive.odometry(), kOriginHeightM), 0.0, 0.0};
+  drive.slam().step(next, odometry);
+  other.step(next, odometry);
+  EXPECT_EQ(other.save(), drive.slam().save());
+}
+
+TEST(Slam, ABrokenCheckpointIsRefusedAndChangesNothing) {
+  Drive drive({});
+  drive.look();
+  const auto bytes = drive.slam().save();
+  Slam other({});
+  for (const size_t length : {size_t{0}, size_t{3}, size_t{50}, bytes.size() / 2, bytes.size() - 1}) {
+    EXPECT_FALSE(other.restore({bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(length)}));
+    EXPECT_FALSE(other.running());
+  }
+  SlamConfig config;
+  config.map.cells = 100;
+  Slam smaller(config);
+  EXPECT_FALSE(smaller.restore(bytes));
+}
+
+TEST(Slam, EmptyOldAndUnplacedCloudsAreRefusedAndChangeNothing) {
+  Drive drive({});
+  drive.look();
+  drive.step({0.5, 0, 0}, {0.5, 0, 0});
+  const auto before = drive.slam().save();
+  const Odometry odometry{upright(drive.odometry(), kOriginHeightM), 0.0, 0.0};
+  Cloud cloud = drive.view();
+  Cloud empty = cloud;
+  empty.points.clear();
+  EXPECT_EQ(drive.slam().step(empty, odometry).refusal, "empty");
+  Cloud old = cloud;
+  old.utime = 1;
+  EXPECT_EQ(drive.slam().step(old, odometry).refusal, "not newer than the one before");
+  EXPECT_EQ(drive.slam().step(cloud, {}).refusal, "its pose is not finite");
+  EXPECT_EQ(drive.slam().save(), before);
+}
+
+TEST(Slam, AnEmptyCloudAsTheFirstOneIsRefused) {
+  Slam slam({});
+  EXPECT_EQ(slam.step(Cloud{.utime = 5}, {upright({}, 0.6), 0.0, 0.0}).refusal, "empty");
+  EXPECT_FALSE(slam.running());
+}
+
+TEST(Slam, OneOddPoseIsPassedOver) {
+  Drive drive({});
+  drive.look();
+  for (int i = 0; i < 3; ++i) drive.step({0.5, 0, 0}, {0.5, 0, 0});
+  const int seen = drive.slam().map().seen_cells();
+  const Odometry odd{upright({50, 0, 0}, kOriginHeightM), 0.0, 0.0};
+  EXPECT_EQ(drive.slam().step(drive.view(), odd).refusal, "odometry has jumped");
+  EXPECT_EQ(drive.slam().map().seen_cells(), seen);
+  EXPECT_TRUE(drive.step({0.5, 0, 0}, {0.5, 0, 0}).refusal.empty());
+  EXPECT_GE(drive.slam().map().seen_cells(), seen);
+  EXPECT_LT(drive.error_m(), 0.05);
+}
+
+TEST(Slam, OdometryThatStaysElsewhereBeginsTheMapAnew) {
+  Drive drive({});
+  drive.look();
+  for (int i = 0; i < 3; ++i) drive.step({0.5, 0, 0}, {0.5, 0, 0});
+  const Odometry elsewhere{upright({50, 0, 0}, kOriginHeightM), 0.0, 0.0};
+  EXPECT_FALSE(drive.slam().step(drive.view(), elsewhere).refusal.empty());
+  EXPECT_TRUE(drive.slam().step(drive.view(), elsewhere).refusal.empty());
+  const OdomElevation elevation = drive.slam().elevation();
+  EXPECT_NEAR(elevation.corner.ix * elevation.cell_m, 40.0, 0.11);
+  EXPECT_NEAR(drive.slam().T_slam_odom().x_m, 0.0, 1e-3);
+}
+
+TEST(Slam, ElevationLiesAboutTheRoverInOdomWhateverOdometryHasDrifted) {
+  Drive drive({});
+  drive.look();
+  for (int i = 0; i < 20; ++i) drive.step({0.5, 0, 0.0}, {0.52, 0.0, 0.001});
+  const OdomElevation elevation = drive.slam().elevation();
+  const Pose2 odometry = drive.odometry();
+  // Ground 1 .. 5 m ahead of the rover: as in the world about the true rover.
+  int cells = 0;
+  double mean = 0.0;
+  const Ground ground;
+  for (int row = 0; row < elevation.cells; ++row)
+    for (int column = 0; column < elevation.cells; ++column) {
+      const float height = elevation.height_m[static_cast<size_t>(row) * elevation.cells + column];
+      const Pose2 center{(elevation.corner.ix + column + 0.5) * elevation.cell_m,
+                         (elevation.corner.iy + row + 0.5) * elevation.cell_m, 0.0};
+      const Pose2 seen = between(odometry, center);
+      if (std::isnan(height) || seen.x_m < 1.0 || seen.x_m > 5.0 || std::abs(seen.y_m) > 1.5) continue;
+      const Pose2 true_place = compose({10.0, 0.0, 0.0}, seen);
+      mean += std::abs(height - ground(true_place.x_m, true_place.y_m));
+      ++cells;
+    }
+  ASSERT_GT(cells, 400);
+  EXPECT_LT(mean / cells, 0.03);
+  EXPECT_GT(drive.odometry_error_m(), 0.3);
+}
+
+TEST(Slam, AMapOfOtherGroundIsFoundOutAndBegunAnew) {
+  Drive drive({});
+  drive.look();
+  for (int i = 0; i < 4; ++i) drive.step({0.5, 0, 0}, {0.5, 0, 0});
+  // The rover was carried 30 m on, and odometry has not felt it.
+  drive.step({30, 0, 0}, {0.0, 0, 0});
+  std::vector<Status> seen;
+  for (int i = 0; i < 4; ++i) seen.push_back(drive.look().status);
+  EXPECT_EQ(seen[0], Status::kLost);
+  EXPECT_NE(seen[3], Status::kLost);
+}
+
+TEST(Slam, AfterACorrectionOfMapItSaysWhatPoseSays) {
+  Drive drive({});
+  const auto pose = [&](Utime t, const Pose2& T_map_odom) {
+    return drive.slam().take_pose(t, from_planar(T_map_odom), upright(drive.odometry(), kOriginHeightM));
+  };
+  pose(10, {100, 200, 0.5});
+  drive.look();
+  SlamResult result = drive.step({0.5, 0, 0}, {0.51, 0, 0});
+  EXPECT_NEAR(result.T_map_odom.x_m, 100, 0.05);
+  const Utime t = drive.now();
+  pose(t, {100, 200, 0.5});
+  EXPECT_TRUE(pose(t + kTickUs, {101.5, 199.0, 0.52}));
+  result = drive.look();
+  EXPECT_NEAR(result.T_map_odom.x_m, 101.5, 0.02);
+  EXPECT_NEAR(result.T_map_odom.y_m, 199.0, 0.02);
+  EXPECT_NEAR(result.T_map_odom.yaw_rad, 0.52, 0.005);
+}
+
+TEST(Slam, TheMapFollowsTheRoverAndItsSizeDoesNotGrow) {
+  Drive drive({});
+  drive.look();
+  for (int i = 0; i < 60; ++i) drive.step({0.5, 0, 0}, {0.5, 0, 0});
+  const OdomElevation elevation = drive.slam().elevation();
+  EXPECT_EQ(elevation.height_m.size(), 40000u);
+  EXPECT_NEAR((elevation.corner.ix + 100) * elevation.cell_m, 30.0, 0.2);
+  EXPECT_LT(drive.slam().save().size(), 450'000u);
+}
+
+}  // namespace
+}  // namespace rover::slam
