@@ -16,6 +16,8 @@ std::int8_t kind_of(PathKind kind) {
       return path_t::REPAIR;
     case PathKind::kRetreat:
       return path_t::RETREAT;
+    case PathKind::kContinuous:
+      return path_t::CONTINUOUS;
   }
   return path_t::GLOBAL;
 }

@@ -130,7 +130,7 @@ void HazardMemory::mark_driven(const Pose2& pose, const Footprint& footprint) {
   const double r = footprint.radius_m() + rim;
   for_cells_in(map_, {pose.x_m - r, pose.y_m - r}, {pose.x_m + r, pose.y_m + r}, [&](GroundCell& cell, Point2 p) {
     const double d = footprint.distance_m(pose, p);
-    if (d <= 0.0) cell = GroundCell{};
+    if (d <= 0.0) cell = GroundCell{.driven = true};
     if (d <= rim) cell.seen = true, cell.looks = 0;
   });
 }

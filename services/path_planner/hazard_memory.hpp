@@ -48,6 +48,7 @@ struct GroundCell {
   std::uint8_t contrary = 0;  // frames in a row that saw it free since the last hit
   std::uint8_t looks = 0;   // frames in a row that looked at it from close by in vain: no texture, no light, or a drop
   std::uint16_t frame = 0;  // the last that counted as a hit: two grid cells may fall into one cell here
+  bool driven = false;      // the vehicle stood on it: no map makes it impassable
 };
 
 class HazardMemory {

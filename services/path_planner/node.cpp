@@ -37,6 +37,8 @@ const char* text_of(PathKind kind) {
       return "REPAIR";
     case PathKind::kRetreat:
       return "RETREAT";
+    case PathKind::kContinuous:
+      return "CONTINUOUS";
   }
   return "?";
 }

@@ -59,7 +59,11 @@ std::string GlobalPath::fault() const {
 }
 
 PathPlanner::PathPlanner(const PathPlannerConfig& config, std::int64_t first_path_id)
-    : config_(config), local_repair_(config.repair), memory_(config.memory), next_path_id_(first_path_id) {}
+    : config_(config),
+      local_repair_(config.repair),
+      full_planner_(config.full),
+      memory_(config.memory),
+      next_path_id_(first_path_id) {}
 
 std::string PathPlanner::set_global_path(const GlobalPath& path) {
   if (const std::string fault = path.fault(); !fault.empty()) return fault;
@@ -145,9 +149,10 @@ PlannerOutput PathPlanner::step(Utime now) {
       track_progress();
       leave_repair(out);
       follow_correction(out);
-      if (new_ground_) react(out);
+      if (new_ground_ || new_map_) react(out);
     }
     new_ground_ = false;
+    new_map_ = false;
   }
   out.status = status(now);
   return out;
@@ -202,6 +207,7 @@ void PathPlanner::begin(PlannerOutput& out) {
 // A new frame: is the way still free, and if not, is there another?
 void PathPlanner::react(PlannerOutput& out) {
   if (active_.kind == PathKind::kRetreat) return look_from_retreat(out);
+  if (continuous()) return go_on(out);
   judge();
   // A single hit that stays in the way without being seen again counts as a hazard in the end.
   frames_before_possible_ = hazard_ahead_m() < config_.stop_hazard_m ? frames_before_possible_ + 1 : 0;
@@ -293,12 +299,13 @@ void PathPlanner::track_turn() {
 
 void PathPlanner::judge() {
   track_turn();
-  const Terrain terrain(memory_);
-  block_ = find_block({terrain, active_.route, config_.footprint, active_.progress_m, rover(),
+  const Terrain ground = terrain();
+  block_ = find_block({ground, active_.route, config_.footprint, active_.progress_m, rover(),
                        active_.margin_m + sigma_margin_m(), turning_, config_.turn_threshold_rad});
 }
 
 bool PathPlanner::repair(bool because_of_hazard, PlannerOutput& out) {
+  if (continuous()) return plan_on(out);
   const SearchEnd end = search(Terrain(memory_), demands(), agenda_);
   if (end != SearchEnd::kFound) {
     // A frame whose search goes on is one of patience, but none that ends it.
@@ -374,22 +381,26 @@ RepairResult PathPlanner::plan_repair(const Terrain& terrain, const LeadIn& lead
 
 Route PathPlanner::repaired_route(const RepairResult& repair) const {
   std::vector<RoutePoint> points;
-  const std::vector<Pose2>& poses = repair.poses;
   for (double way = 0.0; way < last_lead_.way_m - kPoseStepM; way += 2.0 * kPoseStepM)
     points.push_back({position(advanced(rover(), way, last_lead_.curvature_per_m)), kNaN,
                       global_odom_.level_at(global_progress_m_)});
+  append_poses(repair.poses, repair.join_m, points);
+  for (size_t i = global_odom_.vertex_after(repair.join_m + 0.5 * config_.rounding.step_m);
+       i < global_odom_.points().size(); ++i)
+    points.push_back(global_odom_.points()[i]);
+  return Route(std::move(points));
+}
+
+void PathPlanner::append_poses(const std::vector<Pose2>& poses, double end_station_m,
+                               std::vector<RoutePoint>& points) const {
   for (size_t i = 0; i < poses.size(); ++i) {
     const bool halt = i > 0 && distance(position(poses[i - 1]), position(poses[i])) < kSamePlaceM;
     const bool halt_next = i + 1 < poses.size() && distance(position(poses[i]), position(poses[i + 1])) < kSamePlaceM;
     if (halt || (i % kPosesPerPoint != 0 && !halt_next && i + 1 != poses.size())) continue;
     const double share = static_cast<double>(i) / static_cast<double>(poses.size() - 1);
-    const double along = global_progress_m_ + share * (repair.join_m - global_progress_m_);
+    const double along = global_progress_m_ + share * (end_station_m - global_progress_m_);
     points.push_back({position(poses[i]), kNaN, global_odom_.level_at(along)});
   }
-  for (size_t i = global_odom_.vertex_after(repair.join_m + 0.5 * config_.rounding.step_m);
-       i < global_odom_.points().size(); ++i)
-    points.push_back(global_odom_.points()[i]);
-  return Route(std::move(points));
 }
 
 void PathPlanner::adopt(Route route, PathKind kind, PlannerOutput& out) {
@@ -479,7 +490,8 @@ PlannerStatus PathPlanner::status(Utime now) const {
   }
   status.path_id = active_.id;
   status.goal_distance_m = goal_distance_m();
-  status.state = active_.kind == PathKind::kGlobal ? PlannerState::kFollowing : PlannerState::kRepairing;
+  const bool off_plan = active_.kind == PathKind::kRepair || active_.kind == PathKind::kRetreat;
+  status.state = off_plan ? PlannerState::kRepairing : PlannerState::kFollowing;
   const double short_by_m = distance(active_.route.points().back().p, global_odom_.points().back().p);
   if (active_.kind != PathKind::kRetreat && short_by_m > global_->goal_tolerance_m)
     status.text = "the goal is not free: the path ends beside it";

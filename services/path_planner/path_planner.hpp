@@ -9,6 +9,7 @@
 
 #include "path_planner/block_finder.hpp"
 #include "path_planner/driven_track.hpp"
+#include "path_planner/full_planner.hpp"
 #include "path_planner/hazard_memory.hpp"
 #include "path_planner/local_repair.hpp"
 #include "path_planner/pose_history.hpp"
@@ -23,6 +24,7 @@ struct PathPlannerConfig {
   double deceleration_mps2 = 0.1;
   HazardMemoryConfig memory;
   LocalRepairConfig repair;  // its footprint is taken from above
+  FullPlannerConfig full;
   RoundingConfig rounding;
   double margin_m = 0.12;        // rectangle to the centre of a hazard's cell: 0.05 m of it is the cell
   double tight_margin_m = 0.09;  // where the first finds no way
@@ -65,7 +67,8 @@ struct GlobalPath {
 
 enum class PlannerState : std::int8_t { kIdle = 0, kFollowing = 1, kRepairing = 2, kNoPath = 3 };
 enum class BlockKind : std::int8_t { kNone = 0, kHazard = 1, kUnseen = 2 };
-enum class PathKind : std::int8_t { kGlobal = 0, kRepair = 1, kRetreat = 2 };  // kRetreat: driven backwards
+// kRetreat: driven backwards; kContinuous: of the Full level.
+enum class PathKind : std::int8_t { kGlobal = 0, kRepair = 1, kRetreat = 2, kContinuous = 3 };
 
 struct PlannerStatus {
   PlannerState state = PlannerState::kIdle;
@@ -104,6 +107,10 @@ class PathPlanner {
   void add_pose(const PoseSample& sample);
   // False where the frame cannot be laid: the grid contradicts itself, or no pose of its exposure is known.
   bool add_hazards(const HazardGrid& grid);
+  // The level that the supervisor is on.
+  void set_level(bool full);
+  // False where the map cannot be used: it contradicts itself, or the level is not Full.
+  bool add_traversability(TraversabilityGrid map);
   // The path is not to be driven on (FDIR): once the rover stands, another one is looked for.
   void request_replan() { replan_wanted_ = true; }
   PlannerOutput step(Utime now);
@@ -169,6 +176,17 @@ class PathPlanner {
   std::vector<LeadIn> lead_ins() const;
   double seen_way(const Terrain& terrain, const std::vector<Pose2>& poses) const;
   void track_turn();
+  bool continuous() const;
+  Terrain terrain() const { return Terrain(memory_, continuous() ? &*map_ : nullptr); }
+  void go_on(PlannerOutput& out);
+  bool at_turn() const;
+  bool plan_on(PlannerOutput& out);
+  FullRequest full_request(const Terrain& terrain) const;
+  std::optional<HeldWay> held_way() const;
+  double held_end_m() const;
+  void take_plan(const FullPlan& plan, const FullRequest& request, PlannerOutput& out);
+  void append_way_back(double station_m, std::vector<RoutePoint>& points) const;
+  void append_poses(const std::vector<Pose2>& poses, double end_station_m, std::vector<RoutePoint>& points) const;
   void firm_up(PlannerOutput& out);
   void adopt(Route route, PathKind kind, PlannerOutput& out);
   Route repaired_route(const RepairResult& repair) const;
@@ -182,6 +200,7 @@ class PathPlanner {
 
   PathPlannerConfig config_;
   LocalRepair local_repair_;
+  FullPlanner full_planner_;
   HazardMemory memory_;
   PoseHistory history_;
   DrivenTrack driven_;
@@ -205,6 +224,10 @@ class PathPlanner {
   bool turning_ = false;           // on the spot, to the active path's heading
   int frames_before_unseen_ = 0;
   int frames_before_possible_ = 0;
+  bool full_level_ = false;
+  std::optional<TraversabilityGrid> map_;
+  double map_travelled_m_ = 0.0;  // by the rover when it came
+  bool new_map_ = false;          // since the last judgement
   RepairAgenda agenda_;
   RepairAgenda firm_agenda_;
   RepairResult last_repair_;

@@ -51,7 +51,7 @@ std::vector<std::uint8_t> wide_parts(const std::vector<std::uint8_t>& mask, int 
 
 }  // namespace
 
-Terrain::Terrain(const HazardMemory& memory)
+Terrain::Terrain(const HazardMemory& memory, const TraversabilityGrid* map_of_ground)
     : cells_(memory.map().cells()),
       cell_m_(memory.map().cell_m()),
       cells_per_m_(1.0 / cell_m_),
@@ -67,18 +67,36 @@ Terrain::Terrain(const HazardMemory& memory)
     unseen_.push_back(cell.seen && !widely_blind[unseen_.size()] ? 0 : 1);
   });
   unseen_ = closed(unseen_, cells_);
+  std::vector<std::uint8_t> impassable(unseen_.size(), 0);
+  if (map_of_ground != nullptr) lay_map(memory, *map_of_ground, impassable);
   std::vector<std::uint8_t> hazard;
   hazard.reserve(unseen_.size());
   map.for_each([&](CellIndex i, const GroundCell& cell) {
     const bool stays_unseen = unseen_[hazard.size()] != 0 && blind[hazard.size()] != 0;
-    const bool is_hazard = cell.hits > 0 || stays_unseen;
+    const bool certain = stays_unseen || impassable[hazard.size()] != 0;
+    const bool is_hazard = cell.hits > 0 || certain;
     if (hazard.size() % cells_ == 0) row_begin_.push_back(hazards_.size());
-    if (is_hazard) hazards_.push_back({{map.center_x_m(i), map.center_y_m(i)}, stays_unseen || memory.confirmed(cell)});
+    if (is_hazard) hazards_.push_back({{map.center_x_m(i), map.center_y_m(i)}, certain || memory.confirmed(cell)});
     hazard.push_back(is_hazard ? 1 : 0);
   });
   row_begin_.push_back(hazards_.size());
   hazard_distance_ = distance_field(hazard, cells_, cells_, cell_m_);
   unseen_distance_ = distance_field(unseen_, cells_, cells_, cell_m_);
+}
+
+void Terrain::lay_map(const HazardMemory& memory, const TraversabilityGrid& map,
+                      std::vector<std::uint8_t>& impassable) {
+  difficulty_.assign(unseen_.size(), 0.0F);
+  size_t i = 0;
+  memory.map().for_each([&](CellIndex, const GroundCell& cell) {
+    const std::uint8_t cost = map.at(center_of(static_cast<int>(i)));
+    if (cost != TraversabilityGrid::kUnknown) {
+      unseen_[i] = 0;
+      impassable[i] = cost == TraversabilityGrid::kImpassable && !cell.driven ? 1 : 0;
+      difficulty_[i] = static_cast<float>(cost) / static_cast<float>(TraversabilityGrid::kImpassable);
+    }
+    ++i;
+  });
 }
 
 std::span<const HazardSpot> Terrain::hazards_about(Point2 p, double reach_m) const {

@@ -9,6 +9,7 @@
 
 #include "path_planner/geometry.hpp"
 #include "path_planner/hazard_memory.hpp"
+#include "path_planner/traversability_grid.hpp"
 
 namespace rover::planning {
 
@@ -19,7 +20,9 @@ struct HazardSpot {
 
 class Terrain {
  public:
-  explicit Terrain(const HazardMemory& memory);
+  explicit Terrain(const HazardMemory& memory) : Terrain(memory, nullptr) {}
+  // Also what the map knows: its impassable cells are hazards, and ground that it knows counts as seen. Null: no map.
+  Terrain(const HazardMemory& memory, const TraversabilityGrid* map);
 
   int cells() const { return cells_; }
   double cell_m() const { return cell_m_; }
@@ -47,6 +50,8 @@ class Terrain {
   double hazard_distance_m(Point2 p) const { return contains(p) ? hazard_distance_[cell_of(p)] : kInfinity; }
   double hazard_distance_m(int cell) const { return hazard_distance_[cell]; }
   bool unseen(int cell) const { return unseen_[cell] != 0; }
+  // What the map says of the ground itself, 0 easy .. 1 impassable; 0 where it says nothing.
+  double difficulty(int cell) const { return difficulty_.empty() ? 0.0 : difficulty_[cell]; }
   double unseen_distance_m(Point2 p) const { return contains(p) ? unseen_distance_[cell_of(p)] : 0.0; }
   // Bilinear, with the gradient; far from hazards the value saturates.
   double hazard_distance_smooth(Point2 p, Eigen::Vector2d& gradient) const;
@@ -57,7 +62,11 @@ class Terrain {
   double cells_per_m_;
   double side_m_;
   Point2 corner_;
+  // Lays the map's cells over the masks.
+  void lay_map(const HazardMemory& memory, const TraversabilityGrid& map, std::vector<std::uint8_t>& impassable);
+
   std::vector<std::uint8_t> unseen_;
+  std::vector<float> difficulty_;  // empty: no map
   std::vector<HazardSpot> hazards_;
   std::vector<size_t> row_begin_;  // in hazards_, one more than there are rows
   std::vector<double> hazard_distance_;

@@ -1,5 +1,6 @@
 #include "test/path_planner/rock_drive.hpp"
 
+#include <ctime>
 #include <deque>
 
 namespace rover::planning::testing_support {
@@ -13,6 +14,10 @@ constexpr double kSteeringRate = 0.185;  // of the curvature [1/(m s)]
 constexpr double kDecelerationMps2 = 0.1;
 constexpr double kCreepMps = 0.08;  // while the steering swings far
 constexpr double kGoOnM = 0.15;     // what a block must recede after a stop
+constexpr double kGazeM = 4.0;      // along the path, where the NavCam looks
+constexpr double kMostAzimuthRad = 1.4;
+constexpr double kSweepStepRad = 0.7;
+constexpr double kSweepAfterS = 2.0;  // of no path
 
 // Odometry that errs in scale and bend.
 struct Drift {
@@ -33,6 +38,12 @@ class Follower {
   double driven_m() const { return driven_m_; }
   int point_turns() const { return point_turns_; }
   bool has_path() const { return !route_.empty(); }
+  // Off the heading, to the path ahead.
+  double gaze_rad() const {
+    if (route_.empty() || direction_ < 0.0) return 0.0;
+    const Point2 b = to_body(odom_, route_.point_at(progress_m_ + kGazeM));
+    return std::clamp(std::atan2(b.y_m, b.x_m), -kMostAzimuthRad, kMostAzimuthRad);
+  }
 
   void take(const LocalPath& path) {
     const double direction = path.kind == PathKind::kRetreat ? -1.0 : 1.0;
@@ -160,11 +171,13 @@ class Drive {
         random_(seed),
         start_(start_of(path)),
         planner_(config.planner, 1),
-        rover_(config_, start_, random_drift(config.odometry_drift, random_)) {
+        rover_(config_, start_, random_drift(config.odometry_drift, random_)),
+        nav_view_(config.nav_camera) {
     GlobalPath global{1, {}, 0.75, 0.5};
     for (const Point2& p : path) global.points.push_back({p, kNaN, 0});
     planner_.set_global_path(global);
     planner_.set_start_area(path.front(), 1.5, 0);
+    planner_.set_level(config.full);
   }
 
   DriveResult run() {
@@ -172,6 +185,8 @@ class Drive {
     result_.duration_s = to_seconds(now_);
     result_.driven_m = rover_.driven_m();
     result_.point_turns = rover_.point_turns();
+    std::sort(plan_s_.begin(), plan_s_.end());
+    if (!plan_s_.empty()) result_.plan_p99_s = plan_s_[plan_s_.size() * 99 / 100];
     if (!result_.reached && result_.text.empty()) result_.text = result_.collided ? "collision" : "timeout";
     return result_;
   }
@@ -185,8 +200,13 @@ class Drive {
   void step() {
     planner_.add_pose(sample());
     look();
+    if (config_.full) look_far();
+    const std::clock_t begin = std::clock();
     const PlannerOutput out = planner_.step(now_);
+    plan_s_.push_back(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
+    if (plan_s_.back() < 0.002) plan_s_.pop_back();
     if (out.path) {
+      ++result_.paths;
       rover_.take(*out.path);
       if (out.path->kind == PathKind::kRetreat) ++result_.retreats;
     }
@@ -221,6 +241,31 @@ class Drive {
     }
   }
 
+  // A picture each half a metre and each few degrees of turn, a sweep before the start and where there is no path.
+  void look_far() {
+    const bool moved = rover_.driven_m() - nav_at_m_ >= config_.nav_step_m ||
+                       std::abs(wrap_angle(rover_.odom().yaw_rad - nav_at_yaw_)) >= config_.nav_turn_rad;
+    const bool sweep = nav_seen_ == 0 || (no_path_s_ > kSweepAfterS && rover_.driven_m() > swept_at_m_ + 0.2);
+    if (sweep) {
+      swept_at_m_ = rover_.driven_m();
+      for (double a = -2.0 * kSweepStepRad; a <= 2.01 * kSweepStepRad; a += kSweepStepRad) see(a);
+    } else if (moved) {
+      see(rover_.gaze_rad());
+    }
+    if (sweep || moved) maps_.emplace_back(now_ + config_.nav_latency_us, nav_view_.grid(now_));
+    while (!maps_.empty() && maps_.front().first <= now_) {
+      planner_.add_traversability(maps_.front().second);
+      maps_.pop_front();
+    }
+  }
+
+  void see(double azimuth_rad) {
+    nav_view_.look(rocks_, rover_.truth(), rover_.odom(), azimuth_rad);
+    nav_at_m_ = rover_.driven_m();
+    nav_at_yaw_ = rover_.odom().yaw_rad;
+    ++nav_seen_;
+  }
+
   // As the supervisor: stops before a block, and goes on when it has receded or the path is another.
   bool permitted(const PlannerStatus& status) const {
     const double stop = status.block_kind == BlockKind::kUnseen ? config_.unseen_stop_m : config_.hazard_stop_m;
@@ -232,6 +277,8 @@ class Drive {
     const bool go = permitted(status);
     if (going_ && !go) {
       ++result_.stops;
+      if (status.block_kind == BlockKind::kHazard && status.blocked_in_m <= config_.hazard_stop_m)
+        ++result_.hazard_stops;
       stopped_path_ = status.path_id;
     }
     going_ = go && rover_.move();
@@ -257,6 +304,13 @@ class Drive {
   DriveResult result_;
   Utime now_ = 0;
   std::deque<std::pair<Utime, HazardGrid>> frames_;  // with the time at which the planner gets them
+  NavView nav_view_;
+  std::deque<std::pair<Utime, TraversabilityGrid>> maps_;  // likewise
+  double nav_at_m_ = 0.0;
+  double nav_at_yaw_ = 0.0;
+  double swept_at_m_ = 0.0;
+  int nav_seen_ = 0;
+  std::vector<double> plan_s_;
   double no_path_s_ = 0.0;
   bool going_ = false;
   std::int64_t stopped_path_ = -1;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "test/path_planner/nav_view.hpp"
 #include "test/path_planner/rock_world.hpp"
 
 namespace rover::planning::testing_support {
@@ -12,6 +13,11 @@ namespace rover::planning::testing_support {
 struct DriveConfig {
   PathPlannerConfig planner;
   CameraModel camera;
+  bool full = false;  // the Full level: maps of the NavCam, and continuous planning
+  NavCameraModel nav_camera;
+  double nav_step_m = 0.5;
+  double nav_turn_rad = 0.21;
+  Utime nav_latency_us = 600'000;
   double odometry_drift = 0.01;  // deviation of the scale; 0.02 of it is the curvature that is not felt [1/m]
   Utime step_us = 100'000;
   Utime frame_us = 400'000;
@@ -34,6 +40,9 @@ struct DriveResult {
   int retreats = 0;
   int point_turns = 0;
   int stops = 0;
+  int hazard_stops = 0;  // of them before hazards, not unseen ground
+  int paths = 0;
+  double plan_p99_s = 0.0;  // CPU time of the planner's steps that published a path
   double stopped_s = 0.0;
   double least_clearance_m = kInfinity;  // rectangle to rocks
   std::string text;                      // why it ended where it did

@@ -1,5 +1,5 @@
 // Drives many rock fields in the simple world of rock_drive.hpp and prints what came of it: a tool for tuning.
-//   traverse_study [first seed] [last seed] [k] [length m]
+//   traverse_study [first seed] [last seed] [k] [length m] [efficient | full]
 #include <cstdio>
 #include <cstdlib>
 
@@ -15,18 +15,19 @@ struct Tally {
 };
 
 void print(int seed, const DriveResult& r, double ratio, double duty) {
-  std::printf("seed %3d %s ratio %.3f replans %2d retreats %d turns %d stops %2d stopped %5.1f s duty %.2f", seed,
-              r.collided  ? "COLLISION"
-              : r.reached ? "goal"
-                          : "LOST",
-              ratio, r.replans, r.retreats, r.point_turns, r.stops, r.stopped_s, duty);
-  std::printf(" clearance %.2f", r.least_clearance_m);
+  std::printf(
+      "seed %3d %s ratio %.3f replans %2d retreats %d turns %d stops %2d (hazards %2d) stopped %5.1f s duty %.2f", seed,
+      r.collided  ? "COLLISION"
+      : r.reached ? "goal"
+                  : "LOST",
+      ratio, r.replans, r.retreats, r.point_turns, r.stops, r.hazard_stops, r.stopped_s, duty);
+  std::printf(" clearance %.2f paths %d p99 %.3f s", r.least_clearance_m, r.paths, r.plan_p99_s);
   if (!r.reached) std::printf(" at %.2f %.2f: %s", r.track.back().x_m, r.track.back().y_m, r.text.c_str());
   std::printf("\n");
   std::fflush(stdout);
 }
 
-void study(int seed, double k, double length_m, Tally& tally) {
+void study(int seed, double k, double length_m, bool full, Tally& tally) {
   std::mt19937_64 random(static_cast<std::uint64_t>(seed));
   std::vector<Rock> rocks = rock_field(k, {-5.0, -15.0}, {length_m + 5.0, 15.0}, 0.2, random);
   const std::vector<Point2> path = {{0.0, 0.0}, {0.3 * length_m, 2.0}, {0.6 * length_m, -2.0}, {length_m, 0.0}};
@@ -37,6 +38,7 @@ void study(int seed, double k, double length_m, Tally& tally) {
   DriveConfig config;
   config.planner = planner_config();
   config.camera.false_hit_rate = 0.01;
+  config.full = full;
   const DriveResult r = drive(config, rocks, path, static_cast<std::uint64_t>(seed));
   if (r.reached) tally.ratios.push_back(r.driven_m / planned_m);
   tally.collided += r.collided ? 1 : 0;
@@ -52,8 +54,9 @@ int main(int argc, char** argv) {
   const int last = argc > 2 ? std::atoi(argv[2]) : 10;
   const double k = argc > 3 ? std::atof(argv[3]) : 0.08;
   const double length_m = argc > 4 ? std::atof(argv[4]) : 86.0;
+  const bool full = argc > 5 && std::string(argv[5]) == "full";
   rover::planning::testing_support::Tally tally;
-  for (int seed = first; seed <= last; ++seed) rover::planning::testing_support::study(seed, k, length_m, tally);
+  for (int seed = first; seed <= last; ++seed) rover::planning::testing_support::study(seed, k, length_m, full, tally);
   std::sort(tally.ratios.begin(), tally.ratios.end());
   if (tally.ratios.empty()) return 1;
   std::printf("reached %zu of %d, collisions %d, ratio median %.3f worst %.3f, replans/m %.3f\n", tally.ratios.size(),

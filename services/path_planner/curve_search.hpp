@@ -1,0 +1,55 @@
+// Search for a continuous plan: best-first over place, heading and curvature (hybrid A*, Dolgov et al., IJRR 2010)
+// along pieces whose curvature changes as fast as the steering turns at speed, so that the rover drives a plan without
+// slowing down for it; point turns at what they cost. The travel field is the estimate of what is left.
+#pragma once
+
+#include <vector>
+
+#include "path_planner/arc_search.hpp"
+#include "path_planner/heading_field.hpp"
+
+namespace rover::planning {
+
+struct CurveSearchConfig {
+  double step_m = 0.3;
+  double max_curvature_per_m = 0.8;
+  double curvature_cost = 0.15;  // per metre, at the largest curvature
+  double bend_cost_m = 0.4;      // for a change by the largest curvature in one piece; less, the square of it
+  double turn_cost_m = 3.0;      // a point turn takes about 15 s, in which the rover could drive 3 m
+  double turn_cost_per_rad_m = 1.0;
+  double turn_bend_cost_m = 1.0;  // more, where the wheels come from the largest curvature
+  double tight_factor = 2.0;      // of the cost, where only the tight margin is kept
+  double greed = 1.1;
+  int max_expansions = 12000;
+};
+
+struct CurveProblem {
+  const GoalField& field;
+  const HeadingField& headings;
+  const FootprintCheck& roomy;
+  const FootprintCheck& tight;
+  const FootprintCheck& turn;  // for point turns: the rover does not halt exactly
+  ViewArea view;
+  Pose2 start;
+  double start_curvature_per_m = 0.0;
+  double sure_m = 0.0;           // way within which all ground must be seen before the rover reaches it
+  Pose2 stopped;                 // where the rover stands if it brakes now: point turns start there
+  double most_cost = kInfinity;  // dearer plans are of no use
+};
+
+struct CurvePlan {
+  bool found = false;
+  bool unseen_in_the_way = false;  // ways were dropped because their ground would not be seen in time
+  bool turns_first = false;
+  std::vector<Pose2> poses;  // every 5 cm; two in one place: a point turn
+  double cost = kInfinity;
+  int halts = 0;
+  int expansions = 0;
+};
+
+CurvePlan search_curves(const CurveSearchConfig& config, const CurveProblem& problem);
+
+// Cost of a metre at a pose: the ground's, more where only the tight margin is kept, infinity where neither is.
+double pose_cost_per_m(const CurveProblem& problem, double tight_factor, const Pose2& pose);
+
+}  // namespace rover::planning

@@ -1,0 +1,72 @@
+#include "path_planner/full_planner.hpp"
+
+namespace rover::planning {
+namespace {
+
+constexpr double kSeenAboutM = 0.04;  // the rover follows a path within centimetres
+constexpr double kAmpleM = 2.0;
+
+}  // namespace
+
+// The held way's ground is priced as that of a new one; point turns in it cost what is left of them.
+double FullPlanner::held_cost(const CurveProblem& problem, const HeldWay& held) const {
+  double cost = config_.search.turn_cost_m * held.halts + config_.search.turn_cost_per_rad_m * held.turn_left_rad;
+  for (size_t i = 1; i < held.poses.size(); ++i) {
+    const double step = distance(position(held.poses[i - 1]), position(held.poses[i]));
+    cost += step * pose_cost_per_m(problem, config_.search.tight_factor, held.poses[i]);
+  }
+  return cost;
+}
+
+FullPlan FullPlanner::plan(const FullRequest& request) const {
+  const GoalField field(
+      config_.goal, {request.terrain, request.global, request.from_m, position(request.rover),
+                     request.footprint.half_width_m, request.tight_margin_m, request.goal_reach_m, request.dead_ends});
+  FullPlan out;
+  if (!field.reachable()) return out;
+  const HeadingField headings(config_.headings, {request.terrain, field, request.footprint, request.rover,
+                                                 request.roomy_margin_m, request.tight_margin_m});
+  const auto check = [&](double margin_m) {
+    return FootprintCheck(request.terrain, request.footprint, margin_m, kSeenAboutM, request.rover);
+  };
+  const FootprintCheck roomy = check(request.roomy_margin_m);
+  const FootprintCheck tight = check(request.tight_margin_m);
+  const FootprintCheck turn = check(request.tight_margin_m + config_.turn_extra_m);
+  CurveProblem problem{field, headings,       roomy,         tight,
+                       turn,  request.view,   request.start, request.start_curvature_per_m,
+                       0.0,   request.stopped};
+  double most = kInfinity;
+  if (request.held) {
+    const double cost = held_cost(problem, *request.held);
+    CurveProblem rest = problem;
+    rest.start = rest.stopped = request.held->poses.back();
+    rest.start_curvature_per_m = request.held->end_curvature_per_m;
+    if (std::isfinite(cost)) out.plan = search_curves(config_.search, rest);
+    out.held = out.plan.found;
+    if (out.held) most = (cost + out.plan.cost - config_.switch_gain_m) / (1.0 + config_.switch_share);
+  }
+  if (request.turning) most -= config_.search.turn_cost_m;
+  for (const double sure_m : {config_.sure_way_m, config_.least_sure_way_m}) {
+    problem.sure_m = sure_m;
+    problem.most_cost = most;
+    CurvePlan fresh = search_curves(config_.search, problem);
+    out.plan.expansions += fresh.expansions;
+    if (fresh.found) {
+      fresh.expansions = out.plan.expansions;
+      out.plan = std::move(fresh);
+      out.held = false;
+    }
+    if (out.plan.found) break;
+    out.plan.unseen_in_the_way = fresh.unseen_in_the_way;
+    if (!fresh.unseen_in_the_way) break;
+  }
+  if (!out.plan.found) return out;
+  out.clearance_m = kAmpleM;
+  for (const Pose2& pose : out.plan.poses) out.clearance_m = tight.clearance_m(pose, out.clearance_m);
+  if (out.held)
+    for (const Pose2& pose : request.held->poses) out.clearance_m = tight.clearance_m(pose, out.clearance_m);
+  out.end_station_m = field.station_m(position(out.plan.poses.back()));
+  return out;
+}
+
+}  // namespace rover::planning

@@ -1,0 +1,72 @@
+// Continuous planning of the Full level: a plan from the rover to the goal line at the horizon, on what the NavCam's
+// map and the hazard memory know together. The plan that is being driven is held as long as no other one is clearly
+// cheaper.
+#pragma once
+
+#include <optional>
+
+#include "path_planner/curve_search.hpp"
+
+namespace rover::planning {
+
+struct FullPlannerConfig {
+  GoalFieldConfig goal;
+  HeadingFieldConfig headings;
+  CurveSearchConfig search;
+  double sure_way_m = 2.5;        // of a plan, over ground that is seen in time
+  double least_sure_way_m = 0.6;  // where that leaves no way
+  double hold_m = 3.0;            // of the plan that is being driven, kept where it is held
+  double switch_gain_m = 1.0;     // by which another one has to be cheaper ...
+  double switch_share = 0.1;      // ... and by that share of its cost
+  double tight_extra_m = 0.02;    // that plans keep beyond the tight margin, where they do not keep the wide one
+  double turn_extra_m = 0.04;     // of the margin, for point turns: the rover does not halt exactly
+  double stale_way_m = 1.5;       // driven since the newest map, with which it is too old ...
+  double stale_s = 5.0;           // ... if that took as long
+};
+
+// The way that is being driven, from where a new one could begin.
+struct HeldWay {
+  std::vector<Pose2> poses;  // every few cm, at least one
+  double end_curvature_per_m = 0.0;
+  double turn_left_rad = 0.0;  // of the point turns in it
+  int halts = 0;               // likewise, those that have not begun
+};
+
+struct FullRequest {
+  const Terrain& terrain;
+  Footprint footprint;
+  ViewArea view;
+  const Route& global;  // in odom
+  double from_m = 0.0;  // along it: where the rover is
+  Pose2 rover;
+  Pose2 start;  // of a new way
+  double start_curvature_per_m = 0.0;
+  Pose2 stopped;
+  bool turning = false;  // the rover has begun a point turn: a new way gives that up
+  std::optional<HeldWay> held;
+  double roomy_margin_m = 0.0;
+  double tight_margin_m = 0.0;
+  double goal_reach_m = 0.0;
+  const std::vector<Point2>& dead_ends;
+};
+
+struct FullPlan {
+  CurvePlan plan;     // from the held way's end, or from the start
+  bool held = false;  // goes on from the held way
+  double clearance_m = kNaN;
+  double end_station_m = kNaN;  // along the global path
+};
+
+class FullPlanner {
+ public:
+  explicit FullPlanner(const FullPlannerConfig& config) : config_(config) {}
+  // plan.found is false where there is no way.
+  FullPlan plan(const FullRequest& request) const;
+
+ private:
+  double held_cost(const CurveProblem& problem, const HeldWay& held) const;
+
+  FullPlannerConfig config_;
+};
+
+}  // namespace rover::planning

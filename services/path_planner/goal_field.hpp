@@ -1,0 +1,75 @@
+// Where a continuous plan may end, and what is left to go from anywhere: the goal line across the global path at the
+// horizon, or the goal itself, and the travel field (fast marching) to it over the ground's cost.
+#pragma once
+
+#include <vector>
+
+#include "common/core/fast_marching.hpp"
+#include "path_planner/route.hpp"
+#include "path_planner/terrain.hpp"
+
+namespace rover::planning {
+
+struct GoalFieldConfig {
+  double horizon_m = 7.0;        // of the goal line, along the global path
+  double max_deviation_m = 8.0;  // from the global path
+  double return_way_m = 8.0;     // past the goal line, on which a plan's offset from the global path is taken out
+  double heading_cost_m = 0.8;   // per radian between a plan's end and the global path
+  double goal_miss_cost = 3.0;   // per metre that a plan ends off the goal
+  double unknown_cost = 1.0;     // per metre more
+  double difficulty_cost = 3.0;  // per metre more, on ground that is barely passable
+  double risk_distance_m = 0.6;  // clearance below which ground costs more
+  double risk_cost = 0.5;        // per metre more, at the margin
+  double dead_end_reach_m = 0.8;
+  double dead_end_cost = 4.0;
+};
+
+struct GoalQuery {
+  const Terrain& terrain;
+  const Route& global;  // in odom
+  double from_m = 0.0;  // along it: where the rover is
+  Point2 rover;
+  double half_width_m = 0.0;  // of the vehicle
+  double margin_m = 0.0;      // the least
+  double goal_reach_m = 0.0;
+  const std::vector<Point2>& dead_ends;
+};
+
+class GoalField {
+ public:
+  GoalField(const GoalFieldConfig& config, const GoalQuery& query);
+
+  // False where nothing of the goal line is free.
+  bool reachable() const { return reachable_; }
+  // Of the ground under a pose's centre, per metre; infinity: not passable, or outside.
+  double cost_per_m(Point2 p) const { return terrain_.contains(p) ? cost_.cost_per_m[terrain_.cell_of(p)] : kInfinity; }
+  // What is left from a place, heading aside; infinity where nothing leads on.
+  double to_go(Point2 p) const { return terrain_.contains(p) ? travel_[terrain_.cell_of(p)] : kInfinity; }
+  // What a plan that ends at the pose costs more; infinity: it may not end there.
+  double end_cost(const Pose2& pose) const;
+  // How far a place lies past the goal line; negative before it. In sight of the goal: zero.
+  double past_line_m(Point2 p) const { return goal_in_sight_ ? 0.0 : station_m(p) - line_m_; }
+  // Along the global path.
+  double station_m(Point2 p) const { return terrain_.contains(p) ? station_[terrain_.cell_of(p)] : kInfinity; }
+
+ private:
+  void lay_stations();
+  void lay_costs();
+  void march_from_goal();
+  double off_path_m(Point2 p, double station_m) const;
+  double line_cost(Point2 p) const;
+
+  GoalFieldConfig config_;
+  const GoalQuery query_;
+  const Terrain& terrain_;
+  double line_m_;  // along the global path
+  bool goal_in_sight_ = false;
+  Point2 goal_;
+  bool reachable_ = false;
+  std::vector<double> station_;
+  std::vector<double> offset_;
+  MarchGrid cost_;
+  std::vector<double> travel_;
+};
+
+}  // namespace rover::planning

@@ -1,0 +1,222 @@
+#include "path_planner/heading_field.hpp"
+
+#include <array>
+#include <limits>
+
+namespace rover::planning {
+namespace {
+
+constexpr float kNone = std::numeric_limits<float>::infinity();
+constexpr double kBucketM = 0.05;
+constexpr int kMostBuckets = 4000;
+constexpr std::array<int, 5> kTurns = {0, 1, -1, 2, -2};  // headings by which an arc turns
+constexpr double kShortestM = 0.35;
+constexpr double kLongestM = 0.62;
+constexpr double kLengthStepM = 0.01;
+constexpr double kSlackM = 0.03;   // of the margins: the lattice must not close gaps that a pose between fits through
+constexpr double kEndBandM = 0.7;  // past the goal line
+constexpr double kAboutRoverM = 1.0;  // the rover may stand closer to a hazard than it would go
+
+int wrapped(int heading) {
+  return (heading % HeadingField::kHeadings + HeadingField::kHeadings) % HeadingField::kHeadings;
+}
+
+}  // namespace
+
+HeadingField::HeadingField(const HeadingFieldConfig& config, const HeadingQuery& query)
+    : config_(config),
+      query_(query),
+      terrain_(query.terrain),
+      cells_(terrain_.cells()),
+      count_(static_cast<size_t>(cells_) * static_cast<size_t>(cells_)) {
+  make_arcs();
+  lay_rooms();
+  cost_.assign(2 * count_ * kHeadings, kNone);
+  buckets_.resize(kMostBuckets);
+  seed();
+  spread();
+}
+
+// Of each heading and turn the arc whose end lies closest to a cell's centre.
+void HeadingField::make_arcs() {
+  arcs_to_.resize(kHeadings);
+  const double bin = yaw_of(1);
+  for (int heading = 0; heading < kHeadings; ++heading)
+    for (const int turn : kTurns) {
+      const double shortest = std::max(kShortestM, std::abs(turn) * bin / config_.max_curvature_per_m);
+      double least = kInfinity;
+      Arc best{};
+      for (double length = shortest; length <= kLongestM; length += kLengthStepM) {
+        const double curvature = turn * bin / length;
+        const Pose2 start{0.0, 0.0, yaw_of(heading)};
+        const Pose2 end = advanced(start, length, curvature);
+        const Pose2 middle = advanced(start, 0.5 * length, curvature);
+        const auto to_cells = [&](double v) { return static_cast<int>(std::lround(v / terrain_.cell_m())); };
+        const double miss = std::hypot(end.x_m - to_cells(end.x_m) * terrain_.cell_m(),
+                                       end.y_m - to_cells(end.y_m) * terrain_.cell_m());
+        if (miss >= least) continue;
+        least = miss;
+        const double share = curvature / config_.max_curvature_per_m;
+        best = {heading,
+                to_cells(end.x_m),
+                to_cells(end.y_m),
+                to_cells(middle.x_m),
+                to_cells(middle.y_m),
+                wrapped(heading + turn / 2),
+                static_cast<float>(length),
+                static_cast<float>(config_.curvature_cost * share * share * length)};
+      }
+      arcs_to_[wrapped(heading + turn)].push_back(best);
+    }
+}
+
+void HeadingField::lay_rooms() {
+  ground_.resize(count_);
+  for (size_t i = 0; i < count_; ++i)
+    ground_[i] = static_cast<float>(query_.goal.cost_per_m(terrain_.center_of(static_cast<int>(i))));
+  rooms_.assign(count_ * kHeadings / 2, kRoomy);
+  stamp(query_.roomy_margin_m - kSlackM, kTight);
+  stamp(query_.tight_margin_m - kSlackM, kBlocked);
+}
+
+void HeadingField::stamp(double margin_m, Room room) {
+  std::vector<int> hazards;
+  for (const HazardSpot& hazard : terrain_.hazards())
+    if (distance(hazard.p, position(query_.rover)) > kAboutRoverM) hazards.push_back(terrain_.cell_of(hazard.p));
+  for (int heading = 0; heading < kHeadings / 2; ++heading) stamp_heading(heading, margin_m, room, hazards);
+}
+
+// Every pose whose rectangle, widened by the margin, holds the hazard: the rectangle about the hazard, row by row.
+void HeadingField::stamp_heading(int heading, double margin_m, Room room, const std::vector<int>& hazards) {
+  const double c = std::cos(yaw_of(heading));
+  const double s = std::sin(yaw_of(heading));
+  const double half_length = query_.footprint.half_length_m + margin_m;
+  const double half_width = query_.footprint.half_width_m + margin_m;
+  const int reach = static_cast<int>(std::hypot(half_length, half_width) / terrain_.cell_m()) + 1;
+  struct Row {
+    int dy;
+    int from;
+    int to;
+  };
+  std::vector<Row> rows;
+  for (int dy = -reach; dy <= reach; ++dy) {
+    Row row{dy, reach + 1, -reach - 1};
+    for (int dx = -reach; dx <= reach; ++dx) {
+      const double x = dx * terrain_.cell_m();
+      const double y = dy * terrain_.cell_m();
+      if (std::abs(c * x + s * y) >= half_length || std::abs(c * y - s * x) >= half_width) continue;
+      row.from = std::min(row.from, dx);
+      row.to = std::max(row.to, dx);
+    }
+    if (row.from <= row.to) rows.push_back(row);
+  }
+  std::uint8_t* rooms = rooms_.data() + static_cast<size_t>(heading) * count_;
+  for (const int hazard : hazards) {
+    const int ix = hazard % cells_;
+    const int iy = hazard / cells_;
+    for (const Row& row : rows) {
+      const int y = iy + row.dy;
+      if (y < 0 || y >= cells_) continue;
+      const int from = std::max(0, ix + row.from);
+      const int to = std::min(cells_ - 1, ix + row.to);
+      if (from <= to) std::fill(rooms + y * cells_ + from, rooms + y * cells_ + to + 1, room);
+    }
+  }
+}
+
+float HeadingField::metre_cost(int cell, int heading) const {
+  const Room here = room(cell, heading);
+  if (here == kBlocked) return kNone;
+  return here == kTight ? static_cast<float>(config_.tight_factor) * ground_[cell] : ground_[cell];
+}
+
+void HeadingField::seed() {
+  for (size_t i = 0; i < count_; ++i) {
+    const int cell = static_cast<int>(i);
+    if (std::isinf(ground_[i])) continue;
+    const Point2 p = terrain_.center_of(cell);
+    if (query_.goal.past_line_m(p) > kEndBandM) continue;
+    for (int heading = 0; heading < kHeadings; ++heading) {
+      const double cost = query_.goal.end_cost({p.x_m, p.y_m, yaw_of(heading)});
+      if (std::isinf(cost)) break;
+      if (room(cell, heading) != kBlocked) offer(heading * count_ + i, static_cast<float>(std::max(0.0, cost)));
+    }
+  }
+}
+
+void HeadingField::offer(size_t state, float cost) {
+  if (!(cost < cost_[state])) return;
+  const auto bucket = static_cast<size_t>(cost / kBucketM);
+  if (bucket >= buckets_.size()) return;
+  cost_[state] = cost;
+  buckets_[bucket].push_back(static_cast<std::uint32_t>(state));
+}
+
+void HeadingField::spread() {
+  double last = kInfinity;
+  for (size_t b = 0; b < buckets_.size() && kBucketM * static_cast<double>(b) <= last; ++b) {
+    // A bucket may grow while it is worked off.
+    for (size_t k = 0; k < buckets_[b].size(); ++k) {
+      const size_t state = buckets_[b][k];
+      const float cost = cost_[state];
+      if (static_cast<size_t>(cost / kBucketM) != b) continue;
+      ++settled_;
+      const size_t pose = state % (count_ * kHeadings);
+      const int cell = static_cast<int>(pose % count_);
+      const int heading = static_cast<int>(pose / count_);
+      if (state == pose)
+        spread_driving(cell, heading, cost);
+      else
+        spread_turning(cell, heading, cost);
+    }
+    if (std::isinf(last) && std::isfinite(to_go(query_.rover))) last = to_go(query_.rover) + config_.beyond_m;
+  }
+}
+
+// To the poses from which an arc ends here, and to the end of a point turn.
+void HeadingField::spread_driving(int cell, int heading, float cost) {
+  const int ix = cell % cells_;
+  const int iy = cell / cells_;
+  const float here = metre_cost(cell, heading);
+  for (const Arc& arc : arcs_to_[heading]) {
+    const int x = ix - arc.dx;
+    const int y = iy - arc.dy;
+    if (x < 0 || y < 0 || x >= cells_ || y >= cells_) continue;
+    const int from = y * cells_ + x;
+    const float there = metre_cost(from, arc.from_heading);
+    if (there == kNone) continue;
+    const float between = metre_cost((y + arc.middle_dy) * cells_ + x + arc.middle_dx, arc.middle_heading);
+    if (between == kNone) continue;
+    offer(static_cast<size_t>(arc.from_heading) * count_ + from,
+          cost + arc.length_m * 0.25F * (here + 2.0F * between + there) + arc.extra);
+  }
+  offer(count_ * kHeadings + static_cast<size_t>(heading) * count_ + cell, cost);
+}
+
+// Backwards through a point turn: either it goes on, or it began here.
+void HeadingField::spread_turning(int cell, int heading, float cost) {
+  for (const int turn : {1, -1}) {
+    const int from = wrapped(heading + turn);
+    if (room(cell, from) == kBlocked) continue;
+    offer(count_ * kHeadings + static_cast<size_t>(from) * count_ + cell,
+          cost + static_cast<float>(config_.turn_cost_per_rad_m * yaw_of(1)));
+  }
+  offer(static_cast<size_t>(heading) * count_ + cell, cost + static_cast<float>(config_.turn_cost_m));
+}
+
+double HeadingField::least_about(const Pose2& pose, size_t layer) const {
+  const Point2 corner = terrain_.center_of(0);
+  const int ix = static_cast<int>(std::floor((pose.x_m - corner.x_m) / terrain_.cell_m()));
+  const int iy = static_cast<int>(std::floor((pose.y_m - corner.y_m) / terrain_.cell_m()));
+  const int heading = static_cast<int>(std::floor(pose.yaw_rad / yaw_of(1)));
+  if (ix < 0 || iy < 0 || ix + 1 >= cells_ || iy + 1 >= cells_) return kInfinity;
+  float least = kNone;
+  for (int h = 0; h < 2; ++h)
+    for (int dy = 0; dy < 2; ++dy)
+      for (int dx = 0; dx < 2; ++dx)
+        least = std::min(
+            least, cost_[layer + static_cast<size_t>(wrapped(heading + h)) * count_ + (iy + dy) * cells_ + ix + dx]);
+  return least;
+}
+
+}  // namespace rover::planning

@@ -1,0 +1,85 @@
+// What is left to go from each place and heading: Dijkstra backwards from the goal line over a lattice of poses, for a
+// vehicle that drives arcs no tighter than its own, and turns on the spot at a price. A field over places alone sends
+// the rover into gaps that it cannot bend into.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "path_planner/goal_field.hpp"
+
+namespace rover::planning {
+
+struct HeadingFieldConfig {
+  double max_curvature_per_m = 0.8;
+  double curvature_cost = 0.15;  // per metre, at the largest curvature
+  double turn_cost_m = 3.0;      // a point turn takes about 15 s, in which the rover could drive 3 m
+  double turn_cost_per_rad_m = 1.0;
+  double tight_factor = 2.0;  // of the cost, where only the tight margin is kept
+  double beyond_m = 4.0;      // of cost, past that of the rover's pose, until which the field is laid
+};
+
+struct HeadingQuery {
+  const Terrain& terrain;
+  const GoalField& goal;
+  Footprint footprint;
+  Pose2 rover;
+  double roomy_margin_m = 0.0;
+  double tight_margin_m = 0.0;
+};
+
+class HeadingField {
+ public:
+  static constexpr int kHeadings = 32;
+
+  HeadingField(const HeadingFieldConfig& config, const HeadingQuery& query);
+
+  // The least of the lattice poses about this one; infinity: nothing leads on, or not within the field's reach.
+  double to_go(const Pose2& pose) const { return least_about(pose, 0); }
+  // Likewise for a rover that turns on the spot.
+  double to_go_turning(const Pose2& pose) const { return least_about(pose, count_ * kHeadings); }
+  int settled() const { return settled_; }
+
+ private:
+  enum Room : std::uint8_t { kRoomy = 0, kTight = 1, kBlocked = 2 };
+  struct Arc {
+    int from_heading;
+    int dx;  // cells
+    int dy;
+    int middle_dx;
+    int middle_dy;
+    int middle_heading;
+    float length_m;
+    float extra;  // cost beside the ground's
+  };
+
+  double least_about(const Pose2& pose, size_t layer) const;
+  void make_arcs();
+  void lay_rooms();
+  void stamp(double margin_m, Room room);
+  void stamp_heading(int heading, double margin_m, Room room, const std::vector<int>& hazards);
+  void seed();
+  void spread();
+  void offer(size_t state, float cost);
+  void spread_driving(int cell, int heading, float cost);
+  void spread_turning(int cell, int heading, float cost);
+  Room room(int cell, int heading) const {
+    return static_cast<Room>(rooms_[heading % (kHeadings / 2) * count_ + cell]);
+  }
+  float metre_cost(int cell, int heading) const;
+  static double yaw_of(int heading) { return 2.0 * kPi * heading / kHeadings; }
+
+  HeadingFieldConfig config_;
+  HeadingQuery query_;
+  const Terrain& terrain_;
+  int cells_;
+  size_t count_;
+  std::vector<std::vector<Arc>> arcs_to_;  // by the heading at their end
+  std::vector<std::uint8_t> rooms_;        // by half the headings: the rectangle looks the same from behind
+  std::vector<float> ground_;              // cost per metre by cell
+  std::vector<float> cost_;                // driving states, then those that turn on the spot; each heading by heading
+  std::vector<std::vector<std::uint32_t>> buckets_;
+  int settled_ = 0;
+};
+
+}  // namespace rover::planning

@@ -1,0 +1,200 @@
+// The planner at the Full level: a plan with each new map, and when a hazard blocks the one that is being driven.
+#include <cmath>
+
+#include "path_planner/path_planner.hpp"
+
+namespace rover::planning {
+namespace {
+
+constexpr double kBehindM = 0.3;
+constexpr double kChordM = 0.15;
+constexpr double kPastKinkM = 0.2;
+constexpr double kLeastHeldM = 0.3;
+constexpr double kLeadM = 0.25;  // of the way being driven, with which a new plan begins
+constexpr double kHalfCellM = 0.05;
+constexpr double kControlM = 0.05;
+constexpr double kBackRadiusM = 2.0;  // of the way from a plan's end back to the global path
+constexpr double kBackAheadM = 3.0;
+constexpr double kRoundingM = 1e-6;
+constexpr double kCreepMps = 0.05;  // of the body origin while the rover turns on the spot
+constexpr double kAtKinkM = 0.15;
+constexpr double kTurnBlockM = 1.5;  // likewise while the rover turns on the spot
+constexpr double kNearBlockM = 3.5;  // nearer blocks are planned for at once, others with the next map
+
+}  // namespace
+
+void PathPlanner::set_level(bool full) {
+  if (full_level_ && !full) {
+    map_.reset();
+    new_map_ = false;
+    // The rest of the plan is driven as a repair is: the global path follows.
+    if (active_.kind == PathKind::kContinuous) active_.kind = PathKind::kRepair;
+  }
+  full_level_ = full;
+}
+
+bool PathPlanner::add_traversability(TraversabilityGrid map) {
+  if (!full_level_ || !map.fault().empty() || history_.empty()) return false;
+  map_ = std::move(map);
+  map_travelled_m_ = history_.newest().travelled_m;
+  new_map_ = true;
+  return true;
+}
+
+// A map stays true while the rover stands; driven away from, it has to be followed by another one.
+bool PathPlanner::continuous() const {
+  if (!full_level_ || !map_ || history_.empty()) return false;
+  const PoseSample& now = history_.newest();
+  const bool old = now.utime - map_->utime > to_utime(config_.full.stale_s);
+  return !(old && now.travelled_m - map_travelled_m_ > config_.full.stale_way_m);
+}
+
+void PathPlanner::go_on(PlannerOutput& out) {
+  judge();
+  frames_before_possible_ = hazard_ahead_m() < config_.stop_hazard_m ? frames_before_possible_ + 1 : 0;
+  const bool before_unseen = (unseen_ahead_m() < config_.stop_unseen_m || strayed()) && standing();
+  frames_before_unseen_ = before_unseen ? frames_before_unseen_ + 1 : 0;
+  const bool turning = at_turn();
+  const bool blocked = block_.confirmed_m - active_.progress_m < (turning ? kTurnBlockM : kNearBlockM) ||
+                       frames_before_possible_ >= config_.patience_frames ||
+                       frames_before_unseen_ >= config_.patience_frames;
+  const bool wanted = (new_map_ && !turning) || active_.kind != PathKind::kContinuous;
+  if (!blocked && !wanted) {
+    failures_ = 0;
+    return;
+  }
+  if (!plan_on(out) && !blocked) failures_ = 0;
+  if (stuck() && standing()) retreat(out);
+}
+
+// While the rover turns on the spot it is left to finish that: each plan made of a view on the way would begin another
+// turn, to and fro.
+bool PathPlanner::at_turn() const {
+  if (std::abs(history_.newest().forward_mps) > kCreepMps) return false;
+  const std::vector<size_t>& kinks = active_.route.kinks();
+  return turning_ || std::any_of(kinks.begin(), kinks.end(), [&](size_t i) {
+           return std::abs(active_.route.s_at(i) - active_.progress_m) < kAtKinkM;
+         });
+}
+
+bool PathPlanner::plan_on(PlannerOutput& out) {
+  const Terrain ground = terrain();
+  const FullRequest request = full_request(ground);
+  const FullPlan plan = full_planner_.plan(request);
+  last_repair_.status = plan.plan.found               ? RepairStatus::kFound
+                        : plan.plan.unseen_in_the_way ? RepairStatus::kUnseen
+                                                      : RepairStatus::kNoWay;
+  if (!plan.plan.found) {
+    ++failures_;
+    return false;
+  }
+  failures_ = 0;
+  frames_before_unseen_ = 0;
+  take_plan(plan, request, out);
+  return true;
+}
+
+FullRequest PathPlanner::full_request(const Terrain& terrain) const {
+  const LeadIn lead = lead_ins().front();
+  const double curvature = standing() ? 0.0 : lead.curvature_per_m;
+  const double sigma = sigma_margin_m();
+  const bool any_goal = failures_ + 1 >= config_.patience_frames && goal_near();
+  return {.terrain = terrain,
+          .footprint = config_.footprint,
+          .view = config_.repair.view,
+          .global = global_odom_,
+          .from_m = global_progress_m_,
+          .rover = rover(),
+          .start = advanced(rover(), lead.way_m, curvature),
+          .start_curvature_per_m = curvature,
+          .stopped = advanced(rover(), lead.way_m, curvature),
+          .turning = turning_,
+          .held = held_way(),
+          .roomy_margin_m = config_.margin_m + config_.plan_extra_m + sigma,
+          .tight_margin_m = config_.tight_margin_m + config_.full.tight_extra_m + sigma,
+          .goal_reach_m = any_goal ? config_.blocked_goal_reach_m : goal_reach_m(),
+          .dead_ends = dead_ends_};
+}
+
+// Arc length to which the active plan is kept where it is held: past a halt that lies there.
+double PathPlanner::held_end_m() const {
+  double end = active_.progress_m + config_.full.hold_m;
+  for (const size_t i : active_.route.kinks())
+    if (std::abs(active_.route.s_at(i) - end) < kPastKinkM) end = active_.route.s_at(i) + kPastKinkM;
+  return std::min(end, active_.repair_end_m);
+}
+
+std::optional<HeldWay> PathPlanner::held_way() const {
+  if (active_.kind != PathKind::kContinuous || active_.route.empty() || replan_wanted_) return std::nullopt;
+  const double end = held_end_m();
+  const double blocked = std::min({block_.confirmed_m, block_.possible_m, block_.unseen_m});
+  if (end - active_.progress_m < kLeastHeldM || blocked < end || strayed()) return std::nullopt;
+  HeldWay held;
+  for (double s = active_.progress_m; s < end; s += kPoseStepM) held.poses.push_back(active_.route.pose_at(s));
+  held.poses.push_back(active_.route.pose_at(end));
+  for (const size_t i : active_.route.kinks()) {
+    if (active_.route.s_at(i) <= active_.progress_m || active_.route.s_at(i) >= end) continue;
+    held.turn_left_rad += std::abs(wrap_angle(active_.route.yaw_out_of(i) - active_.route.yaw_into(i)));
+    ++held.halts;
+  }
+  if (turning_)
+    held.turn_left_rad += std::abs(wrap_angle(active_.route.pose_at(active_.progress_m).yaw_rad - rover().yaw_rad));
+  const double before = active_.route.pose_at(end - kChordM).yaw_rad;
+  const double most = config_.full.search.max_curvature_per_m;
+  held.end_curvature_per_m = std::clamp(wrap_angle(held.poses.back().yaw_rad - before) / kChordM, -most, most);
+  return held;
+}
+
+void PathPlanner::take_plan(const FullPlan& plan, const FullRequest& request, PlannerOutput& out) {
+  std::vector<RoutePoint> points;
+  const std::int8_t level = global_odom_.level_at(global_progress_m_);
+  if (plan.held) {
+    const double begin = std::max(0.0, active_.progress_m - kBehindM);
+    const double end = held_end_m();
+    const size_t first = active_.route.vertex_after(begin);
+    for (size_t i = first > 0 ? first - 1 : 0; active_.route.s_at(i) < end - kPoseStepM; ++i)
+      points.push_back({active_.route.points()[i].p, kNaN, level});
+  } else {
+    const double lead = distance(position(rover()), position(request.start));
+    for (double way = 0.0; way < lead - kPoseStepM; way += 2.0 * kPoseStepM)
+      points.push_back({position(advanced(rover(), way, request.start_curvature_per_m)), kNaN, level});
+  }
+  append_poses(plan.plan.poses, plan.end_station_m, points);
+  append_way_back(plan.end_station_m, points);
+  const bool roomy = plan.clearance_m >= request.roomy_margin_m - kRoundingM;
+  active_.margin_m = roomy ? config_.margin_m : config_.tight_margin_m;
+  active_.corridor_half_width_m = std::clamp(plan.clearance_m - kHalfCellM - kControlM, config_.least_corridor_m,
+                                             std::max(config_.least_corridor_m, global_->corridor_half_width_m));
+  const bool turning = turning_;
+  adopt(Route(std::move(points)), PathKind::kContinuous, out);
+  turning_ = turning && plan.held;
+  judge();
+}
+
+// Beyond a plan the path leads back to the global one; before the rover comes there, there is another plan.
+void PathPlanner::append_way_back(double station_m, std::vector<RoutePoint>& points) const {
+  const double length = global_odom_.length_m();
+  const Pose2 end{points.back().p.x_m, points.back().p.y_m,
+                  std::atan2(points.back().p.y_m - points[points.size() - 2].p.y_m,
+                             points.back().p.x_m - points[points.size() - 2].p.x_m)};
+  const double off = distance(points.back().p, global_odom_.point_at(station_m));
+  double join = station_m + 0.5 * kPoseStepM;
+  if (off > kPoseStepM && station_m < length) {
+    join = std::min(length, station_m + kBackAheadM + off);
+    const Pose2 target = global_odom_.pose_at(join);
+    const std::optional<DubinsPath> way = dubins_path(end, target, kBackRadiusM);
+    const bool direct = way && way->length_m() < 1.5 * distance(position(end), position(target));
+    if (direct) {
+      std::vector<Pose2> poses = sample(end, {way->segments.begin(), way->segments.end()}, kPoseStepM);
+      poses.erase(poses.begin());
+      append_poses(poses, join, points);
+    } else {
+      points.push_back({position(target), kNaN, points.back().level});
+    }
+  }
+  for (size_t i = global_odom_.vertex_after(join + 0.5 * config_.rounding.step_m); i < global_odom_.points().size();
+       ++i)
+    points.push_back(global_odom_.points()[i]);
+}
+
+}  // namespace rover::planning
