@@ -22,6 +22,7 @@ void read_map(const Config& c, ElevationConfig& m) {
 
 void read_match(const Config& c, MatchConfig& m) {
   c.read("max_patches", m.max_patches, {100, 100000});
+  c.read("max_range_m", m.max_range_m, {1.0, 50.0});
   c.read("min_patches", m.min_patches, {20, 10000});
   c.read("model_sigma_m", m.model_sigma_m, {0.0, 0.1});
   c.read("blur_m", m.blur_m, {0.0, 0.2});

@@ -34,6 +34,7 @@ void ScanMatcher::prepare(const std::vector<Patch>& patches, const MatchSurface&
   for (size_t i = 0; i < patches.size(); i += stride) {
     const Patch& patch = patches[i];
     Point point{patch.x_m, patch.y_m, patch.z_m, 0.0F, 0.0F};
+    if (std::hypot(patch.x_m, patch.y_m) > static_cast<float>(config_.max_range_m)) continue;
     const auto sample = surface.sample(to.u(point), to.v(point));
     if (!sample) continue;
     // The slope in the rover's axes, per metre.

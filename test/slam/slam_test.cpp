@@ -39,7 +39,7 @@ class Drive {
 
  private:
   Ground ground_;
-  NavcamModel camera_{.step_px = 6};
+  NavcamModel camera_{.step_px = 8};
   Random random_;
   Slam slam_;
   Pose2 truth_, odometry_;

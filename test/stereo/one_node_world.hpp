@@ -13,8 +13,9 @@ namespace rover::test {
 
 class OneNodeWorld {
  public:
-  explicit OneNodeWorld(const std::string& service)
-      : bus_("memq://"), world_("world", 1), node_({.name = service}, bus_) {
+  // `run_dir`: where the node keeps its checkpoint; empty: it keeps none.
+  explicit OneNodeWorld(const std::string& service, const std::string& run_dir = "")
+      : bus_("memq://"), world_("world", 1), node_({.name = service, .run_dir = run_dir}, bus_) {
     hear(channel::kHeartbeat, heartbeats_);
   }
 
@@ -33,9 +34,10 @@ class OneNodeWorld {
         &out);
   }
 
+  // Released when it was measured, unless a time is given.
   template <class Message>
-  void send(const std::string& channel, Message message, Utime utime) {
-    message.header = world_.next(channel, utime, utime);
+  void send(const std::string& channel, Message message, Utime utime, Utime release = kNever) {
+    message.header = world_.next(channel, utime, release == kNever ? utime : release);
     bus_.publish(channel, &message);
   }
 

@@ -1,0 +1,240 @@
+#include "slam/node.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <rover/elevation_t.hpp>
+#include <rover/service_state_t.hpp>
+#include <rover/slam_pose_t.hpp>
+
+#include "common/bus/convert.hpp"
+#include "test/slam/navcam.hpp"
+#include "test/stereo/one_node_world.hpp"
+
+namespace rover::slam {
+namespace {
+
+using namespace testing_support;
+
+const std::string kConfig = std::string(ROVER_SOURCE_DIR) + "/config";
+constexpr Utime kExposure = 200'000;
+
+cloud_t message_of(const Cloud& cloud) {
+  cloud_t message{};
+  pose_to(cloud.T_body_cam, message.position_body_cam_m, message.quat_body_cam_wxyz);
+  message.point_count = static_cast<std::int32_t>(cloud.points.size());
+  for (const CameraPoint& point : cloud.points) {
+    message.x_m.push_back(point.p_cam_m.x());
+    message.y_m.push_back(point.p_cam_m.y());
+    message.z_m.push_back(point.p_cam_m.z());
+    message.depth_sigma_m.push_back(point.depth_sigma_m);
+  }
+  return message;
+}
+
+class SlamNodeTest : public testing::Test {
+ protected:
+  explicit SlamNodeTest(const std::string& run_dir = "")
+      : world_("slam", run_dir), slam_(make_slam(world_.node(), kConfig)) {
+    world_.hear(channel::kElevation, elevations_);
+    world_.hear(channel::kSlamPose, poses_);
+    world_.hear(channel::kServiceState, states_);
+  }
+
+  void level(std::int8_t level) {
+    supervisor_state_t state{};
+    state.level = level;
+    world_.send(channel::kState, state, now_);
+  }
+  // Drives to the place and stands there for a second of POSE.
+  void stand(const Pose2& pose, const Pose2& T_map_odom = {100, 200, 0}) {
+    for (int i = 0; i < 50; ++i) {
+      now_ += kTickUs;
+      pose_t message{};
+      message.status = pose_t::OK;
+      pose_to(upright(pose, kOriginHeightM), message.position_odom_body_m, message.quat_odom_body_wxyz);
+      pose_to(from_planar(T_map_odom), message.position_map_odom_m, message.quat_map_odom_wxyz);
+      matrix6_to(Matrix6d::Identity() * 1e-4, message.covariance);
+      world_.send(channel::kPose, message, now_);
+      world_.tick(now_);
+    }
+  }
+  cloud_t view(const Pose2& pose, std::uint64_t seed = 1) {
+    Random random(seed);
+    return message_of(cloud_of(Ground{}, upright(pose, kOriginHeightM), NavcamModel{.step_px = 8}, random, 0));
+  }
+  void give(const cloud_t& cloud, Utime utime) {
+    world_.send(channel::kCloud, cloud, utime, now_);
+    for (int i = 0; i < 10; ++i) world_.tick(now_ += kTickUs);
+  }
+
+  test::OneNodeWorld world_;
+  std::shared_ptr<SlamNode> slam_;
+  std::vector<elevation_t> elevations_;
+  std::vector<slam_pose_t> poses_;
+  std::vector<service_state_t> states_;
+  Utime now_ = 0;
+};
+
+TEST_F(SlamNodeTest, EachCloudGivesAMapAndAPoseOfItsExposureReleasedAfterTheLatency) {
+  level(supervisor_state_t::FULL);
+  stand({3, 4, 0.5});
+  const Utime exposed = now_ - kExposure;
+  const Utime given = now_ + kTickUs;
+  give(view({3, 4, 0.5}), exposed);
+  ASSERT_EQ(elevations_.size(), 1u);
+  ASSERT_EQ(poses_.size(), 1u);
+  const elevation_t& e = elevations_[0];
+  EXPECT_EQ(e.header.utime, exposed);
+  EXPECT_EQ(e.header.release_utime, given + 100'000);
+  EXPECT_EQ(e.cells_x, 200);
+  EXPECT_EQ(e.cells_y, 200);
+  EXPECT_EQ(e.size, 40'000);
+  EXPECT_NEAR(e.origin_x_m + 10.0, 3.0, 0.11);
+  EXPECT_NEAR(e.origin_y_m + 10.0, 4.0, 0.11);
+  // Under the view: the ground's height; behind the rover: never seen.
+  int right = 0, seen = 0;
+  for (int i = 0; i < e.size; ++i) {
+    const float height = e.height_m[static_cast<size_t>(i)];
+    EXPECT_EQ(std::isnan(height), std::isnan(e.sigma_m[static_cast<size_t>(i)]));
+    if (std::isnan(height) || e.sigma_m[static_cast<size_t>(i)] > 0.03F) continue;
+    const double x = e.origin_x_m + (i % 200 + 0.5) * e.cell_m, y = e.origin_y_m + (i / 200 + 0.5) * e.cell_m;
+    ++seen;
+    right += std::abs(height - Ground{}(x, y)) < 0.08 ? 1 : 0;
+    EXPECT_GT(between({3, 4, 0.5}, {x, y, 0}).x_m, 0.5);
+  }
+  EXPECT_GT(seen, 500);
+  EXPECT_GT(right, 0.9 * seen);
+  EXPECT_EQ(poses_[0].status, +slam_pose_t::NO_INFORMATION);
+  EXPECT_NEAR(poses_[0].x_m, 100.0, 0.01);
+  EXPECT_NEAR(poses_[0].y_m, 200.0, 0.01);
+}
+
+TEST_F(SlamNodeTest, IdlesUnlessTheLevelIsFull) {
+  stand({});
+  give(view({}), now_ - kExposure);
+  level(supervisor_state_t::EFFICIENT);
+  stand({});
+  give(view({}), now_ - kExposure);
+  EXPECT_TRUE(elevations_.empty());
+  EXPECT_TRUE(poses_.empty());
+  level(supervisor_state_t::FULL);
+  stand({});
+  give(view({}), now_ - kExposure);
+  EXPECT_EQ(elevations_.size(), 1u);
+}
+
+TEST_F(SlamNodeTest, UnusableCloudsAreCountedAndTheNextGoodOneIsTaken) {
+  level(supervisor_state_t::FULL);
+  stand({});
+  const cloud_t good = view({});
+  std::vector<cloud_t> bad(7, good);
+  bad[0].x_m[5] = std::numeric_limits<float>::quiet_NaN();
+  bad[1].depth_sigma_m[3] = 0.0F;
+  bad[2].z_m[9] = std::numeric_limits<float>::infinity();
+  bad[3].quat_body_cam_wxyz[0] = 7.0;
+  bad[4].position_body_cam_m[1] = kNaN;
+  bad[5] = message_of({.T_body_cam = NavcamModel{}.T_body_cam()});  // empty
+  bad[6].z_m[0] = -1.0F;
+  for (const cloud_t& message : bad) give(message, now_ - kExposure);
+  stand({});
+  EXPECT_TRUE(elevations_.empty());
+  EXPECT_EQ(world_.malformed(channel::kCloud), 7);
+  give(good, now_ - kExposure);
+  EXPECT_EQ(elevations_.size(), 1u);
+}
+
+TEST_F(SlamNodeTest, CloudsOfTheFutureAndOfForgottenTimesAreRefused) {
+  level(supervisor_state_t::FULL);
+  stand({});
+  give(view({}), now_ + 60'000'000);
+  for (int i = 0; i < 6; ++i) stand({});
+  give(view({}), now_ - 6'500'000);
+  stand({});
+  EXPECT_TRUE(elevations_.empty());
+  EXPECT_EQ(world_.malformed(channel::kCloud), 2);
+}
+
+TEST_F(SlamNodeTest, AJumpOfOdometryIsRefusedOnceAndTheMapHoldsWhereItWasOne) {
+  level(supervisor_state_t::FULL);
+  stand({});
+  give(view({}), now_ - kExposure);
+  stand({40, 0, 0});
+  give(view({}), now_ - kExposure);
+  EXPECT_EQ(elevations_.size(), 1u);
+  stand({0.2, 0, 0});
+  give(view({0.2, 0, 0}), now_ - kExposure);
+  ASSERT_EQ(elevations_.size(), 2u);
+  EXPECT_EQ(world_.malformed(channel::kCloud), 1);
+  EXPECT_NEAR(elevations_[1].origin_x_m, -10.0, 0.3);
+  EXPECT_EQ(poses_[1].status, +slam_pose_t::OK);
+}
+
+TEST_F(SlamNodeTest, AfterACorrectionItSaysWhatPoseSays) {
+  level(supervisor_state_t::FULL);
+  stand({});
+  give(view({}), now_ - kExposure);
+  stand({0.2, 0, 0}, {101, 199, 0.02});
+  give(view({0.2, 0, 0}, 2), now_ - kExposure);
+  ASSERT_EQ(poses_.size(), 2u);
+  EXPECT_NEAR(poses_[1].x_m, 101.0, 0.03);
+  EXPECT_NEAR(poses_[1].y_m, 199.0, 0.03);
+  EXPECT_NEAR(poses_[1].yaw_rad, 0.02, 0.005);
+}
+
+class SlamRestartTest : public SlamNodeTest {
+ protected:
+  SlamRestartTest() : SlamNodeTest(folder()) {}
+  static std::string folder() {
+    const auto dir = std::filesystem::path(testing::TempDir()) / "slam_restart";
+    std::filesystem::create_directories(dir);
+    return dir.string();
+  }
+  static void SetUpTestSuite() { std::filesystem::remove_all(folder()); }
+};
+
+// One after the other: the second process finds what the first has kept.
+TEST_F(SlamRestartTest, First) {
+  level(supervisor_state_t::FULL);
+  stand({});
+  give(view({}), now_ - kExposure);
+  stand({});
+  EXPECT_TRUE(states_.empty());
+}
+
+TEST_F(SlamRestartTest, SecondComesBackWithItsMap) {
+  now_ = 10'000'000;
+  level(supervisor_state_t::FULL);
+  stand({0.3, 0, 0});
+  ASSERT_EQ(states_.size(), 1u);
+  EXPECT_LT(states_[0].size, 450'000);
+  give(view({0.3, 0, 0}, 2), now_ - kExposure);
+  ASSERT_EQ(poses_.size(), 1u);
+  // A first cloud would have nothing to be matched with.
+  EXPECT_EQ(poses_[0].status, +slam_pose_t::OK);
+}
+
+TEST(SlamConfigTest, WrongKeysAndRangesStopTheStart) {
+  const auto dir = std::filesystem::path(testing::TempDir()) / "slam_config";
+  std::filesystem::create_directories(dir);
+  const std::string rest = "match: {}\nmotion: {}\nattitude: {}\njump: {}\ndrift: {}\nanchor: {}\n";
+  const auto write = [&](const std::string& text) { std::ofstream(dir / "slam.yaml") << text; };
+  write("seed: 3\nmap: {}\nfilter: {}\n" + rest);
+  EXPECT_EQ(load_config(dir.string()).core.seed, 3u);
+  for (const char* bad :
+       {"seed: 3\nmap: {cell: 0.1}\nfilter: {}\n", "seed: 3\nmap: {cell_m: -1}\nfilter: {}\n", "map: {}\nfilter: {}\n",
+        "seed: 3\nmap: {}\nfilter: {min_particles: 300, max_particles: 200}\n"}) {
+    write(bad + rest);
+    EXPECT_THROW(load_config(dir.string()), ConfigError) << bad;
+  }
+}
+
+TEST(SlamConfigTest, TheProjectsOwnFileIsRead) {
+  const NodeConfig config = load_config(kConfig);
+  EXPECT_EQ(config.core.map.cells, 200);
+  EXPECT_DOUBLE_EQ(config.core.map.patches.cell_m, 0.1);
+}
+
+}  // namespace
+}  // namespace rover::slam
