@@ -148,9 +148,9 @@ TEST_F(SlamNodeTest, UnusableCloudsAreCountedAndTheNextGoodOneIsTaken) {
 TEST_F(SlamNodeTest, CloudsOfTheFutureAndOfForgottenTimesAreRefused) {
   level(supervisor_state_t::FULL);
   stand({});
-  give(view({}), now_ + 60'000'000);
   for (int i = 0; i < 6; ++i) stand({});
   give(view({}), now_ - 6'500'000);
+  give(view({}), now_ + 60'000'000);
   stand({});
   EXPECT_TRUE(elevations_.empty());
   EXPECT_EQ(world_.malformed(channel::kCloud), 2);
