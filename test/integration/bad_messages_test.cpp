@@ -12,11 +12,14 @@
 #include <iterator>
 #include <map>
 #include <random>
+#include <rover/cloud_t.hpp>
 #include <rover/correction_t.hpp>
+#include <rover/elevation_t.hpp>
 #include <rover/fault_t.hpp>
 #include <rover/image_t.hpp>
 #include <rover/imu_t.hpp>
 #include <rover/injection_t.hpp>
+#include <rover/ptu_state_t.hpp>
 #include <rover/slam_pose_t.hpp>
 #include <rover/supervisor_state_t.hpp>
 #include <rover/traversability_t.hpp>
@@ -33,9 +36,12 @@
 #include "localization/node.hpp"
 #include "locomotion/node.hpp"
 #include "mission_control/node.hpp"
+#include "pan_tilt/node.hpp"
 #include "path_planner/config.hpp"
 #include "path_planner/node.hpp"
+#include "point_cloud/node.hpp"
 #include "recorder/node.hpp"
+#include "slam/node.hpp"
 #include "stereo/node.hpp"
 #include "supervisor/config.hpp"
 #include "supervisor/node.hpp"
@@ -43,6 +49,7 @@
 #include "test/stereo/synthetic_world.hpp"
 #include "trajectory_control/config.hpp"
 #include "trajectory_control/node.hpp"
+#include "traversability/node.hpp"
 #include "visual_odometry/config.hpp"
 #include "visual_odometry/node.hpp"
 
@@ -104,6 +111,10 @@ const std::map<std::string, Factory>& factories() {
        }},
       {"mission_control", [](Node& n) { return std::make_shared<MissionControlNode>(n, plan()); }},
       {"recorder", make_test_recorder},
+      {"slam", [](Node& n) { return slam::make_slam(n, kConfig); }},
+      {"traversability", [](Node& n) { return trav::make_traversability(n, kConfig); }},
+      {"point_cloud", [](Node& n) { return cloud::make_point_cloud(n, kConfig); }},
+      {"pan_tilt", [](Node& n) { return gaze::make_pan_tilt(n, kConfig); }},
   };
   return kFactories;
 }
@@ -153,13 +164,16 @@ class Bus {
   std::vector<Event> heard_;
 };
 
-// The sensors of a rover that stands, and the measurements of the Full level, which nobody publishes yet.
+// The sensors of a rover that stands, and the measurements of the Full level, whose services idle.
 class StandingWorld {
  public:
   explicit StandingWorld(Bus& bus) : bus_(bus), streams_("world", 1) {
     const synthetic::RawPair pair = synthetic::render({}, synthetic::loccam_rig(), 1.0, 5);
     image_to(pair.left, left_);
     image_to(pair.right, right_);
+    const synthetic::RawPair far = synthetic::render({}, load_stereo_rig(kConfig, "navcam"), 1.0, 5);
+    image_to(far.left, navcam_left_);
+    image_to(far.right, navcam_right_);
   }
 
   void publish_sensors(Utime t) {
@@ -174,11 +188,17 @@ class StandingWorld {
     send(channel::kImu, imu, t, t);
     wheel_state_t wheels{};
     send(channel::kWheelState, wheels, t, t);
+    ptu_state_t unit{};
+    send(channel::kPtuState, unit, t, t);
     if ((t - kStart) % kFramePeriod != 0) return;
     left_.data.back() ^= 1;  // noise: what never changes is a frozen camera's
     right_.data.back() ^= 1;
     send(channel::kLocCamLeft, left_, t, t + kCameraLatency);
     send(channel::kLocCamRight, right_, t, t + kCameraLatency);
+    navcam_left_.data.back() ^= 1;
+    navcam_right_.data.back() ^= 1;
+    send(channel::kNavCamLeft, navcam_left_, t, t + kCameraLatency);
+    send(channel::kNavCamRight, navcam_right_, t, t + kCameraLatency);
     slam_pose_t slam{};
     slam.status = slam_pose_t::NO_INFORMATION;
     send(channel::kSlamPose, slam, t, t);
@@ -188,10 +208,34 @@ class StandingWorld {
     send(channel::kFault, fault, t, t);
     correction_t correction{};
     send(channel::kCorrection, correction, t, t);
+    publish_full(t);
     injection_t injection{};
     injection.target = "NO_SUCH_CHANNEL";
     injection.fault = "drop";
     send(channel::kInject, injection, t, t);
+  }
+
+  void publish_full(Utime t) {
+    ptu_state_t unit{};
+    send(channel::kPtuState, unit, t, t);
+    image_t picture{};
+    picture.width = 640;
+    picture.height = 480;
+    picture.size = picture.width * picture.height;
+    picture.data.assign(static_cast<size_t>(picture.size), 90);
+    send(channel::kNavCamLeft, picture, t, t);
+    send(channel::kNavCamRight, picture, t, t);
+    cloud_t cloud{};
+    cloud.point_count = 1;
+    cloud.x_m = cloud.y_m = cloud.depth_sigma_m = {0.1f};
+    cloud.z_m = {3.0f};
+    send(channel::kCloud, cloud, t, t);
+    elevation_t map{};
+    map.cell_m = 0.1;
+    map.cells_x = map.cells_y = 1;
+    map.size = 1;
+    map.height_m = map.sigma_m = {0.1f};
+    send(channel::kElevation, map, t, t);
   }
 
   void give_tick(Utime t) {
@@ -227,6 +271,7 @@ class StandingWorld {
   StreamCounter streams_;
   std::mt19937_64 random_{1};
   image_t left_{}, right_{};
+  image_t navcam_left_{}, navcam_right_{};
   size_t listed_ = 0;  // of what the bus heard, in ticks
 };
 
