@@ -137,6 +137,11 @@ Cause visual_lost(double longest_s) {
           [](Hands& h, Who) { h.blindness.visual_lost = false; }, nullptr};
 }
 
+Cause slam_lost(double longest_s) {
+  return {"nothing that the map knows", longest_s, [](Hands& h, Who, int) { h.blindness.slam_lost = true; },
+          [](Hands& h, Who) { h.blindness.slam_lost = false; }, nullptr};
+}
+
 // ---- causes in services
 
 Cause hang(double longest_s) {
@@ -265,9 +270,9 @@ std::vector<Case> of_seeing_and_following() {
 // In the order of the table: at the Full level but for the one of services that idle.
 std::vector<Case> of_the_full_level() {
   return {
-      {"terrain_way", {}, kRolling, {drop("TRAVERSABILITY", 12.0)}, true},
-      {"sweep_in_vain", {}, kRolling, {drop("TRAVERSABILITY", 80.0)}, true},
-      {"slam_lost", {}, kUnderWay, {tap("offset", "SLAM_POSE.status", 2.0, 6.0)}, true},
+      {"terrain_way", {}, kRolling, {drop("TRAVERSABILITY", 25.0)}, true},
+      {"sweep_in_vain", {}, kRolling, {drop("TRAVERSABILITY", 100.0)}, true},
+      {"slam_lost", {}, kUnderWay, {slam_lost(8.0)}, true},
       {"full_heartbeat", kFull, kUnderWay, {hang(2.0)}, true},
       {"full_idle_heartbeat", kFull, kEver, {hang(2.0)}},
       {"full_service_fault", kFull, kUnderWay, {reports(heartbeat_t::FAULT, false)}, true},

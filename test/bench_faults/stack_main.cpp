@@ -77,7 +77,7 @@ class Bench {
     stack_.add("stereo", [this](Node& n) { return make_stereo(n, rover_, field_, view_, blindness_); });
     stack_.add("visual_odometry", [this](Node& n) { return make_visual_odometry(n, rover_, blindness_); });
     stack_.add("traversability", make_traversability);
-    stack_.add("slam", make_slam);
+    stack_.add("slam", [this](Node& n) { return make_slam(n, blindness_); });
     for (const char* name : {"point_cloud", "pan_tilt", "global_localization", "recorder", "mission_control"})
       stack_.add(name, make_silent);
   }

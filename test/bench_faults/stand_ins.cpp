@@ -80,11 +80,11 @@ std::shared_ptr<void> make_visual_odometry(Node& node, const StandInRover& rover
   return std::make_shared<VisualOdometry>(node, rover, blindness);
 }
 
-std::shared_ptr<void> make_slam(Node& node) {
-  node.on_step([&node](Utime now) {
+std::shared_ptr<void> make_slam(Node& node, const Blindness& blindness) {
+  node.on_step([&node, &blindness](Utime now) {
     if (now % kTerrainPeriodUs != 0) return;
     slam_pose_t out{};
-    out.status = slam_pose_t::NO_INFORMATION;
+    out.status = blindness.slam_lost ? slam_pose_t::LOST : slam_pose_t::NO_INFORMATION;
     node.publish(channel::kSlamPose, out, now);
   });
   return nullptr;

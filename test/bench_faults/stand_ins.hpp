@@ -18,6 +18,7 @@ struct Blindness {
   std::function<double(int picture)> share;
   int pictures = 0;
   bool visual_lost = false;
+  bool slam_lost = false;
 };
 
 // DISPARITY of each exposure.
@@ -26,7 +27,7 @@ std::shared_ptr<void> make_stereo(Node& node, const StandInRover& rover, Field& 
 // VO between exposures, exact but for its stated covariance.
 std::shared_ptr<void> make_visual_odometry(Node& node, const StandInRover& rover, const Blindness& blindness);
 // SLAM_POSE that agrees with the odometry.
-std::shared_ptr<void> make_slam(Node& node);
+std::shared_ptr<void> make_slam(Node& node, const Blindness& blindness);
 // TRAVERSABILITY of easy ground around the newest POSE.
 std::shared_ptr<void> make_traversability(Node& node);
 // Heartbeats alone.
