@@ -63,10 +63,10 @@ class Island {
 
 }  // namespace
 
-std::vector<std::uint8_t> find_obstacles(const TerrainGrid& grid, const Steps& steps,
+std::vector<std::uint8_t> find_obstacles(const TerrainGrid& grid, const DiscPlanes& planes, const Steps& steps,
                                          const TraversabilityConfig& config) {
   const GridShape& shape = grid.shape;
-  const double limit_m = config.step_limit_m();
+  const double limit_m = config.step_limit_m(), foot_m = config.step.foot_m;
   std::vector<std::uint8_t> obstacle(shape.size(), 0);
   std::vector<Place> front;
   const auto mark = [&](Place p) {
@@ -77,14 +77,19 @@ std::vector<std::uint8_t> find_obstacles(const TerrainGrid& grid, const Steps& s
     const std::size_t i = shape.at(p.ix, p.iy);
     if (steps.rise_m[i] >= limit_m || steps.drop_m[i] >= limit_m) mark(p);
   });
-  while (!front.empty()) {
-    const Place p = front.back();
-    front.pop_back();
+  // Beside an obstacle less is enough: foot and flanks, and tops whose far side was not seen. Not beyond one cell where
+  // the rise may be noise.
+  for (std::size_t k = 0; k < front.size(); ++k)
+    for_neighbours(shape, front[k], [&](Place q) {
+      const std::size_t i = shape.at(q.ix, q.iy);
+      const bool raised = steps.rise_m[i] >= foot_m || grid.height_m[i] - planes.at(i).height_m >= limit_m;
+      if (!obstacle[i] && raised) mark(q);
+    });
+  for (const Place& p : front)
     for_neighbours(shape, p, [&](Place q) {
       const std::size_t i = shape.at(q.ix, q.iy);
-      if (!obstacle[i] && steps.rise_m[i] >= config.step.foot_m) mark(q);
+      if (steps.uncertain_rise_m[i] >= foot_m) obstacle[i] = 1;
     });
-  }
   return obstacle;
 }
 

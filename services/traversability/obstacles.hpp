@@ -11,7 +11,7 @@
 namespace rover::trav {
 
 // 1 for each cell of an obstacle. The rover's size is not in it: the planner tests the exact footprint.
-std::vector<std::uint8_t> find_obstacles(const TerrainGrid& grid, const Steps& steps,
+std::vector<std::uint8_t> find_obstacles(const TerrainGrid& grid, const DiscPlanes& planes, const Steps& steps,
                                          const TraversabilityConfig& config);
 
 // Seen ground in pieces that obstacles alone enclose and that are too small for the rover becomes obstacle.

@@ -60,7 +60,7 @@ struct Ground {
  private:
   void find(const TerrainGrid& grid, const TraversabilityConfig& config) {
     steps = find_steps(grid, planes, config.step);
-    obstacle = find_obstacles(grid, steps, config);
+    obstacle = find_obstacles(grid, planes, steps, config);
     close_islands(grid, config.footprint_m2, obstacle);
   }
 };

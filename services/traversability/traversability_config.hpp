@@ -23,9 +23,9 @@ struct StepConfig {
 
 struct CostConfig {
   double max_slope_rad = 0.3316;  // 19 deg; impassable beyond
-  double rough_m = 0.08;          // rms about the plane that costs as much as the steepest slope
+  double rough_m = 0.12;          // rms about the plane that costs as much as the steepest slope
   double slope_exponent = 1.7;    // 10/15/25/40 at 0/5/10/15 deg (Azkarate et al. 2020), scaled to the limit
-  double step_exponent = 2.0;
+  double step_exponent = 3.0;
   double rough_exponent = 2.0;
 };
 
