@@ -54,6 +54,13 @@ struct Comparison {
   std::string best;
 };
 
+double largest_after_fix_m(const Metrics& m) {
+  double largest = kNaN;
+  for (const CorrectionFigure& correction : m.global_corrections)
+    if (correction.accepted) largest = std::fmax(largest, correction.after_m);
+  return largest;
+}
+
 std::string paper_repairs(const Metrics& m) {
   if (m.info.scenario == "seed_traverse_1") return "6 on 86 m";
   if (m.info.scenario == "seed_traverse_2") return "10 on 62.2 m";
@@ -62,7 +69,7 @@ std::string paper_repairs(const Metrics& m) {
 
 // Azkarate et al. 2020, and other figures with their source.
 std::string comparison_table(const Metrics& m) {
-  const std::vector<Comparison> rows = {
+  std::vector<Comparison> rows = {
       {"Driven / planned path", shown(m.path_ratio, 3), "1.19", ""},
       {"Repairs", fmt::format("{} on {}", m.replans, shown(m.planned_length_m, 1, "m")), paper_repairs(m), ""},
       {"Repairs per metre", shown(m.replans_per_m, 3), "0.11", ""},
@@ -70,6 +77,11 @@ std::string comparison_table(const Metrics& m) {
       {"Duty: driven / (0.2 m/s x time)", shown(100.0 * m.duty, 1, "%"), "", "62 %, Perseverance's best sol"},
       {"Cross-track error, rms", shown(m.cross_track_rms_m, 3, "m"), "", ""},
   };
+  if (std::isfinite(m.slam_drift_percent))
+    rows.push_back({"SLAM drift", shown(m.slam_drift_percent, 2, "%"), "0.8 %", ""});
+  const double fixed_m = largest_after_fix_m(m);
+  if (std::isfinite(fixed_m))
+    rows.push_back({"Error after a global correction, largest", shown(fixed_m, 2, "m"), "below 0.5 m", "0.25 m"});
   std::string out =
       "<h2>Beside the paper</h2><table><tr><th></th><th class=\"n\">this run</th><th class=\"n\">paper's field "
       "test</th><th class=\"n\">best known elsewhere</th></tr>\n";
