@@ -119,6 +119,17 @@ TEST_F(Rocks, OfTenCentimetresTheyAreDearButPassable) {
   }
 }
 
+TEST_F(Rocks, TheTopBelongsToThemWhereTheFarSideWasNotSeen) {
+  TerrainGrid grid = make_terrain([](double x, double y) { return block_m(x, y, 0.3, 0.6); }, {.cells = 60});
+  for (int iy = 0; iy < 60; ++iy)
+    for (int ix = 30; ix < 60; ++ix)
+      if (std::abs(iy - 30) < 8) grid.height_m[grid.shape.at(ix, iy)] = kUnseen;
+  const TraversabilityMap map = judge(grid);
+  const Count top = count(map, [](double x, double y) { return x < 0.0 && std::hypot(x, y) < 0.6; });
+  EXPECT_EQ(top.passable, 0);
+  EXPECT_GT(top.impassable, 40);
+}
+
 TEST_F(Rocks, TheGroundBesideThemStaysPassable) {
   for (double height : {0.2, 0.3, 0.6}) {
     const TraversabilityMap map = with_block(height, 0.3, 0.005, 3);
