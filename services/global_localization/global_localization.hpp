@@ -38,7 +38,7 @@ struct AcceptanceConfig {
 };
 
 struct GlobalConfig {
-  double mosaic_side_m = 80.0;
+  double mosaic_side_m = 64.0;
   double max_height_sigma_m = 0.3;
   PlaneConfig filter;  // takes out the noise of orbital maps, which neighbouring cells share
   SearchConfig search;
@@ -75,6 +75,8 @@ class GlobalLocalization {
   GlobalLocalization(const GlobalConfig& config, HeightGrid orbital, double local_cell_m);
 
   void take(const ElevationView& view, const Eigen::Vector2d& p_odom_body);
+  // What was seen: odom is no longer what it was.
+  void forget() { mosaic_.clear(); }
   Correction correct(const Prior& prior) const;
 
  private:

@@ -24,6 +24,7 @@ bool all_known(const PlaneField& field, int column, int row) {
   return true;
 }
 
+// Of heights, less their mean: an offset between the maps tells nothing.
 struct Differences {
   int count = 0;
   double sum = 0.0, squares = 0.0;

@@ -37,7 +37,7 @@ struct Placement {
 struct Fit {
   int compared = 0;          // samples that both maps know
   double correlation = 0.0;  // of the gradients
-  double residual_m = 0.0;   // rms of the difference of the heights, without their common offset
+  double residual_m = 0.0;   // rms of the difference of the heights, without a common offset
 };
 
 // A part of the orbital map with the same filter as the template, read between its cells by cubic convolution (Keys

@@ -4,15 +4,12 @@
 #include <rover/elevation_t.hpp>
 #include <rover/pose_t.hpp>
 #include <rover/traversability_t.hpp>
-#include <string>
 
 #include "common/core/frames.hpp"
 #include "traversability/traversability.hpp"
 
 namespace rover::trav {
 
-// What is wrong with the message; empty: nothing. Single cells may be NaN.
-std::string fault_of(const elevation_t& message);
 TerrainGrid grid_from(const elevation_t& message);
 
 // The rover in odom; NaN where the message is of no use.

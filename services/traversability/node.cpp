@@ -3,6 +3,7 @@
 #include <cmath>
 #include <rover/traversability_t.hpp>
 
+#include "common/bus/elevation_message.hpp"
 #include "traversability/convert.hpp"
 #include "traversability/difficulty.hpp"
 

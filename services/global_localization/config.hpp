@@ -1,0 +1,24 @@
+// config/global_localization.yaml.
+#pragma once
+
+#include <string>
+
+#include "common/core/time.hpp"
+#include "global_localization/global_localization.hpp"
+#include "global_localization/try_schedule.hpp"
+
+namespace rover::global {
+
+struct NodeConfig {
+  Utime latency_us = 500'000;
+  double max_map_age_s = 2.0;
+  double max_pose_age_s = 0.5;
+  double local_cell_m = 0.1;  // of ELEVATION
+  double max_jump_m = 0.5;    // of the pose in odom, beyond the way driven
+  ScheduleConfig schedule;
+  GlobalConfig core;
+};
+
+NodeConfig load_config(const std::string& config_dir);
+
+}  // namespace rover::global

@@ -1,0 +1,100 @@
+#include "global_localization/node.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <rover/correction_t.hpp>
+
+#include "common/bus/elevation_message.hpp"
+#include "global_localization/convert.hpp"
+#include "global_localization/orbital_map_file.hpp"
+#include "rover_simulator/world/dtm_reader.hpp"
+
+namespace rover::global {
+
+GlobalLocalizationNode::GlobalLocalizationNode(Node& node, const NodeConfig& config)
+    : node_(node), config_(config), schedule_(config.schedule) {
+  pose_.header.utime = kNever;
+  load_map();
+  node_.subscribe<supervisor_state_t>(channel::kState, [this](const supervisor_state_t& message) {
+    full_ = message.level == supervisor_state_t::FULL;
+  });
+  node_.subscribe<pose_t>(channel::kPose, [this](const pose_t& message) { pose_ = message; });
+  node_.subscribe_slow<elevation_t>(channel::kElevation, config.latency_us,
+                                    [this](const elevation_t& message) { take(message); });
+}
+
+void GlobalLocalizationNode::load_map() {
+  try {
+    core_.emplace(config_.core, load_orbital_map(node_.options().run_dir), config_.local_cell_m);
+  } catch (const DtmError& error) {  // a rover may drive without one
+    node_.set_status(heartbeat_t::DEGRADED, error.what());
+    node_.log("WARN", std::string("NO_ORBITAL_MAP ") + error.what());
+  }
+}
+
+void GlobalLocalizationNode::take(const elevation_t& message) {
+  if (!full_) return;
+  const std::string refusal = refusal_of(message);
+  if (!refusal.empty()) {
+    node_.reject(channel::kElevation, refusal);
+    return;
+  }
+  last_map_ = message.header.utime;
+  const std::optional<Prior> prior = fresh_prior();
+  if (!prior) return;
+  look_for_jump(*prior);
+  if (core_) core_->take(view_from(message), prior->p_odom_body);
+  if (schedule_.due(pose_.travelled_m)) try_to_correct(*prior, message.header.utime);
+}
+
+std::string GlobalLocalizationNode::refusal_of(const elevation_t& message) const {
+  const double age_s = to_seconds(node_.now() - message.header.utime);
+  if (age_s < 0.0) return "from the future";
+  if (age_s > config_.max_map_age_s) return "stale";
+  if (message.header.utime <= last_map_) return "not newer than the last map";
+  const std::string fault = fault_of(message);
+  if (!fault.empty()) return fault;
+  if (std::abs(message.cell_m - config_.local_cell_m) > 1e-6) return "cells are not of the configured side";
+  return "";
+}
+
+std::optional<Prior> GlobalLocalizationNode::fresh_prior() const {
+  const double age_s = to_seconds(node_.now() - pose_.header.utime);
+  if (pose_.header.utime == kNever || age_s < 0.0 || age_s > config_.max_pose_age_s) return std::nullopt;
+  return prior_from(pose_);
+}
+
+// Odom never jumps; where it did all the same, what was seen before lies elsewhere in it.
+void GlobalLocalizationNode::look_for_jump(const Prior& prior) {
+  const double driven_m = std::abs(pose_.travelled_m - last_travelled_m_);
+  if (last_place_ && (prior.p_odom_body - *last_place_).norm() > driven_m + config_.max_jump_m) {
+    node_.log("WARN", "ODOMETRY_JUMPED memory of the ground begins anew");
+    if (core_) core_->forget();
+    schedule_.restart();
+  }
+  last_place_ = prior.p_odom_body;
+  last_travelled_m_ = pose_.travelled_m;
+}
+
+void GlobalLocalizationNode::try_to_correct(const Prior& prior, Utime utime) {
+  Correction correction;
+  correction.reason = "no orbital map";
+  if (core_) correction = core_->correct(prior);
+  schedule_.tried(pose_.travelled_m, correction.accepted);
+  correction_t message{};
+  correction_to(correction, prior, message);
+  node_.publish(channel::kCorrection, message, utime);
+  char figures[200];
+  std::snprintf(figures, sizeof figures,
+                " score=%.3f second=%.3f residual_m=%.3f second_residual_m=%.3f relief_m2=%.3f area_m2=%.0f",
+                correction.score, correction.second_score, correction.residual_m, correction.second_residual_m,
+                correction.relief_m2, correction.area_m2);
+  node_.log("INFO",
+            (correction.accepted ? std::string("CORRECTION") : "NO_CORRECTION reason=" + message.reason) + figures);
+}
+
+std::shared_ptr<GlobalLocalizationNode> make_global_localization(Node& node, const std::string& config_dir) {
+  return std::make_shared<GlobalLocalizationNode>(node, load_config(config_dir));
+}
+
+}  // namespace rover::global

@@ -1,0 +1,45 @@
+// The bus side of global localization: a CORRECTION for each try, accepted or not, while the level is FULL.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <rover/elevation_t.hpp>
+#include <rover/pose_t.hpp>
+#include <rover/supervisor_state_t.hpp>
+#include <string>
+
+#include "common/bus/node.hpp"
+#include "global_localization/config.hpp"
+#include "global_localization/global_localization.hpp"
+#include "global_localization/try_schedule.hpp"
+
+namespace rover::global {
+
+class GlobalLocalizationNode {
+ public:
+  GlobalLocalizationNode(Node& node, const NodeConfig& config);
+  GlobalLocalizationNode(const GlobalLocalizationNode&) = delete;
+  GlobalLocalizationNode& operator=(const GlobalLocalizationNode&) = delete;
+
+ private:
+  void load_map();
+  void take(const elevation_t& message);
+  std::string refusal_of(const elevation_t& message) const;
+  std::optional<Prior> fresh_prior() const;
+  void look_for_jump(const Prior& prior);
+  void try_to_correct(const Prior& prior, Utime utime);
+
+  Node& node_;
+  NodeConfig config_;
+  std::optional<GlobalLocalization> core_;  // none without an orbital map
+  TrySchedule schedule_;
+  pose_t pose_{};
+  bool full_ = false;
+  Utime last_map_ = kNever;
+  std::optional<Eigen::Vector2d> last_place_;  // in odom, and the way driven until then
+  double last_travelled_m_ = 0.0;
+};
+
+std::shared_ptr<GlobalLocalizationNode> make_global_localization(Node& node, const std::string& config_dir);
+
+}  // namespace rover::global
