@@ -70,6 +70,51 @@ void read_margins(const Config& c, PathPlannerConfig& out) {
   if (out.tight_margin_m > out.margin_m) c.fail("tight_m", "must not be larger than hazard_m");
 }
 
+void read_goal(const Config& c, GoalFieldConfig& out) {
+  c.read("horizon_m", out.horizon_m, {2.0, 12.0});
+  c.read("max_deviation_m", out.max_deviation_m, {0.5, 12.0});
+  c.read("return_way_m", out.return_way_m, {1.0, 50.0});
+  c.read("heading_cost_m", out.heading_cost_m, {0.0, 10.0});
+  c.read("goal_miss_cost", out.goal_miss_cost, {0.0, 50.0});
+  c.read("unknown_cost", out.unknown_cost, {0.0, 20.0});
+  c.read("difficulty_cost", out.difficulty_cost, {0.0, 50.0});
+  c.read("risk_distance_m", out.risk_distance_m, {0.05, 5.0});
+  c.read("risk_cost", out.risk_cost, {0.0, 20.0});
+}
+
+void read_curves(const Config& c, CurveSearchConfig& out) {
+  c.read("step_m", out.step_m, {0.1, 1.0});
+  c.read("curvature_cost", out.curvature_cost, {0.0, 5.0});
+  c.read("bend_cost_m", out.bend_cost_m, {0.0, 5.0});
+  c.read("turn_cost_m", out.turn_cost_m, {0.0, 50.0});
+  c.read("turn_cost_per_rad_m", out.turn_cost_per_rad_m, {0.0, 50.0});
+  c.read("turn_bend_cost_m", out.turn_bend_cost_m, {0.0, 50.0});
+  c.read("tight_factor", out.tight_factor, {1.0, 20.0});
+  c.read("greed", out.greed, {1.0, 5.0});
+  c.read("max_expansions", out.max_expansions, {10, 1000000});
+}
+
+// What both levels share is read before.
+void read_full(const Config& c, const PathPlannerConfig& shared, FullPlannerConfig& out) {
+  read_goal(c.section("goal"), out.goal);
+  out.goal.dead_end_reach_m = shared.repair.dead_end_reach_m;
+  out.goal.dead_end_cost = shared.repair.dead_end_cost;
+  out.search.max_curvature_per_m = shared.repair.search.max_curvature_per_m;
+  read_curves(c.section("search"), out.search);
+  out.turn_extra_m = shared.repair.turn_extra_m;
+  double map_side_m = out.map_cells * shared.memory.cell_m;
+  c.read("map_side_m", map_side_m, {16.0, 60.0});
+  out.map_cells = static_cast<int>(std::lround(map_side_m / shared.memory.cell_m));
+  c.read("sure_way_m", out.sure_way_m, {0.1, 20.0});
+  c.read("least_sure_way_m", out.least_sure_way_m, {0.1, 20.0});
+  c.read("hold_m", out.hold_m, {0.5, 10.0});
+  c.read("switch_gain_m", out.switch_gain_m, {0.0, 20.0});
+  c.read("switch_share", out.switch_share, {0.0, 5.0});
+  c.read("tight_extra_m", out.tight_extra_m, {0.0, 1.0});
+  c.read("stale_s", out.stale_s, {0.5, 60.0});
+  c.read("stale_way_m", out.stale_way_m, {0.2, 10.0});
+}
+
 void read_vehicle(const Vehicle& vehicle, PathPlannerConfig& out) {
   out.footprint = {vehicle.footprint_half_length_m(), vehicle.footprint_half_width_m()};
   out.ground_z_m = -vehicle.origin_height_m;
@@ -122,6 +167,7 @@ PathPlannerConfig load_config(const std::string& config_dir) {
   read_radius(repair, vehicle, out.repair);
   read_search(repair.section("search"), out.repair.search);
   read_smoother(repair.section("smoother"), out.repair.smoother);
+  read_full(config.section("full"), out, out.full);
   config.finish();
   out.repair.footprint = out.footprint;
   return out;

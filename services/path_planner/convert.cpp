@@ -8,6 +8,9 @@ namespace rover::planning {
 
 namespace {
 
+static_assert(TraversabilityGrid::kImpassable == traversability_t::IMPASSABLE &&
+              TraversabilityGrid::kUnknown == traversability_t::UNKNOWN);
+
 std::int8_t kind_of(PathKind kind) {
   switch (kind) {
     case PathKind::kGlobal:
@@ -51,6 +54,11 @@ HazardGrid hazards_from(const hazards_t& message) {
   out.cells_y = message.cells_y;
   out.cells = message.cells;
   return out;
+}
+
+TraversabilityGrid traversability_from(const traversability_t& message) {
+  return {message.header.utime, message.cell_m,  message.origin_x_m, message.origin_y_m,
+          message.cells_x,      message.cells_y, message.cells};
 }
 
 std::string global_path_from(const path_t& message, GlobalPath& path) {

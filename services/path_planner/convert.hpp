@@ -5,6 +5,7 @@
 #include <rover/path_t.hpp>
 #include <rover/planner_status_t.hpp>
 #include <rover/pose_t.hpp>
+#include <rover/traversability_t.hpp>
 #include <string>
 
 #include "path_planner/path_planner.hpp"
@@ -13,6 +14,7 @@ namespace rover::planning {
 
 PoseSample pose_from(const pose_t& message);
 HazardGrid hazards_from(const hazards_t& message);
+TraversabilityGrid traversability_from(const traversability_t& message);
 // Why the message cannot be taken; empty where it can.
 std::string global_path_from(const path_t& message, GlobalPath& path);
 void path_to(const LocalPath& path, path_t& message);

@@ -10,15 +10,10 @@
 
 namespace rover::planning {
 
-struct CurveSearchConfig {
+struct CurveSearchConfig : DrivingPrices {
   double step_m = 0.3;
-  double max_curvature_per_m = 0.8;
-  double curvature_cost = 0.15;  // per metre, at the largest curvature
-  double bend_cost_m = 0.4;      // for a change by the largest curvature in one piece; less, the square of it
-  double turn_cost_m = 3.0;      // a point turn takes about 15 s, in which the rover could drive 3 m
-  double turn_cost_per_rad_m = 1.0;
-  double turn_bend_cost_m = 1.0;  // more, where the wheels come from the largest curvature
-  double tight_factor = 2.0;      // of the cost, where only the tight margin is kept
+  double bend_cost_m = 0.4;       // for a change by the largest curvature in one piece; less, the square of it
+  double turn_bend_cost_m = 1.0;  // of a point turn more, where the wheels come from the largest curvature
   double greed = 1.1;
   int max_expansions = 12000;
 };

@@ -24,8 +24,8 @@ FullPlan FullPlanner::plan(const FullRequest& request) const {
                      request.footprint.half_width_m, request.tight_margin_m, request.goal_reach_m, request.dead_ends});
   FullPlan out;
   if (!field.reachable()) return out;
-  const HeadingField headings(config_.headings, {request.terrain, field, request.footprint, request.rover,
-                                                 request.roomy_margin_m, request.tight_margin_m});
+  const HeadingField headings(config_.search, {request.terrain, field, request.footprint, request.rover,
+                                               request.roomy_margin_m, request.tight_margin_m});
   const auto check = [&](double margin_m) {
     return FootprintCheck(request.terrain, request.footprint, margin_m, kSeenAboutM, request.rover);
   };

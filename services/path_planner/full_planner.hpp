@@ -11,7 +11,6 @@ namespace rover::planning {
 
 struct FullPlannerConfig {
   GoalFieldConfig goal;
-  HeadingFieldConfig headings;
   CurveSearchConfig search;
   double sure_way_m = 2.5;        // of a plan, over ground that is seen in time
   double least_sure_way_m = 0.6;  // where that leaves no way
@@ -20,6 +19,7 @@ struct FullPlannerConfig {
   double switch_share = 0.1;      // ... and by that share of its cost
   double tight_extra_m = 0.02;    // that plans keep beyond the tight margin, where they do not keep the wide one
   double turn_extra_m = 0.04;     // of the margin, for point turns: the rover does not halt exactly
+  int map_cells = 280;            // of the ground that is remembered, each way; as large as the hazard memory's
   double stale_way_m = 1.5;       // driven since the newest map, with which it is too old ...
   double stale_s = 5.0;           // ... if that took as long
 };

@@ -11,7 +11,7 @@
 namespace rover::planning {
 
 struct GoalFieldConfig {
-  double horizon_m = 7.0;        // of the goal line, along the global path
+  double horizon_m = 8.0;        // of the goal line, along the global path
   double max_deviation_m = 8.0;  // from the global path
   double return_way_m = 8.0;     // past the goal line, on which a plan's offset from the global path is taken out
   double heading_cost_m = 0.8;   // per radian between a plan's end and the global path

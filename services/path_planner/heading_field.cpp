@@ -17,14 +17,16 @@ constexpr double kSlackM = 0.03;   // of the margins: the lattice must not close
 constexpr double kEndBandM = 0.7;  // past the goal line
 constexpr double kAboutRoverM = 1.0;  // the rover may stand closer to a hazard than it would go
 
+constexpr double kBeyond = 4.0;  // of cost, past that of the rover's pose, until which the field is laid
+
 int wrapped(int heading) {
   return (heading % HeadingField::kHeadings + HeadingField::kHeadings) % HeadingField::kHeadings;
 }
 
 }  // namespace
 
-HeadingField::HeadingField(const HeadingFieldConfig& config, const HeadingQuery& query)
-    : config_(config),
+HeadingField::HeadingField(const DrivingPrices& prices, const HeadingQuery& query)
+    : prices_(prices),
       query_(query),
       terrain_(query.terrain),
       cells_(terrain_.cells()),
@@ -43,7 +45,7 @@ void HeadingField::make_arcs() {
   const double bin = yaw_of(1);
   for (int heading = 0; heading < kHeadings; ++heading)
     for (const int turn : kTurns) {
-      const double shortest = std::max(kShortestM, std::abs(turn) * bin / config_.max_curvature_per_m);
+      const double shortest = std::max(kShortestM, std::abs(turn) * bin / prices_.max_curvature_per_m);
       double least = kInfinity;
       Arc best{};
       for (double length = shortest; length <= kLongestM; length += kLengthStepM) {
@@ -56,7 +58,7 @@ void HeadingField::make_arcs() {
                                        end.y_m - to_cells(end.y_m) * terrain_.cell_m());
         if (miss >= least) continue;
         least = miss;
-        const double share = curvature / config_.max_curvature_per_m;
+        const double share = curvature / prices_.max_curvature_per_m;
         best = {heading,
                 to_cells(end.x_m),
                 to_cells(end.y_m),
@@ -64,7 +66,7 @@ void HeadingField::make_arcs() {
                 to_cells(middle.y_m),
                 wrapped(heading + turn / 2),
                 static_cast<float>(length),
-                static_cast<float>(config_.curvature_cost * share * share * length)};
+                static_cast<float>(prices_.curvature_cost * share * share * length)};
       }
       arcs_to_[wrapped(heading + turn)].push_back(best);
     }
@@ -127,7 +129,7 @@ void HeadingField::stamp_heading(int heading, double margin_m, Room room, const 
 float HeadingField::metre_cost(int cell, int heading) const {
   const Room here = room(cell, heading);
   if (here == kBlocked) return kNone;
-  return here == kTight ? static_cast<float>(config_.tight_factor) * ground_[cell] : ground_[cell];
+  return here == kTight ? static_cast<float>(prices_.tight_factor) * ground_[cell] : ground_[cell];
 }
 
 void HeadingField::seed() {
@@ -169,7 +171,7 @@ void HeadingField::spread() {
       else
         spread_turning(cell, heading, cost);
     }
-    if (std::isinf(last) && std::isfinite(to_go(query_.rover))) last = to_go(query_.rover) + config_.beyond_m;
+    if (std::isinf(last) && std::isfinite(to_go(query_.rover))) last = to_go(query_.rover) + kBeyond;
   }
 }
 
@@ -199,9 +201,9 @@ void HeadingField::spread_turning(int cell, int heading, float cost) {
     const int from = wrapped(heading + turn);
     if (room(cell, from) == kBlocked) continue;
     offer(count_ * kHeadings + static_cast<size_t>(from) * count_ + cell,
-          cost + static_cast<float>(config_.turn_cost_per_rad_m * yaw_of(1)));
+          cost + static_cast<float>(prices_.turn_cost_per_rad_m * yaw_of(1)));
   }
-  offer(static_cast<size_t>(heading) * count_ + cell, cost + static_cast<float>(config_.turn_cost_m));
+  offer(static_cast<size_t>(heading) * count_ + cell, cost + static_cast<float>(prices_.turn_cost_m));
 }
 
 double HeadingField::least_about(const Pose2& pose, size_t layer) const {

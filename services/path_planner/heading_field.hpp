@@ -10,13 +10,13 @@
 
 namespace rover::planning {
 
-struct HeadingFieldConfig {
+// What driving costs, beside the ground.
+struct DrivingPrices {
   double max_curvature_per_m = 0.8;
   double curvature_cost = 0.15;  // per metre, at the largest curvature
   double turn_cost_m = 3.0;      // a point turn takes about 15 s, in which the rover could drive 3 m
   double turn_cost_per_rad_m = 1.0;
   double tight_factor = 2.0;  // of the cost, where only the tight margin is kept
-  double beyond_m = 4.0;      // of cost, past that of the rover's pose, until which the field is laid
 };
 
 struct HeadingQuery {
@@ -32,7 +32,7 @@ class HeadingField {
  public:
   static constexpr int kHeadings = 32;
 
-  HeadingField(const HeadingFieldConfig& config, const HeadingQuery& query);
+  HeadingField(const DrivingPrices& prices, const HeadingQuery& query);
 
   // The least of the lattice poses about this one; infinity: nothing leads on, or not within the field's reach.
   double to_go(const Pose2& pose) const { return least_about(pose, 0); }
@@ -69,7 +69,7 @@ class HeadingField {
   float metre_cost(int cell, int heading) const;
   static double yaw_of(int heading) { return 2.0 * kPi * heading / kHeadings; }
 
-  HeadingFieldConfig config_;
+  DrivingPrices prices_;
   HeadingQuery query_;
   const Terrain& terrain_;
   int cells_;

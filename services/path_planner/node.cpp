@@ -12,6 +12,7 @@ namespace {
 
 constexpr Utime kRepeatPeriodUs = 1'000'000;       // of PATH: a restarted controller has none
 constexpr Utime kFaultClearsUs = 4'000'000;        // a row on the path is cleared by good ones for 1-2 s (fdir.yaml)
+constexpr Utime kOldestMapUs = 5'000'000;          // at its arrival
 constexpr std::int64_t kPathsPerBoot = 1'000'000;  // keeps the path ids of two processes apart
 constexpr double kMostClearRadiusM = 5.0;          // more than an operator would certify
 
@@ -53,6 +54,9 @@ PathPlannerNode::PathPlannerNode(Node& node, const PathPlannerConfig& config)
   node_.subscribe<path_t>(channel::kGlobalPath, [this](const path_t& m) { on_global_path(m); });
   node_.subscribe<pose_t>(channel::kPose, [this](const pose_t& m) { planner_.add_pose(pose_from(m)); });
   node_.subscribe<hazards_t>(channel::kHazards, [this](const hazards_t& m) { on_hazards(m); });
+  node_.subscribe<traversability_t>(channel::kTraversability,
+                                    [this](const traversability_t& m) { on_traversability(m); });
+  node_.subscribe<supervisor_state_t>(channel::kState, [this](const supervisor_state_t& m) { on_state(m); });
   node_.subscribe<ground_command_t>(channel::kGroundCommand,
                                     [this](const ground_command_t& m) { on_ground_command(m); });
   node_.subscribe<fault_t>(channel::kFault, [this](const fault_t& m) { on_fault(m); });
@@ -79,6 +83,20 @@ void PathPlannerNode::on_hazards(const hazards_t& message) {
   const HazardGrid grid = hazards_from(message);
   if (const std::string fault = grid.fault(); !fault.empty()) return node_.reject(channel::kHazards, fault);
   planner_.add_hazards(grid);
+}
+
+void PathPlannerNode::on_traversability(const traversability_t& message) {
+  const TraversabilityGrid map = traversability_from(message);
+  if (const std::string fault = map.fault(); !fault.empty()) return node_.reject(channel::kTraversability, fault);
+  if (map.utime > node_.now()) return node_.reject(channel::kTraversability, "map is from the future");
+  if (node_.now() - map.utime > kOldestMapUs) return node_.reject(channel::kTraversability, "map is too old");
+  planner_.add_traversability(map);
+}
+
+void PathPlannerNode::on_state(const supervisor_state_t& message) {
+  const bool known = message.level == supervisor_state_t::EFFICIENT || message.level == supervisor_state_t::FULL;
+  if (!known) return node_.reject(channel::kState, "unknown level");
+  planner_.set_level(message.level == supervisor_state_t::FULL);
 }
 
 // Standing faults are repeated: one that is older than the path is not about it, unless it stands on although the path

@@ -1,10 +1,13 @@
-// The path planner on the bus: GLOBAL_PATH, POSE, HAZARDS and the start pose in, PATH and PLANNER_STATUS out.
+// The path planner on the bus: GLOBAL_PATH, POSE, HAZARDS, the start pose, and for the Full level STATE and
+// TRAVERSABILITY in; PATH and PLANNER_STATUS out.
 #pragma once
 
 #include <rover/fault_t.hpp>
 #include <rover/ground_command_t.hpp>
 #include <rover/hazards_t.hpp>
 #include <rover/path_t.hpp>
+#include <rover/supervisor_state_t.hpp>
+#include <rover/traversability_t.hpp>
 #include <string>
 #include <vector>
 
@@ -21,6 +24,8 @@ class PathPlannerNode {
  private:
   void on_global_path(const path_t& message);
   void on_hazards(const hazards_t& message);
+  void on_traversability(const traversability_t& message);
+  void on_state(const supervisor_state_t& message);
   void on_fault(const fault_t& message);
   void on_ground_command(const ground_command_t& message);
   void step(Utime now);

@@ -63,6 +63,7 @@ PathPlanner::PathPlanner(const PathPlannerConfig& config, std::int64_t first_pat
       local_repair_(config.repair),
       full_planner_(config.full),
       memory_(config.memory),
+      ground_(config.full.map_cells, config.memory.cell_m),
       next_path_id_(first_path_id) {}
 
 std::string PathPlanner::set_global_path(const GlobalPath& path) {
@@ -92,6 +93,7 @@ void PathPlanner::add_pose(const PoseSample& sample) {
   history_.add(sample);
   take_start_area();
   memory_.move_to(position(rover()));
+  if (full_level_) ground_.move_to(position(rover()));
   memory_.mark_driven(rover(), config_.footprint);
   track_driven_way();
 }
@@ -109,6 +111,7 @@ void PathPlanner::take_start_area() {
   history_.clear();
   history_.add(newest);
   memory_.clear();
+  ground_.clear();
   driven_.clear();
   dead_ends_.clear();
   memory_.move_to(position(rover()));

@@ -110,7 +110,7 @@ class PathPlanner {
   // The level that the supervisor is on.
   void set_level(bool full);
   // False where the map cannot be used: it contradicts itself, or the level is not Full.
-  bool add_traversability(TraversabilityGrid map);
+  bool add_traversability(const TraversabilityGrid& map);
   // The path is not to be driven on (FDIR): once the rover stands, another one is looked for.
   void request_replan() { replan_wanted_ = true; }
   PlannerOutput step(Utime now);
@@ -177,7 +177,7 @@ class PathPlanner {
   double seen_way(const Terrain& terrain, const std::vector<Pose2>& poses) const;
   void track_turn();
   bool continuous() const;
-  Terrain terrain() const { return Terrain(memory_, continuous() ? &*map_ : nullptr); }
+  Terrain terrain() const { return Terrain(memory_, continuous() ? &ground_ : nullptr); }
   void go_on(PlannerOutput& out);
   bool at_turn() const;
   bool plan_on(PlannerOutput& out);
@@ -202,6 +202,7 @@ class PathPlanner {
   LocalRepair local_repair_;
   FullPlanner full_planner_;
   HazardMemory memory_;
+  GroundMap ground_;  // of the Full level
   PoseHistory history_;
   DrivenTrack driven_;
   std::optional<StartArea> start_area_;
@@ -225,7 +226,7 @@ class PathPlanner {
   int frames_before_unseen_ = 0;
   int frames_before_possible_ = 0;
   bool full_level_ = false;
-  std::optional<TraversabilityGrid> map_;
+  Utime map_utime_ = kNever;      // of the newest map; kNever: none
   double map_travelled_m_ = 0.0;  // by the rover when it came
   bool new_map_ = false;          // since the last judgement
   RepairAgenda agenda_;

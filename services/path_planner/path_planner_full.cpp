@@ -25,7 +25,8 @@ constexpr double kNearBlockM = 3.5;  // nearer blocks are planned for at once, o
 
 void PathPlanner::set_level(bool full) {
   if (full_level_ && !full) {
-    map_.reset();
+    map_utime_ = kNever;
+    ground_.clear();
     new_map_ = false;
     // The rest of the plan is driven as a repair is: the global path follows.
     if (active_.kind == PathKind::kContinuous) active_.kind = PathKind::kRepair;
@@ -33,9 +34,11 @@ void PathPlanner::set_level(bool full) {
   full_level_ = full;
 }
 
-bool PathPlanner::add_traversability(TraversabilityGrid map) {
+bool PathPlanner::add_traversability(const TraversabilityGrid& map) {
   if (!full_level_ || !map.fault().empty() || history_.empty()) return false;
-  map_ = std::move(map);
+  ground_.move_to(position(rover()));
+  ground_.add(map);
+  map_utime_ = map.utime;
   map_travelled_m_ = history_.newest().travelled_m;
   new_map_ = true;
   return true;
@@ -43,9 +46,9 @@ bool PathPlanner::add_traversability(TraversabilityGrid map) {
 
 // A map stays true while the rover stands; driven away from, it has to be followed by another one.
 bool PathPlanner::continuous() const {
-  if (!full_level_ || !map_ || history_.empty()) return false;
+  if (!full_level_ || map_utime_ == kNever || history_.empty()) return false;
   const PoseSample& now = history_.newest();
-  const bool old = now.utime - map_->utime > to_utime(config_.full.stale_s);
+  const bool old = now.utime - map_utime_ > to_utime(config_.full.stale_s);
   return !(old && now.travelled_m - map_travelled_m_ > config_.full.stale_way_m);
 }
 

@@ -51,32 +51,37 @@ std::vector<std::uint8_t> wide_parts(const std::vector<std::uint8_t>& mask, int 
 
 }  // namespace
 
-Terrain::Terrain(const HazardMemory& memory, const TraversabilityGrid* map_of_ground)
-    : cells_(memory.map().cells()),
+Terrain::Terrain(const HazardMemory& memory, const GroundMap* ground)
+    : cells_(ground != nullptr ? ground->map().cells() : memory.map().cells()),
       cell_m_(memory.map().cell_m()),
       cells_per_m_(1.0 / cell_m_),
       side_m_(cells_ * cell_m_) {
-  const GridMap<GroundCell>& map = memory.map();
-  corner_ = {map.origin().ix * cell_m_, map.origin().iy * cell_m_};
+  const CellIndex origin = ground != nullptr ? ground->map().origin() : memory.map().origin();
+  corner_ = {origin.ix * cell_m_, origin.iy * cell_m_};
+  const auto for_each_cell = [&](auto&& f) {
+    for (int iy = origin.iy; iy < origin.iy + cells_; ++iy)
+      for (int ix = origin.ix; ix < origin.ix + cells_; ++ix) f(CellIndex{ix, iy}, memory.map().get({ix, iy}));
+  };
   unseen_.reserve(static_cast<size_t>(cells_) * cells_);
   std::vector<std::uint8_t> blind;
   blind.reserve(unseen_.capacity());
-  map.for_each([&](CellIndex, const GroundCell& cell) { blind.push_back(memory.blind(cell) ? 1 : 0); });
+  for_each_cell([&](CellIndex, const GroundCell& cell) { blind.push_back(memory.blind(cell) ? 1 : 0); });
   const std::vector<std::uint8_t> widely_blind = wide_parts(blind, cells_);
-  map.for_each([&](CellIndex, const GroundCell& cell) {
+  for_each_cell([&](CellIndex, const GroundCell& cell) {
     unseen_.push_back(cell.seen && !widely_blind[unseen_.size()] ? 0 : 1);
   });
   unseen_ = closed(unseen_, cells_);
   std::vector<std::uint8_t> impassable(unseen_.size(), 0);
-  if (map_of_ground != nullptr) lay_map(memory, *map_of_ground, impassable);
+  if (ground != nullptr) lay_ground(memory, *ground, impassable);
   std::vector<std::uint8_t> hazard;
   hazard.reserve(unseen_.size());
-  map.for_each([&](CellIndex i, const GroundCell& cell) {
+  for_each_cell([&](CellIndex i, const GroundCell& cell) {
     const bool stays_unseen = unseen_[hazard.size()] != 0 && blind[hazard.size()] != 0;
     const bool certain = stays_unseen || impassable[hazard.size()] != 0;
     const bool is_hazard = cell.hits > 0 || certain;
     if (hazard.size() % cells_ == 0) row_begin_.push_back(hazards_.size());
-    if (is_hazard) hazards_.push_back({{map.center_x_m(i), map.center_y_m(i)}, certain || memory.confirmed(cell)});
+    if (is_hazard)
+      hazards_.push_back({{memory.map().center_x_m(i), memory.map().center_y_m(i)}, certain || memory.confirmed(cell)});
     hazard.push_back(is_hazard ? 1 : 0);
   });
   row_begin_.push_back(hazards_.size());
@@ -84,18 +89,15 @@ Terrain::Terrain(const HazardMemory& memory, const TraversabilityGrid* map_of_gr
   unseen_distance_ = distance_field(unseen_, cells_, cells_, cell_m_);
 }
 
-void Terrain::lay_map(const HazardMemory& memory, const TraversabilityGrid& map,
-                      std::vector<std::uint8_t>& impassable) {
+void Terrain::lay_ground(const HazardMemory& memory, const GroundMap& ground, std::vector<std::uint8_t>& impassable) {
   difficulty_.assign(unseen_.size(), 0.0F);
-  size_t i = 0;
-  memory.map().for_each([&](CellIndex, const GroundCell& cell) {
-    const std::uint8_t cost = map.at(center_of(static_cast<int>(i)));
-    if (cost != TraversabilityGrid::kUnknown) {
-      unseen_[i] = 0;
-      impassable[i] = cost == TraversabilityGrid::kImpassable && !cell.driven ? 1 : 0;
-      difficulty_[i] = static_cast<float>(cost) / static_cast<float>(TraversabilityGrid::kImpassable);
-    }
-    ++i;
+  size_t next = 0;
+  ground.map().for_each([&](CellIndex index, std::uint8_t cost) {
+    const size_t i = next++;
+    if (cost == TraversabilityGrid::kUnknown) return;
+    unseen_[i] = 0;
+    impassable[i] = cost == TraversabilityGrid::kImpassable && !memory.map().get(index).driven ? 1 : 0;
+    difficulty_[i] = static_cast<float>(cost) / static_cast<float>(TraversabilityGrid::kImpassable);
   });
 }
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "path_planner/geometry.hpp"
+#include "path_planner/ground_map.hpp"
 #include "path_planner/hazard_memory.hpp"
-#include "path_planner/traversability_grid.hpp"
 
 namespace rover::planning {
 
@@ -21,8 +21,9 @@ struct HazardSpot {
 class Terrain {
  public:
   explicit Terrain(const HazardMemory& memory) : Terrain(memory, nullptr) {}
-  // Also what the map knows: its impassable cells are hazards, and ground that it knows counts as seen. Null: no map.
-  Terrain(const HazardMemory& memory, const TraversabilityGrid* map);
+  // Also what the ground map knows, as far as that reaches: its impassable cells are hazards, and ground that it knows
+  // counts as seen. Null: none. Both grids have cells of one size.
+  Terrain(const HazardMemory& memory, const GroundMap* ground);
 
   int cells() const { return cells_; }
   double cell_m() const { return cell_m_; }
@@ -62,8 +63,8 @@ class Terrain {
   double cells_per_m_;
   double side_m_;
   Point2 corner_;
-  // Lays the map's cells over the masks.
-  void lay_map(const HazardMemory& memory, const TraversabilityGrid& map, std::vector<std::uint8_t>& impassable);
+  // Lays what the map knows over the masks.
+  void lay_ground(const HazardMemory& memory, const GroundMap& ground, std::vector<std::uint8_t>& impassable);
 
   std::vector<std::uint8_t> unseen_;
   std::vector<float> difficulty_;  // empty: no map
