@@ -8,7 +8,8 @@ for core in $(find "$BUILD" -name 'lib*_core.a'); do
   [ -z "$bad" ] || fail "$(basename "$core") uses: $bad"
 done
 
-for service in stereo visual_odometry localization hazard_detector path_planner trajectory_control locomotion supervisor mission_control; do
+for service in stereo visual_odometry localization hazard_detector path_planner trajectory_control locomotion supervisor \
+  mission_control point_cloud pan_tilt slam traversability global_localization; do
   program=$BUILD/bin/$service
   [ -x "$program" ] || fail "$service is not built"
   nm -C "$program" >"$WORK/symbols"
