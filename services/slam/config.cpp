@@ -31,6 +31,7 @@ void read_match(const Config& c, MatchConfig& m) {
   c.read("height_sigma_m", m.height_sigma_m, {0.0001, 1.0});
   c.read_deg("tilt_sigma_deg", m.tilt_sigma_rad, {0.001, 5.0});
   c.read("blind_sigma_m", m.blind_sigma_m, {0.001, 10.0});
+  c.read("probe_m", m.probe_m, {0.005, 1.0});
   c.read("lever_m", m.lever_m, {0.1, 20.0});
 }
 

@@ -16,17 +16,17 @@ namespace rover::slam {
 
 struct MatchConfig {
   int max_patches = 2500;        // of the cloud, evenly taken
-  double max_range_m = 6.0;      // further off noise of depth, cut at the sensor's range, lifts the ground
+  double max_range_m = 5.0;      // further off noise of depth, cut at the sensor's range, lifts the ground
   int min_patches = 150;         // on the map; fewer tell nothing
   double model_sigma_m = 0.006;  // what neither cloud nor map say about their own errors
   double blur_m = 0.015;         // horizontal, of the lattice: times the slope it is an error of height
   double kernel_sigma = 3.0;
-  double temper = 1.0;           // patches share errors: so many of them count as one
+  double temper = 2.0;           // of the likelihood: patches share errors, and their variances are on the safe side
   double height_sigma_m = 0.02;  // of the plane that is taken out
   double tilt_sigma_rad = 0.002;
-  double probe_m = 0.05;        // over which the information is measured
+  double probe_m = 0.05;         // over which the information is measured
   double blind_sigma_m = 0.015;  // a direction in which the ground tells less than this tells nothing
-  double lever_m = 3.0;         // makes metres of yaw, to compare it with x and y
+  double lever_m = 3.0;          // makes metres of yaw, to compare it with x and y
 };
 
 struct MatchFit {

@@ -19,11 +19,11 @@
 namespace rover::slam {
 
 struct MotionConfig {
-  double along_share = 0.01;  // standard deviation by the way driven
+  double along_share = 0.02;  // standard deviation by the way driven
   double across_share = 0.01;
-  double yaw_rad_per_m = to_rad(0.02);
-  double yaw_share = 0.003;  // of the turn
-  double still_m = 0.0005;   // least, in each cloud
+  double yaw_rad_per_m = to_rad(0.008);
+  double yaw_share = 0.0005;  // of the turn
+  double still_m = 0.0005;    // least, in each cloud
   double height_share = 0.01;
 };
 

@@ -1,24 +1,24 @@
-// Drift of SLAM against that of odometry on simulated drives.
+// Drift of SLAM against that of odometry on simulated drives, and registration of recorded clouds.
 #include <fmt/format.h>
 
-#include <chrono>
-#include <cstdlib>
-#include <map>
+#include <CLI/CLI.hpp>
+#include <algorithm>
 #include <string>
 
 #include "common/core/check.hpp"
-#include "slam/slam.hpp"
+#include "slam/config.hpp"
 #include "test/slam/study_drive.hpp"
+#include "test/slam/teide_study.hpp"
 
 namespace rover::slam::study {
 namespace {
 
-const std::string kDtm = std::string(ROVER_SOURCE_DIR) + "/config/terrain/gale/gale_hirise_dtm_1m_348x337.tif";
+const std::string kRoot = ROVER_SOURCE_DIR;
+const std::string kDtm = kRoot + "/config/terrain/gale/gale_hirise_dtm_1m_348x337.tif";
 
 struct Drift {
   double odometry_percent = 0.0, slam_percent = 0.0;
   int informed = 0, clouds = 0;
-  double particles = 0.0, ms = 0.0;
 };
 
 // Horizontal error at the end, start poses laid on one another, over the way.
@@ -30,80 +30,88 @@ double drift_percent(const std::vector<Station>& drive, const Pose2& end) {
   return 100.0 * std::hypot(end.x_m - truth.x_m, end.y_m - truth.y_m) / way;
 }
 
-Drift judged(const std::vector<Station>& drive, const OdometryTrack& odometry, const SlamConfig& config, bool trace) {
+Drift judged(const std::vector<Station>& drive, const OdometryTrack& odometry, const SlamConfig& config) {
   Slam slam(config);
   Drift drift;
   for (size_t i = 0; i < drive.size(); ++i) {
-    const auto begin = std::chrono::steady_clock::now();
     const SlamResult result = slam.step(drive[i].cloud, {odometry.T_odom_body[i], odometry.sigma_m[i], 0.0});
-    drift.ms += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
     ROVER_CHECK(result.refusal.empty(), result.refusal);
-    drift.informed += result.status == Status::kOk;
-    drift.particles += result.particles;
+    drift.informed += result.status == Status::kOk ? 1 : 0;
     ++drift.clouds;
-    if (trace && i % 10 == 0) {
-      const Pose2 truth = between(planar(drive[0].T_map_body), planar(drive[i].T_map_body));
-      const Pose2 now = compose(result.T_slam_odom, planar(odometry.T_odom_body[i])),
-                  o = planar(odometry.T_odom_body[i]);
-      const Pose2 e = between(truth, now), eo = between(truth, o);
-      fmt::print(
-          "  {:3d} odo {:+.3f} {:+.3f} {:+.3f}deg slam {:+.3f} {:+.3f} {:+.3f}deg sigma {:.4f} {:.4f} {:.4f}deg info "
-          "{:.1f} n {} st {}\n",
-          i, eo.x_m, eo.y_m, to_deg(eo.yaw_rad), e.x_m, e.y_m, to_deg(e.yaw_rad), std::sqrt(result.covariance(0, 0)),
-          std::sqrt(result.covariance(1, 1)), to_deg(std::sqrt(result.covariance(2, 2))), result.information,
-          result.particles, static_cast<int>(result.status));
-    }
   }
-  drift.odometry_percent = drift_percent(drive, planar(odometry.T_odom_body.back()));
-  drift.slam_percent = drift_percent(drive, compose(slam.T_slam_odom(), planar(odometry.T_odom_body.back())));
+  const Pose2 end = planar(odometry.T_odom_body.back());
+  drift.odometry_percent = drift_percent(drive, end);
+  drift.slam_percent = drift_percent(drive, compose(slam.T_slam_odom(), end));
   return drift;
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const size_t n = values.size();
+  return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
+}
+
+struct Summary {
+  std::vector<double> slam, odometry;
+  int lower = 0;       // drives on which SLAM errs less
+  double worst = 0.0;  // ratio
+  void add(const Drift& d) {
+    slam.push_back(d.slam_percent);
+    odometry.push_back(d.odometry_percent);
+    lower += d.slam_percent < d.odometry_percent ? 1 : 0;
+    worst = std::max(worst, d.slam_percent / d.odometry_percent);
+  }
+  void print(const std::string& name) const {
+    fmt::print(
+        "- {}: slam_drift_percent median {:.2f} (odometry {:.2f}), lower in {} of {}, at worst {:.2f} times "
+        "odometry's\n",
+        name, median(slam), median(odometry), lower, slam.size(), worst);
+  }
+};
+
+void drift_study(const DriveConfig& form, int first, int last) {
+  const SlamConfig config = load_config(kRoot + "/config").core;
+  Summary nominal, degraded;
+  fmt::print(
+      "| seed | odometry | SLAM | informed | degraded odometry | SLAM | informed |\n|---|---|---|---|---|---|---|\n");
+  for (int seed = first; seed <= last; ++seed) {
+    DriveConfig drive_config = form;
+    drive_config.seed = static_cast<std::uint64_t>(seed);
+    const std::vector<Station> drive = simulated_drive(drive_config, kDtm);
+    const Drift a = judged(drive, simulated_odometry(drive, nominal_odometry(), drive_config.seed), config);
+    const Drift b = judged(drive, simulated_odometry(drive, degraded_odometry(), drive_config.seed), config);
+    nominal.add(a);
+    degraded.add(b);
+    fmt::print("| {} | {:.2f} % | {:.2f} % | {}/{} | {:.2f} % | {:.2f} % | {}/{} |\n", seed, a.odometry_percent,
+               a.slam_percent, a.informed, a.clouds, b.odometry_percent, b.slam_percent, b.informed, b.clouds);
+    std::fflush(stdout);
+  }
+  fmt::print("\n");
+  nominal.print("nominal odometry");
+  degraded.print("degraded odometry");
 }
 
 }  // namespace
 }  // namespace rover::slam::study
 
 int main(int argc, char** argv) {
-  using namespace rover::slam;
   using namespace rover::slam::study;
-  std::map<std::string, double> set;
-  for (int i = 1; i < argc; ++i) {
-    const std::string text = argv[i];
-    const auto at = text.find('=');
-    set[text.substr(0, at)] = at == std::string::npos ? 1.0 : std::atof(text.c_str() + at + 1);
-  }
-  const auto given = [&](const char* key, double value) { return set.contains(key) ? set[key] : value; };
-  SlamConfig config;
-  config.match.temper = given("temper", config.match.temper);
-  config.match.model_sigma_m = given("model", config.match.model_sigma_m);
-  config.match.blur_m = given("blur", config.match.blur_m);
-  config.match.kernel_sigma = given("kernel", config.match.kernel_sigma);
-  config.match.height_sigma_m = given("height", config.match.height_sigma_m);
-  config.match.tilt_sigma_rad = given("tilt", config.match.tilt_sigma_rad);
-  config.motion.along_share = given("along", config.motion.along_share);
-  config.motion.across_share = given("across", config.motion.across_share);
-  config.motion.yaw_rad_per_m = rover::to_rad(given("yaw", 0.02));
-  config.filter.min_particles = static_cast<int>(given("min", config.filter.min_particles));
-  config.filter.max_particles = static_cast<int>(given("max", config.filter.max_particles));
-  config.map.patches.step_m = given("step", config.map.patches.step_m);
-  config.map.min_sigma_m = given("floor", config.map.min_sigma_m);
-  config.map.growth_m2_per_m = given("growth", config.map.growth_m2_per_m);
-  config.map.patches.correlated_points = given("corr", config.map.patches.correlated_points);
-  const int first = static_cast<int>(given("first", 1)), last = static_cast<int>(given("last", 3));
-  DriveConfig drive_config;
-  drive_config.flat = given("flat", 0) > 0;
-  drive_config.rock_k = given("k", 0.08);
-  drive_config.disparity_offset_px = given("offset", 0.0);
-  for (int seed = first; seed <= last; ++seed) {
-    drive_config.seed = static_cast<std::uint64_t>(seed);
-    const auto drive = simulated_drive(drive_config, kDtm);
-    for (const bool degraded : {false, true}) {
-      const auto model = degraded ? degraded_odometry() : nominal_odometry();
-      const auto odometry = simulated_odometry(drive, model, drive_config.seed);
-      const Drift d = judged(drive, odometry, config, given("trace", 0) > 0);
-      fmt::print("seed {} {} odometry {:.3f} % slam {:.3f} % informed {}/{} particles {:.0f} points {} ms {:.1f}\n",
-                 seed, degraded ? "degraded" : "nominal ", d.odometry_percent, d.slam_percent, d.informed, d.clouds,
-                 d.particles / d.clouds, drive[drive.size() / 2].cloud.points.size(), d.ms / d.clouds);
-      std::fflush(stdout);
-    }
-  }
+  CLI::App app("Drift of SLAM against odometry's on simulated drives; registration of recorded clouds");
+  int first = 1, last = 10;
+  DriveConfig form;
+  std::string data;
+  auto* drift = app.add_subcommand("drift", "drives over Gale crater's floor with rocks");
+  drift->add_option("--first", first);
+  drift->add_option("--last", last);
+  drift->add_option("--length-m", form.length_m);
+  drift->add_option("--rocks-k", form.rock_k);
+  drift->add_option("--disparity-offset-px", form.disparity_offset_px, "error of the NavCam's calibration");
+  drift->add_flag("--flat", form.flat, "a plane");
+  auto* teide = app.add_subcommand("teide", "the GA SLAM authors' clouds");
+  teide->add_option("folder", data)->required();
+  app.require_subcommand(1);
+  CLI11_PARSE(app, argc, argv);
+  if (teide->parsed()) return teide_study(data) ? 0 : 1;
+  drift_study(form, first, last);
+  return 0;
 }

@@ -107,7 +107,7 @@ OdometryModel degraded_odometry() {
   OdometryModel model;
   model.scale_sigma = 0.006;
   model.step_share = 0.03;
-  model.yaw_rad_per_sqrt_m = to_rad(0.05);
+  model.yaw_rad_per_sqrt_m = to_rad(0.01);
   model.lost_share = 0.2;
   return model;
 }

@@ -26,9 +26,9 @@ struct Station {
 std::vector<Station> simulated_drive(const DriveConfig& config, const std::string& dtm_file);
 
 struct OdometryModel {
-  double scale_sigma = 0.003;  // constant over a drive
-  double step_share = 0.004;   // of each way between two frames, at random
-  double yaw_rad_per_sqrt_m = to_rad(0.02);
+  double scale_sigma = 0.003;                  // constant over a drive
+  double step_share = 0.004;                   // of each way between two frames, at random
+  double yaw_rad_per_sqrt_m = to_rad(0.005);   // fibre-optic gyro: 1e-5 rad/sqrt(s) (localization.yaml), and its bias
   double tilt_rad = 0.001;                     // slowly wandering error of roll and pitch
   double lost_share = 0.0;                     // of the frames: wheels bridge
   double slip_mean = 0.05, slip_sigma = 0.06;  // of the wheels' way where they bridge

@@ -1,0 +1,190 @@
+#include "test/slam/teide_study.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "slam/slam.hpp"
+
+namespace rover::slam::study {
+namespace {
+
+constexpr int kStarts = 20;
+constexpr double kOffM = 1.0, kOffRad = to_rad(5.0);  // of the starts
+constexpr double kTogetherM = 0.5;
+constexpr double kReliefM = 0.10;    // rms of the heights about their plane: stated before the trial
+constexpr double kMinOverlap = 0.3;  // of a cloud's patches that its neighbour has seen
+constexpr int kNeighbours = 5;       // so far apart in the walk at most
+constexpr double kReachM = 25.0;
+constexpr double kDepthNoise = 0.25 / (818.0 * 0.24);  // sigma over squared distance [1/m], of the NavCam
+
+// PCD, binary, x y z as float. Points that are not finite or behind the rover are left out.
+Cloud read_pcd(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::string line;
+  size_t points = 0;
+  while (std::getline(in, line) && line != "DATA binary")
+    if (line.starts_with("POINTS ")) points = std::stoul(line.substr(7));
+  std::vector<float> values(3 * points);
+  in.read(reinterpret_cast<char*>(values.data()), static_cast<std::streamsize>(values.size() * sizeof(float)));
+  Cloud cloud;
+  cloud.T_body_cam = make_pose(camera_rotation(0.0), Eigen::Vector3d::Zero());
+  for (size_t i = 0; i < points; ++i) {
+    const float x = values[3 * i], y = values[3 * i + 1], z = values[3 * i + 2];
+    const float range = std::hypot(x, y);
+    if (!(x > 0.5F) || !(range < 60.0F) || !std::isfinite(z)) continue;
+    cloud.points.push_back({{-y, -z, x}, static_cast<float>(kDepthNoise) * range * range});
+  }
+  return cloud;
+}
+
+SlamConfig coarse_config() {
+  SlamConfig config;
+  config.map.cells = 240;
+  config.map.patches.cell_m = 0.25;
+  config.map.patches.reach_m = kReachM;
+  config.match.max_range_m = kReachM;
+  config.match.height_sigma_m = 0.3;
+  config.match.tilt_sigma_rad = to_rad(1.0);
+  config.match.temper = 0.25;
+  config.match.blur_m = 0.08;
+  config.match.model_sigma_m = 0.03;
+  config.filter.min_particles = config.filter.max_particles = 300;
+  return config;
+}
+
+// Of the heights about the plane through them.
+double relief_m(const std::vector<Patch>& patches) {
+  Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d b = Eigen::Vector3d::Zero();
+  for (const Patch& p : patches) {
+    const Eigen::Vector3d row(1.0, p.x_m, p.y_m);
+    A += row * row.transpose();
+    b += static_cast<double>(p.z_m) * row;
+  }
+  const Eigen::Vector3d plane = A.ldlt().solve(b);
+  double squares = 0.0;
+  for (const Patch& p : patches) squares += std::pow(p.z_m - plane.dot(Eigen::Vector3d(1.0, p.x_m, p.y_m)), 2);
+  return std::sqrt(squares / static_cast<double>(std::max<size_t>(1, patches.size())));
+}
+
+// A cloud laid into an empty map as if its rover stood at the origin.
+struct Local {
+  LevelCloud cloud;
+  std::vector<Patch> patches;
+  ElevationMap map;
+  explicit Local(const Cloud& raw, const SlamConfig& config)
+      : cloud(level(raw, Eigen::Isometry3d::Identity(), config.attitude)),
+        patches(PatchGatherer(config.map.patches).gather(cloud, {})),
+        map(config.map) {
+    map.move_to(0, 0);
+    map.insert(cloud, {});
+  }
+};
+
+double overlap(const Local& cloud, const Local& with) {
+  const MatchSurface surface(with.map, 0.0, 0.0);
+  int seen = 0;
+  for (const Patch& p : cloud.patches)
+    seen += surface.sample(static_cast<float>((p.x_m - surface.corner_x_m()) / surface.cell_m()),
+                           static_cast<float>((p.y_m - surface.corner_y_m()) / surface.cell_m()))
+                    .has_value()
+                ? 1
+                : 0;
+  return static_cast<double>(seen) / static_cast<double>(std::max<size_t>(1, cloud.patches.size()));
+}
+
+// The particle filter with a noise that shrinks from round to round.
+Pose2 registered(const ScanMatcher& matcher, const SlamConfig& config, const Pose2& start, Random& random) {
+  ParticleFilter filter(config.filter);
+  filter.reset(start);
+  double sigma = 0.8;
+  for (int round = 0; round < 10; ++round, sigma *= 0.65) {
+    filter.predict({}, {sigma, sigma, sigma * to_rad(5.0)}, random);
+    filter.weigh([&](const Pose2& pose) { return matcher.fit(pose, 2).log_likelihood; });
+    filter.resample(random);
+  }
+  return filter.mean();
+}
+
+struct Verdict {
+  double relief_m = 0.0, overlap = 0.0, apart_m = kInfinity, fitting = 0.0;
+  int neighbour = -1;
+  bool converged() const { return apart_m <= kTogetherM; }
+};
+
+Verdict judged(const std::vector<Local>& clouds, int i, const SlamConfig& config) {
+  Verdict verdict;
+  const Local& cloud = clouds[static_cast<size_t>(i)];
+  verdict.relief_m = relief_m(cloud.patches);
+  for (int j = std::max(0, i - kNeighbours); j <= std::min(static_cast<int>(clouds.size()) - 1, i + kNeighbours); ++j) {
+    const double share = j == i ? 0.0 : overlap(cloud, clouds[static_cast<size_t>(j)]);
+    if (share > verdict.overlap) verdict.overlap = share, verdict.neighbour = j;
+  }
+  if (verdict.neighbour < 0) return verdict;
+  const MatchSurface surface(clouds[static_cast<size_t>(verdict.neighbour)].map, 0.0, 0.0);
+  std::vector<Pose2> ends;
+  Random random(static_cast<std::uint64_t>(1000 + i));
+  for (int k = 0; k < kStarts; ++k) {
+    const Pose2 start{kOffM * (2 * random.unit() - 1), kOffM * (2 * random.unit() - 1),
+                      kOffRad * (2 * random.unit() - 1)};
+    ScanMatcher matcher(config.match);
+    matcher.prepare(cloud.patches, surface, start);
+    if (!matcher.enough()) return verdict;
+    ends.push_back(registered(matcher, config, start, random));
+    verdict.fitting += matcher.fit(ends.back(), 2).fitting_share / kStarts;
+  }
+  verdict.apart_m = 0.0;
+  for (const Pose2& a : ends)
+    for (const Pose2& b : ends) verdict.apart_m = std::max(verdict.apart_m, std::hypot(a.x_m - b.x_m, a.y_m - b.y_m));
+  return verdict;
+}
+
+std::string why(const Verdict& v) {
+  if (v.relief_m < kReliefM) return "no relief";
+  if (v.overlap < kMinOverlap) return "no neighbour has seen the same ground";
+  if (v.apart_m == kInfinity) return "too few common patches";
+  return v.converged() ? "" : "several places fit alike";
+}
+
+}  // namespace
+
+bool teide_study(const std::string& folder) {
+  if (!std::filesystem::exists(folder)) {
+    fmt::print("Left out: {} is not there.\n", folder);
+    return true;
+  }
+  const SlamConfig config = coarse_config();
+  Slam slam({});
+  std::vector<Local> clouds;
+  int mapped = 0;
+  for (int i = 0; std::filesystem::exists(fmt::format("{}/local_cloud_{}.pcd", folder, i)); ++i) {
+    Cloud cloud = read_pcd(fmt::format("{}/local_cloud_{}.pcd", folder, i));
+    cloud.utime = to_utime(10.0 * (i + 1));
+    mapped += slam.step(cloud, {Eigen::Isometry3d::Identity(), 0.0, 0.0}).refusal.empty() ? 1 : 0;
+    clouds.emplace_back(cloud, config);
+  }
+  fmt::print("{} of {} local clouds went through mapping.\n\n", mapped, clouds.size());
+  fmt::print(
+      "| cloud | points | relief | neighbour | common ground | ends apart | fitting | converges "
+      "|\n|---|---|---|---|---|---|---|---|\n");
+  int with_relief = 0, converged = 0;
+  for (int i = 0; i < static_cast<int>(clouds.size()); ++i) {
+    const Verdict v = judged(clouds, i, config);
+    const bool relief = v.relief_m >= kReliefM;
+    with_relief += relief ? 1 : 0;
+    converged += relief && v.converged() ? 1 : 0;
+    fmt::print("| {} | {} | {:.2f} m | {} | {:.0f} % | {:.2f} m | {:.0f} % | {}{} |\n", i,
+               clouds[static_cast<size_t>(i)].cloud.points.size(), v.relief_m, v.neighbour, 100 * v.overlap, v.apart_m,
+               100 * v.fitting, v.converged() ? "yes" : "no", why(v).empty() ? "" : ": " + why(v));
+  }
+  fmt::print("\n{} of {} clouds with relief converge ({:.0f} %).\n", converged, with_relief,
+             100.0 * converged / std::max(1, with_relief));
+  return mapped == static_cast<int>(clouds.size()) && converged >= 0.8 * with_relief;
+}
+
+}  // namespace rover::slam::study
