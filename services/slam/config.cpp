@@ -27,7 +27,7 @@ void read_match(const Config& c, MatchConfig& m) {
   c.read("model_sigma_m", m.model_sigma_m, {0.0, 0.1});
   c.read("blur_m", m.blur_m, {0.0, 0.2});
   c.read("kernel_sigma", m.kernel_sigma, {1.0, 10.0});
-  c.read("temper", m.temper, {0.001, 1.0});
+  c.read("temper", m.temper, {0.001, 10.0});
   c.read("height_sigma_m", m.height_sigma_m, {0.0001, 1.0});
   c.read_deg("tilt_sigma_deg", m.tilt_sigma_rad, {0.001, 5.0});
   c.read("blind_sigma_m", m.blind_sigma_m, {0.001, 10.0});

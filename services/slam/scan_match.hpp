@@ -25,7 +25,7 @@ struct MatchConfig {
   double height_sigma_m = 0.02;  // of the plane that is taken out
   double tilt_sigma_rad = 0.002;
   double probe_m = 0.05;         // over which the information is measured
-  double blind_sigma_m = 0.015;  // a direction in which the ground tells less than this tells nothing
+  double blind_sigma_m = 0.012;  // a direction in which the ground tells less than this tells nothing
   double lever_m = 3.0;          // makes metres of yaw, to compare it with x and y
 };
 
