@@ -1,0 +1,53 @@
+#!/usr/bin/env bash
+# Drift of SLAM on simulated drives, registration of the GA SLAM authors' clouds, time of the updates. Writes
+# test/results/slam.md. The clouds are left out, with a line that says so, where they are not there.
+# Called with the build folder; the programs are built by: cmake --build BUILD --target slam_study slam_bench
+set -euo pipefail
+cd "$(dirname "$(readlink -f "$0")")/.."
+BUILD=$1
+OUT=test/results/slam.md
+STUDY="$BUILD/test/tools/slam_study"
+DATA=${ROVER_DATA:-../shared/data}
+mkdir -p test/results
+{
+  echo "# SLAM"
+  echo
+  echo "Command: \`test/bench_slam.sh BUILD\`; commit $(git describe --always --dirty --abbrev=12); $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1), $(nproc) cores."
+  echo
+  echo "## Drift over 100 m of featured terrain"
+  echo
+  echo "Gale crater's floor with rocks of k = 8 %, a NavCam cloud each 0.5 m with 0.25 px of noise and holes behind rocks; odometry by a"
+  echo "model (scale, noise of each frame, gyro). Degraded: a fifth of the frames lost and bridged by slipping wheels, more noise. Final"
+  echo "horizontal error over the way. Demanded: median at most 0.5 %, never more than 10 % above odometry's, lower in 9 of 10 when degraded."
+  echo
+  "$STUDY" drift
+  echo
+  echo "## Flat ground"
+  echo
+  echo "A plane without rocks. Demanded: at most 10 % above odometry's."
+  echo
+  "$STUDY" drift --flat
+  echo
+  echo "## With a NavCam whose calibration is 0.1 px wrong"
+  echo
+  "$STUDY" drift --disparity-offset-px 0.1 --last 4
+  echo
+  echo "## Recorded clouds"
+  echo
+  echo "31 rover clouds of the GA SLAM authors (Teide), without poses. Each is registered to the neighbour that shares most ground with it,"
+  echo "from 20 starts within 1 m and 5 deg; it converges where all ends lie within 0.5 m of each other. Demanded: 80 % of those with relief"
+  echo "(at least 0.1 m rms about their plane)."
+  echo
+  "$STUDY" teide "$DATA/ga_slam_teide/cloud_sequence" || true
+  echo
+  echo "## Time"
+  echo
+  echo "Gates: 30 ms for a map update, 60 ms for a filter update, on one core."
+  echo
+  echo "| benchmark | CPU |"
+  echo "|---|---|"
+  "$BUILD/bench/slam_bench" --benchmark_repetitions=5 --benchmark_report_aggregates_only=true --benchmark_format=json 2>/dev/null |
+    jq -r '.benchmarks[] | select(.aggregate_name == "median") | "| \(.name | sub("_median$"; "")) | \(.cpu_time * 100 | round / 100) \(.time_unit) |"'
+} >$OUT.new
+mv $OUT.new $OUT
+cat $OUT
