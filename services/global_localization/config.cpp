@@ -61,6 +61,7 @@ NodeConfig load_config(const std::string& config_dir) {
   yaml.read("max_jump_m", config.max_jump_m, {0.01, 100.0});
   yaml.read("memory_side_m", config.core.mosaic_side_m, {5.0, 200.0});
   yaml.read("max_height_sigma_m", config.core.max_height_sigma_m, {0.01, 5.0});
+  yaml.read("map_blur_cells", config.core.map_blur_cells, {0.0, 3.0});
   yaml.read("map_sigma_m", config.core.map_sigma_m, {0.0, 5.0});
   yaml.read_deg("map_sigma_deg", config.core.map_sigma_rad, {0.0, 5.0});
   read_schedule(yaml.section("tries"), config.schedule);

@@ -56,6 +56,12 @@ std::vector<Match> best_matches(const OrbitalPart& orbital, const TerrainTemplat
   }
   std::stable_sort(matches.begin(), matches.end(),
                    [](const Match& a, const Match& b) { return a.fit.residual_m < b.fit.residual_m; });
+  // Those that came to the best one's place are that place.
+  const auto same = [&](const Match& other) {
+    const double apart_m = (other.placement.center_map - matches.front().placement.center_map).norm();
+    return apart_m < 0.5 * config.search.apart_m;
+  };
+  if (!matches.empty()) matches.erase(std::remove_if(matches.begin() + 1, matches.end(), same), matches.end());
   return matches;
 }
 
@@ -103,7 +109,9 @@ Correction GlobalLocalization::correct(const Prior& prior) const {
     out.reason = "pose is not usable";
     return out;
   }
-  const TerrainTemplate terrain = terrain_template(mosaic_.resampled(orbital_.lattice.cell_m), config_.filter);
+  PlaneConfig filter = config_.filter;
+  filter.sigma_cells = std::hypot(filter.sigma_cells, config_.map_blur_cells);
+  const TerrainTemplate terrain = terrain_template(mosaic_.resampled(orbital_.lattice.cell_m), filter);
   out.area_m2 = terrain.area_m2();
   out.relief_m2 = weakest_relief(terrain);
   if (out.area_m2 < config_.acceptance.min_area_m2) {

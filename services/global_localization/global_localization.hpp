@@ -28,7 +28,7 @@ struct SearchConfig {
 
 struct AcceptanceConfig {
   double min_area_m2 = 100.0;       // seen
-  double min_relief_m2 = 1.0;       // weakest_relief
+  double min_relief_m2 = 0.5;       // weakest_relief
   double min_score = 0.5;           // correlation of the gradients
   double max_residual_m = 0.25;     // of the heights
   double max_residual_ratio = 0.8;  // to the residual at the next best place
@@ -38,9 +38,11 @@ struct AcceptanceConfig {
 };
 
 struct GlobalConfig {
-  double mosaic_side_m = 64.0;
+  double mosaic_side_m = 80.0;
   double max_height_sigma_m = 0.3;
-  PlaneConfig filter;  // takes out the noise of orbital maps, which neighbouring cells share
+  double map_blur_cells =
+      0.7;             // of the orbital map as it comes, in its cells: what the rover has seen is blurred as much
+  PlaneConfig filter{1.5, 0.5};  // takes out the noise of orbital maps, which neighbouring cells share
   SearchConfig search;
   RefinementConfig refinement;
   AcceptanceConfig acceptance;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
 
 namespace rover::global {
 namespace {
@@ -25,7 +26,7 @@ void centre(TerrainTemplate& terrain) {
 TerrainTemplate terrain_template(const HeightGrid& local, const PlaneConfig& config) {
   const PlaneField field = plane_field(local, config);
   const Lattice& lattice = field.lattice;
-  const int step = std::max(1, static_cast<int>(config.sigma_cells));
+  const int step = std::max(1, static_cast<int>(std::lround(config.sigma_cells)));
   TerrainTemplate out;
   out.sample_area_m2 = step * step * lattice.cell_m * lattice.cell_m;
   for (int row = 0; row < lattice.rows; row += step)

@@ -1,0 +1,247 @@
+// Global correction over simulated drives: the local maps that a rover would build, each looked for from many wrong
+// poses on orbital maps of two resolutions. Prints the table of test/results/correction.md; exit status 1: a gate
+// failed.
+//
+// The featured maps are those whose relief (services/global_localization/terrain_template.hpp) reaches the
+// configuration's acceptance.min_relief_m2. Lines, worlds and seeds of this program were never used to set the
+// configuration.
+#include <time.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "common/core/frames.hpp"
+#include "global_localization/config.hpp"
+#include "global_localization/global_localization.hpp"
+#include "rover_simulator/world/dtm_reader.hpp"
+#include "rover_simulator/world/noise.hpp"
+#include "test/global_localization/bench_world.hpp"
+#include "test/global_localization/mapped_drive.hpp"
+
+using namespace rover;
+using namespace rover::global;
+using namespace rover::global::test;
+
+namespace {
+
+constexpr int kDrives = 12;
+constexpr double kDriveM = 150.0, kFirstMapM = 40.0, kMapEveryM = 5.0;
+constexpr int kTriesPerMap = 7;
+constexpr double kOffsetM = 10.0, kOffsetRad = to_rad(10.0);
+constexpr double kResolutions[] = {0.5, 1.0};
+constexpr double kRockAreas[] = {0.02, 0.05, 0.08, 0.12};
+constexpr std::uint64_t kLineSeed = 2001, kWorldSeed = 3001, kDriveSeed = 4001, kTrialSeed = 5001;
+
+double cpu_s() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+double quantile(std::vector<double> values, double p) {
+  if (values.empty()) return kNaN;
+  std::sort(values.begin(), values.end());
+  return values[std::min(values.size() - 1, static_cast<size_t>(p * static_cast<double>(values.size())))];
+}
+
+double yaw_of(const Eigen::Isometry2d& T) {
+  return Eigen::Rotation2Dd(T.linear()).angle();
+}
+
+// One orbital map of one world, and what the tries on it gave.
+struct Row {
+  std::string name;
+  double cell_m = 0.0;
+  bool must_abstain = false;
+  int maps = 0, featured_maps = 0, tries = 0, featured_tries = 0, accepted = 0, wrong = 0;
+  std::vector<double> error_m, error_deg, truth_m, time_s, sigmas;
+};
+
+struct Trial {
+  Eigen::Vector2d offset;
+  double yaw_rad;
+};
+
+Trial draw(HashStream& random, double least_m, double most_m) {
+  const double r = random.range(least_m, most_m), a = random.range(-kPi, kPi);
+  return {{r * std::cos(a), r * std::sin(a)}, random.range(-kOffsetRad, kOffsetRad)};
+}
+
+// The pose that is believed: off by the trial at the rover, and turned about it.
+Prior prior_of(const MappedDrive& drive, const Eigen::Isometry2d& T_map_odom, const Trial& trial) {
+  Prior prior;
+  prior.p_odom_body = drive.T_odom_body().translation();
+  prior.T_map_odom.yaw_rad = yaw_of(T_map_odom) + trial.yaw_rad;
+  const Eigen::Vector2d t =
+      T_map_odom * prior.p_odom_body + trial.offset - Eigen::Rotation2Dd(prior.T_map_odom.yaw_rad) * prior.p_odom_body;
+  prior.T_map_odom.x_m = t.x();
+  prior.T_map_odom.y_m = t.y();
+  prior.cov = Eigen::Vector3d(16.0, 16.0, std::pow(to_rad(4.0), 2)).asDiagonal();
+  return prior;
+}
+
+Eigen::Isometry2d isometry(const Pose2& pose) {
+  Eigen::Isometry2d T = Eigen::Isometry2d::Identity();
+  T.translate(Eigen::Vector2d(pose.x_m, pose.y_m)).rotate(Eigen::Rotation2Dd(pose.yaw_rad));
+  return T;
+}
+
+// `on_map`: where the map shows the ground that was seen; `truth`: where it is.
+void try_once(const GlobalLocalization& core, const MappedDrive& drive, const Trial& trial,
+              const Eigen::Isometry2d& on_map, const GlobalConfig& config, Row& row) {
+  const Eigen::Isometry2d truth = drive.T_map_odom();
+  const Prior prior = prior_of(drive, on_map, trial);
+  const double start_s = cpu_s();
+  const Correction found = core.correct(prior);
+  row.time_s.push_back(cpu_s() - start_s);
+  ++row.tries;
+  if (found.relief_m2 >= config.acceptance.min_relief_m2 && found.area_m2 >= config.acceptance.min_area_m2)
+    ++row.featured_tries;
+  if (!found.accepted) return;
+  ++row.accepted;
+  const Eigen::Isometry2d T = isometry(found.T_map_odom);
+  const double error_m = (T * prior.p_odom_body - on_map * prior.p_odom_body).norm();
+  if (error_m > row.cell_m || row.must_abstain) ++row.wrong;
+  row.error_m.push_back(error_m);
+  row.error_deg.push_back(to_deg(std::abs(wrap_angle(yaw_of(T) - yaw_of(on_map)))));
+  row.truth_m.push_back((T * prior.p_odom_body - truth * prior.p_odom_body).norm());
+}
+
+struct OrbitalCase {
+  GlobalLocalization core;
+  MapDistortion distortion;
+  Row* row;
+  double least_offset_m, most_offset_m;
+  int tries;
+};
+
+void drive_through(const Surface& world, const Line& line, std::uint64_t seed, const GlobalConfig& config,
+                   std::vector<OrbitalCase>& cases) {
+  MappedDrive drive(world, line, DriveErrors{}, seed);
+  HashStream random(hash_cell(kTrialSeed, static_cast<std::int64_t>(seed), 0));
+  double next_m = kFirstMapM;
+  while (drive.driven_m() < kDriveM) {
+    drive.advance();
+    for (OrbitalCase& c : cases) c.core.take(drive.view(), drive.T_odom_body().translation());
+    if (drive.driven_m() < next_m) continue;
+    next_m += kMapEveryM;
+    const std::vector<Eigen::Vector2d> ground = drive.seen_ground(0.5 * config.mosaic_side_m);
+    for (OrbitalCase& c : cases) {
+      const Eigen::Isometry2d on_map = c.distortion.rigid(ground) * drive.T_map_odom();
+      const int featured = c.row->featured_tries;
+      for (int k = 0; k < c.tries; ++k)
+        try_once(c.core, drive, draw(random, c.least_offset_m, c.most_offset_m), on_map, config, *c.row);
+      ++c.row->maps;
+      if (c.row->featured_tries > featured) ++c.row->featured_maps;
+    }
+  }
+}
+
+ElevationRaster mirrored(ElevationRaster raster) {
+  for (int row = 0; row < raster.height; ++row)
+    std::reverse(raster.z_m.begin() + static_cast<std::ptrdiff_t>(row) * raster.width,
+                 raster.z_m.begin() + static_cast<std::ptrdiff_t>(row + 1) * raster.width);
+  return raster;
+}
+
+struct Bench {
+  GlobalConfig config;
+  std::vector<Row> rows;
+
+  Row& row(const std::string& name, double cell_m, bool must_abstain) {
+    for (Row& r : rows)
+      if (r.name == name && r.cell_m == cell_m) return r;
+    rows.push_back({name, cell_m, must_abstain});
+    return rows.back();
+  }
+
+  void add_cases(const WorldConfig& world_config, const ElevationRaster& dtm, std::uint64_t seed, double cell_m,
+                 std::vector<OrbitalCase>& cases) {
+    WorldConfig straight = world_config;
+    straight.orbital.distortion_m = 0.0;
+    const World plain(straight, dtm, seed), bent(world_config, dtm, seed);
+    const ElevationRaster plain_map = plain.orbital_map(cell_m);
+    const MapDistortion none(straight, dtm, seed, cell_m);
+    const auto core = [&](const ElevationRaster& map) { return GlobalLocalization(config, grid_of(map), 0.1); };
+    cases.push_back({core(plain_map), none, &row("noise 0.1 m", cell_m, false), 0.0, kOffsetM, kTriesPerMap});
+    cases.push_back({core(bent.orbital_map(cell_m)), MapDistortion(world_config, dtm, seed, cell_m),
+                     &row("noise 0.1 m, distortion 0.3 m", cell_m, false), 0.0, kOffsetM, kTriesPerMap});
+    cases.push_back({core(plain_map), none, &row("true place outside the window", cell_m, true), 22.0, 30.0, 2});
+    cases.push_back({core(mirrored(plain_map)), none, &row("map of another place", cell_m, true), 0.0, kOffsetM, 2});
+  }
+
+  void drive(const ElevationRaster& dtm, const Line& line, int number) {
+    WorldConfig world_config;
+    world_config.rocks.k = kRockAreas[number % 4];
+    const std::uint64_t seed = kWorldSeed + static_cast<std::uint64_t>(number);
+    std::vector<OrbitalCase> cases;
+    for (double cell_m : kResolutions) add_cases(world_config, dtm, seed, cell_m, cases);
+    const World world(world_config, dtm, seed);
+    drive_through(world, line, kDriveSeed + static_cast<std::uint64_t>(number), config, cases);
+    std::fprintf(stderr, "drive %d of %d\n", number + 1, kDrives);
+  }
+
+  void drive_flat(double slope_rad, double k, int number) {
+    WorldConfig world_config;
+    world_config.rocks.k = k;
+    world_config.orbital.distortion_m = 0.0;
+    const ElevationRaster dtm = plane_raster(240.0, 240.0, 1.0, slope_rad, 0.3);
+    const std::uint64_t seed = kWorldSeed + 100 + static_cast<std::uint64_t>(number);
+    const World world(world_config, dtm, seed);
+    std::vector<OrbitalCase> cases;
+    for (double cell_m : kResolutions)
+      cases.push_back({GlobalLocalization(config, grid_of(world.orbital_map(cell_m)), 0.1),
+                       MapDistortion(world_config, dtm, seed, cell_m), &row("flat ground", cell_m, true), 0.0, kOffsetM,
+                       2});
+    const Line line{{50.0, 120.0}, 0.1};
+    drive_through(world, line, kDriveSeed + 100 + static_cast<std::uint64_t>(number), config, cases);
+  }
+};
+
+bool holds(const Row& row) {
+  const bool quick = quantile(row.time_s, 1.0) <= 0.3;
+  if (row.must_abstain) return quick && row.accepted == 0;
+  return quick && row.wrong == 0 && row.accepted >= 0.9 * row.featured_tries &&
+         quantile(row.error_m, 0.95) <= 0.5 * row.cell_m && quantile(row.error_deg, 0.95) <= 0.5;
+}
+
+void print(const Row& row) {
+  const double share = row.featured_tries > 0 ? 100.0 * row.accepted / row.featured_tries : 0.0;
+  std::printf("| %s | %.1f | %d / %d | %d / %d | %d (%.1f %%) | %d | ", row.name.c_str(), row.cell_m, row.featured_maps,
+              row.maps, row.featured_tries, row.tries, row.accepted, share, row.wrong);
+  if (row.must_abstain)
+    std::printf("| | | | ");
+  else
+    std::printf("%.2f / %.2f / %.2f | %.2f | %.2f / %.2f | ", quantile(row.error_m, 0.5), quantile(row.error_m, 0.95),
+                quantile(row.error_m, 1.0), quantile(row.truth_m, 0.95), quantile(row.error_deg, 0.5),
+                quantile(row.error_deg, 0.95));
+  std::printf("%.0f / %.0f | %s |\n", 1e3 * quantile(row.time_s, 0.5), 1e3 * quantile(row.time_s, 1.0),
+              holds(row) ? "yes" : "NO");
+}
+
+}  // namespace
+
+int main() {
+  const std::string root = ROVER_SOURCE_DIR;
+  const ElevationRaster dtm = read_elevation(root + "/config/terrain/gale/gale_hirise_dtm_1m_348x337.tif");
+  Bench bench{load_config(root + "/config").core, {}};
+  bench.rows.reserve(20);  // rows are pointed to
+  const std::vector<Line> lines = drivable_lines(World(WorldConfig{}, dtm, kWorldSeed), kDriveM, kDrives, kLineSeed);
+  for (size_t i = 0; i < lines.size(); ++i) bench.drive(dtm, lines[i], static_cast<int>(i));
+  bench.drive_flat(0.0, 0.0, 0);
+  bench.drive_flat(0.0, 0.08, 1);
+  bench.drive_flat(to_rad(8.0), 0.05, 2);
+  std::printf(
+      "| orbital map | m/px | featured / local maps | tries on featured / all | accepted (of featured) | wrong by more "
+      "than a cell | error on the map p50 / p95 / max m | against truth p95 m | yaw p50 / p95 deg | CPU p50 / max ms | "
+      "holds |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
+  bool all = true;
+  for (const Row& row : bench.rows) {
+    print(row);
+    all = all && holds(row);
+  }
+  return all ? 0 : 1;
+}

@@ -1,0 +1,185 @@
+#include "global_localization/global_localization.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "test/global_localization/made_ground.hpp"
+
+namespace rover::global::test {
+namespace {
+
+const Pose2 kTruth{95.0, 60.0, 2.1};  // odom is turned against map, its origin is far from the rover
+const Eigen::Vector2d kPlace(22.0, -14.0);
+
+// A rover that has driven 16 m to kPlace.
+GlobalLocalization driven(const Height& height, double cell_m, const Seen& seen = all_seen, double noise_m = 0.0,
+                          const GlobalConfig& config = {}) {
+  GlobalLocalization core(config, orbital_of(height, cell_m, noise_m), kCellM);
+  for (double back : {16.0, 8.0, 0.0}) {
+    const Eigen::Vector2d p = kPlace - Eigen::Vector2d(back, 0.0);
+    core.take(view_of(height, kTruth, p, seen), p);
+  }
+  return core;
+}
+
+Prior prior(const Eigen::Vector2d& off_m, double turn_deg) {
+  return {believed(kTruth, kPlace, off_m, to_rad(turn_deg)), kPlace, pose_cov()};
+}
+
+double error_m(const Correction& c) {
+  return (transformed(c.T_map_odom, kPlace) - transformed(kTruth, kPlace)).norm();
+}
+double error_deg(const Correction& c) {
+  return to_deg(std::abs(wrap_angle(c.T_map_odom.yaw_rad - kTruth.yaw_rad)));
+}
+
+// The published matcher forgets half of the template's size and turns the correction by the yaw: it moves such a rover
+// by 14.14 m.
+TEST(GlobalLocalization, PerfectOdometryIsNotMoved) {
+  for (double cell_m : {0.5, 1.0}) {
+    const Correction c = driven(hills, cell_m).correct(prior({0.0, 0.0}, 0.0));
+    ASSERT_TRUE(c.accepted) << c.reason;
+    EXPECT_LT(error_m(c), 0.1 * cell_m);
+    EXPECT_LT(error_deg(c), 0.1);
+    EXPECT_GT(c.score, 0.9);
+  }
+}
+
+// In all directions, so that a correction in wrong axes cannot pass; and the yaw search keeps its best.
+TEST(GlobalLocalization, WrongPosesAreMended) {
+  const GlobalLocalization core = driven(hills, 0.5);
+  for (const auto& [x, y, turn] : {std::array{9.0, 3.0, 9.0}, std::array{-6.5, 7.3, -9.0}, std::array{0.0, -10.0, 4.0},
+                                   std::array{-9.9, 0.2, 0.0}, std::array{3.3, 0.0, -7.7}}) {
+    const Correction c = core.correct(prior({x, y}, turn));
+    ASSERT_TRUE(c.accepted) << c.reason << " " << x << " " << y << " " << turn;
+    EXPECT_LT(error_m(c), 0.05);
+    EXPECT_LT(error_deg(c), 0.1);
+  }
+}
+
+TEST(GlobalLocalization, TheMapsNoiseIsWithinTheCovariance) {
+  for (double cell_m : {0.5, 1.0}) {
+    const Correction c = driven(hills, cell_m, all_seen, 0.1).correct(prior({4.0, -5.0}, 6.0));
+    ASSERT_TRUE(c.accepted) << c.reason;
+    EXPECT_LT(error_m(c), 0.5 * cell_m);
+    const Eigen::Vector2d off = transformed(c.T_map_odom, kPlace) - transformed(kTruth, kPlace);
+    const Eigen::Vector3d e(off.x(), off.y(), c.T_map_odom.yaw_rad - kTruth.yaw_rad);
+    EXPECT_LT(e.dot(c.cov.inverse() * e), 16.3);
+    EXPECT_LT(c.cov(0, 0), 0.5);
+  }
+}
+
+// The published matcher's score collapses when 1 % of the cells are empty.
+TEST(GlobalLocalization, HolesDoNotHurt) {
+  const Correction whole = driven(hills, 0.5, all_seen, 0.1).correct(prior({4.0, -5.0}, 6.0));
+  ASSERT_TRUE(whole.accepted) << whole.reason;
+  for (int percent : {1, 10, 40}) {
+    std::mt19937_64 random(8);
+    const auto seen = [&](int, int) { return static_cast<int>(random() % 100) >= percent; };
+    const Correction c = driven(hills, 0.5, seen, 0.1).correct(prior({4.0, -5.0}, 6.0));
+    ASSERT_TRUE(c.accepted) << c.reason << " " << percent;
+    EXPECT_NEAR(c.score, whole.score, 0.02) << percent;
+    EXPECT_LT(error_m(c), 0.25) << percent;
+  }
+}
+
+TEST(GlobalLocalization, AStripMatchesAsWellAsTheWholeMap) {
+  const auto strip = [](int, int row) { return row > 60 && row < 140 && row % 23 != 0; };
+  const Correction c = driven(hills, 0.5, strip, 0.1).correct(prior({-7.0, 5.0}, -6.0));
+  ASSERT_TRUE(c.accepted) << c.reason;
+  EXPECT_GT(c.score, 0.7);
+  EXPECT_LT(error_m(c), 0.25);
+}
+
+TEST(GlobalLocalization, AbstainsOnEvenGround) {
+  const auto slope = [](double x, double y) { return 0.15 * x - 0.05 * y; };
+  for (const Height& height : {Height([](double, double) { return 3.0; }), Height(slope)}) {
+    const Correction c = driven(height, 0.5, all_seen, 0.1).correct(prior({2.0, 1.0}, 1.0));
+    EXPECT_FALSE(c.accepted);
+    EXPECT_EQ(c.reason, "ground too even to tell places apart");
+  }
+}
+
+// Dunes that repeat each 9 m across and along.
+TEST(GlobalLocalization, AbstainsWherePlacesAreAlike) {
+  const auto dunes = [](double x, double y) { return 0.6 * std::sin(x * 2 * kPi / 9.0) * std::cos(y * 2 * kPi / 9.0); };
+  const Correction c = driven(dunes, 0.5, all_seen, 0.1).correct(prior({2.0, 1.0}, 1.0));
+  EXPECT_FALSE(c.accepted);
+  EXPECT_EQ(c.reason, "another place is almost as alike");
+}
+
+TEST(GlobalLocalization, AbstainsWhereTheTruePlaceIsOutsideOfTheWindow) {
+  const GlobalLocalization core = driven(hills, 0.5, all_seen, 0.1);
+  for (const auto& [x, y] : {std::array{25.0, 0.0}, std::array{-20.0, 20.0}, std::array{0.0, -26.0}})
+    EXPECT_FALSE(core.correct(prior({x, y}, 2.0)).accepted) << x << " " << y;
+  EXPECT_FALSE(core.correct(prior({1.0, 1.0}, 25.0)).accepted);
+}
+
+TEST(GlobalLocalization, AbstainsOnAMapOfAnotherPlace) {
+  const auto elsewhere = [](double x, double y) { return hills(x + 500.0, y - 300.0); };
+  GlobalLocalization core({}, orbital_of(elsewhere, 0.5, 0.1), kCellM);
+  for (double back : {16.0, 8.0, 0.0}) {
+    const Eigen::Vector2d p = kPlace - Eigen::Vector2d(back, 0.0);
+    core.take(view_of(hills, kTruth, p), p);
+  }
+  const Correction c = core.correct(prior({1.0, 1.0}, 1.0));
+  EXPECT_FALSE(c.accepted);
+  EXPECT_FALSE(c.reason.empty());
+}
+
+TEST(GlobalLocalization, OffTheMapItSaysSo) {
+  const GlobalLocalization core = driven(hills, 0.5);
+  Prior off = prior({0.0, 0.0}, 0.0);
+  for (double far_m : {-100.0, 400.0, 1e9, -1e9}) {
+    off.T_map_odom.x_m = far_m;
+    const Correction c = core.correct(off);
+    EXPECT_FALSE(c.accepted);
+    EXPECT_EQ(c.reason, "the orbital map does not know this place, or nothing on it is alike");
+  }
+}
+
+TEST(GlobalLocalization, CellsWithoutDataInTheOrbitalMapAreLeftOut) {
+  HeightGrid orbital = orbital_of(hills, 0.5, 0.05);
+  std::mt19937_64 random(4);
+  for (int k = 0; k < 60; ++k) {  // voids of 1.5 m
+    const int column = static_cast<int>(random() % 316), row = static_cast<int>(random() % 316);
+    for (int j = 0; j < 3; ++j)
+      for (int i = 0; i < 3; ++i) {
+        orbital.z_m[orbital.lattice.index(column + i, row + j)] = 0.0f;
+        orbital.weight[orbital.lattice.index(column + i, row + j)] = 0.0f;
+      }
+  }
+  GlobalLocalization core({}, orbital, kCellM);
+  for (double back : {16.0, 8.0, 0.0}) {
+    const Eigen::Vector2d p = kPlace - Eigen::Vector2d(back, 0.0);
+    core.take(view_of(hills, kTruth, p), p);
+  }
+  const Correction c = core.correct(prior({5.0, 5.0}, -5.0));
+  ASSERT_TRUE(c.accepted) << c.reason;
+  EXPECT_LT(error_m(c), 0.25);
+}
+
+TEST(GlobalLocalization, AnEmptyMapAndABrokenPoseAreRefused) {
+  GlobalLocalization core({}, orbital_of(hills, 1.0), kCellM);
+  EXPECT_EQ(core.correct(prior({0.0, 0.0}, 0.0)).reason, "too little ground seen");
+  core.take(view_of(hills, kTruth, kPlace, [](int, int) { return false; }), kPlace);
+  EXPECT_EQ(core.correct(prior({0.0, 0.0}, 0.0)).reason, "too little ground seen");
+  Prior broken = prior({0.0, 0.0}, 0.0);
+  broken.cov(0, 0) = kNaN;
+  EXPECT_EQ(core.correct(broken).reason, "pose is not usable");
+  broken = prior({0.0, 0.0}, 0.0);
+  broken.T_map_odom.yaw_rad = kInfinity;
+  EXPECT_EQ(core.correct(broken).reason, "pose is not usable");
+}
+
+TEST(GlobalLocalization, TheSameInputsGiveTheSameBits) {
+  const Correction a = driven(hills, 0.5, all_seen, 0.1).correct(prior({4.0, -5.0}, 6.0));
+  const Correction b = driven(hills, 0.5, all_seen, 0.1).correct(prior({4.0, -5.0}, 6.0));
+  EXPECT_EQ(a.T_map_odom.x_m, b.T_map_odom.x_m);
+  EXPECT_EQ(a.T_map_odom.yaw_rad, b.T_map_odom.yaw_rad);
+  EXPECT_EQ(a.cov, b.cov);
+}
+
+}  // namespace
+}  // namespace rover::global::test

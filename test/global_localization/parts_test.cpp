@@ -1,0 +1,141 @@
+// The parts: gradients of ground with holes, the memory of what was seen, relief, tries by way.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "global_localization/terrain_template.hpp"
+#include "global_localization/try_schedule.hpp"
+#include "test/global_localization/made_ground.hpp"
+
+namespace rover::global::test {
+namespace {
+
+HeightGrid grid_of(const Height& height, int cells, double cell_m, const Seen& seen = all_seen) {
+  HeightGrid grid;
+  grid.lattice = {cells, cells, cell_m, -3.0, 7.0};
+  for (int row = 0; row < cells; ++row)
+    for (int column = 0; column < cells; ++column) {
+      const bool known = seen(column, row);
+      const double z = known ? height(grid.lattice.center_x_m(column), grid.lattice.center_y_m(row)) : 1e6;
+      grid.z_m.push_back(static_cast<float>(z));
+      grid.weight.push_back(known ? 1.0f : 0.0f);
+    }
+  return grid;
+}
+
+// Whatever a hole holds, and however its rim cuts the filter.
+TEST(PlaneField, AnInclineHasItsSlopeBesideHolesToo) {
+  std::mt19937_64 random(3);
+  const auto seen = [&](int column, int row) { return column < 22 + row / 4 && random() % 100 >= 20; };
+  const PlaneField field =
+      plane_field(grid_of([](double x, double y) { return 0.2 * x - 0.1 * y; }, 40, 0.5, seen), {2.0, 0.5});
+  int known = 0;
+  for (size_t i = 0; i < field.known.size(); ++i) {
+    if (field.known[i] == 0) continue;
+    ++known;
+    EXPECT_NEAR(field.gx[i], 0.2, 1e-4);
+    EXPECT_NEAR(field.gy[i], -0.1, 1e-4);
+  }
+  EXPECT_GT(known, 600);
+  EXPECT_LT(known, 1300);
+}
+
+TEST(PlaneField, UnseenGroundHasNoGradient) {
+  const PlaneField field = plane_field(
+      grid_of([](double, double) { return 1.0; }, 30, 0.5, [](int column, int) { return column < 8; }), {2.0, 0.5});
+  for (int row = 0; row < 30; ++row) {
+    EXPECT_EQ(field.known[field.lattice.index(20, row)], 0);
+    EXPECT_EQ(field.gx[field.lattice.index(20, row)], 0.0f);
+  }
+  EXPECT_EQ(field.known[field.lattice.index(4, 15)], 1);
+}
+
+// A wave's gradient against calculus: the Gaussian damps it by exp(-k^2 sigma^2 / 2).
+TEST(PlaneField, IsTheDerivativeOfTheGaussian) {
+  const double k = 2.0 * kPi / 8.0, sigma_m = 1.0;
+  const HeightGrid grid = grid_of([&](double x, double) { return std::sin(k * x); }, 60, 0.5);
+  const PlaneField field = plane_field(grid, {sigma_m / 0.5, 0.5});
+  for (int column = 20; column < 40; ++column) {
+    const double x = grid.lattice.center_x_m(column);
+    EXPECT_NEAR(field.gx[grid.lattice.index(column, 30)],
+                k * std::cos(k * x) * std::exp(-0.5 * k * k * sigma_m * sigma_m), 0.01);
+  }
+}
+
+TEST(LocalMosaic, KeepsWhatLeftTheMapAndForgetsWhatIsFar) {
+  LocalMosaic mosaic(40.0, kCellM);
+  const Pose2 T{80.0, 80.0, 0.0};
+  for (double x = 0.0; x <= 12.0; x += 4.0) mosaic.add(view_of(hills, T, {x, 0.0}), {x, 0.0}, 0.3);
+  const HeightGrid near = mosaic.resampled(0.5);
+  double area_m2 = 0.0;
+  for (float w : near.weight) area_m2 += 0.25 * w;
+  EXPECT_NEAR(area_m2, 30.0 * 20.0, 1.0);  // from -8, where the memory ends, to 22
+  mosaic.add(view_of(hills, T, {200.0, 0.0}, [](int, int) { return false; }), {200.0, 0.0}, 0.3);
+  for (float w : mosaic.resampled(0.5).weight) EXPECT_EQ(w, 0.0f);
+}
+
+TEST(LocalMosaic, TakesMeansOverTheOrbitalMapsCells) {
+  LocalMosaic mosaic(20.0, kCellM);
+  // A checkerboard of 0.1 m cells means nothing at 0.5 m; every second row is not seen.
+  const Height checks = [](double x, double y) {
+    return (std::lround(std::floor(x / kCellM + 1e-6) + std::floor(y / kCellM + 1e-6)) % 2 == 0) ? 0.5 : -0.5;
+  };
+  mosaic.add(view_of(checks, {80.0, 80.0, 0.0}, {0.0, 0.0}, [](int, int row) { return row % 2 == 0; }), {0.0, 0.0},
+             0.3);
+  const HeightGrid grid = mosaic.resampled(1.0);
+  int seen = 0;
+  for (size_t i = 0; i < grid.weight.size(); ++i) {
+    if (grid.weight[i] < 0.4f) continue;
+    ++seen;
+    EXPECT_NEAR(grid.weight[i], 0.5, 0.02);
+    EXPECT_NEAR(grid.z_m[i], 5.0, 0.02);
+  }
+  EXPECT_GT(seen, 300);
+}
+
+TEST(LocalMosaic, TakesNothingOfNoUse) {
+  LocalMosaic mosaic(20.0, kCellM);
+  ElevationView view = view_of(hills, {80.0, 80.0, 0.0}, {0.0, 0.0});
+  std::fill(view.sigma_m.begin(), view.sigma_m.begin() + 20'000, 1.0f);
+  std::fill(view.sigma_m.begin() + 20'000, view.sigma_m.end(), static_cast<float>(kNaN));
+  mosaic.add(view, {0.0, 0.0}, 0.3);
+  for (float w : mosaic.resampled(0.5).weight) EXPECT_EQ(w, 0.0f);
+}
+
+double relief_of(const Height& height) {
+  return weakest_relief(terrain_template(grid_of(height, 60, 0.5), {1.5, 0.5}));
+}
+
+TEST(WeakestRelief, EvenGroundSlopesAndFurrowsTellNothing) {
+  EXPECT_LT(relief_of([](double, double) { return 2.0; }), 1e-6);
+  EXPECT_LT(relief_of([](double x, double y) { return 0.2 * x + 0.1 * y; }), 1e-6);
+  EXPECT_LT(relief_of([](double x, double) { return std::sin(x); }), 1e-3);  // shifts along y leave it as it is
+  EXPECT_EQ(weakest_relief(TerrainTemplate{}), 0.0);
+}
+
+// Of z = a sin(kx) sin(ky) a shift by one metre changes a^2 k^2 / 4 on the mean of squares.
+TEST(WeakestRelief, IsTheChangeByAShift) {
+  const double a = 0.5, k = 2.0 * kPi / 10.0, damping = std::exp(-k * k * 0.75 * 0.75);
+  const double mean = a * a * k * k / 4.0 * damping * damping;
+  const TerrainTemplate terrain = terrain_template(
+      grid_of([&](double x, double y) { return a * std::sin(k * x) * std::sin(k * y); }, 80, 0.5), {1.5, 0.5});
+  EXPECT_NEAR(weakest_relief(terrain) / terrain.area_m2(), mean, 0.15 * mean);
+}
+
+TEST(TrySchedule, ComesWithTheWay) {
+  TrySchedule schedule({10.0, 20.0, 5.0});
+  EXPECT_FALSE(schedule.due(300.0));  // the first map, late in a drive
+  EXPECT_FALSE(schedule.due(309.9));
+  EXPECT_TRUE(schedule.due(310.0));
+  schedule.tried(310.0, false);
+  EXPECT_FALSE(schedule.due(314.9));
+  EXPECT_TRUE(schedule.due(315.0));
+  schedule.tried(315.0, true);
+  EXPECT_FALSE(schedule.due(334.9));
+  EXPECT_TRUE(schedule.due(335.0));
+  schedule.restart();
+  EXPECT_FALSE(schedule.due(336.0));
+}
+
+}  // namespace
+}  // namespace rover::global::test
