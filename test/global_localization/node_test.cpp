@@ -1,0 +1,300 @@
+#include "global_localization/node.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <rover/correction_t.hpp>
+
+#include "common/bus/convert.hpp"
+#include "global_localization/orbital_map_file.hpp"
+#include "rover_simulator/world/dtm_reader.hpp"
+#include "rover_simulator/world/geotiff_writer.hpp"
+#include "test/global_localization/made_ground.hpp"
+#include "test/stereo/one_node_world.hpp"
+
+namespace rover::global::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kConfig = std::string(ROVER_SOURCE_DIR) + "/config";
+const std::string kGale = kConfig + "/terrain/gale/gale_hirise_dtm_1m_348x337.tif";
+const Pose2 kTruth{95.0, 60.0, 2.1};
+
+ElevationRaster raster_of(const Height& height, double cell_m) {
+  const HeightGrid grid = orbital_of(height, cell_m);
+  ElevationRaster raster = read_elevation(kGale);  // for its projection
+  raster.width = grid.lattice.columns;
+  raster.height = grid.lattice.rows;
+  raster.resolution_m = cell_m;
+  raster.z_m = grid.z_m;
+  return raster;
+}
+
+elevation_t message_of(const ElevationView& view) {
+  elevation_t message{};
+  message.cell_m = view.lattice.cell_m;
+  message.origin_x_m = view.lattice.x0_m;
+  message.origin_y_m = view.lattice.y0_m;
+  message.cells_x = static_cast<std::int16_t>(view.lattice.columns);
+  message.cells_y = static_cast<std::int16_t>(view.lattice.rows);
+  message.size = static_cast<std::int32_t>(view.z_m.size());
+  message.height_m = view.z_m;
+  message.sigma_m = view.sigma_m;
+  return message;
+}
+
+class GlobalLocalizationNodeTest : public testing::Test {
+ protected:
+  GlobalLocalizationNodeTest()
+      : dir_(fs::path(testing::TempDir()) /
+             (std::string("global_localization_") + testing::UnitTest::GetInstance()->current_test_info()->name())) {
+    fs::remove_all(dir_);
+    fs::create_directories(dir_);
+  }
+
+  // With the orbital map that lies in the run's folder by now.
+  void start(int level = supervisor_state_t::FULL) {
+    world_ = std::make_unique<rover::test::OneNodeWorld>("global_localization", dir_.string());
+    service_ = make_global_localization(world_->node(), kConfig);
+    world_->hear(channel::kCorrection, corrections_);
+    world_->hear(channel::kHeartbeat, heartbeats_);
+    world_->tick(now_);
+    set_level(level);
+  }
+  void write_map(const Height& height = hills) {
+    write_geotiff((dir_ / "orbital_map.tif").string(), raster_of(height, 0.5));
+  }
+
+  void set_level(int level) {
+    supervisor_state_t state{};
+    state.state = supervisor_state_t::DRIVING;
+    state.level = static_cast<std::int8_t>(level);
+    world_->send(channel::kState, state, now_);
+  }
+
+  // The belief is off by (3, -2) m and 4 deg.
+  pose_t pose() const {
+    pose_t message{};
+    pose_to(make_pose(Eigen::Matrix3d::Identity(), {place_.x(), place_.y(), 1.0}), message.position_odom_body_m,
+            message.quat_odom_body_wxyz);
+    pose_to(from_planar(believed(kTruth, place_, {3.0, -2.0}, to_rad(4.0))), message.position_map_odom_m,
+            message.quat_map_odom_wxyz);
+    Matrix6d cov = Matrix6d::Zero();
+    cov.diagonal() << 1.0, 1.0, 0.1, 0.001, 0.001, 0.002;
+    matrix6_to(cov, message.covariance);
+    message.travelled_m = travelled_m_;
+    return message;
+  }
+  elevation_t elevation() const { return message_of(view_of(hills, kTruth, place_)); }
+
+  // A pose, and a map 0.1 s old.
+  void give(const pose_t& pose_message, elevation_t map, double age_s = 0.1) {
+    now_ += 1'000'000;
+    world_->send(channel::kPose, pose_message, now_ - kTickUs);
+    world_->send(channel::kElevation, std::move(map), now_ - to_utime(age_s), now_);
+    world_->tick(now_);
+    world_->tick(now_ + 800'000);
+  }
+  void drive(double metres) {
+    for (double s = 0.0; s < metres; s += 4.0) {
+      place_.x() += 4.0;
+      travelled_m_ += 4.0;
+      give(pose(), elevation());
+    }
+  }
+
+  fs::path dir_;
+  std::unique_ptr<rover::test::OneNodeWorld> world_;
+  std::shared_ptr<GlobalLocalizationNode> service_;
+  std::vector<correction_t> corrections_;
+  std::vector<heartbeat_t> heartbeats_;
+  Utime now_ = 200'000;
+  Eigen::Vector2d place_{0.0, -14.0};
+  double travelled_m_ = 50.0;
+};
+
+TEST_F(GlobalLocalizationNodeTest, FindsTheRoverAfterSomeWayAndAgainAfterMore) {
+  write_map();
+  start();
+  drive(12.0);
+  EXPECT_TRUE(corrections_.empty());
+  drive(4.0);
+  ASSERT_EQ(corrections_.size(), 1u);
+  const correction_t& c = corrections_[0];
+  EXPECT_EQ(c.accepted, 1) << c.reason;
+  EXPECT_EQ(c.header.utime, now_ - 100'000);
+  EXPECT_EQ(c.header.release_utime, now_ + 500'000);
+  const Eigen::Vector2d off = transformed({c.x_m, c.y_m, c.yaw_rad}, place_) - transformed(kTruth, place_);
+  EXPECT_LT(off.norm(), 0.1);
+  EXPECT_NEAR(c.yaw_rad, kTruth.yaw_rad, to_rad(0.2));
+  EXPECT_GT(c.covariance[0], 0.0);
+  EXPECT_GT(c.score, c.second_score);
+  drive(16.0);
+  EXPECT_EQ(corrections_.size(), 1u);
+  drive(4.0);
+  EXPECT_EQ(corrections_.size(), 2u);
+}
+
+TEST_F(GlobalLocalizationNodeTest, IdlesInEfficient) {
+  write_map();
+  start(supervisor_state_t::EFFICIENT);
+  drive(40.0);
+  EXPECT_TRUE(corrections_.empty());
+  set_level(supervisor_state_t::FULL);
+  drive(16.0);
+  EXPECT_EQ(corrections_.size(), 1u);
+}
+
+TEST_F(GlobalLocalizationNodeTest, AnAbstentionSaysWhyAndMovesNothing) {
+  write_map([](double, double) { return 2.0; });
+  start();
+  drive(16.0);
+  ASSERT_EQ(corrections_.size(), 1u);
+  EXPECT_EQ(corrections_[0].accepted, 0);
+  EXPECT_FALSE(corrections_[0].reason.empty());
+  const Pose2 belief = believed(kTruth, place_, {3.0, -2.0}, to_rad(4.0));
+  EXPECT_NEAR(corrections_[0].x_m, belief.x_m, 1e-9);
+  EXPECT_NEAR(corrections_[0].y_m, belief.y_m, 1e-9);
+  EXPECT_NEAR(corrections_[0].yaw_rad, belief.yaw_rad, 1e-9);
+  drive(8.0);  // tries again sooner than after a fix
+  EXPECT_EQ(corrections_.size(), 2u);
+}
+
+TEST_F(GlobalLocalizationNodeTest, WithoutAnOrbitalMapItSaysSo) {
+  start();
+  drive(16.0);
+  ASSERT_EQ(corrections_.size(), 1u);
+  EXPECT_EQ(corrections_[0].accepted, 0);
+  EXPECT_EQ(corrections_[0].reason, "no orbital map");
+  ASSERT_FALSE(heartbeats_.empty());
+  EXPECT_EQ(heartbeats_.back().status, +heartbeat_t::DEGRADED);
+  EXPECT_NE(heartbeats_.back().text.find("orbital_map.tif"), std::string::npos) << heartbeats_.back().text;
+}
+
+TEST_F(GlobalLocalizationNodeTest, BadElevationIsCountedAndChangesNothing) {
+  write_map();
+  start();
+  drive(12.0);
+  std::vector<elevation_t> bad(5, elevation());
+  bad[0].cell_m = kNaN;
+  bad[1].cells_x = 100;
+  bad[2].origin_x_m = kInfinity;
+  bad[3].cell_m = 0.2;
+  bad[4].cells_y = -3;
+  for (const elevation_t& map : bad) give(pose(), map);
+  give(pose(), elevation(), 5.0);  // stale
+  EXPECT_EQ(world_->malformed(channel::kElevation), 6);
+  drive(4.0);
+  ASSERT_EQ(corrections_.size(), 1u);
+  EXPECT_EQ(corrections_[0].accepted, 1) << corrections_[0].reason;
+}
+
+TEST_F(GlobalLocalizationNodeTest, EmptyMapsAndPosesOfNoUseGiveNothing) {
+  write_map();
+  start();
+  pose_t broken = pose();
+  broken.position_odom_body_m[0] = kNaN;
+  pose_t lost = pose();
+  lost.status = pose_t::LOST;
+  for (int k = 0; k < 3; ++k) {
+    give(broken, elevation());
+    give(lost, elevation());
+  }
+  EXPECT_TRUE(corrections_.empty());
+  for (int k = 0; k < 5; ++k) {
+    travelled_m_ += 4.0, place_.x() += 4.0;
+    give(pose(), message_of(view_of(hills, kTruth, place_, [](int, int) { return false; })));
+  }
+  ASSERT_GE(corrections_.size(), 1u);
+  EXPECT_EQ(corrections_[0].reason, "too little ground seen");
+}
+
+// What was seen before lies elsewhere in odom: it would be matched as a ground that is nowhere.
+TEST_F(GlobalLocalizationNodeTest, AJumpOfTheOdometryBeginsTheMemoryAnew) {
+  write_map();
+  start();
+  drive(12.0);
+  place_.y() += 9.0;
+  drive(4.0);
+  EXPECT_TRUE(corrections_.empty());  // 4 m after the new beginning
+  drive(12.0);
+  ASSERT_EQ(corrections_.size(), 1u);
+  EXPECT_EQ(corrections_[0].accepted, 1) << corrections_[0].reason;
+}
+
+TEST_F(GlobalLocalizationNodeTest, OrbitalMapsOfNoUseAreNamed) {
+  const std::string file = (dir_ / "orbital_map.tif").string();
+  const auto refusal = [&]() -> std::string {
+    try {
+      load_orbital_map(dir_.string());
+    } catch (const DtmError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(refusal().find("not found"), std::string::npos);
+  std::ofstream(file) << "no map";
+  EXPECT_NE(refusal().find("not a readable"), std::string::npos);
+  ElevationRaster raster = raster_of(hills, 0.5);
+  raster.projection_wkt.clear();
+  write_geotiff(file, raster);
+  EXPECT_NE(refusal().find("no georeference"), std::string::npos);
+  raster = raster_of(hills, 0.5);
+  raster.resolution_m = 1e-5;  // degrees
+  write_geotiff(file, raster);
+  EXPECT_NE(refusal().find("metres"), std::string::npos);
+  raster = raster_of(hills, 0.5);
+  raster.z_m.assign(raster.z_m.size(), static_cast<float>(kNaN));
+  write_geotiff(file, raster);
+  EXPECT_NE(refusal().find("no heights"), std::string::npos);
+  raster = raster_of(hills, 0.5);
+  raster.z_m[7] = static_cast<float>(kNaN);
+  write_geotiff(file, raster);
+  EXPECT_EQ(refusal(), "");
+  EXPECT_EQ(load_orbital_map(dir_.string()).weight[7], 0.0f);
+}
+
+class GlobalLocalizationConfigTest : public testing::Test {};
+
+TEST_F(GlobalLocalizationConfigTest, WrongKeysAndRangesStopTheStart) {
+  const fs::path dir = fs::path(testing::TempDir()) / "global_localization_config";
+  fs::create_directories(dir);
+  const auto write = [&](const std::string& text) { std::ofstream(dir / "global_localization.yaml") << text; };
+  const std::string sections = "tries: {}\nfilter: {}\nrefinement: {}\nacceptance: {}\n";
+  write(sections + "search: {}\n");
+  EXPECT_DOUBLE_EQ(load_config(dir.string()).core.search.min_reach_m, 12.0);
+  for (const char* bad : {"search: {reach: 3}\n", "search: {min_reach_m: -1}\n", "search: {max_reach_m: 5}\n",
+                          "search: {}\nlatency_s: fast\n", ""}) {
+    write(sections + bad);
+    EXPECT_THROW(load_config(dir.string()), ConfigError) << bad;
+  }
+}
+
+// On measured terrain: the rover stands on it, the orbital map is coarser and noisy.
+TEST(GlobalLocalizationOnGale, FindsTheRoverOnFeaturedGround) {
+  const ElevationRaster gale = read_elevation(kGale);
+  const auto height = [&](double x, double y) {
+    const double u = x - 0.5, v = y - 0.5;
+    const int i = static_cast<int>(u), j = static_cast<int>(v);
+    const double a = u - i, b = v - j;
+    return (1 - b) * ((1 - a) * gale.at(i, j) + a * gale.at(i + 1, j)) +
+           b * ((1 - a) * gale.at(i, j + 1) + a * gale.at(i + 1, j + 1));
+  };
+  const NodeConfig config = load_config(kConfig);
+  const Pose2 truth{171.0, 165.0, -0.6};
+  const auto shifted = [&](double x, double y) { return height(x + 100.0, y + 100.0); };
+  GlobalLocalization core(config.core, orbital_of(shifted, 1.0, 0.1), kCellM);
+  const Pose2 on_map{truth.x_m - 100.0, truth.y_m - 100.0, truth.yaw_rad};
+  Eigen::Vector2d p(0.0, 0.0);
+  for (; p.x() <= 24.0; p.x() += 6.0) core.take(view_of(shifted, on_map, p), p);
+  p.x() -= 6.0;
+  const Correction c = core.correct({believed(on_map, p, {-5.0, 6.0}, to_rad(-7.0)), p, pose_cov()});
+  ASSERT_TRUE(c.accepted) << c.reason;
+  EXPECT_LT((transformed(c.T_map_odom, p) - transformed(on_map, p)).norm(), 0.5);
+  EXPECT_NEAR(c.T_map_odom.yaw_rad, on_map.yaw_rad, to_rad(1.0));
+}
+
+}  // namespace
+}  // namespace rover::global::test
