@@ -31,6 +31,7 @@
 #include "common/bus/convert.hpp"
 #include "common/bus/node.hpp"
 #include "common/bus/vehicle_config.hpp"
+#include "global_localization/node.hpp"
 #include "hazard_detector/node.hpp"
 #include "localization/config.hpp"
 #include "localization/node.hpp"
@@ -111,6 +112,7 @@ const std::map<std::string, Factory>& factories() {
        }},
       {"mission_control", [](Node& n) { return std::make_shared<MissionControlNode>(n, plan()); }},
       {"recorder", make_test_recorder},
+      {"global_localization", [](Node& n) { return global::make_global_localization(n, kConfig); }},
       {"slam", [](Node& n) { return slam::make_slam(n, kConfig); }},
       {"traversability", [](Node& n) { return trav::make_traversability(n, kConfig); }},
       {"point_cloud", [](Node& n) { return cloud::make_point_cloud(n, kConfig); }},
