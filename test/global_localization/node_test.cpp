@@ -184,8 +184,10 @@ TEST_F(GlobalLocalizationNodeTest, BadElevationIsCountedAndChangesNothing) {
   bad[3].cell_m = 0.2;
   bad[4].cells_y = -3;
   for (const elevation_t& map : bad) give(pose(), map);
-  give(pose(), elevation(), 5.0);  // stale
-  EXPECT_EQ(world_->malformed(channel::kElevation), 6);
+  now_ += 10'000'000;
+  give(pose(), elevation(), 5.0);   // stale
+  give(pose(), elevation(), -0.5);  // from the future
+  EXPECT_EQ(world_->malformed(channel::kElevation), 7);
   drive(4.0);
   ASSERT_EQ(corrections_.size(), 1u);
   EXPECT_EQ(corrections_[0].accepted, 1) << corrections_[0].reason;
