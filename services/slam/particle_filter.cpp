@@ -29,9 +29,14 @@ void ParticleFilter::reset(const Pose2& pose) {
 }
 
 void ParticleFilter::predict(const Pose2& motion, const MotionNoise& noise, Random& random) {
-  for (Particle& particle : particles_) {
-    const double along = noise.along_m * random.gauss(), across = noise.across_m * random.gauss();
-    const double turn = noise.yaw_rad * random.gauss();
+  // In pairs of opposite noise, so that noise alone does not move the mean.
+  double along = 0.0, across = 0.0, turn = 0.0;
+  for (size_t i = 0; i < particles_.size(); ++i) {
+    Particle& particle = particles_[i];
+    const bool opposite = i % 2 == 1;
+    along = opposite ? -along : noise.along_m * random.gauss();
+    across = opposite ? -across : noise.across_m * random.gauss();
+    turn = opposite ? -turn : noise.yaw_rad * random.gauss();
     // Half of the turn while driving: an error of yaw carries the rover aside.
     const Pose2 bent = compose({0.0, 0.0, 0.5 * turn}, {motion.x_m + along, motion.y_m + across, motion.yaw_rad});
     particle.pose = compose(particle.pose, {bent.x_m, bent.y_m, bent.yaw_rad + 0.5 * turn});

@@ -19,7 +19,7 @@
 namespace rover::slam {
 
 struct MotionConfig {
-  double along_share = 0.02;  // standard deviation by the way driven
+  double along_share = 0.015;  // standard deviation by the way driven
   double across_share = 0.01;
   double yaw_rad_per_m = to_rad(0.008);
   double yaw_share = 0.0005;  // of the turn

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <sstream>
 
 #include "slam/slam.hpp"
@@ -20,7 +21,7 @@ constexpr double kReliefM = 0.10;    // rms of the heights about their plane: st
 constexpr double kMinOverlap = 0.3;  // of a cloud's patches that its neighbour has seen
 constexpr int kNeighbours = 5;       // so far apart in the walk at most
 constexpr double kReachM = 25.0;
-constexpr double kDepthNoise = 0.25 / (818.0 * 0.24);  // sigma over squared distance [1/m], of the NavCam
+constexpr double kDepthNoise = 0.1 / (818.0 * 0.24);  // sigma over squared distance [1/m], of the filtered cloud
 
 // PCD, binary, x y z as float. Points that are not finite or behind the rover are left out.
 Cloud read_pcd(const std::string& file) {
@@ -50,10 +51,11 @@ SlamConfig coarse_config() {
   config.match.max_range_m = kReachM;
   config.match.height_sigma_m = 0.3;
   config.match.tilt_sigma_rad = to_rad(1.0);
-  config.match.temper = 0.25;
-  config.match.blur_m = 0.08;
-  config.match.model_sigma_m = 0.03;
-  config.filter.min_particles = config.filter.max_particles = 300;
+  config.match.max_patches = 1200;
+  config.match.temper = 3.0;
+  config.match.blur_m = 0.04;
+  config.match.model_sigma_m = 0.015;
+  config.filter.min_particles = config.filter.max_particles = 600;
   return config;
 }
 
@@ -99,13 +101,15 @@ double overlap(const Local& cloud, const Local& with) {
 }
 
 // The particle filter with a noise that shrinks from round to round.
-Pose2 registered(const ScanMatcher& matcher, const SlamConfig& config, const Pose2& start, Random& random) {
+std::optional<Pose2> registered(ScanMatcher& matcher, const std::vector<Patch>& patches, const MatchSurface& surface,
+                                const SlamConfig& config, const Pose2& start, Random& random) {
   ParticleFilter filter(config.filter);
   filter.reset(start);
-  double sigma = 0.8;
-  for (int round = 0; round < 10; ++round, sigma *= 0.65) {
-    filter.predict({}, {sigma, sigma, sigma * to_rad(5.0)}, random);
-    filter.weigh([&](const Pose2& pose) { return matcher.fit(pose, 2).log_likelihood; });
+  for (const double sigma : {1.2, 0.6, 0.3, 0.15, 0.08, 0.04}) {
+    matcher.prepare(patches, surface, filter.mean());
+    if (!matcher.enough()) return std::nullopt;
+    filter.predict({}, {sigma, sigma, sigma * to_rad(4.0)}, random);
+    filter.weigh([&](const Pose2& pose) { return matcher.fit(pose).log_likelihood; });
     filter.resample(random);
   }
   return filter.mean();
@@ -133,10 +137,10 @@ Verdict judged(const std::vector<Local>& clouds, int i, const SlamConfig& config
     const Pose2 start{kOffM * (2 * random.unit() - 1), kOffM * (2 * random.unit() - 1),
                       kOffRad * (2 * random.unit() - 1)};
     ScanMatcher matcher(config.match);
-    matcher.prepare(cloud.patches, surface, start);
-    if (!matcher.enough()) return verdict;
-    ends.push_back(registered(matcher, config, start, random));
-    verdict.fitting += matcher.fit(ends.back(), 2).fitting_share / kStarts;
+    const auto end = registered(matcher, cloud.patches, surface, config, start, random);
+    if (!end) return verdict;
+    ends.push_back(*end);
+    verdict.fitting += matcher.fit(*end, 2).fitting_share / kStarts;
   }
   verdict.apart_m = 0.0;
   for (const Pose2& a : ends)
