@@ -90,6 +90,7 @@ void read_curves(const Config& c, CurveSearchConfig& out) {
   c.read("turn_cost_per_rad_m", out.turn_cost_per_rad_m, {0.0, 50.0});
   c.read("turn_bend_cost_m", out.turn_bend_cost_m, {0.0, 50.0});
   c.read("tight_factor", out.tight_factor, {1.0, 20.0});
+  c.read("tight_turn_factor", out.tight_turn_factor, {1.0, 20.0});
   c.read("greed", out.greed, {1.0, 5.0});
   c.read("max_expansions", out.max_expansions, {10, 1000000});
 }
@@ -110,6 +111,7 @@ void read_full(const Config& c, const PathPlannerConfig& shared, FullPlannerConf
   c.read("hold_m", out.hold_m, {0.5, 10.0});
   c.read("switch_gain_m", out.switch_gain_m, {0.0, 20.0});
   c.read("switch_share", out.switch_share, {0.0, 5.0});
+  c.read("squeeze_m", out.squeeze_margin_m, {0.0, 1.0});
   c.read("tight_extra_m", out.tight_extra_m, {0.0, 1.0});
   c.read("stale_s", out.stale_s, {0.5, 60.0});
   c.read("stale_way_m", out.stale_way_m, {0.2, 10.0});

@@ -130,6 +130,7 @@ class CurveSearch {
     const CurveNode from = nodes_[index];
     note_way_to(index);
     double turned = 0.0;
+    double cost = 0.0;
     for (const double turn_deg : kSpinsDeg) {
       const double turn = to_rad(turn_deg);
       CurveNode next = from;
@@ -137,8 +138,10 @@ class CurveSearch {
         next.pose.yaw_rad = from.pose.yaw_rad + side * std::min(turned, turn);
         if (!problem_.turn.clear(next.pose)) return;
         if (from.way_m < problem_.sure_m && !seen_.covers(next.pose)) return;
+        const double factor = problem_.roomy.clear(next.pose) ? 1.0 : config_.tight_turn_factor;
+        cost += factor * config_.turn_cost_per_rad_m * kSpinSampleRad;
       }
-      next.cost += config_.turn_cost_per_rad_m * turn;
+      next.cost += cost;
       next.parent = index;
       next.turned = true;
       next.to_be_turned = false;

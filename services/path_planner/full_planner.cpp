@@ -31,7 +31,7 @@ FullPlan FullPlanner::plan(const FullRequest& request) const {
   };
   const FootprintCheck roomy = check(request.roomy_margin_m);
   const FootprintCheck tight = check(request.tight_margin_m);
-  const FootprintCheck turn = check(request.tight_margin_m + config_.turn_extra_m);
+  const FootprintCheck turn = check(request.turn_margin_m);
   CurveProblem problem{field, headings,       roomy,         tight,
                        turn,  request.view,   request.start, request.start_curvature_per_m,
                        0.0,   request.stopped};

@@ -18,6 +18,7 @@ struct FullPlannerConfig {
   double switch_gain_m = 1.0;     // by which another one has to be cheaper ...
   double switch_share = 0.1;      // ... and by that share of its cost
   double tight_extra_m = 0.02;    // that plans keep beyond the tight margin, where they do not keep the wide one
+  double squeeze_margin_m = 0.08;  // of a rover that stands and has no way otherwise
   double turn_extra_m = 0.04;     // of the margin, for point turns: the rover does not halt exactly
   int map_cells = 280;            // of the ground that is remembered, each way; as large as the hazard memory's
   double stale_way_m = 1.5;       // driven since the newest map, with which it is too old ...
@@ -46,6 +47,7 @@ struct FullRequest {
   std::optional<HeldWay> held;
   double roomy_margin_m = 0.0;
   double tight_margin_m = 0.0;
+  double turn_margin_m = 0.0;
   double goal_reach_m = 0.0;
   const std::vector<Point2>& dead_ends;
 };

@@ -17,7 +17,7 @@ constexpr double kSlackM = 0.03;   // of the margins: the lattice must not close
 constexpr double kEndBandM = 0.7;  // past the goal line
 constexpr double kAboutRoverM = 1.0;  // the rover may stand closer to a hazard than it would go
 
-constexpr double kBeyond = 4.0;  // of cost, past that of the rover's pose, until which the field is laid
+constexpr double kBeyond = 2.5;  // of cost, past that of the rover's pose, until which the field is laid
 
 int wrapped(int heading) {
   return (heading % HeadingField::kHeadings + HeadingField::kHeadings) % HeadingField::kHeadings;
@@ -199,9 +199,11 @@ void HeadingField::spread_driving(int cell, int heading, float cost) {
 void HeadingField::spread_turning(int cell, int heading, float cost) {
   for (const int turn : {1, -1}) {
     const int from = wrapped(heading + turn);
-    if (room(cell, from) == kBlocked) continue;
+    const Room there = room(cell, from);
+    if (there == kBlocked) continue;
+    const double factor = there == kTight ? prices_.tight_turn_factor : 1.0;
     offer(count_ * kHeadings + static_cast<size_t>(from) * count_ + cell,
-          cost + static_cast<float>(prices_.turn_cost_per_rad_m * yaw_of(1)));
+          cost + static_cast<float>(factor * prices_.turn_cost_per_rad_m * yaw_of(1)));
   }
   offer(static_cast<size_t>(heading) * count_ + cell, cost + static_cast<float>(prices_.turn_cost_m));
 }

@@ -16,7 +16,8 @@ struct DrivingPrices {
   double curvature_cost = 0.15;  // per metre, at the largest curvature
   double turn_cost_m = 3.0;      // a point turn takes about 15 s, in which the rover could drive 3 m
   double turn_cost_per_rad_m = 1.0;
-  double tight_factor = 2.0;  // of the cost, where only the tight margin is kept
+  double tight_factor = 2.0;       // of the cost, where only the tight margin is kept
+  double tight_turn_factor = 3.0;  // likewise of a point turn's
 };
 
 struct HeadingQuery {

@@ -243,8 +243,10 @@ bool PathPlanner::strayed() const {
 // there is room to turn; further each time, and what led here costs more from now on. False where there is no track, or
 // where that has been tried enough.
 bool PathPlanner::retreat(PlannerOutput& out) {
-  const std::vector<Point2> back = driven_.back(position(rover()), (1 + retreats_) * config_.retreat_m);
-  if (retreats_ >= config_.most_retreats || distance(back.front(), back.back()) < kLeastRetreatM) return false;
+  std::vector<Point2> back = driven_.back(position(rover()), (1 + retreats_) * config_.retreat_m);
+  if (continuous() && back.size() >= 2) back = clear_part(back);
+  if (back.size() < 2 || retreats_ >= config_.most_retreats || distance(back.front(), back.back()) < kLeastRetreatM)
+    return false;
   ++retreats_;
   dead_ends_.push_back(position(rover()));
   failures_ = 0;
@@ -411,6 +413,7 @@ void PathPlanner::adopt(Route route, PathKind kind, PlannerOutput& out) {
   active_.kind = kind;
   active_.id = next_path_id_++;
   replan_wanted_ = false;
+  no_way_on_ = false;
   agenda_.restart();
   firm_agenda_.restart();
   active_.progress_m = active_.route.closest(position(rover()), 0.0, kSearchAheadM);
@@ -473,6 +476,7 @@ bool PathPlanner::standing() const {
 }
 
 double PathPlanner::hazard_ahead_m() const {
+  if (no_way_on_) return 0.0;
   return std::min(block_.confirmed_m, block_.possible_m) - active_.progress_m;
 }
 

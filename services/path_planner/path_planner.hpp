@@ -177,9 +177,10 @@ class PathPlanner {
   double seen_way(const Terrain& terrain, const std::vector<Pose2>& poses) const;
   void track_turn();
   bool continuous() const;
-  Terrain terrain() const { return Terrain(memory_, continuous() ? &ground_ : nullptr); }
+  Terrain terrain() const { return {memory_, continuous() ? &ground_ : nullptr, Terrain::Reach::kMemory}; }
   void go_on(PlannerOutput& out);
   bool at_turn() const;
+  std::vector<Point2> clear_part(const std::vector<Point2>& back) const;
   bool plan_on(PlannerOutput& out);
   FullRequest full_request(const Terrain& terrain) const;
   std::optional<HeldWay> held_way() const;
@@ -229,6 +230,7 @@ class PathPlanner {
   Utime map_utime_ = kNever;      // of the newest map; kNever: none
   double map_travelled_m_ = 0.0;  // by the rover when it came
   bool new_map_ = false;          // since the last judgement
+  bool no_way_on_ = false;        // from the rover by all that is known: driving on would lead deeper into a dead end
   RepairAgenda agenda_;
   RepairAgenda firm_agenda_;
   RepairResult last_repair_;

@@ -14,6 +14,7 @@ constexpr double kLeadM = 0.25;  // of the way being driven, with which a new pl
 constexpr double kHalfCellM = 0.05;
 constexpr double kControlM = 0.05;
 constexpr double kBackRadiusM = 2.0;  // of the way from a plan's end back to the global path
+constexpr double kBackReserveM = 0.1;
 constexpr double kBackAheadM = 3.0;
 constexpr double kRoundingM = 1e-6;
 constexpr double kCreepMps = 0.05;  // of the body origin while the rover turns on the spot
@@ -28,6 +29,7 @@ void PathPlanner::set_level(bool full) {
     map_utime_ = kNever;
     ground_.clear();
     new_map_ = false;
+    no_way_on_ = false;
     // The rest of the plan is driven as a repair is: the global path follows.
     if (active_.kind == PathKind::kContinuous) active_.kind = PathKind::kRepair;
   }
@@ -58,7 +60,7 @@ void PathPlanner::go_on(PlannerOutput& out) {
   const bool before_unseen = (unseen_ahead_m() < config_.stop_unseen_m || strayed()) && standing();
   frames_before_unseen_ = before_unseen ? frames_before_unseen_ + 1 : 0;
   const bool turning = at_turn();
-  const bool blocked = block_.confirmed_m - active_.progress_m < (turning ? kTurnBlockM : kNearBlockM) ||
+  const bool blocked = no_way_on_ || block_.confirmed_m - active_.progress_m < (turning ? kTurnBlockM : kNearBlockM) ||
                        frames_before_possible_ >= config_.patience_frames ||
                        frames_before_unseen_ >= config_.patience_frames;
   const bool wanted = (new_map_ && !turning) || active_.kind != PathKind::kContinuous;
@@ -66,7 +68,7 @@ void PathPlanner::go_on(PlannerOutput& out) {
     failures_ = 0;
     return;
   }
-  if (!plan_on(out) && !blocked) failures_ = 0;
+  if (!plan_on(out) && active_.kind == PathKind::kContinuous) no_way_on_ = true;
   if (stuck() && standing()) retreat(out);
 }
 
@@ -81,9 +83,13 @@ bool PathPlanner::at_turn() const {
 }
 
 bool PathPlanner::plan_on(PlannerOutput& out) {
-  const Terrain ground = terrain();
-  const FullRequest request = full_request(ground);
-  const FullPlan plan = full_planner_.plan(request);
+  const Terrain ground(memory_, &ground_, Terrain::Reach::kGround);
+  FullRequest request = full_request(ground);
+  FullPlan plan = full_planner_.plan(request);
+  if (!plan.plan.found && standing()) {
+    request.tight_margin_m = request.turn_margin_m = config_.full.squeeze_margin_m;
+    plan = full_planner_.plan(request);
+  }
   last_repair_.status = plan.plan.found               ? RepairStatus::kFound
                         : plan.plan.unseen_in_the_way ? RepairStatus::kUnseen
                                                       : RepairStatus::kNoWay;
@@ -115,6 +121,7 @@ FullRequest PathPlanner::full_request(const Terrain& terrain) const {
           .held = held_way(),
           .roomy_margin_m = config_.margin_m + config_.plan_extra_m + sigma,
           .tight_margin_m = config_.tight_margin_m + config_.full.tight_extra_m + sigma,
+          .turn_margin_m = config_.tight_margin_m + config_.full.tight_extra_m + config_.full.turn_extra_m + sigma,
           .goal_reach_m = any_goal ? config_.blocked_goal_reach_m : goal_reach_m(),
           .dead_ends = dead_ends_};
 }
@@ -148,6 +155,24 @@ std::optional<HeldWay> PathPlanner::held_way() const {
   return held;
 }
 
+// Of the way back, what the rectangle surely passes, stern first, without a turn on the spot.
+std::vector<Point2> PathPlanner::clear_part(const std::vector<Point2>& back) const {
+  std::vector<RoutePoint> points;
+  for (const Point2& p : back) points.push_back({p});
+  const Route route(std::move(points));
+  const Terrain ground = terrain();
+  const FootprintCheck check(ground, config_.footprint, config_.full.squeeze_margin_m, 0.0, rover());
+  double clear_m = route.kinks().empty() ? route.length_m() : route.s_at(route.kinks().front());
+  for (double s = 0.0; s < clear_m; s += kPoseStepM) {
+    Pose2 pose = route.pose_at(s);
+    pose.yaw_rad += kPi;
+    if (!check.clear(pose)) clear_m = s - kBackReserveM;
+  }
+  std::vector<Point2> out;
+  for (size_t i = 0; i < back.size() && route.s_at(i) <= clear_m; ++i) out.push_back(back[i]);
+  return out;
+}
+
 void PathPlanner::take_plan(const FullPlan& plan, const FullRequest& request, PlannerOutput& out) {
   std::vector<RoutePoint> points;
   const std::int8_t level = global_odom_.level_at(global_progress_m_);
@@ -165,7 +190,8 @@ void PathPlanner::take_plan(const FullPlan& plan, const FullRequest& request, Pl
   append_poses(plan.plan.poses, plan.end_station_m, points);
   append_way_back(plan.end_station_m, points);
   const bool roomy = plan.clearance_m >= request.roomy_margin_m - kRoundingM;
-  active_.margin_m = roomy ? config_.margin_m : config_.tight_margin_m;
+  active_.margin_m =
+      roomy ? config_.margin_m : std::min(config_.tight_margin_m, request.tight_margin_m - config_.full.tight_extra_m);
   active_.corridor_half_width_m = std::clamp(plan.clearance_m - kHalfCellM - kControlM, config_.least_corridor_m,
                                              std::max(config_.least_corridor_m, global_->corridor_half_width_m));
   const bool turning = turning_;

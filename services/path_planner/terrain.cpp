@@ -51,12 +51,12 @@ std::vector<std::uint8_t> wide_parts(const std::vector<std::uint8_t>& mask, int 
 
 }  // namespace
 
-Terrain::Terrain(const HazardMemory& memory, const GroundMap* ground)
-    : cells_(ground != nullptr ? ground->map().cells() : memory.map().cells()),
+Terrain::Terrain(const HazardMemory& memory, const GroundMap* ground, Reach reach)
+    : cells_(reach == Reach::kGround ? ground->map().cells() : memory.map().cells()),
       cell_m_(memory.map().cell_m()),
       cells_per_m_(1.0 / cell_m_),
       side_m_(cells_ * cell_m_) {
-  const CellIndex origin = ground != nullptr ? ground->map().origin() : memory.map().origin();
+  const CellIndex origin = reach == Reach::kGround ? ground->map().origin() : memory.map().origin();
   corner_ = {origin.ix * cell_m_, origin.iy * cell_m_};
   const auto for_each_cell = [&](auto&& f) {
     for (int iy = origin.iy; iy < origin.iy + cells_; ++iy)
@@ -72,7 +72,7 @@ Terrain::Terrain(const HazardMemory& memory, const GroundMap* ground)
   });
   unseen_ = closed(unseen_, cells_);
   std::vector<std::uint8_t> impassable(unseen_.size(), 0);
-  if (ground != nullptr) lay_ground(memory, *ground, impassable);
+  if (ground != nullptr) impassable = lay_ground(memory, *ground, origin);
   std::vector<std::uint8_t> hazard;
   hazard.reserve(unseen_.size());
   for_each_cell([&](CellIndex i, const GroundCell& cell) {
@@ -89,16 +89,19 @@ Terrain::Terrain(const HazardMemory& memory, const GroundMap* ground)
   unseen_distance_ = distance_field(unseen_, cells_, cells_, cell_m_);
 }
 
-void Terrain::lay_ground(const HazardMemory& memory, const GroundMap& ground, std::vector<std::uint8_t>& impassable) {
+std::vector<std::uint8_t> Terrain::lay_ground(const HazardMemory& memory, const GroundMap& ground, CellIndex origin) {
+  std::vector<std::uint8_t> impassable(unseen_.size(), 0);
   difficulty_.assign(unseen_.size(), 0.0F);
-  size_t next = 0;
-  ground.map().for_each([&](CellIndex index, std::uint8_t cost) {
-    const size_t i = next++;
-    if (cost == TraversabilityGrid::kUnknown) return;
+  for (size_t i = 0; i < unseen_.size(); ++i) {
+    const int cell = static_cast<int>(i);
+    const CellIndex index{origin.ix + cell % cells_, origin.iy + cell / cells_};
+    const std::uint8_t cost = ground.map().get(index);
+    if (cost == TraversabilityGrid::kUnknown) continue;
     unseen_[i] = 0;
     impassable[i] = cost == TraversabilityGrid::kImpassable && !memory.map().get(index).driven ? 1 : 0;
     difficulty_[i] = static_cast<float>(cost) / static_cast<float>(TraversabilityGrid::kImpassable);
-  });
+  }
+  return impassable;
 }
 
 std::span<const HazardSpot> Terrain::hazards_about(Point2 p, double reach_m) const {

@@ -20,10 +20,12 @@ struct HazardSpot {
 
 class Terrain {
  public:
-  explicit Terrain(const HazardMemory& memory) : Terrain(memory, nullptr) {}
-  // Also what the ground map knows, as far as that reaches: its impassable cells are hazards, and ground that it knows
-  // counts as seen. Null: none. Both grids have cells of one size.
-  Terrain(const HazardMemory& memory, const GroundMap* ground);
+  enum class Reach { kMemory, kGround };  // of which of the two grids
+
+  explicit Terrain(const HazardMemory& memory) : Terrain(memory, nullptr, Reach::kMemory) {}
+  // Also what the ground map knows: its impassable cells are hazards, and ground that it knows counts as seen. Null:
+  // none. Both grids have cells of one size.
+  Terrain(const HazardMemory& memory, const GroundMap* ground, Reach reach);
 
   int cells() const { return cells_; }
   double cell_m() const { return cell_m_; }
@@ -64,7 +66,7 @@ class Terrain {
   double side_m_;
   Point2 corner_;
   // Lays what the map knows over the masks.
-  void lay_ground(const HazardMemory& memory, const GroundMap& ground, std::vector<std::uint8_t>& impassable);
+  std::vector<std::uint8_t> lay_ground(const HazardMemory& memory, const GroundMap& ground, CellIndex origin);
 
   std::vector<std::uint8_t> unseen_;
   std::vector<float> difficulty_;  // empty: no map

@@ -11,6 +11,8 @@
 #include <rover/planner_status_t.hpp>
 #include <rover/pose_t.hpp>
 #include <rover/service_state_t.hpp>
+#include <rover/supervisor_state_t.hpp>
+#include <rover/traversability_t.hpp>
 #include <set>
 
 #include "common/bus/convert.hpp"
@@ -239,6 +241,69 @@ TEST_F(PlannerNodeTest, UnusableMessagesAreCountedAndChangeNothing) {
   EXPECT_EQ(malformed(channel::kGroundCommand), 2);
   EXPECT_EQ(paths_->size(), 1u);
   EXPECT_EQ(statuses_->back().state, +planner_status_t::FOLLOWING);
+}
+
+traversability_t free_map() {
+  traversability_t out{};
+  out.cell_m = 0.1;
+  out.origin_x_m = out.origin_y_m = -10.0;
+  out.cells_x = out.cells_y = 200;
+  out.cells.assign(40000, 0);
+  out.size = 40000;
+  return out;
+}
+
+// The map has to be of the past: it is sent as measured now, and taken ticks later.
+TEST_F(PlannerNodeTest, AtTheFullLevelAMapMakesAContinuousPath) {
+  certify_start();
+  world_.send(channel::kGlobalPath, ahead(), "mission_control");
+  tick(3);
+  world_.send(channel::kTraversability, free_map(), "traversability");
+  tick(5);
+  EXPECT_EQ(paths_->back().kind, +path_t::GLOBAL);  // Efficient takes no map
+  supervisor_state_t state{};
+  state.level = supervisor_state_t::FULL;
+  world_.send(channel::kState, state, "supervisor");
+  tick(3);
+  world_.send(channel::kTraversability, free_map(), "traversability");
+  tick(5);
+  EXPECT_EQ(paths_->back().kind, +path_t::CONTINUOUS);
+  EXPECT_EQ(malformed(channel::kTraversability), 0);
+  EXPECT_EQ(statuses_->back().replans, 0);
+}
+
+TEST_F(PlannerNodeTest, UnusableMapsAndLevelsAreCountedAndChangeNothing) {
+  certify_start();
+  world_.send(channel::kGlobalPath, ahead(), "mission_control");
+  supervisor_state_t state{};
+  state.level = supervisor_state_t::FULL;
+  world_.send(channel::kState, state, "supervisor");
+  tick(3);
+  std::vector<traversability_t> bad(4, free_map());
+  bad[0].cells_x = 0;
+  bad[1].cells_y = 201;
+  bad[2].cell_m = kNaN;
+  bad[3].origin_y_m = kNaN;
+  for (const traversability_t& message : bad) world_.send(channel::kTraversability, message, "traversability");
+  const auto send_measured = [&](Utime utime, std::int64_t boot) {
+    StreamCounter maps("traversability", boot);
+    traversability_t message = free_map();
+    message.header = maps.next(channel::kTraversability, utime, world_.now + kTickUs);
+    world_.bus.publish(channel::kTraversability, &message);
+  };
+  send_measured(world_.now + to_utime(5.0), 3);  // of the future
+  tick(12);
+  EXPECT_GE(malformed(channel::kTraversability), 5);
+  EXPECT_EQ(paths_->back().kind, +path_t::GLOBAL);
+  tick(400);
+  send_measured(world_.now - to_utime(6.0), 4);  // too old
+  tick(60);
+  EXPECT_GE(malformed(channel::kTraversability), 6);
+  EXPECT_EQ(paths_->back().kind, +path_t::GLOBAL);
+  state.level = 7;
+  world_.send(channel::kState, state, "supervisor");
+  tick(60);
+  EXPECT_EQ(malformed(channel::kState), 1);
 }
 
 TEST_F(PlannerNodeTest, PoseStatusAndAgeDecide) {

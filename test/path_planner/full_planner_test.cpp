@@ -1,0 +1,372 @@
+// Continuous planning of the Full level: the ground it knows, the fields, the plans, and when it keeps to one.
+#include "path_planner/full_planner.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "test/path_planner/planner_rig.hpp"
+#include "test/path_planner/rock_drive.hpp"
+
+namespace rover::planning {
+namespace {
+
+using testing_support::drive;
+using testing_support::DriveConfig;
+using testing_support::DriveResult;
+using testing_support::planner_config;
+using testing_support::PlannerRig;
+using testing_support::Rock;
+using testing_support::rock_field;
+
+constexpr double kMapSideM = 20.0;
+constexpr std::uint8_t kFree = 0;
+
+// A map about the point, each cell as `cost` says.
+TraversabilityGrid map_about(Point2 center, const std::function<std::uint8_t(Point2)>& cost, Utime utime = 0) {
+  const int cells = static_cast<int>(kMapSideM / 0.1);
+  TraversabilityGrid map{utime, 0.1, center.x_m - 0.5 * kMapSideM, center.y_m - 0.5 * kMapSideM, cells, cells, {}};
+  for (int iy = 0; iy < cells; ++iy)
+    for (int ix = 0; ix < cells; ++ix)
+      map.cells.push_back(cost({map.origin_x_m + (ix + 0.5) * 0.1, map.origin_y_m + (iy + 0.5) * 0.1}));
+  return map;
+}
+
+std::uint8_t free_ground(Point2 /*p*/) {
+  return kFree;
+}
+
+// A wall across the way at x = 4 with a gap about y = `middle`.
+std::function<std::uint8_t(Point2)> wall(double middle_m, double width_m) {
+  return [=](Point2 p) {
+    const bool in_gap = std::abs(p.y_m - middle_m) < 0.5 * width_m;
+    return std::abs(p.x_m - 4.0) < 0.15 && !in_gap ? TraversabilityGrid::kImpassable : kFree;
+  };
+}
+
+struct Ground {
+  HazardMemory memory{planner_config().memory};
+  GroundMap map{280, 0.1};
+  Route global{{{{-3.0, 0.0}}, {{30.0, 0.0}}}};
+  std::vector<Point2> dead_ends;
+
+  explicit Ground(const std::function<std::uint8_t(Point2)>& cost) {
+    memory.move_to({0.0, 0.0});
+    map.move_to({0.0, 0.0});
+    map.add(map_about({0.0, 0.0}, cost));
+  }
+
+  FullRequest request(const Terrain& terrain, const Pose2& rover = {}) const {
+    FullRequest out{.terrain = terrain,
+                    .footprint = planner_config().footprint,
+                    .view = planner_config().repair.view,
+                    .global = global,
+                    .from_m = rover.x_m + 3.0,
+                    .rover = rover,
+                    .start = rover,
+                    .stopped = rover,
+                    .held = {},
+                    .dead_ends = dead_ends};
+    out.roomy_margin_m = 0.17;
+    out.tight_margin_m = 0.11;
+    out.turn_margin_m = 0.15;
+    out.goal_reach_m = 0.3;
+    return out;
+  }
+
+  FullPlan plan(const Pose2& rover = {}) const {
+    const Terrain terrain(memory, &map, Terrain::Reach::kGround);
+    return FullPlanner(planner_config().full).plan(request(terrain, rover));
+  }
+};
+
+double length_of(const std::vector<Pose2>& poses) {
+  double sum = 0.0;
+  for (size_t i = 1; i < poses.size(); ++i) sum += distance(position(poses[i - 1]), position(poses[i]));
+  return sum;
+}
+
+double y_at(const std::vector<Pose2>& poses, double x_m) {
+  for (const Pose2& pose : poses)
+    if (pose.x_m >= x_m) return pose.y_m;
+  return kNaN;
+}
+
+TEST(TraversabilityGrid, SaysWhyItIsNotUsable) {
+  const TraversabilityGrid good = map_about({0.0, 0.0}, free_ground);
+  EXPECT_EQ(good.fault(), "");
+  std::vector<TraversabilityGrid> bad(6, good);
+  bad[0].cells.pop_back();
+  bad[1].cell_m = kNaN;
+  bad[2].origin_x_m = kNaN;
+  bad[3].origin_y_m = kInfinity;
+  bad[4].cells_x = -200;
+  bad[5].cells_x = bad[5].cells_y = 30000;
+  for (size_t i = 0; i < bad.size(); ++i) EXPECT_NE(bad[i].fault(), "") << i;
+}
+
+TEST(TraversabilityGrid, OutsideNothingIsKnown) {
+  const TraversabilityGrid map = map_about({5.0, -3.0}, [](Point2 p) { return p.x_m > 5.0 ? kFree : 77; });
+  EXPECT_EQ(map.at({5.05, -3.0}), kFree);
+  EXPECT_EQ(map.at({4.95, -3.0}), 77);
+  EXPECT_EQ(map.at({15.1, -3.0}), TraversabilityGrid::kUnknown);
+  EXPECT_EQ(map.at({kNaN, -3.0}), TraversabilityGrid::kUnknown);
+}
+
+TEST(GroundMap, RemembersWhatTheNewestMapDoesNotKnowAndForgetsWhatItLeaves) {
+  GroundMap map(280, 0.1);
+  map.move_to({0.0, 0.0});
+  map.add(map_about({0.0, 0.0}, [](Point2) { return std::uint8_t{100}; }));
+  map.add(map_about({0.0, 0.0}, [](Point2 p) { return p.x_m > 0.0 ? std::uint8_t{7} : TraversabilityGrid::kUnknown; }));
+  const auto at = [&](double x, double y) { return map.map().get(map.map().index_of(x, y)); };
+  EXPECT_EQ(at(-1.0, 0.0), 100);
+  EXPECT_EQ(at(1.0, 0.0), 7);
+  EXPECT_EQ(at(12.0, 0.0), TraversabilityGrid::kUnknown);
+  map.move_to({8.0, 0.0});
+  EXPECT_EQ(at(-5.0, 0.0), 100);
+  EXPECT_EQ(at(-7.0, 0.0), TraversabilityGrid::kUnknown);
+}
+
+TEST(UnitedTerrain, TheMapsRocksAreHazardsUnlessTheRoverDroveOverThemAndKnownGroundIsSeen) {
+  Ground ground([](Point2 p) {
+    const bool rock = distance(p, {3.0, 0.0}) < 0.2 || distance(p, {0.0, 0.0}) < 0.2;
+    return p.x_m > 6.0 ? TraversabilityGrid::kUnknown : rock ? TraversabilityGrid::kImpassable : kFree;
+  });
+  ground.memory.mark_driven({}, planner_config().footprint);
+  const Terrain terrain(ground.memory, &ground.map, Terrain::Reach::kGround);
+  EXPECT_LT(terrain.hazard_distance_m(Point2{3.05, 0.05}), 0.1);
+  EXPECT_GT(terrain.hazard_distance_m(Point2{0.05, 0.05}), 2.0);
+  EXPECT_FALSE(terrain.unseen(Point2{5.5, 0.05}));
+  EXPECT_TRUE(terrain.unseen(Point2{6.5, 0.05}));
+  EXPECT_TRUE(
+      std::all_of(terrain.hazards().begin(), terrain.hazards().end(), [](const auto& h) { return h.confirmed; }));
+  EXPECT_TRUE(Terrain(ground.memory).hazards().empty());
+}
+
+// What Efficient knows stands although the map says otherwise.
+TEST(UnitedTerrain, AHazardStandsAgainstAFreeMap) {
+  Ground ground(free_ground);
+  ground.memory.map().at(ground.memory.map().index_of(3.05, 0.05)) = {.seen = true, .hits = 3};
+  const Terrain terrain(ground.memory, &ground.map, Terrain::Reach::kGround);
+  ASSERT_EQ(terrain.hazards().size(), 1u);
+  EXPECT_TRUE(terrain.hazards().front().confirmed);
+}
+
+TEST(HeadingField, PricesDistanceTurnsAndGaps) {
+  const auto to_go = [](const std::function<std::uint8_t(Point2)>& cost, const Pose2& pose) {
+    const Ground ground(cost);
+    const Terrain terrain(ground.memory, &ground.map, Terrain::Reach::kGround);
+    const GoalField goal(planner_config().full.goal,
+                         {terrain, ground.global, 3.0, {0.0, 0.0}, 0.47, 0.11, 0.3, ground.dead_ends});
+    return HeadingField(planner_config().full.search, {terrain, goal, planner_config().footprint, pose, 0.17, 0.11})
+        .to_go(pose);
+  };
+  EXPECT_NEAR(to_go(free_ground, {}), 8.0, 0.7);
+  EXPECT_NEAR(to_go(free_ground, {0.0, 0.0, kPi / 2}), 8.0, 2.0);                // on an arc
+  EXPECT_GT(to_go(free_ground, {0.0, 0.0, kPi}), to_go(free_ground, {}) + 3.0);  // a half circle, or a point turn
+  EXPECT_LT(to_go(free_ground, {0.0, 0.0, kPi}), to_go(free_ground, {}) + 3.0 + kPi + 0.5);
+  EXPECT_LT(to_go(wall(0.0, 2.0), {}), 9.5);
+  EXPECT_LT(to_go(wall(0.0, 1.4), {}), 13.0);  // at the price of the tight margin
+  EXPECT_TRUE(std::isinf(to_go(wall(0.0, 1.0), {})) || to_go(wall(0.0, 1.0), {}) > 20.0);
+}
+
+TEST(FullPlanner, OverFreeGroundThePlanIsStraight) {
+  const FullPlan plan = Ground(free_ground).plan();
+  ASSERT_TRUE(plan.plan.found);
+  EXPECT_FALSE(plan.held);
+  EXPECT_EQ(plan.plan.halts, 0);
+  EXPECT_GE(plan.plan.poses.back().x_m, 8.0);
+  EXPECT_NEAR(length_of(plan.plan.poses), plan.plan.poses.back().x_m, 0.02);
+  EXPECT_LT(plan.plan.expansions, 100);
+}
+
+TEST(FullPlanner, ThroughAGapWithinCurvatureAndMargin) {
+  for (const double middle : {-2.5, -1.0, 0.6, 2.2}) {
+    const Ground ground(wall(middle, 1.7));
+    const FullPlan plan = ground.plan();
+    ASSERT_TRUE(plan.plan.found) << middle;
+    EXPECT_NEAR(y_at(plan.plan.poses, 4.0), middle, 0.4);
+    const Terrain terrain(ground.memory, &ground.map, Terrain::Reach::kGround);
+    const FootprintCheck check(terrain, planner_config().footprint, 0.11, 0.0, {});
+    for (const Pose2& pose : plan.plan.poses) EXPECT_TRUE(check.clear(pose));
+    for (size_t i = 1; i < plan.plan.poses.size(); ++i) {
+      const double step = distance(position(plan.plan.poses[i - 1]), position(plan.plan.poses[i]));
+      if (step < 1e-6) continue;  // a point turn
+      EXPECT_LE(std::abs(plan.plan.poses[i].yaw_rad - plan.plan.poses[i - 1].yaw_rad), 0.8 * step + 1e-9);
+    }
+  }
+}
+
+// A gap that only the tight margin fits through is taken where the way round is long, and left where it is short.
+TEST(FullPlanner, ATightGapIsWeighedAgainstTheWayRound) {
+  const auto two_gaps = [](double other_m) {
+    return [=](Point2 p) {
+      const bool gap = std::abs(p.y_m - 0.05) < 0.59 || std::abs(p.y_m - other_m) < 1.5;
+      return std::abs(p.x_m - 4.0) < 0.15 && !gap ? TraversabilityGrid::kImpassable : kFree;
+    };
+  };
+  const FullPlan direct = Ground(two_gaps(6.5)).plan();
+  ASSERT_TRUE(direct.plan.found);
+  EXPECT_NEAR(y_at(direct.plan.poses, 4.0), 0.0, 0.3);
+  const FullPlan round = Ground(two_gaps(2.4)).plan();
+  ASSERT_TRUE(round.plan.found);
+  EXPECT_GT(y_at(round.plan.poses, 4.0), 0.8);
+}
+
+TEST(FullPlanner, EnclosedThereIsNoPlan) {
+  const FullPlan plan = Ground([](Point2 p) {
+                          const double r = distance(p, {0.0, 0.0});
+                          return r > 2.0 && r < 2.3 ? TraversabilityGrid::kImpassable : kFree;
+                        }).plan();
+  EXPECT_FALSE(plan.plan.found);
+}
+
+// Ground beside the rover that no camera has seen is not driven on; ground further ahead is, for there the cameras come
+// first.
+TEST(FullPlanner, UnknownGroundNearbyIsNotEnteredFurtherOnItCostsMore) {
+  const FullPlan far = Ground([](Point2 p) { return p.x_m > 4.0 ? TraversabilityGrid::kUnknown : kFree; }).plan();
+  EXPECT_TRUE(far.plan.found);
+  const FullPlan near = Ground([](Point2 p) {
+                          return std::abs(p.x_m) < 1.0 && std::abs(p.y_m) < 0.6 ? kFree : TraversabilityGrid::kUnknown;
+                        }).plan({0.0, 0.0, kPi / 2});
+  EXPECT_FALSE(near.plan.found && near.plan.poses[1].y_m > 0.0 && near.plan.halts > 0);
+  EXPECT_TRUE(near.plan.unseen_in_the_way || near.plan.found);
+}
+
+// A rock right ahead, a little to the left: the way to its right is the shorter one.
+std::uint8_t rock_ahead(Point2 p) {
+  return distance(p, {5.0, 0.25}) < 0.6 ? TraversabilityGrid::kImpassable : kFree;
+}
+
+HeldWay held_to_the(double side) {
+  HeldWay held;
+  for (double s = 0.0; s <= 3.0; s += 0.05) held.poses.push_back(advanced({}, s, side * 0.12));
+  held.end_curvature_per_m = side * 0.12;
+  return held;
+}
+
+TEST(FullPlanner, ThePlanBeingDrivenIsHeldUnlessAnotherOneIsClearlyCheaper) {
+  const Ground ground(rock_ahead);
+  const Terrain terrain(ground.memory, &ground.map, Terrain::Reach::kGround);
+  FullRequest request = ground.request(terrain);
+  const FullPlanner planner(planner_config().full);
+  EXPECT_LT(y_at(planner.plan(request).plan.poses, 5.0), 0.0);
+  request.held = held_to_the(1.0);
+  const FullPlan held = planner.plan(request);
+  ASSERT_TRUE(held.plan.found);
+  EXPECT_TRUE(held.held);
+  EXPECT_NEAR(distance(position(held.plan.poses.front()), position(request.held->poses.back())), 0.0, 1e-9);
+  EXPECT_GT(y_at(held.plan.poses, 5.0), 0.0);
+  request.held->halts = 1;  // with a point turn in it
+  request.held->turn_left_rad = kPi / 2;
+  EXPECT_FALSE(planner.plan(request).held);
+}
+
+TEST(FullPlanner, ABlockedPlanIsNotHeld) {
+  const Ground ground([](Point2 p) { return distance(p, {2.6, 0.4}) < 0.3 ? TraversabilityGrid::kImpassable : kFree; });
+  const Terrain terrain(ground.memory, &ground.map, Terrain::Reach::kGround);
+  FullRequest request = ground.request(terrain);
+  request.held = held_to_the(1.0);
+  const FullPlan plan = FullPlanner(planner_config().full).plan(request);
+  ASSERT_TRUE(plan.plan.found);
+  EXPECT_FALSE(plan.held);
+}
+
+class FullLevel : public testing::Test {
+ protected:
+  FullLevel() {
+    rig.send_path({{0.0, 0.0}, {30.0, 0.0}});
+    rig.step();
+  }
+  bool send_map(const std::function<std::uint8_t(Point2)>& cost) {
+    return rig.planner.add_traversability(map_about(position(rig.odom), cost, rig.now));
+  }
+  PlannerRig rig;
+};
+
+TEST_F(FullLevel, AMapMakesAContinuousPathWhichIsNoReplanForAHazard) {
+  rig.planner.set_level(true);
+  ASSERT_TRUE(send_map(wall(1.2, 1.8)));
+  const PlannerOutput out = rig.step();
+  ASSERT_TRUE(out.path);
+  EXPECT_EQ(out.path->kind, PathKind::kContinuous);
+  EXPECT_EQ(out.status.state, PlannerState::kFollowing);
+  EXPECT_EQ(out.status.replans, 0);
+  EXPECT_TRUE(std::isinf(out.status.blocked_in_m) || out.status.blocked_in_m > 6.0);
+  EXPECT_NEAR(out.path->points.back().p.x_m, 30.0, 1e-6);  // reaches to the goal
+  const Route route(out.path->points);
+  EXPECT_NEAR(route.point_at(route.closest({4.0, 1.2})).y_m, 1.2, 0.4);
+  EXPECT_TRUE(route.kinks().empty());
+}
+
+TEST_F(FullLevel, AtTheEfficientLevelMapsChangeNothing) {
+  EXPECT_FALSE(send_map(wall(1.2, 1.8)));
+  EXPECT_FALSE(rig.step().path);
+  EXPECT_EQ(rig.paths.size(), 1u);
+}
+
+TEST_F(FullLevel, AnUnusableMapIsRefused) {
+  rig.planner.set_level(true);
+  TraversabilityGrid map = map_about({0.0, 0.0}, free_ground, rig.now);
+  map.cells.pop_back();
+  EXPECT_FALSE(rig.planner.add_traversability(map));
+  EXPECT_FALSE(rig.step().path);
+}
+
+TEST_F(FullLevel, LevelDownThePlanGoesOnAsARepairAndEndsOnTheGlobalPath) {
+  rig.planner.set_level(true);
+  send_map(wall(1.2, 1.8));
+  rig.step();
+  rig.planner.set_level(false);
+  EXPECT_EQ(rig.step().status.state, PlannerState::kRepairing);
+  rig.go(22.0);
+  EXPECT_EQ(rig.paths.back().kind, PathKind::kGlobal);
+  EXPECT_NEAR(rig.odom.y_m, 0.0, 0.1);
+}
+
+// Without a newer map the rover that drives on is led by the LocCam alone.
+TEST_F(FullLevel, AStaleMapLeavesTheEfficientLevelsBehaviour) {
+  rig.planner.set_level(true);
+  send_map(free_ground);
+  rig.step();
+  rig.go(2.4);
+  rig.now += to_utime(10.0);
+  rig.rocks = {{{5.4, 0.1}, 0.3, 0.3}};
+  rig.look(4);
+  EXPECT_EQ(rig.paths.back().kind, PathKind::kRepair);
+}
+
+TEST_F(FullLevel, AStandingRoversMapDoesNotAge) {
+  rig.planner.set_level(true);
+  send_map(free_ground);
+  rig.step();
+  rig.now += to_utime(60.0);
+  rig.rocks = {{{3.0, 0.1}, 0.3, 0.3}};
+  rig.look(4);
+  EXPECT_EQ(rig.paths.back().kind, PathKind::kContinuous);
+}
+
+TEST(FullDrive, ThroughRocksWithoutAStopOrACollisionAndTheSameAgain) {
+  constexpr double length_m = 11.0;
+  std::mt19937_64 random(4);
+  std::vector<Rock> rocks = rock_field(0.10, {-5.0, -12.0}, {length_m + 5.0, 12.0}, 0.3, random);
+  std::erase_if(rocks, [&](const Rock& r) {
+    return distance(r.p, {0.0, 0.0}) < 2.0 + r.radius_m || distance(r.p, {length_m, 0.0}) < 3.0 + r.radius_m;
+  });
+  DriveConfig config;
+  config.planner = planner_config();
+  config.full = true;
+  config.timeout_s = 300.0;
+  const std::vector<Point2> path = {{0.0, 0.0}, {length_m, 0.0}};
+  const DriveResult a = drive(config, rocks, path, 4);
+  EXPECT_TRUE(a.reached) << a.text;
+  EXPECT_FALSE(a.collided);
+  EXPECT_EQ(a.hazard_stops, 0);
+  EXPECT_GT(a.driven_m / (config.speed_mps * a.duration_s), 0.75);
+  const DriveResult b = drive(config, rocks, path, 4);
+  EXPECT_EQ(a.driven_m, b.driven_m);
+  EXPECT_EQ(a.track.back().y_m, b.track.back().y_m);
+}
+
+}  // namespace
+}  // namespace rover::planning
