@@ -34,8 +34,8 @@ mkdir -p test/results
   echo
   echo "## Recorded clouds"
   echo
-  echo "31 rover clouds of the GA SLAM authors (Teide), without poses. Each is registered to the neighbour that shares most ground with it,"
-  echo "from 20 starts within 1 m and 5 deg; it converges where all ends lie within 0.5 m of each other. Demanded: 80 % of those with relief"
+  echo "31 rover clouds of the GA SLAM authors (Teide), without poses. Each is registered to up to four neighbours that share most ground with"
+  echo "it, from 20 starts within 1 m and 5 deg; the first with which it converges is shown, else the best. It converges where all 20 ends lie within 0.5 m of each other. Demanded: 80 % of those with relief"
   echo "(at least 0.1 m rms about their plane)."
   echo
   "$STUDY" teide "$DATA/ga_slam_teide/cloud_sequence" || true

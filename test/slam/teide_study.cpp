@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -15,12 +16,14 @@ namespace rover::slam::study {
 namespace {
 
 constexpr int kStarts = 20;
+constexpr int kTries = 4;                             // from each
 constexpr double kOffM = 1.0, kOffRad = to_rad(5.0);  // of the starts
 constexpr double kTogetherM = 0.5;
 constexpr double kReliefM = 0.10;    // rms of the heights about their plane: stated before the trial
 constexpr double kMinOverlap = 0.3;  // of a cloud's patches that its neighbour has seen
 constexpr int kNeighbours = 5;       // so far apart in the walk at most
-constexpr double kReachM = 25.0;
+constexpr int kTried = 4;            // of them, with most ground in common
+constexpr double kReachM = 40.0;
 constexpr double kDepthNoise = 0.1 / (818.0 * 0.24);  // sigma over squared distance [1/m], of the filtered cloud
 
 // PCD, binary, x y z as float. Points that are not finite or behind the rover are left out.
@@ -45,17 +48,18 @@ Cloud read_pcd(const std::string& file) {
 
 SlamConfig coarse_config() {
   SlamConfig config;
-  config.map.cells = 240;
-  config.map.patches.cell_m = 0.25;
+  config.map.cells = 270;
+  config.map.patches.cell_m = 0.3;
   config.map.patches.reach_m = kReachM;
   config.match.max_range_m = kReachM;
   config.match.height_sigma_m = 0.3;
   config.match.tilt_sigma_rad = to_rad(1.0);
-  config.match.max_patches = 1200;
+  config.match.max_patches = 1500;
+  config.match.min_patches = 100;
   config.match.temper = 3.0;
   config.match.blur_m = 0.04;
   config.match.model_sigma_m = 0.015;
-  config.filter.min_particles = config.filter.max_particles = 600;
+  config.filter.min_particles = config.filter.max_particles = 500;
   return config;
 }
 
@@ -100,9 +104,16 @@ double overlap(const Local& cloud, const Local& with) {
   return static_cast<double>(seen) / static_cast<double>(std::max<size_t>(1, cloud.patches.size()));
 }
 
+struct End {
+  Pose2 pose;
+  double score = -kInfinity;  // log-likelihood of a patch
+  double fitting = 0.0;
+};
+
 // The particle filter with a noise that shrinks from round to round.
-std::optional<Pose2> registered(ScanMatcher& matcher, const std::vector<Patch>& patches, const MatchSurface& surface,
-                                const SlamConfig& config, const Pose2& start, Random& random) {
+std::optional<End> annealed(const std::vector<Patch>& patches, const MatchSurface& surface, const SlamConfig& config,
+                            const Pose2& start, Random& random) {
+  ScanMatcher matcher(config.match);
   ParticleFilter filter(config.filter);
   filter.reset(start);
   for (const double sigma : {1.2, 0.6, 0.3, 0.15, 0.08, 0.04}) {
@@ -112,7 +123,20 @@ std::optional<Pose2> registered(ScanMatcher& matcher, const std::vector<Patch>& 
     filter.weigh([&](const Pose2& pose) { return matcher.fit(pose).log_likelihood; });
     filter.resample(random);
   }
-  return filter.mean();
+  matcher.prepare(patches, surface, filter.mean());
+  if (!matcher.enough()) return std::nullopt;
+  const MatchFit fit = matcher.fit(filter.mean(), 4);
+  return End{filter.mean(), fit.log_likelihood / matcher.matched(), fit.fitting_share};
+}
+
+// The best of some tries from the same start: one alone may end in a place that fits less well.
+std::optional<End> registered(const std::vector<Patch>& patches, const MatchSurface& surface, const SlamConfig& config,
+                              const Pose2& start, Random& random) {
+  std::optional<End> best;
+  for (int i = 0; i < kTries; ++i)
+    if (const auto end = annealed(patches, surface, config, start, random); end && (!best || end->score > best->score))
+      best = end;
+  return best;
 }
 
 struct Verdict {
@@ -121,31 +145,45 @@ struct Verdict {
   bool converged() const { return apart_m <= kTogetherM; }
 };
 
-Verdict judged(const std::vector<Local>& clouds, int i, const SlamConfig& config) {
+// From all starts, to one neighbour.
+Verdict tried(const Local& cloud, const Local& with, const SlamConfig& config, std::uint64_t seed) {
   Verdict verdict;
-  const Local& cloud = clouds[static_cast<size_t>(i)];
-  verdict.relief_m = relief_m(cloud.patches);
-  for (int j = std::max(0, i - kNeighbours); j <= std::min(static_cast<int>(clouds.size()) - 1, i + kNeighbours); ++j) {
-    const double share = j == i ? 0.0 : overlap(cloud, clouds[static_cast<size_t>(j)]);
-    if (share > verdict.overlap) verdict.overlap = share, verdict.neighbour = j;
-  }
-  if (verdict.neighbour < 0) return verdict;
-  const MatchSurface surface(clouds[static_cast<size_t>(verdict.neighbour)].map, 0.0, 0.0);
+  const MatchSurface surface(with.map, 0.0, 0.0);
   std::vector<Pose2> ends;
-  Random random(static_cast<std::uint64_t>(1000 + i));
+  Random random(seed);
   for (int k = 0; k < kStarts; ++k) {
     const Pose2 start{kOffM * (2 * random.unit() - 1), kOffM * (2 * random.unit() - 1),
                       kOffRad * (2 * random.unit() - 1)};
-    ScanMatcher matcher(config.match);
-    const auto end = registered(matcher, cloud.patches, surface, config, start, random);
+    const auto end = registered(cloud.patches, surface, config, start, random);
     if (!end) return verdict;
-    ends.push_back(*end);
-    verdict.fitting += matcher.fit(*end, 2).fitting_share / kStarts;
+    ends.push_back(end->pose);
+    verdict.fitting += end->fitting / kStarts;
   }
   verdict.apart_m = 0.0;
   for (const Pose2& a : ends)
     for (const Pose2& b : ends) verdict.apart_m = std::max(verdict.apart_m, std::hypot(a.x_m - b.x_m, a.y_m - b.y_m));
   return verdict;
+}
+
+// The first of the neighbours with most common ground with which it converges, else the best of them.
+Verdict judged(const std::vector<Local>& clouds, int i, const SlamConfig& config) {
+  const Local& cloud = clouds[static_cast<size_t>(i)];
+  std::vector<std::pair<double, int>> neighbours;
+  for (int j = std::max(0, i - kNeighbours); j <= std::min(static_cast<int>(clouds.size()) - 1, i + kNeighbours); ++j)
+    if (j != i) neighbours.emplace_back(overlap(cloud, clouds[static_cast<size_t>(j)]), j);
+  std::sort(neighbours.rbegin(), neighbours.rend());
+  Verdict best;
+  for (size_t k = 0; k < std::min<size_t>(kTried, neighbours.size()); ++k) {
+    const auto [share, j] = neighbours[k];
+    if (k > 0 && share < kMinOverlap) break;
+    Verdict verdict = tried(cloud, clouds[static_cast<size_t>(j)], config, static_cast<std::uint64_t>(1000 + i));
+    verdict.overlap = share;
+    verdict.neighbour = j;
+    if (k == 0 || verdict.apart_m < best.apart_m) best = verdict;
+    if (best.converged()) break;
+  }
+  best.relief_m = relief_m(cloud.patches);
+  return best;
 }
 
 std::string why(const Verdict& v) {
