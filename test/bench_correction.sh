@@ -19,8 +19,8 @@ TABLE=$("$BUILD/test/tools/correction_bench") || STATUS=$?
   echo "lost points and pictures), with stereo's, the attitude's and the odometry's errors. Local maps are 5 m apart. Each is"
   echo "looked for from poses that are off by 0-10 m in any direction and up to 10 deg of yaw, with a sigma of 4 m and 4 deg."
   echo
-  echo "*Featured* is a local map whose relief in its weakest direction reaches \`acceptance.min_relief_m2\` of"
-  echo "\`config/global_localization.yaml\`; lines, worlds and seeds of the bench were not used to set that file. An orbital map"
+  echo "*Featured* is a local map whose relief lets expect, with the map's noise, a match within \`max_expected_sigma_cells\` and"
+  echo "\`max_expected_sigma_deg\` of \`config/global_localization.yaml\`, in its weakest direction; lines, worlds and seeds of the bench were not used to set that file. An orbital map"
   echo "with local distortion shows the ground up to 0.9 m (0.3 m rms along each axis) from its true place, which no matcher can"
   echo "know: errors count against the place where the map shows the seen ground (a rigid motion fitted to its distortion);"
   echo "without distortion that is the truth. A row holds if nothing accepted is wrong by more than a cell, at least 90 % of"

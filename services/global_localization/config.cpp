@@ -38,7 +38,8 @@ void read_refinement(const Config& yaml, RefinementConfig& refinement) {
 
 void read_acceptance(const Config& yaml, AcceptanceConfig& acceptance) {
   yaml.read("min_area_m2", acceptance.min_area_m2, {1.0, 10000.0});
-  yaml.read("min_relief_m2", acceptance.min_relief_m2, {0.0, 1000.0});
+  yaml.read("max_expected_sigma_cells", acceptance.max_expected_sigma_cells, {0.01, 100.0});
+  yaml.read_deg("max_expected_sigma_deg", acceptance.max_expected_sigma_rad, {0.01, 10.0});
   yaml.read("min_score", acceptance.min_score, {0.0, 1.0});
   yaml.read("max_residual_m", acceptance.max_residual_m, {0.01, 10.0});
   yaml.read("max_residual_ratio", acceptance.max_residual_ratio, {0.05, 1.0});
@@ -61,6 +62,8 @@ NodeConfig load_config(const std::string& config_dir) {
   yaml.read("max_jump_m", config.max_jump_m, {0.01, 100.0});
   yaml.read("memory_side_m", config.core.mosaic_side_m, {5.0, 200.0});
   yaml.read("max_height_sigma_m", config.core.max_height_sigma_m, {0.01, 5.0});
+  yaml.read("map_noise_m", config.core.map_noise_m, {0.001, 10.0});
+  yaml.read("map_noise_cells", config.core.map_noise_cells, {0.1, 20.0});
   yaml.read("map_blur_cells", config.core.map_blur_cells, {0.0, 3.0});
   yaml.read("map_sigma_m", config.core.map_sigma_m, {0.0, 5.0});
   yaml.read_deg("map_sigma_deg", config.core.map_sigma_rad, {0.0, 5.0});

@@ -113,16 +113,31 @@ Correction GlobalLocalization::correct(const Prior& prior) const {
   filter.sigma_cells = std::hypot(filter.sigma_cells, config_.map_blur_cells);
   const TerrainTemplate terrain = terrain_template(mosaic_.resampled(orbital_.lattice.cell_m), filter);
   out.area_m2 = terrain.area_m2();
-  out.relief_m2 = weakest_relief(terrain);
+  const Relief relief = relief_of(terrain);
+  out.expected_sigma_m = std::sqrt(noise_density() / relief.shift_m2);
+  out.expected_sigma_rad = std::sqrt(noise_density() / relief.turn_m4);
   if (out.area_m2 < config_.acceptance.min_area_m2) {
     out.reason = "too little ground seen";
-  } else if (out.relief_m2 < config_.acceptance.min_relief_m2) {
+  } else if (!featured(out)) {
     out.reason = "ground too even to tell places apart";
   } else {
     match(prior, terrain, out);
   }
   out.accepted = out.reason.empty();
   return out;
+}
+
+// Of the map's heights [m^4].
+double GlobalLocalization::noise_density() const {
+  const double side_m = config_.map_noise_cells * orbital_.lattice.cell_m;
+  return config_.map_noise_m * config_.map_noise_m * side_m * side_m;
+}
+
+bool GlobalLocalization::featured(const Correction& c) const {
+  const AcceptanceConfig& limits = config_.acceptance;
+  return c.area_m2 >= limits.min_area_m2 &&
+         c.expected_sigma_m <= limits.max_expected_sigma_cells * orbital_.lattice.cell_m &&
+         c.expected_sigma_rad <= limits.max_expected_sigma_rad;
 }
 
 void GlobalLocalization::match(const Prior& prior, const TerrainTemplate& terrain, Correction& out) const {

@@ -27,8 +27,10 @@ struct SearchConfig {
 };
 
 struct AcceptanceConfig {
-  double min_area_m2 = 100.0;       // seen
-  double min_relief_m2 = 0.5;       // weakest_relief
+  double min_area_m2 = 100.0;  // seen
+  // What the ground lets expect of a match, by its relief and the map's noise ("featured").
+  double max_expected_sigma_cells = 0.3;
+  double max_expected_sigma_rad = to_rad(0.25);
   double min_score = 0.5;           // correlation of the gradients
   double max_residual_m = 0.25;     // of the heights
   double max_residual_ratio = 0.8;  // to the residual at the next best place
@@ -38,10 +40,12 @@ struct AcceptanceConfig {
 };
 
 struct GlobalConfig {
-  double mosaic_side_m = 80.0;
+  double mosaic_side_m = 120.0;
   double max_height_sigma_m = 0.3;
+  double map_noise_m = 0.1;  // of the orbital map's heights, and over how many cells it hangs together
+  double map_noise_cells = 1.5;
   double map_blur_cells =
-      0.7;             // of the orbital map as it comes, in its cells: what the rover has seen is blurred as much
+      0.7;  // of the orbital map as it comes, in its cells: what the rover has seen is blurred as much
   PlaneConfig filter{1.5, 0.5};  // takes out the noise of orbital maps, which neighbouring cells share
   SearchConfig search;
   RefinementConfig refinement;
@@ -67,8 +71,9 @@ struct Correction {
   double residual_m = kNaN;                               // of the heights, here
   double second_residual_m = kNaN;                        // and at the next best place
   double area_m2 = 0.0;                                   // seen
-  double relief_m2 = 0.0;                                 // weakest_relief
-  double sigma_m = kNaN;                                  // of the match, in the weakest direction
+  double expected_sigma_m = kNaN;                         // by relief and the map's noise, in the weakest direction
+  double expected_sigma_rad = kNaN;
+  double sigma_m = kNaN;  // of the match, in the weakest direction
 };
 
 class GlobalLocalization {
@@ -80,9 +85,12 @@ class GlobalLocalization {
   // What was seen: odom is no longer what it was.
   void forget() { mosaic_.clear(); }
   Correction correct(const Prior& prior) const;
+  // Whether the ground of this try tells enough, whatever came of it.
+  bool featured(const Correction& correction) const;
 
  private:
   void match(const Prior& prior, const TerrainTemplate& terrain, Correction& out) const;
+  double noise_density() const;
   OrbitalPart part_about(const Eigen::Vector2d& center_map, double reach_m) const;
 
   GlobalConfig config_;

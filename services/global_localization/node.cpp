@@ -86,9 +86,9 @@ void GlobalLocalizationNode::try_to_correct(const Prior& prior, Utime utime) {
   node_.publish(channel::kCorrection, message, utime);
   char figures[200];
   std::snprintf(figures, sizeof figures,
-                " score=%.3f second=%.3f residual_m=%.3f second_residual_m=%.3f relief_m2=%.3f area_m2=%.0f",
+                " score=%.3f second=%.3f residual_m=%.3f second_residual_m=%.3f expected_sigma_m=%.2f area_m2=%.0f",
                 correction.score, correction.second_score, correction.residual_m, correction.second_residual_m,
-                correction.relief_m2, correction.area_m2);
+                correction.expected_sigma_m, correction.area_m2);
   node_.log("INFO",
             (correction.accepted ? std::string("CORRECTION") : "NO_CORRECTION reason=" + message.reason) + figures);
 }

@@ -7,6 +7,8 @@
 namespace rover::global {
 namespace {
 
+constexpr double kLeastForm = 1e-9;  // of ground that tells nothing, so that it can be inverted
+
 void centre(TerrainTemplate& terrain) {
   const auto count = static_cast<double>(terrain.samples.size());
   double mean_z = 0.0;
@@ -40,8 +42,8 @@ TerrainTemplate terrain_template(const HeightGrid& local, const PlaneConfig& con
   return out;
 }
 
-double weakest_relief(const TerrainTemplate& terrain) {
-  // Change of height for a shift along x, y and a turn by one radian; their form about the means takes the offset out.
+Relief relief_of(const TerrainTemplate& terrain) {
+  // Change of height for a shift along x, y and a turn; their form about the means takes the offset out.
   Eigen::Matrix3d form = Eigen::Matrix3d::Zero();
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const TerrainSample& s : terrain.samples) {
@@ -49,13 +51,14 @@ double weakest_relief(const TerrainTemplate& terrain) {
     form += change * change.transpose();
     sum += change;
   }
-  if (terrain.samples.empty()) return 0.0;
-  form -= sum * sum.transpose() / static_cast<double>(terrain.samples.size());
-  form *= terrain.sample_area_m2;
-  if (form(2, 2) <= 0.0) return 0.0;
-  const Eigen::Matrix2d without_turn =
-      form.topLeftCorner<2, 2>() - form.topRightCorner<2, 1>() * form.bottomLeftCorner<1, 2>() / form(2, 2);
-  return std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(without_turn).eigenvalues()(0));
+  if (terrain.samples.empty()) return {};
+  form = terrain.sample_area_m2 * (form - sum * sum.transpose() / static_cast<double>(terrain.samples.size()));
+  // What is left of each unknown when the others may change too: the inverse of the covariance's parts.
+  const Eigen::FullPivLU<Eigen::Matrix3d> lu(form + kLeastForm * Eigen::Matrix3d::Identity());
+  const Eigen::Matrix3d covariance = lu.inverse();
+  const double shift =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(covariance.topLeftCorner<2, 2>()).eigenvalues()(1);
+  return {1.0 / shift, 1.0 / covariance(2, 2)};
 }
 
 }  // namespace rover::global

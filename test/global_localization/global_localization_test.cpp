@@ -12,11 +12,11 @@ namespace {
 const Pose2 kTruth{95.0, 60.0, 2.1};  // odom is turned against map, its origin is far from the rover
 const Eigen::Vector2d kPlace(22.0, -14.0);
 
-// A rover that has driven 16 m to kPlace.
+// A rover that has driven so far to kPlace.
 GlobalLocalization driven(const Height& height, double cell_m, const Seen& seen = all_seen, double noise_m = 0.0,
-                          const GlobalConfig& config = {}) {
-  GlobalLocalization core(config, orbital_of(height, cell_m, noise_m), kCellM);
-  for (double back : {16.0, 8.0, 0.0}) {
+                          double way_m = 16.0) {
+  GlobalLocalization core({}, orbital_of(height, cell_m, noise_m), kCellM);
+  for (double back = way_m; back >= 0.0; back -= 8.0) {
     const Eigen::Vector2d p = kPlace - Eigen::Vector2d(back, 0.0);
     core.take(view_of(height, kTruth, p, seen), p);
   }
@@ -86,7 +86,7 @@ TEST(GlobalLocalization, HolesDoNotHurt) {
 
 TEST(GlobalLocalization, AStripMatchesAsWellAsTheWholeMap) {
   const auto strip = [](int, int row) { return row > 60 && row < 140 && row % 23 != 0; };
-  const Correction c = driven(hills, 0.5, strip, 0.1).correct(prior({-7.0, 5.0}, -6.0));
+  const Correction c = driven(hills, 0.5, strip, 0.1, 40.0).correct(prior({-7.0, 5.0}, -6.0));
   ASSERT_TRUE(c.accepted) << c.reason;
   EXPECT_GT(c.score, 0.7);
   EXPECT_LT(error_m(c), 0.25);

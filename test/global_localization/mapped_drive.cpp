@@ -39,7 +39,7 @@ struct MappedDrive::Stand {
 };
 
 MappedDrive::MappedDrive(const Surface& world, const Line& line, const DriveErrors& errors, std::uint64_t seed)
-    : world_(world), line_(line), errors_(errors), seed_(seed), random_(seed), map_(kCells, kCellM), known_(120, 0.5) {
+    : world_(world), line_(line), errors_(errors), seed_(seed), random_(seed), map_(kCells, kCellM), known_(260, 0.5) {
   scale_ = 1.0 + normal(errors.scale_sigma);
   T_map_body_ = planar_pose(line.at(0.0), line.heading_rad);
   T_odom_body_ = planar_pose({3.0, -2.0}, 0.7);  // odom is turned against map

@@ -290,7 +290,7 @@ TEST(GlobalLocalizationOnGale, FindsTheRoverOnFeaturedGround) {
   GlobalLocalization core(config.core, orbital_of(shifted, 1.0, 0.1), kCellM);
   const Pose2 on_map{truth.x_m - 100.0, truth.y_m - 100.0, truth.yaw_rad};
   Eigen::Vector2d p(0.0, 0.0);
-  for (; p.x() <= 24.0; p.x() += 6.0) core.take(view_of(shifted, on_map, p), p);
+  for (; p.x() <= 48.0; p.x() += 6.0) core.take(view_of(shifted, on_map, p), p);
   p.x() -= 6.0;
   const Correction c = core.correct({believed(on_map, p, {-5.0, 6.0}, to_rad(-7.0)), p, pose_cov()});
   ASSERT_TRUE(c.accepted) << c.reason;

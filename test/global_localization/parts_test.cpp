@@ -102,24 +102,33 @@ TEST(LocalMosaic, TakesNothingOfNoUse) {
   for (float w : mosaic.resampled(0.5).weight) EXPECT_EQ(w, 0.0f);
 }
 
-double relief_of(const Height& height) {
-  return weakest_relief(terrain_template(grid_of(height, 60, 0.5), {1.5, 0.5}));
+Relief relief_of(const Height& height) {
+  return global::relief_of(terrain_template(grid_of(height, 60, 0.5), {1.5, 0.5}));
 }
 
-TEST(WeakestRelief, EvenGroundSlopesAndFurrowsTellNothing) {
-  EXPECT_LT(relief_of([](double, double) { return 2.0; }), 1e-6);
-  EXPECT_LT(relief_of([](double x, double y) { return 0.2 * x + 0.1 * y; }), 1e-6);
-  EXPECT_LT(relief_of([](double x, double) { return std::sin(x); }), 1e-3);  // shifts along y leave it as it is
-  EXPECT_EQ(weakest_relief(TerrainTemplate{}), 0.0);
+TEST(Relief, EvenGroundSlopesAndFurrowsTellNothing) {
+  EXPECT_LT(relief_of([](double, double) { return 2.0; }).shift_m2, 1e-6);
+  EXPECT_LT(relief_of([](double x, double y) { return 0.2 * x + 0.1 * y; }).shift_m2, 1e-6);
+  const Relief furrows = relief_of([](double x, double) { return std::sin(x); });
+  EXPECT_LT(furrows.shift_m2, 1e-3);  // shifts along y leave it as it is
+  EXPECT_GT(furrows.turn_m4, 1000.0);
+  EXPECT_EQ(global::relief_of(TerrainTemplate{}).shift_m2, 0.0);
+}
+
+// A turn changes nothing.
+TEST(Relief, ARoundHillHasNoDirection) {
+  const Relief hill = relief_of(
+      [](double x, double y) { return 2.0 * std::exp(-0.02 * (std::pow(x - 12.0, 2) + std::pow(y - 22.0, 2))); });
+  EXPECT_LT(hill.turn_m4, 0.1);
 }
 
 // Of z = a sin(kx) sin(ky) a shift by one metre changes a^2 k^2 / 4 on the mean of squares.
-TEST(WeakestRelief, IsTheChangeByAShift) {
+TEST(Relief, IsTheChangeByAShift) {
   const double a = 0.5, k = 2.0 * kPi / 10.0, damping = std::exp(-k * k * 0.75 * 0.75);
-  const double mean = a * a * k * k / 4.0 * damping * damping;
+  const double mean = a * a * k * k / 4.0 * damping * damping;  // of a wave along the diagonal
   const TerrainTemplate terrain = terrain_template(
       grid_of([&](double x, double y) { return a * std::sin(k * x) * std::sin(k * y); }, 80, 0.5), {1.5, 0.5});
-  EXPECT_NEAR(weakest_relief(terrain) / terrain.area_m2(), mean, 0.15 * mean);
+  EXPECT_NEAR(global::relief_of(terrain).shift_m2 / terrain.area_m2(), mean, 0.15 * mean);
 }
 
 TEST(TrySchedule, ComesWithTheWay) {
