@@ -111,6 +111,8 @@ void read_full(const Config& c, const PathPlannerConfig& shared, FullPlannerConf
   c.read("hold_m", out.hold_m, {0.5, 10.0});
   c.read("switch_gain_m", out.switch_gain_m, {0.0, 20.0});
   c.read("switch_share", out.switch_share, {0.0, 5.0});
+  c.read("most_sigma_m", out.most_sigma_margin_m, {0.0, 1.0});
+  c.read("most_retreats", out.most_retreats, {0, 100});
   c.read("squeeze_m", out.squeeze_margin_m, {0.0, 1.0});
   c.read("tight_extra_m", out.tight_extra_m, {0.0, 1.0});
   c.read("stale_s", out.stale_s, {0.5, 60.0});

@@ -15,7 +15,7 @@ struct CurveSearchConfig : DrivingPrices {
   double bend_cost_m = 0.4;       // for a change by the largest curvature in one piece; less, the square of it
   double turn_bend_cost_m = 1.0;  // of a point turn more, where the wheels come from the largest curvature
   double greed = 1.1;
-  int max_expansions = 12000;
+  int max_expansions = 4000;
 };
 
 struct CurveProblem {

@@ -4,6 +4,7 @@ namespace rover::planning {
 namespace {
 
 constexpr double kSeenAboutM = 0.04;  // the rover follows a path within centimetres
+constexpr double kSlackM = 0.03;
 constexpr double kAmpleM = 2.0;
 
 }  // namespace
@@ -18,14 +19,22 @@ double FullPlanner::held_cost(const CurveProblem& problem, const HeldWay& held) 
   return cost;
 }
 
+// The lattice lets through what almost fits; where that leads the search astray, one that does not is asked.
 FullPlan FullPlanner::plan(const FullRequest& request) const {
   const GoalField field(
       config_.goal, {request.terrain, request.global, request.from_m, position(request.rover),
                      request.footprint.half_width_m, request.tight_margin_m, request.goal_reach_m, request.dead_ends});
   FullPlan out;
   if (!field.reachable()) return out;
-  const HeadingField headings(config_.search, {request.terrain, field, request.footprint, request.rover,
-                                               request.roomy_margin_m, request.tight_margin_m});
+  out = plan_on(request, field, kSlackM);
+  return out.plan.found ? out : plan_on(request, field, -kSlackM);
+}
+
+FullPlan FullPlanner::plan_on(const FullRequest& request, const GoalField& field, double slack_m) const {
+  FullPlan out;
+  const HeadingField headings(config_.search,
+                              {request.terrain, field, request.footprint, request.rover, request.roomy_margin_m,
+                               request.turn_margin_m, request.tight_margin_m, slack_m});
   const auto check = [&](double margin_m) {
     return FootprintCheck(request.terrain, request.footprint, margin_m, kSeenAboutM, request.rover);
   };

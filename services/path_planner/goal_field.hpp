@@ -17,7 +17,7 @@ struct GoalFieldConfig {
   double heading_cost_m = 0.8;   // per radian between a plan's end and the global path
   double goal_miss_cost = 3.0;   // per metre that a plan ends off the goal
   double unknown_cost = 1.0;     // per metre more
-  double difficulty_cost = 3.0;  // per metre more, on ground that is barely passable
+  double difficulty_cost = 1.5;  // per metre more, on ground that is barely passable
   double risk_distance_m = 0.6;  // clearance below which ground costs more
   double risk_cost = 0.5;        // per metre more, at the margin
   double dead_end_reach_m = 0.8;

@@ -13,9 +13,9 @@ constexpr std::array<int, 5> kTurns = {0, 1, -1, 2, -2};  // headings by which a
 constexpr double kShortestM = 0.35;
 constexpr double kLongestM = 0.62;
 constexpr double kLengthStepM = 0.01;
-constexpr double kSlackM = 0.03;   // of the margins: the lattice must not close gaps that a pose between fits through
 constexpr double kEndBandM = 0.7;  // past the goal line
-constexpr double kAboutRoverM = 1.0;  // the rover may stand closer to a hazard than it would go
+constexpr double kCloseM =
+    0.05;  // the rover may stand closer to a hazard than it would go: that one does not close its place
 
 constexpr double kBeyond = 2.5;  // of cost, past that of the rover's pose, until which the field is laid
 
@@ -77,14 +77,16 @@ void HeadingField::lay_rooms() {
   for (size_t i = 0; i < count_; ++i)
     ground_[i] = static_cast<float>(query_.goal.cost_per_m(terrain_.center_of(static_cast<int>(i))));
   rooms_.assign(count_ * kHeadings / 2, kRoomy);
-  stamp(query_.roomy_margin_m - kSlackM, kTight);
-  stamp(query_.tight_margin_m - kSlackM, kBlocked);
+  stamp(query_.roomy_margin_m - query_.slack_m, kTight);
+  stamp(query_.turn_margin_m - query_.slack_m, kTurnless);
+  stamp(query_.tight_margin_m - query_.slack_m, kBlocked);
 }
 
 void HeadingField::stamp(double margin_m, Room room) {
   std::vector<int> hazards;
   for (const HazardSpot& hazard : terrain_.hazards())
-    if (distance(hazard.p, position(query_.rover)) > kAboutRoverM) hazards.push_back(terrain_.cell_of(hazard.p));
+    if (query_.footprint.distance_m(query_.rover, hazard.p) > margin_m + kCloseM)
+      hazards.push_back(terrain_.cell_of(hazard.p));
   for (int heading = 0; heading < kHeadings / 2; ++heading) stamp_heading(heading, margin_m, room, hazards);
 }
 
@@ -129,7 +131,7 @@ void HeadingField::stamp_heading(int heading, double margin_m, Room room, const 
 float HeadingField::metre_cost(int cell, int heading) const {
   const Room here = room(cell, heading);
   if (here == kBlocked) return kNone;
-  return here == kTight ? static_cast<float>(prices_.tight_factor) * ground_[cell] : ground_[cell];
+  return here != kRoomy ? static_cast<float>(prices_.tight_factor) * ground_[cell] : ground_[cell];
 }
 
 void HeadingField::seed() {
@@ -200,7 +202,7 @@ void HeadingField::spread_turning(int cell, int heading, float cost) {
   for (const int turn : {1, -1}) {
     const int from = wrapped(heading + turn);
     const Room there = room(cell, from);
-    if (there == kBlocked) continue;
+    if (there >= kTurnless) continue;
     const double factor = there == kTight ? prices_.tight_turn_factor : 1.0;
     offer(count_ * kHeadings + static_cast<size_t>(from) * count_ + cell,
           cost + static_cast<float>(factor * prices_.turn_cost_per_rad_m * yaw_of(1)));

@@ -26,7 +26,11 @@ struct HeadingQuery {
   Footprint footprint;
   Pose2 rover;
   double roomy_margin_m = 0.0;
+  double turn_margin_m = 0.0;  // for point turns; between the two
   double tight_margin_m = 0.0;
+  // Less margin than that: gaps that a pose between the lattice's fits through stay open. Negative: only ways that
+  // surely are ways.
+  double slack_m = 0.0;
 };
 
 class HeadingField {
@@ -42,7 +46,7 @@ class HeadingField {
   int settled() const { return settled_; }
 
  private:
-  enum Room : std::uint8_t { kRoomy = 0, kTight = 1, kBlocked = 2 };
+  enum Room : std::uint8_t { kRoomy = 0, kTight = 1, kTurnless = 2, kBlocked = 3 };  // each less than the one before
   struct Arc {
     int from_heading;
     int dx;  // cells

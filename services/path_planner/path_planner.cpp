@@ -245,7 +245,8 @@ bool PathPlanner::strayed() const {
 bool PathPlanner::retreat(PlannerOutput& out) {
   std::vector<Point2> back = driven_.back(position(rover()), (1 + retreats_) * config_.retreat_m);
   if (continuous() && back.size() >= 2) back = clear_part(back);
-  if (back.size() < 2 || retreats_ >= config_.most_retreats || distance(back.front(), back.back()) < kLeastRetreatM)
+  if (back.size() < 2 || retreats_ >= (continuous() ? config_.full.most_retreats : config_.most_retreats) ||
+      distance(back.front(), back.back()) < kLeastRetreatM)
     return false;
   ++retreats_;
   dead_ends_.push_back(position(rover()));
@@ -467,7 +468,8 @@ void PathPlanner::follow_correction(PlannerOutput& out) {
 }
 
 double PathPlanner::sigma_margin_m() const {
-  return std::min(config_.most_sigma_margin_m, config_.sigma_gain * history_.gained_sigma_m());
+  const double most = continuous() ? config_.full.most_sigma_margin_m : config_.most_sigma_margin_m;
+  return std::min(most, config_.sigma_gain * history_.gained_sigma_m());
 }
 
 bool PathPlanner::standing() const {

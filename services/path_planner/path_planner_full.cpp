@@ -15,12 +15,23 @@ constexpr double kHalfCellM = 0.05;
 constexpr double kControlM = 0.05;
 constexpr double kBackRadiusM = 2.0;  // of the way from a plan's end back to the global path
 constexpr double kBackReserveM = 0.1;
+constexpr double kBackMarginM = 0.05;  // the rover has been there
+constexpr double kBackTurnStepRad = 0.1;
 constexpr double kBackAheadM = 3.0;
 constexpr double kRoundingM = 1e-6;
 constexpr double kCreepMps = 0.05;  // of the body origin while the rover turns on the spot
 constexpr double kAtKinkM = 0.15;
 constexpr double kTurnBlockM = 1.5;  // likewise while the rover turns on the spot
 constexpr double kNearBlockM = 3.5;  // nearer blocks are planned for at once, others with the next map
+
+// Whether the rectangle is clear at the second pose, and on the turn to its heading.
+bool clear_turn(const FootprintCheck& check, const Pose2& from, const Pose2& to) {
+  const double turn = wrap_angle(to.yaw_rad - from.yaw_rad);
+  const int steps = 1 + static_cast<int>(std::abs(turn) / kBackTurnStepRad);
+  for (int i = 1; i <= steps; ++i)
+    if (!check.clear({to.x_m, to.y_m, from.yaw_rad + turn * i / steps})) return false;
+  return true;
+}
 
 }  // namespace
 
@@ -86,8 +97,9 @@ bool PathPlanner::plan_on(PlannerOutput& out) {
   const Terrain ground(memory_, &ground_, Terrain::Reach::kGround);
   FullRequest request = full_request(ground);
   FullPlan plan = full_planner_.plan(request);
-  if (!plan.plan.found && standing()) {
-    request.tight_margin_m = request.turn_margin_m = config_.full.squeeze_margin_m;
+  const bool squeezing = active_.margin_m < config_.tight_margin_m;
+  if (!plan.plan.found && (standing() || squeezing)) {
+    request.tight_margin_m = request.turn_margin_m = config_.full.squeeze_margin_m + sigma_margin_m();
     plan = full_planner_.plan(request);
   }
   last_repair_.status = plan.plan.found               ? RepairStatus::kFound
@@ -97,9 +109,10 @@ bool PathPlanner::plan_on(PlannerOutput& out) {
     ++failures_;
     return false;
   }
-  failures_ = 0;
-  frames_before_unseen_ = 0;
   take_plan(plan, request, out);
+  frames_before_unseen_ = 0;
+  // A plan on which the rover is not let go is none.
+  failures_ = hazard_ahead_m() < config_.stop_hazard_m ? failures_ + 1 : 0;
   return true;
 }
 
@@ -155,18 +168,20 @@ std::optional<HeldWay> PathPlanner::held_way() const {
   return held;
 }
 
-// Of the way back, what the rectangle surely passes, stern first, without a turn on the spot.
+// Of the way back, what the rectangle surely passes, stern first.
 std::vector<Point2> PathPlanner::clear_part(const std::vector<Point2>& back) const {
   std::vector<RoutePoint> points;
   for (const Point2& p : back) points.push_back({p});
   const Route route(std::move(points));
   const Terrain ground = terrain();
-  const FootprintCheck check(ground, config_.footprint, config_.full.squeeze_margin_m, 0.0, rover());
-  double clear_m = route.kinks().empty() ? route.length_m() : route.s_at(route.kinks().front());
+  const FootprintCheck check(ground, config_.footprint, kBackMarginM, 0.0, rover());
+  double clear_m = route.length_m();
+  Pose2 before = rover();
   for (double s = 0.0; s < clear_m; s += kPoseStepM) {
     Pose2 pose = route.pose_at(s);
     pose.yaw_rad += kPi;
-    if (!check.clear(pose)) clear_m = s - kBackReserveM;
+    if (!clear_turn(check, before, pose)) clear_m = s - kBackReserveM;
+    before = pose;
   }
   std::vector<Point2> out;
   for (size_t i = 0; i < back.size() && route.s_at(i) <= clear_m; ++i) out.push_back(back[i]);
@@ -190,8 +205,8 @@ void PathPlanner::take_plan(const FullPlan& plan, const FullRequest& request, Pl
   append_poses(plan.plan.poses, plan.end_station_m, points);
   append_way_back(plan.end_station_m, points);
   const bool roomy = plan.clearance_m >= request.roomy_margin_m - kRoundingM;
-  active_.margin_m =
-      roomy ? config_.margin_m : std::min(config_.tight_margin_m, request.tight_margin_m - config_.full.tight_extra_m);
+  const double kept_m = request.tight_margin_m - config_.full.tight_extra_m - sigma_margin_m();
+  active_.margin_m = roomy ? config_.margin_m : std::min(config_.tight_margin_m, kept_m);
   active_.corridor_half_width_m = std::clamp(plan.clearance_m - kHalfCellM - kControlM, config_.least_corridor_m,
                                              std::max(config_.least_corridor_m, global_->corridor_half_width_m));
   const bool turning = turning_;

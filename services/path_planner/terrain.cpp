@@ -72,7 +72,10 @@ Terrain::Terrain(const HazardMemory& memory, const GroundMap* ground, Reach reac
   });
   unseen_ = closed(unseen_, cells_);
   std::vector<std::uint8_t> impassable(unseen_.size(), 0);
-  if (ground != nullptr) impassable = lay_ground(memory, *ground, origin);
+  if (ground != nullptr) {
+    impassable = lay_ground(memory, *ground, origin);
+    unseen_ = closed(unseen_, cells_);
+  }
   std::vector<std::uint8_t> hazard;
   hazard.reserve(unseen_.size());
   for_each_cell([&](CellIndex i, const GroundCell& cell) {

@@ -158,7 +158,8 @@ TEST(HeadingField, PricesDistanceTurnsAndGaps) {
     const Terrain terrain(ground.memory, &ground.map, Terrain::Reach::kGround);
     const GoalField goal(planner_config().full.goal,
                          {terrain, ground.global, 3.0, {0.0, 0.0}, 0.47, 0.11, 0.3, ground.dead_ends});
-    return HeadingField(planner_config().full.search, {terrain, goal, planner_config().footprint, pose, 0.17, 0.11})
+    return HeadingField(planner_config().full.search,
+                        {terrain, goal, planner_config().footprint, pose, 0.17, 0.15, 0.11, 0.03})
         .to_go(pose);
   };
   EXPECT_NEAR(to_go(free_ground, {}), 8.0, 0.7);
