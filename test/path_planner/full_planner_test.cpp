@@ -325,6 +325,26 @@ TEST_F(FullLevel, LevelDownThePlanGoesOnAsARepairAndEndsOnTheGlobalPath) {
   EXPECT_NEAR(rig.odom.y_m, 0.0, 0.1);
 }
 
+// Driving on could only lead deeper into a dead end: the rover is held at once, long before the hazard, and backs out.
+TEST_F(FullLevel, WhereByTheMapNoWayLeadsOnTheRoverStopsAndGoesBack) {
+  rig.planner.set_level(true);
+  send_map(free_ground);
+  rig.step();
+  rig.go(1.0);
+  send_map(wall(0.0, 0.0));
+  const PlannerOutput stopped = rig.look(3);
+  EXPECT_EQ(stopped.status.blocked_in_m, 0.0);
+  EXPECT_EQ(stopped.status.block_kind, BlockKind::kHazard);
+  EXPECT_NE(stopped.status.text, "");
+  rig.look(2);
+  EXPECT_EQ(rig.paths.back().kind, PathKind::kRetreat);
+  send_map(wall(1.0, 1.8));
+  rig.odom = Route(rig.paths.back().points).pose_at(100.0);
+  rig.odom.yaw_rad = 0.0;
+  rig.look(2);
+  EXPECT_EQ(rig.paths.back().kind, PathKind::kContinuous);
+}
+
 // Without a newer map the rover that drives on is led by the LocCam alone.
 TEST_F(FullLevel, AStaleMapLeavesTheEfficientLevelsBehaviour) {
   rig.planner.set_level(true);
