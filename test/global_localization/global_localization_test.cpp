@@ -116,6 +116,28 @@ TEST(GlobalLocalization, AbstainsWhereTheTruePlaceIsOutsideOfTheWindow) {
   EXPECT_FALSE(core.correct(prior({1.0, 1.0}, 25.0)).accepted);
 }
 
+// The search takes it to the window's edge, the refinement over it.
+TEST(GlobalLocalization, AbstainsAtTheEdgeOfTheWindow) {
+  EXPECT_EQ(driven(hills, 0.5).correct(prior({1.0, 1.0}, 13.5)).reason,
+            "best match at the border of the search window");
+}
+
+// Inside the window, but too far on all counts together.
+TEST(GlobalLocalization, AbstainsWhereThePosesCovarianceDoesNotAllowIt) {
+  EXPECT_EQ(driven(hills, 0.5).correct(prior({11.5, -11.5}, 10.0)).reason,
+            "further off than the pose's covariance allows");
+}
+
+// Alike in form, but of a third of the height.
+TEST(GlobalLocalization, AbstainsWhereHeightsDiffer) {
+  GlobalLocalization core({}, orbital_of([](double x, double y) { return 0.3 * hills(x, y); }, 0.5), kCellM);
+  for (double back : {16.0, 8.0, 0.0}) {
+    const Eigen::Vector2d p = kPlace - Eigen::Vector2d(back, 0.0);
+    core.take(view_of(hills, kTruth, p), p);
+  }
+  EXPECT_EQ(core.correct(prior({1.0, 1.0}, 1.0)).reason, "no place is alike enough");
+}
+
 TEST(GlobalLocalization, AbstainsOnAMapOfAnotherPlace) {
   const auto elsewhere = [](double x, double y) { return hills(x + 500.0, y - 300.0); };
   GlobalLocalization core({}, orbital_of(elsewhere, 0.5, 0.1), kCellM);
@@ -146,7 +168,7 @@ TEST(GlobalLocalization, CellsWithoutDataInTheOrbitalMapAreLeftOut) {
     const int column = static_cast<int>(random() % 316), row = static_cast<int>(random() % 316);
     for (int j = 0; j < 3; ++j)
       for (int i = 0; i < 3; ++i) {
-        orbital.z_m[orbital.lattice.index(column + i, row + j)] = 0.0f;
+        orbital.z_m[orbital.lattice.index(column + i, row + j)] = -9999.0f;
         orbital.weight[orbital.lattice.index(column + i, row + j)] = 0.0f;
       }
   }

@@ -3,6 +3,7 @@
 
 #include <random>
 
+#include "global_localization/place_search.hpp"
 #include "global_localization/terrain_template.hpp"
 #include "global_localization/try_schedule.hpp"
 #include "test/global_localization/made_ground.hpp"
@@ -129,6 +130,33 @@ TEST(Relief, IsTheChangeByAShift) {
   const TerrainTemplate terrain = terrain_template(
       grid_of([&](double x, double y) { return a * std::sin(k * x) * std::sin(k * y); }, 80, 0.5), {1.5, 0.5});
   EXPECT_NEAR(global::relief_of(terrain).shift_m2 / terrain.area_m2(), mean, 0.15 * mean);
+}
+
+// Cells of either map that are not known count in no sum: the score is that of the others, and the place is found.
+TEST(PlaceSearch, ComparesOnlyWhatBothMapsKnow) {
+  const auto holed = [](int column, int row) { return (column / 9 + row / 9) % 3 != 0; };
+  const HeightGrid local = grid_of(hills, 50, 0.5);
+  const TerrainTemplate terrain = terrain_template(local, {1.5, 0.5});
+  const auto peak_on = [&](const Seen& seen) {
+    HeightGrid map;
+    map.lattice = {130, 130, 0.5, -23.0, -13.0};
+    for (int row = 0; row < 130; ++row)
+      for (int column = 0; column < 130; ++column) {
+        map.z_m.push_back(static_cast<float>(hills(map.lattice.center_x_m(column), map.lattice.center_y_m(row))));
+        map.weight.push_back(seen(column, row) ? 1.0f : 0.0f);
+      }
+    SearchWindow window;
+    window.prior = {terrain.center_odom + Eigen::Vector2d(3.0, -2.0), 0.0};
+    window.reach_m = 6.0;
+    window.min_overlap = 0.4;
+    const std::vector<Peak> peaks = find_peaks(OrbitalPart(plane_field(map, {1.5, 0.5})), terrain, window, 4.0, 3);
+    EXPECT_FALSE(peaks.empty());
+    return peaks.empty() ? Peak{} : peaks.front();
+  };
+  const Peak whole = peak_on(all_seen), part = peak_on(holed);
+  EXPECT_GT(whole.score, 0.99);
+  EXPECT_GT(part.score, 0.97);
+  EXPECT_LT((part.placement.center_map - terrain.center_odom).norm(), 0.6);
 }
 
 TEST(TrySchedule, ComesWithTheWay) {
