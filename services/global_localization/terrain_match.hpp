@@ -56,8 +56,7 @@ class OrbitalPart {
   bool find(const Eigen::Vector2d& p_map, Square& square) const;
 
   PlaneField field_;
-  std::vector<std::uint8_t>
-      surrounded_;  // all of the 4 x 4 cells about the square from here to the next cell are known
+  std::vector<std::uint8_t> surrounded_;  // all 4 x 4 cells about the square from here to the next cell are known
 };
 
 }  // namespace rover::global

@@ -54,8 +54,7 @@ Relief relief_of(const TerrainTemplate& terrain) {
   if (terrain.samples.empty()) return {};
   form = terrain.sample_area_m2 * (form - sum * sum.transpose() / static_cast<double>(terrain.samples.size()));
   // What is left of each unknown when the others may change too: the inverse of the covariance's parts.
-  const Eigen::FullPivLU<Eigen::Matrix3d> lu(form + kLeastForm * Eigen::Matrix3d::Identity());
-  const Eigen::Matrix3d covariance = lu.inverse();
+  const Eigen::Matrix3d covariance = (form + kLeastForm * Eigen::Matrix3d::Identity()).inverse();
   const double shift =
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(covariance.topLeftCorner<2, 2>()).eigenvalues()(1);
   return {1.0 / shift, 1.0 / covariance(2, 2)};
