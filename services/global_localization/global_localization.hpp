@@ -16,9 +16,9 @@ namespace rover::global {
 
 struct SearchConfig {
   double min_reach_m = 12.0;  // the window is at least this large: covariances are optimistic after long drives
-  double max_reach_m = 25.0;
+  double max_reach_m = 15.0;
   double min_reach_rad = to_rad(12.0);
-  double max_reach_rad = to_rad(25.0);
+  double max_reach_rad = to_rad(12.0);
   double sigmas = 3.0;  // of the pose, that the window covers between these bounds
   double yaw_step_rad = to_rad(2.0);
   double min_overlap = 0.8;  // of the template, that the orbital map must know
