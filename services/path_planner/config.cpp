@@ -92,6 +92,7 @@ void read_curves(const Config& c, CurveSearchConfig& out) {
   c.read("tight_factor", out.tight_factor, {1.0, 20.0});
   c.read("tight_turn_factor", out.tight_turn_factor, {1.0, 20.0});
   c.read("greed", out.greed, {1.0, 5.0});
+  c.read("hasty_greed", out.hasty_greed, {1.0, 20.0});
   c.read("max_expansions", out.max_expansions, {10, 1000000});
 }
 

@@ -256,7 +256,14 @@ double pose_cost_per_m(const CurveProblem& problem, double tight_factor, const P
 }
 
 CurvePlan search_curves(const CurveSearchConfig& config, const CurveProblem& problem) {
-  return CurveSearch(config, problem).run();
+  CurvePlan plan = CurveSearch(config, problem).run();
+  if (plan.found || plan.expansions < config.max_expansions) return plan;
+  CurveSearchConfig hasty = config;
+  hasty.greed = config.hasty_greed;
+  const int before = plan.expansions;
+  plan = CurveSearch(hasty, problem).run();
+  plan.expansions += before;
+  return plan;
 }
 
 }  // namespace rover::planning

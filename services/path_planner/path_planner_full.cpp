@@ -79,7 +79,8 @@ void PathPlanner::go_on(PlannerOutput& out) {
     failures_ = 0;
     return;
   }
-  if (!plan_on(out) && active_.kind == PathKind::kContinuous) no_way_on_ = true;
+  // One map may show a gap closed that the next one opens; the plan's first metres are free meanwhile.
+  if (!plan_on(out) && active_.kind == PathKind::kContinuous) no_way_on_ = failures_ >= config_.patience_frames;
   if (stuck() && standing()) retreat(out);
 }
 

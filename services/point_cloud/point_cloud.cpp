@@ -29,12 +29,13 @@ std::optional<CloudResult> PointCloud::step(const GrayImage& left, const GrayIma
                                             double tilt_rad) {
   ROVER_CHECK(std::isfinite(pan_rad) && std::isfinite(tilt_rad), pan_rad, tilt_rad);
   View& view = view_at(tilt_rad);
-  const auto seen = view.stereo.step(left, right);
+  auto seen = view.stereo.step(left, right);
   if (!seen) return std::nullopt;
   CloudResult result;
+  result.valid_fraction = valid_fraction(seen->disparity);
+  take_rims(seen->disparity, config_.rims);
   result.cloud = filtered(points_of(seen->disparity, view.stereo.camera()), config_.filter);
   result.T_body_cam = T_body_navcam(unit_, rig_.T_body_left, pan_rad, tilt_rad) * view.T_left_rectified;
-  result.valid_fraction = valid_fraction(seen->disparity);
   return result;
 }
 

@@ -12,6 +12,7 @@
 #include "common/core/frames.hpp"
 #include "common/core/pan_tilt.hpp"
 #include "point_cloud/cloud_filter.hpp"
+#include "point_cloud/rims.hpp"
 #include "stereo/stereo.hpp"
 
 namespace rover::cloud {
@@ -24,6 +25,7 @@ struct PointCloudConfig {
   double sigma_disparity_px = 0.25;  // calibration error 0.2 px rms, matching 0.1 px
   double sigma_floor_m = 0.005;
   double sample_m = 0.02;  // pixels are thinned out where they lie closer on a surface across the view
+  RimConfig rims;
   FilterConfig filter;
 };
 
