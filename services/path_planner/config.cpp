@@ -15,6 +15,8 @@ void read_memory(const Config& c, HazardMemoryConfig& out) {
   c.read("possible_clear", out.possible_clear, {1, 20});
   c.read("confirmed_clear", out.confirmed_clear, {1, 100});
   c.read("clear_range_m", out.clear_range_m, {0.5, 10.0});
+  c.read("sure_free", out.sure_free, {1, 100});
+  c.read("sure_range_m", out.sure_range_m, {0.5, 10.0});
   c.read("blind_looks", out.blind_looks, {1, 200});
 }
 

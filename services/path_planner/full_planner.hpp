@@ -18,8 +18,8 @@ struct FullPlannerConfig {
   double switch_gain_m = 1.0;         // by which another one has to be cheaper ...
   double switch_share = 0.1;          // ... and by that share of its cost
   double tight_extra_m = 0.02;        // that plans keep beyond the tight margin, where they do not keep the wide one
-  double most_sigma_margin_m = 0.04;  // less than at the Efficient level: each half metre shows the ground anew
-  double squeeze_margin_m = 0.08;     // of a rover that stands and has no way otherwise
+  double most_sigma_margin_m = 0.02;  // less than at the Efficient level: each half metre shows the ground anew
+  double squeeze_margin_m = 0.08;     // where there is no way otherwise
   double turn_extra_m = 0.04;         // of the margin, for point turns: the rover does not halt exactly
   int most_retreats = 12;             // one after the other, without new ground gained
   int map_cells = 280;                // of the ground that is remembered, each way; as large as the hazard memory's

@@ -82,7 +82,7 @@ void HazardMemory::add(const HazardGrid& grid, const Eigen::Isometry3d& T_odom_b
     const Eigen::Vector2d in_body = to_grid * (Eigen::Vector2d(p.x_m, p.y_m) - to_odom.b);
     const int value = grid.at(in_body.x(), in_body.y());
     if (value == HazardGrid::kUnseen) note_unseen(cell, grid, {in_body.x(), in_body.y()});
-    if (value == HazardGrid::kFree) note_free(cell, in_body.norm() <= config_.clear_range_m);
+    if (value == HazardGrid::kFree) note_free(cell, in_body.norm());
     // The margin about a hazard is ground that was seen; this service keeps margins of its own.
     if (value == HazardGrid::kMargin) cell.seen = true, cell.looks = 0;
   });
@@ -103,14 +103,16 @@ void HazardMemory::note_obstacle(CellIndex index) {
   if (cell.frame == frame_) return;
   cell.frame = frame_;
   cell.seen = true;
-  cell.looks = 0;
+  cell.looks = cell.near_free = 0;
   const bool doubtful = cell.hits == 0 && cell.contrary >= config_.possible_clear;
   cell.contrary = 0;
   if (!doubtful && cell.hits < kMostHits) ++cell.hits;
 }
 
-void HazardMemory::note_free(GroundCell& cell, bool close) const {
+void HazardMemory::note_free(GroundCell& cell, double range_m) const {
+  const bool close = range_m <= config_.clear_range_m;
   cell.seen = true;
+  if (range_m <= config_.sure_range_m && cell.near_free < config_.sure_free) ++cell.near_free;
   if (close) cell.looks = 0;
   if (confirmed(cell) && !close) return;
   const int enough = confirmed(cell) ? config_.confirmed_clear : config_.possible_clear;

@@ -20,6 +20,8 @@ struct HazardMemoryConfig {
       2;  // frames in a row that saw it free end a possible hazard, or make the next hit a doubtful one
   int confirmed_clear = 5;     // ... from close by a confirmed one
   double clear_range_m = 2.0;  // what counts as close by, from the body origin
+  int sure_free = 3;           // frames in a row that saw it free, from as near as that: nothing stands there,
+  double sure_range_m = 2.5;   // whatever the NavCam's map says
   ViewArea view;
   int blind_looks = 6;  // frames in a row that should have seen a cell close by and did not: it is a hazard
 };
@@ -44,8 +46,9 @@ struct HazardGrid {
 
 struct GroundCell {
   bool seen = false;
-  std::uint8_t hits = 0;      // frames that saw an obstacle here
-  std::uint8_t contrary = 0;  // frames in a row that saw it free since the last hit
+  std::uint8_t hits = 0;       // frames that saw an obstacle here
+  std::uint8_t contrary = 0;   // frames in a row that saw it free since the last hit
+  std::uint8_t near_free = 0;  // frames in a row that saw it free from sure_range_m or nearer
   std::uint8_t looks = 0;   // frames in a row that looked at it from close by in vain: no texture, no light, or a drop
   std::uint16_t frame = 0;  // the last that counted as a hit: two grid cells may fall into one cell here
   bool driven = false;      // the vehicle stood on it: no map makes it impassable
@@ -68,12 +71,14 @@ class HazardMemory {
   // Looked at again and again from close by in vain: no longer ground that another view will show. Smooth dust is seen
   // from afar, where the picture is coarse, and not from near.
   bool blind(const GroundCell& cell) const { return cell.looks >= config_.blind_looks; }
+  // Seen free again and again by the LocCam, whose picture of near ground is the sharper one.
+  bool surely_free(const GroundCell& cell) const { return cell.near_free >= config_.sure_free; }
   const GridMap<GroundCell>& map() const { return map_; }
   GridMap<GroundCell>& map() { return map_; }
 
  private:
   void note_obstacle(CellIndex index);
-  void note_free(GroundCell& cell, bool close) const;
+  void note_free(GroundCell& cell, double range_m) const;
   void note_unseen(GroundCell& cell, const HazardGrid& grid, Point2 in_body) const;
 
   HazardMemoryConfig config_;

@@ -98,8 +98,7 @@ bool PathPlanner::plan_on(PlannerOutput& out) {
   const Terrain ground(memory_, &ground_, Terrain::Reach::kGround);
   FullRequest request = full_request(ground);
   FullPlan plan = full_planner_.plan(request);
-  const bool squeezing = active_.margin_m < config_.tight_margin_m;
-  if (!plan.plan.found && (standing() || squeezing)) {
+  if (!plan.plan.found) {
     request.tight_margin_m = request.turn_margin_m = config_.full.squeeze_margin_m + sigma_margin_m();
     plan = full_planner_.plan(request);
   }

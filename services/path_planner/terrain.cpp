@@ -101,7 +101,9 @@ std::vector<std::uint8_t> Terrain::lay_ground(const HazardMemory& memory, const 
     const std::uint8_t cost = ground.map().get(index);
     if (cost == TraversabilityGrid::kUnknown) continue;
     unseen_[i] = 0;
-    impassable[i] = cost == TraversabilityGrid::kImpassable && !memory.map().get(index).driven ? 1 : 0;
+    const GroundCell& near = memory.map().get(index);
+    const bool refuted = near.driven || memory.surely_free(near);
+    impassable[i] = cost == TraversabilityGrid::kImpassable && !refuted ? 1 : 0;
     difficulty_[i] = static_cast<float>(cost) / static_cast<float>(TraversabilityGrid::kImpassable);
   }
   return impassable;
