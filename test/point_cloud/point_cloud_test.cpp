@@ -76,6 +76,49 @@ TEST(PointCloud, RocksAndSlopesStandInIt) {
   EXPECT_LT(ground_error_m(cloud_of(world, 0.0, 0.0), world, 8.0), 0.02);
 }
 
+// How far behind the middle of a rock something stands in the clouds.
+double farthest_behind_m(int rim_px) {
+  constexpr double kFarM = 8.0;
+  PointCloudConfig config;
+  config.rims.width_px = rim_px;
+  double farthest_m = 0.0;
+  for (const auto& [height_m, box] : {std::pair{0.3, true}, {0.5, false}}) {
+    synthetic::World world;
+    world.rocks = {{kFarM, 0.0, 0.25, height_m, box}};
+    PointCloud core(config, navcam_rig(), navcam_unit(), kGroundBelow);
+    const synthetic::RawPair pair = look(world, 0.0, 0.0);
+    const CloudResult result = *core.step(pair.left, pair.right, 0.0, 0.0);
+    for (const Point& point : result.cloud) {
+      const Eigen::Vector3d p = in_body(result, point);
+      if (std::abs(p.y()) < 0.5 && p.z() - world.ground_m(p.x(), p.y()) > 0.1)
+        farthest_m = std::max(farthest_m, p.x() - kFarM);
+    }
+  }
+  return farthest_m;
+}
+
+TEST(PointCloud, NothingStandsInTheAirBehindARock) {
+  EXPECT_GT(farthest_behind_m(0), 0.4);  // else the test shows nothing
+  EXPECT_LT(farthest_behind_m(RimConfig{}.width_px), 0.25);
+}
+
+TEST(Rims, OnlyTheNearSideOfAJumpIsTaken) {
+  const RimConfig config{.jump_px = 1.5, .steep_px_per_px = 0.4, .width_px = 2};
+  Disparity picture(3, 8, 160);
+  for (int v = 4; v < 8; ++v) picture.at(0, v) = 320;                                     // a rock
+  for (int v = 0; v < 8; ++v) picture.at(1, v) = static_cast<std::int16_t>(160 + 6 * v);  // steep ground
+  for (int v = 4; v < 8; ++v) picture.at(2, v) = 320;  // a rock of which the rim was not matched
+  picture.at(2, 3) = Disparity::kInvalid;
+  take_rims(picture, config);
+  for (const int u : {0, 2}) {
+    EXPECT_TRUE(picture.valid(u, 2)) << u;
+    EXPECT_FALSE(picture.valid(u, 4)) << u;
+    EXPECT_FALSE(picture.valid(u, 5)) << u;
+    EXPECT_TRUE(picture.valid(u, 6)) << u;
+  }
+  for (int v = 0; v < 8; ++v) EXPECT_TRUE(picture.valid(1, v)) << v;
+}
+
 // The fault of the original: sigma from the distance to the world's origin makes every map worse along the way.
 TEST(PointCloud, SigmaIsTheDepthsFromTheCameraWhereverTheRoverStands) {
   const CloudResult result = cloud_of({}, 0.0, 0.0);
