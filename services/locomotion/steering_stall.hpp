@@ -7,7 +7,7 @@ namespace rover::locomotion {
 
 struct SteeringStallConfig {
   double patience_s = 0.5;             // the setpoints have arrived, the wheels have not: free ones lag by 0.1 s
-  double most_mean_error_rad = 0.262;  // 15 deg of the four: one scrubs by 60 deg, or all a little
+  double most_mean_error_rad = 0.524;  // 30 deg of the four: two scrub by 60 deg, or all a little
   double speed_mps = 0.04;
   double way_m = 0.20;  // more than a wheel's radius
 };

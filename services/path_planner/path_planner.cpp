@@ -450,6 +450,7 @@ void PathPlanner::follow_correction(PlannerOutput& out) {
   const double change = std::max(moved(here), moved(ahead));
   if (change < config_.correction_m) return;
   lay_global_path();
+  if (active_.kind == PathKind::kRetreat) return;  // over the driven track, which lies in odom
   const double begin = std::max(active_.progress_m + 1.0, active_.repair_end_m);
   // Of the blend 3u^2 - 2u^3: slope at most 0.33, curvature at most 0.3 per metre.
   const double ramp = std::max({3.0, 4.5 * change, std::sqrt(20.0 * change)});
