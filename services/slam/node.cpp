@@ -3,6 +3,19 @@
 #include "slam/convert.hpp"
 
 namespace rover::slam {
+namespace {
+
+constexpr Utime kFreshVo = 800'000;  // a frame each 0.4 s, told 0.3 s later: older ones mean that one is missing
+
+}  // namespace
+
+double BlindWay::add(const pose_t& pose) {
+  const double way_m = pose.travelled_m - travelled_m_;  // NaN at first
+  travelled_m_ = pose.travelled_m;
+  const bool blind = pose.last_vo_utime < 0 || pose.header.utime - pose.last_vo_utime > kFreshVo;
+  if (blind && way_m > 0.0) way_m_ += way_m;
+  return way_m_;
+}
 
 SlamNode::SlamNode(Node& node, const NodeConfig& config) : node_(node), kept_(node), slam_(config.core) {
   node_.subscribe<supervisor_state_t>(channel::kState, [this](const supervisor_state_t& m) { take_state(m); });
@@ -24,7 +37,8 @@ void SlamNode::take_state(const supervisor_state_t& message) {
 void SlamNode::take_pose(const pose_t& message) {
   if (message.status == pose_t::UNINITIALISED) return;
   if (!usable(message)) return node_.reject(channel::kPose, "not finite");
-  const PoseSample sample = sample_from(message);
+  PoseSample sample = sample_from(message);
+  sample.odometry.blind_way_m = blind_way_.add(message);
   poses_.add(sample);
   if (slam_.take_pose(sample.utime, sample.T_map_odom, sample.odometry.T_odom_body))
     node_.log("INFO", "ANCHOR map was moved against odom by a correction");

@@ -14,6 +14,17 @@
 
 namespace rover::slam {
 
+// The way that POSE tells without fresh visual odometry in it.
+class BlindWay {
+ public:
+  // So far, this POSE included.
+  double add(const pose_t& pose);
+
+ private:
+  double way_m_ = 0.0;
+  double travelled_m_ = kNaN;
+};
+
 class SlamNode {
  public:
   SlamNode(Node& node, const NodeConfig& config);
@@ -32,6 +43,7 @@ class SlamNode {
   KeptState kept_;
   Slam slam_;
   PoseHistory poses_;
+  BlindWay blind_way_;
   bool full_ = false;
   bool unsaved_ = false;  // the checkpoint is older than the newest cloud
   Status last_ = Status::kOk;

@@ -105,11 +105,12 @@ void Slam::predict(const Odometry& odometry, Random& random) {
   const double way = moved.norm(), grown = std::max(0.0, odometry.position_sigma_m - last_.position_sigma_m);
   const MotionConfig& m = config_.motion;
   const double turn_grown = std::max(0.0, odometry.yaw_sigma_rad - last_.yaw_sigma_rad);
-  filter_.predict(
-      motion,
-      {std::max({m.still_m, m.along_share * way, grown}), std::max({m.still_m, m.across_share * way, grown}),
-       std::max(m.yaw_rad_per_m * way + m.yaw_share * std::abs(motion.yaw_rad), turn_grown)},
-      random);
+  const double blind = m.blind_share * std::max(0.0, odometry.blind_way_m - last_.blind_way_m);
+  filter_.predict(motion,
+                  {std::max({m.still_m, std::hypot(m.along_share * way, blind), grown}),
+                   std::max({m.still_m, std::hypot(m.across_share * way, blind), grown}),
+                   std::max(m.yaw_rad_per_m * way + m.yaw_share * std::abs(motion.yaw_rad), turn_grown)},
+                  random);
   z_m_ += moved.z();
   way_m_ += way;
   last_ = odometry;

@@ -19,8 +19,9 @@
 namespace rover::slam {
 
 struct MotionConfig {
-  double along_share = 0.015;  // standard deviation by the way driven
-  double across_share = 0.01;
+  double along_share = 0.004;  // standard deviation by the way driven
+  double across_share = 0.003;
+  double blind_share = 0.08;  // likewise, both ways, by the way on which wheels alone told
   double yaw_rad_per_m = to_rad(0.008);
   double yaw_share = 0.0005;  // of the turn
   double still_m = 0.0005;    // least, in each cloud
@@ -59,6 +60,7 @@ struct Odometry {
   Eigen::Isometry3d T_odom_body = nan_pose();
   double position_sigma_m = 0.0;  // of the pose in map; only its growth counts
   double yaw_sigma_rad = 0.0;
+  double blind_way_m = 0.0;  // of the way so far, that without visual odometry
 };
 
 enum class Status { kOk, kNoInformation, kLost };

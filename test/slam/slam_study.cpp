@@ -34,7 +34,8 @@ Drift judged(const std::vector<Station>& drive, const OdometryTrack& odometry, c
   Slam slam(config);
   Drift drift;
   for (size_t i = 0; i < drive.size(); ++i) {
-    const SlamResult result = slam.step(drive[i].cloud, {odometry.T_odom_body[i], odometry.sigma_m[i], 0.0});
+    const SlamResult result =
+        slam.step(drive[i].cloud, {odometry.T_odom_body[i], odometry.sigma_m[i], 0.0, odometry.blind_way_m[i]});
     ROVER_CHECK(result.refusal.empty(), result.refusal);
     drift.informed += result.status == Status::kOk ? 1 : 0;
     ++drift.clouds;

@@ -17,15 +17,17 @@ class Drive {
       : ground_(ground), random_(seed), slam_(config) {}
 
   // One step of the true motion, and what odometry made of it; a cloud at its end.
-  // `sigma`: by how much less sure it is than before.
-  SlamResult step(const Pose2& motion, const Pose2& measured, double sigma_m = 0.0, double sigma_rad = 0.0) {
+  // `sigma`: by how much less sure it is than before; `blind_m`: of the step, on wheels alone.
+  SlamResult step(const Pose2& motion, const Pose2& measured, double sigma_m = 0.0, double sigma_rad = 0.0,
+                  double blind_m = 0.0) {
     truth_ = compose(truth_, motion);
     odometry_ = compose(odometry_, measured);
     sigma_m_ += sigma_m;
     sigma_rad_ += sigma_rad;
+    blind_m_ += blind_m;
     return look();
   }
-  SlamResult look() { return slam_.step(view(), {upright(odometry_, kOriginHeightM), sigma_m_, sigma_rad_}); }
+  SlamResult look() { return slam_.step(view(), {upright(odometry_, kOriginHeightM), sigma_m_, sigma_rad_, blind_m_}); }
   Cloud view() {
     t_ += 2'500'000;
     return cloud_of(ground_, upright(truth_, kOriginHeightM), camera_, random_, t_);
@@ -43,7 +45,7 @@ class Drive {
   Random random_;
   Slam slam_;
   Pose2 truth_, odometry_;
-  double sigma_m_ = 0.0, sigma_rad_ = 0.0;
+  double sigma_m_ = 0.0, sigma_rad_ = 0.0, blind_m_ = 0.0;
   Utime t_ = 0;
 };
 
@@ -62,9 +64,22 @@ TEST(Slam, AnOffsetOfOdometryIsFound) {
 TEST(Slam, ADriveWithAWrongScaleDriftsLessThanOdometry) {
   Drive drive({});
   drive.look();
-  for (int i = 0; i < 30; ++i) drive.step({0.5, 0, 0.01}, {0.51, 0.0, 0.01});
+  for (int i = 0; i < 30; ++i) drive.step({0.5, 0, 0.01}, {0.51, 0.0, 0.01}, 0.01);
   EXPECT_GT(drive.odometry_error_m(), 0.28);
-  EXPECT_LT(drive.error_m(), 0.6 * drive.odometry_error_m());
+  EXPECT_LT(drive.error_m(), 0.4 * drive.odometry_error_m());
+}
+
+// Wheels that slip while visual odometry is lost: a filter that follows them as if it were not is wrong by half of it.
+TEST(Slam, WhatWheelsAloneToldIsTrustedLess) {
+  double error_m[2] = {};
+  for (const bool told : {false, true}) {
+    Drive drive({});
+    drive.look();
+    for (int i = 0; i < 20; ++i) drive.step({0.5, 0, 0}, {0.53, 0.0, 0.0}, 0.0, 0.0, told ? 0.5 : 0.0);
+    error_m[told] = drive.error_m();
+  }
+  EXPECT_GT(error_m[false], 0.2);
+  EXPECT_LT(error_m[true], 0.1);
 }
 
 TEST(Slam, WithPerfectOdometryItStaysWhereItIs) {

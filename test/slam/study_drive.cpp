@@ -119,7 +119,7 @@ OdometryTrack simulated_odometry(const std::vector<Station>& drive, const Odomet
   T.linear() =
       rotation_from_rpy(rpy_of(drive[0].T_map_body.linear()).x(), rpy_of(drive[0].T_map_body.linear()).y(), 0.0);
   const double first_yaw = yaw_of(drive[0].T_map_body);
-  double yaw_error = 0.0, variance = 0.0, way = 0.0;
+  double yaw_error = 0.0, variance = 0.0, way = 0.0, blind_way = 0.0;
   Eigen::Vector2d tilt = Eigen::Vector2d::Zero();
   OdometryTrack track;
   for (size_t i = 0; i < drive.size(); ++i) {
@@ -137,6 +137,7 @@ OdometryTrack simulated_odometry(const std::vector<Station>& drive, const Odomet
         moved += part * (scale + share + slip) + part.norm() * aside * Eigen::Vector3d::UnitY();
         const double sigma = part.norm() * (lost ? model.slip_mean + model.slip_sigma : model.step_share);
         variance += sigma * sigma;
+        blind_way += lost ? part.norm() : 0.0;
       }
       way += length;
       T.translation() += T.linear() * moved;
@@ -148,6 +149,7 @@ OdometryTrack simulated_odometry(const std::vector<Station>& drive, const Odomet
           rotation_from_rpy(rpy.x() + tilt.x(), rpy.y() + tilt.y(), wrap_angle(rpy.z() - first_yaw + yaw_error));
     }
     track.T_odom_body.push_back(T);
+    track.blind_way_m.push_back(blind_way);
     track.sigma_m.push_back(std::sqrt(variance + 0.003 * 0.003 * way * way));
   }
   return track;

@@ -39,6 +39,7 @@ OdometryModel degraded_odometry();
 struct OdometryTrack {
   std::vector<Eigen::Isometry3d> T_odom_body;  // at the stations
   std::vector<double> sigma_m;                 // what its filter would say of the position
+  std::vector<double> blind_way_m;             // so far, on which wheels bridged
 };
 OdometryTrack simulated_odometry(const std::vector<Station>& drive, const OdometryModel& model, std::uint64_t seed);
 
