@@ -20,6 +20,8 @@ struct FullPlannerConfig {
   double tight_extra_m = 0.02;        // that plans keep beyond the tight margin, where they do not keep the wide one
   double most_sigma_margin_m = 0.02;  // less than at the Efficient level: each half metre shows the ground anew
   double squeeze_margin_m = 0.08;     // where there is no way otherwise
+  double doubt_from_m = 2.0;          // of the rover, likewise: small spots of the map beyond do not count ...
+  int doubt_cells = 8;                // ... up to so many cells, unless the LocCam confirms them
   double turn_extra_m = 0.04;         // of the margin, for point turns: the rover does not halt exactly
   int most_retreats = 12;             // one after the other, without new ground gained
   int map_cells = 280;                // of the ground that is remembered, each way; as large as the hazard memory's

@@ -15,7 +15,7 @@ constexpr double kLongestM = 0.62;
 constexpr double kLengthStepM = 0.01;
 constexpr double kEndBandM = 0.7;  // past the goal line
 constexpr double kCloseM =
-    0.05;  // the rover may stand closer to a hazard than it would go: that one does not close its place
+    0.10;  // the rover may stand closer to a hazard than it would go: that one does not close its place
 
 constexpr double kBeyond = 2.5;  // of cost, past that of the rover's pose, until which the field is laid
 

@@ -244,7 +244,7 @@ bool PathPlanner::strayed() const {
 // where that has been tried enough.
 bool PathPlanner::retreat(PlannerOutput& out) {
   std::vector<Point2> back = driven_.back(position(rover()), (1 + retreats_) * config_.retreat_m);
-  if (continuous() && back.size() >= 2) back = clear_part(back);
+  if (continuous()) back = way_back(back);
   if (back.size() < 2 || retreats_ >= (continuous() ? config_.full.most_retreats : config_.most_retreats) ||
       distance(back.front(), back.back()) < kLeastRetreatM)
     return false;

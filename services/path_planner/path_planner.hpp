@@ -180,6 +180,8 @@ class PathPlanner {
   Terrain terrain() const { return {memory_, continuous() ? &ground_ : nullptr, Terrain::Reach::kMemory}; }
   void go_on(PlannerOutput& out);
   bool at_turn() const;
+  std::vector<Point2> way_back(const std::vector<Point2>& track) const;
+  std::vector<Point2> straight_back(double way_m) const;
   std::vector<Point2> clear_part(const std::vector<Point2>& back) const;
   bool plan_on(PlannerOutput& out);
   FullRequest full_request(const Terrain& terrain) const;

@@ -17,6 +17,8 @@ constexpr double kBackRadiusM = 2.0;  // of the way from a plan's end back to th
 constexpr double kBackReserveM = 0.1;
 constexpr double kBackMarginM = 0.05;  // the rover has been there
 constexpr double kBackTurnStepRad = 0.1;
+constexpr double kBackTurnRad = 0.35;
+constexpr double kLeastStraightBackM = 0.5;
 constexpr double kBackAheadM = 3.0;
 constexpr double kRoundingM = 1e-6;
 constexpr double kCreepMps = 0.05;  // of the body origin while the rover turns on the spot
@@ -102,6 +104,11 @@ bool PathPlanner::plan_on(PlannerOutput& out) {
     request.tight_margin_m = request.turn_margin_m = config_.full.squeeze_margin_m + sigma_margin_m();
     plan = full_planner_.plan(request);
   }
+  if (!plan.plan.found) {
+    const Terrain doubted(memory_, &ground_, Terrain::Reach::kGround,
+                          {position(rover()), config_.full.doubt_from_m, config_.full.doubt_cells});
+    plan = full_planner_.plan(full_request(doubted));
+  }
   last_repair_.status = plan.plan.found               ? RepairStatus::kFound
                         : plan.plan.unseen_in_the_way ? RepairStatus::kUnseen
                                                       : RepairStatus::kNoWay;
@@ -166,6 +173,32 @@ std::optional<HeldWay> PathPlanner::held_way() const {
   const double most = config_.full.search.max_curvature_per_m;
   held.end_curvature_per_m = std::clamp(wrap_angle(held.poses.back().yaw_rad - before) / kChordM, -most, most);
   return held;
+}
+
+// The driven track, as far as the rectangle passes it; where it begins with a turn, straight back over known ground if
+// that is free: there may be no room to turn.
+std::vector<Point2> PathPlanner::way_back(const std::vector<Point2>& track) const {
+  const double way_m = (1 + retreats_) * config_.retreat_m;
+  const std::vector<Point2> straight = straight_back(way_m);
+  const double straight_m = distance(straight.front(), straight.back());
+  const std::vector<Point2> along = track.size() < 2 ? track : clear_part(track);
+  const bool turns =
+      along.size() < 2 ||
+      std::abs(wrap_angle(rover().yaw_rad + kPi -
+                          std::atan2(along[1].y_m - along[0].y_m, along[1].x_m - along[0].x_m))) > kBackTurnRad;
+  return turns && straight_m >= kLeastStraightBackM ? straight : along;
+}
+
+std::vector<Point2> PathPlanner::straight_back(double way_m) const {
+  const Terrain ground = terrain();
+  const FootprintCheck check(ground, config_.footprint, config_.full.squeeze_margin_m, 0.0, rover());
+  std::vector<Point2> out = {position(rover())};
+  for (double s = kPoseStepM; s <= way_m; s += kPoseStepM) {
+    const Pose2 pose = advanced(rover(), -s, 0.0);
+    if (!check.clear(pose) || !check.all_unseen(pose, [](Point2) { return false; })) break;
+    out.push_back(position(pose));
+  }
+  return out;
 }
 
 // Of the way back, what the rectangle surely passes, stern first.

@@ -51,7 +51,7 @@ std::vector<std::uint8_t> wide_parts(const std::vector<std::uint8_t>& mask, int 
 
 }  // namespace
 
-Terrain::Terrain(const HazardMemory& memory, const GroundMap* ground, Reach reach)
+Terrain::Terrain(const HazardMemory& memory, const GroundMap* ground, Reach reach, const Doubt& doubt)
     : cells_(reach == Reach::kGround ? ground->map().cells() : memory.map().cells()),
       cell_m_(memory.map().cell_m()),
       cells_per_m_(1.0 / cell_m_),
@@ -75,6 +75,10 @@ Terrain::Terrain(const HazardMemory& memory, const GroundMap* ground, Reach reac
   if (ground != nullptr) {
     impassable = lay_ground(memory, *ground, origin);
     unseen_ = closed(unseen_, cells_);
+    std::vector<std::uint8_t> sure;
+    sure.reserve(unseen_.size());
+    for_each_cell([&](CellIndex, const GroundCell& cell) { sure.push_back(cell.hits > 0 ? 1 : 0); });
+    if (doubt.most_cells > 0) drop_doubtful(doubt, sure, impassable);
   }
   std::vector<std::uint8_t> hazard;
   hazard.reserve(unseen_.size());
@@ -107,6 +111,32 @@ std::vector<std::uint8_t> Terrain::lay_ground(const HazardMemory& memory, const 
     difficulty_[i] = static_cast<float>(cost) / static_cast<float>(TraversabilityGrid::kImpassable);
   }
   return impassable;
+}
+
+void Terrain::drop_doubtful(const Doubt& doubt, const std::vector<std::uint8_t>& sure,
+                            std::vector<std::uint8_t>& mask) const {
+  std::vector<std::uint8_t> visited(mask.size(), 0);
+  std::vector<int> spot;
+  const auto visit = [&](int cell) {
+    if (mask[cell] == 0 || visited[cell] != 0) return;
+    visited[cell] = 1;
+    spot.push_back(cell);
+  };
+  for (int first = 0; first < static_cast<int>(mask.size()); ++first) {
+    spot.clear();
+    visit(first);
+    for (size_t k = 0; k < spot.size(); ++k) {
+      const int x0 = spot[k] % cells_, y0 = spot[k] / cells_;
+      for (int y = std::max(0, y0 - 1); y <= std::min(cells_ - 1, y0 + 1); ++y)
+        for (int x = std::max(0, x0 - 1); x <= std::min(cells_ - 1, x0 + 1); ++x) visit(y * cells_ + x);
+    }
+    const bool small = static_cast<int>(spot.size()) <= doubt.most_cells;
+    const bool doubtful = small && std::none_of(spot.begin(), spot.end(), [&](int cell) {
+                            return sure[cell] != 0 || distance(center_of(cell), doubt.rover) < doubt.from_m;
+                          });
+    if (!doubtful) continue;
+    for (const int cell : spot) mask[cell] = 0;
+  }
 }
 
 std::span<const HazardSpot> Terrain::hazards_about(Point2 p, double reach_m) const {

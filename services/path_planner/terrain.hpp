@@ -22,10 +22,19 @@ class Terrain {
  public:
   enum class Reach { kMemory, kGround };  // of which of the two grids
 
+  // Small impassable spots of the map, away from the rover, that the LocCam has not confirmed: as often as not a stone
+  // that may be driven over. Taken for dear ground, they leave ways that the LocCam will confirm or close.
+  struct Doubt {
+    Point2 rover;
+    double from_m = 0.0;  // of the rover
+    int most_cells = 0;   // of a spot; 0: the map is not doubted
+  };
+
   explicit Terrain(const HazardMemory& memory) : Terrain(memory, nullptr, Reach::kMemory) {}
   // Also what the ground map knows: its impassable cells are hazards, and ground that it knows counts as seen. Null:
   // none. Both grids have cells of one size.
-  Terrain(const HazardMemory& memory, const GroundMap* ground, Reach reach);
+  Terrain(const HazardMemory& memory, const GroundMap* ground, Reach reach, const Doubt& doubt);
+  Terrain(const HazardMemory& memory, const GroundMap* ground, Reach reach) : Terrain(memory, ground, reach, Doubt{}) {}
 
   int cells() const { return cells_; }
   double cell_m() const { return cell_m_; }
@@ -67,6 +76,8 @@ class Terrain {
   Point2 corner_;
   // Lays what the map knows over the masks.
   std::vector<std::uint8_t> lay_ground(const HazardMemory& memory, const GroundMap& ground, CellIndex origin);
+  // Takes the doubtful spots out of the mask. `sure`: cells that the LocCam confirms.
+  void drop_doubtful(const Doubt& doubt, const std::vector<std::uint8_t>& sure, std::vector<std::uint8_t>& mask) const;
 
   std::vector<std::uint8_t> unseen_;
   std::vector<float> difficulty_;  // empty: no map
