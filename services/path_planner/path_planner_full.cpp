@@ -236,7 +236,8 @@ void PathPlanner::take_plan(const FullPlan& plan, const FullRequest& request, Pl
       points.push_back({position(advanced(rover(), way, request.start_curvature_per_m)), kNaN, level});
   }
   append_poses(plan.plan.poses, plan.end_station_m, points);
-  append_way_back(plan.end_station_m, points);
+  const bool at_goal = distance(points.back().p, global_odom_.points().back().p) <= request.goal_reach_m;
+  if (!at_goal) append_way_back(plan.end_station_m, points);
   const bool roomy = plan.clearance_m >= request.roomy_margin_m - kRoundingM;
   const double kept_m = request.tight_margin_m - config_.full.tight_extra_m - sigma_margin_m();
   active_.margin_m = roomy ? config_.margin_m : std::min(config_.tight_margin_m, kept_m);

@@ -47,6 +47,7 @@ void read_filter(const Config& c, FilterConfig& f) {
 
 void read_motion(const Config& c, MotionConfig& m) {
   c.read("along_share", m.along_share, {0.0, 1.0});
+  c.read("scale_share", m.scale_share, {0.0, 1.0});
   c.read("blind_share", m.blind_share, {0.0, 1.0});
   c.read("across_share", m.across_share, {0.0, 1.0});
   c.read_deg("yaw_deg_per_m", m.yaw_rad_per_m, {0.0, 10.0});

@@ -102,8 +102,10 @@ SlamResult Slam::step(const Cloud& cloud, const Odometry& odometry) {
 void Slam::predict(const Odometry& odometry, Random& random) {
   const Pose2 motion = between(planar(last_.T_odom_body), planar(odometry.T_odom_body));
   const Eigen::Vector3d moved = odometry.T_odom_body.translation() - last_.T_odom_body.translation();
-  const double way = moved.norm(), grown = std::max(0.0, odometry.position_sigma_m - last_.position_sigma_m);
+  const double way = moved.norm();
   const MotionConfig& m = config_.motion;
+  // What grows slowly is an error of scale, the same in each cloud: no noise.
+  const double grown = std::max(0.0, odometry.position_sigma_m - last_.position_sigma_m - m.scale_share * way);
   const double turn_grown = std::max(0.0, odometry.yaw_sigma_rad - last_.yaw_sigma_rad);
   const double blind = m.blind_share * std::max(0.0, odometry.blind_way_m - last_.blind_way_m);
   filter_.predict(motion,

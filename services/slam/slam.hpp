@@ -19,8 +19,9 @@
 namespace rover::slam {
 
 struct MotionConfig {
-  double along_share = 0.004;  // standard deviation by the way driven
-  double across_share = 0.003;
+  double along_share = 0.0015;  // standard deviation by the way driven, at random
+  double across_share = 0.0015;
+  double scale_share = 0.01;  // by which the told deviation may grow without being noise
   double blind_share = 0.08;  // likewise, both ways, by the way on which wheels alone told
   double yaw_rad_per_m = to_rad(0.008);
   double yaw_share = 0.0005;  // of the turn
