@@ -152,6 +152,42 @@ TEST(UnitedTerrain, AHazardStandsAgainstAFreeMap) {
   EXPECT_TRUE(terrain.hazards().front().confirmed);
 }
 
+// From near the LocCam sees better than the NavCam from afar, where it sees the ground free again and again.
+TEST(UnitedTerrain, WhatTheLocCamSeesFreeFromNearRefutesTheMap) {
+  Ground ground([](Point2 p) { return distance(p, {2.05, 0.05}) < 0.15 ? TraversabilityGrid::kImpassable : kFree; });
+  std::mt19937_64 random(1);
+  const auto hazards = [&] { return Terrain(ground.memory, &ground.map, Terrain::Reach::kGround).hazards().size(); };
+  const auto look = [&](const std::vector<Rock>& rocks) {
+    ground.memory.add(testing_support::observe({}, rocks, {}, 0, random), Eigen::Isometry3d::Identity(), 0.0);
+  };
+  ASSERT_GT(hazards(), 0u);
+  const int frames = planner_config().memory.sure_free;
+  for (int i = 0; i + 1 < frames; ++i) look({});
+  EXPECT_GT(hazards(), 0u);
+  look({{{2.05, 0.05}, 0.2, 0.3}});  // after all
+  for (int i = 0; i + 1 < frames; ++i) look({});
+  EXPECT_GT(hazards(), 0u);
+  for (int i = 0; i < 10; ++i) look({});
+  EXPECT_EQ(hazards(), 0u);
+}
+
+// Two spots in the map, near and far, and a rock.
+TEST(UnitedTerrain, InDoubtSmallSpotsFarFromTheRoverDoNotCountUnlessTheLocCamConfirmsThem) {
+  Ground ground([](Point2 p) {
+    const bool spot =
+        distance(p, {1.0, 1.5}) < 0.12 || distance(p, {5.0, 1.5}) < 0.12 || distance(p, {5.0, -1.5}) < 0.12;
+    return spot || distance(p, {6.0, 0.0}) < 0.4 ? TraversabilityGrid::kImpassable : kFree;
+  });
+  ground.memory.map().at(ground.memory.map().index_of(5.05, -1.55)) = {.seen = true, .hits = 1};
+  const Terrain terrain(ground.memory, &ground.map, Terrain::Reach::kGround, {{0.0, 0.0}, 2.0, 8});
+  const auto hazard = [&](double x, double y) { return terrain.hazard_distance_m(Point2{x, y}) < 0.15; };
+  EXPECT_FALSE(hazard(5.0, 1.5));
+  EXPECT_TRUE(hazard(1.0, 1.5));
+  EXPECT_TRUE(hazard(5.0, -1.5));
+  EXPECT_TRUE(hazard(6.0, 0.0));
+  EXPECT_GT(terrain.difficulty(terrain.cell_of({5.05, 1.55})), 0.9);
+}
+
 TEST(HeadingField, PricesDistanceTurnsAndGaps) {
   const auto to_go = [](const std::function<std::uint8_t(Point2)>& cost, const Pose2& pose) {
     const Ground ground(cost);
@@ -325,8 +361,8 @@ TEST_F(FullLevel, LevelDownThePlanGoesOnAsARepairAndEndsOnTheGlobalPath) {
   EXPECT_NEAR(rig.odom.y_m, 0.0, 0.1);
 }
 
-// Driving on could only lead deeper into a dead end: the rover is held long before the hazard, once that is certain, and
-// backs out. One map may be wrong.
+// Driving on could only lead deeper into a dead end: the rover is held long before the hazard, once that is certain,
+// and backs out. One map may be wrong.
 TEST_F(FullLevel, WhereByTheMapNoWayLeadsOnTheRoverStopsAndGoesBack) {
   rig.planner.set_level(true);
   send_map(free_ground);
@@ -347,6 +383,73 @@ TEST_F(FullLevel, WhereByTheMapNoWayLeadsOnTheRoverStopsAndGoesBack) {
   rig.odom.yaw_rad = 0.0;
   rig.look(2);
   EXPECT_EQ(rig.paths.back().kind, PathKind::kContinuous);
+}
+
+// Spots across the way that the NavCam took for rocks: it goes up to them, for the LocCam to decide.
+TEST_F(FullLevel, DoubtfulSpotsAreApproachedWhereNothingElseLeadsOn) {
+  rig.planner.set_level(true);
+  send_map([](Point2 p) {
+    const double y = std::abs(p.y_m - std::round(p.y_m));
+    return std::abs(p.x_m - 4.0) < 0.1 && y < 0.12 ? TraversabilityGrid::kImpassable : kFree;
+  });
+  rig.step();
+  EXPECT_EQ(rig.paths.back().kind, PathKind::kContinuous);
+  EXPECT_LT(rig.go(8.0).status.state, PlannerState::kNoPath);
+  EXPECT_GT(rig.odom.x_m, 6.0);
+}
+
+// In a pocket in which it has turned it cannot turn back to its track.
+TEST_F(FullLevel, WhereThereIsNoRoomToTurnTheRoverGoesStraightBack) {
+  rig.planner.set_level(true);
+  send_map(free_ground);
+  rig.step();
+  rig.go(3.0);
+  rig.odom.yaw_rad = 1.2;
+  const Pose2 there = rig.odom;
+  for (const double y : {-0.75, 0.0, 0.75}) {
+    const double c = std::cos(there.yaw_rad), sn = std::sin(there.yaw_rad);
+    rig.rocks.push_back({{there.x_m + c * 1.2 - sn * y, there.y_m + sn * 1.2 + c * y}, 0.2, 0.3});
+  }
+  send_map([&](Point2 p) {
+    const Point2 b = to_body(there, p);
+    const bool ahead = std::abs(b.x_m - 1.2) < 0.1, aside = std::abs(std::abs(b.y_m) - 0.75) < 0.1 && b.x_m > -2.0;
+    return ahead || aside ? TraversabilityGrid::kImpassable : kFree;
+  });
+  rig.look(planner_config().patience_frames + 1);
+  ASSERT_EQ(rig.paths.back().kind, PathKind::kRetreat);
+  const Point2 end = to_body(there, rig.paths.back().points.back().p);
+  EXPECT_LT(end.x_m, -0.5);
+  EXPECT_NEAR(end.y_m, 0.0, 0.05);
+}
+
+// The track that a retreat leads over lies in odom: when map moves it stays what it is, and free.
+TEST_F(FullLevel, ACorrectionOfTheMapLeavesARetreatAlone) {
+  rig.planner.set_level(true);
+  send_map(free_ground);
+  rig.step();
+  rig.go(1.0);
+  send_map(wall(0.0, 0.0));
+  rig.look(planner_config().patience_frames + 1);
+  ASSERT_EQ(rig.paths.back().kind, PathKind::kRetreat);
+  const size_t paths = rig.paths.size();
+  rig.T_map_odom = {0.4, 0.3, 0.02};
+  EXPECT_TRUE(std::isinf(rig.step().status.blocked_in_m));
+  EXPECT_EQ(rig.paths.size(), paths);
+}
+
+// Nothing else is near, but a rock lies on the goal.
+TEST_F(FullLevel, AGoalUnderARockIsReachedBesideIt) {
+  rig.send_path({{0.0, 0.0}, {6.0, 0.0}});
+  rig.planner.set_level(true);
+  const auto rock = [](Point2 p) { return distance(p, {6.0, 0.0}) < 0.35 ? TraversabilityGrid::kImpassable : kFree; };
+  rig.rocks = {{{6.0, 0.0}, 0.35, 0.4}};
+  rig.step();
+  for (int i = 0; i < 60 && rig.look().status.goal_distance_m > 0.2; ++i) {
+    send_map(rock);
+    rig.go(0.5);
+  }
+  EXPECT_LT(rig.look().status.goal_distance_m, 0.2);
+  EXPECT_LT(distance(position(rig.odom), {6.0, 0.0}), planner_config().blocked_goal_reach_m + 0.1);
 }
 
 // Without a newer map the rover that drives on is led by the LocCam alone.

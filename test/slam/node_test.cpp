@@ -111,6 +111,23 @@ TEST_F(SlamNodeTest, EachCloudGivesAMapAndAPoseOfItsExposureReleasedAfterTheLate
   EXPECT_NEAR(poses_[0].y_m, 200.0, 0.01);
 }
 
+TEST(BlindWay, IsWhatWasDrivenWithoutFreshVisualOdometry) {
+  BlindWay way;
+  pose_t pose{};
+  const auto drive_to = [&](double travelled_m, Utime utime, Utime vo) {
+    pose.travelled_m = travelled_m;
+    pose.header.utime = utime;
+    pose.last_vo_utime = vo;
+    return way.add(pose);
+  };
+  EXPECT_EQ(drive_to(5.0, 1'000'000, 500'000), 0.0);
+  EXPECT_EQ(drive_to(5.1, 1'500'000, 900'000), 0.0);
+  EXPECT_NEAR(drive_to(5.3, 2'500'000, 900'000), 0.2, 1e-12);
+  EXPECT_NEAR(drive_to(5.4, 3'000'000, -1), 0.3, 1e-12);
+  EXPECT_NEAR(drive_to(5.5, 3'100'000, 2'800'000), 0.3, 1e-12);
+  EXPECT_NEAR(drive_to(0.0, 9'000'000, -1), 0.3, 1e-12);  // localization began anew
+}
+
 TEST_F(SlamNodeTest, IdlesUnlessTheLevelIsFull) {
   stand({});
   give(view({}), now_ - kExposure);
