@@ -114,7 +114,7 @@ void read_full(const Config& c, const PathPlannerConfig& shared, FullPlannerConf
   c.read("hold_m", out.hold_m, {0.5, 10.0});
   c.read("switch_gain_m", out.switch_gain_m, {0.0, 20.0});
   c.read("switch_share", out.switch_share, {0.0, 5.0});
-  c.read("most_sigma_m", out.most_sigma_margin_m, {0.0, 1.0});
+  c.read("sigma_m", out.sigma_margin_m, {0.0, 1.0});
   c.read("most_retreats", out.most_retreats, {0, 100});
   c.read("doubt_from_m", out.doubt_from_m, {0.0, 20.0});
   c.read("doubt_cells", out.doubt_cells, {0, 1000});

@@ -12,21 +12,22 @@ namespace rover::planning {
 struct FullPlannerConfig {
   GoalFieldConfig goal;
   CurveSearchConfig search;
-  double sure_way_m = 2.5;            // of a plan, over ground that is seen in time
-  double least_sure_way_m = 0.6;      // where that leaves no way
-  double hold_m = 3.0;                // of the plan that is being driven, kept where it is held
-  double switch_gain_m = 1.0;         // by which another one has to be cheaper ...
-  double switch_share = 0.1;          // ... and by that share of its cost
-  double tight_extra_m = 0.02;        // that plans keep beyond the tight margin, where they do not keep the wide one
-  double most_sigma_margin_m = 0.02;  // less than at the Efficient level: each half metre shows the ground anew
-  double squeeze_margin_m = 0.08;     // where there is no way otherwise
-  double doubt_from_m = 2.0;          // of the rover, likewise: small spots of the map beyond do not count ...
-  int doubt_cells = 8;                // ... up to so many cells, unless the LocCam confirms them
-  double turn_extra_m = 0.04;         // of the margin, for point turns: the rover does not halt exactly
-  int most_retreats = 12;             // one after the other, without new ground gained
-  int map_cells = 280;                // of the ground that is remembered, each way; as large as the hazard memory's
-  double stale_way_m = 1.5;           // driven since the newest map, with which it is too old ...
-  double stale_s = 5.0;               // ... if that took as long
+  double sure_way_m = 2.5;         // of a plan, over ground that is seen in time
+  double least_sure_way_m = 0.6;   // where that leaves no way
+  double hold_m = 3.0;             // of the plan that is being driven, kept where it is held
+  double switch_gain_m = 1.0;      // by which another one has to be cheaper ...
+  double switch_share = 0.1;       // ... and by that share of its cost
+  double tight_extra_m = 0.02;     // that plans keep beyond the tight margin, where they do not keep the wide one
+  double sigma_margin_m = 0.02;    // for the pose: each half metre shows the ground anew. One that changed with the
+                                   // pose's deviation would stop the rover, and let it go on once it stands
+  double squeeze_margin_m = 0.08;  // where there is no way otherwise
+  double doubt_from_m = 2.0;       // of the rover, likewise: small spots of the map beyond do not count ...
+  int doubt_cells = 8;             // ... up to so many cells, unless the LocCam confirms them
+  double turn_extra_m = 0.04;      // of the margin, for point turns: the rover does not halt exactly
+  int most_retreats = 12;          // one after the other, without new ground gained
+  int map_cells = 280;             // of the ground that is remembered, each way; as large as the hazard memory's
+  double stale_way_m = 1.5;        // driven since the newest map, with which it is too old ...
+  double stale_s = 5.0;            // ... if that took as long
 };
 
 // The way that is being driven, from where a new one could begin.

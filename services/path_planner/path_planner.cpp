@@ -469,8 +469,8 @@ void PathPlanner::follow_correction(PlannerOutput& out) {
 }
 
 double PathPlanner::sigma_margin_m() const {
-  const double most = continuous() ? config_.full.most_sigma_margin_m : config_.most_sigma_margin_m;
-  return std::min(most, config_.sigma_gain * history_.gained_sigma_m());
+  if (continuous()) return config_.full.sigma_margin_m;
+  return std::min(config_.most_sigma_margin_m, config_.sigma_gain * history_.gained_sigma_m());
 }
 
 bool PathPlanner::standing() const {

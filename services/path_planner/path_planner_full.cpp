@@ -24,6 +24,7 @@ constexpr double kRoundingM = 1e-6;
 constexpr double kCreepMps = 0.05;  // of the body origin while the rover turns on the spot
 constexpr double kAtKinkM = 0.15;
 constexpr double kTurnBlockM = 1.5;  // likewise while the rover turns on the spot
+constexpr double kNearPossibleM = 1.5;
 constexpr double kNearBlockM = 3.5;  // nearer blocks are planned for at once, others with the next map
 
 // Whether the rectangle is clear at the second pose, and on the turn to its heading.
@@ -69,7 +70,8 @@ bool PathPlanner::continuous() const {
 
 void PathPlanner::go_on(PlannerOutput& out) {
   judge();
-  frames_before_possible_ = hazard_ahead_m() < config_.stop_hazard_m ? frames_before_possible_ + 1 : 0;
+  // A single hit that is neither confirmed nor cleared on approach: planned around before the rover is stopped by it.
+  frames_before_possible_ = hazard_ahead_m() < kNearPossibleM ? frames_before_possible_ + 1 : 0;
   const bool before_unseen = (unseen_ahead_m() < config_.stop_unseen_m || strayed()) && standing();
   frames_before_unseen_ = before_unseen ? frames_before_unseen_ + 1 : 0;
   const bool turning = at_turn();
