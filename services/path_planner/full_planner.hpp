@@ -17,7 +17,7 @@ struct FullPlannerConfig {
   double hold_m = 3.0;             // of the plan that is being driven, kept where it is held
   double switch_gain_m = 1.0;      // by which another one has to be cheaper ...
   double switch_share = 0.1;       // ... and by that share of its cost
-  double tight_extra_m = 0.02;     // that plans keep beyond the tight margin, where they do not keep the wide one
+  double block_slack_m = 0.03;     // by which a tight plan may come nearer before it is blocked: hazards grow by cells
   double sigma_margin_m = 0.02;    // for the pose: each half metre shows the ground anew. One that changed with the
                                    // pose's deviation would stop the rover, and let it go on once it stands
   double squeeze_margin_m = 0.08;  // where there is no way otherwise

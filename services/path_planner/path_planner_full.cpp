@@ -142,8 +142,8 @@ FullRequest PathPlanner::full_request(const Terrain& terrain) const {
           .turning = turning_,
           .held = held_way(),
           .roomy_margin_m = config_.margin_m + config_.plan_extra_m + sigma,
-          .tight_margin_m = config_.tight_margin_m + config_.full.tight_extra_m + sigma,
-          .turn_margin_m = config_.tight_margin_m + config_.full.tight_extra_m + config_.full.turn_extra_m + sigma,
+          .tight_margin_m = config_.tight_margin_m + sigma,
+          .turn_margin_m = config_.tight_margin_m + config_.full.turn_extra_m + sigma,
           .goal_reach_m = any_goal ? config_.blocked_goal_reach_m : goal_reach_m(),
           .dead_ends = dead_ends_};
 }
@@ -241,8 +241,8 @@ void PathPlanner::take_plan(const FullPlan& plan, const FullRequest& request, Pl
   const bool at_goal = distance(points.back().p, global_odom_.points().back().p) <= request.goal_reach_m;
   if (!at_goal) append_way_back(plan.end_station_m, points);
   const bool roomy = plan.clearance_m >= request.roomy_margin_m - kRoundingM;
-  const double kept_m = request.tight_margin_m - config_.full.tight_extra_m - sigma_margin_m();
-  active_.margin_m = roomy ? config_.margin_m : std::min(config_.tight_margin_m, kept_m);
+  const double kept_m = request.tight_margin_m - config_.full.block_slack_m - sigma_margin_m();
+  active_.margin_m = roomy ? config_.margin_m : kept_m;
   active_.corridor_half_width_m = std::clamp(plan.clearance_m - kHalfCellM - kControlM, config_.least_corridor_m,
                                              std::max(config_.least_corridor_m, global_->corridor_half_width_m));
   const bool turning = turning_;
