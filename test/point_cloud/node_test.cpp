@@ -153,12 +153,14 @@ TEST(PointCloudConfigTest, WrongKeysRangesAndAVehicleWithoutUnitStopTheStart) {
   std::filesystem::create_directories(dir);
   for (const char* file : {"vehicle.yaml", "cameras.yaml"})
     std::filesystem::copy_file(kConfig + "/" + file, dir / file);
-  for (const char* text : {"matcher: {}\nfilter: {voxel: 1}\n", "matcher: {block_px: 4}\nfilter: {}\n",
-                           "max_depth_m: 1\nmin_depth_m: 2\nmatcher: {}\nfilter: {}\n", "matcher: {}\n"}) {
+  for (const char* text :
+       {"matcher: {}\nrims: {}\nfilter: {voxel: 1}\n", "matcher: {block_px: 4}\nrims: {}\nfilter: {}\n",
+        "max_depth_m: 1\nmin_depth_m: 2\nmatcher: {}\nrims: {}\nfilter: {}\n", "matcher: {}\nrims: {}\n",
+        "matcher: {}\nrims: {width_px: -1}\nfilter: {}\n", "matcher: {}\nfilter: {}\n"}) {
     std::ofstream(dir / "point_cloud.yaml") << text;
     EXPECT_THROW(load_config(dir.string()), ConfigError) << text;
   }
-  std::ofstream(dir / "point_cloud.yaml") << "matcher: {}\nfilter: {}\n";
+  std::ofstream(dir / "point_cloud.yaml") << "matcher: {}\nrims: {}\nfilter: {}\n";
   EXPECT_NO_THROW(load_config(dir.string()));
   std::ifstream shipped(dir / "vehicle.yaml");
   std::stringstream text;
