@@ -24,6 +24,7 @@ constexpr double kRoundingM = 1e-6;
 constexpr double kCreepMps = 0.05;  // of the body origin while the rover turns on the spot
 constexpr double kAtKinkM = 0.15;
 constexpr double kTurnBlockM = 1.5;  // likewise while the rover turns on the spot
+constexpr double kDetourM = 4.0;
 constexpr double kNearPossibleM = 1.5;
 constexpr double kNearBlockM = 3.5;  // nearer blocks are planned for at once, others with the next map
 
@@ -84,7 +85,13 @@ void PathPlanner::go_on(PlannerOutput& out) {
     return;
   }
   // One map may show a gap closed that the next one opens; the plan's first metres are free meanwhile.
-  if (!plan_on(out) && active_.kind == PathKind::kContinuous) no_way_on_ = failures_ >= config_.patience_frames;
+  const double before_m = goal_distance_m();
+  const bool closed = active_.kind == PathKind::kContinuous && block_.confirmed_m - active_.progress_m < kNearBlockM;
+  const Point2 closed_at = active_.route.point_at(std::min(block_.confirmed_m, active_.route.length_m()));
+  const bool planned = plan_on(out);
+  // A gap that was found closed from near may look open again from afar: without this the rover goes to and fro.
+  if (planned && closed && goal_distance_m() > before_m + kDetourM) dead_ends_.push_back(closed_at);
+  if (!planned && active_.kind == PathKind::kContinuous) no_way_on_ = failures_ >= config_.patience_frames;
   if (stuck() && standing()) retreat(out);
 }
 
