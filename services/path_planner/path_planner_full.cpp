@@ -17,16 +17,16 @@ constexpr double kBackRadiusM = 2.0;  // of the way from a plan's end back to th
 constexpr double kBackReserveM = 0.1;
 constexpr double kBackMarginM = 0.05;  // the rover has been there
 constexpr double kBackTurnStepRad = 0.1;
-constexpr double kBackTurnRad = 0.35;
-constexpr double kLeastStraightBackM = 0.5;
+constexpr double kBackTurnRad = 0.35;        // more between stern and track needs room to turn
+constexpr double kLeastStraightBackM = 0.5;  // less is not worth it
 constexpr double kBackAheadM = 3.0;
 constexpr double kRoundingM = 1e-6;
 constexpr double kCreepMps = 0.05;  // of the body origin while the rover turns on the spot
 constexpr double kAtKinkM = 0.15;
-constexpr double kTurnBlockM = 1.5;  // likewise while the rover turns on the spot
-constexpr double kDetourM = 4.0;
-constexpr double kNearPossibleM = 1.5;
-constexpr double kNearBlockM = 3.5;  // nearer blocks are planned for at once, others with the next map
+constexpr double kTurnBlockM = 1.5;     // likewise while the rover turns on the spot
+constexpr double kDetourM = 4.0;        // by which a closed gap makes the way longer, and so is worth remembering
+constexpr double kNearPossibleM = 1.5;  // nearer ones that stay are planned around
+constexpr double kNearBlockM = 3.5;     // nearer blocks are planned for at once, others with the next map
 
 // Whether the rectangle is clear at the second pose, and on the turn to its heading.
 bool clear_turn(const FootprintCheck& check, const Pose2& from, const Pose2& to) {

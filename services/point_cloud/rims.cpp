@@ -1,5 +1,7 @@
 #include "point_cloud/rims.hpp"
 
+#include <vector>
+
 namespace rover::cloud {
 namespace {
 
