@@ -75,10 +75,12 @@ Terrain::Terrain(const HazardMemory& memory, const GroundMap* ground, Reach reac
   if (ground != nullptr) {
     impassable = lay_ground(memory, *ground, origin);
     unseen_ = closed(unseen_, cells_);
+  }
+  if (doubt.most_cells > 0) {
     std::vector<std::uint8_t> sure;
     sure.reserve(unseen_.size());
     for_each_cell([&](CellIndex, const GroundCell& cell) { sure.push_back(cell.hits > 0 ? 1 : 0); });
-    if (doubt.most_cells > 0) drop_doubtful(doubt, sure, impassable);
+    drop_doubtful(doubt, sure, impassable);
   }
   std::vector<std::uint8_t> hazard;
   hazard.reserve(unseen_.size());

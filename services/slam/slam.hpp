@@ -21,8 +21,8 @@ namespace rover::slam {
 struct MotionConfig {
   double along_share = 0.0015;  // standard deviation by the way driven, at random
   double across_share = 0.0015;
-  double scale_share = 0.01;  // by which the told deviation may grow without being noise
   double blind_share = 0.08;  // likewise, both ways, by the way on which wheels alone told
+  double scale_share = 0.01;  // of the way, by which the told deviation may grow without being noise
   double yaw_rad_per_m = to_rad(0.008);
   double yaw_share = 0.0005;  // of the turn
   double still_m = 0.0005;    // least, in each cloud
