@@ -11,8 +11,8 @@ void read_filter(const Config& c, FilterConfig& f) {
   c.read("no_fog_noise_rad_rts", f.no_fog_noise_rad_rts, {1e-7, 1});
   c.read("gyro_bias_sigma_radps", f.gyro_bias_sigma_radps, {0, 1});
   c.read("fog_bias_sigma_radps", f.fog_bias_sigma_radps, {0, 1});
+  c.read("fog_bias_walk_radps_rts", f.fog_bias_walk_radps_rts, {0, 1e-2});
   c.read("gyro_bias_walk_radps_rts", f.gyro_bias_walk_radps_rts, {0, 1});
-  c.read("standing_rate_sigma_radps", f.standing_rate_sigma_radps, {1e-7, 1});
   c.read("force_noise_mps2_rthz", f.force_noise_mps2_rthz, {1e-4, 10});
   c.read("wheel_noise_m_rtm", f.wheel_noise_m_rtm, {1e-3, 10});
   c.read("blind_rate_radps", f.blind_rate_radps, {1e-4, 10});
@@ -61,6 +61,7 @@ LocalizationConfig load_config(const std::string& config_dir) {
   const Config standing = config.section("standing");
   standing.read_deg("rate_degps", out.standing_rate_radps, {0, 90});
   standing.read("after_s", out.standing_s, {0, 60});
+  standing.read("at_rest_after_s", out.at_rest_s, {0, 600});
   const Config levelling = config.section("levelling");
   levelling.read("duration_s", out.levelling.duration_s, {0.1, 60});
   levelling.read("min_gravity_mps2", out.levelling.min_gravity_mps2, {0.1, 30});

@@ -102,7 +102,7 @@ FilterState Filter::advance(FilterState state, const MotionRecord& record, doubl
   state.P = F * state.P * F.transpose();
   state.P.diagonal().segment<3>(kPosition).array() += square(config_.wheel_noise_m_rtm) * moved.norm();
   state.P.block<3, 3>(kAttitude, kAttitude) += R * angle_variance(record).asDiagonal() * R.transpose();
-  state.P.diagonal().segment<3>(kBias).array() += square(config_.gyro_bias_walk_radps_rts) * dt;
+  wander(state, dt);
   state.T_odom_body.translation() += moved;
   if (turning) {
     const Vector3d turned = gyro ? Vector3d(record.delta_angle_rad - state.gyro_bias_radps * dt)
@@ -110,9 +110,15 @@ FilterState Filter::advance(FilterState state, const MotionRecord& record, doubl
     state.T_odom_body.linear() = R * exp_so3(turned);
   }
   state.utime = record.end;
-  if (record.standing && record.gyro) stand(state, record);
+  if (record.at_rest && record.gyro) rest(state, record);
   if (record.force) level(state, R * record.delta_velocity_mps / dt, dt);
   return state;
+}
+
+// Of the angles that the gyros measured over a record.
+Vector3d Filter::gyro_variance(const MotionRecord& record) const {
+  const double z = record.fog ? config_.fog_noise_rad_rts : config_.no_fog_noise_rad_rts;
+  return Vector3d(square(config_.gyro_noise_rad_rts), square(config_.gyro_noise_rad_rts), square(z)) * record.dt_s();
 }
 
 // Of the rotation over a record, in body axes.
@@ -120,17 +126,26 @@ Vector3d Filter::angle_variance(const MotionRecord& record) const {
   if (record.standing) return Vector3d::Zero();
   const double dt = record.dt_s();
   if (!record.gyro) return Vector3d::Constant(square(config_.blind_rate_radps) * dt);
-  const double z = record.fog ? config_.fog_noise_rad_rts : config_.no_fog_noise_rad_rts;
-  return Vector3d(square(config_.gyro_noise_rad_rts), square(config_.gyro_noise_rad_rts), square(z)) * dt;
+  return gyro_variance(record);
 }
 
-// At standstill the gyro measures its bias. Place and heading stay: what the bias did to them on a long drive shows up
-// as metres by correlation, and a rover at rest must not move.
-void Filter::stand(FilterState& state, const MotionRecord& record) const {
+// Of the biases.
+void Filter::wander(FilterState& state, double dt_s) const {
+  const Vector3d walk(config_.gyro_bias_walk_radps_rts, config_.gyro_bias_walk_radps_rts,
+                      config_.fog_bias_walk_radps_rts);
+  state.P.diagonal().segment<3>(kBias) += walk.cwiseAbs2() * dt_s;
+}
+
+// At rest the gyros measure their bias; about z it is the fibre-optic gyro's, of which the other one tells nothing.
+// Place and heading stay: what the bias did to them on a long drive shows up as metres by correlation, and a rover at
+// rest must not move.
+void Filter::rest(FilterState& state, const MotionRecord& record) const {
   Eigen::Matrix<double, 3, kErrorSize> H = Eigen::Matrix<double, 3, kErrorSize>::Zero();
   H.block<3, 3>(0, kBias).setIdentity();
-  const Vector3d r = record.delta_angle_rad / record.dt_s() - state.gyro_bias_radps;
-  update<3>(state, H, r, square(config_.standing_rate_sigma_radps) * Matrix3d::Identity(), {kBias, 3});
+  const double dt = record.dt_s();
+  const Vector3d r = record.delta_angle_rad / dt - state.gyro_bias_radps;
+  const Matrix3d R = (gyro_variance(record) / square(dt)).asDiagonal();
+  update<3>(state, H, r, R, {kBias, record.fog ? 3 : 2});
 }
 
 // Gravity points down on average: R_true f = (1 + [d]x) R f has to be (0, 0, g), and d x g z = (d_y g, -d_x g).
@@ -186,10 +201,9 @@ std::optional<FilterState> Filter::fuse_visual(const FilterState& at_from, const
   G.block<3, 3>(kPosition, kVisualPosition) = -R;
   G.block<3, 3>(kAttitude, kVisualRotation) = -R;
   state.P = G * joint * G.transpose();
-  const double duration = to_seconds(visual.to - visual.from);
-  state.P.diagonal().segment<3>(kBias).array() += square(config_.gyro_bias_walk_radps_rts) * duration;
+  wander(state, to_seconds(visual.to - visual.from));
   for (const MotionRecord& r : records)
-    if (r.standing && r.gyro) stand(state, r);
+    if (r.at_rest && r.gyro) rest(state, r);
   if (gyro.force_s > 0.0) level(state, R * gyro.force_sum / gyro.force_s, gyro.force_s);
   state.P = 0.5 * (state.P + state.P.transpose().eval());
   return state;

@@ -19,16 +19,16 @@
 namespace rover::loc {
 
 struct FilterConfig {
-  double gyro_noise_rad_rts = 6e-5;     // angle random walk; STIM300: 0.15 deg/sqrt(h) = 4.4e-5
-  double fog_noise_rad_rts = 1e-5;      // of the fibre-optic gyro about z; KVH DSP-1760: 3.5e-6, misalignment
-  double no_fog_noise_rad_rts = 3e-4;   // of the gyro about z, its bias unknown, in place of a silent fibre-optic one
-  double gyro_bias_sigma_radps = 8e-5;  // after levelling
-  double fog_bias_sigma_radps = 1.5e-5;
-  double gyro_bias_walk_radps_rts = 1e-7;
-  double standing_rate_sigma_radps = 5e-4;  // of one tick's rate at standstill
-  double force_noise_mps2_rthz = 0.10;      // the rover's own acceleration, bumps included, averaged over 1 s
-  double wheel_noise_m_rtm = 0.15;          // standard deviation after 1 m on wheels alone
-  double blind_rate_radps = 0.05;           // per sqrt(s): attitude without a gyro, on wheels alone
+  double gyro_noise_rad_rts = 6e-5;       // angle random walk; STIM300: 0.15 deg/sqrt(h) = 4.4e-5
+  double fog_noise_rad_rts = 7e-6;        // of the fibre-optic gyro about z; KVH DSP-1760: 3.5e-6, misalignment
+  double no_fog_noise_rad_rts = 3e-4;     // of the gyro about z, its bias unknown, in place of a silent fibre-optic one
+  double gyro_bias_sigma_radps = 2.5e-5;  // after levelling
+  double fog_bias_sigma_radps = 4e-6;
+  double gyro_bias_walk_radps_rts = 1e-7;  // STIM300: 0.3 deg/h over 600 s
+  double fog_bias_walk_radps_rts = 3e-8;   // KVH DSP-1760: 0.05 deg/h = 1.4e-8
+  double force_noise_mps2_rthz = 0.10;     // the rover's own acceleration, bumps included, averaged over 1 s
+  double wheel_noise_m_rtm = 0.15;         // standard deviation after 1 m on wheels alone
+  double blind_rate_radps = 0.05;          // per sqrt(s): attitude without a gyro, on wheels alone
   // Visual odometry knows its noise, not the error of calibration, which follows the same weak directions: with 0.2 px
   // of it, motions over rendered ground are off by 3 to 6 of its sigma.
   double visual_cov_factor = 10.0;
@@ -77,9 +77,11 @@ class Filter {
                                          const VisualInterval& visual) const;
 
  private:
+  Eigen::Vector3d gyro_variance(const MotionRecord& record) const;
   Eigen::Vector3d angle_variance(const MotionRecord& record) const;
+  void wander(FilterState& state, double dt_s) const;
   void level(FilterState& state, const Eigen::Vector3d& mean_force_odom, double duration_s) const;
-  void stand(FilterState& state, const MotionRecord& record) const;
+  void rest(FilterState& state, const MotionRecord& record) const;
 
   FilterConfig config_;
   double gravity_mps2_ = 0.0;

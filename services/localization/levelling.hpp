@@ -9,7 +9,7 @@
 namespace rover::loc {
 
 struct LevellingConfig {
-  double duration_s = 1.0;        // of standing
+  double duration_s = 10.0;  // of standing; the gyros' biases, on which the heading drifts later, are known as well
   double min_gravity_mps2 = 1.0;  // the mean specific force is taken as gravity: Mars 3.7, Earth 9.8
   double max_gravity_mps2 = 12.0;
 };

@@ -18,7 +18,7 @@ Eigen::Vector3d planar_motion(const Eigen::Isometry3d& T) {
 
 MotionRecord without_gyro(MotionRecord record) {
   record.gyro = false;
-  record.standing = false;
+  record.standing = record.at_rest = false;
   return record;
 }
 
@@ -226,6 +226,7 @@ void Localization::judge_standing(MotionRecord& record) {
   }
   still_s_ += record.dt_s();
   record.standing = still_s_ >= config_.standing_s;
+  record.at_rest = record.standing && still_s_ >= config_.at_rest_s;
 }
 
 void Localization::initialise(const MotionRecord& record) {

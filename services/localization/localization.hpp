@@ -46,6 +46,7 @@ struct LocalizationConfig {
   double nothing_lost_s = 1.0;                // without wheels and visual odometry: LOST
   double standing_rate_radps = to_rad(0.15);  // gyro below, wheels still: the rover stands
   double standing_s = 0.4;                    // after so long
+  double at_rest_s = 5.0;                     // after so long its body has stopped rocking
   double smoothing_s = 0.4;                   // time constant with which the pose takes up late corrections
   int conflicts_until_imu_suspect = 5;        // visual motions in a row that contradict the gyro
   double max_speed_mps = 20.0;                // a faster visual motion is nonsense

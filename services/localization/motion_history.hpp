@@ -20,6 +20,7 @@ struct MotionRecord {
   bool force = false;     // delta_velocity_mps is measured
   bool wheels = false;    // turned_rad is measured
   bool standing = false;  // the wheels have stood for a while and the gyro sees no turning
+  bool at_rest = false;   // so long that the body rocks no more: what the gyros measure is their bias
   Eigen::Vector3d delta_angle_rad = Eigen::Vector3d::Zero();  // as measured, with bias
   Eigen::Vector3d delta_velocity_mps = Eigen::Vector3d::Zero();
   Eigen::Vector3d wheel_motion = Eigen::Vector3d::Zero();  // dx, dy [m], dyaw [rad] without slip

@@ -19,11 +19,15 @@ double FullPlanner::held_cost(const CurveProblem& problem, const HeldWay& held) 
   return cost;
 }
 
+GoalField FullPlanner::goal_field(const FullRequest& request) const {
+  return {config_.goal,
+          {request.terrain, request.global, request.from_m, position(request.rover), request.footprint.half_width_m,
+           request.tight_margin_m, request.goal_reach_m, request.dead_ends}};
+}
+
 // The lattice lets through what almost fits; where that leads the search astray, one that does not is asked.
 FullPlan FullPlanner::plan(const FullRequest& request) const {
-  const GoalField field(
-      config_.goal, {request.terrain, request.global, request.from_m, position(request.rover),
-                     request.footprint.half_width_m, request.tight_margin_m, request.goal_reach_m, request.dead_ends});
+  const GoalField field = goal_field(request);
   FullPlan out;
   if (!field.reachable()) return out;
   out = plan_on(request, field, kSlackM);
@@ -76,6 +80,22 @@ FullPlan FullPlanner::plan_on(const FullRequest& request, const GoalField& field
     for (const Pose2& pose : request.held->poses) out.clearance_m = tight.clearance_m(pose, out.clearance_m);
   out.end_station_m = field.station_m(position(out.plan.poses.back()));
   return out;
+}
+
+std::vector<Point2> FullPlanner::way_out(const FullRequest& request, double least_way_m) const {
+  const GoalField field = goal_field(request);
+  if (!field.reachable()) return {};
+  const HeadingField headings(config_.search, {.terrain = request.terrain,
+                                               .goal = field,
+                                               .footprint = request.footprint,
+                                               .rover = request.rover,
+                                               .roomy_margin_m = request.roomy_margin_m,
+                                               .turn_margin_m = request.turn_margin_m,
+                                               .tight_margin_m = request.tight_margin_m,
+                                               .slack_m = -kSlackM,
+                                               .spared_m = -1.0});
+  const FootprintCheck check(request.terrain, request.footprint, config_.squeeze_margin_m, 0.0, request.rover);
+  return back_out(config_.back_out, {headings, check, request.rover, least_way_m, config_.search.max_curvature_per_m});
 }
 
 }  // namespace rover::planning

@@ -243,13 +243,15 @@ bool PathPlanner::strayed() const {
 // there is room to turn; further each time, and what led here costs more from now on. False where there is no track, or
 // where that has been tried enough.
 bool PathPlanner::retreat(PlannerOutput& out) {
+  if (retreats_ >= (continuous() ? config_.full.most_retreats : config_.most_retreats)) return false;
+  dead_ends_.push_back(position(rover()));
   std::vector<Point2> back = driven_.back(position(rover()), (1 + retreats_) * config_.retreat_m);
   if (continuous()) back = way_back(back);
-  if (back.size() < 2 || retreats_ >= (continuous() ? config_.full.most_retreats : config_.most_retreats) ||
-      distance(back.front(), back.back()) < kLeastRetreatM)
+  if (back.size() < 2 || distance(back.front(), back.back()) < kLeastRetreatM) {
+    dead_ends_.pop_back();
     return false;
+  }
   ++retreats_;
-  dead_ends_.push_back(position(rover()));
   failures_ = 0;
   turning_ = false;  // whatever turn was begun, the rover backs out of it
   std::vector<RoutePoint> points;

@@ -13,6 +13,7 @@ constexpr double kLeastHeldM = 0.3;
 constexpr double kLeadM = 0.25;  // of the way being driven, with which a new plan begins
 constexpr double kHalfCellM = 0.05;
 constexpr double kControlM = 0.05;
+constexpr double kLeastWayOutM = 0.6;
 constexpr double kBackRadiusM = 2.0;  // of the way from a plan's end back to the global path
 constexpr double kBackReserveM = 0.1;
 constexpr double kBackMarginM = 0.05;  // the rover has been there
@@ -184,9 +185,12 @@ std::optional<HeldWay> PathPlanner::held_way() const {
   return held;
 }
 
-// The driven track, as far as the rectangle passes it; where it begins with a turn, straight back over known ground if
-// that is free: there may be no room to turn.
+// To where a way leads on, if such a place is known; else the driven track, as far as the rectangle passes it; where
+// that begins with a turn, straight back over known ground if that is free: there may be no room to turn.
 std::vector<Point2> PathPlanner::way_back(const std::vector<Point2>& track) const {
+  const Terrain ground(memory_, &ground_, Terrain::Reach::kGround);
+  std::vector<Point2> out = full_planner_.way_out(full_request(ground), kLeastWayOutM);
+  if (out.size() > 1) return out;
   const double way_m = (1 + retreats_) * config_.retreat_m;
   const std::vector<Point2> straight = straight_back(way_m);
   const double straight_m = distance(straight.front(), straight.back());

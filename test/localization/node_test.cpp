@@ -23,9 +23,15 @@ namespace {
 
 const std::string kConfig = std::string(ROVER_SOURCE_DIR) + "/config";
 
+LocalizationConfig soon_level() {
+  LocalizationConfig config = load_config(kConfig);
+  config.levelling.duration_s = 1.0;
+  return config;
+}
+
 class LocalizationNodeTest : public testing::Test {
  protected:
-  LocalizationNodeTest() : world_("localization"), node_(world_.node(), load_config(kConfig), load_vehicle(kConfig)) {
+  LocalizationNodeTest() : world_("localization"), node_(world_.node(), soon_level(), load_vehicle(kConfig)) {
     world_.hear(channel::kPose, poses_);
     world_.hear(channel::kSlip, slips_);
     world_.hear(channel::kCommandAck, acks_);
@@ -133,7 +139,7 @@ class Process {
         node_({.name = "localization", .boot_id = boot_id, .run_dir = folder}, bus_) {
     hear(channel::kPose, poses);
     hear(channel::kServiceState, states);
-    service_ = std::make_unique<LocalizationNode>(node_, load_config(kConfig), load_vehicle(kConfig));
+    service_ = std::make_unique<LocalizationNode>(node_, soon_level(), load_vehicle(kConfig));
   }
 
   void run(double seconds, double speed_mps = 0.0) {
@@ -220,6 +226,8 @@ TEST(LocalizationConfigFile, HasTheStructsDefaults) {
   const LocalizationConfig defaults;
   EXPECT_EQ(file.filter.visual_scale_sigma, defaults.filter.visual_scale_sigma);
   EXPECT_EQ(file.filter.visual_cov_factor, defaults.filter.visual_cov_factor);
+  EXPECT_EQ(file.filter.fog_bias_sigma_radps, defaults.filter.fog_bias_sigma_radps);
+  EXPECT_EQ(file.levelling.duration_s, defaults.levelling.duration_s);
   EXPECT_EQ(file.standing_rate_radps, defaults.standing_rate_radps);
   EXPECT_EQ(file.slip.window_s, defaults.slip.window_s);
   EXPECT_EQ(file.blind_distance_m, defaults.blind_distance_m);

@@ -38,6 +38,14 @@ struct Twist {
   double rate_radps = 0.0;
 };
 
+// A second of standing, and what is known of the gyros after that.
+inline LocalizationConfig soon_level(LocalizationConfig config) {
+  config.levelling.duration_s = 1.0;
+  config.filter.gyro_bias_sigma_radps = 8e-5;
+  config.filter.fog_bias_sigma_radps = 1.5e-5;
+  return config;
+}
+
 class SyntheticDrive {
  public:
   std::function<Twist(double)> command = [](double) { return Twist{}; };
@@ -55,7 +63,7 @@ class SyntheticDrive {
   std::function<void(VisualMotion&)> spoil_visual = [](VisualMotion&) {};
 
   SyntheticDrive(const LocalizationConfig& config, std::uint64_t seed, const DriveNoise& noise = {})
-      : localization(config, test_vehicle()), noise_(noise), wheels_(test_vehicle()), random_(seed) {
+      : localization(soon_level(config), test_vehicle()), noise_(noise), wheels_(test_vehicle()), random_(seed) {
     gyro_bias_ = noise.gyro_bias * normal3();
     gyro_bias_z_fog_ = noise.fog_bias * normal_(random_);
     scale_ = noise.visual_scale * normal_(random_);

@@ -258,6 +258,43 @@ TEST(FullPlanner, EnclosedThereIsNoPlan) {
   EXPECT_FALSE(plan.plan.found);
 }
 
+// Ends of a channel too narrow to turn in, 3.5 m from its mouth.
+TEST(FullPlanner, OutOfADeadEndItBacksToWhereAWayLeadsOn) {
+  const auto channel = [](Point2 p) {
+    const bool sides = std::abs(std::abs(p.y_m) - 0.85) < 0.1 && p.x_m > -2.5 && p.x_m < 1.4;
+    const bool end = std::abs(p.x_m - 1.3) < 0.1 && std::abs(p.y_m) < 0.95;
+    return sides || end ? TraversabilityGrid::kImpassable : kFree;
+  };
+  const Ground ground(channel);
+  ASSERT_FALSE(ground.plan().plan.found);
+  const Terrain terrain(ground.memory, &ground.map, Terrain::Reach::kGround);
+  const std::vector<Point2> back = FullPlanner(planner_config().full).way_out(ground.request(terrain), 0.6);
+  ASSERT_GT(back.size(), 10U);
+  EXPECT_EQ(back.front().x_m, 0.0);
+  EXPECT_EQ(back.front().y_m, 0.0);
+  for (size_t i = 1; i < back.size(); ++i) EXPECT_LT(distance(back[i - 1], back[i]), 0.051);
+  const Point2 end = back.back(), before = back[back.size() - 2];
+  EXPECT_LT(end.x_m, -2.5);
+  const Pose2 there{end.x_m, end.y_m, std::atan2(before.y_m - end.y_m, before.x_m - end.x_m)};
+  EXPECT_TRUE(ground.plan(there).plan.found);
+}
+
+TEST(FullPlanner, EnclosedOrByUnseenGroundThereIsNoWayOut) {
+  const auto way_out = [](const std::function<std::uint8_t(Point2)>& cost) {
+    const Ground ground(cost);
+    const Terrain terrain(ground.memory, &ground.map, Terrain::Reach::kGround);
+    return FullPlanner(planner_config().full).way_out(ground.request(terrain), 0.6);
+  };
+  EXPECT_TRUE(way_out([](Point2 p) {
+                const double r = distance(p, {0.0, 0.0});
+                return r > 2.0 && r < 2.3 ? TraversabilityGrid::kImpassable : kFree;
+              }).empty());
+  EXPECT_TRUE(way_out([](Point2 p) {
+                if (p.x_m < -1.0) return TraversabilityGrid::kUnknown;
+                return p.x_m > 1.2 && p.x_m < 1.4 ? TraversabilityGrid::kImpassable : kFree;
+              }).empty());
+}
+
 // Ground beside the rover that no camera has seen is not driven on; ground further ahead is, for there the cameras come
 // first.
 TEST(FullPlanner, UnknownGroundNearbyIsNotEnteredFurtherOnItCostsMore) {
@@ -419,7 +456,7 @@ TEST_F(FullLevel, WhereThereIsNoRoomToTurnTheRoverGoesStraightBack) {
   ASSERT_EQ(rig.paths.back().kind, PathKind::kRetreat);
   const Point2 end = to_body(there, rig.paths.back().points.back().p);
   EXPECT_LT(end.x_m, -0.5);
-  EXPECT_NEAR(end.y_m, 0.0, 0.05);
+  for (const RoutePoint& point : rig.paths.back().points) EXPECT_NEAR(to_body(there, point.p).y_m, 0.0, 0.2);
 }
 
 // The track that a retreat leads over lies in odom: when map moves it stays what it is, and free.
