@@ -113,9 +113,10 @@ Correction GlobalLocalization::correct(const Prior& prior) const {
   filter.sigma_cells = std::hypot(filter.sigma_cells, config_.map_blur_cells);
   const TerrainTemplate terrain = terrain_template(mosaic_.resampled(orbital_.lattice.cell_m), filter);
   out.area_m2 = terrain.area_m2();
-  const Relief relief = relief_of(terrain);
-  out.expected_sigma_m = std::sqrt(noise_density() / relief.shift_m2);
-  out.expected_sigma_rad = std::sqrt(noise_density() / relief.turn_m4);
+  const Eigen::Matrix3d expected =
+      at_body(noise_density() * covariance_by_relief(terrain), prior.p_odom_body - terrain.center_odom);
+  out.expected_sigma_m = largest_sigma(expected);
+  out.expected_sigma_rad = std::sqrt(expected(2, 2));
   if (out.area_m2 < config_.acceptance.min_area_m2) {
     out.reason = "too little ground seen";
   } else if (!featured(out)) {

@@ -71,7 +71,7 @@ struct Correction {
   double residual_m = kNaN;                               // of the heights, here
   double second_residual_m = kNaN;                        // and at the next best place
   double area_m2 = 0.0;                                   // seen
-  double expected_sigma_m = kNaN;                         // by relief and the map's noise, in the weakest direction
+  double expected_sigma_m = kNaN;  // of the body, by relief and the map's noise, in the weakest direction
   double expected_sigma_rad = kNaN;
   double sigma_m = kNaN;  // of the match, in the weakest direction
 };

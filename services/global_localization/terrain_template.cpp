@@ -42,7 +42,7 @@ TerrainTemplate terrain_template(const HeightGrid& local, const PlaneConfig& con
   return out;
 }
 
-Relief relief_of(const TerrainTemplate& terrain) {
+Eigen::Matrix3d covariance_by_relief(const TerrainTemplate& terrain) {
   // Change of height for a shift along x, y and a turn; their form about the means takes the offset out.
   Eigen::Matrix3d form = Eigen::Matrix3d::Zero();
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -51,13 +51,9 @@ Relief relief_of(const TerrainTemplate& terrain) {
     form += change * change.transpose();
     sum += change;
   }
-  if (terrain.samples.empty()) return {};
-  form = terrain.sample_area_m2 * (form - sum * sum.transpose() / static_cast<double>(terrain.samples.size()));
-  // What is left of each unknown when the others may change too: the inverse of the covariance's parts.
-  const Eigen::Matrix3d covariance = (form + kLeastForm * Eigen::Matrix3d::Identity()).inverse();
-  const double shift =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(covariance.topLeftCorner<2, 2>()).eigenvalues()(1);
-  return {1.0 / shift, 1.0 / covariance(2, 2)};
+  const double count = std::max<double>(1.0, static_cast<double>(terrain.samples.size()));
+  form = terrain.sample_area_m2 * (form - sum * sum.transpose() / count);
+  return (form + kLeastForm * Eigen::Matrix3d::Identity()).inverse();
 }
 
 }  // namespace rover::global

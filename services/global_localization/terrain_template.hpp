@@ -26,14 +26,9 @@ struct TerrainTemplate {
 
 TerrainTemplate terrain_template(const HeightGrid& local, const PlaneConfig& config);
 
-// How much the ground tells of its place: the sum over the seen area of the square of the height's change,
-// less what an offset in height and the other unknowns would explain. With noise of density S [m^2 m^2] in the map, a
-// place is known to sqrt(S / shift) metres and a direction to sqrt(S / turn) radians. Even ground and ground of one
-// slope have none.
-struct Relief {
-  double shift_m2 = 0.0;  // for a shift by one metre in the direction in which it tells least
-  double turn_m4 = 0.0;   // for a turn by one radian
-};
-Relief relief_of(const TerrainTemplate& terrain);
+// How well the ground tells its place: the covariance of the centre's x, y and of the turn (odom axes), for noise of
+// density 1 m^2 m^2 in the map. From the sum over the seen area of the square of the height's change, less what an
+// offset in height would explain. Even ground and ground of one slope tell next to nothing.
+Eigen::Matrix3d covariance_by_relief(const TerrainTemplate& terrain);
 
 }  // namespace rover::global

@@ -33,6 +33,8 @@ void read_slip(const Config& c, SlipConfig& s) {
 
 void read_map(const Config& c, MapAlignmentConfig& m) {
   c.read("gate_chi2", m.gate_chi2, {0.1, 1000});
+  c.read("widened_m", m.widened_m, {0, 100});
+  c.read_deg("widened_deg", m.widened_rad, {0, 90});
   c.read("slam_rate_mps", m.slam_rate_mps, {0, 1});
   c.read_deg("slam_rate_degps", m.slam_rate_radps, {0, 90});
 }

@@ -81,11 +81,12 @@ std::string_view Localization::take_correction(const MapMeasurement& measurement
   if (const auto flaw = flaw_of(measurement); !flaw.empty()) return flaw;
   const auto T_odom_body = pose_at(measurement.utime);
   if (!T_odom_body) return "of a time that is forgotten or to come";
-  const auto refusal = map_.take_correction(measurement, *T_odom_body, tip_.P);
+  // global_localization looks further than the pose's own covariance goes, which is optimistic after long drives.
+  const bool surprised = map_.known() && !map_.consistent(measurement, *T_odom_body, tip_.P);
+  const auto refusal = map_.take_correction(measurement, *T_odom_body, surprised ? map_.widened(tip_.P) : tip_.P);
   if (!refusal.empty()) return refusal;
-  latest_.P = map_.updated(latest_.P, measurement.cov);
-  tip_.P = map_.updated(tip_.P, measurement.cov);
-  chain_.anchor().P = map_.updated(chain_.anchor().P, measurement.cov);
+  for (ErrorCov* P : {&latest_.P, &tip_.P, &chain_.anchor().P})
+    *P = map_.updated(surprised ? map_.widened(*P) : *P, measurement.cov);
   return {};
 }
 

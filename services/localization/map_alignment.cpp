@@ -75,16 +75,28 @@ void MapAlignment::shift(const Eigen::Vector3d& delta, const Eigen::Isometry3d& 
   T_map_odom_ = make_pose(R, moved - R * T_odom_body.translation());
 }
 
+bool MapAlignment::consistent(const MapMeasurement& m, const Eigen::Isometry3d& T_odom_body, const ErrorCov& P) const {
+  const Eigen::Vector3d apart = innovation(m, T_odom_body);
+  const Eigen::Matrix3d S = planar_cov(P) + m.cov;
+  return apart.dot(S.inverse() * apart) <= config_.gate_chi2;
+}
+
+ErrorCov MapAlignment::widened(ErrorCov P) const {
+  for (const int i : kPlanar) {
+    const double more = i == kAttitude + 2 ? config_.widened_rad : config_.widened_m;
+    P(i, i) += more * more;
+  }
+  return P;
+}
+
 std::string_view MapAlignment::take_correction(const MapMeasurement& m, const Eigen::Isometry3d& T_odom_body,
                                                const ErrorCov& P) {
   if (!known_) return "no start pose yet";
   if (m.utime <= newest_correction_) return "older than one already taken";
-  const Eigen::Vector3d apart = innovation(m, T_odom_body);
-  const Eigen::Matrix3d S = planar_cov(P) + m.cov;
-  if (apart.dot(S.inverse() * apart) > config_.gate_chi2) return "further off than its covariance and ours allow";
+  if (!consistent(m, T_odom_body, P)) return "further off than its covariance and ours allow";
   newest_correction_ = m.utime;
   pending_.setZero();
-  shift(gained(apart, P, m.cov), T_odom_body);
+  shift(gained(innovation(m, T_odom_body), P, m.cov), T_odom_body);
   return {};
 }
 
@@ -92,10 +104,8 @@ std::string_view MapAlignment::take_slam(const MapMeasurement& m, const Eigen::I
                                          const ErrorCov& P) {
   if (!known_) return "no start pose yet";
   if (m.utime <= newest_correction_) return "older than a correction already taken";
-  const Eigen::Vector3d apart = innovation(m, T_odom_body);
-  const Eigen::Matrix3d S = planar_cov(P) + m.cov;
-  if (apart.dot(S.inverse() * apart) > config_.gate_chi2) return "further off than its covariance and ours allow";
-  pending_ = gained(apart, P, m.cov);
+  if (!consistent(m, T_odom_body, P)) return "further off than its covariance and ours allow";
+  pending_ = gained(innovation(m, T_odom_body), P, m.cov);
   return {};
 }
 

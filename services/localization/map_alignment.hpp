@@ -13,7 +13,11 @@
 namespace rover::loc {
 
 struct MapAlignmentConfig {
-  double gate_chi2 = 16.3;      // 99.9 % of three degrees of freedom
+  double gate_chi2 = 16.3;  // 99.9 % of three degrees of freedom
+  // By which the pose may be further off than it believes when a correction comes: what global_localization looks for
+  // (a third of its window), so that it finds nothing that is refused here.
+  double widened_m = 4.0;
+  double widened_rad = to_rad(4.0);
   double slam_rate_mps = 0.02;  // how fast SLAM may move map against odom
   double slam_rate_radps = to_rad(0.3);
 };
@@ -31,7 +35,12 @@ class MapAlignment {
   void set_start(const StartPose& start, const Eigen::Isometry3d& T_odom_body);
   void restore(const Eigen::Isometry3d& T_map_odom);
 
-  // At once. `T_odom_body`: at the measurement's time; `P`: of the newest state. Empty text where taken.
+  // Whether the measurement lies where its covariance and that of the pose allow. `T_odom_body`: at its time; `P`: of
+  // the newest state.
+  bool consistent(const MapMeasurement& m, const Eigen::Isometry3d& T_odom_body, const ErrorCov& P) const;
+  // Of a pose that turned out to be further off than it believed.
+  ErrorCov widened(ErrorCov P) const;
+  // At once. Empty text where taken.
   std::string_view take_correction(const MapMeasurement& m, const Eigen::Isometry3d& T_odom_body, const ErrorCov& P);
   // By and by, in step().
   std::string_view take_slam(const MapMeasurement& m, const Eigen::Isometry3d& T_odom_body, const ErrorCov& P);

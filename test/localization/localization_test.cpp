@@ -433,6 +433,27 @@ TEST(Localization, CorrectionMovesMapAgainstOdom) {
   EXPECT_NE(drive.localization.take_correction(m), "") << "beyond the gate";
 }
 
+// global_localization looks 12 m far whatever the pose believes; what it finds is taken, and the covariance owns up.
+TEST(Localization, ACorrectionBeyondThePosesCovarianceIsTakenAsFarAsTheWindowGoes) {
+  SyntheticDrive drive({}, 17);
+  drive.command = arc;
+  drive.begin(0.1, 0.005);
+  drive.run(20.0);
+  const PoseEstimate before = drive.localization.pose();
+  ASSERT_LT(std::sqrt(before.cov(0, 0)), 0.5);
+  MapMeasurement m;
+  m.utime = before.utime - 400'000;
+  m.T_map_odom = planar(before.T_map_odom);
+  m.T_map_odom.x_m += 6.0;
+  m.cov = Vector3d(0.09, 0.09, 1e-4).asDiagonal();
+  EXPECT_EQ(drive.localization.take_correction(m), "");
+  drive.run(0.02);
+  const PoseEstimate after = drive.localization.pose();
+  EXPECT_NEAR(after.T_map_odom.translation().x(), before.T_map_odom.translation().x() + 6.0, 0.2);
+  EXPECT_GT(std::sqrt(after.cov(0, 0)), 0.2) << "no better than the correction";
+  EXPECT_LT(std::sqrt(after.cov(0, 0)), 0.4);
+}
+
 TEST(Localization, SlamMovesTheMapSlowly) {
   LocalizationConfig config;
   SyntheticDrive drive(config, 18);
