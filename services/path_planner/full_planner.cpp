@@ -31,7 +31,7 @@ FullPlan FullPlanner::plan(const FullRequest& request) const {
   FullPlan out;
   if (!field.reachable()) return out;
   out = plan_on(request, field, kSlackM);
-  return out.plan.found ? out : plan_on(request, field, -kSlackM);
+  return out.plan.found || out.hopeless ? out : plan_on(request, field, -kSlackM);
 }
 
 FullPlan FullPlanner::plan_on(const FullRequest& request, const GoalField& field, double slack_m) const {
@@ -39,6 +39,10 @@ FullPlan FullPlanner::plan_on(const FullRequest& request, const GoalField& field
   const HeadingField headings(config_.search,
                               {request.terrain, field, request.footprint, request.rover, request.roomy_margin_m,
                                request.turn_margin_m, request.tight_margin_m, slack_m});
+  // With less room there is no more of a way.
+  out.hopeless =
+      !request.held && std::isinf(headings.to_go(request.start)) && std::isinf(headings.to_go_turning(request.stopped));
+  if (out.hopeless) return out;
   const auto check = [&](double margin_m) {
     return FootprintCheck(request.terrain, request.footprint, margin_m, kSeenAboutM, request.rover);
   };

@@ -60,8 +60,9 @@ struct FullRequest {
 };
 
 struct FullPlan {
-  CurvePlan plan;     // from the held way's end, or from the start
-  bool held = false;  // goes on from the held way
+  CurvePlan plan;         // from the held way's end, or from the start
+  bool held = false;      // goes on from the held way
+  bool hopeless = false;  // by the lattice nothing leads on from the rover
   double clearance_m = kNaN;
   double end_station_m = kNaN;  // along the global path
 };

@@ -185,12 +185,15 @@ std::optional<HeldWay> PathPlanner::held_way() const {
   return held;
 }
 
-// To where a way leads on, if such a place is known; else the driven track, as far as the rectangle passes it; where
+// To where a way leads on, if such a place is known, small spots of the map disregarded if need be: the LocCam, which
+// passed them on the way here, did not confirm them. Else the driven track, as far as the rectangle passes it; where
 // that begins with a turn, straight back over known ground if that is free: there may be no room to turn.
 std::vector<Point2> PathPlanner::way_back(const std::vector<Point2>& track) const {
-  const Terrain ground(memory_, &ground_, Terrain::Reach::kGround);
-  std::vector<Point2> out = full_planner_.way_out(full_request(ground), kLeastWayOutM);
-  if (out.size() > 1) return out;
+  for (const int doubt_cells : {0, config_.full.doubt_cells}) {
+    const Terrain ground(memory_, &ground_, Terrain::Reach::kGround, {position(rover()), 0.0, doubt_cells});
+    std::vector<Point2> out = full_planner_.way_out(full_request(ground), kLeastWayOutM);
+    if (out.size() > 1) return out;
+  }
   const double way_m = (1 + retreats_) * config_.retreat_m;
   const std::vector<Point2> straight = straight_back(way_m);
   const double straight_m = distance(straight.front(), straight.back());
