@@ -459,6 +459,32 @@ TEST_F(FullLevel, WhereThereIsNoRoomToTurnTheRoverGoesStraightBack) {
   for (const RoutePoint& point : rig.paths.back().points) EXPECT_NEAR(to_body(there, point.p).y_m, 0.0, 0.2);
 }
 
+// From near the gap is closed, from afar it looks open again: the rover does not turn back for it.
+TEST_F(FullLevel, AGapThatWasFoundClosedIsNotTriedAgainFromAfar) {
+  const auto gaps = [](bool near_open) {
+    return [=](Point2 p) {
+      const bool gap = (near_open && std::abs(p.y_m) < 1.0) || std::abs(p.y_m - 6.0) < 1.5;
+      return std::abs(p.x_m - 4.0) < 0.15 && !gap ? TraversabilityGrid::kImpassable : kFree;
+    };
+  };
+  const auto y_at_wall = [&] {
+    for (const RoutePoint& point : rig.paths.back().points)
+      if (point.p.x_m >= 4.0) return point.p.y_m;
+    return kNaN;
+  };
+  rig.planner.set_level(true);
+  send_map(gaps(true));
+  rig.step();
+  rig.go(0.5);
+  EXPECT_NEAR(y_at_wall(), 0.0, 0.6);
+  send_map(gaps(false));
+  rig.look(1);
+  EXPECT_NEAR(y_at_wall(), 6.0, 1.2);
+  send_map(gaps(true));
+  rig.look(1);
+  EXPECT_NEAR(y_at_wall(), 6.0, 1.2) << "the gap that was closed looks open again";
+}
+
 // The track that a retreat leads over lies in odom: when map moves it stays what it is, and free.
 TEST_F(FullLevel, ACorrectionOfTheMapLeavesARetreatAlone) {
   rig.planner.set_level(true);
