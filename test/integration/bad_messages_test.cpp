@@ -61,7 +61,7 @@ namespace fs = std::filesystem;
 
 const std::string kConfig = std::string(ROVER_SOURCE_DIR) + "/config";
 constexpr Utime kStart = 1'000'000;
-constexpr Utime kEnd = kStart + 5'000'000;  // a tick with heartbeats
+constexpr Utime kEnd = kStart + 14'000'000;  // levelled after 10 s of standing; a tick with heartbeats
 constexpr Utime kFramePeriod = 400'000;
 constexpr Utime kCameraLatency = 60'000;
 

@@ -2,7 +2,7 @@
 # The same scenario and seed give the same run, on an idle and on a loaded machine.
 . "$(dirname "$0")/lib.sh"
 
-default_for 60 "$WORK/short.yaml"
+default_for 70 "$WORK/short.yaml"
 drive "$WORK/alone" "$WORK/short.yaml" || true
 yes >/dev/null &
 load=$!

@@ -4,7 +4,7 @@
 . "$(dirname "$0")/lib.sh"
 cd "$SOURCE"
 
-default_for 10 "$WORK/short.yaml"
+default_for 19 "$WORK/short.yaml"
 drive "$WORK/run" "$WORK/short.yaml" --headless >/dev/null || true
 "$BUILD/bin/rover_export" "$WORK/run" >"$WORK/out" || fail "export: $(cat "$WORK/out")"
 out=$WORK/run/export

@@ -22,7 +22,7 @@ for channel in PTU_COMMAND CLOUD ELEVATION SLAM_POSE TRAVERSABILITY PATH; do
   grep -qE "^$channel .* [1-9][0-9]* identical$" "$WORK/out" || fail "$channel was not compared: $(cat "$WORK/out")"
 done
 
-default_for 12 "$WORK/default.yaml"
+default_for 21 "$WORK/default.yaml"
 drive "$WORK/efficient" "$WORK/default.yaml" --headless >/dev/null 2>&1 || true
 [ -e "$WORK/efficient/services/stereo" ] || fail "no services"
 [ ! -e "$WORK/efficient/services/slam" ] || fail "slam runs at the Efficient level"

@@ -16,7 +16,7 @@ refused() {
   [ ! -e "$WORK/refused" ] || fail "$name: leaves a folder"
 }
 
-default_for 12 "$WORK/short.yaml"
+default_for 21 "$WORK/short.yaml"
 drive "$WORK/run" "$WORK/short.yaml" --headless >/dev/null || true
 [ -s "$WORK/run/traverse.lcm" ] || fail "no log"
 
