@@ -1,6 +1,5 @@
-// Where no way leads on: stern first to the nearest place from which one does, to and fro where there is no room for
-// that. Dijkstra over arcs in both directions (Reeds and Shepp, Pacific J. Math. 1990); the field over places and
-// headings tells from where a way leads on.
+// Where no way leads on: the way back, stern first, to the nearest place from which one does. Dijkstra over reverse
+// arcs (as the forward pieces of hybrid A*); the field over places and headings tells from where a way leads on.
 #pragma once
 
 #include <vector>
@@ -10,10 +9,8 @@
 namespace rover::planning {
 
 struct BackOutConfig {
-  double most_way_m = 6.0;     // on ground that is known
-  double way_cost = 2.0;       // per metre of it, against what then is left
-  double change_cost_m = 1.0;  // of each change of direction
-  int most_expansions = 20'000;
+  double most_way_m = 6.0;  // stern first, on ground that is known
+  double way_cost = 2.0;    // per metre of it, against what then is left forwards
 };
 
 struct BackOutProblem {
@@ -24,12 +21,7 @@ struct BackOutProblem {
   double max_curvature_per_m = 0.0;
 };
 
-struct BackOut {
-  std::vector<Point2> way;  // in odom, the rover's place first, up to the first change of direction
-  bool ahead = false;       // bow first
-};
-
-// An empty way: nothing within reach leads on.
-BackOut back_out(const BackOutConfig& config, const BackOutProblem& problem);
+// Places in odom, the rover's first; empty where nothing within reach leads on.
+std::vector<Point2> back_out(const BackOutConfig& config, const BackOutProblem& problem);
 
 }  // namespace rover::planning

@@ -108,8 +108,6 @@ void read_full(const Config& c, const PathPlannerConfig& shared, FullPlannerConf
   const Config back_out = c.section("back_out");
   back_out.read("most_way_m", out.back_out.most_way_m, {0.5, 20.0});
   back_out.read("way_cost", out.back_out.way_cost, {0.1, 20.0});
-  back_out.read("change_cost_m", out.back_out.change_cost_m, {0.0, 20.0});
-  back_out.read("most_expansions", out.back_out.most_expansions, {100, 1'000'000});
   out.turn_extra_m = shared.repair.turn_extra_m;
   double map_side_m = out.map_cells * shared.memory.cell_m;
   c.read("map_side_m", map_side_m, {16.0, 60.0});

@@ -16,7 +16,6 @@ std::int8_t kind_of(PathKind kind) {
     case PathKind::kGlobal:
       return path_t::GLOBAL;
     case PathKind::kRepair:
-    case PathKind::kShunt:
       return path_t::REPAIR;
     case PathKind::kRetreat:
       return path_t::RETREAT;

@@ -86,25 +86,20 @@ FullPlan FullPlanner::plan_on(const FullRequest& request, const GoalField& field
   return out;
 }
 
-BackOut FullPlanner::way_out(const FullRequest& request, double least_way_m) const {
+std::vector<Point2> FullPlanner::way_out(const FullRequest& request, double least_way_m) const {
   const GoalField field = goal_field(request);
   if (!field.reachable()) return {};
+  const HeadingField headings(config_.search, {.terrain = request.terrain,
+                                               .goal = field,
+                                               .footprint = request.footprint,
+                                               .rover = request.rover,
+                                               .roomy_margin_m = request.roomy_margin_m,
+                                               .turn_margin_m = request.turn_margin_m,
+                                               .tight_margin_m = request.tight_margin_m,
+                                               .slack_m = -kSlackM,
+                                               .spared_m = -1.0});
   const FootprintCheck check(request.terrain, request.footprint, config_.squeeze_margin_m, 0.0, request.rover);
-  for (const double slack_m : {-kSlackM, kSlackM}) {
-    const HeadingField headings(config_.search, {.terrain = request.terrain,
-                                                 .goal = field,
-                                                 .footprint = request.footprint,
-                                                 .rover = request.rover,
-                                                 .roomy_margin_m = request.roomy_margin_m,
-                                                 .turn_margin_m = request.turn_margin_m,
-                                                 .tight_margin_m = request.tight_margin_m,
-                                                 .slack_m = slack_m,
-                                                 .spared_m = -1.0});
-    BackOut out =
-        back_out(config_.back_out, {headings, check, request.rover, least_way_m, config_.search.max_curvature_per_m});
-    if (!out.way.empty()) return out;
-  }
-  return {};
+  return back_out(config_.back_out, {headings, check, request.rover, least_way_m, config_.search.max_curvature_per_m});
 }
 
 }  // namespace rover::planning

@@ -72,8 +72,8 @@ class FullPlanner {
   explicit FullPlanner(const FullPlannerConfig& config) : config_(config) {}
   // plan.found is false where there is no way.
   FullPlan plan(const FullRequest& request) const;
-  // Where there is none: to where a plan surely is, or else may be. Empty where no such place is within reach.
-  BackOut way_out(const FullRequest& request, double least_way_m) const;
+  // Where there is none: back, stern first, to where a plan surely is. Empty where none is within reach.
+  std::vector<Point2> way_out(const FullRequest& request, double least_way_m) const;
 
  private:
   GoalField goal_field(const FullRequest& request) const;

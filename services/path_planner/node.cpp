@@ -40,8 +40,6 @@ const char* text_of(PathKind kind) {
       return "RETREAT";
     case PathKind::kContinuous:
       return "CONTINUOUS";
-    case PathKind::kShunt:
-      return "SHUNT";
   }
   return "?";
 }

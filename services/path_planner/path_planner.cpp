@@ -19,7 +19,6 @@ constexpr double kCellHalfM = 0.05;
 constexpr double kGoalNearM = 1.0;
 constexpr double kGainM = 1.0;  // of the global path, with which an attempt counts as a success
 constexpr double kLeastRetreatM = 0.4;
-constexpr double kLeastPieceM = 0.1;  // of a way out, of the Full level
 constexpr double kRetreatEndM = 0.1;
 constexpr double kSamePlaceM = 1e-6;
 constexpr int kFieldWork = 40;        // the travel field of a search costs as much time as that many expansions
@@ -210,7 +209,7 @@ void PathPlanner::begin(PlannerOutput& out) {
 
 // A new frame: is the way still free, and if not, is there another?
 void PathPlanner::react(PlannerOutput& out) {
-  if (backing_out()) return look_from_retreat(out);
+  if (active_.kind == PathKind::kRetreat) return look_from_retreat(out);
   if (continuous()) return go_on(out);
   judge();
   // A single hit that stays in the way without being seen again counts as a hazard in the end.
@@ -246,10 +245,9 @@ bool PathPlanner::strayed() const {
 bool PathPlanner::retreat(PlannerOutput& out) {
   if (retreats_ >= (continuous() ? config_.full.most_retreats : config_.most_retreats)) return false;
   dead_ends_.push_back(position(rover()));
-  BackOut out_of_it{driven_.back(position(rover()), (1 + retreats_) * config_.retreat_m)};
-  if (continuous()) out_of_it = way_back(out_of_it.way);
-  const std::vector<Point2>& way = out_of_it.way;
-  if (way.size() < 2 || distance(way.front(), way.back()) < (continuous() ? kLeastPieceM : kLeastRetreatM)) {
+  std::vector<Point2> back = driven_.back(position(rover()), (1 + retreats_) * config_.retreat_m);
+  if (continuous()) back = way_back(back);
+  if (back.size() < 2 || distance(back.front(), back.back()) < kLeastRetreatM) {
     dead_ends_.pop_back();
     return false;
   }
@@ -257,20 +255,16 @@ bool PathPlanner::retreat(PlannerOutput& out) {
   failures_ = 0;
   turning_ = false;  // whatever turn was begun, the rover backs out of it
   std::vector<RoutePoint> points;
-  for (const Point2& p : way) points.push_back({p, kNaN, global_odom_.level_at(global_progress_m_)});
+  for (const Point2& p : back) points.push_back({p, kNaN, global_odom_.level_at(global_progress_m_)});
   active_.corridor_half_width_m = config_.retreat_corridor_m;
-  active_.margin_m = config_.full.squeeze_margin_m - config_.full.block_slack_m;
-  adopt(Route(std::move(points)), out_of_it.ahead ? PathKind::kShunt : PathKind::kRetreat, out);
-  if (!out_of_it.ahead) block_ = Block();
+  adopt(Route(std::move(points)), PathKind::kRetreat, out);
+  block_ = Block();
   return true;
 }
 
 // At its end, or where the rover is not let on along it.
 void PathPlanner::look_from_retreat(PlannerOutput& out) {
-  const bool ahead = active_.kind == PathKind::kShunt;
-  if (ahead) judge();
-  const bool blocked = ahead && hazard_ahead_m() < config_.stop_hazard_m;
-  if (!standing() || !(at_retreat_end() || strayed() || blocked)) return;
+  if (!standing() || !(at_retreat_end() || strayed())) return;
   if (repair(true, out) || failures_ < config_.patience_frames) return;
   retreat(out);
 }
@@ -458,7 +452,7 @@ void PathPlanner::follow_correction(PlannerOutput& out) {
   const double change = std::max(moved(here), moved(ahead));
   if (change < config_.correction_m) return;
   lay_global_path();
-  if (backing_out()) return;  // over ground that lies in odom
+  if (active_.kind == PathKind::kRetreat) return;  // over the driven track, which lies in odom
   const double begin = std::max(active_.progress_m + 1.0, active_.repair_end_m);
   // Of the blend 3u^2 - 2u^3: slope at most 0.33, curvature at most 0.3 per metre.
   const double ramp = std::max({3.0, 4.5 * change, std::sqrt(20.0 * change)});
@@ -508,10 +502,10 @@ PlannerStatus PathPlanner::status(Utime now) const {
   }
   status.path_id = active_.id;
   status.goal_distance_m = goal_distance_m();
-  const bool off_plan = active_.kind == PathKind::kRepair || backing_out();
+  const bool off_plan = active_.kind == PathKind::kRepair || active_.kind == PathKind::kRetreat;
   status.state = off_plan ? PlannerState::kRepairing : PlannerState::kFollowing;
   const double short_by_m = distance(active_.route.points().back().p, global_odom_.points().back().p);
-  if (!backing_out() && short_by_m > global_->goal_tolerance_m)
+  if (active_.kind != PathKind::kRetreat && short_by_m > global_->goal_tolerance_m)
     status.text = "the goal is not free: the path ends beside it";
   describe_block(status);
   return status;
@@ -526,12 +520,12 @@ void PathPlanner::describe_block(PlannerStatus& status) const {
                                                       : BlockKind::kUnseen;
   if (failures_ == 0) return;
   status.text = text_of(last_repair_.status);
-  const bool no_way = backing_out() ? failures_ >= config_.patience_frames : stuck();
+  const bool no_way = active_.kind == PathKind::kRetreat ? failures_ >= config_.patience_frames : stuck();
   if (no_way) status.state = PlannerState::kNoPath;
 }
 
 double PathPlanner::goal_distance_m() const {
-  if (backing_out()) return global_odom_.length_m() - global_progress_m_;
+  if (active_.kind == PathKind::kRetreat) return global_odom_.length_m() - global_progress_m_;
   const double along = active_.route.length_m() - active_.progress_m;
   const double straight = distance(active_.route.points().back().p, position(rover()));
   return along < kGoalNearM ? std::max(along, straight) : along;

@@ -67,8 +67,8 @@ struct GlobalPath {
 
 enum class PlannerState : std::int8_t { kIdle = 0, kFollowing = 1, kRepairing = 2, kNoPath = 3 };
 enum class BlockKind : std::int8_t { kNone = 0, kHazard = 1, kUnseen = 2 };
-// kRetreat: driven backwards; kContinuous: of the Full level; kShunt: likewise, a piece ahead of a way out to and fro.
-enum class PathKind : std::int8_t { kGlobal = 0, kRepair = 1, kRetreat = 2, kContinuous = 3, kShunt = 4 };
+// kRetreat: driven backwards; kContinuous: of the Full level.
+enum class PathKind : std::int8_t { kGlobal = 0, kRepair = 1, kRetreat = 2, kContinuous = 3 };
 
 struct PlannerStatus {
   PlannerState state = PlannerState::kIdle;
@@ -163,7 +163,6 @@ class PathPlanner {
   bool retreat(PlannerOutput& out);
   void look_from_retreat(PlannerOutput& out);
   bool at_retreat_end() const;
-  bool backing_out() const { return active_.kind == PathKind::kRetreat || active_.kind == PathKind::kShunt; }
   void track_driven_way();
   void leave_repair(PlannerOutput& out);
   void judge();
@@ -181,7 +180,7 @@ class PathPlanner {
   Terrain terrain() const { return {memory_, continuous() ? &ground_ : nullptr, Terrain::Reach::kMemory}; }
   void go_on(PlannerOutput& out);
   bool at_turn() const;
-  BackOut way_back(const std::vector<Point2>& track) const;
+  std::vector<Point2> way_back(const std::vector<Point2>& track) const;
   std::vector<Point2> straight_back(double way_m) const;
   std::vector<Point2> clear_part(const std::vector<Point2>& back) const;
   bool plan_on(PlannerOutput& out);

@@ -13,7 +13,7 @@ constexpr double kLeastHeldM = 0.3;
 constexpr double kLeadM = 0.25;  // of the way being driven, with which a new plan begins
 constexpr double kHalfCellM = 0.05;
 constexpr double kControlM = 0.05;
-constexpr double kLeastWayOutM = 0.3;
+constexpr double kLeastWayOutM = 0.6;
 constexpr double kBackRadiusM = 2.0;  // of the way from a plan's end back to the global path
 constexpr double kBackReserveM = 0.1;
 constexpr double kBackMarginM = 0.05;  // the rover has been there
@@ -188,11 +188,11 @@ std::optional<HeldWay> PathPlanner::held_way() const {
 // To where a way leads on, if such a place is known, small spots of the map disregarded if need be: the LocCam, which
 // passed them on the way here, did not confirm them. Else the driven track, as far as the rectangle passes it; where
 // that begins with a turn, straight back over known ground if that is free: there may be no room to turn.
-BackOut PathPlanner::way_back(const std::vector<Point2>& track) const {
+std::vector<Point2> PathPlanner::way_back(const std::vector<Point2>& track) const {
   for (const int doubt_cells : {0, config_.full.doubt_cells}) {
     const Terrain ground(memory_, &ground_, Terrain::Reach::kGround, {position(rover()), 0.0, doubt_cells});
-    BackOut out = full_planner_.way_out(full_request(ground), kLeastWayOutM);
-    if (!out.way.empty()) return out;
+    std::vector<Point2> out = full_planner_.way_out(full_request(ground), kLeastWayOutM);
+    if (out.size() > 1) return out;
   }
   const double way_m = (1 + retreats_) * config_.retreat_m;
   const std::vector<Point2> straight = straight_back(way_m);
@@ -202,7 +202,7 @@ BackOut PathPlanner::way_back(const std::vector<Point2>& track) const {
       along.size() < 2 ||
       std::abs(wrap_angle(rover().yaw_rad + kPi -
                           std::atan2(along[1].y_m - along[0].y_m, along[1].x_m - along[0].x_m))) > kBackTurnRad;
-  return {turns && straight_m >= kLeastStraightBackM ? straight : along};
+  return turns && straight_m >= kLeastStraightBackM ? straight : along;
 }
 
 std::vector<Point2> PathPlanner::straight_back(double way_m) const {

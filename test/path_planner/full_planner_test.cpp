@@ -268,9 +268,7 @@ TEST(FullPlanner, OutOfADeadEndItBacksToWhereAWayLeadsOn) {
   const Ground ground(channel);
   ASSERT_FALSE(ground.plan().plan.found);
   const Terrain terrain(ground.memory, &ground.map, Terrain::Reach::kGround);
-  const BackOut out = FullPlanner(planner_config().full).way_out(ground.request(terrain), 0.6);
-  EXPECT_FALSE(out.ahead);
-  const std::vector<Point2>& back = out.way;
+  const std::vector<Point2> back = FullPlanner(planner_config().full).way_out(ground.request(terrain), 0.6);
   ASSERT_GT(back.size(), 10U);
   EXPECT_EQ(back.front().x_m, 0.0);
   EXPECT_EQ(back.front().y_m, 0.0);
@@ -281,32 +279,11 @@ TEST(FullPlanner, OutOfADeadEndItBacksToWhereAWayLeadsOn) {
   EXPECT_TRUE(ground.plan(there).plan.found);
 }
 
-// Between two walls, with just the room to turn on the spot, but not where the rover stands.
-TEST(FullPlanner, ItShuntsToWhereThereIsRoomToTurn) {
-  const Ground ground([](Point2 p) {
-    const bool ahead = p.x_m > 1.0 && p.x_m < 1.2, behind = p.x_m < -1.5 && p.x_m > -1.7;
-    return (ahead || behind) && std::abs(p.y_m) < 4.0 ? TraversabilityGrid::kImpassable : kFree;
-  });
-  ASSERT_FALSE(ground.plan().plan.found);
-  Pose2 rover;
-  int pieces = 0;
-  for (; pieces < 4 && !ground.plan(rover).plan.found; ++pieces) {
-    const Terrain terrain(ground.memory, &ground.map, Terrain::Reach::kGround);
-    const BackOut out = FullPlanner(planner_config().full).way_out(ground.request(terrain, rover), 0.3);
-    ASSERT_GT(out.way.size(), 1U);
-    const Point2 end = out.way.back(), before = out.way[out.way.size() - 2];
-    const double yaw = std::atan2(end.y_m - before.y_m, end.x_m - before.x_m);
-    rover = {end.x_m, end.y_m, out.ahead ? yaw : wrap_angle(yaw + kPi)};
-  }
-  EXPECT_TRUE(ground.plan(rover).plan.found);
-  EXPECT_GT(pieces, 0);
-}
-
 TEST(FullPlanner, EnclosedOrByUnseenGroundThereIsNoWayOut) {
   const auto way_out = [](const std::function<std::uint8_t(Point2)>& cost) {
     const Ground ground(cost);
     const Terrain terrain(ground.memory, &ground.map, Terrain::Reach::kGround);
-    return FullPlanner(planner_config().full).way_out(ground.request(terrain), 0.6).way;
+    return FullPlanner(planner_config().full).way_out(ground.request(terrain), 0.6);
   };
   EXPECT_TRUE(way_out([](Point2 p) {
                 const double r = distance(p, {0.0, 0.0});
