@@ -28,7 +28,8 @@ class BackSearch {
  public:
   BackSearch(const BackOutConfig& config, const BackOutProblem& problem)
       : config_(config), problem_(problem), places_(2 * static_cast<int>(config.most_way_m / kBackBinM) + 3) {
-    best_cost_.assign(static_cast<size_t>(places_ * places_ * kBackYawBins), kInfinity);
+    const auto places = static_cast<size_t>(places_);
+    best_cost_.assign(places * places * kBackYawBins, kInfinity);
   }
 
   std::vector<Point2> run() {
@@ -54,7 +55,8 @@ class BackSearch {
     const int heading = std::clamp(static_cast<int>((turn - std::floor(turn)) * kBackYawBins), 0, kBackYawBins - 1);
     const int x = place(pose.x_m - problem_.rover.x_m);
     const int y = place(pose.y_m - problem_.rover.y_m);
-    return static_cast<size_t>((y * places_ + x) * kBackYawBins + heading);
+    const int at = (y * places_ + x) * kBackYawBins + heading;
+    return static_cast<size_t>(at);
   }
 
   void offer(const BackNode& node) {

@@ -59,7 +59,8 @@ class CurveSearch {
       : config_(config), problem_(problem), terrain_(problem.tight.terrain()), seen_(problem.tight, problem.view) {
     corner_ = terrain_.center_of(0);
     places_ = static_cast<int>(std::ceil(terrain_.cells() * terrain_.cell_m() / kPlaceBinM)) + 1;
-    best_cost_.assign(static_cast<size_t>(places_ * places_ * kYawBins * kBends), kMost);
+    const auto places = static_cast<size_t>(places_);
+    best_cost_.assign(places * places * kYawBins * kBends, kMost);
   }
 
   CurvePlan run() {
@@ -95,7 +96,7 @@ class CurveSearch {
     const double share = node.curvature_per_m / config_.max_curvature_per_m;
     const int bend = std::clamp(static_cast<int>(std::lround(2.0 * share)) + kBends / 2, 0, kBends - 1);
     const int at = place(node.pose.y_m, corner_.y_m) * places_ + place(node.pose.x_m, corner_.x_m);
-    return static_cast<size_t>((at * kYawBins + heading) * kBends + bend);
+    return (static_cast<size_t>(at) * kYawBins + static_cast<size_t>(heading)) * kBends + static_cast<size_t>(bend);
   }
 
   double halt_cost(double curvature_per_m) const {
@@ -134,12 +135,13 @@ class CurveSearch {
     for (const double turn_deg : kSpinsDeg) {
       const double turn = to_rad(turn_deg);
       CurveNode next = from;
-      for (; turned < turn + kSpinSampleRad; turned += kSpinSampleRad) {
+      while (turned < turn + kSpinSampleRad) {
         next.pose.yaw_rad = from.pose.yaw_rad + side * std::min(turned, turn);
         if (!problem_.turn.clear(next.pose)) return;
         if (from.way_m < problem_.sure_m && !seen_.covers(next.pose)) return;
         const double factor = problem_.roomy.clear(next.pose) ? 1.0 : config_.tight_turn_factor;
         cost += factor * config_.turn_cost_per_rad_m * kSpinSampleRad;
+        turned += kSpinSampleRad;
       }
       next.cost += cost;
       next.parent = index;

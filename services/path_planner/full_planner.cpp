@@ -68,14 +68,15 @@ FullPlan FullPlanner::plan_on(const FullRequest& request, const GoalField& field
     problem.most_cost = most;
     CurvePlan fresh = search_curves(config_.search, problem);
     out.plan.expansions += fresh.expansions;
+    const bool unseen = fresh.unseen_in_the_way;
     if (fresh.found) {
       fresh.expansions = out.plan.expansions;
       out.plan = std::move(fresh);
       out.held = false;
     }
     if (out.plan.found) break;
-    out.plan.unseen_in_the_way = fresh.unseen_in_the_way;
-    if (!fresh.unseen_in_the_way) break;
+    out.plan.unseen_in_the_way = unseen;
+    if (!unseen) break;
   }
   if (!out.plan.found) return out;
   out.clearance_m = kAmpleM;
