@@ -67,8 +67,7 @@ class ArcSearch {
     const auto place = [&](double v, double corner) {
       return std::clamp(static_cast<int>((v - corner) / kPlaceM), 0, places_ - 1);
     };
-    const double turn = pose.yaw_rad / (2.0 * kPi);
-    const int heading = std::clamp(static_cast<int>((turn - std::floor(turn)) * kHeadings), 0, kHeadings - 1);
+    const int heading = heading_bin(pose.yaw_rad, kHeadings);
     return (static_cast<size_t>(place(pose.y_m, corner_.y_m)) * places_ + place(pose.x_m, corner_.x_m)) * kHeadings +
            heading;
   }

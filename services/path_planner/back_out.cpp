@@ -51,8 +51,7 @@ class BackSearch {
     const auto place = [&](double v) {
       return std::clamp(static_cast<int>(std::floor(v / kBackBinM)) + places_ / 2, 0, places_ - 1);
     };
-    const double turn = pose.yaw_rad / (2.0 * kPi);
-    const int heading = std::clamp(static_cast<int>((turn - std::floor(turn)) * kBackYawBins), 0, kBackYawBins - 1);
+    const int heading = heading_bin(pose.yaw_rad, kBackYawBins);
     const int x = place(pose.x_m - problem_.rover.x_m);
     const int y = place(pose.y_m - problem_.rover.y_m);
     const int at = (y * places_ + x) * kBackYawBins + heading;

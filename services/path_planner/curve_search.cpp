@@ -91,8 +91,7 @@ class CurveSearch {
     const auto place = [&](double v, double corner) {
       return std::clamp(static_cast<int>((v - corner) / kPlaceBinM), 0, places_ - 1);
     };
-    const double turn = node.pose.yaw_rad / (2.0 * kPi);
-    const int heading = std::clamp(static_cast<int>((turn - std::floor(turn)) * kYawBins), 0, kYawBins - 1);
+    const int heading = heading_bin(node.pose.yaw_rad, kYawBins);
     const double share = node.curvature_per_m / config_.max_curvature_per_m;
     const int bend = std::clamp(static_cast<int>(std::lround(2.0 * share)) + kBends / 2, 0, kBends - 1);
     const int at = place(node.pose.y_m, corner_.y_m) * places_ + place(node.pose.x_m, corner_.x_m);

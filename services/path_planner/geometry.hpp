@@ -36,6 +36,12 @@ inline Pose2 advanced(const Pose2& pose, double way_m, double curvature_per_m) {
   return {pose.x_m + chord * std::cos(middle), pose.y_m + chord * std::sin(middle), pose.yaw_rad + turned};
 }
 
+// Which of `bins` equal parts of the circle the heading lies in.
+inline int heading_bin(double yaw_rad, int bins) {
+  const double turn = yaw_rad / (2.0 * kPi);
+  return std::clamp(static_cast<int>((turn - std::floor(turn)) * bins), 0, bins - 1);
+}
+
 // The ground that wheels and body cover, about the body origin.
 struct Footprint {
   double half_length_m = 0.0;

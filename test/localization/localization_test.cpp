@@ -139,6 +139,20 @@ TEST(Localization, NoDriftAtStandstill) {
   EXPECT_NEAR(drive.localization.pose().travelled_m, travelled, 0.01);
 }
 
+// After each halt the body rocks, below the standstill's threshold.
+TEST(Localization, TheGyroBiasIsLearntWhenTheBodyRocksNoMore) {
+  SyntheticDrive drive({}, 2);
+  drive.command = [](double t) { return t < 1.5 || t > 11.5 ? Twist{} : Twist{0.2, 0.0}; };
+  drive.begin();
+  const auto fog_variance = [&] { return drive.localization.checkpoint()->P(kBias + 2, kBias + 2); };
+  drive.run(10.0);
+  const double driving = fog_variance();
+  drive.run(4.5);
+  EXPECT_GT(fog_variance(), 0.95 * driving);
+  drive.run(10.0);
+  EXPECT_LT(fog_variance(), 0.1 * driving);
+}
+
 // Slow rotation below the standstill's threshold once taught the gyro a wrong bias, and the bias moved the resting
 // rover by metres through what it is correlated with.
 TEST(Localization, WheelsThatSteerOnTheSpotAreNoStandstill) {
@@ -409,18 +423,24 @@ TEST(Localization, SlipBecomesInvalidWithoutVisualOdometry) {
   EXPECT_TRUE(std::isnan(drive.localization.slip().slip_ratio));
 }
 
+// 0.4 s before the pose; yaw to 0.01 rad.
+MapMeasurement measured_off(const PoseEstimate& pose, double x_m, double yaw_rad, double sigma_m) {
+  MapMeasurement m;
+  m.utime = pose.utime - 400'000;
+  m.T_map_odom = planar(pose.T_map_odom);
+  m.T_map_odom.x_m += x_m;
+  m.T_map_odom.yaw_rad += yaw_rad;
+  m.cov = Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, 1e-4).asDiagonal();
+  return m;
+}
+
 TEST(Localization, CorrectionMovesMapAgainstOdom) {
   SyntheticDrive drive({}, 17);
   drive.command = arc;
   drive.begin(0.5, 0.05);
   drive.run(20.0);
   const PoseEstimate before = drive.localization.pose();
-  MapMeasurement m;
-  m.utime = before.utime - 400'000;
-  m.T_map_odom = planar(before.T_map_odom);
-  m.T_map_odom.x_m += 0.4;
-  m.T_map_odom.yaw_rad += 0.02;
-  m.cov = Vector3d(0.01, 0.01, 1e-4).asDiagonal();
+  MapMeasurement m = measured_off(before, 0.4, 0.02, 0.1);
   EXPECT_EQ(drive.localization.take_correction(m), "");
   drive.run(0.02);
   const PoseEstimate after = drive.localization.pose();
@@ -441,12 +461,7 @@ TEST(Localization, ACorrectionBeyondThePosesCovarianceIsTakenAsFarAsTheWindowGoe
   drive.run(20.0);
   const PoseEstimate before = drive.localization.pose();
   ASSERT_LT(std::sqrt(before.cov(0, 0)), 0.5);
-  MapMeasurement m;
-  m.utime = before.utime - 400'000;
-  m.T_map_odom = planar(before.T_map_odom);
-  m.T_map_odom.x_m += 6.0;
-  m.cov = Vector3d(0.09, 0.09, 1e-4).asDiagonal();
-  EXPECT_EQ(drive.localization.take_correction(m), "");
+  EXPECT_EQ(drive.localization.take_correction(measured_off(before, 6.0, 0.0, 0.3)), "");
   drive.run(0.02);
   const PoseEstimate after = drive.localization.pose();
   EXPECT_NEAR(after.T_map_odom.translation().x(), before.T_map_odom.translation().x() + 6.0, 0.2);
