@@ -185,12 +185,12 @@ std::optional<HeldWay> PathPlanner::held_way() const {
   return held;
 }
 
-// To where a way leads on, if such a place is known, small spots of the map disregarded if need be: the LocCam, which
-// passed them on the way here, did not confirm them. Else the driven track, as far as the rectangle passes it; where
-// that begins with a turn, straight back over known ground if that is free: there may be no room to turn.
+// To where a way leads on, if such a place is known, small spots of the map disregarded if need be where the LocCam saw
+// them free on the way here. Else the driven track, as far as the rectangle passes it; where that begins with a turn,
+// straight back over known ground if that is free: there may be no room to turn.
 std::vector<Point2> PathPlanner::way_back(const std::vector<Point2>& track) const {
   for (const int doubt_cells : {0, config_.full.doubt_cells}) {
-    const Terrain ground(memory_, &ground_, Terrain::Reach::kGround, {position(rover()), 0.0, doubt_cells});
+    const Terrain ground(memory_, &ground_, Terrain::Reach::kGround, {position(rover()), 0.0, doubt_cells, true});
     std::vector<Point2> out = full_planner_.way_out(full_request(ground), kLeastWayOutM);
     if (out.size() > 1) return out;
   }

@@ -79,7 +79,9 @@ Terrain::Terrain(const HazardMemory& memory, const GroundMap* ground, Reach reac
   if (doubt.most_cells > 0) {
     std::vector<std::uint8_t> sure;
     sure.reserve(unseen_.size());
-    for_each_cell([&](CellIndex, const GroundCell& cell) { sure.push_back(cell.hits > 0 ? 1 : 0); });
+    for_each_cell([&](CellIndex, const GroundCell& cell) {
+      sure.push_back(cell.hits > 0 || (doubt.if_seen_free && cell.near_free == 0) ? 1 : 0);
+    });
     drop_doubtful(doubt, sure, impassable);
   }
   std::vector<std::uint8_t> hazard;

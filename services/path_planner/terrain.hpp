@@ -28,6 +28,8 @@ class Terrain {
     Point2 rover;
     double from_m = 0.0;  // of the rover
     int most_cells = 0;   // of a spot; 0: the map is not doubted
+    // Only spots that the LocCam saw free from near at least once: the rover drives without looking there.
+    bool if_seen_free = false;
   };
 
   explicit Terrain(const HazardMemory& memory) : Terrain(memory, nullptr, Reach::kMemory) {}
