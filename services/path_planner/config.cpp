@@ -93,6 +93,8 @@ void read_curves(const Config& c, CurveSearchConfig& out) {
   c.read("turn_bend_cost_m", out.turn_bend_cost_m, {0.0, 50.0});
   c.read("tight_factor", out.tight_factor, {1.0, 20.0});
   c.read("tight_turn_factor", out.tight_turn_factor, {1.0, 20.0});
+  c.read("back_factor", out.back_factor, {1.0, 20.0});
+  c.read("reversal_cost_m", out.reversal_cost_m, {0.0, 20.0});
   c.read("greed", out.greed, {1.0, 5.0});
   c.read("hasty_greed", out.hasty_greed, {1.0, 20.0});
   c.read("max_expansions", out.max_expansions, {10, 1000000});
@@ -105,9 +107,6 @@ void read_full(const Config& c, const PathPlannerConfig& shared, FullPlannerConf
   out.goal.dead_end_cost = shared.repair.dead_end_cost;
   out.search.max_curvature_per_m = shared.repair.search.max_curvature_per_m;
   read_curves(c.section("search"), out.search);
-  const Config back_out = c.section("back_out");
-  back_out.read("most_way_m", out.back_out.most_way_m, {0.5, 20.0});
-  back_out.read("way_cost", out.back_out.way_cost, {0.1, 20.0});
   out.turn_extra_m = shared.repair.turn_extra_m;
   double map_side_m = out.map_cells * shared.memory.cell_m;
   c.read("map_side_m", map_side_m, {16.0, 60.0});

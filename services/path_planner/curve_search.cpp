@@ -26,21 +26,24 @@ struct CurveNode {
   int parent = -1;
   bool turned = false;        // by a point turn from the parent
   bool to_be_turned = false;  // stands for the point turns from here, until they are worth looking at
+  bool backwards = false;
+  bool reversed = false;  // the rover stands where its parent is, to drive on in the other direction
 };
 
 // Along a piece whose curvature changes evenly.
 class Piece {
  public:
-  Piece(const Pose2& from, double from_per_m, double to_per_m, double length_m)
+  Piece(const Pose2& from, double from_per_m, double to_per_m, double length_m, bool backwards)
       : pose_(from),
         from_(from_per_m),
         slope_((to_per_m - from_per_m) / length_m),
+        sense_(backwards ? -1.0 : 1.0),
         samples_(std::max(1, static_cast<int>(std::ceil(length_m / kPieceSampleM - 1e-6)))),
         step_(length_m / samples_) {}
   int samples() const { return samples_; }
   double step_m() const { return step_; }
   const Pose2& next() {
-    pose_ = advanced(pose_, step_, from_ + slope_ * step_ * (done_++ + 0.5));
+    pose_ = advanced(pose_, sense_ * step_, from_ + slope_ * step_ * (done_++ + 0.5));
     return pose_;
   }
 
@@ -48,6 +51,7 @@ class Piece {
   Pose2 pose_;
   double from_;
   double slope_;
+  double sense_;
   int samples_;
   double step_;
   int done_ = 0;
@@ -60,13 +64,14 @@ class CurveSearch {
     corner_ = terrain_.center_of(0);
     places_ = static_cast<int>(std::ceil(terrain_.cells() * terrain_.cell_m() / kPlaceBinM)) + 1;
     const auto places = static_cast<size_t>(places_);
-    best_cost_.assign(places * places * kYawBins * kBends, kMost);
+    best_cost_.assign(places * places * kYawBins * kBends * 2, kMost);
   }
 
   CurvePlan run() {
     plan_.cost = problem_.most_cost;
     offer({problem_.start, problem_.start_curvature_per_m, 0.0, 0.0, -1});
     put({problem_.stopped, 0.0, halt_cost(problem_.start_curvature_per_m), 0.0, -1, false, true});
+    if (problem_.may_back) offer_reversals({problem_.stopped, problem_.start_curvature_per_m, 0.0, 0.0, -1}, -1);
     while (!open_.empty() && plan_.expansions < config_.max_expansions) {
       const auto [estimate, index] = pop();
       if (estimate >= plan_.cost) break;
@@ -95,7 +100,8 @@ class CurveSearch {
     const double share = node.curvature_per_m / config_.max_curvature_per_m;
     const int bend = std::clamp(static_cast<int>(std::lround(2.0 * share)) + kBends / 2, 0, kBends - 1);
     const int at = place(node.pose.y_m, corner_.y_m) * places_ + place(node.pose.x_m, corner_.x_m);
-    return (static_cast<size_t>(at) * kYawBins + static_cast<size_t>(heading)) * kBends + static_cast<size_t>(bend);
+    const size_t pose = static_cast<size_t>(at) * kYawBins + static_cast<size_t>(heading);
+    return (pose * kBends + static_cast<size_t>(bend)) * 2 + (node.backwards ? 1 : 0);
   }
 
   double halt_cost(double curvature_per_m) const {
@@ -109,9 +115,13 @@ class CurveSearch {
     put(node);
   }
 
+  double left_to_go(const CurveNode& node) const {
+    if (node.to_be_turned) return problem_.headings.to_go_turning(node.pose);
+    return node.backwards ? problem_.headings.to_go_backing(node.pose) : problem_.headings.to_go(node.pose);
+  }
+
   void put(const CurveNode& node) {
-    const double to_go =
-        node.to_be_turned ? problem_.headings.to_go_turning(node.pose) : problem_.headings.to_go(node.pose);
+    const double to_go = left_to_go(node);
     if (std::isinf(to_go) || node.cost + to_go * kSurely >= plan_.cost) return;
     nodes_.push_back(node);
     open_.emplace_back(node.cost + config_.greed * to_go, static_cast<int>(nodes_.size()) - 1);
@@ -123,6 +133,21 @@ class CurveSearch {
     const Entry entry = open_.back();
     open_.pop_back();
     return entry;
+  }
+
+  // The wheels steer while the rover stands.
+  void offer_reversals(const CurveNode& from, int parent) {
+    for (const double level : kLevels) {
+      CurveNode next = from;
+      next.parent = parent;
+      next.turned = false;
+      next.reversed = true;
+      next.backwards = !from.backwards;
+      next.curvature_per_m = level * config_.max_curvature_per_m;
+      const double change = std::abs(next.curvature_per_m - from.curvature_per_m) / config_.max_curvature_per_m;
+      next.cost += config_.reversal_cost_m + config_.turn_bend_cost_m * change;
+      offer(next);
+    }
   }
 
   // Point turns to one side, as far as the rectangle turns freely over seen ground.
@@ -146,6 +171,7 @@ class CurveSearch {
       next.parent = index;
       next.turned = true;
       next.to_be_turned = false;
+      next.backwards = false;
       offer(next);
     }
   }
@@ -174,39 +200,51 @@ class CurveSearch {
       if (change > kMostBend) continue;
       CurveNode next = from;
       next.parent = index;
-      next.turned = false;
+      next.turned = next.reversed = false;
       next.curvature_per_m = curvature;
       next.cost += config_.bend_cost_m * change * change + config_.curvature_cost * level * level * config_.step_m;
       if (!drive(from, curvature, next)) continue;
       end_or_offer(next);
     }
-    if (from.turned || from.parent < 0) return;
+    if (from.turned || from.reversed || from.parent < 0) return;
+    if (problem_.may_back) offer_reversals(from, index);
     CurveNode halt = from;
     halt.parent = index;
     halt.curvature_per_m = 0.0;
     halt.cost += halt_cost(from.curvature_per_m);
-    halt.turned = false;
+    halt.turned = halt.reversed = false;
     halt.to_be_turned = true;
     put(halt);
   }
 
   // Moves the node along one piece; false where that is not free or not worth it.
   bool drive(const CurveNode& from, double curvature_per_m, CurveNode& next) {
-    Piece piece(from.pose, from.curvature_per_m, curvature_per_m, config_.step_m);
+    Piece piece = piece_of(from, curvature_per_m);
+    const double factor = from.backwards ? config_.back_factor : 1.0;
     for (int i = 0; i < piece.samples(); ++i) {
       next.pose = piece.next();
-      next.way_m += piece.step_m();
-      next.cost += piece.step_m() * pose_cost_per_m(problem_, config_.tight_factor, next.pose);
+      next.cost += factor * piece.step_m() * pose_cost_per_m(problem_, config_.tight_factor, next.pose);
       if (next.cost >= plan_.cost) return false;
-      if (next.way_m > problem_.sure_m || seen_.covers(next.pose)) continue;
+      if (!from.backwards) next.way_m += piece.step_m();
+      if (seen_in_time(next)) continue;
       plan_.unseen_in_the_way = true;
       return false;
     }
     return true;
   }
 
+  Piece piece_of(const CurveNode& from, double curvature_per_m) const {
+    return {from.pose, from.curvature_per_m, curvature_per_m, config_.step_m, from.backwards};
+  }
+
+  // Nothing looks where the stern goes: ground there has been seen before.
+  bool seen_in_time(const CurveNode& node) const {
+    if (node.backwards) return problem_.tight.all_unseen(node.pose, [](Point2) { return false; });
+    return node.way_m > problem_.sure_m || seen_.covers(node.pose);
+  }
+
   void end_or_offer(const CurveNode& node) {
-    const double end_cost = problem_.field.end_cost(node.pose);
+    const double end_cost = node.backwards ? kInfinity : problem_.field.end_cost(node.pose);
     if (std::isinf(end_cost)) return offer(node);
     if (node.cost + end_cost >= plan_.cost) return;
     plan_.found = true;
@@ -219,18 +257,22 @@ class CurveSearch {
     std::vector<int> chain;
     for (int i = end_; i >= 0; i = nodes_[i].parent) chain.insert(chain.begin(), i);
     plan_.poses.push_back(nodes_[chain.front()].pose);
+    plan_.backs_first = nodes_[chain.front()].backwards;
     for (size_t k = 1; k < chain.size(); ++k) {
       const CurveNode& from = nodes_[chain[k - 1]];
       const CurveNode& to = nodes_[chain[k]];
       if (to.to_be_turned) continue;
       if (to.turned) {
         plan_.turns_first = plan_.turns_first || plan_.poses.size() == 1;
+        if (from.backwards) plan_.reversals.push_back(plan_.poses.size() - 1);
         plan_.poses.push_back(to.pose);
-        ++plan_.halts;
-        continue;
+      } else if (to.reversed) {
+        plan_.reversals.push_back(plan_.poses.size() - 1);
+      } else {
+        Piece piece = piece_of(from, to.curvature_per_m);
+        for (int i = 0; i < piece.samples(); ++i) plan_.poses.push_back(piece.next());
       }
-      Piece piece(from.pose, from.curvature_per_m, to.curvature_per_m, config_.step_m);
-      for (int i = 0; i < piece.samples(); ++i) plan_.poses.push_back(piece.next());
+      plan_.halts += to.turned || to.reversed ? 1 : 0;
     }
   }
 
@@ -254,6 +296,19 @@ double pose_cost_per_m(const CurveProblem& problem, double tight_factor, const P
   if (std::isinf(ground)) return kInfinity;
   if (problem.roomy.clear(pose)) return ground;
   return problem.tight.clear(pose) ? tight_factor * ground : kInfinity;
+}
+
+std::deque<CurveLeg> legs_of(const CurvePlan& plan) {
+  std::deque<CurveLeg> legs;
+  size_t begin = 0;
+  const auto add = [&](size_t end) {
+    const auto at = [&](size_t i) { return plan.poses.begin() + static_cast<std::ptrdiff_t>(i); };
+    legs.push_back({{at(begin), at(end + 1)}, plan.backs_first != (legs.size() % 2 == 1)});
+    begin = end;
+  };
+  for (const size_t i : plan.reversals) add(i);
+  add(plan.poses.size() - 1);
+  return legs;
 }
 
 CurvePlan search_curves(const CurveSearchConfig& config, const CurveProblem& problem) {

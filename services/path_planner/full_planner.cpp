@@ -38,10 +38,11 @@ FullPlan FullPlanner::plan_on(const FullRequest& request, const GoalField& field
   FullPlan out;
   const HeadingField headings(config_.search,
                               {request.terrain, field, request.footprint, request.rover, request.roomy_margin_m,
-                               request.turn_margin_m, request.tight_margin_m, slack_m});
+                               request.turn_margin_m, request.tight_margin_m, slack_m, 0.10, request.may_back});
   // With less room there is no more of a way.
-  out.hopeless =
-      !request.held && std::isinf(headings.to_go(request.start)) && std::isinf(headings.to_go_turning(request.stopped));
+  out.hopeless = !request.held && std::isinf(headings.to_go(request.start)) &&
+                 std::isinf(headings.to_go_turning(request.stopped)) &&
+                 std::isinf(headings.to_go_backing(request.stopped));
   if (out.hopeless) return out;
   const auto check = [&](double margin_m) {
     return FootprintCheck(request.terrain, request.footprint, margin_m, kSeenAboutM, request.rover);
@@ -49,9 +50,9 @@ FullPlan FullPlanner::plan_on(const FullRequest& request, const GoalField& field
   const FootprintCheck roomy = check(request.roomy_margin_m);
   const FootprintCheck tight = check(request.tight_margin_m);
   const FootprintCheck turn = check(request.turn_margin_m);
-  CurveProblem problem{field, headings,       roomy,         tight,
-                       turn,  request.view,   request.start, request.start_curvature_per_m,
-                       0.0,   request.stopped};
+  CurveProblem problem{field, headings,        roomy,         tight,
+                       turn,  request.view,    request.start, request.start_curvature_per_m,
+                       0.0,   request.stopped, kInfinity,     request.may_back};
   double most = kInfinity;
   if (request.held) {
     const double cost = held_cost(problem, *request.held);
@@ -85,22 +86,6 @@ FullPlan FullPlanner::plan_on(const FullRequest& request, const GoalField& field
     for (const Pose2& pose : request.held->poses) out.clearance_m = tight.clearance_m(pose, out.clearance_m);
   out.end_station_m = field.station_m(position(out.plan.poses.back()));
   return out;
-}
-
-std::vector<Point2> FullPlanner::way_out(const FullRequest& request, double least_way_m) const {
-  const GoalField field = goal_field(request);
-  if (!field.reachable()) return {};
-  const HeadingField headings(config_.search, {.terrain = request.terrain,
-                                               .goal = field,
-                                               .footprint = request.footprint,
-                                               .rover = request.rover,
-                                               .roomy_margin_m = request.roomy_margin_m,
-                                               .turn_margin_m = request.turn_margin_m,
-                                               .tight_margin_m = request.tight_margin_m,
-                                               .slack_m = -kSlackM,
-                                               .spared_m = -1.0});
-  const FootprintCheck check(request.terrain, request.footprint, config_.squeeze_margin_m, 0.0, request.rover);
-  return back_out(config_.back_out, {headings, check, request.rover, least_way_m, config_.search.max_curvature_per_m});
 }
 
 }  // namespace rover::planning

@@ -5,7 +5,6 @@
 
 #include <optional>
 
-#include "path_planner/back_out.hpp"
 #include "path_planner/curve_search.hpp"
 
 namespace rover::planning {
@@ -13,7 +12,6 @@ namespace rover::planning {
 struct FullPlannerConfig {
   GoalFieldConfig goal;
   CurveSearchConfig search;
-  BackOutConfig back_out;
   double sure_way_m = 2.5;         // of a plan, over ground that is seen in time
   double least_sure_way_m = 0.6;   // where that leaves no way
   double hold_m = 3.0;             // of the plan that is being driven, kept where it is held
@@ -51,6 +49,7 @@ struct FullRequest {
   double start_curvature_per_m = 0.0;
   Pose2 stopped;
   bool turning = false;  // the rover has begun a point turn: a new way gives that up
+  bool may_back = true;  // stern first
   std::optional<HeldWay> held;
   double roomy_margin_m = 0.0;
   double tight_margin_m = 0.0;
@@ -72,8 +71,6 @@ class FullPlanner {
   explicit FullPlanner(const FullPlannerConfig& config) : config_(config) {}
   // plan.found is false where there is no way.
   FullPlan plan(const FullRequest& request) const;
-  // Where there is none: back, stern first, to where a plan surely is. Empty where none is within reach.
-  std::vector<Point2> way_out(const FullRequest& request, double least_way_m) const;
 
  private:
   GoalField goal_field(const FullRequest& request) const;

@@ -8,6 +8,7 @@ constexpr double kStationsBehindM = 5.0;
 constexpr double kStationsBeyondM = 5.0;  // the goal line
 constexpr double kMapRimM = 0.3;          // of the map, where nothing ends
 constexpr double kLineBandM = 0.3;        // of the cells that stand for the goal line
+constexpr double kRimBandM = 0.3;         // likewise of the map's rim
 constexpr double kByRoverM = 1.2;         // the rover may stand closer to a hazard than it would go
 constexpr double kSqueezeCost = 6.0;      // per metre there
 constexpr double kScrapeM = 0.05;
@@ -101,12 +102,25 @@ void GoalField::march_from_goal() {
     if (goal_in_sight_) {
       const double miss = distance(p, goal_);
       if (miss <= query_.goal_reach_m) seeds.push_back({cell, config_.goal_miss_cost * miss});
+    } else if (at_rim(p)) {
+      seeds.push_back({cell, rim_cost(p)});
     } else if (station_[i] >= line_m_ && station_[i] < line_m_ + kLineBandM) {
       seeds.push_back({cell, std::max(0.0, line_cost(p))});
     }
   }
   reachable_ = !seeds.empty();
   travel_ = reachable_ ? march(cost_, seeds, -1, kEverywhere) : std::vector<double>(station_.size(), kInfinity);
+}
+
+// Where all ways through the map are closed, one may lead out of it.
+bool GoalField::at_rim(Point2 p) const {
+  const double inside = terrain_.inside_m(p);
+  return inside >= kMapRimM && inside < kMapRimM + kRimBandM && station_m(p) < line_m_;
+}
+
+// Straight on over unknown ground, from the map's rim to where the global path is to be come back to.
+double GoalField::rim_cost(Point2 p) const {
+  return (1.0 + config_.unknown_cost) * distance(p, query_.global.point_at(line_m_));
 }
 
 double GoalField::end_cost(const Pose2& pose) const {
@@ -116,6 +130,7 @@ double GoalField::end_cost(const Pose2& pose) const {
     const double miss = distance(p, goal_);
     return miss <= query_.goal_reach_m ? config_.goal_miss_cost * miss : kInfinity;
   }
+  if (at_rim(p)) return rim_cost(p);
   const double station = station_m(p);
   if (station < line_m_) return kInfinity;
   const double turn = std::abs(wrap_angle(query_.global.pose_at(station).yaw_rad - pose.yaw_rad));

@@ -58,6 +58,8 @@ class GoalField {
   void march_from_goal();
   double off_path_m(Point2 p, double station_m) const;
   double line_cost(Point2 p) const;
+  bool at_rim(Point2 p) const;
+  double rim_cost(Point2 p) const;
 
   GoalFieldConfig config_;
   const GoalQuery query_;

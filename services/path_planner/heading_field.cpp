@@ -31,7 +31,7 @@ HeadingField::HeadingField(const DrivingPrices& prices, const HeadingQuery& quer
       count_(static_cast<size_t>(cells_) * static_cast<size_t>(cells_)) {
   make_arcs();
   lay_rooms();
-  cost_.assign(2 * count_ * kHeadings, kNone);
+  cost_.assign(3 * count_ * kHeadings, kNone);
   buckets_.resize(kMostBuckets);
   seed();
   spread();
@@ -40,6 +40,7 @@ HeadingField::HeadingField(const DrivingPrices& prices, const HeadingQuery& quer
 // Of each heading and turn the arc whose end lies closest to a cell's centre.
 void HeadingField::make_arcs() {
   arcs_to_.resize(kHeadings);
+  arcs_from_.resize(kHeadings);
   const double bin = yaw_of(1);
   for (int heading = 0; heading < kHeadings; ++heading)
     for (const int turn : kTurns) {
@@ -58,6 +59,7 @@ void HeadingField::make_arcs() {
         least = miss;
         const double share = curvature / prices_.max_curvature_per_m;
         best = {heading,
+                wrapped(heading + turn),
                 to_cells(end.x_m),
                 to_cells(end.y_m),
                 to_cells(middle.x_m),
@@ -66,7 +68,8 @@ void HeadingField::make_arcs() {
                 static_cast<float>(length),
                 static_cast<float>(prices_.curvature_cost * share * share * length)};
       }
-      arcs_to_[wrapped(heading + turn)].push_back(best);
+      arcs_to_[best.to_heading].push_back(best);
+      arcs_from_[heading].push_back(best);
     }
 }
 
@@ -163,36 +166,54 @@ void HeadingField::spread() {
       const float cost = cost_[state];
       if (static_cast<size_t>(cost / kBucketM) != b) continue;
       ++settled_;
-      const size_t pose = state % (count_ * kHeadings);
+      const size_t pose = state % layer_of(Motion::kTurn);
       const int cell = static_cast<int>(pose % count_);
       const int heading = static_cast<int>(pose / count_);
-      if (state == pose)
+      if (state < layer_of(Motion::kTurn))
         spread_driving(cell, heading, cost);
-      else
+      else if (state < layer_of(Motion::kBack))
         spread_turning(cell, heading, cost);
+      else
+        spread_backing(cell, heading, cost);
     }
     if (std::isinf(last) && std::isfinite(to_go(query_.rover))) last = to_go(query_.rover) + kBeyond;
   }
 }
 
-// To the poses from which an arc ends here, and to the end of a point turn.
+float HeadingField::arc_cost(int cell, const Arc& arc) const {
+  const int x = cell % cells_ + arc.dx;
+  const int y = cell / cells_ + arc.dy;
+  if (x < 0 || y < 0 || x >= cells_ || y >= cells_) return kNone;
+  const float here = metre_cost(cell, arc.from_heading);
+  const float between = metre_cost(cell + arc.middle_dy * cells_ + arc.middle_dx, arc.middle_heading);
+  const float there = metre_cost(y * cells_ + x, arc.to_heading);
+  return arc.length_m * 0.25F * (here + 2.0F * between + there) + arc.extra;
+}
+
+// To the poses from which an arc ends here, to the end of a point turn, and to that of a way stern first.
 void HeadingField::spread_driving(int cell, int heading, float cost) {
-  const int ix = cell % cells_;
-  const int iy = cell / cells_;
-  const float here = metre_cost(cell, heading);
   for (const Arc& arc : arcs_to_[heading]) {
-    const int x = ix - arc.dx;
-    const int y = iy - arc.dy;
+    const int x = cell % cells_ - arc.dx;
+    const int y = cell / cells_ - arc.dy;
     if (x < 0 || y < 0 || x >= cells_ || y >= cells_) continue;
     const int from = y * cells_ + x;
-    const float there = metre_cost(from, arc.from_heading);
-    if (there == kNone) continue;
-    const float between = metre_cost((y + arc.middle_dy) * cells_ + x + arc.middle_dx, arc.middle_heading);
-    if (between == kNone) continue;
-    offer(static_cast<size_t>(arc.from_heading) * count_ + from,
-          cost + arc.length_m * 0.25F * (here + 2.0F * between + there) + arc.extra);
+    offer(state_of(Motion::kDrive, from, arc.from_heading), cost + arc_cost(from, arc));
   }
-  offer(count_ * kHeadings + static_cast<size_t>(heading) * count_ + cell, cost);
+  offer(state_of(Motion::kTurn, cell, heading), cost);
+  if (query_.may_back)
+    offer(state_of(Motion::kBack, cell, heading), cost + static_cast<float>(prices_.reversal_cost_m));
+}
+
+// Stern first the rover came over the arcs that begin here, against their sense.
+void HeadingField::spread_backing(int cell, int heading, float cost) {
+  for (const Arc& arc : arcs_from_[heading]) {
+    const float way = arc_cost(cell, arc);
+    if (way == kNone) continue;
+    const int from = cell + arc.dy * cells_ + arc.dx;
+    if (terrain_.unseen(from)) continue;
+    offer(state_of(Motion::kBack, from, arc.to_heading), cost + static_cast<float>(prices_.back_factor) * way);
+  }
+  offer(state_of(Motion::kDrive, cell, heading), cost + static_cast<float>(prices_.reversal_cost_m));
 }
 
 // Backwards through a point turn: either it goes on, or it began here.
@@ -202,10 +223,11 @@ void HeadingField::spread_turning(int cell, int heading, float cost) {
     const Room there = room(cell, from);
     if (there >= kTurnless) continue;
     const double factor = there == kTight ? prices_.tight_turn_factor : 1.0;
-    offer(count_ * kHeadings + static_cast<size_t>(from) * count_ + cell,
+    offer(state_of(Motion::kTurn, cell, from),
           cost + static_cast<float>(factor * prices_.turn_cost_per_rad_m * yaw_of(1)));
   }
-  offer(static_cast<size_t>(heading) * count_ + cell, cost + static_cast<float>(prices_.turn_cost_m));
+  offer(state_of(Motion::kDrive, cell, heading), cost + static_cast<float>(prices_.turn_cost_m));
+  if (query_.may_back) offer(state_of(Motion::kBack, cell, heading), cost + static_cast<float>(prices_.turn_cost_m));
 }
 
 double HeadingField::least_about(const Pose2& pose, size_t layer) const {

@@ -1,6 +1,6 @@
 // What is left to go from each place and heading: Dijkstra backwards from the goal line over a lattice of poses, for a
-// vehicle that drives arcs no tighter than its own, and turns on the spot at a price. A field over places alone sends
-// the rover into gaps that it cannot bend into.
+// vehicle that drives arcs no tighter than its own, forwards or stern first, and turns on the spot at a price. A field
+// over places alone sends the rover into gaps that it cannot bend into.
 #pragma once
 
 #include <cstdint>
@@ -18,6 +18,8 @@ struct DrivingPrices {
   double turn_cost_per_rad_m = 1.0;
   double tight_factor = 2.0;       // of the cost, where only the tight margin is kept
   double tight_turn_factor = 3.0;  // likewise of a point turn's
+  double back_factor = 1.5;        // of the cost, stern first
+  double reversal_cost_m = 1.5;    // the rover halts, and its wheels steer for the other direction
 };
 
 struct HeadingQuery {
@@ -34,6 +36,7 @@ struct HeadingQuery {
   // The rover may stand closer to a hazard than it would go: one as near to it as the margin and that much does not
   // close its place. Negative: all do.
   double spared_m = 0.10;
+  bool may_back = true;  // stern first, over ground that was seen
 };
 
 class HeadingField {
@@ -45,13 +48,17 @@ class HeadingField {
   // The least of the lattice poses about this one; infinity: nothing leads on, or not within the field's reach.
   double to_go(const Pose2& pose) const { return least_about(pose, 0); }
   // Likewise for a rover that turns on the spot.
-  double to_go_turning(const Pose2& pose) const { return least_about(pose, count_ * kHeadings); }
+  double to_go_turning(const Pose2& pose) const { return least_about(pose, layer_of(Motion::kTurn)); }
+  // Likewise for one that drives stern first.
+  double to_go_backing(const Pose2& pose) const { return least_about(pose, layer_of(Motion::kBack)); }
   int settled() const { return settled_; }
 
  private:
+  enum class Motion : std::uint8_t { kDrive = 0, kTurn = 1, kBack = 2 };
   enum Room : std::uint8_t { kRoomy = 0, kTight = 1, kTurnless = 2, kBlocked = 3 };  // each less than the one before
   struct Arc {
     int from_heading;
+    int to_heading;
     int dx;  // cells
     int dy;
     int middle_dx;
@@ -71,6 +78,13 @@ class HeadingField {
   void offer(size_t state, float cost);
   void spread_driving(int cell, int heading, float cost);
   void spread_turning(int cell, int heading, float cost);
+  void spread_backing(int cell, int heading, float cost);
+  // Of an arc from the cell; infinity: not free, or outside.
+  float arc_cost(int cell, const Arc& arc) const;
+  size_t layer_of(Motion motion) const { return static_cast<size_t>(motion) * count_ * kHeadings; }
+  size_t state_of(Motion motion, int cell, int heading) const {
+    return layer_of(motion) + static_cast<size_t>(heading) * count_ + static_cast<size_t>(cell);
+  }
   Room room(int cell, int heading) const {
     return static_cast<Room>(rooms_[heading % (kHeadings / 2) * count_ + cell]);
   }
@@ -82,10 +96,11 @@ class HeadingField {
   const Terrain& terrain_;
   int cells_;
   size_t count_;
-  std::vector<std::vector<Arc>> arcs_to_;  // by the heading at their end
-  std::vector<std::uint8_t> rooms_;        // by half the headings: the rectangle looks the same from behind
-  std::vector<float> ground_;              // cost per metre by cell
-  std::vector<float> cost_;                // driving states, then those that turn on the spot; each heading by heading
+  std::vector<std::vector<Arc>> arcs_to_;    // by the heading at their end
+  std::vector<std::vector<Arc>> arcs_from_;  // the same by the heading at their start
+  std::vector<std::uint8_t> rooms_;          // by half the headings: the rectangle looks the same from behind
+  std::vector<float> ground_;                // cost per metre by cell
+  std::vector<float> cost_;                  // of the motions one after the other; each heading by heading
   std::vector<std::vector<std::uint32_t>> buckets_;
   int settled_ = 0;
 };

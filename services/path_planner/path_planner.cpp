@@ -123,6 +123,7 @@ void PathPlanner::take_start_area() {
 }
 
 void PathPlanner::forget_way() {
+  legs_.clear();
   global_odom_ = Route();
   active_ = Active();
   agenda_.restart();
@@ -209,6 +210,11 @@ void PathPlanner::begin(PlannerOutput& out) {
 
 // A new frame: is the way still free, and if not, is there another?
 void PathPlanner::react(PlannerOutput& out) {
+  if (!legs_.empty() && !continuous()) give_up_manoeuvre();
+  if (on_manoeuvre()) {
+    go_on_manoeuvre(out);
+    if (!legs_.empty() || out.path) return;
+  }
   if (active_.kind == PathKind::kRetreat) return look_from_retreat(out);
   if (continuous()) return go_on(out);
   judge();
@@ -253,6 +259,7 @@ bool PathPlanner::retreat(PlannerOutput& out) {
   }
   ++retreats_;
   failures_ = 0;
+  legs_.clear();
   turning_ = false;  // whatever turn was begun, the rover backs out of it
   std::vector<RoutePoint> points;
   for (const Point2& p : back) points.push_back({p, kNaN, global_odom_.level_at(global_progress_m_)});
@@ -306,6 +313,8 @@ void PathPlanner::track_turn() {
 }
 
 void PathPlanner::judge() {
+  block_ = Block();
+  if (active_.kind == PathKind::kRetreat) return;  // over ground that was found free
   track_turn();
   const Terrain ground = terrain();
   block_ = find_block({ground, active_.route, config_.footprint, active_.progress_m, rover(),
@@ -370,6 +379,7 @@ std::vector<PathPlanner::LeadIn> PathPlanner::lead_ins() const {
 }
 
 void PathPlanner::take_repair(PlannerOutput& out) {
+  legs_.clear();
   active_.margin_m = last_margin_m_;
   active_.corridor_half_width_m =
       std::clamp(last_repair_.clearance_m - kCellHalfM - kCorridorReserveM, config_.least_corridor_m,
@@ -504,8 +514,7 @@ PlannerStatus PathPlanner::status(Utime now) const {
   status.goal_distance_m = goal_distance_m();
   const bool off_plan = active_.kind == PathKind::kRepair || active_.kind == PathKind::kRetreat;
   status.state = off_plan ? PlannerState::kRepairing : PlannerState::kFollowing;
-  const double short_by_m = distance(active_.route.points().back().p, global_odom_.points().back().p);
-  if (active_.kind != PathKind::kRetreat && short_by_m > global_->goal_tolerance_m)
+  if (leads_to_goal() && short_of_goal_m() > global_->goal_tolerance_m)
     status.text = "the goal is not free: the path ends beside it";
   describe_block(status);
   return status;
@@ -524,8 +533,18 @@ void PathPlanner::describe_block(PlannerStatus& status) const {
   if (no_way) status.state = PlannerState::kNoPath;
 }
 
+double PathPlanner::short_of_goal_m() const {
+  return distance(active_.route.points().back().p, global_odom_.points().back().p);
+}
+
+// Ways back and the legs of a manoeuvre do not.
+bool PathPlanner::leads_to_goal() const {
+  return active_.kind != PathKind::kRetreat &&
+         short_of_goal_m() <= std::max(config_.blocked_goal_reach_m, global_->goal_tolerance_m);
+}
+
 double PathPlanner::goal_distance_m() const {
-  if (active_.kind == PathKind::kRetreat) return global_odom_.length_m() - global_progress_m_;
+  if (!leads_to_goal()) return global_odom_.length_m() - global_progress_m_;
   const double along = active_.route.length_m() - active_.progress_m;
   const double straight = distance(active_.route.points().back().p, position(rover()));
   return along < kGoalNearM ? std::max(along, straight) : along;

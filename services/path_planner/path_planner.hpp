@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <string>
 #include <vector>
@@ -179,15 +180,23 @@ class PathPlanner {
   bool continuous() const;
   Terrain terrain() const { return {memory_, continuous() ? &ground_ : nullptr, Terrain::Reach::kMemory}; }
   void go_on(PlannerOutput& out);
+  bool halted_before_block();
   bool at_turn() const;
   std::vector<Point2> way_back(const std::vector<Point2>& track) const;
   std::vector<Point2> straight_back(double way_m) const;
   std::vector<Point2> clear_part(const std::vector<Point2>& back) const;
   bool plan_on(PlannerOutput& out);
+  FullPlan plan_in_doubt(const Terrain::Doubt& doubt) const;
   FullRequest full_request(const Terrain& terrain) const;
   std::optional<HeldWay> held_way() const;
   double held_end_m() const;
   void take_plan(const FullPlan& plan, const FullRequest& request, PlannerOutput& out);
+  std::vector<RoutePoint> way_to_plan(const FullPlan& plan, const FullRequest& request) const;
+  void drive_leg(std::vector<RoutePoint> points, PlannerOutput& out);
+  bool on_manoeuvre() const;
+  void go_on_manoeuvre(PlannerOutput& out);
+  bool manoeuvre_blocked() const;
+  void give_up_manoeuvre();
   void append_way_back(double station_m, std::vector<RoutePoint>& points) const;
   void append_poses(const std::vector<Pose2>& poses, double end_station_m, std::vector<RoutePoint>& points) const;
   void firm_up(PlannerOutput& out);
@@ -199,6 +208,8 @@ class PathPlanner {
   double unseen_ahead_m() const { return block_.unseen_m - active_.progress_m; }
   PlannerStatus status(Utime now) const;
   void describe_block(PlannerStatus& status) const;
+  double short_of_goal_m() const;
+  bool leads_to_goal() const;
   double goal_distance_m() const;
 
   PathPlannerConfig config_;
@@ -232,6 +243,8 @@ class PathPlanner {
   Utime map_utime_ = kNever;      // of the newest map; kNever: none
   double map_travelled_m_ = 0.0;  // by the rover when it came
   bool new_map_ = false;          // since the last judgement
+  std::deque<CurveLeg> legs_;     // of the plan that is being driven, those to come
+  double legs_end_m_ = 0.0;       // along the global path: where the last one ends
   bool no_way_on_ = false;        // from the rover by all that is known: driving on would lead deeper into a dead end
   RepairAgenda agenda_;
   RepairAgenda firm_agenda_;

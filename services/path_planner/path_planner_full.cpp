@@ -13,7 +13,7 @@ constexpr double kLeastHeldM = 0.3;
 constexpr double kLeadM = 0.25;  // of the way being driven, with which a new plan begins
 constexpr double kHalfCellM = 0.05;
 constexpr double kControlM = 0.05;
-constexpr double kLeastWayOutM = 0.6;
+constexpr double kManoeuvreM = 1.5;   // to a change of direction: nearer, the plan is not changed any more
 constexpr double kBackRadiusM = 2.0;  // of the way from a plan's end back to the global path
 constexpr double kBackReserveM = 0.1;
 constexpr double kBackMarginM = 0.05;  // the rover has been there
@@ -42,6 +42,7 @@ bool clear_turn(const FootprintCheck& check, const Pose2& from, const Pose2& to)
 
 void PathPlanner::set_level(bool full) {
   if (full_level_ && !full) {
+    if (!legs_.empty()) give_up_manoeuvre();
     map_utime_ = kNever;
     ground_.clear();
     new_map_ = false;
@@ -72,14 +73,10 @@ bool PathPlanner::continuous() const {
 
 void PathPlanner::go_on(PlannerOutput& out) {
   judge();
-  // A single hit that is neither confirmed nor cleared on approach: planned around before the rover is stopped by it.
-  frames_before_possible_ = hazard_ahead_m() < kNearPossibleM ? frames_before_possible_ + 1 : 0;
-  const bool before_unseen = (unseen_ahead_m() < config_.stop_unseen_m || strayed()) && standing();
-  frames_before_unseen_ = before_unseen ? frames_before_unseen_ + 1 : 0;
   const bool turning = at_turn();
-  const bool blocked = no_way_on_ || block_.confirmed_m - active_.progress_m < (turning ? kTurnBlockM : kNearBlockM) ||
-                       frames_before_possible_ >= config_.patience_frames ||
-                       frames_before_unseen_ >= config_.patience_frames;
+  const bool halted = halted_before_block();
+  const bool blocked =
+      no_way_on_ || halted || block_.confirmed_m - active_.progress_m < (turning ? kTurnBlockM : kNearBlockM);
   const bool wanted = (new_map_ && !turning) || active_.kind != PathKind::kContinuous;
   if (!blocked && !wanted) {
     failures_ = 0;
@@ -94,6 +91,15 @@ void PathPlanner::go_on(PlannerOutput& out) {
   if (planned && closed && goal_distance_m() > before_m + kDetourM) dead_ends_.push_back(closed_at);
   if (!planned && active_.kind == PathKind::kContinuous) no_way_on_ = failures_ >= config_.patience_frames;
   if (stuck() && standing()) retreat(out);
+}
+
+// A single hit that is neither confirmed nor cleared on approach is planned around before the rover is stopped by it,
+// unseen ground when it has stopped the rover.
+bool PathPlanner::halted_before_block() {
+  frames_before_possible_ = hazard_ahead_m() < kNearPossibleM ? frames_before_possible_ + 1 : 0;
+  const bool before_unseen = (unseen_ahead_m() < config_.stop_unseen_m || strayed()) && standing();
+  frames_before_unseen_ = before_unseen ? frames_before_unseen_ + 1 : 0;
+  return std::max(frames_before_possible_, frames_before_unseen_) >= config_.patience_frames;
 }
 
 // While the rover turns on the spot it is left to finish that: each plan made of a view on the way would begin another
@@ -114,11 +120,8 @@ bool PathPlanner::plan_on(PlannerOutput& out) {
     request.tight_margin_m = request.turn_margin_m = config_.full.squeeze_margin_m + sigma_margin_m();
     plan = full_planner_.plan(request);
   }
-  if (!plan.plan.found) {
-    const Terrain doubted(memory_, &ground_, Terrain::Reach::kGround,
-                          {position(rover()), config_.full.doubt_from_m, config_.full.doubt_cells});
-    plan = full_planner_.plan(full_request(doubted));
-  }
+  if (!plan.plan.found) plan = plan_in_doubt({position(rover()), config_.full.doubt_from_m, config_.full.doubt_cells});
+  if (!plan.plan.found) plan = plan_in_doubt({position(rover()), 0.0, config_.full.doubt_cells, true});
   last_repair_.status = plan.plan.found               ? RepairStatus::kFound
                         : plan.plan.unseen_in_the_way ? RepairStatus::kUnseen
                                                       : RepairStatus::kNoWay;
@@ -131,6 +134,13 @@ bool PathPlanner::plan_on(PlannerOutput& out) {
   // A plan on which the rover is not let go is none.
   failures_ = hazard_ahead_m() < config_.stop_hazard_m ? failures_ + 1 : 0;
   return true;
+}
+
+FullPlan PathPlanner::plan_in_doubt(const Terrain::Doubt& doubt) const {
+  const Terrain doubted(memory_, &ground_, Terrain::Reach::kGround, doubt);
+  FullRequest request = full_request(doubted);
+  request.may_back = doubt.if_seen_free;  // astern nothing looks there
+  return full_planner_.plan(request);
 }
 
 FullRequest PathPlanner::full_request(const Terrain& terrain) const {
@@ -185,15 +195,9 @@ std::optional<HeldWay> PathPlanner::held_way() const {
   return held;
 }
 
-// To where a way leads on, if such a place is known, small spots of the map disregarded if need be where the LocCam saw
-// them free on the way here. Else the driven track, as far as the rectangle passes it; where that begins with a turn,
-// straight back over known ground if that is free: there may be no room to turn.
+// The driven track, as far as the rectangle passes it; where that begins with a turn, straight back over known ground
+// if that is free: there may be no room to turn.
 std::vector<Point2> PathPlanner::way_back(const std::vector<Point2>& track) const {
-  for (const int doubt_cells : {0, config_.full.doubt_cells}) {
-    const Terrain ground(memory_, &ground_, Terrain::Reach::kGround, {position(rover()), 0.0, doubt_cells, true});
-    std::vector<Point2> out = full_planner_.way_out(full_request(ground), kLeastWayOutM);
-    if (out.size() > 1) return out;
-  }
   const double way_m = (1 + retreats_) * config_.retreat_m;
   const std::vector<Point2> straight = straight_back(way_m);
   const double straight_m = distance(straight.front(), straight.back());
@@ -238,6 +242,23 @@ std::vector<Point2> PathPlanner::clear_part(const std::vector<Point2>& back) con
 }
 
 void PathPlanner::take_plan(const FullPlan& plan, const FullRequest& request, PlannerOutput& out) {
+  const bool roomy = plan.clearance_m >= request.roomy_margin_m - kRoundingM;
+  const double kept_m = request.tight_margin_m - config_.full.block_slack_m - sigma_margin_m();
+  active_.margin_m = roomy ? config_.margin_m : kept_m;
+  active_.corridor_half_width_m = std::clamp(plan.clearance_m - kHalfCellM - kControlM, config_.least_corridor_m,
+                                             std::max(config_.least_corridor_m, global_->corridor_half_width_m));
+  std::vector<RoutePoint> points;
+  if (!plan.plan.backs_first) points = way_to_plan(plan, request);
+  legs_ = legs_of(plan.plan);
+  legs_end_m_ = plan.end_station_m;
+  const bool turning = turning_;
+  drive_leg(std::move(points), out);
+  turning_ = turning && plan.held;
+  judge();
+}
+
+// What the rover drives before a new plan begins.
+std::vector<RoutePoint> PathPlanner::way_to_plan(const FullPlan& plan, const FullRequest& request) const {
   std::vector<RoutePoint> points;
   const std::int8_t level = global_odom_.level_at(global_progress_m_);
   if (plan.held) {
@@ -251,18 +272,59 @@ void PathPlanner::take_plan(const FullPlan& plan, const FullRequest& request, Pl
     for (double way = 0.0; way < lead - kPoseStepM; way += 2.0 * kPoseStepM)
       points.push_back({position(advanced(rover(), way, request.start_curvature_per_m)), kNaN, level});
   }
-  append_poses(plan.plan.poses, plan.end_station_m, points);
-  const bool at_goal = distance(points.back().p, global_odom_.points().back().p) <= request.goal_reach_m;
-  if (!at_goal) append_way_back(plan.end_station_m, points);
-  const bool roomy = plan.clearance_m >= request.roomy_margin_m - kRoundingM;
-  const double kept_m = request.tight_margin_m - config_.full.block_slack_m - sigma_margin_m();
-  active_.margin_m = roomy ? config_.margin_m : kept_m;
-  active_.corridor_half_width_m = std::clamp(plan.clearance_m - kHalfCellM - kControlM, config_.least_corridor_m,
-                                             std::max(config_.least_corridor_m, global_->corridor_half_width_m));
-  const bool turning = turning_;
-  adopt(Route(std::move(points)), PathKind::kContinuous, out);
-  turning_ = turning && plan.held;
+  return points;
+}
+
+// The next one, after `points`; the last leads back to the global path.
+void PathPlanner::drive_leg(std::vector<RoutePoint> points, PlannerOutput& out) {
+  const CurveLeg leg = std::move(legs_.front());
+  legs_.pop_front();
+  append_poses(leg.poses, legs_.empty() ? legs_end_m_ : global_progress_m_, points);
+  const bool at_goal = legs_.empty() && distance(points.back().p, global_odom_.points().back().p) <= goal_reach_m();
+  if (legs_.empty() && !at_goal) append_way_back(legs_end_m_, points);
+  adopt(Route(std::move(points)), leg.backwards ? PathKind::kRetreat : PathKind::kContinuous, out);
+  turning_ = false;
+}
+
+// Once the rover is about to change its direction, or has.
+bool PathPlanner::on_manoeuvre() const {
+  return !legs_.empty() &&
+         (active_.kind == PathKind::kRetreat || active_.route.length_m() - active_.progress_m < kManoeuvreM);
+}
+
+// Its legs are driven one after the other as they were planned, unless something comes in the way.
+void PathPlanner::go_on_manoeuvre(PlannerOutput& out) {
   judge();
+  if (strayed() || halted_before_block() || std::isfinite(block_.confirmed_m) || manoeuvre_blocked()) {
+    give_up_manoeuvre();
+    no_way_on_ = active_.kind == PathKind::kRetreat;  // astern the rover halts, ahead its block is known
+    return;
+  }
+  if (!standing() || !at_retreat_end()) return;
+  drive_leg({}, out);
+  judge();
+}
+
+bool PathPlanner::manoeuvre_blocked() const {
+  const Terrain ground = terrain();
+  const FootprintCheck check(ground, config_.footprint, active_.margin_m + sigma_margin_m(), 0.0, rover());
+  const double astern = active_.kind == PathKind::kRetreat ? kPi : 0.0;
+  for (double s = active_.progress_m; s <= active_.route.length_m(); s += kPoseStepM) {
+    Pose2 pose = active_.route.pose_at(s);
+    pose.yaw_rad += astern;
+    if (!check.clear_of(pose, true)) return true;
+  }
+  return std::any_of(legs_.begin(), legs_.end(), [&](const CurveLeg& leg) {
+    return std::any_of(leg.poses.begin(), leg.poses.end(), [&](const Pose2& pose) {
+      return ground.contains(position(pose)) && !check.clear_of(pose, true);
+    });
+  });
+}
+
+// What is left of it leads nowhere: another path is wanted.
+void PathPlanner::give_up_manoeuvre() {
+  legs_.clear();
+  replan_wanted_ = true;
 }
 
 // Beyond a plan the path leads back to the global one; before the rover comes there, there is another plan.

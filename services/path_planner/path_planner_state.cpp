@@ -5,7 +5,7 @@
 namespace rover::planning {
 namespace {
 
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 
 void put_points(StateWriter& out, const std::vector<RoutePoint>& points) {
   out.put(static_cast<std::uint64_t>(points.size()));
@@ -73,6 +73,7 @@ std::vector<std::uint8_t> PathPlanner::save() const {
   out.put(active_.margin_m);
   out.put(active_.corridor_half_width_m);
   out.put(active_.progress_m);
+  out.put(static_cast<std::uint8_t>(!legs_.empty()));
   out.put(static_cast<std::uint64_t>(driven_.points().size()));
   for (const Point2& p : driven_.points()) out.put(p);
   put_map(out, memory_.map());
@@ -100,6 +101,7 @@ bool PathPlanner::restore(const std::vector<std::uint8_t>& bytes) {
   fresh.active_.margin_m = in.get<double>();
   fresh.active_.corridor_half_width_m = in.get<double>();
   fresh.active_.progress_m = in.get<double>();
+  fresh.replan_wanted_ = in.get<std::uint8_t>() != 0;  // the legs that follow are forgotten
   std::deque<Point2> driven(in.count(sizeof(Point2)));
   for (Point2& p : driven) p = in.get<Point2>();
   fresh.driven_.restore(std::move(driven));

@@ -11,6 +11,8 @@ namespace {
 // m.
 constexpr int kNeighboursThatFill = 6;
 
+constexpr double kWheelsReachM = 0.45;  // to the sides of the rover's centre
+
 constexpr double kRelaxM = 0.02;  // leaves room for rounding where the rover stands close to a hazard
 
 // Marks unseen cells that are enough surrounded by seen ones as seen.
@@ -47,6 +49,22 @@ std::vector<std::uint8_t> wide_parts(const std::vector<std::uint8_t>& mask, int 
         for (int u = x; u < x1; ++u) out[v * cells + u] = mask[v * cells + u];
     }
   return out;
+}
+
+// The largest value within so many cells, along rows and columns.
+std::vector<float> widened(const std::vector<float>& values, int cells, int reach) {
+  const auto along = [&](const std::vector<float>& in, int step, int across) {
+    std::vector<float> out(in.size());
+    for (int line = 0; line < cells; ++line)
+      for (int k = 0; k < cells; ++k) {
+        float most = 0.0F;
+        for (int j = std::max(0, k - reach); j <= std::min(cells - 1, k + reach); ++j)
+          most = std::max(most, in[line * across + j * step]);
+        out[line * across + k * step] = most;
+      }
+    return out;
+  };
+  return along(along(values, 1, cells), cells, 1);
 }
 
 }  // namespace
@@ -114,6 +132,7 @@ std::vector<std::uint8_t> Terrain::lay_ground(const HazardMemory& memory, const 
     impassable[i] = cost == TraversabilityGrid::kImpassable && !refuted ? 1 : 0;
     difficulty_[i] = static_cast<float>(cost) / static_cast<float>(TraversabilityGrid::kImpassable);
   }
+  difficulty_ = widened(difficulty_, cells_, static_cast<int>(kWheelsReachM / cell_m_));
   return impassable;
 }
 

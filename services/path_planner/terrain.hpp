@@ -64,7 +64,8 @@ class Terrain {
   double hazard_distance_m(Point2 p) const { return contains(p) ? hazard_distance_[cell_of(p)] : kInfinity; }
   double hazard_distance_m(int cell) const { return hazard_distance_[cell]; }
   bool unseen(int cell) const { return unseen_[cell] != 0; }
-  // What the map says of the ground itself, 0 easy .. 1 impassable; 0 where it says nothing.
+  // What the map says of the worst ground under the wheels of a rover whose centre is there, 0 easy .. 1 impassable; 0
+  // where it says nothing.
   double difficulty(int cell) const { return difficulty_.empty() ? 0.0 : difficulty_[cell]; }
   double unseen_distance_m(Point2 p) const { return contains(p) ? unseen_distance_[cell_of(p)] : 0.0; }
   // Bilinear, with the gradient; far from hazards the value saturates.

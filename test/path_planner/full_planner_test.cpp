@@ -278,33 +278,58 @@ TEST(FullPlanner, OutOfADeadEndItBacksToWhereAWayLeadsOn) {
     return sides || end ? TraversabilityGrid::kImpassable : kFree;
   };
   const Ground ground(channel);
-  ASSERT_FALSE(ground.plan().plan.found);
   const Terrain terrain(ground.memory, &ground.map, Terrain::Reach::kGround);
-  const std::vector<Point2> back = FullPlanner(planner_config().full).way_out(ground.request(terrain), 0.6);
-  ASSERT_GT(back.size(), 10U);
-  EXPECT_EQ(back.front().x_m, 0.0);
-  EXPECT_EQ(back.front().y_m, 0.0);
-  for (size_t i = 1; i < back.size(); ++i) EXPECT_LT(distance(back[i - 1], back[i]), 0.051);
-  const Point2 end = back.back(), before = back[back.size() - 2];
-  EXPECT_LT(end.x_m, -2.5);
-  const Pose2 there{end.x_m, end.y_m, std::atan2(before.y_m - end.y_m, before.x_m - end.x_m)};
-  EXPECT_TRUE(ground.plan(there).plan.found);
+  FullRequest request = ground.request(terrain);
+  request.may_back = false;
+  EXPECT_FALSE(FullPlanner(planner_config().full).plan(request).plan.found);
+  const CurvePlan plan = ground.plan().plan;
+  ASSERT_TRUE(plan.found);
+  EXPECT_TRUE(plan.backs_first);
+  ASSERT_EQ(plan.reversals.size(), 1U);
+  EXPECT_LT(plan.poses[plan.reversals.front()].x_m, -2.5);
+  EXPECT_GE(plan.poses.back().x_m, 8.0);
+  const FootprintCheck check(terrain, planner_config().footprint, 0.11, 0.0, {});
+  EXPECT_TRUE(std::all_of(plan.poses.begin(), plan.poses.end(), [&](const Pose2& p) { return check.clear(p); }));
 }
 
-TEST(FullPlanner, EnclosedOrByUnseenGroundThereIsNoWayOut) {
-  const auto way_out = [](const std::function<std::uint8_t(Point2)>& cost) {
-    const Ground ground(cost);
-    const Terrain terrain(ground.memory, &ground.map, Terrain::Reach::kGround);
-    return FullPlanner(planner_config().full).way_out(ground.request(terrain), 0.6);
-  };
-  EXPECT_TRUE(way_out([](Point2 p) {
-                const double r = distance(p, {0.0, 0.0});
-                return r > 2.0 && r < 2.3 ? TraversabilityGrid::kImpassable : kFree;
-              }).empty());
-  EXPECT_TRUE(way_out([](Point2 p) {
-                if (p.x_m < -1.0) return TraversabilityGrid::kUnknown;
-                return p.x_m > 1.2 && p.x_m < 1.4 ? TraversabilityGrid::kImpassable : kFree;
-              }).empty());
+TEST(FullPlanner, OverUnseenGroundItDoesNotBack) {
+  EXPECT_FALSE(Ground([](Point2 p) {
+                 if (p.x_m < -1.0) return TraversabilityGrid::kUnknown;
+                 return p.x_m > 1.2 && p.x_m < 1.4 ? TraversabilityGrid::kImpassable : kFree;
+               })
+                   .plan()
+                   .plan.found);
+}
+
+// Where ahead and astern change, each leg begins at the pose at which the one before ends.
+TEST(CurvePlan, FallsIntoLegs) {
+  CurvePlan plan;
+  for (const double x : {0.0, -0.1, -0.2, -0.1, 0.0, 0.1}) plan.poses.push_back({x, 0.0, 0.0});
+  plan.backs_first = true;
+  plan.reversals = {2};
+  const std::deque<CurveLeg> legs = legs_of(plan);
+  ASSERT_EQ(legs.size(), 2U);
+  EXPECT_TRUE(legs[0].backwards);
+  EXPECT_FALSE(legs[1].backwards);
+  EXPECT_EQ(legs[0].poses.size(), 3U);
+  EXPECT_EQ(legs[1].poses.size(), 4U);
+  EXPECT_EQ(legs[1].poses.front().x_m, -0.2);
+}
+
+// A wall across all of the map, of which one side ends near the global path: beyond it there may be a way around.
+TEST(FullPlanner, WhereTheMapIsClosedAWayLeadsOutOfIt) {
+  const auto wall = [](Point2 p) { return std::abs(p.x_m - 5.0) < 0.2 ? TraversabilityGrid::kImpassable : kFree; };
+  Ground ground(wall);
+  for (const double y : {-5.0, 5.0}) ground.map.add(map_about({0.0, y}, wall));
+  ground.global = Route({{{-3.0, -7.0}}, {{10.0, -7.0}}});
+  const Terrain terrain(ground.memory, &ground.map, Terrain::Reach::kGround);
+  FullRequest request = ground.request(terrain);
+  const FullPlan plan = FullPlanner(planner_config().full).plan(request);
+  ASSERT_TRUE(plan.plan.found);
+  EXPECT_LT(plan.plan.poses.back().y_m, -13.0);
+  EXPECT_LT(plan.plan.poses.back().x_m, 5.0);
+  request.from_m = 6.0;  // the goal is in sight
+  EXPECT_FALSE(FullPlanner(planner_config().full).plan(request).plan.found);
 }
 
 // Ground beside the rover that no camera has seen is not driven on; ground further ahead is, for there the cameras come
@@ -447,14 +472,13 @@ TEST_F(FullLevel, DoubtfulSpotsAreApproachedWhereNothingElseLeadsOn) {
   EXPECT_GT(rig.odom.x_m, 6.0);
 }
 
-// In a pocket in which it has turned it cannot turn back to its track, and its mouth is further than a way out is
-// sought.
+// In a channel in which it cannot turn, and of which the map does not show the mouth.
 TEST_F(FullLevel, WhereThereIsNoRoomToTurnTheRoverGoesStraightBack) {
   rig.planner.set_level(true);
   send_map(free_ground);
   rig.step();
   rig.go(3.0);
-  rig.odom.yaw_rad = 1.2;
+  rig.odom = {rig.odom.x_m, rig.odom.y_m + 3.0, 1.2};
   const Pose2 there = rig.odom;
   for (const double y : {-0.75, 0.0, 0.75}) {
     const double c = std::cos(there.yaw_rad), sn = std::sin(there.yaw_rad);
@@ -462,7 +486,7 @@ TEST_F(FullLevel, WhereThereIsNoRoomToTurnTheRoverGoesStraightBack) {
   }
   send_map([&](Point2 p) {
     const Point2 b = to_body(there, p);
-    const bool ahead = std::abs(b.x_m - 1.2) < 0.1, aside = std::abs(std::abs(b.y_m) - 0.75) < 0.1 && b.x_m > -12.0;
+    const bool ahead = std::abs(b.x_m - 1.2) < 0.1, aside = std::abs(std::abs(b.y_m) - 0.7) < 0.1 && b.x_m > -12.0;
     return ahead || aside ? TraversabilityGrid::kImpassable : kFree;
   });
   rig.look(planner_config().patience_frames + 1);

@@ -3,25 +3,42 @@
 namespace rover::planning::testing_support {
 namespace {
 
-constexpr double kRimM = 0.05;         // the map widens a rock
-constexpr double kRangeGain = 20.0;    // metres of range for each metre of height
+constexpr double kRimM = 0.08;         // the map widens a rock
 constexpr std::uint8_t kLowRock = 80;  // cost of rocks that are driven over
+// Which rocks the map calls impassable from afar, as counted on drives of full_hard: the height that it takes grows
+// with the range, and differs from rock to rock.
+constexpr double kNearM = 3.0;
+constexpr double kLimitPerM = 0.003;
+constexpr double kSpreadM = 0.012;  // deviation at kNearM
+constexpr double kSpreadPerM = 0.003;
+
+// A rock's own deviate, always the same.
+double shape_of(const Rock& rock) {
+  const auto millimetres = [](double v) { return static_cast<std::uint64_t>(std::llround(1e3 * v)); };
+  std::mt19937_64 random(millimetres(rock.p.x_m) * 1'000'003 + millimetres(rock.p.y_m));
+  return gauss(random);
+}
+
+bool looks_impassable(const NavView::SeenRock& rock, double range_m) {
+  const double further = std::max(0.0, range_m - kNearM);
+  return rock.height_m + (kSpreadM + kSpreadPerM * further) * rock.shape >= kHazardHeightM + kLimitPerM * further;
+}
 
 }  // namespace
 
-std::uint8_t NavView::seen(const std::vector<Rock>& in_body, Point2 b, double azimuth_rad) const {
+std::uint8_t NavView::seen(const std::vector<SeenRock>& in_body, Point2 b, double azimuth_rad) const {
   const double dx = b.x_m - camera_.position.x_m;
   const double dy = b.y_m - camera_.position.y_m;
   const double range = std::hypot(dx, dy);
   if (range < camera_.near_m || range > camera_.far_m) return TraversabilityGrid::kUnknown;
   if (std::abs(wrap_angle(std::atan2(dy, dx) - azimuth_rad)) > camera_.half_view_rad)
     return TraversabilityGrid::kUnknown;
-  const Rock* here = nullptr;
-  for (const Rock& rock : in_body)
+  const SeenRock* here = nullptr;
+  for (const SeenRock& rock : in_body)
     if (distance(rock.p, b) <= rock.radius_m + kRimM && (here == nullptr || rock.height_m > here->height_m))
       here = &rock;
   const double top = here != nullptr ? here->height_m : 0.0;
-  for (const Rock& rock : in_body) {
+  for (const SeenRock& rock : in_body) {
     if (&rock == here) continue;
     const double rx = rock.p.x_m - camera_.position.x_m;
     const double ry = rock.p.y_m - camera_.position.y_m;
@@ -32,16 +49,15 @@ std::uint8_t NavView::seen(const std::vector<Rock>& in_body, Point2 b, double az
       return TraversabilityGrid::kUnknown;
   }
   if (here == nullptr) return 0;
-  const bool known = range < camera_.far_of_least_m + kRangeGain * (top - kHazardHeightM);
-  return top >= kHazardHeightM && known ? TraversabilityGrid::kImpassable : kLowRock;
+  return looks_impassable(*here, range) ? TraversabilityGrid::kImpassable : kLowRock;
 }
 
 void NavView::look(const std::vector<Rock>& rocks, const Pose2& truth, const Pose2& odom, double azimuth_rad) {
   map_.move_to(odom.x_m, odom.y_m);
-  std::vector<Rock> in_body;
+  std::vector<SeenRock> in_body;
   for (const Rock& rock : rocks) {
     if (distance(rock.p, position(truth)) > camera_.far_m + 1.0) continue;
-    in_body.push_back(rock);
+    in_body.push_back({rock, shape_of(rock)});
     in_body.back().p = to_body(truth, rock.p);
   }
   map_.for_each([&](CellIndex i, std::uint8_t& cell) {

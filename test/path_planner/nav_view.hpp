@@ -10,14 +10,17 @@ namespace rover::planning::testing_support {
 struct NavCameraModel {
   Point2 position{0.35, 0.0};  // in body
   double height_m = 1.1;
-  double half_view_rad = 0.436;
-  double near_m = 1.3;  // from the camera
+  double half_view_rad = 0.36;  // of both cameras together
+  double near_m = 1.3;          // from the camera
   double far_m = 9.0;
-  double far_of_least_m = 7.0;  // a rock that just is a hazard is seen as one from there, higher ones from further away
 };
 
 class NavView {
  public:
+  struct SeenRock : Rock {
+    double shape = 0.0;  // how much of its height the map shows
+  };
+
   explicit NavView(const NavCameraModel& camera) : camera_(camera), map_(200, 0.1, TraversabilityGrid::kUnknown) {}
 
   // One picture, `azimuth_rad` off the heading, seen from the true pose and laid where odometry says the rover is.
@@ -25,7 +28,7 @@ class NavView {
   TraversabilityGrid grid(Utime utime) const;
 
  private:
-  std::uint8_t seen(const std::vector<Rock>& in_body, Point2 b, double azimuth_rad) const;
+  std::uint8_t seen(const std::vector<SeenRock>& in_body, Point2 b, double azimuth_rad) const;
 
   NavCameraModel camera_;
   GridMap<std::uint8_t> map_;
