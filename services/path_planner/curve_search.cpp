@@ -71,7 +71,7 @@ class CurveSearch {
     plan_.cost = problem_.most_cost;
     offer({problem_.start, problem_.start_curvature_per_m, 0.0, 0.0, -1});
     put({problem_.stopped, 0.0, halt_cost(problem_.start_curvature_per_m), 0.0, -1, false, true});
-    if (problem_.may_back) offer_reversals({problem_.stopped, problem_.start_curvature_per_m, 0.0, 0.0, -1}, -1);
+    if (problem_.may_back) offer_reversal({problem_.stopped, problem_.start_curvature_per_m, 0.0, 0.0, -1}, -1);
     while (!open_.empty() && plan_.expansions < config_.max_expansions) {
       const auto [estimate, index] = pop();
       if (estimate >= plan_.cost) break;
@@ -135,19 +135,15 @@ class CurveSearch {
     return entry;
   }
 
-  // The wheels steer while the rover stands.
-  void offer_reversals(const CurveNode& from, int parent) {
-    for (const double level : kLevels) {
-      CurveNode next = from;
-      next.parent = parent;
-      next.turned = false;
-      next.reversed = true;
-      next.backwards = !from.backwards;
-      next.curvature_per_m = level * config_.max_curvature_per_m;
-      const double change = std::abs(next.curvature_per_m - from.curvature_per_m) / config_.max_curvature_per_m;
-      next.cost += config_.reversal_cost_m + config_.turn_bend_cost_m * change;
-      offer(next);
-    }
+  void offer_reversal(const CurveNode& from, int parent) {
+    CurveNode next = from;
+    next.parent = parent;
+    next.reversed = true;
+    next.backwards = !from.backwards;
+    next.curvature_per_m = 0.0;
+    const double straightened = std::abs(from.curvature_per_m) / config_.max_curvature_per_m;
+    next.cost += config_.reversal_cost_m + config_.turn_bend_cost_m * straightened;
+    offer(next);
   }
 
   // Point turns to one side, as far as the rectangle turns freely over seen ground.
@@ -207,7 +203,7 @@ class CurveSearch {
       end_or_offer(next);
     }
     if (from.turned || from.reversed || from.parent < 0) return;
-    if (problem_.may_back) offer_reversals(from, index);
+    if (problem_.may_back) offer_reversal(from, index);
     CurveNode halt = from;
     halt.parent = index;
     halt.curvature_per_m = 0.0;

@@ -191,11 +191,13 @@ class PathPlanner {
   std::optional<HeldWay> held_way() const;
   double held_end_m() const;
   void take_plan(const FullPlan& plan, const FullRequest& request, PlannerOutput& out);
+  void halt_first(const Pose2& stopped);
   std::vector<RoutePoint> way_to_plan(const FullPlan& plan, const FullRequest& request) const;
   void drive_leg(std::vector<RoutePoint> points, PlannerOutput& out);
   bool on_manoeuvre() const;
   void go_on_manoeuvre(PlannerOutput& out);
-  bool manoeuvre_blocked() const;
+  bool blocked_astern() const;
+  bool legs_blocked() const;
   void give_up_manoeuvre();
   void append_way_back(double station_m, std::vector<RoutePoint>& points) const;
   void append_poses(const std::vector<Pose2>& poses, double end_station_m, std::vector<RoutePoint>& points) const;

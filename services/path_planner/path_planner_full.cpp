@@ -13,6 +13,7 @@ constexpr double kLeastHeldM = 0.3;
 constexpr double kLeadM = 0.25;  // of the way being driven, with which a new plan begins
 constexpr double kHalfCellM = 0.05;
 constexpr double kControlM = 0.05;
+constexpr double kLeastHaltM = 0.1;   // shorter ways to a halt are none
 constexpr double kManoeuvreM = 1.5;   // to a change of direction: nearer, the plan is not changed any more
 constexpr double kBackRadiusM = 2.0;  // of the way from a plan's end back to the global path
 constexpr double kBackReserveM = 0.1;
@@ -77,7 +78,8 @@ void PathPlanner::go_on(PlannerOutput& out) {
   const bool halted = halted_before_block();
   const bool blocked =
       no_way_on_ || halted || block_.confirmed_m - active_.progress_m < (turning ? kTurnBlockM : kNearBlockM);
-  const bool wanted = (new_map_ && !turning) || active_.kind != PathKind::kContinuous;
+  const bool ends_early = legs_.empty() && !leads_to_goal();  // the legs that followed were given up
+  const bool wanted = (new_map_ && !turning) || active_.kind != PathKind::kContinuous || ends_early;
   if (!blocked && !wanted) {
     failures_ = 0;
     return;
@@ -248,13 +250,29 @@ void PathPlanner::take_plan(const FullPlan& plan, const FullRequest& request, Pl
   active_.corridor_half_width_m = std::clamp(plan.clearance_m - kHalfCellM - kControlM, config_.least_corridor_m,
                                              std::max(config_.least_corridor_m, global_->corridor_half_width_m));
   std::vector<RoutePoint> points;
-  if (!plan.plan.backs_first) points = way_to_plan(plan, request);
   legs_ = legs_of(plan.plan);
+  if (plan.plan.backs_first)
+    halt_first(request.stopped);
+  else
+    points = way_to_plan(plan, request);
   legs_end_m_ = plan.end_station_m;
   const bool turning = turning_;
   drive_leg(std::move(points), out);
   turning_ = turning && plan.held;
   judge();
+}
+
+// A rover that drives ahead comes to a halt before it backs.
+void PathPlanner::halt_first(const Pose2& stopped) {
+  const double way_m = distance(position(rover()), position(stopped));
+  if (way_m < kLeastHaltM) return;
+  CurveLeg leg;
+  const int steps = static_cast<int>(std::ceil(way_m / kPoseStepM));
+  for (int i = 0; i <= steps; ++i) {
+    const double share = static_cast<double>(i) / steps;
+    leg.poses.push_back(advanced(rover(), share * way_m, wrap_angle(stopped.yaw_rad - rover().yaw_rad) / way_m));
+  }
+  legs_.push_front(std::move(leg));
 }
 
 // What the rover drives before a new plan begins.
@@ -295,9 +313,13 @@ bool PathPlanner::on_manoeuvre() const {
 // Its legs are driven one after the other as they were planned, unless something comes in the way.
 void PathPlanner::go_on_manoeuvre(PlannerOutput& out) {
   judge();
-  if (strayed() || halted_before_block() || std::isfinite(block_.confirmed_m) || manoeuvre_blocked()) {
+  if (strayed() || halted_before_block() || std::isfinite(block_.confirmed_m) || blocked_astern()) {
     give_up_manoeuvre();
     no_way_on_ = active_.kind == PathKind::kRetreat;  // astern the rover halts, ahead its block is known
+    return;
+  }
+  if (legs_blocked()) {
+    legs_.clear();  // another plan is made at this one's end
     return;
   }
   if (!standing() || !at_retreat_end()) return;
@@ -305,15 +327,18 @@ void PathPlanner::go_on_manoeuvre(PlannerOutput& out) {
   judge();
 }
 
-bool PathPlanner::manoeuvre_blocked() const {
+bool PathPlanner::blocked_astern() const {
+  if (active_.kind != PathKind::kRetreat) return false;
   const Terrain ground = terrain();
   const FootprintCheck check(ground, config_.footprint, active_.margin_m + sigma_margin_m(), 0.0, rover());
-  const double astern = active_.kind == PathKind::kRetreat ? kPi : 0.0;
-  for (double s = active_.progress_m; s <= active_.route.length_m(); s += kPoseStepM) {
-    Pose2 pose = active_.route.pose_at(s);
-    pose.yaw_rad += astern;
-    if (!check.clear_of(pose, true)) return true;
-  }
+  for (double s = active_.progress_m; s <= active_.route.length_m(); s += kPoseStepM)
+    if (!check.clear_of(active_.route.pose_at(s), true)) return true;  // a rectangle looks the same from behind
+  return false;
+}
+
+bool PathPlanner::legs_blocked() const {
+  const Terrain ground = terrain();
+  const FootprintCheck check(ground, config_.footprint, active_.margin_m + sigma_margin_m(), 0.0, rover());
   return std::any_of(legs_.begin(), legs_.end(), [&](const CurveLeg& leg) {
     return std::any_of(leg.poses.begin(), leg.poses.end(), [&](const Pose2& pose) {
       return ground.contains(position(pose)) && !check.clear_of(pose, true);

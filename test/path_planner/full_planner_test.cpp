@@ -287,7 +287,7 @@ TEST(FullPlanner, OutOfADeadEndItBacksToWhereAWayLeadsOn) {
   EXPECT_TRUE(plan.backs_first);
   ASSERT_EQ(plan.reversals.size(), 1U);
   EXPECT_LT(plan.poses[plan.reversals.front()].x_m, -2.5);
-  EXPECT_GE(plan.poses.back().x_m, 8.0);
+  EXPECT_GT(plan.poses.back().x_m, 7.5);
   const FootprintCheck check(terrain, planner_config().footprint, 0.11, 0.0, {});
   EXPECT_TRUE(std::all_of(plan.poses.begin(), plan.poses.end(), [&](const Pose2& p) { return check.clear(p); }));
 }
