@@ -191,7 +191,7 @@ class PathPlanner {
   std::optional<HeldWay> held_way() const;
   double held_end_m() const;
   void take_plan(const FullPlan& plan, const FullRequest& request, PlannerOutput& out);
-  void halt_first(const Pose2& stopped);
+  void drive_ahead_first(const FullPlan& plan, const FullRequest& request);
   std::vector<RoutePoint> way_to_plan(const FullPlan& plan, const FullRequest& request) const;
   void drive_leg(std::vector<RoutePoint> points, PlannerOutput& out);
   bool on_manoeuvre() const;
@@ -242,12 +242,13 @@ class PathPlanner {
   int frames_before_unseen_ = 0;
   int frames_before_possible_ = 0;
   bool full_level_ = false;
-  Utime map_utime_ = kNever;      // of the newest map; kNever: none
-  double map_travelled_m_ = 0.0;  // by the rover when it came
-  bool new_map_ = false;          // since the last judgement
-  std::deque<CurveLeg> legs_;     // of the plan that is being driven, those to come
-  double legs_end_m_ = 0.0;       // along the global path: where the last one ends
-  bool no_way_on_ = false;        // from the rover by all that is known: driving on would lead deeper into a dead end
+  Utime map_utime_ = kNever;        // of the newest map; kNever: none
+  double map_travelled_m_ = 0.0;    // by the rover when it came
+  bool new_map_ = false;            // since the last judgement
+  std::deque<CurveLeg> legs_;       // of the plan that is being driven, those to come
+  double legs_end_m_ = 0.0;         // along the global path: where the last one ends ...
+  double legs_goal_reach_m_ = 0.0;  // ... and within this of the goal it is there
+  bool no_way_on_ = false;          // from the rover by all that is known: driving on would lead deeper into a dead end
   RepairAgenda agenda_;
   RepairAgenda firm_agenda_;
   RepairResult last_repair_;

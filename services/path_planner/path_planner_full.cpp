@@ -252,9 +252,10 @@ void PathPlanner::take_plan(const FullPlan& plan, const FullRequest& request, Pl
   std::vector<RoutePoint> points;
   legs_ = legs_of(plan.plan);
   if (plan.plan.backs_first)
-    halt_first(request.stopped);
+    drive_ahead_first(plan, request);
   else
     points = way_to_plan(plan, request);
+  legs_goal_reach_m_ = request.goal_reach_m;
   legs_end_m_ = plan.end_station_m;
   const bool turning = turning_;
   drive_leg(std::move(points), out);
@@ -262,16 +263,18 @@ void PathPlanner::take_plan(const FullPlan& plan, const FullRequest& request, Pl
   judge();
 }
 
-// A rover that drives ahead comes to a halt before it backs.
-void PathPlanner::halt_first(const Pose2& stopped) {
-  const double way_m = distance(position(rover()), position(stopped));
-  if (way_m < kLeastHaltM) return;
-  CurveLeg leg;
-  const int steps = static_cast<int>(std::ceil(way_m / kPoseStepM));
-  for (int i = 0; i <= steps; ++i) {
-    const double share = static_cast<double>(i) / steps;
-    leg.poses.push_back(advanced(rover(), share * way_m, wrap_angle(stopped.yaw_rad - rover().yaw_rad) / way_m));
+// Before a plan begins astern: the way that is held, or to a halt.
+void PathPlanner::drive_ahead_first(const FullPlan& plan, const FullRequest& request) {
+  if (plan.held) {
+    legs_.push_front({request.held->poses});
+    return;
   }
+  const double way_m = distance(position(rover()), position(request.stopped));
+  if (way_m < kLeastHaltM) return;
+  const double curvature = wrap_angle(request.stopped.yaw_rad - rover().yaw_rad) / way_m;
+  CurveLeg leg;
+  for (double way = 0.0; way < way_m; way += kPoseStepM) leg.poses.push_back(advanced(rover(), way, curvature));
+  leg.poses.push_back(request.stopped);
   legs_.push_front(std::move(leg));
 }
 
@@ -298,7 +301,7 @@ void PathPlanner::drive_leg(std::vector<RoutePoint> points, PlannerOutput& out) 
   const CurveLeg leg = std::move(legs_.front());
   legs_.pop_front();
   append_poses(leg.poses, legs_.empty() ? legs_end_m_ : global_progress_m_, points);
-  const bool at_goal = legs_.empty() && distance(points.back().p, global_odom_.points().back().p) <= goal_reach_m();
+  const bool at_goal = legs_.empty() && distance(points.back().p, global_odom_.points().back().p) <= legs_goal_reach_m_;
   if (legs_.empty() && !at_goal) append_way_back(legs_end_m_, points);
   adopt(Route(std::move(points)), leg.backwards ? PathKind::kRetreat : PathKind::kContinuous, out);
   turning_ = false;
