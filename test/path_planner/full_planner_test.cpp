@@ -332,6 +332,14 @@ TEST(FullPlanner, WhereTheMapIsClosedAWayLeadsOutOfIt) {
   EXPECT_FALSE(FullPlanner(planner_config().full).plan(request).plan.found);
 }
 
+// Where there is room: a stone that is passable would come under a wheel, beside the rover's centre line.
+TEST(FullPlanner, StonesThatMayBeDrivenOverAreDrivenAround) {
+  const auto stone = [](Point2 p) { return distance(p, {4.0, 0.35}) < 0.15 ? std::uint8_t{200} : kFree; };
+  const FullPlan plan = Ground(stone).plan();
+  ASSERT_TRUE(plan.plan.found);
+  EXPECT_LT(y_at(plan.plan.poses, 4.0), -0.1);
+}
+
 // Ground beside the rover that no camera has seen is not driven on; ground further ahead is, for there the cameras come
 // first.
 TEST(FullPlanner, UnknownGroundNearbyIsNotEnteredFurtherOnItCostsMore) {
@@ -494,6 +502,35 @@ TEST_F(FullLevel, WhereThereIsNoRoomToTurnTheRoverGoesStraightBack) {
   const Point2 end = to_body(there, rig.paths.back().points.back().p);
   EXPECT_LT(end.x_m, -0.5);
   EXPECT_NEAR(end.y_m, 0.0, 0.05);
+}
+
+// A PATH astern, then one ahead; each begins where the rover is, and none but the last leads to the goal.
+TEST_F(FullLevel, APlanThatBacksIsDrivenLegByLeg) {
+  rig.planner.set_level(true);
+  send_map([](Point2 p) {
+    const bool sides = std::abs(std::abs(p.y_m) - 0.85) < 0.1 && p.x_m > -2.5 && p.x_m < 1.4;
+    const bool end = std::abs(p.x_m - 1.3) < 0.1 && std::abs(p.y_m) < 0.95;
+    return sides || end ? TraversabilityGrid::kImpassable : kFree;
+  });
+  PlannerOutput out = rig.step();
+  ASSERT_TRUE(out.path);
+  EXPECT_EQ(out.path->kind, PathKind::kRetreat);
+  EXPECT_LT(distance(out.path->points.front().p, position(rig.odom)), 0.1);
+  EXPECT_GT(out.status.goal_distance_m, 25.0);
+  const Route back(out.path->points);
+  for (double s = 0.0; s <= back.length_m(); s += 0.05) {
+    rig.odom = back.pose_at(s);
+    rig.odom.yaw_rad += kPi;
+    rig.forward_mps = -0.2;
+    EXPECT_FALSE(rig.look().path);
+  }
+  EXPECT_LT(rig.odom.x_m, -2.5);
+  rig.forward_mps = 0.0;
+  out = rig.look();
+  ASSERT_TRUE(out.path);
+  EXPECT_EQ(out.path->kind, PathKind::kContinuous);
+  EXPECT_LT(distance(out.path->points.front().p, position(rig.odom)), 0.15);
+  EXPECT_NEAR(out.path->points.back().p.x_m, 30.0, 1e-6);
 }
 
 // From near the gap is closed, from afar it looks open again: the rover does not turn back for it.
