@@ -22,7 +22,6 @@ constexpr double kBackTurnStepRad = 0.1;
 constexpr double kBackTurnRad = 0.35;        // more between stern and track needs room to turn
 constexpr double kLeastStraightBackM = 0.5;  // less is not worth it
 constexpr double kBackAheadM = 3.0;
-constexpr double kRoundingM = 1e-6;
 constexpr double kCreepMps = 0.05;  // of the body origin while the rover turns on the spot
 constexpr double kAtKinkM = 0.15;
 constexpr double kTurnBlockM = 1.5;     // likewise while the rover turns on the spot
@@ -244,9 +243,8 @@ std::vector<Point2> PathPlanner::clear_part(const std::vector<Point2>& back) con
 }
 
 void PathPlanner::take_plan(const FullPlan& plan, const FullRequest& request, PlannerOutput& out) {
-  const bool roomy = plan.clearance_m >= request.roomy_margin_m - kRoundingM;
-  const double kept_m = request.tight_margin_m - config_.full.block_slack_m - sigma_margin_m();
-  active_.margin_m = roomy ? config_.margin_m : kept_m;
+  // Also of a roomy plan: where less is left the next plan widens it, if that is possible, without a stop.
+  active_.margin_m = request.tight_margin_m - config_.full.block_slack_m - sigma_margin_m();
   active_.corridor_half_width_m = std::clamp(plan.clearance_m - kHalfCellM - kControlM, config_.least_corridor_m,
                                              std::max(config_.least_corridor_m, global_->corridor_half_width_m));
   std::vector<RoutePoint> points;
