@@ -259,7 +259,6 @@ class CurveSearch {
       const CurveNode& to = nodes_[chain[k]];
       if (to.to_be_turned) continue;
       if (to.turned) {
-        plan_.turns_first = plan_.turns_first || plan_.poses.size() == 1;
         if (from.backwards) plan_.reversals.push_back(plan_.poses.size() - 1);
         plan_.poses.push_back(to.pose);
       } else if (to.reversed) {

@@ -39,10 +39,9 @@ struct CurveProblem {
 struct CurvePlan {
   bool found = false;
   bool unseen_in_the_way = false;  // ways were dropped because their ground would not be seen in time
-  bool turns_first = false;
-  std::vector<Pose2> poses;       // every 5 cm; two in one place: a point turn
-  bool backs_first = false;       // starts stern first
-  std::vector<size_t> reversals;  // poses at which the rover changes from ahead to astern, or back
+  std::vector<Pose2> poses;        // every 5 cm; two in one place: a point turn
+  bool backs_first = false;        // starts stern first
+  std::vector<size_t> reversals;   // poses at which the rover changes from ahead to astern, or back
   double cost = kInfinity;
   int halts = 0;
   int expansions = 0;

@@ -38,7 +38,7 @@ FullPlan FullPlanner::plan_on(const FullRequest& request, const GoalField& field
   FullPlan out;
   const HeadingField headings(config_.search,
                               {request.terrain, field, request.footprint, request.rover, request.roomy_margin_m,
-                               request.turn_margin_m, request.tight_margin_m, slack_m, 0.10, request.may_back});
+                               request.turn_margin_m, request.tight_margin_m, slack_m, request.may_back});
   // With less room there is no more of a way.
   out.hopeless = !request.held && std::isinf(headings.to_go(request.start)) &&
                  std::isinf(headings.to_go_turning(request.stopped)) &&

@@ -1,5 +1,6 @@
 // Where a continuous plan may end, and what is left to go from anywhere: the goal line across the global path at the
-// horizon, or the goal itself, and the travel field (fast marching) to it over the ground's cost.
+// horizon, or the goal itself, or (dearly) the rim of the map; and the travel field (fast marching) to it over the
+// ground's cost.
 #pragma once
 
 #include <vector>

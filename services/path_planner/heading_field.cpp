@@ -15,6 +15,9 @@ constexpr double kLongestM = 0.62;
 constexpr double kLengthStepM = 0.01;
 constexpr double kEndBandM = 0.7;  // past the goal line
 
+// The rover may stand closer to a hazard than it would go: one as near to it as the margin and that much does not close
+// its place.
+constexpr double kSparedM = 0.10;
 constexpr double kBeyond = 2.5;  // of cost, past that of the rover's pose, until which the field is laid
 
 int wrapped(int heading) {
@@ -86,7 +89,7 @@ void HeadingField::lay_rooms() {
 void HeadingField::stamp(double margin_m, Room room) {
   std::vector<int> hazards;
   for (const HazardSpot& hazard : terrain_.hazards())
-    if (query_.spared_m < 0.0 || query_.footprint.distance_m(query_.rover, hazard.p) > margin_m + query_.spared_m)
+    if (query_.footprint.distance_m(query_.rover, hazard.p) > margin_m + kSparedM)
       hazards.push_back(terrain_.cell_of(hazard.p));
   for (int heading = 0; heading < kHeadings / 2; ++heading) stamp_heading(heading, margin_m, room, hazards);
 }

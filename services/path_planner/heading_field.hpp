@@ -33,9 +33,6 @@ struct HeadingQuery {
   // Less margin than that: gaps that a pose between the lattice's fits through stay open. Negative: only ways that
   // surely are ways.
   double slack_m = 0.0;
-  // The rover may stand closer to a hazard than it would go: one as near to it as the margin and that much does not
-  // close its place. Negative: all do.
-  double spared_m = 0.10;
   bool may_back = true;  // stern first, over ground that was seen
 };
 
