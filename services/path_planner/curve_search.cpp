@@ -135,14 +135,13 @@ class CurveSearch {
     return entry;
   }
 
+  // The wheels stay as they are: the rover goes back on the circle on which it came.
   void offer_reversal(const CurveNode& from, int parent) {
     CurveNode next = from;
     next.parent = parent;
     next.reversed = true;
     next.backwards = !from.backwards;
-    next.curvature_per_m = 0.0;
-    const double straightened = std::abs(from.curvature_per_m) / config_.max_curvature_per_m;
-    next.cost += config_.reversal_cost_m + config_.turn_bend_cost_m * straightened;
+    next.cost += config_.reversal_cost_m;
     offer(next);
   }
 

@@ -15,7 +15,7 @@ namespace rover::planning {
 struct CurveSearchConfig : DrivingPrices {
   double step_m = 0.3;
   double bend_cost_m = 0.4;       // for a change by the largest curvature in one piece; less, the square of it
-  double turn_bend_cost_m = 1.0;  // of a halt more, where the wheels turn by the largest curvature
+  double turn_bend_cost_m = 1.0;  // of a point turn more, where the wheels come from the largest curvature
   double greed = 1.1;
   double hasty_greed = 3.0;  // of a second try, where max_expansions did not do: the lattice leads almost straight down
   int max_expansions = 4000;

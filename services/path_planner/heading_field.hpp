@@ -19,7 +19,7 @@ struct DrivingPrices {
   double tight_factor = 2.0;       // of the cost, where only the tight margin is kept
   double tight_turn_factor = 3.0;  // likewise of a point turn's
   double back_factor = 1.5;        // of the cost, stern first
-  double reversal_cost_m = 1.5;    // the rover halts, and its wheels steer for the other direction
+  double reversal_cost_m = 1.5;    // from ahead to astern, or back: the rover halts
 };
 
 struct HeadingQuery {

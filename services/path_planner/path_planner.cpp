@@ -313,11 +313,13 @@ void PathPlanner::track_turn() {
 }
 
 void PathPlanner::judge() {
-  block_ = Block();
-  if (active_.kind == PathKind::kRetreat) return;  // over ground that was found free
-  track_turn();
+  Pose2 heading_on = rover();
+  if (active_.kind == PathKind::kRetreat)
+    heading_on.yaw_rad = wrap_angle(heading_on.yaw_rad + kPi);  // the rectangle looks the same from behind
+  else
+    track_turn();
   const Terrain ground = terrain();
-  block_ = find_block({ground, active_.route, config_.footprint, active_.progress_m, rover(),
+  block_ = find_block({ground, active_.route, config_.footprint, active_.progress_m, heading_on,
                        active_.margin_m + sigma_margin_m(), turning_, config_.turn_threshold_rad});
 }
 

@@ -196,8 +196,7 @@ class PathPlanner {
   void drive_leg(std::vector<RoutePoint> points, PlannerOutput& out);
   bool on_manoeuvre() const;
   void go_on_manoeuvre(PlannerOutput& out);
-  bool blocked_astern(const FootprintCheck& check) const;
-  bool legs_blocked(const FootprintCheck& check) const;
+  bool legs_blocked() const;
   void give_up_manoeuvre();
   void append_way_back(double station_m, std::vector<RoutePoint>& points) const;
   void append_poses(const std::vector<Pose2>& poses, double end_station_m, std::vector<RoutePoint>& points) const;

@@ -314,33 +314,25 @@ bool PathPlanner::on_manoeuvre() const {
 // Its legs are driven one after the other as they were planned, unless something comes in the way.
 void PathPlanner::go_on_manoeuvre(PlannerOutput& out) {
   judge();
-  const Terrain ground = terrain();
-  const FootprintCheck check(ground, config_.footprint, active_.margin_m + sigma_margin_m(), 0.0, rover());
-  if (strayed() || halted_before_block() || std::isfinite(block_.confirmed_m) || blocked_astern(check)) {
+  if (strayed() || halted_before_block() || std::isfinite(block_.confirmed_m)) {
     give_up_manoeuvre();
-    no_way_on_ = active_.kind == PathKind::kRetreat;  // astern the rover halts, ahead its block is known
-    return;
-  }
-  if (legs_blocked(check)) {
-    legs_.clear();  // another plan is made at this one's end
     return;
   }
   if (!standing() || !at_retreat_end()) return;
+  if (legs_blocked()) {
+    give_up_manoeuvre();
+    return;
+  }
   drive_leg({}, out);
   judge();
 }
 
-bool PathPlanner::blocked_astern(const FootprintCheck& check) const {
-  if (active_.kind != PathKind::kRetreat) return false;
-  for (double s = active_.progress_m; s <= active_.route.length_m(); s += kPoseStepM)
-    if (!check.clear_of(active_.route.pose_at(s), true)) return true;  // a rectangle looks the same from behind
-  return false;
-}
-
-bool PathPlanner::legs_blocked(const FootprintCheck& check) const {
+bool PathPlanner::legs_blocked() const {
+  const Terrain ground = terrain();
+  const FootprintCheck check(ground, config_.footprint, active_.margin_m + sigma_margin_m(), 0.0, rover());
   return std::any_of(legs_.begin(), legs_.end(), [&](const CurveLeg& leg) {
     return std::any_of(leg.poses.begin(), leg.poses.end(), [&](const Pose2& pose) {
-      return check.terrain().contains(position(pose)) && !check.clear_of(pose, true);
+      return ground.contains(position(pose)) && !check.clear_of(pose, true);
     });
   });
 }

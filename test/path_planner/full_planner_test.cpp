@@ -44,6 +44,13 @@ std::function<std::uint8_t(Point2)> wall(double middle_m, double width_m) {
   };
 }
 
+// The end of a channel too narrow to turn in, 2.5 m from its mouth.
+std::uint8_t channel(Point2 p) {
+  const bool sides = std::abs(std::abs(p.y_m) - 0.85) < 0.1 && p.x_m > -2.5 && p.x_m < 1.4;
+  const bool end = std::abs(p.x_m - 1.3) < 0.1 && std::abs(p.y_m) < 0.95;
+  return sides || end ? TraversabilityGrid::kImpassable : kFree;
+}
+
 struct Ground {
   HazardMemory memory{planner_config().memory};
   GroundMap map{280, 0.1};
@@ -270,13 +277,7 @@ TEST(FullPlanner, EnclosedThereIsNoPlan) {
   EXPECT_FALSE(plan.plan.found);
 }
 
-// Ends of a channel too narrow to turn in, 3.5 m from its mouth.
 TEST(FullPlanner, OutOfADeadEndItBacksToWhereAWayLeadsOn) {
-  const auto channel = [](Point2 p) {
-    const bool sides = std::abs(std::abs(p.y_m) - 0.85) < 0.1 && p.x_m > -2.5 && p.x_m < 1.4;
-    const bool end = std::abs(p.x_m - 1.3) < 0.1 && std::abs(p.y_m) < 0.95;
-    return sides || end ? TraversabilityGrid::kImpassable : kFree;
-  };
   const Ground ground(channel);
   const Terrain terrain(ground.memory, &ground.map, Terrain::Reach::kGround);
   FullRequest request = ground.request(terrain);
@@ -507,11 +508,7 @@ TEST_F(FullLevel, WhereThereIsNoRoomToTurnTheRoverGoesStraightBack) {
 // A PATH astern, then one ahead; each begins where the rover is, and none but the last leads to the goal.
 TEST_F(FullLevel, APlanThatBacksIsDrivenLegByLeg) {
   rig.planner.set_level(true);
-  send_map([](Point2 p) {
-    const bool sides = std::abs(std::abs(p.y_m) - 0.85) < 0.1 && p.x_m > -2.5 && p.x_m < 1.4;
-    const bool end = std::abs(p.x_m - 1.3) < 0.1 && std::abs(p.y_m) < 0.95;
-    return sides || end ? TraversabilityGrid::kImpassable : kFree;
-  });
+  send_map(channel);
   PlannerOutput out = rig.step();
   ASSERT_TRUE(out.path);
   EXPECT_EQ(out.path->kind, PathKind::kRetreat);
@@ -531,6 +528,20 @@ TEST_F(FullLevel, APlanThatBacksIsDrivenLegByLeg) {
   EXPECT_EQ(out.path->kind, PathKind::kContinuous);
   EXPECT_LT(distance(out.path->points.front().p, position(rig.odom)), 0.15);
   EXPECT_NEAR(out.path->points.back().p.x_m, 30.0, 1e-6);
+}
+
+// Nothing looks astern but the map: the ground is judged from where the rover is, not from where its path is.
+TEST_F(FullLevel, ABackingRoverOffItsPathIsStoppedBeforeAHazard) {
+  rig.planner.set_level(true);
+  send_map(channel);
+  rig.step();
+  ASSERT_EQ(rig.paths.back().kind, PathKind::kRetreat);
+  rig.forward_mps = -0.2;
+  rig.odom.x_m = -0.3;
+  EXPECT_TRUE(std::isinf(rig.look().status.blocked_in_m));
+  rig.odom.y_m = 0.19;
+  rig.odom.yaw_rad = -0.1;  // and further aside
+  EXPECT_LT(rig.look().status.blocked_in_m, 0.5);
 }
 
 // From near the gap is closed, from afar it looks open again: the rover does not turn back for it.
