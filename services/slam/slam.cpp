@@ -67,6 +67,13 @@ std::string_view Slam::refusal_of(const Cloud& cloud, const Odometry& odometry) 
   return "odometry has jumped";
 }
 
+// While the level was lower. Against a map that begins anew the pose is not uncertain, however far the rover has come:
+// particles spread by that way would drift within the spread.
+bool Slam::has_left_map(const Odometry& odometry) const {
+  const Eigen::Vector3d moved = odometry.T_odom_body.translation() - last_.T_odom_body.translation();
+  return moved.head<2>().norm() > 0.5 * map_.grid().cells() * map_.grid().cell_m();
+}
+
 void Slam::start(const Odometry& odometry) {
   suspect_.reset();
   map_.clear();
@@ -82,7 +89,7 @@ SlamResult Slam::step(const Cloud& cloud, const Odometry& odometry) {
   result.refusal = refusal_of(cloud, odometry);
   if (!result.refusal.empty()) return result;
   Random random(seed_of(config_.seed, cloud.utime));
-  if (!running()) start(odometry);
+  if (!running() || has_left_map(odometry)) start(odometry);
   predict(odometry, random);
   utime_ = cloud.utime;
   const LevelCloud levelled = level(cloud, odometry.T_odom_body, config_.attitude);

@@ -113,6 +113,7 @@ class Slam {
   };
   bool has_jumped(const Odometry& odometry, const Odometry& from, Utime dt) const;
   std::string_view refusal_of(const Cloud& cloud, const Odometry& odometry);
+  bool has_left_map(const Odometry& odometry) const;
   void start(const Odometry& odometry);
   void predict(const Odometry& odometry, Random& random);
   Weighed weigh(const LevelCloud& cloud, Random& random);
