@@ -52,6 +52,7 @@ void read_motion(const Config& c, MotionConfig& m) {
   c.read("across_share", m.across_share, {0.0, 1.0});
   c.read_deg("yaw_deg_per_m", m.yaw_rad_per_m, {0.0, 10.0});
   c.read("yaw_share", m.yaw_share, {0.0, 1.0});
+  c.read_deg("slow_yaw_deg_rts", m.slow_yaw_rad_rts, {0.0, 1.0});
   c.read("still_m", m.still_m, {0.0, 0.1});
 }
 

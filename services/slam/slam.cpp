@@ -90,7 +90,7 @@ SlamResult Slam::step(const Cloud& cloud, const Odometry& odometry) {
   if (!result.refusal.empty()) return result;
   Random random(seed_of(config_.seed, cloud.utime));
   if (!running() || has_left_map(odometry)) start(odometry);
-  predict(odometry, random);
+  predict(odometry, cloud.utime, random);
   utime_ = cloud.utime;
   const LevelCloud levelled = level(cloud, odometry.T_odom_body, config_.attitude);
   const Weighed weighed = weigh(levelled, random);
@@ -106,14 +106,21 @@ SlamResult Slam::step(const Cloud& cloud, const Odometry& odometry) {
   return result;
 }
 
-void Slam::predict(const Odometry& odometry, Random& random) {
+// An error that grows slowly is the gyro's bias, the same in each cloud: no noise.
+double Slam::yaw_noise_rad(const Odometry& odometry, Utime dt) const {
+  const double slow2 = config_.motion.slow_yaw_rad_rts * config_.motion.slow_yaw_rad_rts * to_seconds(dt);
+  const double sigma2 = odometry.yaw_sigma_rad * odometry.yaw_sigma_rad;
+  return std::sqrt(std::max(0.0, sigma2 - last_.yaw_sigma_rad * last_.yaw_sigma_rad - slow2));
+}
+
+void Slam::predict(const Odometry& odometry, Utime utime, Random& random) {
   const Pose2 motion = between(planar(last_.T_odom_body), planar(odometry.T_odom_body));
   const Eigen::Vector3d moved = odometry.T_odom_body.translation() - last_.T_odom_body.translation();
   const double way = moved.norm();
   const MotionConfig& m = config_.motion;
   // What grows slowly is an error of scale, the same in each cloud: no noise.
   const double grown = std::max(0.0, odometry.position_sigma_m - last_.position_sigma_m - m.scale_share * way);
-  const double turn_grown = std::max(0.0, odometry.yaw_sigma_rad - last_.yaw_sigma_rad);
+  const double turn_grown = utime_ == kNever ? 0.0 : yaw_noise_rad(odometry, utime - utime_);
   const double blind = m.blind_share * std::max(0.0, odometry.blind_way_m - last_.blind_way_m);
   filter_.predict(motion,
                   {std::max({m.still_m, std::hypot(m.along_share * way, blind), grown}),

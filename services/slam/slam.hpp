@@ -23,9 +23,10 @@ struct MotionConfig {
   double across_share = 0.0015;
   double blind_share = 0.08;  // likewise, both ways, by the way on which wheels alone told
   double scale_share = 0.01;  // of the way, by which the told deviation may grow without being noise
-  double yaw_rad_per_m = to_rad(0.008);
-  double yaw_share = 0.0005;  // of the turn
-  double still_m = 0.0005;    // least, in each cloud
+  double yaw_rad_per_m = to_rad(0.002);
+  double yaw_share = 0.0001;               // of the turn
+  double slow_yaw_rad_rts = to_rad(0.01);  // by which the told deviation may grow without being noise: the gyro's bias
+  double still_m = 0.0005;                 // least, in each cloud
   double height_share = 0.01;
 };
 
@@ -115,7 +116,8 @@ class Slam {
   std::string_view refusal_of(const Cloud& cloud, const Odometry& odometry);
   bool has_left_map(const Odometry& odometry) const;
   void start(const Odometry& odometry);
-  void predict(const Odometry& odometry, Random& random);
+  double yaw_noise_rad(const Odometry& odometry, Utime dt) const;
+  void predict(const Odometry& odometry, Utime utime, Random& random);
   Weighed weigh(const LevelCloud& cloud, Random& random);
   void lay(LevelCloud cloud, const Weighed& weighed);
   void anchor();
