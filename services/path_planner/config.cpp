@@ -80,6 +80,8 @@ void read_goal(const Config& c, GoalFieldConfig& out) {
   c.read("goal_miss_cost", out.goal_miss_cost, {0.0, 50.0});
   c.read("unknown_cost", out.unknown_cost, {0.0, 20.0});
   c.read("difficulty_cost", out.difficulty_cost, {0.0, 50.0});
+  c.read("doubt_from", out.doubt_from, {0.0, 0.99});
+  c.read("doubt_cost", out.doubt_cost, {0.0, 50.0});
   c.read("risk_distance_m", out.risk_distance_m, {0.05, 5.0});
   c.read("risk_cost", out.risk_cost, {0.0, 20.0});
 }
@@ -104,7 +106,6 @@ void read_curves(const Config& c, CurveSearchConfig& out) {
 void read_full(const Config& c, const PathPlannerConfig& shared, FullPlannerConfig& out) {
   read_goal(c.section("goal"), out.goal);
   out.goal.dead_end_reach_m = shared.repair.dead_end_reach_m;
-  out.goal.dead_end_cost = shared.repair.dead_end_cost;
   out.search.max_curvature_per_m = shared.repair.search.max_curvature_per_m;
   read_curves(c.section("search"), out.search);
   out.turn_extra_m = shared.repair.turn_extra_m;

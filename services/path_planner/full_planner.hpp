@@ -55,7 +55,7 @@ struct FullRequest {
   double tight_margin_m = 0.0;
   double turn_margin_m = 0.0;
   double goal_reach_m = 0.0;
-  const std::vector<Point2>& dead_ends;
+  const std::vector<DeadEnd>& dead_ends;
 };
 
 struct FullPlan {

@@ -74,4 +74,10 @@ struct ViewArea {
   }
 };
 
+// A place that led nowhere, in odom: ground about it costs more.
+struct DeadEnd {
+  Point2 p;
+  double cost_per_m = 0.0;
+};
+
 }  // namespace rover::planning

@@ -67,7 +67,7 @@ void GoalField::lay_costs() {
     const Point2 p = terrain_.center_of(cell);
     const double room = terrain_.hazard_distance_m(cell) - query_.half_width_m;
     const bool near = distance(p, query_.rover) < kByRoverM;
-    double cost = 1.0 + config_.difficulty_cost * terrain_.difficulty(cell);
+    double cost = 1.0 + difficulty_cost(terrain_.difficulty(cell));
     if (room < query_.margin_m - slack) {
       if (!near || room < -kScrapeM) continue;
       cost = kSqueezeCost;
@@ -76,10 +76,15 @@ void GoalField::lay_costs() {
       cost += config_.risk_cost * lack * lack;
     }
     if (terrain_.unseen(cell)) cost += config_.unknown_cost;
-    for (const Point2& end : query_.dead_ends)
-      if (distance(p, end) < config_.dead_end_reach_m) cost += config_.dead_end_cost;
+    for (const DeadEnd& end : query_.dead_ends)
+      if (distance(p, end.p) < config_.dead_end_reach_m) cost += end.cost_per_m;
     cost_.cost_per_m[i] = cost;
   }
+}
+
+double GoalField::difficulty_cost(double difficulty) const {
+  const double doubt = std::max(0.0, difficulty - config_.doubt_from) / (1.0 - config_.doubt_from);
+  return config_.difficulty_cost * difficulty + config_.doubt_cost * doubt;
 }
 
 double GoalField::off_path_m(Point2 p, double station_m) const {

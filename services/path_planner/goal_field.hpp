@@ -19,10 +19,11 @@ struct GoalFieldConfig {
   double goal_miss_cost = 3.0;   // per metre that a plan ends off the goal
   double unknown_cost = 1.0;     // per metre more
   double difficulty_cost = 1.5;  // per metre more, on ground that is barely passable
+  double doubt_from = 0.7;  // difficulty beyond which a rock may prove a hazard from near; slopes that are driven ...
+  double doubt_cost = 4.0;  // ... stay below. Per metre more, on ground that is barely passable
   double risk_distance_m = 0.6;  // clearance below which ground costs more
   double risk_cost = 0.5;        // per metre more, at the margin
   double dead_end_reach_m = 0.8;
-  double dead_end_cost = 4.0;
 };
 
 struct GoalQuery {
@@ -33,7 +34,7 @@ struct GoalQuery {
   double half_width_m = 0.0;  // of the vehicle
   double margin_m = 0.0;      // the least
   double goal_reach_m = 0.0;
-  const std::vector<Point2>& dead_ends;
+  const std::vector<DeadEnd>& dead_ends;
 };
 
 class GoalField {
@@ -57,6 +58,7 @@ class GoalField {
   void lay_stations();
   void lay_costs();
   void march_from_goal();
+  double difficulty_cost(double difficulty) const;
   double off_path_m(Point2 p, double station_m) const;
   double line_cost(Point2 p) const;
   bool at_rim(Point2 p) const;

@@ -169,9 +169,8 @@ MarchGrid LocalRepair::travel_costs(const RepairRequest& request, const Footprin
     const int cell = static_cast<int>(i);
     const bool near = distance(terrain.center_of(cell), position(request.start)) < kNearM;
     grid.cost_per_m[i] = off_path[i] > most ? kInfinity : ground_cost(terrain, cell, check.margin_m(), near);
-    for (const Point2& end : request.dead_ends)
-      if (distance(terrain.center_of(cell), end) < config_.dead_end_reach_m)
-        grid.cost_per_m[i] += config_.dead_end_cost;
+    for (const DeadEnd& end : request.dead_ends)
+      if (distance(terrain.center_of(cell), end.p) < config_.dead_end_reach_m) grid.cost_per_m[i] += end.cost_per_m;
   }
   return grid;
 }

@@ -37,9 +37,9 @@ struct RepairRequest {
   double start_curvature_per_m = 0.0;
   Pose2 stopped;  // ... and where it would come to rest
   double margin_m = 0.0;
-  double sure_m = kInfinity;      // way that must lie over ground seen in time; further on it only costs more
-  double goal_reach_m = 0.0;      // the way may end that far from the goal; what it misses it by costs
-  std::vector<Point2> dead_ends;  // places that led nowhere, in odom
+  double sure_m = kInfinity;  // way that must lie over ground seen in time; further on it only costs more
+  double goal_reach_m = 0.0;  // the way may end that far from the goal; what it misses it by costs
+  std::vector<DeadEnd> dead_ends;
 };
 
 enum class RepairStatus { kFound, kNoTarget, kNoWay, kUnseen };

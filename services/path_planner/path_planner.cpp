@@ -17,7 +17,8 @@ constexpr double kMaxCurvatureNow = 1.0;
 constexpr double kCorridorReserveM = 0.05;
 constexpr double kCellHalfM = 0.05;
 constexpr double kGoalNearM = 1.0;
-constexpr double kGainM = 1.0;  // of the global path, with which an attempt counts as a success
+constexpr double kGainM = 1.0;     // of the global path, with which an attempt counts as a success
+constexpr double kForgetM = 15.0;  // between the rover and a dead end
 constexpr double kLeastRetreatM = 0.4;
 constexpr double kRetreatEndM = 0.1;
 constexpr double kSamePlaceM = 1e-6;
@@ -185,7 +186,7 @@ void PathPlanner::track_progress() {
   if (global_progress_m_ < furthest_m_ + kGainM) return;
   furthest_m_ = global_progress_m_;
   retreats_ = 0;
-  dead_ends_.clear();
+  std::erase_if(dead_ends_, [&](const DeadEnd& end) { return distance(end.p, p) > kForgetM; });
 }
 
 void PathPlanner::begin(PlannerOutput& out) {
@@ -250,7 +251,7 @@ bool PathPlanner::strayed() const {
 // where that has been tried enough.
 bool PathPlanner::retreat(PlannerOutput& out) {
   if (retreats_ >= (continuous() ? config_.full.most_retreats : config_.most_retreats)) return false;
-  dead_ends_.push_back(position(rover()));
+  dead_ends_.push_back({position(rover()), config_.repair.dead_end_cost});
   std::vector<Point2> back = driven_.back(position(rover()), (1 + retreats_) * config_.retreat_m);
   if (continuous()) back = way_back(back);
   if (back.size() < 2 || distance(back.front(), back.back()) < kLeastRetreatM) {

@@ -180,6 +180,8 @@ class PathPlanner {
   bool continuous() const;
   Terrain terrain() const { return {memory_, continuous() ? &ground_ : nullptr, Terrain::Reach::kMemory}; }
   void go_on(PlannerOutput& out);
+  double way_left_m() const;
+  void note_closed_gap(Point2 p, double detour_m);
   bool halted_before_block();
   bool at_turn() const;
   std::vector<Point2> way_back(const std::vector<Point2>& track) const;
@@ -234,10 +236,10 @@ class PathPlanner {
   std::int32_t replans_ = 0;
   bool replan_wanted_ = false;
   int failures_ = 0;
-  std::vector<Point2> dead_ends_;  // where retreats began since then
-  int retreats_ = 0;               // since the rover last got further along the global path than ever
-  double furthest_m_ = 0.0;        // along the global path
-  bool turning_ = false;           // on the spot, to the active path's heading
+  std::vector<DeadEnd> dead_ends_;  // where retreats began and gaps were found closed, near the rover
+  int retreats_ = 0;                // since the rover last got further along the global path than ever
+  double furthest_m_ = 0.0;         // along the global path
+  bool turning_ = false;            // on the spot, to the active path's heading
   int frames_before_unseen_ = 0;
   int frames_before_possible_ = 0;
   bool full_level_ = false;

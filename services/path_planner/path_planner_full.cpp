@@ -25,7 +25,7 @@ constexpr double kBackAheadM = 3.0;
 constexpr double kCreepMps = 0.05;  // of the body origin while the rover turns on the spot
 constexpr double kAtKinkM = 0.15;
 constexpr double kTurnBlockM = 1.5;     // likewise while the rover turns on the spot
-constexpr double kDetourM = 4.0;        // by which a closed gap makes the way longer, and so is worth remembering
+constexpr double kDetourM = 1.5;        // by which a closed gap makes the way longer, and so is worth remembering
 constexpr double kNearPossibleM = 1.5;  // nearer ones that stay are planned around
 constexpr double kNearBlockM = 3.5;     // nearer blocks are planned for at once, others with the next map
 
@@ -84,14 +84,31 @@ void PathPlanner::go_on(PlannerOutput& out) {
     return;
   }
   // One map may show a gap closed that the next one opens; the plan's first metres are free meanwhile.
-  const double before_m = goal_distance_m();
+  const double before_m = way_left_m();
   const bool closed = active_.kind == PathKind::kContinuous && block_.confirmed_m - active_.progress_m < kNearBlockM;
   const Point2 closed_at = active_.route.point_at(std::min(block_.confirmed_m, active_.route.length_m()));
   const bool planned = plan_on(out);
   // A gap that was found closed from near may look open again from afar: without this the rover goes to and fro.
-  if (planned && closed && goal_distance_m() > before_m + kDetourM) dead_ends_.push_back(closed_at);
+  if (planned && closed) note_closed_gap(closed_at, way_left_m() - before_m);
   if (!planned && active_.kind == PathKind::kContinuous) no_way_on_ = failures_ >= config_.patience_frames;
   if (stuck() && standing()) retreat(out);
+}
+
+// All legs together.
+double PathPlanner::way_left_m() const {
+  if (legs_.empty()) return goal_distance_m();
+  double way_m = active_.route.length_m() - active_.progress_m + global_odom_.length_m() - legs_end_m_;
+  for (const CurveLeg& leg : legs_)
+    for (size_t i = 1; i < leg.poses.size(); ++i) way_m += distance(position(leg.poses[i - 1]), position(leg.poses[i]));
+  return way_m;
+}
+
+// It is tried again where all other ways are longer by more than the one that was taken instead, twice that the second
+// time.
+void PathPlanner::note_closed_gap(Point2 p, double detour_m) {
+  if (detour_m < kDetourM) return;
+  const double through_m = 2.0 * config_.repair.dead_end_reach_m;
+  dead_ends_.push_back({p, std::max(config_.repair.dead_end_cost, detour_m / through_m)});
 }
 
 // A single hit that is neither confirmed nor cleared on approach is planned around before the rover is stopped by it,

@@ -13,6 +13,9 @@ constexpr int kNeighboursThatFill = 6;
 
 constexpr double kWheelsReachM = 0.45;  // to the sides of the rover's centre
 
+// Of what the NavCam's map takes for a rock and the LocCam saw free: dear, no longer doubtful.
+constexpr float kRefutedDifficulty = 0.5F;
+
 constexpr double kRelaxM = 0.02;  // leaves room for rounding where the rover stands close to a hazard
 
 // Marks unseen cells that are enough surrounded by seen ones as seen.
@@ -130,7 +133,8 @@ std::vector<std::uint8_t> Terrain::lay_ground(const HazardMemory& memory, const 
     const GroundCell& near = memory.map().get(index);
     const bool refuted = near.driven || memory.surely_free(near);
     impassable[i] = cost == TraversabilityGrid::kImpassable && !refuted ? 1 : 0;
-    difficulty_[i] = static_cast<float>(cost) / static_cast<float>(TraversabilityGrid::kImpassable);
+    const float difficulty = static_cast<float>(cost) / static_cast<float>(TraversabilityGrid::kImpassable);
+    difficulty_[i] = refuted ? std::min(difficulty, kRefutedDifficulty) : difficulty;
   }
   difficulty_ = widened(difficulty_, cells_, static_cast<int>(kWheelsReachM / cell_m_));
   return impassable;

@@ -55,7 +55,7 @@ struct Ground {
   HazardMemory memory{planner_config().memory};
   GroundMap map{280, 0.1};
   Route global{{{{-3.0, 0.0}}, {{30.0, 0.0}}}};
-  std::vector<Point2> dead_ends;
+  std::vector<DeadEnd> dead_ends;
 
   explicit Ground(const std::function<std::uint8_t(Point2)>& cost) {
     memory.move_to({0.0, 0.0});
@@ -339,6 +339,33 @@ TEST(FullPlanner, StonesThatMayBeDrivenOverAreDrivenAround) {
   const FullPlan plan = Ground(stone).plan();
   ASSERT_TRUE(plan.plan.found);
   EXPECT_LT(y_at(plan.plan.poses, 4.0), -0.1);
+}
+
+// Where the ground ahead shows rocks that may prove hazards from near, the way around is taken though it is
+// longer.
+TEST(FullPlanner, RocksThatMayProveHazardsFromNearCostMoreThanSlopesDo) {
+  const auto way = [](std::uint8_t cost) {
+    const auto stones = [cost](Point2 p) {
+      if (p.x_m < 3.0 || p.x_m > 5.0 || p.y_m > 3.0) return kFree;
+      return p.y_m > -2.0 ? cost : TraversabilityGrid::kImpassable;
+    };
+    return y_at(Ground(stones).plan().plan.poses, 4.0);
+  };
+  EXPECT_LT(way(170), 0.5);  // 15 deg
+  EXPECT_GT(way(250), 3.2);
+}
+
+// A gap that was found closed is weighed against the way round.
+TEST(FullPlanner, ADeadEndCostsWhatItIsTold) {
+  const auto two_gaps = [](Point2 p) {
+    const bool gap = std::abs(p.y_m) < 1.0 || std::abs(p.y_m - 6.0) < 1.0;
+    return std::abs(p.x_m - 4.0) < 0.15 && !gap ? TraversabilityGrid::kImpassable : kFree;
+  };
+  Ground ground(two_gaps);
+  ground.dead_ends = {{{4.0, 0.0}, 1.0}};
+  EXPECT_NEAR(y_at(ground.plan().plan.poses, 4.0), 0.0, 0.6);
+  ground.dead_ends = {{{4.0, 0.0}, 10.0}};
+  EXPECT_NEAR(y_at(ground.plan().plan.poses, 4.0), 6.0, 0.6);
 }
 
 // Ground beside the rover that no camera has seen is not driven on; ground further ahead is, for there the cameras come

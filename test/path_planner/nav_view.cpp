@@ -3,10 +3,9 @@
 namespace rover::planning::testing_support {
 namespace {
 
-constexpr double kRimM = 0.08;         // the map widens a rock
-constexpr std::uint8_t kLowRock = 80;  // cost of rocks that are driven over
+constexpr double kRimM = 0.08;  // the map widens a rock
 // Which rocks the map calls impassable from afar, as counted on drives of full_hard: the height that it takes grows
-// with the range, and differs from rock to rock.
+// with the range, and differs from rock to rock. The others cost as traversability's steps do.
 constexpr double kNearM = 3.0;
 constexpr double kLimitPerM = 0.003;
 constexpr double kSpreadM = 0.012;  // deviation at kNearM
@@ -19,9 +18,12 @@ double shape_of(const Rock& rock) {
   return gauss(random);
 }
 
-bool looks_impassable(const NavView::SeenRock& rock, double range_m) {
+std::uint8_t cost_of(const NavView::SeenRock& rock, double range_m) {
   const double further = std::max(0.0, range_m - kNearM);
-  return rock.height_m + (kSpreadM + kSpreadPerM * further) * rock.shape >= kHazardHeightM + kLimitPerM * further;
+  const double shown_m = rock.height_m + (kSpreadM + kSpreadPerM * further) * rock.shape;
+  const double share = shown_m / (kHazardHeightM + kLimitPerM * further);
+  if (share >= 1.0) return TraversabilityGrid::kImpassable;
+  return static_cast<std::uint8_t>((TraversabilityGrid::kImpassable - 1) * std::pow(std::max(0.0, share), 3));
 }
 
 }  // namespace
@@ -48,8 +50,7 @@ std::uint8_t NavView::seen(const std::vector<SeenRock>& in_body, Point2 b, doubl
     if (camera_.height_m - (camera_.height_m - top) * along / range < rock.height_m)
       return TraversabilityGrid::kUnknown;
   }
-  if (here == nullptr) return 0;
-  return looks_impassable(*here, range) ? TraversabilityGrid::kImpassable : kLowRock;
+  return here == nullptr ? std::uint8_t{0} : cost_of(*here, range);
 }
 
 void NavView::look(const std::vector<Rock>& rocks, const Pose2& truth, const Pose2& odom, double azimuth_rad) {
