@@ -111,7 +111,8 @@ Correction GlobalLocalization::correct(const Prior& prior) const {
   }
   PlaneConfig filter = config_.filter;
   filter.sigma_cells = std::hypot(filter.sigma_cells, config_.map_blur_cells);
-  const TerrainTemplate terrain = terrain_template(mosaic_.resampled(orbital_.lattice.cell_m), filter);
+  TerrainTemplate terrain = terrain_template(mosaic_.resampled(orbital_.lattice.cell_m), filter);
+  terrain.stiffness = stiffness_of(terrain, config_.bend, noise_density());
   out.area_m2 = terrain.area_m2();
   const Eigen::Matrix3d expected =
       at_body(noise_density() * covariance_by_relief(terrain), prior.p_odom_body - terrain.center_odom);

@@ -43,10 +43,11 @@ struct GlobalConfig {
   double mosaic_side_m = 120.0;
   double max_height_sigma_m = 0.3;
   double map_noise_m = 0.1;  // of the orbital map's heights, and over how many cells it hangs together
-  double map_noise_cells = 1.5;
+  double map_noise_cells = 1.0;
   double map_blur_cells =
       0.7;  // of the orbital map as it comes, in its cells: what the rover has seen is blurred as much
   PlaneConfig filter{1.5, 0.5};  // takes out the noise of orbital maps, which neighbouring cells share
+  BendConfig bend;
   SearchConfig search;
   RefinementConfig refinement;
   AcceptanceConfig acceptance;

@@ -1,5 +1,6 @@
 #include "global_localization/terrain_match.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -10,6 +11,7 @@ namespace rover::global {
 namespace {
 
 constexpr double kLeastEnergy = 1e-20;
+constexpr int kLeastCount = 6;  // as many as there are bends
 
 std::array<double, 4> cubic_weights(double t) {
   const double t2 = t * t, t3 = t2 * t;
@@ -24,19 +26,28 @@ bool all_known(const PlaneField& field, int column, int row) {
   return true;
 }
 
-// Of heights, less their mean: an offset between the maps tells nothing.
-struct Differences {
-  int count = 0;
-  double sum = 0.0, squares = 0.0;
+// Of heights, less the bend that fits them best.
+class Differences {
+ public:
+  explicit Differences(const Bend& stiffness) : form_(stiffness.asDiagonal()) {}
 
-  void add(double difference) {
-    ++count;
-    sum += difference;
-    squares += difference * difference;
+  void add(const TerrainSample& sample, double difference) {
+    ++count_;
+    squares_ += difference * difference;
+    share_ += difference * sample.bend;
+    form_.noalias() += sample.bend * sample.bend.transpose();
   }
+  int count() const { return count_; }
   double mean_square() const {
-    return count > 0 ? std::max(0.0, squares / count - (sum / count) * (sum / count)) : 0.0;
+    if (count_ < kLeastCount) return 0.0;
+    return std::max(0.0, (squares_ - share_.dot(form_.ldlt().solve(share_))) / count_);
   }
+
+ private:
+  int count_ = 0;
+  double squares_ = 0.0;
+  Bend share_ = Bend::Zero();
+  BendForm form_;
 };
 
 }  // namespace
@@ -83,24 +94,24 @@ bool OrbitalPart::find(const Eigen::Vector2d& p_map, Square& square) const {
 Fit OrbitalPart::fit(const TerrainTemplate& terrain, const Placement& placement) const {
   const Eigen::Matrix2d R = Eigen::Rotation2Dd(placement.yaw_rad).toRotationMatrix();
   CorrelationSums gradients;
-  Differences heights;
+  Differences heights(terrain.stiffness);
   Square square{};
   for (const TerrainSample& sample : terrain.samples) {
     if (!find(placement.center_map + R * sample.p, square)) continue;
     const Eigen::Vector2d turned = R * sample.g;
     gradients.add(turned.x(), turned.y(), square.value(field_.gx), square.value(field_.gy));
-    heights.add(square.value(field_.z) - sample.z);
+    heights.add(sample, square.value(field_.z) - sample.z);
   }
   return {gradients.count, gradients.correlation(), std::sqrt(heights.mean_square())};
 }
 
 double OrbitalPart::mean_square(const TerrainTemplate& terrain, const Placement& placement, int least) const {
   const Eigen::Matrix2d R = Eigen::Rotation2Dd(placement.yaw_rad).toRotationMatrix();
-  Differences heights;
+  Differences heights(terrain.stiffness);
   Square square{};
   for (const TerrainSample& sample : terrain.samples)
-    if (find(placement.center_map + R * sample.p, square)) heights.add(square.value(field_.z) - sample.z);
-  return heights.count >= std::max(least, 1) ? heights.mean_square() : std::numeric_limits<double>::infinity();
+    if (find(placement.center_map + R * sample.p, square)) heights.add(sample, square.value(field_.z) - sample.z);
+  return heights.count() >= std::max(least, 1) ? heights.mean_square() : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace rover::global

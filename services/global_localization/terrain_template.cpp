@@ -9,6 +9,12 @@ namespace {
 
 constexpr double kLeastForm = 1e-9;  // of ground that tells nothing, so that it can be inverted
 
+Bend bend_at(const Eigen::Vector2d& p) {
+  Bend bend;
+  bend << 1.0, p.x(), p.y(), p.x() * p.x(), p.x() * p.y(), p.y() * p.y();
+  return bend;
+}
+
 void centre(TerrainTemplate& terrain) {
   const auto count = static_cast<double>(terrain.samples.size());
   double mean_z = 0.0;
@@ -21,6 +27,7 @@ void centre(TerrainTemplate& terrain) {
     sample.z -= mean_z;
     terrain.radius_m = std::max(terrain.radius_m, sample.p.norm());
   }
+  for (TerrainSample& sample : terrain.samples) sample.bend = bend_at(sample.p / terrain.radius_m);
 }
 
 }  // namespace
@@ -35,24 +42,36 @@ TerrainTemplate terrain_template(const HeightGrid& local, const PlaneConfig& con
     for (int column = 0; column < lattice.columns; column += step) {
       const size_t i = lattice.index(column, row);
       if (field.known[i] == 0) continue;
-      out.samples.push_back(
-          {{lattice.center_x_m(column), lattice.center_y_m(row)}, field.z[i], {field.gx[i], field.gy[i]}});
+      out.samples.push_back({{lattice.center_x_m(column), lattice.center_y_m(row)},
+                             field.z[i],
+                             {field.gx[i], field.gy[i]},
+                             Bend::Zero()});
     }
   centre(out);
   return out;
 }
 
+Bend stiffness_of(const TerrainTemplate& terrain, const BendConfig& config, double noise_density) {
+  const double tilt_m = config.tilt_sigma_rad * terrain.radius_m;
+  const double tilt = 1.0 / (tilt_m * tilt_m), bow = 1.0 / (config.bow_sigma_m * config.bow_sigma_m);
+  Bend out;
+  out << 0.0, tilt, tilt, bow, bow, bow;
+  return noise_density / terrain.sample_area_m2 * out;
+}
+
 Eigen::Matrix3d covariance_by_relief(const TerrainTemplate& terrain) {
-  // Change of height for a shift along x, y and a turn; their form about the means takes the offset out.
+  // Change of height for a shift along x, y and a turn, and what of it a bend would explain.
   Eigen::Matrix3d form = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Matrix<double, 3, 6> shared = Eigen::Matrix<double, 3, 6>::Zero();
+  BendForm shapes = kLeastForm * BendForm::Identity();
+  shapes.diagonal() += terrain.stiffness;
   for (const TerrainSample& s : terrain.samples) {
     const Eigen::Vector3d change(s.g.x(), s.g.y(), s.g.y() * s.p.x() - s.g.x() * s.p.y());
     form += change * change.transpose();
-    sum += change;
+    shared += change * s.bend.transpose();
+    shapes += s.bend * s.bend.transpose();
   }
-  const double count = std::max<double>(1.0, static_cast<double>(terrain.samples.size()));
-  form = terrain.sample_area_m2 * (form - sum * sum.transpose() / count);
+  form = terrain.sample_area_m2 * (form - shared * shapes.ldlt().solve(shared.transpose()));
   return (form + kLeastForm * Eigen::Matrix3d::Identity()).inverse();
 }
 

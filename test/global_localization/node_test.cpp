@@ -264,7 +264,7 @@ TEST_F(GlobalLocalizationConfigTest, WrongKeysAndRangesStopTheStart) {
   const fs::path dir = fs::path(testing::TempDir()) / "global_localization_config";
   fs::create_directories(dir);
   const auto write = [&](const std::string& text) { std::ofstream(dir / "global_localization.yaml") << text; };
-  const std::string sections = "tries: {}\nfilter: {}\nrefinement: {}\nacceptance: {}\n";
+  const std::string sections = "tries: {}\nbend: {}\nfilter: {}\nrefinement: {}\nacceptance: {}\n";
   write(sections + "search: {}\n");
   EXPECT_DOUBLE_EQ(load_config(dir.string()).core.search.min_reach_m, 12.0);
   for (const char* bad : {"search: {reach: 3}\n", "search: {min_reach_m: -1}\n", "search: {max_reach_m: 5}\n",

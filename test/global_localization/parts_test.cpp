@@ -5,6 +5,7 @@
 #include <random>
 
 #include "global_localization/place_search.hpp"
+#include "global_localization/refinement.hpp"
 #include "global_localization/terrain_template.hpp"
 #include "global_localization/try_schedule.hpp"
 #include "test/global_localization/made_ground.hpp"
@@ -170,6 +171,30 @@ TEST(PlaceSearch, ComparesOnlyWhatBothMapsKnow) {
   EXPECT_GT(whole.score, 0.99);
   EXPECT_GT(part.score, 0.97);
   EXPECT_LT((part.placement.center_map - terrain.center_odom).norm(), 0.6);
+}
+
+// On a bowl a tilt is a shift, but for the hills in it: odometry's height has wandered by 4 cm over the local map.
+TEST(Refinement, ATiltOfTheLocalMapIsNoShift) {
+  const auto bowl = [](double x, double y) {
+    return hills(x, y) + 0.005 * (std::pow(x - 9.0, 2) + std::pow(y - 19.0, 2));
+  };
+  const auto tilted = [&](double x, double y) { return bowl(x, y) + 0.0016 * x; };
+  const PlaneConfig filter{1.5, 0.5};
+  TerrainTemplate terrain = terrain_template(grid_of(tilted, 50, 0.5), filter);
+  HeightGrid map;
+  map.lattice = {130, 130, 0.5, -23.0, -13.0};
+  for (int row = 0; row < 130; ++row)
+    for (int column = 0; column < 130; ++column)
+      map.z_m.push_back(static_cast<float>(bowl(map.lattice.center_x_m(column), map.lattice.center_y_m(row))));
+  map.weight.assign(map.z_m.size(), 1.0f);
+  const OrbitalPart orbital(plane_field(map, filter));
+  const auto error_m = [&](const BendConfig& bend) {
+    terrain.stiffness = stiffness_of(terrain, bend, 0.01 * 0.25);
+    const Placement start{terrain.center_odom + Eigen::Vector2d(0.4, -0.3), 0.01};
+    return (refined(orbital, terrain, start, 100, {}).placement.center_map - terrain.center_odom).norm();
+  };
+  EXPECT_LT(error_m({to_rad(0.04), 0.01}), 0.01);
+  EXPECT_GT(error_m({to_rad(1e-4), 1e-5}), 0.02);
 }
 
 TEST(TrySchedule, ComesWithTheWay) {
