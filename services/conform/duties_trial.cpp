@@ -102,7 +102,8 @@ Line refused_line(const std::string& duty, const Heard& heard, const Trial& tria
   const auto wheels = during(heard.wheels, trial, phase.from_s + kStopS, phase.until_s);
   if (wheels.empty()) return skipped(duty, "no WHEEL_STATE", demand);
   const double rate = most_backwards(wheels);
-  return line(duty, rate >= -kAtRest && all_finite(wheels), fmt::format("{:.3f} rad/s backwards", std::abs(rate)), demand);
+  return line(duty, rate >= -kAtRest && all_finite(wheels), fmt::format("{:.3f} rad/s backwards", std::abs(rate)),
+              demand);
 }
 
 Line steering_line(const Heard& heard, const Trial& trial) {
