@@ -11,7 +11,6 @@ namespace rover::global {
 namespace {
 
 constexpr double kLeastEnergy = 1e-20;
-constexpr int kLeastCount = 6;  // as many as there are bends
 
 std::array<double, 4> cubic_weights(double t) {
   const double t2 = t * t, t3 = t2 * t;
@@ -39,7 +38,7 @@ class Differences {
   }
   int count() const { return count_; }
   double mean_square() const {
-    if (count_ < kLeastCount) return 0.0;
+    if (count_ <= Bend::RowsAtCompileTime) return std::numeric_limits<double>::infinity();  // bends fit anything
     return std::max(0.0, (squares_ - share_.dot(form_.ldlt().solve(share_))) / count_);
   }
 
