@@ -121,6 +121,7 @@ void read_full(const Config& c, const PathPlannerConfig& shared, FullPlannerConf
   c.read("most_retreats", out.most_retreats, {0, 100});
   c.read("doubt_from_m", out.doubt_from_m, {0.0, 20.0});
   c.read("doubt_cells", out.doubt_cells, {0, 1000});
+  c.read("near_look_m", out.near_look_m, {0.0, 10.0});
   c.read("squeeze_m", out.squeeze_margin_m, {0.0, 1.0});
   c.read("block_slack_m", out.block_slack_m, {0.0, 1.0});
   c.read("stale_s", out.stale_s, {0.5, 60.0});

@@ -1,8 +1,13 @@
 #include "path_planner/ground_map.hpp"
 
 namespace rover::planning {
+namespace {
 
-void GroundMap::add(const TraversabilityGrid& grid) {
+constexpr double kAsNear = 1.5;  // times the range of the nearest look
+
+}  // namespace
+
+void GroundMap::add(const TraversabilityGrid& grid, Point2 rover) {
   const CellIndex low = map_.index_of(grid.origin_x_m, grid.origin_y_m);
   const CellIndex high =
       map_.index_of(grid.origin_x_m + grid.cells_x * grid.cell_m, grid.origin_y_m + grid.cells_y * grid.cell_m);
@@ -12,9 +17,27 @@ void GroundMap::add(const TraversabilityGrid& grid) {
   for (int iy = std::max(low.iy, origin.iy); iy <= end_y; ++iy)
     for (int ix = std::max(low.ix, origin.ix); ix <= end_x; ++ix) {
       const CellIndex i{ix, iy};
-      const std::uint8_t value = grid.at({map_.center_x_m(i), map_.center_y_m(i)});
-      if (value != TraversabilityGrid::kUnknown) map_.at(i) = value;
+      const Point2 p{map_.center_x_m(i), map_.center_y_m(i)};
+      const std::uint8_t cost = grid.at(p);
+      if (cost == TraversabilityGrid::kUnknown) continue;
+      GroundLook& look = map_.at(i);
+      const double range_m = distance(p, rover);
+      const bool first = look.cost == TraversabilityGrid::kUnknown;
+      if (!first && range_m > std::max(kAsNear * look.range_m, near_m_)) continue;
+      look.cost = cost;
+      look.range_m = static_cast<float>(first ? range_m : std::min<double>(look.range_m, range_m));
     }
+}
+
+void GroundMap::add(const HazardMemory& memory) {
+  memory.map().for_each([&](CellIndex i, const GroundCell& cell) {
+    if (!map_.contains(i)) return;
+    GroundLook& look = map_.at(i);
+    if (memory.confirmed(cell))
+      look = {TraversabilityGrid::kImpassable, 0.0F};
+    else if (look.cost != TraversabilityGrid::kUnknown && memory.refutes(cell))
+      look = {std::min(look.cost, TraversabilityGrid::kRefuted), 0.0F};
+  });
 }
 
 }  // namespace rover::planning

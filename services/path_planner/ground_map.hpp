@@ -1,27 +1,38 @@
-// What the maps of the Full level told of the ground around the rover, in odom: wider than one of them, so that a way
-// that was found closed stays closed after it has left the newest.
+// What the maps of the Full level and the LocCam told of the ground around the rover, in odom: wider than one of them,
+// so that a way that was found closed stays closed after it has left the newest.
 #pragma once
 
 #include <algorithm>
 
 #include "common/core/grid_map.hpp"
+#include "path_planner/hazard_memory.hpp"
 #include "path_planner/traversability_grid.hpp"
 
 namespace rover::planning {
 
+struct GroundLook {
+  std::uint8_t cost = TraversabilityGrid::kUnknown;
+  float range_m = 0.0F;  // of the rover: the nearest of the maps that told of the cell; 0: LocCam
+};
+
 class GroundMap {
  public:
-  GroundMap(int cells, double cell_m) : map_(cells, cell_m, TraversabilityGrid::kUnknown) {}
+  // A map from half as far again as an earlier one of a cell, and from further than `near_m`, does not change it: from
+  // afar a gap that was found closed looks open again.
+  GroundMap(int cells, double cell_m, double near_m) : map_(cells, cell_m), near_m_(near_m) {}
 
   void clear() { map_.clear(); }
   void move_to(Point2 rover) { map_.move_to(rover.x_m, rover.y_m); }
-  // What the newest map does not know keeps its value.
-  void add(const TraversabilityGrid& grid);
+  // What the map does not know keeps its value.
+  void add(const TraversabilityGrid& grid, Point2 rover);
+  // What the LocCam is sure of, before its memory loses it.
+  void add(const HazardMemory& memory);
 
-  const GridMap<std::uint8_t>& map() const { return map_; }
+  const GridMap<GroundLook>& map() const { return map_; }
 
  private:
-  GridMap<std::uint8_t> map_;
+  GridMap<GroundLook> map_;
+  double near_m_;
 };
 
 }  // namespace rover::planning

@@ -73,6 +73,8 @@ class HazardMemory {
   bool blind(const GroundCell& cell) const { return cell.looks >= config_.blind_looks; }
   // Seen free again and again by the LocCam, whose picture of near ground is the sharper one.
   bool surely_free(const GroundCell& cell) const { return cell.near_free >= config_.sure_free; }
+  // Whatever the NavCam's map says of the cell, nothing stands there.
+  bool refutes(const GroundCell& cell) const { return cell.driven || surely_free(cell); }
   const GridMap<GroundCell>& map() const { return map_; }
   GridMap<GroundCell>& map() { return map_; }
 

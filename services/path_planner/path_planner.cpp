@@ -64,7 +64,7 @@ PathPlanner::PathPlanner(const PathPlannerConfig& config, std::int64_t first_pat
       local_repair_(config.repair),
       full_planner_(config.full),
       memory_(config.memory),
-      ground_(config.full.map_cells, config.memory.cell_m),
+      ground_(config.full.map_cells, config.memory.cell_m, config.full.near_look_m),
       next_path_id_(first_path_id) {}
 
 std::string PathPlanner::set_global_path(const GlobalPath& path) {

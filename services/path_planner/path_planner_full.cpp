@@ -56,7 +56,8 @@ void PathPlanner::set_level(bool full) {
 bool PathPlanner::add_traversability(const TraversabilityGrid& map) {
   if (!full_level_ || !map.fault().empty() || history_.empty()) return false;
   ground_.move_to(position(rover()));
-  ground_.add(map);
+  ground_.add(map, position(rover()));
+  ground_.add(memory_);
   map_utime_ = map.utime;
   map_travelled_m_ = history_.newest().travelled_m;
   new_map_ = true;

@@ -13,9 +13,6 @@ constexpr int kNeighboursThatFill = 6;
 
 constexpr double kWheelsReachM = 0.45;  // to the sides of the rover's centre
 
-// Of what the NavCam's map takes for a rock and the LocCam saw free: dear, no longer doubtful.
-constexpr float kRefutedDifficulty = 0.5F;
-
 constexpr double kRelaxM = 0.02;  // leaves room for rounding where the rover stands close to a hazard
 
 // Marks unseen cells that are enough surrounded by seen ones as seen.
@@ -100,8 +97,9 @@ Terrain::Terrain(const HazardMemory& memory, const GroundMap* ground, Reach reac
   if (doubt.most_cells > 0) {
     std::vector<std::uint8_t> sure;
     sure.reserve(unseen_.size());
-    for_each_cell([&](CellIndex, const GroundCell& cell) {
-      sure.push_back(cell.hits > 0 || (doubt.if_seen_free && cell.near_free == 0) ? 1 : 0);
+    for_each_cell([&](CellIndex i, const GroundCell& cell) {
+      const bool from_near = ground != nullptr && ground->map().get(i).range_m <= doubt.from_m;
+      sure.push_back(cell.hits > 0 || from_near || (doubt.if_seen_free && cell.near_free == 0) ? 1 : 0);
     });
     drop_doubtful(doubt, sure, impassable);
   }
@@ -127,14 +125,12 @@ std::vector<std::uint8_t> Terrain::lay_ground(const HazardMemory& memory, const 
   for (size_t i = 0; i < unseen_.size(); ++i) {
     const int cell = static_cast<int>(i);
     const CellIndex index{origin.ix + cell % cells_, origin.iy + cell / cells_};
-    const std::uint8_t cost = ground.map().get(index);
+    std::uint8_t cost = ground.map().get(index).cost;
     if (cost == TraversabilityGrid::kUnknown) continue;
     unseen_[i] = 0;
-    const GroundCell& near = memory.map().get(index);
-    const bool refuted = near.driven || memory.surely_free(near);
-    impassable[i] = cost == TraversabilityGrid::kImpassable && !refuted ? 1 : 0;
-    const float difficulty = static_cast<float>(cost) / static_cast<float>(TraversabilityGrid::kImpassable);
-    difficulty_[i] = refuted ? std::min(difficulty, kRefutedDifficulty) : difficulty;
+    if (memory.refutes(memory.map().get(index))) cost = std::min(cost, TraversabilityGrid::kRefuted);
+    impassable[i] = cost == TraversabilityGrid::kImpassable ? 1 : 0;
+    difficulty_[i] = static_cast<float>(cost) / static_cast<float>(TraversabilityGrid::kImpassable);
   }
   difficulty_ = widened(difficulty_, cells_, static_cast<int>(kWheelsReachM / cell_m_));
   return impassable;

@@ -22,11 +22,12 @@ class Terrain {
  public:
   enum class Reach { kMemory, kGround };  // of which of the two grids
 
-  // Small impassable spots of the map, away from the rover, that the LocCam has not confirmed: as often as not a stone
-  // that may be driven over. Taken for dear ground, they leave ways that the LocCam will confirm or close.
+  // Small impassable spots of the map that the rover has not been near, and that the LocCam has not confirmed: as often
+  // as not a stone that may be driven over. Taken for dear ground, they leave ways that the LocCam will confirm or
+  // close.
   struct Doubt {
     Point2 rover;
-    double from_m = 0.0;  // of the rover
+    double from_m = 0.0;  // of the rover, now and ever
     int most_cells = 0;   // of a spot; 0: the map is not doubted
     // Only spots that the LocCam saw free from near at least once: the rover drives without looking there.
     bool if_seen_free = false;

@@ -13,6 +13,8 @@ namespace rover::planning {
 struct TraversabilityGrid {
   static constexpr std::uint8_t kImpassable = 254;
   static constexpr std::uint8_t kUnknown = 255;
+  // The most that ground costs which the LocCam saw free: dear where the map takes it for a rock, no longer doubtful.
+  static constexpr std::uint8_t kRefuted = 127;
 
   Utime utime = kNever;
   double cell_m = 0.0;

@@ -53,14 +53,14 @@ std::uint8_t channel(Point2 p) {
 
 struct Ground {
   HazardMemory memory{planner_config().memory};
-  GroundMap map{280, 0.1};
+  GroundMap map{280, 0.1, 3.0};
   Route global{{{{-3.0, 0.0}}, {{30.0, 0.0}}}};
   std::vector<DeadEnd> dead_ends;
 
   explicit Ground(const std::function<std::uint8_t(Point2)>& cost) {
     memory.move_to({0.0, 0.0});
     map.move_to({0.0, 0.0});
-    map.add(map_about({0.0, 0.0}, cost));
+    map.add(map_about({0.0, 0.0}, cost), {0.0, 0.0});
   }
 
   FullRequest request(const Terrain& terrain, const Pose2& rover = {}) const {
@@ -121,17 +121,54 @@ TEST(TraversabilityGrid, OutsideNothingIsKnown) {
 }
 
 TEST(GroundMap, RemembersWhatTheNewestMapDoesNotKnowAndForgetsWhatItLeaves) {
-  GroundMap map(280, 0.1);
+  GroundMap map(280, 0.1, 3.0);
   map.move_to({0.0, 0.0});
-  map.add(map_about({0.0, 0.0}, [](Point2) { return std::uint8_t{100}; }));
-  map.add(map_about({0.0, 0.0}, [](Point2 p) { return p.x_m > 0.0 ? std::uint8_t{7} : TraversabilityGrid::kUnknown; }));
-  const auto at = [&](double x, double y) { return map.map().get(map.map().index_of(x, y)); };
+  map.add(map_about({0.0, 0.0}, [](Point2) { return std::uint8_t{100}; }), {0.0, 0.0});
+  map.add(map_about({0.0, 0.0}, [](Point2 p) { return p.x_m > 0.0 ? std::uint8_t{7} : TraversabilityGrid::kUnknown; }),
+          {0.0, 0.0});
+  const auto at = [&](double x, double y) { return map.map().get(map.map().index_of(x, y)).cost; };
   EXPECT_EQ(at(-1.0, 0.0), 100);
   EXPECT_EQ(at(1.0, 0.0), 7);
   EXPECT_EQ(at(12.0, 0.0), TraversabilityGrid::kUnknown);
   map.move_to({8.0, 0.0});
   EXPECT_EQ(at(-5.0, 0.0), 100);
   EXPECT_EQ(at(-7.0, 0.0), TraversabilityGrid::kUnknown);
+}
+
+// Found closed from 4 m, a gap looked open again from 8 m, and the rover went to and fro.
+TEST(GroundMap, AMapFromAfarDoesNotChangeWhatWasSeenFromNear) {
+  GroundMap map(280, 0.1, 3.0);
+  map.move_to({0.0, 0.0});
+  const auto look = [&](std::uint8_t cost, double range_m) {
+    map.add(map_about({0.0, 0.0}, [=](Point2) { return cost; }), {5.05 - range_m, 0.05});
+    return map.map().get(map.map().index_of(5.05, 0.05)).cost;
+  };
+  EXPECT_EQ(look(50, 8.0), 50);
+  EXPECT_EQ(look(254, 4.0), 254);
+  EXPECT_EQ(look(50, 8.0), 254);
+  EXPECT_EQ(look(60, 5.5), 60);
+  EXPECT_EQ(look(254, 5.5), 254);  // as far as the one before
+  EXPECT_EQ(look(50, 7.0), 254);   // from there on too
+  EXPECT_EQ(look(60, 1.0), 60);
+  EXPECT_EQ(look(254, 2.9), 254);
+  EXPECT_EQ(look(70, 3.5), 254);
+}
+
+TEST(GroundMap, KeepsWhatTheLocCamIsSureOfWhereItsMemoryEnds) {
+  Ground ground([](Point2 p) { return distance(p, {2.05, 0.05}) < 0.15 ? TraversabilityGrid::kImpassable : kFree; });
+  const auto cell = [&](double x) -> GroundCell& {
+    return ground.memory.map().at(ground.memory.map().index_of(x, 0.05));
+  };
+  cell(2.05).near_free = static_cast<std::uint8_t>(planner_config().memory.sure_free);
+  cell(3.05).hits = 2;
+  cell(4.05).hits = 1;
+  ground.map.add(ground.memory);
+  ground.memory.clear();
+  ground.map.add(map_about({0.0, 0.0}, [](Point2) { return std::uint8_t{253}; }), {-3.0, 0.05});
+  const auto at = [&](double x) { return ground.map.map().get(ground.map.map().index_of(x, 0.05)).cost; };
+  EXPECT_EQ(at(2.05), TraversabilityGrid::kRefuted);
+  EXPECT_EQ(at(3.05), TraversabilityGrid::kImpassable);
+  EXPECT_EQ(at(4.05), kFree);
 }
 
 TEST(UnitedTerrain, TheMapsRocksAreHazardsUnlessTheRoverDroveOverThemAndKnownGroundIsSeen) {
@@ -321,7 +358,7 @@ TEST(CurvePlan, FallsIntoLegs) {
 TEST(FullPlanner, WhereTheMapIsClosedAWayLeadsOutOfIt) {
   const auto wall = [](Point2 p) { return std::abs(p.x_m - 5.0) < 0.2 ? TraversabilityGrid::kImpassable : kFree; };
   Ground ground(wall);
-  for (const double y : {-5.0, 5.0}) ground.map.add(map_about({0.0, y}, wall));
+  for (const double y : {-5.0, 5.0}) ground.map.add(map_about({0.0, y}, wall), {0.0, y});
   ground.global = Route({{{-3.0, -7.0}}, {{10.0, -7.0}}});
   const Terrain terrain(ground.memory, &ground.map, Terrain::Reach::kGround);
   FullRequest request = ground.request(terrain);
@@ -515,6 +552,8 @@ TEST_F(FullLevel, WhereThereIsNoRoomToTurnTheRoverGoesStraightBack) {
   rig.step();
   rig.go(3.0);
   rig.odom = {rig.odom.x_m, rig.odom.y_m + 3.0, 1.2};
+  rig.planner.set_level(false);  // forgets the free map
+  rig.planner.set_level(true);
   const Pose2 there = rig.odom;
   for (const double y : {-0.75, 0.0, 0.75}) {
     const double c = std::cos(there.yaw_rad), sn = std::sin(there.yaw_rad);
