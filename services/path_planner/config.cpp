@@ -94,6 +94,7 @@ void read_curves(const Config& c, CurveSearchConfig& out) {
   c.read("turn_cost_per_rad_m", out.turn_cost_per_rad_m, {0.0, 50.0});
   c.read("turn_bend_cost_m", out.turn_bend_cost_m, {0.0, 50.0});
   c.read("tight_factor", out.tight_factor, {1.0, 20.0});
+  c.read("squeeze_factor", out.squeeze_factor, {1.0, 20.0});
   c.read("tight_turn_factor", out.tight_turn_factor, {1.0, 20.0});
   c.read("back_factor", out.back_factor, {1.0, 20.0});
   c.read("reversal_cost_m", out.reversal_cost_m, {0.0, 20.0});

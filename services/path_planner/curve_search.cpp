@@ -60,7 +60,7 @@ class Piece {
 class CurveSearch {
  public:
   CurveSearch(const CurveSearchConfig& config, const CurveProblem& problem)
-      : config_(config), problem_(problem), terrain_(problem.tight.terrain()), seen_(problem.tight, problem.view) {
+      : config_(config), problem_(problem), terrain_(problem.squeeze.terrain()), seen_(problem.squeeze, problem.view) {
     corner_ = terrain_.center_of(0);
     places_ = static_cast<int>(std::ceil(terrain_.cells() * terrain_.cell_m() / kPlaceBinM)) + 1;
     const auto places = static_cast<size_t>(places_);
@@ -218,7 +218,7 @@ class CurveSearch {
     const double factor = from.backwards ? config_.back_factor : 1.0;
     for (int i = 0; i < piece.samples(); ++i) {
       next.pose = piece.next();
-      next.cost += factor * piece.step_m() * pose_cost_per_m(problem_, config_.tight_factor, next.pose);
+      next.cost += factor * piece.step_m() * pose_cost_per_m(problem_, config_, next.pose);
       if (next.cost >= plan_.cost) return false;
       if (!from.backwards) next.way_m += piece.step_m();
       if (seen_in_time(next)) continue;
@@ -234,7 +234,7 @@ class CurveSearch {
 
   // Nothing looks where the stern goes: ground there has been seen before.
   bool seen_in_time(const CurveNode& node) const {
-    if (node.backwards) return problem_.tight.all_unseen(node.pose, [](Point2) { return false; });
+    if (node.backwards) return problem_.squeeze.all_unseen(node.pose, [](Point2) { return false; });
     return node.way_m > problem_.sure_m || seen_.covers(node.pose);
   }
 
@@ -285,11 +285,12 @@ class CurveSearch {
 
 }  // namespace
 
-double pose_cost_per_m(const CurveProblem& problem, double tight_factor, const Pose2& pose) {
+double pose_cost_per_m(const CurveProblem& problem, const DrivingPrices& prices, const Pose2& pose) {
   const double ground = problem.field.cost_per_m(position(pose));
   if (std::isinf(ground)) return kInfinity;
   if (problem.roomy.clear(pose)) return ground;
-  return problem.tight.clear(pose) ? tight_factor * ground : kInfinity;
+  if (problem.tight.clear(pose)) return prices.tight_factor * ground;
+  return problem.squeeze.clear(pose) ? prices.squeeze_factor * ground : kInfinity;
 }
 
 std::deque<CurveLeg> legs_of(const CurvePlan& plan) {
@@ -306,14 +307,7 @@ std::deque<CurveLeg> legs_of(const CurvePlan& plan) {
 }
 
 CurvePlan search_curves(const CurveSearchConfig& config, const CurveProblem& problem) {
-  CurvePlan plan = CurveSearch(config, problem).run();
-  if (plan.found || plan.expansions < config.max_expansions) return plan;
-  CurveSearchConfig hasty = config;
-  hasty.greed = config.hasty_greed;
-  const int before = plan.expansions;
-  plan = CurveSearch(hasty, problem).run();
-  plan.expansions += before;
-  return plan;
+  return CurveSearch(config, problem).run();
 }
 
 }  // namespace rover::planning

@@ -17,7 +17,7 @@ struct CurveSearchConfig : DrivingPrices {
   double bend_cost_m = 0.4;       // for a change by the largest curvature in one piece; less, the square of it
   double turn_bend_cost_m = 1.0;  // of a point turn more, where the wheels come from the largest curvature
   double greed = 1.1;
-  double hasty_greed = 3.0;  // of a second try, where max_expansions did not do: the lattice leads almost straight down
+  double hasty_greed = 3.0;  // of a last try, where max_expansions did not do: the lattice leads almost straight down
   int max_expansions = 4000;
 };
 
@@ -26,6 +26,7 @@ struct CurveProblem {
   const HeadingField& headings;
   const FootprintCheck& roomy;
   const FootprintCheck& tight;
+  const FootprintCheck& squeeze;
   const FootprintCheck& turn;  // for point turns: the rover does not halt exactly
   ViewArea view;
   Pose2 start;
@@ -57,7 +58,8 @@ std::deque<CurveLeg> legs_of(const CurvePlan& plan);
 
 CurvePlan search_curves(const CurveSearchConfig& config, const CurveProblem& problem);
 
-// Cost of a metre at a pose: the ground's, more where only the tight margin is kept, infinity where neither is.
-double pose_cost_per_m(const CurveProblem& problem, double tight_factor, const Pose2& pose);
+// Cost of a metre at a pose: the ground's, more where only the tight margin is kept or the least, infinity where none
+// is.
+double pose_cost_per_m(const CurveProblem& problem, const DrivingPrices& prices, const Pose2& pose);
 
 }  // namespace rover::planning

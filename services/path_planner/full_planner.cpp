@@ -14,7 +14,7 @@ double FullPlanner::held_cost(const CurveProblem& problem, const HeldWay& held) 
   double cost = config_.search.turn_cost_m * held.halts + config_.search.turn_cost_per_rad_m * held.turn_left_rad;
   for (size_t i = 1; i < held.poses.size(); ++i) {
     const double step = distance(position(held.poses[i - 1]), position(held.poses[i]));
-    cost += step * pose_cost_per_m(problem, config_.search.tight_factor, held.poses[i]);
+    cost += step * pose_cost_per_m(problem, config_.search, held.poses[i]);
   }
   return cost;
 }
@@ -22,23 +22,31 @@ double FullPlanner::held_cost(const CurveProblem& problem, const HeldWay& held) 
 GoalField FullPlanner::goal_field(const FullRequest& request) const {
   return {config_.goal,
           {request.terrain, request.global, request.from_m, position(request.rover), request.footprint.half_width_m,
-           request.tight_margin_m, request.goal_reach_m, request.dead_ends}};
+           request.squeeze_margin_m, request.goal_reach_m, request.dead_ends}};
 }
 
-// The lattice lets through what almost fits; where that leads the search astray, one that does not is asked.
+// The lattice lets through what almost fits; where that leads the search astray, one that does not is asked, and last
+// the first one in haste.
 FullPlan FullPlanner::plan(const FullRequest& request) const {
   const GoalField field = goal_field(request);
   FullPlan out;
   if (!field.reachable()) return out;
-  out = plan_on(request, field, kSlackM);
-  return out.plan.found || out.hopeless ? out : plan_on(request, field, -kSlackM);
+  const CurveSearchConfig& search = config_.search;
+  out = plan_on(request, field, kSlackM, search);
+  if (out.plan.found || out.hopeless) return out;
+  FullPlan sure = plan_on(request, field, -kSlackM, search);
+  if (sure.plan.found || out.plan.expansions < search.max_expansions) return sure;
+  CurveSearchConfig hasty = search;
+  hasty.greed = search.hasty_greed;
+  return plan_on(request, field, kSlackM, hasty);
 }
 
-FullPlan FullPlanner::plan_on(const FullRequest& request, const GoalField& field, double slack_m) const {
+FullPlan FullPlanner::plan_on(const FullRequest& request, const GoalField& field, double slack_m,
+                              const CurveSearchConfig& search) const {
   FullPlan out;
-  const HeadingField headings(config_.search,
-                              {request.terrain, field, request.footprint, request.rover, request.roomy_margin_m,
-                               request.turn_margin_m, request.tight_margin_m, slack_m, request.may_back});
+  const HeadingField headings(
+      search, {request.terrain, field, request.footprint, request.rover, request.roomy_margin_m, request.turn_margin_m,
+               request.tight_margin_m, request.squeeze_margin_m, slack_m, request.may_back});
   // With less room there is no more of a way.
   out.hopeless = !request.held && std::isinf(headings.to_go(request.start)) &&
                  std::isinf(headings.to_go_turning(request.stopped)) &&
@@ -49,17 +57,28 @@ FullPlan FullPlanner::plan_on(const FullRequest& request, const GoalField& field
   };
   const FootprintCheck roomy = check(request.roomy_margin_m);
   const FootprintCheck tight = check(request.tight_margin_m);
+  const FootprintCheck squeeze = check(request.squeeze_margin_m);
   const FootprintCheck turn = check(request.turn_margin_m);
-  CurveProblem problem{field, headings,        roomy,         tight,
-                       turn,  request.view,    request.start, request.start_curvature_per_m,
-                       0.0,   request.stopped, kInfinity,     request.may_back};
+  CurveProblem problem{field,
+                       headings,
+                       roomy,
+                       tight,
+                       squeeze,
+                       turn,
+                       request.view,
+                       request.start,
+                       request.start_curvature_per_m,
+                       0.0,
+                       request.stopped,
+                       kInfinity,
+                       request.may_back};
   double most = kInfinity;
   if (request.held) {
     const double cost = held_cost(problem, *request.held);
     CurveProblem rest = problem;
     rest.start = rest.stopped = request.held->poses.back();
     rest.start_curvature_per_m = request.held->end_curvature_per_m;
-    if (std::isfinite(cost)) out.plan = search_curves(config_.search, rest);
+    if (std::isfinite(cost)) out.plan = search_curves(search, rest);
     out.held = out.plan.found;
     if (out.held) most = (cost + out.plan.cost - config_.switch_gain_m) / (1.0 + config_.switch_share);
   }
@@ -67,7 +86,7 @@ FullPlan FullPlanner::plan_on(const FullRequest& request, const GoalField& field
   for (const double sure_m : {config_.sure_way_m, config_.least_sure_way_m}) {
     problem.sure_m = sure_m;
     problem.most_cost = most;
-    CurvePlan fresh = search_curves(config_.search, problem);
+    CurvePlan fresh = search_curves(search, problem);
     out.plan.expansions += fresh.expansions;
     const bool unseen = fresh.unseen_in_the_way;
     if (fresh.found) {
@@ -81,9 +100,9 @@ FullPlan FullPlanner::plan_on(const FullRequest& request, const GoalField& field
   }
   if (!out.plan.found) return out;
   out.clearance_m = kAmpleM;
-  for (const Pose2& pose : out.plan.poses) out.clearance_m = tight.clearance_m(pose, out.clearance_m);
+  for (const Pose2& pose : out.plan.poses) out.clearance_m = squeeze.clearance_m(pose, out.clearance_m);
   if (out.held)
-    for (const Pose2& pose : request.held->poses) out.clearance_m = tight.clearance_m(pose, out.clearance_m);
+    for (const Pose2& pose : request.held->poses) out.clearance_m = squeeze.clearance_m(pose, out.clearance_m);
   out.end_station_m = field.station_m(position(out.plan.poses.back()));
   return out;
 }

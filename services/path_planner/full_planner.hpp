@@ -20,7 +20,7 @@ struct FullPlannerConfig {
   double block_slack_m = 0.03;     // by which a tight plan may come nearer before it is blocked: hazards grow by cells
   double sigma_margin_m = 0.02;    // for the pose: each half metre shows the ground anew. One that changed with the
                                    // pose's deviation would stop the rover, and let it go on once it stands
-  double squeeze_margin_m = 0.08;  // where there is no way otherwise
+  double squeeze_margin_m = 0.04;  // the least, at a price (search.squeeze_factor)
   double doubt_from_m = 2.0;       // of the rover, likewise: small spots of the map never nearer do not count ...
   int doubt_cells = 8;             // ... up to so many cells, unless the LocCam confirms them
   double turn_extra_m = 0.04;      // of the margin, for point turns: the rover does not halt exactly
@@ -54,6 +54,7 @@ struct FullRequest {
   std::optional<HeldWay> held;
   double roomy_margin_m = 0.0;
   double tight_margin_m = 0.0;
+  double squeeze_margin_m = 0.0;
   double turn_margin_m = 0.0;
   double goal_reach_m = 0.0;
   const std::vector<DeadEnd>& dead_ends;
@@ -75,7 +76,8 @@ class FullPlanner {
 
  private:
   GoalField goal_field(const FullRequest& request) const;
-  FullPlan plan_on(const FullRequest& request, const GoalField& field, double slack_m) const;
+  FullPlan plan_on(const FullRequest& request, const GoalField& field, double slack_m,
+                   const CurveSearchConfig& search) const;
   double held_cost(const CurveProblem& problem, const HeldWay& held) const;
 
   FullPlannerConfig config_;

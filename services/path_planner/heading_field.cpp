@@ -83,7 +83,8 @@ void HeadingField::lay_rooms() {
   rooms_.assign(count_ * kHeadings / 2, kRoomy);
   stamp(query_.roomy_margin_m - query_.slack_m, kTight);
   stamp(query_.turn_margin_m - query_.slack_m, kTurnless);
-  stamp(query_.tight_margin_m - query_.slack_m, kBlocked);
+  stamp(query_.tight_margin_m - query_.slack_m, kSqueezed);
+  stamp(query_.squeeze_margin_m - query_.slack_m, kBlocked);
 }
 
 void HeadingField::stamp(double margin_m, Room room) {
@@ -135,7 +136,8 @@ void HeadingField::stamp_heading(int heading, double margin_m, Room room, const 
 float HeadingField::metre_cost(int cell, int heading) const {
   const Room here = room(cell, heading);
   if (here == kBlocked) return kNone;
-  return here != kRoomy ? static_cast<float>(prices_.tight_factor) * ground_[cell] : ground_[cell];
+  if (here == kRoomy) return ground_[cell];
+  return static_cast<float>(here == kSqueezed ? prices_.squeeze_factor : prices_.tight_factor) * ground_[cell];
 }
 
 void HeadingField::seed() {

@@ -16,7 +16,8 @@ struct DrivingPrices {
   double curvature_cost = 0.15;  // per metre, at the largest curvature
   double turn_cost_m = 3.0;      // a point turn takes about 15 s, in which the rover could drive 3 m
   double turn_cost_per_rad_m = 1.0;
-  double tight_factor = 2.0;       // of the cost, where only the tight margin is kept
+  double tight_factor = 2.0;       // of the cost, where only the tight margin is kept ...
+  double squeeze_factor = 4.0;     // ... and where only the least is
   double tight_turn_factor = 3.0;  // likewise of a point turn's
   double back_factor = 1.5;        // of the cost, stern first
   double reversal_cost_m = 1.5;    // from ahead to astern, or back: the rover halts
@@ -30,6 +31,7 @@ struct HeadingQuery {
   double roomy_margin_m = 0.0;
   double turn_margin_m = 0.0;  // for point turns; between the two
   double tight_margin_m = 0.0;
+  double squeeze_margin_m = 0.0;  // the least
   // Less margin than that: gaps that a pose between the lattice's fits through stay open. Negative: only ways that
   // surely are ways.
   double slack_m = 0.0;
@@ -52,7 +54,7 @@ class HeadingField {
 
  private:
   enum class Motion : std::uint8_t { kDrive = 0, kTurn = 1, kBack = 2 };
-  enum Room : std::uint8_t { kRoomy = 0, kTight = 1, kTurnless = 2, kBlocked = 3 };  // each less than the one before
+  enum Room : std::uint8_t { kRoomy, kTight, kTurnless, kSqueezed, kBlocked };  // each less than the one before
   struct Arc {
     int from_heading;
     int to_heading;

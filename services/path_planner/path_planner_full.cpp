@@ -136,7 +136,7 @@ bool PathPlanner::plan_on(PlannerOutput& out) {
   FullRequest request = full_request(ground);
   FullPlan plan = full_planner_.plan(request);
   if (!plan.plan.found) {
-    request.tight_margin_m = request.turn_margin_m = config_.full.squeeze_margin_m + sigma_margin_m();
+    request.turn_margin_m = request.squeeze_margin_m;
     plan = full_planner_.plan(request);
   }
   if (!plan.plan.found) plan = plan_in_doubt({position(rover()), config_.full.doubt_from_m, config_.full.doubt_cells});
@@ -180,6 +180,7 @@ FullRequest PathPlanner::full_request(const Terrain& terrain) const {
           .held = held_way(),
           .roomy_margin_m = config_.margin_m + config_.plan_extra_m + sigma,
           .tight_margin_m = config_.tight_margin_m + sigma,
+          .squeeze_margin_m = config_.full.squeeze_margin_m + sigma,
           .turn_margin_m = config_.tight_margin_m + config_.full.turn_extra_m + sigma,
           .goal_reach_m = any_goal ? config_.blocked_goal_reach_m : goal_reach_m(),
           .dead_ends = dead_ends_};
@@ -262,7 +263,7 @@ std::vector<Point2> PathPlanner::clear_part(const std::vector<Point2>& back) con
 
 void PathPlanner::take_plan(const FullPlan& plan, const FullRequest& request, PlannerOutput& out) {
   // Also of a roomy plan: where less is left the next plan widens it, if that is possible, without a stop.
-  active_.margin_m = request.tight_margin_m - config_.full.block_slack_m - sigma_margin_m();
+  active_.margin_m = request.squeeze_margin_m - config_.full.block_slack_m - sigma_margin_m();
   active_.corridor_half_width_m = std::clamp(plan.clearance_m - kHalfCellM - kControlM, config_.least_corridor_m,
                                              std::max(config_.least_corridor_m, global_->corridor_half_width_m));
   std::vector<RoutePoint> points;

@@ -76,6 +76,7 @@ struct Ground {
                     .dead_ends = dead_ends};
     out.roomy_margin_m = 0.17;
     out.tight_margin_m = 0.11;
+    out.squeeze_margin_m = 0.11;
     out.turn_margin_m = 0.15;
     out.goal_reach_m = 0.3;
     return out;
@@ -551,7 +552,7 @@ TEST_F(FullLevel, WhereThereIsNoRoomToTurnTheRoverGoesStraightBack) {
   send_map(free_ground);
   rig.step();
   rig.go(3.0);
-  rig.odom = {rig.odom.x_m, rig.odom.y_m + 3.0, 1.2};
+  rig.odom = {rig.odom.x_m, rig.odom.y_m + 3.0, -1.2};
   rig.planner.set_level(false);  // forgets the free map
   rig.planner.set_level(true);
   const Pose2 there = rig.odom;
@@ -605,7 +606,7 @@ TEST_F(FullLevel, ABackingRoverOffItsPathIsStoppedBeforeAHazard) {
   rig.forward_mps = -0.2;
   rig.odom.x_m = -0.3;
   EXPECT_TRUE(std::isinf(rig.look().status.blocked_in_m));
-  rig.odom.y_m = 0.19;
+  rig.odom.y_m = 0.21;
   rig.odom.yaw_rad = -0.1;  // and further aside
   EXPECT_LT(rig.look().status.blocked_in_m, 0.5);
 }
