@@ -307,6 +307,23 @@ TEST(FullPlanner, ATightGapIsWeighedAgainstTheWayRound) {
   EXPECT_GT(y_at(round.plan.poses, 4.0), 0.8);
 }
 
+// One that only the least margin fits through, likewise: 8 cm to the cells' centres on both sides.
+TEST(FullPlanner, AGapForTheLeastMarginIsDearNotClosed) {
+  const auto plan = [](double other_m, double squeeze_m) {
+    const Ground ground([=](Point2 p) {
+      const bool gap = std::abs(p.y_m) < 0.52 || std::abs(p.y_m - other_m) < 1.5;
+      return std::abs(p.x_m - 4.0) < 0.15 && !gap ? TraversabilityGrid::kImpassable : kFree;
+    });
+    const Terrain terrain(ground.memory, &ground.map, Terrain::Reach::kGround);
+    FullRequest request = ground.request(terrain);
+    request.squeeze_margin_m = squeeze_m;
+    return FullPlanner(planner_config().full).plan(request);
+  };
+  EXPECT_NEAR(y_at(plan(9.0, 0.06).plan.poses, 4.0), 0.0, 0.05);
+  EXPECT_GT(y_at(plan(3.0, 0.06).plan.poses, 4.0), 0.8);
+  EXPECT_FALSE(std::abs(y_at(plan(9.0, 0.11).plan.poses, 4.0)) < 0.5);
+}
+
 TEST(FullPlanner, EnclosedThereIsNoPlan) {
   const FullPlan plan = Ground([](Point2 p) {
                           const double r = distance(p, {0.0, 0.0});
