@@ -163,8 +163,9 @@ void GlobalLocalization::match(const Prior& prior, const TerrainTemplate& terrai
   const Eigen::Matrix3d cov = covariance_of(orbital, terrain, best, independent_samples(terrain, sigma_m));
   out.sigma_m = largest_sigma(cov);
   const double turn = config_.map_sigma_rad, shift = config_.map_sigma_m;
-  out.cov = at_body(cov, transformed(out.T_map_odom, prior.p_odom_body) - best.placement.center_map);
-  out.cov.diagonal() += Eigen::Vector3d(shift * shift, shift * shift, turn * turn);
+  // A map that shows the ground turned about its centre moves the body that stands beyond it, across the arm.
+  const Eigen::Matrix3d distortion = Eigen::Vector3d(shift * shift, shift * shift, turn * turn).asDiagonal();
+  out.cov = at_body(cov + distortion, transformed(out.T_map_odom, prior.p_odom_body) - best.placement.center_map);
 
   if (out.score < limits.min_score || out.residual_m > limits.max_residual_m) {
     out.reason = "no place is alike enough";

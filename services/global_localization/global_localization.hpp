@@ -51,7 +51,8 @@ struct GlobalConfig {
   SearchConfig search;
   RefinementConfig refinement;
   AcceptanceConfig acceptance;
-  double map_sigma_m = 0.2;  // how far the orbital map itself may be distorted; part of the covariance
+  double map_sigma_m = 0.2;  // how far the orbital map itself may show the matched ground moved, and turned about its
+                             // centre; part of the covariance
   double map_sigma_rad = to_rad(0.3);
 };
 

@@ -70,6 +70,18 @@ TEST(GlobalLocalization, TheMapsNoiseIsWithinTheCovariance) {
   }
 }
 
+// Ground that the map shows turned moves the body beyond it: place and yaw are wrong together.
+TEST(GlobalLocalization, TheMapsDistortionReachesTheBodyThroughTheArm) {
+  const Correction c = driven(hills, 0.5, all_seen, 0.0, 48.0).correct(prior({1.0, 1.0}, 1.0));
+  ASSERT_TRUE(c.accepted) << c.reason;
+  const Eigen::Rotation2Dd R(c.T_map_odom.yaw_rad);
+  const Eigen::Vector2d along = R * Eigen::Vector2d::UnitX(), across = R * Eigen::Vector2d::UnitY();
+  const Eigen::Matrix2d place = c.cov.topLeftCorner<2, 2>();
+  const double arm_m = 24.0, turn_rad = GlobalConfig{}.map_sigma_rad;
+  EXPECT_NEAR(across.dot(place * across) - along.dot(place * along), std::pow(arm_m * turn_rad, 2), 0.003);
+  EXPECT_NEAR(across.dot(c.cov.block<2, 1>(0, 2)), arm_m * turn_rad * turn_rad, 1e-4);
+}
+
 // The published matcher's score collapses when 1 % of the cells are empty.
 TEST(GlobalLocalization, HolesDoNotHurt) {
   const Correction whole = driven(hills, 0.5, all_seen, 0.1).correct(prior({4.0, -5.0}, 6.0));
