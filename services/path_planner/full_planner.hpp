@@ -17,15 +17,15 @@ struct FullPlannerConfig {
   double hold_m = 3.0;             // of the plan that is being driven, kept where it is held
   double switch_gain_m = 1.0;      // by which another one has to be cheaper ...
   double switch_share = 0.1;       // ... and by that share of its cost
-  double block_slack_m = 0.03;     // by which a tight plan may come nearer before it is blocked: hazards grow by cells
+  double block_slack_m = 0.03;     // by which a plan may come nearer than the least margin before it is blocked: hazards grow
   double sigma_margin_m = 0.02;    // for the pose: each half metre shows the ground anew. One that changed with the
                                    // pose's deviation would stop the rover, and let it go on once it stands
   double squeeze_margin_m = 0.04;  // the least, at a price (search.squeeze_factor)
-  double doubt_from_m = 2.0;       // of the rover, likewise: small spots of the map never nearer do not count ...
+  double doubt_from_m = 2.0;       // where that leaves no way: small spots of the map never nearer do not count ...
   int doubt_cells = 8;             // ... up to so many cells, unless the LocCam confirms them
   double turn_extra_m = 0.04;      // of the margin, for point turns: the rover does not halt exactly
   int most_retreats = 12;          // one after the other, without new ground gained
-  int map_cells = 280;             // of the ground that is remembered, each way; as large as the hazard memory's
+  int map_cells = 280;             // of the ground that is remembered, each way; their size is the hazard memory's
   double near_look_m = 3.0;        // a map from that near always tells the newest of a cell, one from afar may not
   double stale_way_m = 1.5;        // driven since the newest map, with which it is too old ...
   double stale_s = 5.0;            // ... if that took as long

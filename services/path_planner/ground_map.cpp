@@ -22,10 +22,8 @@ void GroundMap::add(const TraversabilityGrid& grid, Point2 rover) {
       if (cost == TraversabilityGrid::kUnknown) continue;
       GroundLook& look = map_.at(i);
       const double range_m = distance(p, rover);
-      const bool first = look.cost == TraversabilityGrid::kUnknown;
-      if (!first && range_m > std::max(kAsNear * look.range_m, near_m_)) continue;
-      look.cost = cost;
-      look.range_m = static_cast<float>(first ? range_m : std::min<double>(look.range_m, range_m));
+      if (range_m > std::max(kAsNear * look.range_m, near_m_)) continue;
+      look = {cost, std::min(look.range_m, range_m)};
     }
 }
 
@@ -34,9 +32,9 @@ void GroundMap::add(const HazardMemory& memory) {
     if (!map_.contains(i)) return;
     GroundLook& look = map_.at(i);
     if (memory.confirmed(cell))
-      look = {TraversabilityGrid::kImpassable, 0.0F};
+      look = {TraversabilityGrid::kImpassable, 0.0};
     else if (look.cost != TraversabilityGrid::kUnknown && memory.refutes(cell))
-      look = {std::min(look.cost, TraversabilityGrid::kRefuted), 0.0F};
+      look = {std::min(look.cost, TraversabilityGrid::kRefuted), 0.0};
   });
 }
 

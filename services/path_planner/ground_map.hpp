@@ -12,7 +12,7 @@ namespace rover::planning {
 
 struct GroundLook {
   std::uint8_t cost = TraversabilityGrid::kUnknown;
-  float range_m = 0.0F;  // of the rover: the nearest of the maps that told of the cell; 0: LocCam
+  double range_m = kInfinity;  // of the rover: the nearest of the maps that told of the cell; 0: LocCam
 };
 
 class GroundMap {
