@@ -12,12 +12,13 @@ namespace rover::planning {
 struct FullPlannerConfig {
   GoalFieldConfig goal;
   CurveSearchConfig search;
-  double sure_way_m = 2.5;         // of a plan, over ground that is seen in time
-  double least_sure_way_m = 0.6;   // where that leaves no way
-  double hold_m = 3.0;             // of the plan that is being driven, kept where it is held
-  double switch_gain_m = 1.0;      // by which another one has to be cheaper ...
-  double switch_share = 0.1;       // ... and by that share of its cost
-  double block_slack_m = 0.03;     // by which a plan may come nearer than the least margin before it is blocked: hazards grow
+  double sure_way_m = 2.5;        // of a plan, over ground that is seen in time
+  double least_sure_way_m = 0.6;  // where that leaves no way
+  double hold_m = 3.0;            // of the plan that is being driven, kept where it is held
+  double switch_gain_m = 1.0;     // by which another one has to be cheaper ...
+  double switch_share = 0.1;      // ... and by that share of its cost
+  double block_slack_m =
+      0.03;  // by which a plan may come nearer than the least margin before it is blocked: hazards grow
   double sigma_margin_m = 0.02;    // for the pose: each half metre shows the ground anew. One that changed with the
                                    // pose's deviation would stop the rover, and let it go on once it stands
   double squeeze_margin_m = 0.04;  // the least, at a price (search.squeeze_factor)
