@@ -64,6 +64,7 @@ LocalizationConfig load_config(const std::string& config_dir) {
   standing.read_deg("rate_degps", out.standing_rate_radps, {0, 90});
   standing.read("after_s", out.standing_s, {0, 60});
   standing.read("at_rest_after_s", out.at_rest_s, {0, 600});
+  standing.read_deg("rest_rate_degps", out.rest_rate_radps, {0, 90});
   const Config levelling = config.section("levelling");
   levelling.read("duration_s", out.levelling.duration_s, {0.1, 60});
   levelling.read("min_gravity_mps2", out.levelling.min_gravity_mps2, {0.1, 30});

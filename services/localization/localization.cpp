@@ -222,12 +222,14 @@ void Localization::judge_standing(MotionRecord& record) {
   if (moved || rate.norm() > config_.standing_rate_radps) {
     still_turned_rad_ = {};
     still_steer_rad_ = record.steer_rad;
-    still_s_ = 0.0;
+    still_s_ = rest_s_ = 0.0;
     return;
   }
   still_s_ += record.dt_s();
+  const bool turning = record.fog && std::abs(rate.z()) > config_.rest_rate_radps;
+  rest_s_ = turning ? 0.0 : rest_s_ + record.dt_s();
   record.standing = still_s_ >= config_.standing_s;
-  record.at_rest = record.standing && still_s_ >= config_.at_rest_s;
+  record.at_rest = record.standing && rest_s_ >= config_.at_rest_s;
 }
 
 void Localization::initialise(const MotionRecord& record) {

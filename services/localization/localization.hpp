@@ -47,6 +47,7 @@ struct LocalizationConfig {
   double standing_rate_radps = to_rad(0.15);  // gyro below, wheels still: the rover stands
   double standing_s = 0.4;                    // after so long
   double at_rest_s = 5.0;                     // after so long its body has stopped rocking
+  double rest_rate_radps = to_rad(0.015);     // and its fibre-optic gyro is below that: 7 deviations of its noise
   double smoothing_s = 0.4;                   // time constant with which the pose takes up late corrections
   int conflicts_until_imu_suspect = 5;        // visual motions in a row that contradict the gyro
   double max_speed_mps = 20.0;                // a faster visual motion is nonsense
@@ -144,6 +145,7 @@ class Localization {
   Utime initialised_utime_ = kNever;
   Utime imu_alive_utime_ = kNever;
   double still_s_ = 0.0;                      // how long the wheels have stood
+  double rest_s_ = 0.0;                       // of it, how long the body has not turned
   std::array<double, 6> still_turned_rad_{};  // what they turned since
   std::array<double, 4> still_steer_rad_{};   // how they were steered then
 

@@ -153,6 +153,22 @@ TEST(Localization, TheGyroBiasIsLearntWhenTheBodyRocksNoMore) {
   EXPECT_LT(fog_variance(), 0.1 * driving);
 }
 
+// A rover that is about to go turns for some ticks before its wheels have moved far enough to tell. Taken for rest they
+// taught the gyro 2 deg/h.
+TEST(Localization, TheOnsetOfAMotionIsNoRest) {
+  SyntheticDrive drive({}, 2);
+  const auto onset = [](double t) { return t > 30.0 && t < 30.2 ? 2e-3 : 0.0; };
+  drive.spoil_imu = [&](ImuSample& sample) {
+    sample.fog_delta_yaw_rad += onset(to_seconds(sample.utime)) * sample.dt_s;
+  };
+  drive.begin();
+  const auto fog_bias_radps = [&] { return drive.localization.checkpoint()->gyro_bias_radps.z(); };
+  drive.run(28.0);
+  const double before = fog_bias_radps();
+  drive.run(1.2);
+  EXPECT_NEAR(fog_bias_radps(), before, 1e-6);
+}
+
 // Slow rotation below the standstill's threshold once taught the gyro a wrong bias, and the bias moved the resting
 // rover by metres through what it is correlated with.
 TEST(Localization, WheelsThatSteerOnTheSpotAreNoStandstill) {
