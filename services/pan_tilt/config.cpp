@@ -17,6 +17,7 @@ CameraMount mount_of(const Vehicle& vehicle, const StereoRig& navcam) {
 void read_ahead(const Config& yaml, LookAheadConfig& ahead) {
   yaml.read("distance_m", ahead.distance_m, {0.5, 20.0});
   yaml.read_deg("pan_max_deg", ahead.pan_max_rad, {0.0, 120.0});
+  yaml.read_deg("glance_deg", ahead.glance_rad, {0.0, 120.0});
   yaml.read("near_m", ahead.near_m, {0.5, 10.0});
   yaml.read("far_m", ahead.far_m, {1.0, 50.0});
   if (ahead.far_m <= ahead.near_m) yaml.fail("far_m", "must be beyond near_m");

@@ -68,18 +68,30 @@ std::optional<Gaze> PanTilt::sweep_on() {
 std::optional<Gaze> PanTilt::ahead(Utime now) {
   const double age_s = to_seconds(now - pose_.utime);
   if (pose_.utime == kNever || age_s < 0.0 || age_s > config_.max_pose_age_s) return std::nullopt;
-  const Gaze gaze = look_ahead(path_, pose_.odom, mount_, config_.ahead);
+  Gaze gaze = look_ahead(path_, pose_.odom, mount_, config_.ahead);
   const double heading = pose_.odom.yaw_rad + gaze.pan_rad;
-  if (last_image_ && !moved_on(heading)) return std::nullopt;
+  const bool turned = !last_image_ || turned_on(heading);
+  if (!turned && !went_on()) return std::nullopt;
+  images_of_way_ = turned ? 0 : images_of_way_ + 1;
+  gaze.pan_rad += glance_rad();
   last_image_ = pose_;
   last_heading_rad_ = heading;
   return gaze;
 }
 
-bool PanTilt::moved_on(double heading_rad) const {
+bool PanTilt::went_on() const {
+  return std::abs(pose_.travelled_m - last_image_->travelled_m) >= config_.image_way_m;
+}
+
+bool PanTilt::turned_on(double heading_rad) const {
   const auto turned = [&](double from, double to) { return std::abs(wrap_angle(to - from)) >= config_.image_turn_rad; };
-  return std::abs(pose_.travelled_m - last_image_->travelled_m) >= config_.image_way_m ||
-         turned(last_image_->odom.yaw_rad, pose_.odom.yaw_rad) || turned(last_heading_rad_, heading_rad);
+  return turned(last_image_->odom.yaw_rad, pose_.odom.yaw_rad) || turned(last_heading_rad_, heading_rad);
+}
+
+// What lies beside the way decides which way is taken: it is cheaper to look there than to turn the rover there.
+double PanTilt::glance_rad() const {
+  if (images_of_way_ % 2 == 0) return 0.0;
+  return images_of_way_ % 4 == 1 ? config_.ahead.glance_rad : -config_.ahead.glance_rad;
 }
 
 }  // namespace rover::gaze

@@ -67,7 +67,9 @@ class PanTilt {
   std::optional<Gaze> next_view(Utime now);
   std::optional<Gaze> sweep_on();
   std::optional<Gaze> ahead(Utime now);
-  bool moved_on(double heading_rad) const;
+  bool went_on() const;
+  bool turned_on(double heading_rad) const;
+  double glance_rad() const;
 
   PanTiltConfig config_;
   PanTiltUnit unit_;
@@ -82,6 +84,7 @@ class PanTilt {
   std::optional<Pending> pending_;
   std::optional<RoverPose> last_image_;  // where the last one along the way was made
   double last_heading_rad_ = 0.0;        // of its view, in odom
+  int images_of_way_ = 0;                // since the last one that a turn asked for
   bool unit_fails_ = false;
 };
 

@@ -74,7 +74,7 @@ void read_margins(const Config& c, PathPlannerConfig& out) {
 
 void read_goal(const Config& c, GoalFieldConfig& out) {
   c.read("horizon_m", out.horizon_m, {2.0, 12.0});
-  c.read("max_deviation_m", out.max_deviation_m, {0.5, 12.0});
+  c.read("max_deviation_m", out.max_deviation_m, {0.5, 40.0});
   c.read("return_way_m", out.return_way_m, {1.0, 50.0});
   c.read("heading_cost_m", out.heading_cost_m, {0.0, 10.0});
   c.read("goal_miss_cost", out.goal_miss_cost, {0.0, 50.0});

@@ -3,7 +3,9 @@
 namespace rover::planning {
 namespace {
 
-constexpr double kAsNear = 1.5;  // times the range of the nearest look
+constexpr double kAsNear = 1.5;   // times the range of the nearest look
+constexpr double kNearer = 0.85;  // times the range from which it was found impassable
+constexpr int kContrary = 10;     // maps in a row open it from anywhere: one may have been wrong
 
 }  // namespace
 
@@ -23,7 +25,15 @@ void GroundMap::add(const TraversabilityGrid& grid, Point2 rover) {
       GroundLook& look = map_.at(i);
       const double range_m = distance(p, rover);
       if (range_m > std::max(kAsNear * look.range_m, near_m_)) continue;
-      look = {cost, std::min(look.range_m, range_m)};
+      look.range_m = std::min(look.range_m, range_m);
+      if (cost == TraversabilityGrid::kImpassable) {
+        look.closed_m = std::min(look.closed_m, range_m);
+      } else if (look.cost == TraversabilityGrid::kImpassable && range_m > kNearer * look.closed_m &&
+                 ++look.contrary < kContrary) {
+        continue;
+      }
+      look.contrary = 0;
+      look.cost = cost;
     }
 }
 
@@ -32,9 +42,9 @@ void GroundMap::add(const HazardMemory& memory) {
     if (!map_.contains(i)) return;
     GroundLook& look = map_.at(i);
     if (memory.confirmed(cell))
-      look = {TraversabilityGrid::kImpassable, 0.0};
+      look = {TraversabilityGrid::kImpassable, 0.0, 0.0};
     else if (look.cost != TraversabilityGrid::kUnknown && memory.refutes(cell))
-      look = {std::min(look.cost, TraversabilityGrid::kRefuted), 0.0};
+      look = {std::min(look.cost, TraversabilityGrid::kRefuted), 0.0, look.closed_m};
   });
 }
 

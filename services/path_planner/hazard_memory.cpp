@@ -6,6 +6,7 @@ namespace rover::planning {
 namespace {
 
 constexpr int kMostHits = 10;
+constexpr int kMostRelapses = 4;
 constexpr double kViewRimM = 0.15;  // of the view, where pitch and roll decide whether ground is in the picture
 constexpr int kMostCells = 1 << 20;
 
@@ -103,6 +104,7 @@ void HazardMemory::note_obstacle(CellIndex index) {
   if (cell.frame == frame_) return;
   cell.frame = frame_;
   cell.seen = true;
+  if (surely_free(cell) && cell.relapses < kMostRelapses) ++cell.relapses;
   cell.looks = cell.near_free = 0;
   const bool doubtful = cell.hits == 0 && cell.contrary >= config_.possible_clear;
   cell.contrary = 0;
@@ -112,10 +114,10 @@ void HazardMemory::note_obstacle(CellIndex index) {
 void HazardMemory::note_free(GroundCell& cell, double range_m) const {
   const bool close = range_m <= config_.clear_range_m;
   cell.seen = true;
-  if (range_m <= config_.sure_range_m && cell.near_free < config_.sure_free) ++cell.near_free;
+  if (range_m <= config_.sure_range_m && !surely_free(cell)) ++cell.near_free;
   if (close) cell.looks = 0;
   if (confirmed(cell) && !close) return;
-  const int enough = confirmed(cell) ? config_.confirmed_clear : config_.possible_clear;
+  const int enough = confirmed(cell) ? config_.confirmed_clear << cell.relapses : config_.possible_clear;
   if (cell.contrary < enough) ++cell.contrary;
   if (cell.contrary >= enough) cell.hits = 0;
 }

@@ -49,6 +49,7 @@ struct GroundCell {
   std::uint8_t hits = 0;       // frames that saw an obstacle here
   std::uint8_t contrary = 0;   // frames in a row that saw it free since the last hit
   std::uint8_t near_free = 0;  // frames in a row that saw it free from sure_range_m or nearer
+  std::uint8_t relapses = 0;   // obstacles seen where it had been told free: each doubles the frames that tell so again
   std::uint8_t looks = 0;   // frames in a row that looked at it from close by in vain: no texture, no light, or a drop
   std::uint16_t frame = 0;  // the last that counted as a hit: two grid cells may fall into one cell here
   bool driven = false;      // the vehicle stood on it: no map makes it impassable
@@ -72,7 +73,7 @@ class HazardMemory {
   // from afar, where the picture is coarse, and not from near.
   bool blind(const GroundCell& cell) const { return cell.looks >= config_.blind_looks; }
   // Seen free again and again by the LocCam, whose picture of near ground is the sharper one.
-  bool surely_free(const GroundCell& cell) const { return cell.near_free >= config_.sure_free; }
+  bool surely_free(const GroundCell& cell) const { return cell.near_free >= config_.sure_free << cell.relapses; }
   // Whatever the NavCam's map says of the cell, nothing stands there.
   bool refutes(const GroundCell& cell) const { return cell.driven || surely_free(cell); }
   const GridMap<GroundCell>& map() const { return map_; }

@@ -78,6 +78,19 @@ TEST_F(PanTiltTest, AnImageAtOnceAndThenEachHalfMetre) {
   EXPECT_EQ(count(), 0u) << "standing";
 }
 
+TEST_F(PanTiltTest, EverySecondImageAlongTheWayIsAGlanceToTheSidesInTurns) {
+  run(Task::kAhead, 22.6, 0.2);
+  std::vector<double> pans_deg;
+  for (const Image& image : images_) pans_deg.push_back(std::round(to_deg(image.gaze.pan_rad)));
+  EXPECT_EQ(pans_deg, (std::vector<double>{0, 40, 0, -40, 0, 40, 0, -40, 0, 40}));
+}
+
+TEST_F(PanTiltTest, ARoverThatTurnsLooksAheadAndGlancesNowhere) {
+  run(Task::kAhead, 20.0, 0.2, to_rad(8.0));
+  ASSERT_GE(images_.size(), 10u);
+  for (const Image& image : images_) EXPECT_EQ(image.gaze.pan_rad, 0.0);
+}
+
 TEST_F(PanTiltTest, AnImageEachTwelveDegreesOfTurn) {
   run(Task::kAhead, 1.0);
   count();

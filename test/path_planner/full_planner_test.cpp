@@ -147,12 +147,32 @@ TEST(GroundMap, AMapFromAfarDoesNotChangeWhatWasSeenFromNear) {
   EXPECT_EQ(look(50, 8.0), 50);
   EXPECT_EQ(look(254, 4.0), 254);
   EXPECT_EQ(look(50, 8.0), 254);
-  EXPECT_EQ(look(60, 5.5), 60);
-  EXPECT_EQ(look(254, 5.5), 254);  // as far as the one before
-  EXPECT_EQ(look(50, 7.0), 254);   // from there on too
-  EXPECT_EQ(look(60, 1.0), 60);
-  EXPECT_EQ(look(254, 2.9), 254);
+  EXPECT_EQ(look(60, 2.0), 60);
+  EXPECT_EQ(look(254, 2.9), 254);  // from so near each counts
+  EXPECT_EQ(look(254, 1.0), 254);
   EXPECT_EQ(look(70, 3.5), 254);
+}
+
+// Cells at the rim of a rock are closed by one map and opened by the next from the same place, and the gap beside them
+// with them.
+TEST(GroundMap, AClosedCellIsOpenedFromClearlyNearerOnly) {
+  GroundMap map(280, 0.1, 3.0);
+  map.move_to({0.0, 0.0});
+  const auto look = [&](std::uint8_t cost, double range_m) {
+    map.add(map_about({0.0, 0.0}, [=](Point2) { return cost; }), {5.05 - range_m, 0.05});
+    return map.map().get(map.map().index_of(5.05, 0.05)).cost;
+  };
+  EXPECT_EQ(look(50, 6.0), 50);
+  EXPECT_EQ(look(254, 6.0), 254);
+  EXPECT_EQ(look(60, 6.0), 254);
+  EXPECT_EQ(look(60, 5.2), 254);
+  EXPECT_EQ(look(60, 5.0), 60);
+  EXPECT_EQ(look(254, 4.0), 254);
+  EXPECT_EQ(look(70, 3.5), 254);
+  EXPECT_EQ(look(70, 3.3), 70);
+  EXPECT_EQ(look(254, 3.3), 254);
+  for (int i = 0; i < 9; ++i) EXPECT_EQ(look(70, 3.3), 254);
+  EXPECT_EQ(look(70, 3.3), 70) << "one map may have been wrong";
 }
 
 TEST(GroundMap, KeepsWhatTheLocCamIsSureOfWhereItsMemoryEnds) {
@@ -543,7 +563,7 @@ TEST_F(FullLevel, WhereByTheMapNoWayLeadsOnTheRoverStopsAndGoesBack) {
   rig.forward_mps = 0.0;
   rig.look(1);
   EXPECT_EQ(rig.paths.back().kind, PathKind::kRetreat);
-  send_map(wall(1.0, 1.8));
+  for (int i = 0; i < 10; ++i) send_map(wall(1.0, 1.8));
   rig.odom = Route(rig.paths.back().points).pose_at(100.0);
   rig.odom.yaw_rad = 0.0;
   rig.look(2);

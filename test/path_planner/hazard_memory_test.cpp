@@ -90,6 +90,26 @@ TEST_F(HazardMemoryTest, AConfirmedHazardIsOnlyClearedFromCloseBy) {
   EXPECT_EQ(at(kRock).hits, 0);
 }
 
+// A rock at the limit is a hazard in some frames: told free and found again, it has to be seen free for twice as long.
+TEST_F(HazardMemoryTest, EachRelapseDoublesTheFramesThatTellGroundFree) {
+  const Pose2 close{0.5, 0.0, 0.0};
+  const auto frames_until_free = [&] {
+    int frames = 0;
+    for (; !memory_.surely_free(at(kRock)) && frames < 1000; ++frames) see(HazardGrid::kFree, close);
+    return frames;
+  };
+  for (const int times : {1, 2, 4, 8, 16, 16}) {
+    EXPECT_EQ(frames_until_free(), times * config_.sure_free);
+    see(HazardGrid::kObstacle, close);
+    EXPECT_FALSE(memory_.refutes(at(kRock)));
+  }
+  see(HazardGrid::kObstacle, 2, close);
+  see(HazardGrid::kFree, 16 * config_.confirmed_clear - 1, close);
+  EXPECT_TRUE(confirmed());
+  see(HazardGrid::kFree, close);
+  EXPECT_FALSE(confirmed());
+}
+
 TEST_F(HazardMemoryTest, UnseenFramesAndMarginsClearNothing) {
   see(HazardGrid::kObstacle, 2);
   for (int i = 0; i < 50; ++i) {
