@@ -24,6 +24,7 @@ GoalField::GoalField(const GoalFieldConfig& config, const GoalQuery& query)
   goal_ = query_.global.point_at(length);
   goal_in_sight_ = query_.from_m + config_.horizon_m >= length && terrain_.inside_m(goal_) >= kMapRimM;
   line_m_ = std::min(query_.from_m + config_.horizon_m, length);
+  line_in_sight_ = !goal_in_sight_ && line_m_ < length;
   lay_stations();
   lay_costs();
   march_from_goal();
@@ -109,7 +110,7 @@ void GoalField::march_from_goal() {
       if (miss <= query_.goal_reach_m) seeds.push_back({cell, config_.goal_miss_cost * miss});
     } else if (at_rim(p)) {
       seeds.push_back({cell, rim_cost(p)});
-    } else if (station_[i] >= line_m_ && station_[i] < line_m_ + kLineBandM) {
+    } else if (line_in_sight_ && station_[i] >= line_m_ && station_[i] < line_m_ + kLineBandM) {
       seeds.push_back({cell, std::max(0.0, line_cost(p))});
     }
   }
@@ -117,10 +118,11 @@ void GoalField::march_from_goal() {
   travel_ = reachable_ ? march(cost_, seeds, -1, kEverywhere) : std::vector<double>(station_.size(), kInfinity);
 }
 
-// Where all ways through the map are closed, one may lead out of it.
+// Where all ways through the map are closed, one may lead out of it; so does each where the goal lies beyond it, for a
+// place beside a goal far off is none.
 bool GoalField::at_rim(Point2 p) const {
   const double inside = terrain_.inside_m(p);
-  return inside >= kMapRimM && inside < kMapRimM + kRimBandM && station_m(p) < line_m_;
+  return inside >= kMapRimM && inside < kMapRimM + kRimBandM && (!line_in_sight_ || station_m(p) < line_m_);
 }
 
 // Straight on over unknown ground, from the map's rim to where the global path is to be come back to.
@@ -137,7 +139,7 @@ double GoalField::end_cost(const Pose2& pose) const {
   }
   if (at_rim(p)) return rim_cost(p);
   const double station = station_m(p);
-  if (station < line_m_) return kInfinity;
+  if (!line_in_sight_ || station < line_m_) return kInfinity;
   const double turn = std::abs(wrap_angle(query_.global.pose_at(station).yaw_rad - pose.yaw_rad));
   return line_cost(p) + config_.heading_cost_m * std::max(0.0, turn - kFreeHeadingRad);
 }

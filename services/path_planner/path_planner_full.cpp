@@ -370,7 +370,7 @@ void PathPlanner::append_way_back(double station_m, std::vector<RoutePoint>& poi
                              points.back().p.x_m - points[points.size() - 2].p.x_m)};
   const double off = distance(points.back().p, global_odom_.point_at(station_m));
   double join = station_m + 0.5 * kPoseStepM;
-  if (off > kPoseStepM && station_m < length) {
+  if (off > kPoseStepM) {
     join = std::min(length, station_m + kBackAheadM + off);
     const Pose2 target = global_odom_.pose_at(join);
     const std::optional<DubinsPath> way = dubins_path(end, target, kBackRadiusM);

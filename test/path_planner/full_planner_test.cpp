@@ -704,6 +704,21 @@ TEST_F(FullLevel, AGoalUnderARockIsReachedBesideIt) {
   EXPECT_LT(distance(position(rig.odom), {6.0, 0.0}), planner_config().blocked_goal_reach_m + 0.1);
 }
 
+// Beside the end of the global path, 13 m off it, is not at the goal.
+TEST_F(FullLevel, ARoverFarBesideTheGoalDrivesToIt) {
+  PathPlannerConfig config = planner_config();
+  config.full.goal.max_deviation_m = 20.0;
+  const Ground ground(free_ground);
+  Ground far = ground;
+  far.global = Route({{{-3.0, 16.0}}, {{1.0, 16.0}}});
+  const Terrain terrain(far.memory, &far.map, Terrain::Reach::kGround);
+  FullRequest request = far.request(terrain);
+  request.from_m = 3.0;
+  const FullPlan plan = FullPlanner(config.full).plan(request);
+  ASSERT_TRUE(plan.plan.found);
+  EXPECT_GT(plan.plan.poses.back().y_m, 11.0) << "out of the map towards the goal";
+}
+
 // Without a newer map the rover that drives on is led by the LocCam alone.
 TEST_F(FullLevel, AStaleMapLeavesTheEfficientLevelsBehaviour) {
   rig.planner.set_level(true);
