@@ -5,7 +5,6 @@ namespace {
 
 constexpr double kAsNear = 1.5;   // times the range of the nearest look
 constexpr double kNearer = 0.85;  // times the range from which it was found impassable
-constexpr int kContrary = 10;     // maps in a row open it from anywhere: one may have been wrong
 
 }  // namespace
 
@@ -28,13 +27,15 @@ void GroundMap::add(const TraversabilityGrid& grid, Point2 rover) {
       look.range_m = std::min(look.range_m, range_m);
       if (cost == TraversabilityGrid::kImpassable) {
         look.closed_m = std::min(look.closed_m, range_m);
-      } else if (look.cost == TraversabilityGrid::kImpassable && range_m > kNearer * look.closed_m &&
-                 ++look.contrary < kContrary) {
+      } else if (look.cost == TraversabilityGrid::kImpassable && range_m > kNearer * look.closed_m) {
         continue;
       }
-      look.contrary = 0;
       look.cost = cost;
     }
+}
+
+void GroundMap::doubt_closed() {
+  map_.for_each([](CellIndex, GroundLook& look) { look.closed_m = kInfinity; });
 }
 
 void GroundMap::add(const HazardMemory& memory) {

@@ -92,7 +92,9 @@ void PathPlanner::go_on(PlannerOutput& out) {
   // A gap that was found closed from near may look open again from afar: without this the rover goes to and fro.
   if (planned && closed) note_closed_gap(closed_at, way_left_m() - before_m);
   if (!planned && active_.kind == PathKind::kContinuous) no_way_on_ = failures_ >= config_.patience_frames;
-  if (stuck() && standing()) retreat(out);
+  if (!stuck() || !standing()) return;
+  ground_.doubt_closed();
+  retreat(out);
 }
 
 // All legs together.
