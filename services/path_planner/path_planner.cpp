@@ -546,10 +546,12 @@ bool PathPlanner::leads_to_goal() const {
          short_of_goal_m() <= std::max(config_.blocked_goal_reach_m, global_->goal_tolerance_m);
 }
 
+// Beside the way's end nothing of it is left, and still the goal may be far.
 double PathPlanner::goal_distance_m() const {
-  if (!leads_to_goal()) return global_odom_.length_m() - global_progress_m_;
-  const double along = active_.route.length_m() - active_.progress_m;
-  const double straight = distance(active_.route.points().back().p, position(rover()));
+  const bool leads = leads_to_goal();
+  const Route& way = leads ? active_.route : global_odom_;
+  const double along = way.length_m() - (leads ? active_.progress_m : global_progress_m_);
+  const double straight = distance(way.points().back().p, position(rover()));
   return along < kGoalNearM ? std::max(along, straight) : along;
 }
 

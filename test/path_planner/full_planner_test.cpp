@@ -720,6 +720,23 @@ TEST_F(FullLevel, ARoverFarBesideTheGoalDrivesToIt) {
   EXPECT_GT(plan.plan.poses.back().y_m, 11.0) << "out of the map towards the goal";
 }
 
+// On a way back, past the end of the global path and 6 m beside it, nothing of that path is left.
+TEST_F(FullLevel, ARoverThatBacksBesideTheEndOfTheGlobalPathIsNotAtTheGoal) {
+  rig.send_path({{0.0, 0.0}, {8.0, 0.0}});
+  rig.planner.set_level(true);
+  send_map(free_ground);
+  rig.step();
+  rig.go(1.0);
+  send_map(wall(0.0, 0.0));
+  rig.look(planner_config().patience_frames + 1);
+  ASSERT_EQ(rig.paths.back().kind, PathKind::kRetreat);
+  rig.T_map_odom = {7.0, -6.0, 0.0};
+  rig.step();
+  const PlannerOutput out = rig.step();
+  ASSERT_EQ(rig.paths.back().kind, PathKind::kRetreat);
+  EXPECT_GT(out.status.goal_distance_m, 5.5);
+}
+
 // Without a newer map the rover that drives on is led by the LocCam alone.
 TEST_F(FullLevel, AStaleMapLeavesTheEfficientLevelsBehaviour) {
   rig.planner.set_level(true);
