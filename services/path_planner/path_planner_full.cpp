@@ -20,7 +20,7 @@ constexpr double kBackReserveM = 0.1;
 constexpr double kBackMarginM = 0.05;  // the rover has been there
 constexpr double kBackTurnStepRad = 0.1;
 constexpr double kBackTurnRad = 0.35;        // more between stern and track needs room to turn
-constexpr double kLeastStraightBackM = 0.5;  // less is not worth it
+constexpr double kLeastStraightBackM = 0.2;  // so little may free the bow to turn
 constexpr double kBackAheadM = 3.0;
 constexpr double kCreepMps = 0.05;  // of the body origin while the rover turns on the spot
 constexpr double kAtKinkM = 0.15;
@@ -133,8 +133,6 @@ bool PathPlanner::at_turn() const {
          });
 }
 
-// The last try of a standing rover that nothing leads on: with the margin at which it has not been blocked, for a
-// hazard that comes up in the middle of a point turn leaves no room for more.
 bool PathPlanner::plan_on(PlannerOutput& out) {
   const Terrain ground(memory_, &ground_, Terrain::Reach::kGround);
   FullRequest request = full_request(ground);
@@ -145,10 +143,6 @@ bool PathPlanner::plan_on(PlannerOutput& out) {
   }
   if (!plan.plan.found) plan = plan_in_doubt({position(rover()), config_.full.doubt_from_m, config_.full.doubt_cells});
   if (!plan.plan.found) plan = plan_in_doubt({position(rover()), 0.0, config_.full.doubt_cells, true});
-  if (!plan.plan.found && standing() && failures_ + 1 >= config_.patience_frames) {
-    request.turn_margin_m = request.squeeze_margin_m = request.squeeze_margin_m - config_.full.block_slack_m;
-    plan = full_planner_.plan(request);
-  }
   last_repair_.status = plan.plan.found               ? RepairStatus::kFound
                         : plan.plan.unseen_in_the_way ? RepairStatus::kUnseen
                                                       : RepairStatus::kNoWay;
@@ -271,7 +265,7 @@ std::vector<Point2> PathPlanner::clear_part(const std::vector<Point2>& back) con
 
 void PathPlanner::take_plan(const FullPlan& plan, const FullRequest& request, PlannerOutput& out) {
   // Also of a roomy plan: where less is left the next plan widens it, if that is possible, without a stop.
-  active_.margin_m = std::max(0.0, request.squeeze_margin_m - config_.full.block_slack_m - sigma_margin_m());
+  active_.margin_m = request.squeeze_margin_m - config_.full.block_slack_m - sigma_margin_m();
   active_.corridor_half_width_m = std::clamp(plan.clearance_m - kHalfCellM - kControlM, config_.least_corridor_m,
                                              std::max(config_.least_corridor_m, global_->corridor_half_width_m));
   std::vector<RoutePoint> points;
