@@ -17,7 +17,6 @@ CameraMount mount_of(const Vehicle& vehicle, const StereoRig& navcam) {
 void read_ahead(const Config& yaml, LookAheadConfig& ahead) {
   yaml.read("distance_m", ahead.distance_m, {0.5, 20.0});
   yaml.read_deg("pan_max_deg", ahead.pan_max_rad, {0.0, 120.0});
-  yaml.read_deg("glance_deg", ahead.glance_rad, {0.0, 120.0});
   yaml.read("near_m", ahead.near_m, {0.5, 10.0});
   yaml.read("far_m", ahead.far_m, {1.0, 50.0});
   if (ahead.far_m <= ahead.near_m) yaml.fail("far_m", "must be beyond near_m");
@@ -45,6 +44,7 @@ NodeConfig load_config(const std::string& config_dir) {
   yaml.read("max_pose_age_s", config.core.max_pose_age_s, {0.05, 10.0});
   yaml.read("image_way_m", config.core.image_way_m, {0.05, 10.0});
   yaml.read_deg("image_turn_deg", config.core.image_turn_rad, {1.0, 180.0});
+  yaml.read_deg("glance_deg", config.core.glance_rad, {0.0, 120.0});
   yaml.read("stuck_s", config.core.stuck_s, {0.0, 100.0});
   yaml.read("dwell_s", config.core.dwell_s, {0.02, 5.0});
   yaml.read("arrival_slack_s", config.core.arrival_slack_s, {0.1, 60.0});

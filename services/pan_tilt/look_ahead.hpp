@@ -9,8 +9,7 @@ namespace rover::gaze {
 struct LookAheadConfig {
   double distance_m = 4.0;  // along the path
   double pan_max_rad = to_rad(60.0);
-  double glance_rad = to_rad(40.0);  // to one side and the other, every second image along the way; 0: none
-  double near_m = 2.0;               // of the ground that shall be seen, before the camera
+  double near_m = 2.0;  // of the ground that shall be seen, before the camera
   double far_m = 8.0;
 };
 

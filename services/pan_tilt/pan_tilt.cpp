@@ -91,7 +91,7 @@ bool PanTilt::turned_on(double heading_rad) const {
 // What lies beside the way decides which way is taken: it is cheaper to look there than to turn the rover there.
 double PanTilt::glance_rad() const {
   if (images_of_way_ % 2 == 0) return 0.0;
-  return images_of_way_ % 4 == 1 ? config_.ahead.glance_rad : -config_.ahead.glance_rad;
+  return images_of_way_ % 4 == 1 ? config_.glance_rad : -config_.glance_rad;
 }
 
 }  // namespace rover::gaze

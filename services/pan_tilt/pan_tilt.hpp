@@ -15,6 +15,7 @@ struct PanTiltConfig {
   SweepConfig sweep;
   double image_way_m = 0.5;              // an image each so much of way,
   double image_turn_rad = to_rad(12.0);  // or of turn of the rover, or of the view
+  double glance_rad = to_rad(40.0);      // of every second image along the way, to either side in turns; 0: none
   double stuck_s = 3.0;                  // without a way on for so long: one sweep
   double dwell_s = 0.2;                  // from standing there to the picture's end
   double arrival_slack_s = 2.0;          // beyond the time that the way takes: the unit does not come

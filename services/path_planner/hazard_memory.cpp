@@ -117,7 +117,7 @@ void HazardMemory::note_free(GroundCell& cell, double range_m) const {
   if (range_m <= config_.sure_range_m && !surely_free(cell)) ++cell.near_free;
   if (close) cell.looks = 0;
   if (confirmed(cell) && !close) return;
-  const int enough = confirmed(cell) ? config_.confirmed_clear << cell.relapses : config_.possible_clear;
+  const int enough = confirmed(cell) ? frames(config_.confirmed_clear, cell) : config_.possible_clear;
   if (cell.contrary < enough) ++cell.contrary;
   if (cell.contrary >= enough) cell.hits = 0;
 }

@@ -2,6 +2,7 @@
 // leaves the field of view is kept, what leaves the grid is forgotten.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -73,7 +74,7 @@ class HazardMemory {
   // from afar, where the picture is coarse, and not from near.
   bool blind(const GroundCell& cell) const { return cell.looks >= config_.blind_looks; }
   // Seen free again and again by the LocCam, whose picture of near ground is the sharper one.
-  bool surely_free(const GroundCell& cell) const { return cell.near_free >= config_.sure_free << cell.relapses; }
+  bool surely_free(const GroundCell& cell) const { return cell.near_free >= frames(config_.sure_free, cell); }
   // Whatever the NavCam's map says of the cell, nothing stands there.
   bool refutes(const GroundCell& cell) const { return cell.driven || surely_free(cell); }
   const GridMap<GroundCell>& map() const { return map_; }
@@ -82,6 +83,8 @@ class HazardMemory {
  private:
   void note_obstacle(CellIndex index);
   void note_free(GroundCell& cell, double range_m) const;
+  // So many, twice that after each relapse; what the cell's counters hold at most.
+  static int frames(int first, const GroundCell& cell) { return std::min(first << cell.relapses, 255); }
   void note_unseen(GroundCell& cell, const HazardGrid& grid, Point2 in_body) const;
 
   HazardMemoryConfig config_;

@@ -136,44 +136,45 @@ TEST(GroundMap, RemembersWhatTheNewestMapDoesNotKnowAndForgetsWhatItLeaves) {
   EXPECT_EQ(at(-7.0, 0.0), TraversabilityGrid::kUnknown);
 }
 
-// Found closed from 4 m, a gap looked open again from 8 m, and the rover went to and fro.
-TEST(GroundMap, AMapFromAfarDoesNotChangeWhatWasSeenFromNear) {
-  GroundMap map(280, 0.1, 3.0);
-  map.move_to({0.0, 0.0});
-  const auto look = [&](std::uint8_t cost, double range_m) {
+// One cell, seen from a range.
+struct LookedAtCell {
+  GroundMap map{280, 0.1, 3.0};
+  LookedAtCell() { map.move_to({0.0, 0.0}); }
+  std::uint8_t look(std::uint8_t cost, double range_m) {
     map.add(map_about({0.0, 0.0}, [=](Point2) { return cost; }), {5.05 - range_m, 0.05});
     return map.map().get(map.map().index_of(5.05, 0.05)).cost;
-  };
-  EXPECT_EQ(look(50, 8.0), 50);
-  EXPECT_EQ(look(254, 4.0), 254);
-  EXPECT_EQ(look(50, 8.0), 254);
-  EXPECT_EQ(look(60, 2.0), 60);
-  EXPECT_EQ(look(254, 2.9), 254);  // from so near each counts
-  EXPECT_EQ(look(254, 1.0), 254);
-  EXPECT_EQ(look(70, 3.5), 254);
+  }
+};
+
+// Found closed from 4 m, a gap looked open again from 8 m, and the rover went to and fro.
+TEST(GroundMap, AMapFromAfarDoesNotChangeWhatWasSeenFromNear) {
+  LookedAtCell cell;
+  EXPECT_EQ(cell.look(50, 8.0), 50);
+  EXPECT_EQ(cell.look(254, 4.0), 254);
+  EXPECT_EQ(cell.look(50, 8.0), 254);
+  EXPECT_EQ(cell.look(60, 2.0), 60);
+  EXPECT_EQ(cell.look(254, 8.0), 60);
+  EXPECT_EQ(cell.look(254, 2.9), 254);  // from so near each counts
+  EXPECT_EQ(cell.look(254, 1.0), 254);
+  EXPECT_EQ(cell.look(70, 3.5), 254);
 }
 
 // Cells at the rim of a rock are closed by one map and opened by the next from the same place, and the gap beside them
 // with them.
 TEST(GroundMap, AClosedCellIsOpenedFromClearlyNearerOnly) {
-  GroundMap map(280, 0.1, 3.0);
-  map.move_to({0.0, 0.0});
-  const auto look = [&](std::uint8_t cost, double range_m) {
-    map.add(map_about({0.0, 0.0}, [=](Point2) { return cost; }), {5.05 - range_m, 0.05});
-    return map.map().get(map.map().index_of(5.05, 0.05)).cost;
-  };
-  EXPECT_EQ(look(50, 6.0), 50);
-  EXPECT_EQ(look(254, 6.0), 254);
-  EXPECT_EQ(look(60, 6.0), 254);
-  EXPECT_EQ(look(60, 5.2), 254);
-  EXPECT_EQ(look(60, 5.0), 60);
-  EXPECT_EQ(look(254, 4.0), 254);
-  EXPECT_EQ(look(70, 3.5), 254);
-  EXPECT_EQ(look(70, 3.3), 70);
-  EXPECT_EQ(look(254, 3.3), 254);
-  EXPECT_EQ(look(70, 3.3), 254);
-  map.doubt_closed();
-  EXPECT_EQ(look(70, 3.3), 70) << "no way is left, and one map may have been wrong";
+  LookedAtCell cell;
+  EXPECT_EQ(cell.look(50, 6.0), 50);
+  EXPECT_EQ(cell.look(254, 6.0), 254);
+  EXPECT_EQ(cell.look(60, 6.0), 254);
+  EXPECT_EQ(cell.look(60, 5.2), 254);
+  EXPECT_EQ(cell.look(60, 5.0), 60);
+  EXPECT_EQ(cell.look(254, 4.0), 254);
+  EXPECT_EQ(cell.look(70, 3.5), 254);
+  EXPECT_EQ(cell.look(70, 3.3), 70);
+  EXPECT_EQ(cell.look(254, 3.3), 254);
+  EXPECT_EQ(cell.look(70, 3.3), 254);
+  cell.map.doubt_closed();
+  EXPECT_EQ(cell.look(70, 3.3), 70) << "no way is left, and one map may have been wrong";
 }
 
 TEST(GroundMap, KeepsWhatTheLocCamIsSureOfWhereItsMemoryEnds) {
@@ -705,12 +706,28 @@ TEST_F(FullLevel, AGoalUnderARockIsReachedBesideIt) {
   EXPECT_LT(distance(position(rig.odom), {6.0, 0.0}), planner_config().blocked_goal_reach_m + 0.1);
 }
 
-// Beside the end of the global path, 13 m off it, is not at the goal.
-TEST_F(FullLevel, ARoverFarBesideTheGoalDrivesToIt) {
+// Rocks before and behind it, 0.3 m astern: what is left of the way back may give the bow room to turn.
+TEST_F(FullLevel, AWayBackOfAQuarterOfAMetreIsOne) {
+  rig.planner.set_level(true);
+  send_map(free_ground);
+  rig.step();
+  send_map([](Point2 p) {
+    const bool sides = std::abs(std::abs(p.y_m) - 0.8) < 0.1 && std::abs(p.x_m) < 1.5;
+    const bool ends = (std::abs(p.x_m - 1.1) < 0.1 || std::abs(p.x_m + 1.25) < 0.1) && std::abs(p.y_m) < 0.9;
+    return sides || ends ? TraversabilityGrid::kImpassable : kFree;
+  });
+  rig.look(planner_config().patience_frames + 1);
+  ASSERT_EQ(rig.paths.back().kind, PathKind::kRetreat);
+  const double back_m = Route(rig.paths.back().points).length_m();
+  EXPECT_GE(back_m, 0.2);
+  EXPECT_LE(back_m, 0.3);
+}
+
+// 16 m beside the end of the global path is not at the goal.
+TEST(FullPlanner, ARoverFarBesideTheGoalDrivesToIt) {
   PathPlannerConfig config = planner_config();
   config.full.goal.max_deviation_m = 20.0;
-  const Ground ground(free_ground);
-  Ground far = ground;
+  Ground far(free_ground);
   far.global = Route({{{-3.0, 16.0}}, {{1.0, 16.0}}});
   const Terrain terrain(far.memory, &far.map, Terrain::Reach::kGround);
   FullRequest request = far.request(terrain);

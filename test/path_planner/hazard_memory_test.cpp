@@ -110,6 +110,26 @@ TEST_F(HazardMemoryTest, EachRelapseDoublesTheFramesThatTellGroundFree) {
   EXPECT_FALSE(confirmed());
 }
 
+TEST(HazardMemory, HoweverManyFramesAreAskedForTheyAreCounted) {
+  HazardMemoryConfig config;
+  config.sure_free = config.confirmed_clear = 100;
+  HazardMemory memory(config);
+  memory.move_to({0.0, 0.0});
+  const Pose2 close{0.5, 0.0, 0.0};
+  const auto see = [&](std::uint8_t value, int times) {
+    for (int i = 0; i < times; ++i) memory.add(frame_with(value, to_body(close, kRock)), from_planar(close), 0.0);
+  };
+  const auto cell = [&] { return memory.map().get(memory.map().index_of(kRock.x_m, kRock.y_m)); };
+  for (int relapse = 0; relapse < 3; ++relapse) {
+    see(HazardGrid::kFree, 260);
+    EXPECT_TRUE(memory.surely_free(cell()));
+    see(HazardGrid::kObstacle, 3);
+    EXPECT_TRUE(memory.confirmed(cell()));
+  }
+  see(HazardGrid::kFree, 260);
+  EXPECT_FALSE(memory.confirmed(cell()));
+}
+
 TEST_F(HazardMemoryTest, UnseenFramesAndMarginsClearNothing) {
   see(HazardGrid::kObstacle, 2);
   for (int i = 0; i < 50; ++i) {
