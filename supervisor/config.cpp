@@ -24,7 +24,8 @@ constexpr StateSet kMotion = {kDriving, kHazardStop, kRepairing, kSweeping, kCor
 constexpr StateSet kAlways = {kStandby, kDriving,     kHazardStop, kRepairing, kSweeping, kCorrecting,
                               kPaused,  kGoalReached, kFaultStop,  kSafe,      kTeleop};
 
-const std::vector<std::string> kResponses = {"log", "slow", "stop", "stop_replan", "restart_service", "safe"};
+const std::vector<std::string> kResponses = {"log",  "slow",        "stop", "stop_replan", "restart_service",
+                                             "safe", "stop_retreat"};
 
 void read_armed(const Config& c, MonitorRow& row) {
   const std::string armed = c.has("armed") ? c.one_of("armed", {"always", "under_way", "motion", "full", "efficient"})

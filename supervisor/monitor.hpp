@@ -14,7 +14,15 @@ namespace rover::supervisor {
 
 // Values as in lcmtypes/fault_t.lcm.
 enum class Condition : std::int8_t { kFalse = 0, kTrue = 1, kStale = 2, kInvalid = 3 };
-enum class Response : std::int8_t { kLog = 0, kSlow = 1, kStop = 2, kStopReplan = 3, kRestartService = 4, kSafe = 5 };
+enum class Response : std::int8_t {
+  kLog = 0,
+  kSlow = 1,
+  kStop = 2,
+  kStopReplan = 3,
+  kRestartService = 4,
+  kSafe = 5,
+  kStopRetreat = 6
+};
 
 struct MonitorRow {
   std::string id;

@@ -1,4 +1,4 @@
-// The level that the path being followed asks for, along its way.
+// What the supervisor takes of a path: the level that it asks for along its way, and whether it is driven backwards.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +12,7 @@ struct PathLevels {
   std::int64_t path_id = -1;
   std::vector<double> s_m;   // of each point, from the path's start, growing
   std::vector<Level> level;  // from that point on
+  bool backwards = false;    // over ground that was driven
 
   // Efficient where nothing is known.
   Level at(double s_m_wanted) const {

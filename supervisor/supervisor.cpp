@@ -93,7 +93,9 @@ void Supervisor::begin(Utime now) {
 
 Now Supervisor::judged(Utime now) const {
   const bool waits = state_ == kHazardStop || state_ == kRepairing;
-  return {in_, derive_.values(), now, standing_still(), waits, blocked_in_m(), stop_distance_m(), sweep_s(now)};
+  const bool way_back = path_.backwards && path_.path_id == in_.planner.path_id;
+  return {in_,          derive_.values(), now, standing_still(), waits, blocked_in_m(), stop_distance_m(),
+          sweep_s(now), way_back};
 }
 
 void Supervisor::run_rows(Utime now, SupervisorOutput& out) {

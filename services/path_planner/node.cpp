@@ -12,6 +12,7 @@ namespace {
 
 constexpr Utime kRepeatPeriodUs = 1'000'000;       // of PATH: a restarted controller has none
 constexpr Utime kFaultClearsUs = 4'000'000;        // a row on the path is cleared by good ones for 1-2 s (fdir.yaml)
+constexpr Utime kRetreatPatienceUs = 10'000'000;   // of a fault that may be over by itself
 constexpr Utime kOldestMapUs = 5'000'000;          // at its arrival
 constexpr std::int64_t kPathsPerBoot = 1'000'000;  // keeps the path ids of two processes apart
 constexpr double kMostClearRadiusM = 5.0;          // more than an operator would certify
@@ -97,14 +98,17 @@ void PathPlannerNode::on_state(const supervisor_state_t& message) {
   const bool known = message.level == supervisor_state_t::EFFICIENT || message.level == supervisor_state_t::FULL;
   if (!known) return node_.reject(channel::kState, "unknown level");
   planner_.set_level(message.level == supervisor_state_t::FULL);
+  fault_stop_ = message.state == supervisor_state_t::FAULT_STOP;
 }
 
 // Standing faults are repeated: one that is older than the path is not about it, unless it stands on although the path
 // should have ended it.
 void PathPlannerNode::on_fault(const fault_t& message) {
-  if (!message.standing || message.response != fault_t::STOP_REPLAN) return;
   const bool of_this_path = message.visible_utime > told_at_ || message.header.utime > told_at_ + kFaultClearsUs;
-  if (of_this_path) planner_.request_replan();
+  if (!message.standing || !of_this_path) return;
+  if (message.response == fault_t::STOP_REPLAN) planner_.request_replan();
+  const bool lasts = fault_stop_ && message.header.utime > message.visible_utime + kRetreatPatienceUs;
+  if (message.response == fault_t::STOP_RETREAT && lasts) planner_.request_retreat();
 }
 
 void PathPlannerNode::on_ground_command(const ground_command_t& message) {

@@ -1,6 +1,7 @@
 #include "path_planner/path_planner.hpp"
 
 #include <cmath>
+#include <utility>
 
 namespace rover::planning {
 namespace {
@@ -21,6 +22,7 @@ constexpr double kGainM = 1.0;     // of the global path, with which an attempt 
 constexpr double kForgetM = 15.0;  // between the rover and a dead end
 constexpr double kLeastRetreatM = 0.2;
 constexpr double kRetreatEndM = 0.1;
+constexpr int kMostRetreatsWanted = 2;
 constexpr double kSamePlaceM = 1e-6;
 constexpr int kFieldWork = 40;        // the travel field of a search costs as much time as that many expansions
 constexpr size_t kPosesPerPoint = 2;  // repairs are verified every 5 cm and published every 10 cm
@@ -212,6 +214,7 @@ void PathPlanner::begin(PlannerOutput& out) {
 // A new frame: is the way still free, and if not, is there another?
 void PathPlanner::react(PlannerOutput& out) {
   if (!legs_.empty() && !continuous()) give_up_manoeuvre();
+  if (std::exchange(retreat_wanted_, false)) return retreat_as_wanted(out);
   if (on_manoeuvre()) {
     go_on_manoeuvre(out);
     if (!legs_.empty() || out.path) return;
@@ -275,6 +278,11 @@ void PathPlanner::look_from_retreat(PlannerOutput& out) {
   if (!standing() || !(at_retreat_end() || strayed())) return;
   if (repair(true, out) || failures_ < config_.patience_frames) return;
   retreat(out);
+}
+
+// More of them without new ground gained do not help a camera.
+void PathPlanner::retreat_as_wanted(PlannerOutput& out) {
+  if (standing() && active_.kind != PathKind::kRetreat && retreats_ < kMostRetreatsWanted) retreat(out);
 }
 
 // A track that was driven to and fro lies twice in one place, and progress may be taken for that of the first.

@@ -114,6 +114,8 @@ class PathPlanner {
   bool add_traversability(const TraversabilityGrid& map);
   // The path is not to be driven on (FDIR): once the rover stands, another one is looked for.
   void request_replan() { replan_wanted_ = true; }
+  // Nothing is seen from where the rover stands: back over ground that was driven.
+  void request_retreat() { retreat_wanted_ = true; }
   PlannerOutput step(Utime now);
 
   std::vector<std::uint8_t> save() const;
@@ -163,6 +165,7 @@ class PathPlanner {
   bool strayed() const;
   bool retreat(PlannerOutput& out);
   void look_from_retreat(PlannerOutput& out);
+  void retreat_as_wanted(PlannerOutput& out);
   bool at_retreat_end() const;
   void track_driven_way();
   void leave_repair(PlannerOutput& out);
@@ -235,6 +238,7 @@ class PathPlanner {
   std::int64_t next_path_id_;
   std::int32_t replans_ = 0;
   bool replan_wanted_ = false;
+  bool retreat_wanted_ = false;
   int failures_ = 0;
   std::vector<DeadEnd> dead_ends_;  // where retreats began and gaps were found closed, near the rover
   int retreats_ = 0;                // since the rover last got further along the global path than ever

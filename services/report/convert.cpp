@@ -24,8 +24,9 @@ Following following_of(std::int8_t state) {
 }
 
 std::string response_name(std::int8_t response) {
-  static const std::array<const char*, 6> kNames = {"log", "slow", "stop", "stop_replan", "restart_service", "safe"};
-  return response >= 0 && response < 6 ? kNames[static_cast<size_t>(response)] : "unknown";
+  static const std::array kNames = {"log", "slow", "stop", "stop_replan", "restart_service", "safe", "stop_retreat"};
+  const auto index = static_cast<size_t>(response);
+  return index < kNames.size() ? kNames[index] : "unknown";
 }
 
 }  // namespace

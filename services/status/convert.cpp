@@ -8,7 +8,7 @@ namespace rover::status {
 namespace {
 
 constexpr std::array kConditions = {"FALSE", "TRUE", "STALE", "INVALID"};
-constexpr std::array kResponses = {"LOG", "SLOW", "STOP", "STOP_REPLAN", "RESTART_SERVICE", "SAFE"};
+constexpr std::array kResponses = {"LOG", "SLOW", "STOP", "STOP_REPLAN", "RESTART_SERVICE", "SAFE", "STOP_RETREAT"};
 
 template <size_t N>
 std::string name_of(const std::array<const char*, N>& names, std::int8_t value) {

@@ -216,6 +216,36 @@ TEST_F(PlannerNodeTest, AFaultThatStandsOnAsksForAPathAgain) {
   EXPECT_EQ(seconds_with_fault(4), 3u);
 }
 
+// A way back is for a fault that has the rover stand for long on its way, not for one that is over by itself.
+TEST_F(PlannerNodeTest, AFaultThatLastsLeadsBack) {
+  certify_start();
+  world_.send(channel::kGlobalPath, ahead(), "mission_control");
+  for (double x_m = 0.0; x_m < 2.0; x_m += 0.05) {
+    pose_ = pose_at({x_m, 0.0, 0.0});
+    send_frame({});
+    tick(5);
+  }
+  fault_t fault{};
+  fault.response = fault_t::STOP_RETREAT;
+  fault.standing = 1;
+  fault.visible_utime = world_.now;
+  supervisor_state_t state{};
+  const auto kind_after = [&](int seconds, std::int8_t rover_state) {
+    for (int i = 0; i < 5 * seconds; ++i) {
+      state.state = rover_state;
+      world_.send(channel::kState, state, "supervisor");
+      if (i % 5 == 0) world_.send(channel::kFault, fault, "supervisor");
+      send_frame({});
+      tick(10);
+    }
+    return paths_->back().kind;
+  };
+  EXPECT_EQ(kind_after(15, supervisor_state_t::STANDBY), +path_t::GLOBAL);
+  fault.visible_utime = world_.now;
+  EXPECT_EQ(kind_after(9, supervisor_state_t::FAULT_STOP), +path_t::GLOBAL);
+  EXPECT_EQ(kind_after(3, supervisor_state_t::FAULT_STOP), +path_t::RETREAT);
+}
+
 TEST_F(PlannerNodeTest, UnusableMessagesAreCountedAndChangeNothing) {
   certify_start();
   world_.send(channel::kGlobalPath, ahead(), "mission_control");

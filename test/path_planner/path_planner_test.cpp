@@ -357,6 +357,34 @@ TEST(PathPlanner, ARetreatThatTheRoverIsNotLetGoOnIsReplaced) {
   EXPECT_NE(rig.paths.back().id, retreat);
 }
 
+// Nothing is seen from where the rover stands. From elsewhere it may be, but not from ever further back.
+TEST(PathPlanner, OnDemandItGoesBackOverItsTrackAndNotForEver) {
+  PlannerRig rig;
+  rig.send_path(kAhead);
+  for (rig.odom.x_m = 0.0; rig.odom.x_m < 5.0; rig.odom.x_m += 0.05) rig.look();
+  ASSERT_EQ(rig.paths.size(), 1u);
+  rig.planner.request_retreat();
+  rig.forward_mps = 0.1;
+  rig.look(3);
+  ASSERT_EQ(rig.paths.size(), 1u) << "still rolling";
+  rig.forward_mps = 0.0;
+  int retreats = 0;
+  for (int i = 0; i < 4; ++i) {
+    const size_t before = rig.paths.size();
+    rig.planner.request_retreat();
+    rig.look();
+    if (rig.paths.size() == before) continue;
+    ASSERT_EQ(rig.paths.back().kind, PathKind::kRetreat);
+    ++retreats;
+    const Point2 end = rig.paths.back().points.back().p;
+    EXPECT_NEAR(rig.odom.x_m - end.x_m, 1.2 * retreats, 0.1);
+    rig.odom = {end.x_m, end.y_m, 0.0};
+    rig.look(3);
+    ASSERT_EQ(rig.paths.back().kind, PathKind::kRepair) << "from there it goes on";
+  }
+  EXPECT_EQ(retreats, 2);
+}
+
 TEST(PathPlanner, OnDemandAClearPathIsReplacedTooAndOnce) {
   PlannerRig rig;
   rig.send_path(kAhead);

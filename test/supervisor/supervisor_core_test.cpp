@@ -220,6 +220,26 @@ TEST_F(SupervisorTest, BlindHazardsStopAfterSomeFrames) {
   EXPECT_LE(time_to_permit(), 1.45);
 }
 
+// The LocCam does not look where a backing rover goes; the path that the planner is on counts.
+TEST_F(SupervisorTest, BlindHazardsLetTheRoverBack) {
+  start_driving();
+  blind_ = true;
+  time_to_withdrawal();
+  EXPECT_EQ(faults_.back().response, Response::kStopRetreat);
+  run(20.0);
+  EXPECT_FALSE(out_.permit.granted);
+  PathLevels back;
+  back.path_id = 2;
+  back.backwards = true;
+  supervisor_.on_path(back);
+  run(5.0);
+  EXPECT_FALSE(out_.permit.granted) << "another path is followed";
+  planner_.path_id = control_.path_id = 2;
+  EXPECT_LE(time_to_permit(), 1.45);
+  planner_.path_id = control_.path_id = 3;
+  EXPECT_LE(time_to_withdrawal(), 0.5);
+}
+
 TEST_F(SupervisorTest, ASilentPlannerOrControllerStops) {
   start_driving();
   planner_alive_ = false;
