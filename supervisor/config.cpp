@@ -53,6 +53,8 @@ FdirLine read_line(const Config& c) {
   c.read("latched", row.latched);
   const std::string response = c.one_of("response", kResponses);
   row.response = static_cast<Response>(std::find(kResponses.begin(), kResponses.end(), response) - kResponses.begin());
+  if (c.has("back_limit")) row.back_limit = c.number("back_limit", {row.limit, 1e6});
+  if (c.has("back_limit") && row.response != Response::kStopRetreat) c.fail("back_limit", "belongs to stop_retreat");
   const bool of_service =
       quantity->expansion == Expansion::kEachRequired || quantity->expansion == Expansion::kEachFull;
   if (row.response == Response::kRestartService && !of_service) c.fail("response", "no service to start anew");

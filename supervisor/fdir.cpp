@@ -43,13 +43,21 @@ void Fdir::add(const FdirLine& line, const Quantity* quantity, const std::string
   watches_.push_back({Monitor(row), quantity, subject});
 }
 
+Reading Fdir::read(const Watch& watch, const Now& now) {
+  const MonitorRow& row = watch.monitor.row();
+  if (row.response != Response::kStopRetreat || !now.way_back)
+    return watch.quantity->read(now, watch.subject, row.limit);
+  Reading out = watch.quantity->read(now, watch.subject, row.back_limit);
+  out.limit = row.back_limit;
+  return out;
+}
+
 std::vector<FaultChange> Fdir::step(const Now& now, State state, Level level) {
   std::vector<FaultChange> changes;
   for (Watch& watch : watches_) {
     const MonitorRow& row = watch.monitor.row();
     const bool armed = row.armed.has(state) && row.level.value_or(level) == level;
-    if (watch.monitor.step(now.utime, armed, watch.quantity->read(now, watch.subject, row.limit)))
-      changes.push_back(record(watch));
+    if (watch.monitor.step(now.utime, armed, read(watch, now))) changes.push_back(record(watch));
   }
   return changes;
 }
@@ -90,7 +98,7 @@ const Fdir::Watch* Fdir::find(const std::string& id) const {
 Fdir::Cleared Fdir::clear(const std::string& id, const Now& now) {
   for (Watch& watch : watches_) {
     if (watch.monitor.row().id != id || !watch.monitor.standing()) continue;
-    const Reading reading = watch.quantity->read(now, watch.subject, watch.monitor.row().limit);
+    const Reading reading = read(watch, now);
     if (!watch.monitor.unlatch(reading)) return {{}, "the condition still holds"};
     return {{record(watch)}, ""};
   }

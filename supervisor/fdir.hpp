@@ -70,6 +70,7 @@ class Fdir {
   void add(const FdirLine& line, const Quantity* quantity, const std::string& suffix, const Subject& subject);
   void expand(const FdirLine& line, const FdirConfig& config);
   const Watch* find(const std::string& id) const;
+  static Reading read(const Watch& watch, const Now& now);
   FaultChange record(const Watch& watch);
   FaultChange change_of(const Watch& watch) const;
   template <class Fits>

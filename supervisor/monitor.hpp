@@ -35,6 +35,7 @@ struct MonitorRow {
   double clear_s = 1.0;  // good for that long
   bool latched = false;  // cleared by the ground, or where the row is not armed
   Response response = Response::kStop;
+  double back_limit = kInfinity;  // stop_retreat: the limit on a way back, which is what ends such a fault
   StateSet armed;
   std::optional<Level> level;  // armed in that level alone
   bool stops = true;           // restart_service: the rover stands meanwhile

@@ -37,9 +37,7 @@ Reading pose_above_deg(const Now& now, const Subject&, double limit) {
   return above_reading(to_deg(std::abs(now.in.pose.*Value)), limit, now.in.pose.utime, now.utime);
 }
 
-// The LocCam looks ahead: a way back does not need it, and may be what lets it see again.
 Reading blind_frames(const Now& now, const Subject&, double limit) {
-  if (now.way_back) return flag_reading(false, now.in.hazards.utime, now.utime);
   return above_reading(now.in.blind_in_a_row, limit, now.in.hazards.utime, now.utime);
 }
 

@@ -240,6 +240,24 @@ TEST_F(SupervisorTest, BlindHazardsLetTheRoverBack) {
   EXPECT_LE(time_to_withdrawal(), 0.5);
 }
 
+TEST_F(SupervisorTest, ARoverThatLeansTooFarMayComeBack) {
+  start_driving();
+  pose_.roll_rad = to_rad(-20.5);
+  time_to_withdrawal();
+  EXPECT_EQ(changes_.back().cause, "roll");
+  run(20.0);
+  EXPECT_FALSE(out_.permit.granted);
+  PathLevels back;
+  back.path_id = planner_.path_id = control_.path_id = 2;
+  back.backwards = true;
+  supervisor_.on_path(back);
+  EXPECT_LE(time_to_permit(), 1.1);
+  pose_.roll_rad = to_rad(-23.5);
+  EXPECT_LE(time_to_withdrawal(), 0.1);
+  EXPECT_EQ(changes_.back().cause, "roll");
+  EXPECT_EQ(changes_.back().evidence.threshold, 23.0);
+}
+
 TEST_F(SupervisorTest, ASilentPlannerOrControllerStops) {
   start_driving();
   planner_alive_ = false;
