@@ -34,7 +34,7 @@ HeadingField::HeadingField(const DrivingPrices& prices, const HeadingQuery& quer
       count_(static_cast<size_t>(cells_) * static_cast<size_t>(cells_)) {
   make_arcs();
   lay_rooms();
-  cost_.assign(3 * count_ * kHeadings, kNone);
+  cost_.assign(kMotions * count_ * kHeadings, kNone);
   buckets_.resize(kMostBuckets);
   seed();
   spread();
@@ -80,23 +80,29 @@ void HeadingField::lay_rooms() {
   ground_.resize(count_);
   for (size_t i = 0; i < count_; ++i)
     ground_[i] = static_cast<float>(query_.goal.cost_per_m(terrain_.center_of(static_cast<int>(i))));
-  rooms_.assign(count_ * kHeadings / 2, kRoomy);
-  stamp(query_.roomy_margin_m - query_.slack_m, kTight);
-  stamp(query_.turn_margin_m - query_.slack_m, kTurnless);
-  stamp(query_.tight_margin_m - query_.slack_m, kSqueezed);
-  stamp(query_.squeeze_margin_m - query_.slack_m, kBlocked);
+  RoomLayers layers(kRoomHeadings, std::vector<std::uint8_t>(count_, kRoomy));
+  stamp(query_.roomy_margin_m - query_.slack_m, kTight, layers);
+  stamp(query_.turn_margin_m - query_.slack_m, kTurnless, layers);
+  stamp(query_.tight_margin_m - query_.slack_m, kSqueezed, layers);
+  stamp(query_.squeeze_margin_m - query_.slack_m, kBlocked, layers);
+  rooms_.resize(count_ * kRoomHeadings);
+  for (size_t cell = 0; cell < count_; ++cell)
+    for (size_t heading = 0; heading < kRoomHeadings; ++heading)
+      rooms_[cell * kRoomHeadings + heading] = layers[heading][cell];
 }
 
-void HeadingField::stamp(double margin_m, Room room) {
+void HeadingField::stamp(double margin_m, Room room, RoomLayers& layers) const {
   std::vector<int> hazards;
   for (const HazardSpot& hazard : terrain_.hazards())
     if (query_.footprint.distance_m(query_.rover, hazard.p) > margin_m + kSparedM)
       hazards.push_back(terrain_.cell_of(hazard.p));
-  for (int heading = 0; heading < kHeadings / 2; ++heading) stamp_heading(heading, margin_m, room, hazards);
+  for (int heading = 0; heading < kRoomHeadings; ++heading)
+    stamp_heading(heading, margin_m, room, hazards, layers[heading]);
 }
 
 // Every pose whose rectangle, widened by the margin, holds the hazard: the rectangle about the hazard, row by row.
-void HeadingField::stamp_heading(int heading, double margin_m, Room room, const std::vector<int>& hazards) {
+void HeadingField::stamp_heading(int heading, double margin_m, Room room, const std::vector<int>& hazards,
+                                 std::vector<std::uint8_t>& layer) const {
   const double c = std::cos(yaw_of(heading));
   const double s = std::sin(yaw_of(heading));
   const double half_length = query_.footprint.half_length_m + margin_m;
@@ -119,7 +125,6 @@ void HeadingField::stamp_heading(int heading, double margin_m, Room room, const 
     }
     if (row.from <= row.to) rows.push_back(row);
   }
-  std::uint8_t* rooms = rooms_.data() + static_cast<size_t>(heading) * count_;
   for (const int hazard : hazards) {
     const int ix = hazard % cells_;
     const int iy = hazard / cells_;
@@ -128,7 +133,7 @@ void HeadingField::stamp_heading(int heading, double margin_m, Room room, const 
       if (y < 0 || y >= cells_) continue;
       const int from = std::max(0, ix + row.from);
       const int to = std::min(cells_ - 1, ix + row.to);
-      if (from <= to) std::fill(rooms + y * cells_ + from, rooms + y * cells_ + to + 1, room);
+      if (from <= to) std::fill(layer.begin() + y * cells_ + from, layer.begin() + y * cells_ + to + 1, room);
     }
   }
 }
@@ -149,7 +154,8 @@ void HeadingField::seed() {
     for (int heading = 0; heading < kHeadings; ++heading) {
       const double cost = query_.goal.end_cost({p.x_m, p.y_m, yaw_of(heading)});
       if (std::isinf(cost)) break;
-      if (room(cell, heading) != kBlocked) offer(heading * count_ + i, static_cast<float>(std::max(0.0, cost)));
+      if (room(cell, heading) != kBlocked)
+        offer(state_of(Motion::kDrive, cell, heading), static_cast<float>(std::max(0.0, cost)));
     }
   }
 }
@@ -171,12 +177,12 @@ void HeadingField::spread() {
       const float cost = cost_[state];
       if (static_cast<size_t>(cost / kBucketM) != b) continue;
       ++settled_;
-      const size_t pose = state % layer_of(Motion::kTurn);
-      const int cell = static_cast<int>(pose % count_);
-      const int heading = static_cast<int>(pose / count_);
-      if (state < layer_of(Motion::kTurn))
+      const auto motion = static_cast<Motion>(state / kHeadings % kMotions);
+      const int cell = static_cast<int>(state / kHeadings / kMotions);
+      const int heading = static_cast<int>(state % kHeadings);
+      if (motion == Motion::kDrive)
         spread_driving(cell, heading, cost);
-      else if (state < layer_of(Motion::kBack))
+      else if (motion == Motion::kTurn)
         spread_turning(cell, heading, cost);
       else
         spread_backing(cell, heading, cost);
@@ -235,7 +241,7 @@ void HeadingField::spread_turning(int cell, int heading, float cost) {
   if (query_.may_back) offer(state_of(Motion::kBack, cell, heading), cost + static_cast<float>(prices_.turn_cost_m));
 }
 
-double HeadingField::least_about(const Pose2& pose, size_t layer) const {
+double HeadingField::least_about(const Pose2& pose, Motion motion) const {
   const Point2 corner = terrain_.center_of(0);
   const int ix = static_cast<int>(std::floor((pose.x_m - corner.x_m) / terrain_.cell_m()));
   const int iy = static_cast<int>(std::floor((pose.y_m - corner.y_m) / terrain_.cell_m()));
@@ -245,8 +251,7 @@ double HeadingField::least_about(const Pose2& pose, size_t layer) const {
   for (int h = 0; h < 2; ++h)
     for (int dy = 0; dy < 2; ++dy)
       for (int dx = 0; dx < 2; ++dx)
-        least = std::min(
-            least, cost_[layer + static_cast<size_t>(wrapped(heading + h)) * count_ + (iy + dy) * cells_ + ix + dx]);
+        least = std::min(least, cost_[state_of(motion, (iy + dy) * cells_ + ix + dx, wrapped(heading + h))]);
   return least;
 }
 

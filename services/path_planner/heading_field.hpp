@@ -41,19 +41,21 @@ struct HeadingQuery {
 class HeadingField {
  public:
   static constexpr int kHeadings = 32;
+  static constexpr int kRoomHeadings = kHeadings / 2;  // the rectangle looks the same from behind
 
   HeadingField(const DrivingPrices& prices, const HeadingQuery& query);
 
   // The least of the lattice poses about this one; infinity: nothing leads on, or not within the field's reach.
-  double to_go(const Pose2& pose) const { return least_about(pose, 0); }
+  double to_go(const Pose2& pose) const { return least_about(pose, Motion::kDrive); }
   // Likewise for a rover that turns on the spot.
-  double to_go_turning(const Pose2& pose) const { return least_about(pose, layer_of(Motion::kTurn)); }
+  double to_go_turning(const Pose2& pose) const { return least_about(pose, Motion::kTurn); }
   // Likewise for one that drives stern first.
-  double to_go_backing(const Pose2& pose) const { return least_about(pose, layer_of(Motion::kBack)); }
+  double to_go_backing(const Pose2& pose) const { return least_about(pose, Motion::kBack); }
   int settled() const { return settled_; }
 
  private:
   enum class Motion : std::uint8_t { kDrive = 0, kTurn = 1, kBack = 2 };
+  static constexpr size_t kMotions = 3;
   enum Room : std::uint8_t { kRoomy, kTight, kTurnless, kSqueezed, kBlocked };  // each less than the one before
   struct Arc {
     int from_heading;
@@ -67,11 +69,13 @@ class HeadingField {
     float extra;  // cost beside the ground's
   };
 
-  double least_about(const Pose2& pose, size_t layer) const;
+  double least_about(const Pose2& pose, Motion motion) const;
   void make_arcs();
   void lay_rooms();
-  void stamp(double margin_m, Room room);
-  void stamp_heading(int heading, double margin_m, Room room, const std::vector<int>& hazards);
+  using RoomLayers = std::vector<std::vector<std::uint8_t>>;  // one of all cells for each heading
+  void stamp(double margin_m, Room room, RoomLayers& layers) const;
+  void stamp_heading(int heading, double margin_m, Room room, const std::vector<int>& hazards,
+                     std::vector<std::uint8_t>& layer) const;
   void seed();
   void spread();
   void offer(size_t state, float cost);
@@ -80,12 +84,13 @@ class HeadingField {
   void spread_backing(int cell, int heading, float cost);
   // Of an arc from the cell; infinity: not free, or outside.
   float arc_cost(int cell, const Arc& arc) const;
-  size_t layer_of(Motion motion) const { return static_cast<size_t>(motion) * count_ * kHeadings; }
-  size_t state_of(Motion motion, int cell, int heading) const {
-    return layer_of(motion) + static_cast<size_t>(heading) * count_ + static_cast<size_t>(cell);
+  // What is near on the ground is near in memory: the field is bound by how fast that is read.
+  static size_t state_of(Motion motion, int cell, int heading) {
+    return (static_cast<size_t>(cell) * kMotions + static_cast<size_t>(motion)) * kHeadings +
+           static_cast<size_t>(heading);
   }
   Room room(int cell, int heading) const {
-    return static_cast<Room>(rooms_[heading % (kHeadings / 2) * count_ + cell]);
+    return static_cast<Room>(rooms_[static_cast<size_t>(cell) * kRoomHeadings + heading % kRoomHeadings]);
   }
   float metre_cost(int cell, int heading) const;
   static double yaw_of(int heading) { return 2.0 * kPi * heading / kHeadings; }
@@ -97,9 +102,9 @@ class HeadingField {
   size_t count_;
   std::vector<std::vector<Arc>> arcs_to_;    // by the heading at their end
   std::vector<std::vector<Arc>> arcs_from_;  // the same by the heading at their start
-  std::vector<std::uint8_t> rooms_;          // by half the headings: the rectangle looks the same from behind
+  std::vector<std::uint8_t> rooms_;          // cell by cell, of each heading
   std::vector<float> ground_;                // cost per metre by cell
-  std::vector<float> cost_;                  // of the motions one after the other; each heading by heading
+  std::vector<float> cost_;                  // of each state
   std::vector<std::vector<std::uint32_t>> buckets_;
   int settled_ = 0;
 };
