@@ -331,7 +331,8 @@ void Localization::publish_pose(const MotionRecord& record) {
   pose_.T_map_odom = map_.known() ? map_.T_map_odom() : nan_pose();
   pose_.cov = cov_map();
   const double g = grip(record) / record.dt_s();
-  pose_.velocity_body_mps = {g * record.wheel_motion.x(), g * record.wheel_motion.y(), 0.0};
+  const double aside_mps = slip_.side_slip() * record.wheel_motion.head<2>().norm() / record.dt_s();
+  pose_.velocity_body_mps = {g * record.wheel_motion.x(), g * record.wheel_motion.y() + aside_mps, 0.0};
   pose_.rate_body_radps.setZero();
   if (record.standing)
     pose_.velocity_body_mps.setZero();

@@ -9,6 +9,13 @@ namespace {
 // A wheel that turned less than this in an interval stands: encoder noise.
 constexpr double kStandingRad = 0.002;
 constexpr double kMinGripPathM = 0.02;
+constexpr double kMostSideSlip = 0.35;
+
+// To the left, in the axes halfway: of an arc that the wheels make alone it is zero.
+double aside_m(const Eigen::Vector3d& motion) {
+  const double half = 0.5 * motion.z();
+  return std::cos(half) * motion.y() - std::sin(half) * motion.x();
+}
 
 template <class Way>
 void forget(std::deque<Way>& ways, Utime before) {
@@ -18,16 +25,18 @@ void forget(std::deque<Way>& ways, Utime before) {
 }  // namespace
 
 void SlipMonitor::add(const MotionRecord& r) {
-  ticks_.push_back({r.start, r.end, r.commanded_path_m, r.wheels ? wheels_.path_m(r.turned_rad) : 0.0, 0.0});
+  ticks_.push_back({r.start, r.end, r.commanded_path_m, r.wheels ? wheels_.path_m(r.turned_rad) : 0.0, 0.0, 0.0, 0.0});
   forget(ticks_, r.end - to_utime(config_.window_s + config_.max_visual_age_s + 1.0));
 }
 
 void SlipMonitor::add_visual(const std::vector<MotionRecord>& records, const Eigen::Vector3d& motion) {
-  Way way{records.front().start, records.back().end, 0.0, 0.0, 0.0};
+  Way way{records.front().start, records.back().end, 0.0, 0.0, 0.0, 0.0, aside_m(motion)};
   std::array<double, 6> turned{};
   for (const MotionRecord& r : records) {
     way.commanded_m += r.commanded_path_m;
     if (r.wheels) way.wheel_m += wheels_.path_m(r.turned_rad);
+    way.rolled_m += r.wheel_motion.head<2>().norm();
+    way.aside_m -= r.wheel_motion.y();
     for (size_t i = 0; i < turned.size(); ++i) turned[i] += r.turned_rad[i];
   }
   const auto rolled = wheels_.rolled_m(motion, records[records.size() / 2].steer_rad);
@@ -40,7 +49,7 @@ void SlipMonitor::add_visual(const std::vector<MotionRecord>& records, const Eig
 }
 
 SlipMonitor::Way SlipMonitor::sum(const std::deque<Way>& ways, Utime from, Utime to) {
-  Way total{to, from, 0.0, 0.0, 0.0};
+  Way total{to, from, 0.0, 0.0, 0.0, 0.0, 0.0};
   for (const Way& w : ways) {
     const Utime start = std::max(w.start, from);
     const Utime end = std::min(w.end, to);
@@ -51,6 +60,8 @@ SlipMonitor::Way SlipMonitor::sum(const std::deque<Way>& ways, Utime from, Utime
     total.commanded_m += share * w.commanded_m;
     total.wheel_m += share * w.wheel_m;
     total.visual_m += share * w.visual_m;
+    total.rolled_m += share * w.rolled_m;
+    total.aside_m += share * w.aside_m;
   }
   return total;
 }
@@ -58,9 +69,15 @@ SlipMonitor::Way SlipMonitor::sum(const std::deque<Way>& ways, Utime from, Utime
 void SlipMonitor::update_grip() {
   const Utime end = seen_.back().end;
   const Way way = sum(seen_, end - to_utime(config_.grip_window_s), end);
+  update_side_slip(way);
   if (way.wheel_m < kMinGripPathM) return;
   // Bounds: a wheel does not gain more than it rolls, but on the way down it nearly may.
   grip_ = std::clamp(way.visual_m / way.wheel_m, 0.0, 1.3);
+}
+
+void SlipMonitor::update_side_slip(const Way& way) {
+  if (way.rolled_m < kMinGripPathM) return;
+  side_slip_ = std::clamp(way.aside_m / way.rolled_m, -kMostSideSlip, kMostSideSlip);
 }
 
 Slip SlipMonitor::slip(Utime now) const {

@@ -42,6 +42,9 @@ class SlipMonitor {
   Slip slip(Utime now) const;
   // Metres gained per metre rolled, lately; 1 where unknown.
   double grip() const { return grip_; }
+  // Metres gone to the left per metre rolled, ahead or astern, beside what the steering makes: on a side slope the
+  // rover drives askew, which wheels cannot tell. 0 where unknown.
+  double side_slip() const { return side_slip_; }
 
  private:
   struct Way {
@@ -50,15 +53,19 @@ class SlipMonitor {
     double commanded_m;
     double wheel_m;
     double visual_m;
+    double rolled_m;  // of the body's origin
+    double aside_m;
   };
   static Way sum(const std::deque<Way>& ways, Utime from, Utime to);
   void update_grip();
+  void update_side_slip(const Way& way);
 
   SlipConfig config_;
   WheelOdometry wheels_;
   std::deque<Way> ticks_;
   std::deque<Way> seen_;  // intervals with a visual motion
   double grip_ = 1.0;
+  double side_slip_ = 0.0;
 };
 
 }  // namespace rover::loc

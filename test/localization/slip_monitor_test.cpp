@@ -66,6 +66,33 @@ TEST(SlipMonitor, WindowEmptiesAtStandstill) {
   EXPECT_EQ(slip.commanded_mps, 0.0);
 }
 
+// Over an arc, as wheels and images see it, with a drift to the left for each metre rolled.
+double side_slip_on_arc(double speed_mps, double yaw_rate_radps, double aside_per_m) {
+  SlipMonitor monitor({}, WheelOdometry(test_vehicle()));
+  constexpr double kIntervalS = 0.4;
+  Utime t = 0;
+  for (int i = 0; i < 10; ++i) {
+    std::vector<MotionRecord> interval;
+    for (int k = 0; k < 20; ++k) {
+      interval.push_back(tick(t += kTickUs, speed_mps));
+      interval.back().wheel_motion = {speed_mps * 0.02, 0.0, yaw_rate_radps * 0.02};
+      monitor.add(interval.back());
+    }
+    const double half = 0.5 * yaw_rate_radps * kIntervalS;
+    const double chord = speed_mps * kIntervalS * std::sin(half) / half;
+    const double aside = aside_per_m * std::abs(speed_mps) * kIntervalS;
+    monitor.add_visual(interval, {chord * std::cos(half) - aside * std::sin(half),
+                                  chord * std::sin(half) + aside * std::cos(half), 2.0 * half});
+  }
+  return monitor.side_slip();
+}
+
+TEST(SlipMonitor, SideSlipIsWhatWheelsAndBendDoNotExplain) {
+  EXPECT_NEAR(side_slip_on_arc(0.2, 0.15, 0.0), 0.0, 1e-9);
+  EXPECT_NEAR(side_slip_on_arc(0.2, -0.15, 0.09), 0.09, 1e-9);
+  EXPECT_NEAR(side_slip_on_arc(-0.2, 0.15, 0.09), 0.09, 1e-9) << "downhill, whichever way it rolls";
+}
+
 TEST(SlipMonitor, NothingKnownIsNotZeroSlip) {
   const SlipMonitor monitor({}, WheelOdometry(test_vehicle()));
   EXPECT_FALSE(monitor.slip(0).valid);
