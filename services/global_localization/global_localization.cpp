@@ -45,6 +45,17 @@ bool at_border(const SearchWindow& window, const Placement& found) {
   return off.maxCoeff() >= window.reach_m || std::abs(found.yaw_rad - window.prior.yaw_rad) >= window.reach_rad;
 }
 
+// Between the search's steps of yaw the residual has more than one hollow: the best one's neighbours are tried too.
+void look_about(const OrbitalPart& orbital, const TerrainTemplate& terrain, int least, const GlobalConfig& config,
+                Match& best) {
+  const Placement found = best.placement;
+  for (const double turn : {-0.75, -0.375, 0.375, 0.75}) {
+    const Placement beside{found.center_map, found.yaw_rad + turn * config.search.yaw_step_rad};
+    const Match match = refined(orbital, terrain, beside, least, config.refinement);
+    if (match.fit.compared >= least && match.fit.residual_m < best.fit.residual_m) best = match;
+  }
+}
+
 // The places that fit best, best first.
 std::vector<Match> best_matches(const OrbitalPart& orbital, const TerrainTemplate& terrain, const SearchWindow& window,
                                 const GlobalConfig& config) {
@@ -56,6 +67,7 @@ std::vector<Match> best_matches(const OrbitalPart& orbital, const TerrainTemplat
   }
   std::stable_sort(matches.begin(), matches.end(),
                    [](const Match& a, const Match& b) { return a.fit.residual_m < b.fit.residual_m; });
+  if (!matches.empty()) look_about(orbital, terrain, least, config, matches.front());
   // Those that came to the best one's place are that place.
   const auto same = [&](const Match& other) {
     const double apart_m = (other.placement.center_map - matches.front().placement.center_map).norm();

@@ -22,6 +22,7 @@ struct FullPlannerConfig {
   double sigma_margin_m = 0.02;    // for the pose: each half metre shows the ground anew. One that changed with the
                                    // pose's deviation would stop the rover, and let it go on once it stands
   double squeeze_margin_m = 0.04;  // the least, at a price (search.squeeze_factor)
+  double least_corridor_m = 0.30;  // of a plan between hazards: on a slope a point turn slides by 0.2 m
   double doubt_from_m = 2.0;       // where that leaves no way: small spots of the map never nearer do not count ...
   int doubt_cells = 8;             // ... up to so many cells, unless the LocCam confirms them
   double turn_extra_m = 0.04;      // of the margin, for point turns: the rover does not halt exactly

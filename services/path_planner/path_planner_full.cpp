@@ -266,8 +266,9 @@ std::vector<Point2> PathPlanner::clear_part(const std::vector<Point2>& back) con
 void PathPlanner::take_plan(const FullPlan& plan, const FullRequest& request, PlannerOutput& out) {
   // Also of a roomy plan: where less is left the next plan widens it, if that is possible, without a stop.
   active_.margin_m = request.squeeze_margin_m - config_.full.block_slack_m - sigma_margin_m();
-  active_.corridor_half_width_m = std::clamp(plan.clearance_m - kHalfCellM - kControlM, config_.least_corridor_m,
-                                             std::max(config_.least_corridor_m, global_->corridor_half_width_m));
+  const double least_m = config_.full.least_corridor_m;
+  active_.corridor_half_width_m = std::clamp(plan.clearance_m - kHalfCellM - kControlM, least_m,
+                                             std::max(least_m, global_->corridor_half_width_m));
   std::vector<RoutePoint> points;
   legs_ = legs_of(plan.plan);
   if (plan.plan.backs_first)
