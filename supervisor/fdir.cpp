@@ -1,6 +1,7 @@
 #include "supervisor/fdir.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/core/check.hpp"
 
@@ -45,10 +46,15 @@ void Fdir::add(const FdirLine& line, const Quantity* quantity, const std::string
 
 Reading Fdir::read(const Watch& watch, const Now& now) {
   const MonitorRow& row = watch.monitor.row();
-  if (row.response != Response::kStopRetreat || !now.way_back)
-    return watch.quantity->read(now, watch.subject, row.limit);
-  Reading out = watch.quantity->read(now, watch.subject, row.back_limit);
-  out.limit = row.back_limit;
+  const bool relaxed = row.response == Response::kStopRetreat && now.way_back;
+  if (relaxed && std::isfinite(row.back_limit)) {
+    Reading out = watch.quantity->read(now, watch.subject, row.back_limit);
+    out.limit = row.back_limit;
+    return out;
+  }
+  Reading out = watch.quantity->read(now, watch.subject, row.limit);
+  // What is not known or not a number is no better on the way back.
+  if (relaxed && out.condition == Condition::kTrue) out.condition = Condition::kFalse;
   return out;
 }
 
@@ -145,6 +151,10 @@ std::vector<std::string> Fdir::ailing_services() const {
     if (bad && watch.monitor.row().response == Response::kRestartService) services.push_back(watch.subject.service);
   }
   return services;
+}
+
+bool Fdir::wants_retreat() const {
+  return first_standing([](const Monitor& m) { return m.row().response == Response::kStopRetreat; }) != nullptr;
 }
 
 bool Fdir::slows() const {

@@ -54,6 +54,8 @@ class Fdir {
   const std::vector<std::string>& standing() const { return standing_; }
   // The standing rows as they were raised, for those who missed it.
   std::vector<FaultChange> report() const;
+  // Whether a row stands whose remedy is a way back.
+  bool wants_retreat() const;
   // The first of those standing that stops the rover (for good); null: none.
   const Monitor* first_blocking() const;
   const Monitor* first_safe() const;

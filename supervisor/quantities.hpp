@@ -43,7 +43,7 @@ struct Now {
   double blocked_in_m;
   double stop_distance_m;
   double sweep_s;  // for how long the rover stands and sweeps
-  bool way_back;   // its path is driven backwards
+  bool way_back;   // its path is the remedy of stop_retreat, backwards over ground that it knows
 };
 
 struct Quantity {

@@ -56,6 +56,12 @@ void Supervisor::on_hazards(const HazardsReport& hazards) {
   in_.blind_in_a_row = hazards.blind ? in_.blind_in_a_row + 1 : 0;
 }
 
+// A manoeuvre's legs astern are no remedy of anything: the ordinary limits count there.
+void Supervisor::on_path(PathLevels path) {
+  if (path.path_id != path_.path_id) way_back_ = path.backwards && (way_back_ || fdir_.wants_retreat());
+  path_ = std::move(path);
+}
+
 void Supervisor::on_wheels(const WheelReport& wheels) {
   in_.wheels = wheels;
   derive_.on_wheels(wheels);
@@ -93,7 +99,7 @@ void Supervisor::begin(Utime now) {
 
 Now Supervisor::judged(Utime now) const {
   const bool waits = state_ == kHazardStop || state_ == kRepairing;
-  const bool way_back = path_.backwards && path_.path_id == in_.planner.path_id;
+  const bool way_back = way_back_ && path_.path_id == in_.planner.path_id && state_ != kTeleop;
   return {in_,          derive_.values(), now, standing_still(), waits, blocked_in_m(), stop_distance_m(),
           sweep_s(now), way_back};
 }

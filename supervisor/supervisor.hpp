@@ -137,7 +137,7 @@ class Supervisor {
   void on_terrain(const TerrainReport& terrain);
   void on_slam(const SlamReport& slam) { in_.slam = slam; }
   void on_motion_command(Utime utime) { in_.motion_command_utime = utime; }
-  void on_path(PathLevels path) { path_ = std::move(path); }
+  void on_path(PathLevels path);
   void on_correction_wanted(bool wanted) { correction_wanted_ = wanted; }
   void on_command(const GroundCommand& command) { commands_.push_back(command); }
 
@@ -191,6 +191,7 @@ class Supervisor {
   SupervisorConfig config_;
   Inputs in_;
   PathLevels path_;
+  bool way_back_ = false;  // that path answers a fault whose remedy it is, or follows one that did
   bool correction_wanted_ = false;
   std::vector<GroundCommand> commands_;
 

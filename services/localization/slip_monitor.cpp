@@ -10,6 +10,7 @@ namespace {
 constexpr double kStandingRad = 0.002;
 constexpr double kMinGripPathM = 0.02;
 constexpr double kMostSideSlip = 0.35;
+constexpr double kSureSideSlipM = 0.15;  // of way: on less, what the images see aside is mostly noise
 
 // To the left, in the axes halfway: of an arc that the wheels make alone it is zero.
 double aside_m(const Eigen::Vector3d& motion) {
@@ -76,8 +77,8 @@ void SlipMonitor::update_grip() {
 }
 
 void SlipMonitor::update_side_slip(const Way& way) {
-  if (way.rolled_m < kMinGripPathM) return;
-  side_slip_ = std::clamp(way.aside_m / way.rolled_m, -kMostSideSlip, kMostSideSlip);
+  const double sure_m = std::max(way.rolled_m, kSureSideSlipM);
+  side_slip_ = way.rolled_m < kMinGripPathM ? 0.0 : std::clamp(way.aside_m / sure_m, -kMostSideSlip, kMostSideSlip);
 }
 
 Slip SlipMonitor::slip(Utime now) const {

@@ -20,7 +20,7 @@ constexpr Utime kHazardsAwaited = 1'500'000;
 constexpr int kLargestGrid = 2048;
 constexpr std::int64_t kMostCountedBoots = 100'000;  // a larger boot number is a clock's, of a process started by hand
 
-const std::array kResponses = {"log", "slow", "stop", "stop and replan", "restart service", "safe"};
+const std::array kResponses = {"log", "slow", "stop", "stop and replan", "restart service", "safe", "stop and retreat"};
 
 bool sane(int nx, int ny, size_t size, double cell_m) {
   return nx > 0 && ny > 0 && nx <= kLargestGrid && ny <= kLargestGrid && size == static_cast<size_t>(nx) * ny &&

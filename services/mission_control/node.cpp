@@ -191,7 +191,7 @@ void MissionControlNode::on_path(const path_t& path) {
   if (path.path_id == path_id_) return;
   path_id_ = path.path_id;
   if (path.kind == path_t::REPAIR) note(Tone::kInfo, "path", "path repaired around hazards");
-  if (path.kind == path_t::RETREAT) note(Tone::kWarn, "path", "no way ahead: backwards along the driven track");
+  if (path.kind == path_t::RETREAT) note(Tone::kWarn, "path", "backwards along the driven track");
 }
 
 // Before the start pose has been taken the map has no place for the rover.

@@ -98,17 +98,22 @@ void PathPlannerNode::on_state(const supervisor_state_t& message) {
   const bool known = message.level == supervisor_state_t::EFFICIENT || message.level == supervisor_state_t::FULL;
   if (!known) return node_.reject(channel::kState, "unknown level");
   planner_.set_level(message.level == supervisor_state_t::FULL);
-  fault_stop_ = message.state == supervisor_state_t::FAULT_STOP;
+  using S = supervisor_state_t;
+  const bool waits = message.state == S::FAULT_STOP || message.state == S::PAUSED || message.state == S::STANDBY;
+  if (!waits) waits_since_ = kNever;
+  if (waits && waits_since_ == kNever) waits_since_ = message.header.utime;
 }
 
 // Standing faults are repeated: one that is older than the path is not about it, unless it stands on although the path
 // should have ended it.
 void PathPlannerNode::on_fault(const fault_t& message) {
+  if (message.response == fault_t::STOP_RETREAT && !message.standing) planner_.want_retreat(false);
   const bool of_this_path = message.visible_utime > told_at_ || message.header.utime > told_at_ + kFaultClearsUs;
   if (!message.standing || !of_this_path) return;
   if (message.response == fault_t::STOP_REPLAN) planner_.request_replan();
-  const bool lasts = fault_stop_ && message.header.utime > message.visible_utime + kRetreatPatienceUs;
-  if (message.response == fault_t::STOP_RETREAT && lasts) planner_.request_retreat();
+  const Utime since = std::max(message.visible_utime, waits_since_);
+  const bool lasts = waits_since_ != kNever && message.header.utime > since + kRetreatPatienceUs;
+  if (message.response == fault_t::STOP_RETREAT && lasts) planner_.want_retreat(true);
 }
 
 void PathPlannerNode::on_ground_command(const ground_command_t& message) {

@@ -39,8 +39,8 @@ class PathPlannerNode {
   PathPlanner planner_;
   path_t path_{};  // the newest; no points: none
   Utime next_repeat_ = 0;
-  Utime told_at_ = kNever;   // of the newest path
-  bool fault_stop_ = false;  // the supervisor's state
+  Utime told_at_ = kNever;      // of the newest path
+  Utime waits_since_ = kNever;  // in a state in which a fault may be waited out; kNever: the rover may go
   PlannerState state_ = PlannerState::kIdle;
   std::string text_;
 };

@@ -1,7 +1,6 @@
 #include "path_planner/path_planner.hpp"
 
 #include <cmath>
-#include <utility>
 
 namespace rover::planning {
 namespace {
@@ -77,7 +76,7 @@ std::string PathPlanner::set_global_path(const GlobalPath& path) {
   global_map_ = rounded(path.points, config_.rounding);
   forget_way();
   failures_ = 0;
-  retreats_ = 0;
+  retreats_ = wanted_retreats_ = 0;
   dead_ends_.clear();
   furthest_m_ = 0.0;
   return "";
@@ -127,6 +126,7 @@ void PathPlanner::take_start_area() {
 
 void PathPlanner::forget_way() {
   legs_.clear();
+  retreat_wanted_ = false;
   global_odom_ = Route();
   active_ = Active();
   agenda_.restart();
@@ -187,7 +187,7 @@ void PathPlanner::track_progress() {
       global_odom_.closest(p, global_progress_m_ - 3.0 * kSearchAheadM, global_progress_m_ + 3.0 * kSearchAheadM);
   if (global_progress_m_ < furthest_m_ + kGainM) return;
   furthest_m_ = global_progress_m_;
-  retreats_ = 0;
+  retreats_ = wanted_retreats_ = 0;
   std::erase_if(dead_ends_, [&](const DeadEnd& end) { return distance(end.p, p) > kForgetM; });
 }
 
@@ -214,7 +214,7 @@ void PathPlanner::begin(PlannerOutput& out) {
 // A new frame: is the way still free, and if not, is there another?
 void PathPlanner::react(PlannerOutput& out) {
   if (!legs_.empty() && !continuous()) give_up_manoeuvre();
-  if (std::exchange(retreat_wanted_, false)) return retreat_as_wanted(out);
+  if (retreat_wanted_ && retreat_as_wanted(out)) return;
   if (on_manoeuvre()) {
     go_on_manoeuvre(out);
     if (!legs_.empty() || out.path) return;
@@ -280,9 +280,11 @@ void PathPlanner::look_from_retreat(PlannerOutput& out) {
   retreat(out);
 }
 
-// More of them without new ground gained do not help a camera.
-void PathPlanner::retreat_as_wanted(PlannerOutput& out) {
-  if (standing() && active_.kind != PathKind::kRetreat && retreats_ < kMostRetreatsWanted) retreat(out);
+// More of them without new ground gained help neither a camera nor a slope.
+bool PathPlanner::retreat_as_wanted(PlannerOutput& out) {
+  if (!standing() || wanted_retreats_ >= kMostRetreatsWanted || !retreat(out)) return false;
+  ++wanted_retreats_;
+  return true;
 }
 
 // A track that was driven to and fro lies twice in one place, and progress may be taken for that of the first.
@@ -437,6 +439,7 @@ void PathPlanner::adopt(Route route, PathKind kind, PlannerOutput& out) {
   active_.kind = kind;
   active_.id = next_path_id_++;
   replan_wanted_ = false;
+  retreat_wanted_ = false;
   no_way_on_ = false;
   agenda_.restart();
   firm_agenda_.restart();

@@ -114,8 +114,8 @@ class PathPlanner {
   bool add_traversability(const TraversabilityGrid& map);
   // The path is not to be driven on (FDIR): once the rover stands, another one is looked for.
   void request_replan() { replan_wanted_ = true; }
-  // Nothing is seen from where the rover stands: back over ground that was driven.
-  void request_retreat() { retreat_wanted_ = true; }
+  // As long as it is wanted (FDIR): from where the rover stands only the way back helps, over ground that was driven.
+  void want_retreat(bool wanted) { retreat_wanted_ = wanted; }
   PlannerOutput step(Utime now);
 
   std::vector<std::uint8_t> save() const;
@@ -165,7 +165,7 @@ class PathPlanner {
   bool strayed() const;
   bool retreat(PlannerOutput& out);
   void look_from_retreat(PlannerOutput& out);
-  void retreat_as_wanted(PlannerOutput& out);
+  bool retreat_as_wanted(PlannerOutput& out);
   bool at_retreat_end() const;
   void track_driven_way();
   void leave_repair(PlannerOutput& out);
@@ -242,6 +242,7 @@ class PathPlanner {
   int failures_ = 0;
   std::vector<DeadEnd> dead_ends_;  // where retreats began and gaps were found closed, near the rover
   int retreats_ = 0;                // since the rover last got further along the global path than ever
+  int wanted_retreats_ = 0;         // likewise, those of them that FDIR wanted
   double furthest_m_ = 0.0;         // along the global path
   bool turning_ = false;            // on the spot, to the active path's heading
   int frames_before_unseen_ = 0;

@@ -10,7 +10,7 @@ constexpr double kMaxStepS = 0.1;
 constexpr double kSearchBackM = 0.3;
 constexpr double kSearchAheadM = 0.5;
 constexpr double kPredictionStepM = 0.1;
-constexpr double kSlipSpeedMps = 0.05;  // slower, the direction of the motion is noise
+constexpr double kSlipSpeedMps = 0.03;  // slower, the direction of the motion is noise
 constexpr double kMaxSideSlipRad = 0.35;
 constexpr double kStandingMps = 0.02;
 constexpr double kSlowMps = 0.1;  // at rest within 5 cm
@@ -191,7 +191,7 @@ double TrajectoryController::curvature_at(const Pose2& pose, const Projection& p
 }
 
 void TrajectoryController::update_side_slip(const PoseInput& pose, double dt_s) {
-  if (std::hypot(pose.forward_mps, pose.left_mps) < kSlipSpeedMps) return;
+  if (pose.forward_mps < kSlipSpeedMps) return;
   const double measured = std::clamp(std::atan2(pose.left_mps, pose.forward_mps), -kMaxSideSlipRad, kMaxSideSlipRad);
   side_slip_rad_ += (measured - side_slip_rad_) * std::min(1.0, dt_s / config_.side_slip_time_s);
 }

@@ -67,7 +67,7 @@ TEST(SlipMonitor, WindowEmptiesAtStandstill) {
 }
 
 // Over an arc, as wheels and images see it, with a drift to the left for each metre rolled.
-double side_slip_on_arc(double speed_mps, double yaw_rate_radps, double aside_per_m) {
+double side_slip_on_arc(double speed_mps, double yaw_rate_radps, double aside_per_m, double wheels_aside_per_m = 0.0) {
   SlipMonitor monitor({}, WheelOdometry(test_vehicle()));
   constexpr double kIntervalS = 0.4;
   Utime t = 0;
@@ -75,7 +75,8 @@ double side_slip_on_arc(double speed_mps, double yaw_rate_radps, double aside_pe
     std::vector<MotionRecord> interval;
     for (int k = 0; k < 20; ++k) {
       interval.push_back(tick(t += kTickUs, speed_mps));
-      interval.back().wheel_motion = {speed_mps * 0.02, 0.0, yaw_rate_radps * 0.02};
+      interval.back().wheel_motion = {speed_mps * 0.02, wheels_aside_per_m * std::abs(speed_mps) * 0.02,
+                                      yaw_rate_radps * 0.02};
       monitor.add(interval.back());
     }
     const double half = 0.5 * yaw_rate_radps * kIntervalS;
@@ -91,6 +92,8 @@ TEST(SlipMonitor, SideSlipIsWhatWheelsAndBendDoNotExplain) {
   EXPECT_NEAR(side_slip_on_arc(0.2, 0.15, 0.0), 0.0, 1e-9);
   EXPECT_NEAR(side_slip_on_arc(0.2, -0.15, 0.09), 0.09, 1e-9);
   EXPECT_NEAR(side_slip_on_arc(-0.2, 0.15, 0.09), 0.09, 1e-9) << "downhill, whichever way it rolls";
+  EXPECT_NEAR(side_slip_on_arc(0.2, 0.15, 0.09, 0.03), 0.06, 1e-4) << "what the wheels tell is no slip";
+  EXPECT_NEAR(side_slip_on_arc(0.02, 0.15, 0.09), 0.09 * 0.04 / 0.15, 1e-4) << "little way is little told";
 }
 
 TEST(SlipMonitor, NothingKnownIsNotZeroSlip) {

@@ -240,10 +240,11 @@ TEST_F(PlannerNodeTest, AFaultThatLastsLeadsBack) {
     }
     return paths_->back().kind;
   };
-  EXPECT_EQ(kind_after(15, supervisor_state_t::STANDBY), +path_t::GLOBAL);
+  EXPECT_EQ(kind_after(15, supervisor_state_t::TELEOP), +path_t::GLOBAL);
+  EXPECT_EQ(kind_after(9, supervisor_state_t::FAULT_STOP), +path_t::GLOBAL) << "long since raised, waited for briefly";
   fault.visible_utime = world_.now;
-  EXPECT_EQ(kind_after(9, supervisor_state_t::FAULT_STOP), +path_t::GLOBAL);
-  EXPECT_EQ(kind_after(3, supervisor_state_t::FAULT_STOP), +path_t::RETREAT);
+  EXPECT_EQ(kind_after(9, supervisor_state_t::PAUSED), +path_t::GLOBAL) << "raised anew";
+  EXPECT_EQ(kind_after(3, supervisor_state_t::PAUSED), +path_t::RETREAT);
 }
 
 TEST_F(PlannerNodeTest, UnusableMessagesAreCountedAndChangeNothing) {

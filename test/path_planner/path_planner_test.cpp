@@ -363,15 +363,18 @@ TEST(PathPlanner, OnDemandItGoesBackOverItsTrackAndNotForEver) {
   rig.send_path(kAhead);
   for (rig.odom.x_m = 0.0; rig.odom.x_m < 5.0; rig.odom.x_m += 0.05) rig.look();
   ASSERT_EQ(rig.paths.size(), 1u);
-  rig.planner.request_retreat();
+  rig.planner.want_retreat(true);
   rig.forward_mps = 0.1;
   rig.look(3);
   ASSERT_EQ(rig.paths.size(), 1u) << "still rolling";
   rig.forward_mps = 0.0;
+  rig.planner.want_retreat(false);
+  rig.look(3);
+  ASSERT_EQ(rig.paths.size(), 1u) << "the fault is over";
   int retreats = 0;
   for (int i = 0; i < 4; ++i) {
     const size_t before = rig.paths.size();
-    rig.planner.request_retreat();
+    rig.planner.want_retreat(true);
     rig.look();
     if (rig.paths.size() == before) continue;
     ASSERT_EQ(rig.paths.back().kind, PathKind::kRetreat);

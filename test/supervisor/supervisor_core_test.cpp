@@ -258,6 +258,33 @@ TEST_F(SupervisorTest, ARoverThatLeansTooFarMayComeBack) {
   EXPECT_EQ(changes_.back().evidence.threshold, 23.0);
 }
 
+// Manoeuvres have legs astern too; what was driven there before is not what a fault is answered by.
+TEST_F(SupervisorTest, AWayBackThatAnswersNoFaultHasTheOrdinaryLimits) {
+  start_driving();
+  PathLevels back;
+  back.path_id = planner_.path_id = control_.path_id = 2;
+  back.backwards = true;
+  supervisor_.on_path(back);
+  run(1.0);
+  ASSERT_TRUE(out_.permit.granted);
+  pose_.roll_rad = to_rad(20.5);
+  EXPECT_LE(time_to_withdrawal(), 0.1);
+  EXPECT_EQ(changes_.back().evidence.threshold, 20.0);
+}
+
+TEST_F(SupervisorTest, OnAWayBackWhatIsNotKnownStillStops) {
+  start_driving();
+  blind_ = true;
+  time_to_withdrawal();
+  PathLevels back;
+  back.path_id = planner_.path_id = control_.path_id = 2;
+  back.backwards = true;
+  supervisor_.on_path(back);
+  time_to_permit();
+  pose_.roll_rad = kNaN;
+  EXPECT_LE(time_to_withdrawal(), 0.1);
+}
+
 TEST_F(SupervisorTest, ASilentPlannerOrControllerStops) {
   start_driving();
   planner_alive_ = false;

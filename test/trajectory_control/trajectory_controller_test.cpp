@@ -22,6 +22,21 @@ class ControllerTest : public testing::Test {
     EXPECT_FALSE(locomotion::commands(out.command, kNow, 200'000));
   }
 
+  // Of the same path, from where the rover is, after three seconds at that velocity.
+  double predicted_after_moving(double forward_mps, double left_mps) {
+    TrajectoryController controller(load_config(test::config_dir()));
+    controller.set_path({7, 0.75, {{0.0, 0.0}, {20.0, 0.0}}});
+    pose_.forward_mps = forward_mps;
+    pose_.left_mps = left_mps;
+    ControlOutput out;
+    for (Utime t = kNow; t < kNow + 3'000'000; t += kTickUs) {
+      pose_.utime = t;
+      permit_ = {t, t + 200'000, true, 0.2};
+      out = controller.step(t, pose_, permit_);
+    }
+    return out.predicted_corridor_error_m;
+  }
+
   TrajectoryController controller_{load_config(test::config_dir())};
   PoseInput pose_{kNow - 20'000, true, {3.0, 0.1, 0.05}, 0.2, 0.0};
   DrivePermit permit_{kNow - 20'000, kNow + 180'000, true, 0.2};
@@ -185,17 +200,14 @@ TEST_F(ControllerTest, APointTurnGoesOnUntilTheHeadingFits) {
 TEST_F(ControllerTest, SideSlipOnASlopeIsForeseen) {
   pose_.odom = {3.0, 0.0, 0.0};
   const double level = step().predicted_corridor_error_m;
-  pose_.left_mps = 0.06;
-  TrajectoryController slipping(load_config(test::config_dir()));
-  slipping.set_path({7, 0.75, {{0.0, 0.0}, {20.0, 0.0}}});
-  ControlOutput out;
-  for (Utime t = kNow; t < kNow + 3'000'000; t += kTickUs) {
-    pose_.utime = t;
-    permit_ = {t, t + 200'000, true, 0.2};
-    out = slipping.step(t, pose_, permit_);
-  }
   EXPECT_LT(level, 0.01);
-  EXPECT_GT(out.predicted_corridor_error_m, 0.05);
+  EXPECT_GT(predicted_after_moving(0.2, 0.06), 0.05);
+}
+
+// An operator backs on a path that leads ahead: that is no slip of 180 degrees.
+TEST_F(ControllerTest, BackingByHandIsNoSideSlip) {
+  pose_.odom = {3.0, 0.0, 0.0};
+  EXPECT_LT(predicted_after_moving(-0.2, 0.01), 0.01);
 }
 
 TEST_F(ControllerTest, PathEndIsReportedAlsoWithoutPermit) {
