@@ -26,6 +26,8 @@ constexpr Utime kReturnAfter = 1'000'000;  // a service that left is waited for 
 constexpr double kStartPatience_s = 60.0;
 constexpr double kAskAgain_s = 1.0;
 constexpr double kSilence_s = 10.0;
+constexpr double kBusy_s = 120.0;    // likewise of a process that computes, on a machine that has other work too ...
+constexpr double kBusyShare = 0.05;  // ... of its time at least
 constexpr double kLost_s = 2.0;
 
 bool all_finite(const wheel_command_t& command) {
@@ -277,12 +279,14 @@ void Simulator::publish_image(const char* channel, const GrayImage& image, doubl
 void Simulator::wait_for_barrier(Utime t, const std::function<bool()>& running) {
   auto started = Clock::now();
   double asked_at_s = 0.0;
+  cpu_s_.clear();
   for (auto missing = barrier_.waiting_for(t); !missing.empty() && running(); missing = barrier_.waiting_for(t)) {
     if (reports_.handleTimeout(5) > 0) continue;
     const double waited_s = since_s(started);
     deal_with_missing(missing, t, waited_s);
     if (waited_s - asked_at_s < kAskAgain_s || last_tick_.empty()) continue;
     asked_at_s = waited_s;
+    for (const std::string& name : missing) cpu_s_.try_emplace(name, process_cpu_s(barrier_.pid_of(name)));
     lcm_.publish(channel::kTick, last_tick_.data(), static_cast<unsigned int>(last_tick_.size()));
   }
   wait_for_answers(running);
@@ -303,6 +307,13 @@ void Simulator::wait_for_answers(const std::function<bool()>& running) {
   }
 }
 
+// Long work of a living process is no silence: how long it takes is not the scenario's affair.
+bool Simulator::computes(const std::string& name, double waited_s) const {
+  const auto before = cpu_s_.find(name);
+  if (before == cpu_s_.end() || waited_s >= kBusy_s) return false;
+  return process_cpu_s(barrier_.pid_of(name)) - before->second > kBusyShare * waited_s;
+}
+
 // A dead process leaves the barrier at once, a silent one after a while; both are waited for again later.
 void Simulator::deal_with_missing(const std::vector<std::string>& missing, Utime t, double waited_s) {
   for (const std::string& name : missing) {
@@ -314,7 +325,7 @@ void Simulator::deal_with_missing(const std::vector<std::string>& missing, Utime
       continue;
     }
     const bool dead = barrier_.pid_of(name) > 0 && !process_alive(barrier_.pid_of(name));
-    if (!dead && waited_s < kSilence_s) continue;
+    if (!dead && (waited_s < kSilence_s || computes(name, waited_s))) continue;
     if (!dead) summary_.deterministic = false;
     summary_.left.push_back(name + (dead ? " died at " : " silent at ") + std::to_string(to_seconds(t)) + " s");
     warn(t, "LEFT_BARRIER service=" + name + " dead=" + std::to_string(static_cast<int>(dead)));

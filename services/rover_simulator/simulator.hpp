@@ -83,6 +83,7 @@ class Simulator {
   void wait_for_barrier(Utime t, const std::function<bool()>& running);
   void wait_for_answers(const std::function<bool()>& running);
   void deal_with_missing(const std::vector<std::string>& missing, Utime t, double waited_s);
+  bool computes(const std::string& name, double waited_s) const;
   void give_tick(Utime t);
   Utime next_tick(Utime t, const std::function<bool()>& running);
   // simulator_faults.cpp
@@ -114,6 +115,7 @@ class Simulator {
   lcm::LCM& reports_;
   StreamCounter streams_;
   Barrier barrier_;
+  std::map<std::string, double> cpu_s_;  // of those that are waited for, a second into the wait
   RunEnd end_;
   ArrivalLedger ledger_;
   std::vector<done_t> dones_;          // whose streams no tick has listed yet
