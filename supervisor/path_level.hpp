@@ -12,7 +12,7 @@ struct PathLevels {
   std::int64_t path_id = -1;
   std::vector<double> s_m;   // of each point, from the path's start, growing
   std::vector<Level> level;  // from that point on
-  bool backwards = false;    // over ground that was driven
+  bool backwards = false;    // a way back, or a leg of a manoeuvre
 
   // Efficient where nothing is known.
   Level at(double s_m_wanted) const {

@@ -26,12 +26,12 @@ void forget(std::deque<Way>& ways, Utime before) {
 }  // namespace
 
 void SlipMonitor::add(const MotionRecord& r) {
-  ticks_.push_back({r.start, r.end, r.commanded_path_m, r.wheels ? wheels_.path_m(r.turned_rad) : 0.0, 0.0, 0.0, 0.0});
+  ticks_.push_back({r.start, r.end, r.commanded_path_m, r.wheels ? wheels_.path_m(r.turned_rad) : 0.0});
   forget(ticks_, r.end - to_utime(config_.window_s + config_.max_visual_age_s + 1.0));
 }
 
 void SlipMonitor::add_visual(const std::vector<MotionRecord>& records, const Eigen::Vector3d& motion) {
-  Way way{records.front().start, records.back().end, 0.0, 0.0, 0.0, 0.0, aside_m(motion)};
+  Way way{.start = records.front().start, .end = records.back().end, .aside_m = aside_m(motion)};
   std::array<double, 6> turned{};
   for (const MotionRecord& r : records) {
     way.commanded_m += r.commanded_path_m;
@@ -50,7 +50,7 @@ void SlipMonitor::add_visual(const std::vector<MotionRecord>& records, const Eig
 }
 
 SlipMonitor::Way SlipMonitor::sum(const std::deque<Way>& ways, Utime from, Utime to) {
-  Way total{to, from, 0.0, 0.0, 0.0, 0.0, 0.0};
+  Way total{to, from};
   for (const Way& w : ways) {
     const Utime start = std::max(w.start, from);
     const Utime end = std::min(w.end, to);

@@ -50,11 +50,11 @@ class SlipMonitor {
   struct Way {
     Utime start;
     Utime end;
-    double commanded_m;
-    double wheel_m;
-    double visual_m;
-    double rolled_m;  // of the body's origin
-    double aside_m;
+    double commanded_m = 0.0;
+    double wheel_m = 0.0;
+    double visual_m = 0.0;
+    double rolled_m = 0.0;  // of the body's origin
+    double aside_m = 0.0;
   };
   static Way sum(const std::deque<Way>& ways, Utime from, Utime to);
   void update_grip();
