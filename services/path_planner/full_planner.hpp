@@ -3,6 +3,7 @@
 // cheaper.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "path_planner/curve_search.hpp"
@@ -27,10 +28,12 @@ struct FullPlannerConfig {
   int doubt_cells = 8;             // ... up to so many cells, unless the LocCam confirms them
   double turn_extra_m = 0.04;      // of the margin, for point turns: the rover does not halt exactly
   int most_retreats = 12;          // one after the other, without new ground gained
-  int map_cells = 280;             // of the ground that is remembered, each way; their size is the hazard memory's
-  double near_look_m = 3.0;        // a map from that near always tells the newest of a cell, one from afar may not
-  double stale_way_m = 1.5;        // driven since the newest map, with which it is too old ...
-  double stale_s = 5.0;            // ... if that took as long
+  // Of a frame, in states of the lattice: after that it begins no further search.
+  int frame_work = 1'000'000;
+  int map_cells = 280;       // of the ground that is remembered, each way; their size is the hazard memory's
+  double near_look_m = 3.0;  // a map from that near always tells the newest of a cell, one from afar may not
+  double stale_way_m = 1.5;  // driven since the newest map, with which it is too old ...
+  double stale_s = 5.0;      // ... if that took as long
 };
 
 // The way that is being driven, from where a new one could begin.
@@ -62,10 +65,16 @@ struct FullRequest {
   const std::vector<DeadEnd>& dead_ends;
 };
 
+// The lattice lets through what almost fits; where that leads the search astray, one that does not is asked, and last
+// the first one in haste.
+enum class LatticeUse : std::uint8_t { kLenient, kSure, kHasty };
+
 struct FullPlan {
-  CurvePlan plan;         // from the held way's end, or from the start
-  bool held = false;      // goes on from the held way
-  bool hopeless = false;  // by the lattice nothing leads on from the rover
+  CurvePlan plan;          // from the held way's end, or from the start
+  bool held = false;       // goes on from the held way
+  bool hopeless = false;   // by the lattice nothing leads on from the rover
+  bool exhausted = false;  // the search ended where it had gone on for too long
+  int work = 0;            // in states of the lattice
   double clearance_m = kNaN;
   double end_station_m = kNaN;  // along the global path
 };
@@ -74,12 +83,11 @@ class FullPlanner {
  public:
   explicit FullPlanner(const FullPlannerConfig& config) : config_(config) {}
   // plan.found is false where there is no way.
-  FullPlan plan(const FullRequest& request) const;
+  FullPlan plan(const FullRequest& request, LatticeUse lattice) const;
 
  private:
   GoalField goal_field(const FullRequest& request) const;
-  FullPlan plan_on(const FullRequest& request, const GoalField& field, double slack_m,
-                   const CurveSearchConfig& search) const;
+  void search(const FullRequest& request, const CurveSearchConfig& config, CurveProblem problem, FullPlan& out) const;
   double held_cost(const CurveProblem& problem, const HeldWay& held) const;
 
   FullPlannerConfig config_;

@@ -28,6 +28,7 @@ GoalField::GoalField(const GoalFieldConfig& config, const GoalQuery& query)
   lay_stations();
   lay_costs();
   march_from_goal();
+  march_from_rover();
 }
 
 void GoalField::lay_stations() {
@@ -116,6 +117,13 @@ void GoalField::march_from_goal() {
   }
   reachable_ = !seeds.empty();
   travel_ = reachable_ ? march(cost_, seeds, -1, kEverywhere) : std::vector<double>(station_.size(), kInfinity);
+}
+
+void GoalField::march_from_rover() {
+  if (terrain_.contains(query_.rover))
+    from_rover_ = march(cost_, {{terrain_.cell_of(query_.rover), 0.0}}, -1, kEverywhere);
+  else
+    from_rover_.assign(station_.size(), 0.0);
 }
 
 // Where all ways through the map are closed, one may lead out of it; so does each where the goal lies beyond it, for a

@@ -47,6 +47,8 @@ class GoalField {
   double cost_per_m(Point2 p) const { return terrain_.contains(p) ? cost_.cost_per_m[terrain_.cell_of(p)] : kInfinity; }
   // What is left from a place, heading aside; infinity where nothing leads on.
   double to_go(Point2 p) const { return terrain_.contains(p) ? travel_[terrain_.cell_of(p)] : kInfinity; }
+  // Of the way from the rover to a cell, heading aside; infinity where none leads there.
+  double from_rover(int cell) const { return from_rover_[cell]; }
   // What a plan that ends at the pose costs more; infinity: it may not end there.
   double end_cost(const Pose2& pose) const;
   // How far a place lies past the goal line; negative before it. In sight of the goal: zero.
@@ -58,6 +60,7 @@ class GoalField {
   void lay_stations();
   void lay_costs();
   void march_from_goal();
+  void march_from_rover();
   double difficulty_cost(double difficulty) const;
   double off_path_m(Point2 p, double station_m) const;
   double line_cost(Point2 p) const;
@@ -76,6 +79,7 @@ class GoalField {
   std::vector<double> offset_;
   MarchGrid cost_;
   std::vector<double> travel_;
+  std::vector<double> from_rover_;
 };
 
 }  // namespace rover::planning

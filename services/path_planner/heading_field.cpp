@@ -8,7 +8,7 @@ namespace {
 
 constexpr float kNone = std::numeric_limits<float>::infinity();
 constexpr double kBucketM = 0.05;
-constexpr int kMostBuckets = 4000;
+constexpr float kMostCost = 200.0F;
 constexpr std::array<int, 5> kTurns = {0, 1, -1, 2, -2};  // headings by which an arc turns
 constexpr double kShortestM = 0.35;
 constexpr double kLongestM = 0.62;
@@ -18,7 +18,9 @@ constexpr double kEndBandM = 0.7;  // past the goal line
 // The rover may stand closer to a hazard than it would go: one as near to it as the margin and that much does not close
 // its place.
 constexpr double kSparedM = 0.10;
-constexpr double kBeyond = 2.5;  // of cost, past that of the rover's pose, until which the field is laid
+// Of the cost from the rover by a place to the goal line, past the least of all: until there the field is laid.
+constexpr double kBeyond = 4.0;
+constexpr float kAtLeast = 0.9F;  // of what fast marching says: its circles are wider than round, its cells coarse
 
 int wrapped(int heading) {
   return (heading % HeadingField::kHeadings + HeadingField::kHeadings) % HeadingField::kHeadings;
@@ -35,7 +37,8 @@ HeadingField::HeadingField(const DrivingPrices& prices, const HeadingQuery& quer
   make_arcs();
   lay_rooms();
   cost_.assign(kMotions * count_ * kHeadings, kNone);
-  buckets_.resize(kMostBuckets);
+  done_.assign(cost_.size(), false);
+  buckets_.resize(static_cast<size_t>(kMostCost / kBucketM) + 1);
   seed();
   spread();
 }
@@ -78,8 +81,12 @@ void HeadingField::make_arcs() {
 
 void HeadingField::lay_rooms() {
   ground_.resize(count_);
-  for (size_t i = 0; i < count_; ++i)
-    ground_[i] = static_cast<float>(query_.goal.cost_per_m(terrain_.center_of(static_cast<int>(i))));
+  from_rover_.resize(count_);
+  for (size_t i = 0; i < count_; ++i) {
+    const int cell = static_cast<int>(i);
+    ground_[i] = static_cast<float>(query_.goal.cost_per_m(terrain_.center_of(cell)));
+    from_rover_[i] = kAtLeast * static_cast<float>(query_.goal.from_rover(cell));
+  }
   RoomLayers layers(kRoomHeadings, std::vector<std::uint8_t>(count_, kRoomy));
   stamp(query_.roomy_margin_m - query_.slack_m, kTight, layers);
   stamp(query_.turn_margin_m - query_.slack_m, kTurnless, layers);
@@ -162,21 +169,25 @@ void HeadingField::seed() {
 
 void HeadingField::offer(size_t state, float cost) {
   if (!(cost < cost_[state])) return;
-  const auto bucket = static_cast<size_t>(cost / kBucketM);
-  if (bucket >= buckets_.size()) return;
+  const float through = cost + from_rover_[state / kHeadings / kMotions];
+  if (!(through < kMostCost)) return;
   cost_[state] = cost;
-  buckets_[bucket].push_back(static_cast<std::uint32_t>(state));
+  done_[state] = false;
+  // The way from the rover is estimated over places, the way to the goal over poses: what is found now may have to be
+  // worked off before.
+  buckets_[std::max(bucket_, static_cast<size_t>(through / kBucketM))].push_back(static_cast<std::uint32_t>(state));
 }
 
 void HeadingField::spread() {
   double last = kInfinity;
-  for (size_t b = 0; b < buckets_.size() && kBucketM * static_cast<double>(b) <= last; ++b) {
+  for (; bucket_ < buckets_.size() && kBucketM * static_cast<double>(bucket_) <= last; ++bucket_) {
     // A bucket may grow while it is worked off.
-    for (size_t k = 0; k < buckets_[b].size(); ++k) {
-      const size_t state = buckets_[b][k];
-      const float cost = cost_[state];
-      if (static_cast<size_t>(cost / kBucketM) != b) continue;
+    for (size_t k = 0; k < buckets_[bucket_].size(); ++k) {
+      const size_t state = buckets_[bucket_][k];
+      if (done_[state]) continue;
+      done_[state] = true;
       ++settled_;
+      const float cost = cost_[state];
       const auto motion = static_cast<Motion>(state / kHeadings % kMotions);
       const int cell = static_cast<int>(state / kHeadings / kMotions);
       const int heading = static_cast<int>(state % kHeadings);

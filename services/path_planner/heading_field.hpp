@@ -1,6 +1,7 @@
-// What is left to go from each place and heading: Dijkstra backwards from the goal line over a lattice of poses, for a
+// What is left to go from each place and heading: A* backwards from the goal line over a lattice of poses, for a
 // vehicle that drives arcs no tighter than its own, forwards or stern first, and turns on the spot at a price. A field
-// over places alone sends the rover into gaps that it cannot bend into.
+// over places alone sends the rover into gaps that it cannot bend into; as what the way from the rover costs at least
+// it tells the lattice where to look.
 #pragma once
 
 #include <cstdint>
@@ -104,7 +105,10 @@ class HeadingField {
   std::vector<std::vector<Arc>> arcs_from_;  // the same by the heading at their start
   std::vector<std::uint8_t> rooms_;          // cell by cell, of each heading
   std::vector<float> ground_;                // cost per metre by cell
+  std::vector<float> from_rover_;            // what the way from the rover costs at least, by cell
   std::vector<float> cost_;                  // of each state
+  std::vector<bool> done_;                   // likewise: has been spread, at that cost
+  size_t bucket_ = 0;                        // that is being worked off
   std::vector<std::vector<std::uint32_t>> buckets_;
   int settled_ = 0;
 };

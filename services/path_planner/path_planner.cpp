@@ -131,6 +131,7 @@ void PathPlanner::forget_way() {
   active_ = Active();
   agenda_.restart();
   firm_agenda_.restart();
+  full_agenda_.restart();
 }
 
 bool PathPlanner::add_hazards(const HazardGrid& grid) {
@@ -335,17 +336,19 @@ void PathPlanner::judge() {
 }
 
 bool PathPlanner::repair(bool because_of_hazard, PlannerOutput& out) {
-  if (continuous()) return plan_on(out);
-  const SearchEnd end = search(Terrain(memory_), demands(), agenda_);
-  if (end != SearchEnd::kFound) {
-    // A frame whose search goes on is one of patience, but none that ends it.
-    if (end == SearchEnd::kNone || failures_ + 1 < config_.patience_frames) ++failures_;
-    return false;
-  }
+  if (continuous()) return plan_on(out) == SearchEnd::kFound;
+  if (count_failure(search(Terrain(memory_), demands(), agenda_)) != SearchEnd::kFound) return false;
   failures_ = 0;
   if (because_of_hazard) ++replans_;
   take_repair(out);
   return true;
+}
+
+// A frame whose search goes on is one of patience, but none that ends it.
+PathPlanner::SearchEnd PathPlanner::count_failure(SearchEnd end) {
+  const bool ends = end == SearchEnd::kNone;
+  if (ends || (end == SearchEnd::kGoesOn && failures_ + 1 < config_.patience_frames)) ++failures_;
+  return end;
 }
 
 // They fall from one to the next. The last is for a goal under hazards, once that is certain.
@@ -443,6 +446,7 @@ void PathPlanner::adopt(Route route, PathKind kind, PlannerOutput& out) {
   no_way_on_ = false;
   agenda_.restart();
   firm_agenda_.restart();
+  full_agenda_.restart();
   active_.progress_m = active_.route.closest(position(rover()), 0.0, kSearchAheadM);
   active_.repair_end_m = 0.0;
   for (size_t i = 0; i < active_.route.points().size(); ++i)

@@ -10,7 +10,7 @@
 
 #include "path_planner/block_finder.hpp"
 #include "path_planner/driven_track.hpp"
-#include "path_planner/full_planner.hpp"
+#include "path_planner/full_agenda.hpp"
 #include "path_planner/hazard_memory.hpp"
 #include "path_planner/local_repair.hpp"
 #include "path_planner/pose_history.hpp"
@@ -190,8 +190,9 @@ class PathPlanner {
   std::vector<Point2> way_back(const std::vector<Point2>& track) const;
   std::vector<Point2> straight_back(double way_m) const;
   std::vector<Point2> clear_part(const std::vector<Point2>& back) const;
-  bool plan_on(PlannerOutput& out);
-  FullPlan plan_in_doubt(const Terrain::Doubt& doubt) const;
+  SearchEnd plan_on(PlannerOutput& out);
+  SearchEnd count_failure(SearchEnd end);
+  Terrain::Doubt doubt() const;
   FullRequest full_request(const Terrain& terrain) const;
   std::optional<HeldWay> held_way() const;
   double held_end_m() const;
@@ -257,6 +258,7 @@ class PathPlanner {
   bool no_way_on_ = false;          // from the rover by all that is known: driving on would lead deeper into a dead end
   RepairAgenda agenda_;
   RepairAgenda firm_agenda_;
+  FullAgenda full_agenda_;
   RepairResult last_repair_;
   LeadIn last_lead_;            // of the last repair
   double last_margin_m_ = 0.0;  // likewise

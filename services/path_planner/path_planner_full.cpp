@@ -50,6 +50,7 @@ void PathPlanner::set_level(bool full) {
     // The rest of the plan is driven as a repair is: the global path follows.
     if (active_.kind == PathKind::kContinuous) active_.kind = PathKind::kRepair;
   }
+  if (full_level_ != full) full_agenda_.restart();
   full_level_ = full;
 }
 
@@ -79,16 +80,18 @@ void PathPlanner::go_on(PlannerOutput& out) {
   const bool blocked =
       no_way_on_ || halted || block_.confirmed_m - active_.progress_m < (turning ? kTurnBlockM : kNearBlockM);
   const bool ends_early = legs_.empty() && !leads_to_goal();  // the legs that followed were given up
-  const bool wanted = (new_map_ && !turning) || active_.kind != PathKind::kContinuous || ends_early;
+  const bool goes_on = full_agenda_.begun() && !turning;
+  const bool wanted = (new_map_ && !turning) || goes_on || active_.kind != PathKind::kContinuous || ends_early;
   if (!blocked && !wanted) {
     failures_ = 0;
+    full_agenda_.restart();
     return;
   }
   // One map may show a gap closed that the next one opens; the plan's first metres are free meanwhile.
   const double before_m = way_left_m();
   const bool closed = active_.kind == PathKind::kContinuous && block_.confirmed_m - active_.progress_m < kNearBlockM;
   const Point2 closed_at = active_.route.point_at(std::min(block_.confirmed_m, active_.route.length_m()));
-  const bool planned = plan_on(out);
+  const bool planned = plan_on(out) == SearchEnd::kFound;
   // A gap that was found closed from near may look open again from afar: without this the rover goes to and fro.
   if (planned && closed) note_closed_gap(closed_at, way_left_m() - before_m);
   if (!planned && active_.kind == PathKind::kContinuous) no_way_on_ = failures_ >= config_.patience_frames;
@@ -133,41 +136,43 @@ bool PathPlanner::at_turn() const {
          });
 }
 
-bool PathPlanner::plan_on(PlannerOutput& out) {
-  const Terrain ground(memory_, &ground_, Terrain::Reach::kGround);
-  FullRequest request = full_request(ground);
-  FullPlan plan = full_planner_.plan(request);
-  if (!plan.plan.found) {
-    request.turn_margin_m = request.squeeze_margin_m;
-    plan = full_planner_.plan(request);
+// A frame begins no further search once its share of work is done; the next one goes on.
+PathPlanner::SearchEnd PathPlanner::plan_on(PlannerOutput& out) {
+  for (int work = 0; work < config_.full.frame_work;) {
+    const Terrain ground(memory_, &ground_, Terrain::Reach::kGround, doubt());
+    const FullRequest request = full_request(ground);
+    const FullPlan plan = full_planner_.plan(request, full_agenda_.lattice());
+    work += plan.work;
+    last_repair_.status = plan.plan.found               ? RepairStatus::kFound
+                          : plan.plan.unseen_in_the_way ? RepairStatus::kUnseen
+                                                        : RepairStatus::kNoWay;
+    if (plan.plan.found) {
+      full_agenda_.restart();
+      take_plan(plan, request, out);
+      frames_before_unseen_ = 0;
+      // A plan on which the rover is not let go is none.
+      failures_ = hazard_ahead_m() < config_.stop_hazard_m ? failures_ + 1 : 0;
+      return SearchEnd::kFound;
+    }
+    if (!full_agenda_.advance(plan)) return count_failure(SearchEnd::kNone);
   }
-  if (!plan.plan.found) plan = plan_in_doubt({position(rover()), config_.full.doubt_from_m, config_.full.doubt_cells});
-  if (!plan.plan.found) plan = plan_in_doubt({position(rover()), 0.0, config_.full.doubt_cells, true});
-  last_repair_.status = plan.plan.found               ? RepairStatus::kFound
-                        : plan.plan.unseen_in_the_way ? RepairStatus::kUnseen
-                                                      : RepairStatus::kNoWay;
-  if (!plan.plan.found) {
-    ++failures_;
-    return false;
-  }
-  take_plan(plan, request, out);
-  frames_before_unseen_ = 0;
-  // A plan on which the rover is not let go is none.
-  failures_ = hazard_ahead_m() < config_.stop_hazard_m ? failures_ + 1 : 0;
-  return true;
+  return count_failure(SearchEnd::kGoesOn);
 }
 
-FullPlan PathPlanner::plan_in_doubt(const Terrain::Doubt& doubt) const {
-  const Terrain doubted(memory_, &ground_, Terrain::Reach::kGround, doubt);
-  FullRequest request = full_request(doubted);
-  request.may_back = doubt.if_seen_free;  // astern nothing looks there
-  return full_planner_.plan(request);
+Terrain::Doubt PathPlanner::doubt() const {
+  using Ground = FullAgenda::Ground;
+  if (full_agenda_.ground() == Ground::kAfarDoubted)
+    return {position(rover()), config_.full.doubt_from_m, config_.full.doubt_cells};
+  if (full_agenda_.ground() == Ground::kSeenFreeSpots) return {position(rover()), 0.0, config_.full.doubt_cells, true};
+  return {};
 }
 
 FullRequest PathPlanner::full_request(const Terrain& terrain) const {
   const LeadIn lead = lead_ins().front();
   const double curvature = standing() ? 0.0 : lead.curvature_per_m;
   const double sigma = sigma_margin_m();
+  const FullAgenda::Ground view = full_agenda_.ground();
+  const double turn_margin_m = config_.tight_margin_m + config_.full.turn_extra_m;
   const bool any_goal = failures_ + 1 >= config_.patience_frames && goal_near();
   return {.terrain = terrain,
           .footprint = config_.footprint,
@@ -179,11 +184,13 @@ FullRequest PathPlanner::full_request(const Terrain& terrain) const {
           .start_curvature_per_m = curvature,
           .stopped = advanced(rover(), lead.way_m, curvature),
           .turning = turning_,
+          .may_back = view != FullAgenda::Ground::kAfarDoubted,  // astern nothing looks there
           .held = held_way(),
           .roomy_margin_m = config_.margin_m + config_.plan_extra_m + sigma,
           .tight_margin_m = config_.tight_margin_m + sigma,
           .squeeze_margin_m = config_.full.squeeze_margin_m + sigma,
-          .turn_margin_m = config_.tight_margin_m + config_.full.turn_extra_m + sigma,
+          .turn_margin_m =
+              (view == FullAgenda::Ground::kLeastTurns ? config_.full.squeeze_margin_m : turn_margin_m) + sigma,
           .goal_reach_m = any_goal ? config_.blocked_goal_reach_m : goal_reach_m(),
           .dead_ends = dead_ends_};
 }
@@ -267,8 +274,8 @@ void PathPlanner::take_plan(const FullPlan& plan, const FullRequest& request, Pl
   // Also of a roomy plan: where less is left the next plan widens it, if that is possible, without a stop.
   active_.margin_m = request.squeeze_margin_m - config_.full.block_slack_m - sigma_margin_m();
   const double least_m = config_.full.least_corridor_m;
-  active_.corridor_half_width_m = std::clamp(plan.clearance_m - kHalfCellM - kControlM, least_m,
-                                             std::max(least_m, global_->corridor_half_width_m));
+  active_.corridor_half_width_m =
+      std::clamp(plan.clearance_m - kHalfCellM - kControlM, least_m, std::max(least_m, global_->corridor_half_width_m));
   std::vector<RoutePoint> points;
   legs_ = legs_of(plan.plan);
   if (plan.plan.backs_first)

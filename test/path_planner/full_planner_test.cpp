@@ -51,6 +51,15 @@ std::uint8_t channel(Point2 p) {
   return sides || end ? TraversabilityGrid::kImpassable : kFree;
 }
 
+// In all the ways in which the lattice is asked.
+FullPlan plan_of(const FullPlanner& planner, const FullRequest& request) {
+  FullAgenda agenda;
+  FullPlan plan = planner.plan(request, agenda.lattice());
+  while (!plan.plan.found && agenda.advance(plan) && agenda.ground() == FullAgenda::Ground::kKnown)
+    plan = planner.plan(request, agenda.lattice());
+  return plan;
+}
+
 struct Ground {
   HazardMemory memory{planner_config().memory};
   GroundMap map{280, 0.1, 3.0};
@@ -84,7 +93,7 @@ struct Ground {
 
   FullPlan plan(const Pose2& rover = {}) const {
     const Terrain terrain(memory, &map, Terrain::Reach::kGround);
-    return FullPlanner(planner_config().full).plan(request(terrain, rover));
+    return plan_of(FullPlanner(planner_config().full), request(terrain, rover));
   }
 };
 
@@ -286,6 +295,55 @@ TEST(HeadingField, PricesDistanceTurnsAndGaps) {
   EXPECT_TRUE(std::isinf(to_go(wall(0.0, 1.0), {})) || to_go(wall(0.0, 1.0), {}) > 20.0);
 }
 
+// Laid towards the rover only, it tells of the way there what it would tell if laid everywhere.
+TEST(HeadingField, IsLaidWhereWaysFromTheRoverLead) {
+  const Ground ground(free_ground);
+  const Terrain terrain(ground.memory, &ground.map, Terrain::Reach::kGround);
+  const auto laid_for = [&](Point2 rover) {
+    const GoalField goal(
+        planner_config().full.goal,
+        {terrain, ground.global, 3.0, rover, planner_config().footprint.half_width_m, 0.11, 0.3, ground.dead_ends});
+    const HeadingField field(
+        planner_config().full.search,
+        {terrain, goal, planner_config().footprint, {rover.x_m, rover.y_m, 0.0}, 0.17, 0.15, 0.11, 0.11});
+    return std::tuple(field.to_go({0.0, 0.0, 0.0}), field.to_go({2.0, 0.5, 0.3}), field.to_go({2.0, -9.0, 0.0}),
+                      field.settled());
+  };
+  const auto [here, onward, aside, settled] = laid_for({0.0, 0.0});
+  EXPECT_TRUE(std::isinf(aside));
+  const auto [here_too, onward_too, aside_too, more] = laid_for({-1.0, -1.5});
+  EXPECT_LT(settled, more);
+  EXPECT_NEAR(here, here_too, 1e-6);
+  EXPECT_NEAR(onward, onward_too, 1e-6);
+  EXPECT_LT(8 * settled, terrain.cells() * terrain.cells() * 3 * HeadingField::kHeadings);
+}
+
+TEST(FullAgenda, AsksTheLatticeInOtherWaysAndThenTakesLessForKnown) {
+  using View = FullAgenda::Ground;
+  FullAgenda agenda;
+  FullPlan failed;
+  EXPECT_FALSE(agenda.begun());
+  EXPECT_TRUE(agenda.advance(failed));
+  EXPECT_TRUE(agenda.begun());
+  EXPECT_EQ(agenda.lattice(), LatticeUse::kSure);
+  EXPECT_TRUE(agenda.advance(failed));
+  EXPECT_EQ(agenda.ground(), View::kLeastTurns);
+  EXPECT_EQ(agenda.lattice(), LatticeUse::kLenient);
+  failed.exhausted = true;
+  EXPECT_TRUE(agenda.advance(failed));
+  failed.exhausted = false;
+  EXPECT_TRUE(agenda.advance(failed));
+  EXPECT_EQ(agenda.ground(), View::kLeastTurns);
+  EXPECT_EQ(agenda.lattice(), LatticeUse::kHasty);
+  EXPECT_TRUE(agenda.advance(failed));
+  EXPECT_EQ(agenda.ground(), View::kAfarDoubted);
+  failed.hopeless = true;
+  EXPECT_TRUE(agenda.advance(failed));
+  EXPECT_EQ(agenda.ground(), View::kSeenFreeSpots);
+  EXPECT_FALSE(agenda.advance(failed));
+  EXPECT_FALSE(agenda.begun());
+}
+
 TEST(FullPlanner, OverFreeGroundThePlanIsStraight) {
   const FullPlan plan = Ground(free_ground).plan();
   ASSERT_TRUE(plan.plan.found);
@@ -339,7 +397,7 @@ TEST(FullPlanner, AGapForTheLeastMarginIsDearNotClosed) {
     const Terrain terrain(ground.memory, &ground.map, Terrain::Reach::kGround);
     FullRequest request = ground.request(terrain);
     request.squeeze_margin_m = squeeze_m;
-    return FullPlanner(planner_config().full).plan(request);
+    return plan_of(FullPlanner(planner_config().full), request);
   };
   EXPECT_NEAR(y_at(plan(9.0, 0.06).plan.poses, 4.0), 0.0, 0.05);
   EXPECT_GT(y_at(plan(3.0, 0.06).plan.poses, 4.0), 0.8);
@@ -359,7 +417,7 @@ TEST(FullPlanner, OutOfADeadEndItBacksToWhereAWayLeadsOn) {
   const Terrain terrain(ground.memory, &ground.map, Terrain::Reach::kGround);
   FullRequest request = ground.request(terrain);
   request.may_back = false;
-  EXPECT_FALSE(FullPlanner(planner_config().full).plan(request).plan.found);
+  EXPECT_FALSE(plan_of(FullPlanner(planner_config().full), request).plan.found);
   const CurvePlan plan = ground.plan().plan;
   ASSERT_TRUE(plan.found);
   EXPECT_TRUE(plan.backs_first);
@@ -402,12 +460,12 @@ TEST(FullPlanner, WhereTheMapIsClosedAWayLeadsOutOfIt) {
   ground.global = Route({{{-3.0, -7.0}}, {{10.0, -7.0}}});
   const Terrain terrain(ground.memory, &ground.map, Terrain::Reach::kGround);
   FullRequest request = ground.request(terrain);
-  const FullPlan plan = FullPlanner(planner_config().full).plan(request);
+  const FullPlan plan = plan_of(FullPlanner(planner_config().full), request);
   ASSERT_TRUE(plan.plan.found);
   EXPECT_LT(plan.plan.poses.back().y_m, -13.0);
   EXPECT_LT(plan.plan.poses.back().x_m, 5.0);
   request.from_m = 6.0;  // the goal is in sight
-  EXPECT_FALSE(FullPlanner(planner_config().full).plan(request).plan.found);
+  EXPECT_FALSE(plan_of(FullPlanner(planner_config().full), request).plan.found);
 }
 
 // Where there is room: a stone that is passable would come under a wheel, beside the rover's centre line.
@@ -474,16 +532,16 @@ TEST(FullPlanner, ThePlanBeingDrivenIsHeldUnlessAnotherOneIsClearlyCheaper) {
   const Terrain terrain(ground.memory, &ground.map, Terrain::Reach::kGround);
   FullRequest request = ground.request(terrain);
   const FullPlanner planner(planner_config().full);
-  EXPECT_LT(y_at(planner.plan(request).plan.poses, 5.0), 0.0);
+  EXPECT_LT(y_at(plan_of(planner, request).plan.poses, 5.0), 0.0);
   request.held = held_to_the(1.0);
-  const FullPlan held = planner.plan(request);
+  const FullPlan held = plan_of(planner, request);
   ASSERT_TRUE(held.plan.found);
   EXPECT_TRUE(held.held);
   EXPECT_NEAR(distance(position(held.plan.poses.front()), position(request.held->poses.back())), 0.0, 1e-9);
   EXPECT_GT(y_at(held.plan.poses, 5.0), 0.0);
   request.held->halts = 1;  // with a point turn in it
   request.held->turn_left_rad = kPi / 2;
-  EXPECT_FALSE(planner.plan(request).held);
+  EXPECT_FALSE(plan_of(planner, request).held);
 }
 
 TEST(FullPlanner, ABlockedPlanIsNotHeld) {
@@ -491,7 +549,7 @@ TEST(FullPlanner, ABlockedPlanIsNotHeld) {
   const Terrain terrain(ground.memory, &ground.map, Terrain::Reach::kGround);
   FullRequest request = ground.request(terrain);
   request.held = held_to_the(1.0);
-  const FullPlan plan = FullPlanner(planner_config().full).plan(request);
+  const FullPlan plan = plan_of(FullPlanner(planner_config().full), request);
   ASSERT_TRUE(plan.plan.found);
   EXPECT_FALSE(plan.held);
 }
@@ -583,6 +641,45 @@ TEST_F(FullLevel, DoubtfulSpotsAreApproachedWhereNothingElseLeadsOn) {
   EXPECT_EQ(rig.paths.back().kind, PathKind::kContinuous);
   EXPECT_LT(rig.go(8.0).status.state, PlannerState::kNoPath);
   EXPECT_GT(rig.odom.x_m, 6.0);
+}
+
+// One search a frame: the plan comes when all before it have found nothing, and only then there is none.
+class FullLevelSlow : public FullLevel {
+ protected:
+  FullLevelSlow() {
+    PathPlannerConfig config = planner_config();
+    config.full.frame_work = 1;
+    config.patience_frames = 2;
+    rig = PlannerRig(config);
+    rig.send_path({{0.0, 0.0}, {30.0, 0.0}});
+    rig.step();
+    rig.planner.set_level(true);
+  }
+  int frames_until(const std::function<bool(const PlannerOutput&)>& done) {
+    for (int frames = 1; frames < 50; ++frames)
+      if (done(rig.look())) return frames;
+    return 50;
+  }
+};
+
+TEST_F(FullLevelSlow, ASearchGoesOnWithTheNextFrameAndNoNewMap) {
+  send_map([](Point2 p) {
+    const double y = std::abs(p.y_m - std::round(p.y_m));
+    return std::abs(p.x_m - 4.0) < 0.1 && y < 0.12 ? TraversabilityGrid::kImpassable : kFree;
+  });
+  const int frames =
+      frames_until([](const PlannerOutput& out) { return out.path && out.path->kind == PathKind::kContinuous; });
+  EXPECT_EQ(frames, 3);  // nothing by what is known, nor with tighter turns
+}
+
+TEST_F(FullLevelSlow, ThereIsNoWayOnceAllSearchesHaveFoundNone) {
+  send_map(free_ground);
+  rig.step();
+  rig.go(1.0);
+  send_map(wall(0.0, 0.0));
+  rig.forward_mps = 0.1;
+  const int frames = frames_until([](const PlannerOutput& out) { return out.status.blocked_in_m == 0.0; });
+  EXPECT_EQ(frames, 4);
 }
 
 // In a channel in which it cannot turn, and of which the map does not show the mouth.
@@ -732,7 +829,7 @@ TEST(FullPlanner, ARoverFarBesideTheGoalDrivesToIt) {
   const Terrain terrain(far.memory, &far.map, Terrain::Reach::kGround);
   FullRequest request = far.request(terrain);
   request.from_m = 3.0;
-  const FullPlan plan = FullPlanner(config.full).plan(request);
+  const FullPlan plan = plan_of(FullPlanner(config.full), request);
   ASSERT_TRUE(plan.plan.found);
   EXPECT_GT(plan.plan.poses.back().y_m, 11.0) << "out of the map towards the goal";
 }
