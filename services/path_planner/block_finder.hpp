@@ -15,6 +15,7 @@ struct BlockQuery {
   double margin_m = 0.0;
   bool turning = false;             // the rover turns on the spot to the route's heading first
   double turn_threshold_rad = 0.7;  // bends of the route above it are a point turn
+  Pose2 start;                      // a hazard nearer than the margin there may be left, but not come closer to
 };
 
 // Arc lengths along the route, infinity: not as far as the map reaches.

@@ -22,6 +22,7 @@ constexpr double kForgetM = 15.0;  // between the rover and a dead end
 constexpr double kLeastRetreatM = 0.2;
 constexpr double kRetreatEndM = 0.1;
 constexpr int kMostRetreatsWanted = 2;
+constexpr double kRetreatMarginM = 0.03;  // less than a way back over the own track has had
 constexpr double kSamePlaceM = 1e-6;
 constexpr int kFieldWork = 40;        // the travel field of a search costs as much time as that many expansions
 constexpr size_t kPosesPerPoint = 2;  // repairs are verified every 5 cm and published every 10 cm
@@ -270,13 +271,18 @@ bool PathPlanner::retreat(PlannerOutput& out) {
   for (const Point2& p : back) points.push_back({p, kNaN, global_odom_.level_at(global_progress_m_)});
   active_.corridor_half_width_m = config_.retreat_corridor_m;
   adopt(Route(std::move(points)), PathKind::kRetreat, out);
+  active_.retreat_from = rover();
   block_ = Block();
   return true;
 }
 
-// At its end, or where the rover is not let on along it.
+// At its end, or where the rover is not let on along it: on a slope it may slide towards a rock beside its track.
+// Behind it nothing looks, so what was seen once or never does not count.
 void PathPlanner::look_from_retreat(PlannerOutput& out) {
-  if (!standing() || !(at_retreat_end() || strayed())) return;
+  judge();
+  block_.possible_m = block_.unseen_m = kInfinity;
+  const bool blocked = hazard_ahead_m() < config_.stop_hazard_m;
+  if (!standing() || !(at_retreat_end() || strayed() || blocked)) return;
   if (repair(true, out) || failures_ < config_.patience_frames) return;
   retreat(out);
 }
@@ -330,9 +336,10 @@ void PathPlanner::judge() {
     heading_on.yaw_rad = wrap_angle(heading_on.yaw_rad + kPi);  // the rectangle looks the same from behind
   else
     track_turn();
+  const double margin_m = active_.retreat_from ? kRetreatMarginM : active_.margin_m + sigma_margin_m();
   const Terrain ground = terrain();
-  block_ = find_block({ground, active_.route, config_.footprint, active_.progress_m, heading_on,
-                       active_.margin_m + sigma_margin_m(), turning_, config_.turn_threshold_rad});
+  block_ = find_block({ground, active_.route, config_.footprint, active_.progress_m, heading_on, margin_m, turning_,
+                       config_.turn_threshold_rad, active_.retreat_from.value_or(heading_on)});
 }
 
 bool PathPlanner::repair(bool because_of_hazard, PlannerOutput& out) {
@@ -441,6 +448,7 @@ void PathPlanner::adopt(Route route, PathKind kind, PlannerOutput& out) {
   active_.route = std::move(route);
   active_.kind = kind;
   active_.id = next_path_id_++;
+  active_.retreat_from.reset();
   replan_wanted_ = false;
   retreat_wanted_ = false;
   no_way_on_ = false;

@@ -137,6 +137,7 @@ class PathPlanner {
     double margin_m = 0.0;
     double corridor_half_width_m = 0.0;
     double progress_m = 0.0;
+    std::optional<Pose2> retreat_from;  // of a way back over the own track
   };
   // What the rover drives of its own accord before a repair bends away.
   struct LeadIn {

@@ -308,6 +308,7 @@ TEST(PathPlanner, ARetreatThatLeadsToAndFroEndsWhereItEnds) {
   rig.send_path(kAhead);
   rig.camera.far_m = 0.0;
   for (rig.odom.x_m = 0.0; rig.odom.x_m < 2.0; rig.odom.x_m += 0.05) rig.step();
+  rig.odom.yaw_rad = kPi;
   for (; rig.odom.x_m > 1.2; rig.odom.x_m -= 0.05) rig.step();
   rig.look(20);
   const LocalPath retreat = rig.paths.back();
@@ -315,7 +316,7 @@ TEST(PathPlanner, ARetreatThatLeadsToAndFroEndsWhereItEnds) {
   ASSERT_GT(retreat.points.back().p.x_m, 1.2 + 0.1);
   rig.forward_mps = -0.1;
   for (const RoutePoint& point : retreat.points) {
-    rig.odom = {point.p.x_m, point.p.y_m, 0.0};
+    rig.odom = {point.p.x_m, point.p.y_m, kPi};
     rig.look();
     ASSERT_EQ(rig.paths.back().id, retreat.id);
   }
@@ -339,6 +340,27 @@ TEST(PathPlanner, AGoalUnderARockIsReachedBesideIt) {
   EXPECT_EQ(out.status.text, "the goal is not free: the path ends beside it");
   EXPECT_LT(distance(position(rig.odom), on_goal.p), 1.3);
   EXPECT_GT(clearance_m(testing_support::planner_config().footprint, rig.odom, rig.rocks), 0.0);
+}
+
+// On a slope: a rock beside the track, towards which the rover slides as it backs.
+TEST(PathPlanner, ARetreatThatSlidesTowardsARockIsStopped) {
+  PlannerRig rig;
+  rig.send_path(kAhead);
+  rig.rocks = {{{2.0, 0.85}, 0.2, 0.3}};
+  rig.look(3);
+  rig.go(3.0);
+  rig.planner.want_retreat(true);
+  rig.look();
+  ASSERT_EQ(rig.paths.back().kind, PathKind::kRetreat);
+  const std::int64_t retreat = rig.paths.back().id;
+  rig.forward_mps = -0.1;
+  rig.odom.x_m -= 0.2;
+  EXPECT_TRUE(std::isinf(rig.look().status.blocked_in_m));
+  rig.odom.y_m += 0.16;
+  EXPECT_LT(rig.look().status.blocked_in_m, 0.2);
+  rig.forward_mps = 0.0;
+  rig.look(testing_support::planner_config().patience_frames + 1);
+  EXPECT_NE(rig.paths.back().id, retreat);
 }
 
 // FDIR has stopped the rover on the retreat: it must not wait there for ever.
