@@ -6,9 +6,6 @@ namespace {
 constexpr double kSeenAboutM = 0.04;  // the rover follows a path within centimetres
 constexpr double kSlackM = 0.03;
 constexpr double kAmpleM = 2.0;
-// That are spread in the time in which ...
-constexpr int kStatesPerField = 300'000;  // ... the fields are prepared
-constexpr int kStatesPerPose = 1000;      // ... the search expands a pose
 
 }  // namespace
 
@@ -24,68 +21,72 @@ double FullPlanner::held_cost(const CurveProblem& problem, const HeldWay& held) 
 
 GoalField FullPlanner::goal_field(const FullRequest& request) const {
   return {config_.goal,
-          {request.terrain, request.global, request.from_m, position(request.rover), request.footprint.half_width_m,
+          {*request.terrain, request.global, request.from_m, position(request.rover), request.footprint.half_width_m,
            request.squeeze_margin_m, request.goal_reach_m, request.dead_ends}};
 }
 
-FullPlan FullPlanner::plan(const FullRequest& request, LatticeUse lattice) const {
-  FullPlan out;
-  out.work = kStatesPerField;
+// The lattice lets through what almost fits; where that leads the search astray, one that does not is asked, and last
+// the first one in haste.
+FullPlan FullPlanner::plan(const FullRequest& request) const {
   const GoalField field = goal_field(request);
-  out.hopeless = !field.reachable();
-  if (out.hopeless) return out;
-  const double slack_m = lattice == LatticeUse::kSure ? -kSlackM : kSlackM;
-  CurveSearchConfig config = config_.search;
-  if (lattice == LatticeUse::kHasty) config.greed = config.hasty_greed;
+  FullPlan out;
+  if (!field.reachable()) return out;
+  const CurveSearchConfig& search = config_.search;
+  out = plan_on(request, field, kSlackM, search);
+  if (out.plan.found || out.hopeless) return out;
+  FullPlan sure = plan_on(request, field, -kSlackM, search);
+  if (sure.plan.found || out.plan.expansions < search.max_expansions) return sure;
+  CurveSearchConfig hasty = search;
+  hasty.greed = search.hasty_greed;
+  return plan_on(request, field, kSlackM, hasty);
+}
+
+FullPlan FullPlanner::plan_on(const FullRequest& request, const GoalField& field, double slack_m,
+                              const CurveSearchConfig& search) const {
+  FullPlan out;
   const HeadingField headings(
-      config, {request.terrain, field, request.footprint, request.rover, request.roomy_margin_m, request.turn_margin_m,
+      search, {*request.terrain, field, request.footprint, request.rover, request.roomy_margin_m, request.turn_margin_m,
                request.tight_margin_m, request.squeeze_margin_m, slack_m, request.may_back});
-  out.work += headings.settled();
   // With less room there is no more of a way.
   out.hopeless = !request.held && std::isinf(headings.to_go(request.start)) &&
                  std::isinf(headings.to_go_turning(request.stopped)) &&
                  std::isinf(headings.to_go_backing(request.stopped));
   if (out.hopeless) return out;
   const auto check = [&](double margin_m) {
-    return FootprintCheck(request.terrain, request.footprint, margin_m, kSeenAboutM, request.rover);
+    return FootprintCheck(*request.terrain, request.footprint, margin_m, kSeenAboutM, request.rover);
   };
   const FootprintCheck roomy = check(request.roomy_margin_m);
   const FootprintCheck tight = check(request.tight_margin_m);
   const FootprintCheck squeeze = check(request.squeeze_margin_m);
   const FootprintCheck turn = check(request.turn_margin_m);
-  search(request, config,
-         {field, headings, roomy, tight, squeeze, turn, request.view, request.start, request.start_curvature_per_m, 0.0,
-          request.stopped, kInfinity, request.may_back},
-         out);
-  out.work += kStatesPerPose * out.plan.expansions;
-  out.exhausted = !out.plan.found && out.plan.expansions >= config.max_expansions;
-  if (!out.plan.found) return out;
-  out.clearance_m = kAmpleM;
-  for (const Pose2& pose : out.plan.poses) out.clearance_m = squeeze.clearance_m(pose, out.clearance_m);
-  if (out.held)
-    for (const Pose2& pose : request.held->poses) out.clearance_m = squeeze.clearance_m(pose, out.clearance_m);
-  out.end_station_m = field.station_m(position(out.plan.poses.back()));
-  return out;
-}
-
-// From the held way's end, and from the rover where that is clearly cheaper.
-void FullPlanner::search(const FullRequest& request, const CurveSearchConfig& config, CurveProblem problem,
-                         FullPlan& out) const {
+  CurveProblem problem{field,
+                       headings,
+                       roomy,
+                       tight,
+                       squeeze,
+                       turn,
+                       request.view,
+                       request.start,
+                       request.start_curvature_per_m,
+                       0.0,
+                       request.stopped,
+                       kInfinity,
+                       request.may_back};
   double most = kInfinity;
   if (request.held) {
     const double cost = held_cost(problem, *request.held);
     CurveProblem rest = problem;
     rest.start = rest.stopped = request.held->poses.back();
     rest.start_curvature_per_m = request.held->end_curvature_per_m;
-    if (std::isfinite(cost)) out.plan = search_curves(config, rest);
+    if (std::isfinite(cost)) out.plan = search_curves(search, rest);
     out.held = out.plan.found;
     if (out.held) most = (cost + out.plan.cost - config_.switch_gain_m) / (1.0 + config_.switch_share);
   }
-  if (request.turning) most -= config.turn_cost_m;
+  if (request.turning) most -= config_.search.turn_cost_m;
   for (const double sure_m : {config_.sure_way_m, config_.least_sure_way_m}) {
     problem.sure_m = sure_m;
     problem.most_cost = most;
-    CurvePlan fresh = search_curves(config, problem);
+    CurvePlan fresh = search_curves(search, problem);
     out.plan.expansions += fresh.expansions;
     const bool unseen = fresh.unseen_in_the_way;
     if (fresh.found) {
@@ -97,6 +98,13 @@ void FullPlanner::search(const FullRequest& request, const CurveSearchConfig& co
     out.plan.unseen_in_the_way = unseen;
     if (!unseen) break;
   }
+  if (!out.plan.found) return out;
+  out.clearance_m = kAmpleM;
+  for (const Pose2& pose : out.plan.poses) out.clearance_m = squeeze.clearance_m(pose, out.clearance_m);
+  if (out.held)
+    for (const Pose2& pose : request.held->poses) out.clearance_m = squeeze.clearance_m(pose, out.clearance_m);
+  out.end_station_m = field.station_m(position(out.plan.poses.back()));
+  return out;
 }
 
 }  // namespace rover::planning

@@ -3,7 +3,6 @@
 // cheaper.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 
 #include "path_planner/curve_search.hpp"
@@ -26,26 +25,26 @@ struct FullPlannerConfig {
   double least_corridor_m = 0.30;  // of a plan between hazards: on a slope a point turn slides by 0.2 m
   double doubt_from_m = 2.0;       // where that leaves no way: small spots of the map never nearer do not count ...
   int doubt_cells = 8;             // ... up to so many cells, unless the LocCam confirms them
+  double latency_s = 0.2;          // of a plan, from the map to its release, message time
   double turn_extra_m = 0.04;      // of the margin, for point turns: the rover does not halt exactly
   int most_retreats = 12;          // one after the other, without new ground gained
-  // Of a frame, in states of the lattice: after that it begins no further search.
-  int frame_work = 1'000'000;
-  int map_cells = 280;       // of the ground that is remembered, each way; their size is the hazard memory's
-  double near_look_m = 3.0;  // a map from that near always tells the newest of a cell, one from afar may not
-  double stale_way_m = 1.5;  // driven since the newest map, with which it is too old ...
-  double stale_s = 5.0;      // ... if that took as long
+  int map_cells = 280;             // of the ground that is remembered, each way; their size is the hazard memory's
+  double near_look_m = 3.0;        // a map from that near always tells the newest of a cell, one from afar may not
+  double stale_way_m = 1.5;        // driven since the newest map, with which it is too old ...
+  double stale_s = 5.0;            // ... if that took as long
 };
 
 // The way that is being driven, from where a new one could begin.
 struct HeldWay {
   std::vector<Pose2> poses;  // every few cm, at least one
+  double end_m = 0.0;        // along the path that is being driven
   double end_curvature_per_m = 0.0;
   double turn_left_rad = 0.0;  // of the point turns in it
   int halts = 0;               // likewise, those that have not begun
 };
 
 struct FullRequest {
-  const Terrain& terrain;
+  const Terrain* terrain = nullptr;
   Footprint footprint;
   ViewArea view;
   const Route& global;  // in odom
@@ -65,16 +64,10 @@ struct FullRequest {
   const std::vector<DeadEnd>& dead_ends;
 };
 
-// The lattice lets through what almost fits; where that leads the search astray, one that does not is asked, and last
-// the first one in haste.
-enum class LatticeUse : std::uint8_t { kLenient, kSure, kHasty };
-
 struct FullPlan {
-  CurvePlan plan;          // from the held way's end, or from the start
-  bool held = false;       // goes on from the held way
-  bool hopeless = false;   // by the lattice nothing leads on from the rover
-  bool exhausted = false;  // the search ended where it had gone on for too long
-  int work = 0;            // in states of the lattice
+  CurvePlan plan;         // from the held way's end, or from the start
+  bool held = false;      // goes on from the held way
+  bool hopeless = false;  // by the lattice nothing leads on from the rover
   double clearance_m = kNaN;
   double end_station_m = kNaN;  // along the global path
 };
@@ -83,11 +76,12 @@ class FullPlanner {
  public:
   explicit FullPlanner(const FullPlannerConfig& config) : config_(config) {}
   // plan.found is false where there is no way.
-  FullPlan plan(const FullRequest& request, LatticeUse lattice) const;
+  FullPlan plan(const FullRequest& request) const;
 
  private:
   GoalField goal_field(const FullRequest& request) const;
-  void search(const FullRequest& request, const CurveSearchConfig& config, CurveProblem problem, FullPlan& out) const;
+  FullPlan plan_on(const FullRequest& request, const GoalField& field, double slack_m,
+                   const CurveSearchConfig& search) const;
   double held_cost(const CurveProblem& problem, const HeldWay& held) const;
 
   FullPlannerConfig config_;

@@ -6,6 +6,7 @@
 #include <rover/pose_t.hpp>
 
 #include "path_planner/convert.hpp"
+#include "path_planner/plan_beside.hpp"
 
 namespace rover::planning {
 namespace {
@@ -51,7 +52,9 @@ PathPlannerNode::PathPlannerNode(Node& node, const PathPlannerConfig& config)
     : node_(node),
       kept_(node),
       path_latency_(std::max<Utime>(0, to_utime(config.release_latency_s) - kTickUs)),
-      planner_(config, node.options().boot_id * kPathsPerBoot) {
+      planner_(
+          config, node.options().boot_id * kPathsPerBoot,
+          std::make_shared<PlanBeside>(to_utime(config.full.latency_s), [&node] { return node.follows_clock(); })) {
   node_.subscribe<path_t>(channel::kGlobalPath, [this](const path_t& m) { on_global_path(m); });
   node_.subscribe<pose_t>(channel::kPose, [this](const pose_t& m) { planner_.add_pose(pose_from(m)); });
   node_.subscribe<hazards_t>(channel::kHazards, [this](const hazards_t& m) { on_hazards(m); });

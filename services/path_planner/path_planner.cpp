@@ -61,13 +61,13 @@ std::string GlobalPath::fault() const {
   return "";
 }
 
-PathPlanner::PathPlanner(const PathPlannerConfig& config, std::int64_t first_path_id)
+PathPlanner::PathPlanner(const PathPlannerConfig& config, std::int64_t first_path_id, std::shared_ptr<PlanMaker> maker)
     : config_(config),
       local_repair_(config.repair),
-      full_planner_(config.full),
       memory_(config.memory),
       ground_(config.full.map_cells, config.memory.cell_m, config.full.near_look_m),
-      next_path_id_(first_path_id) {}
+      next_path_id_(first_path_id),
+      maker_(std::move(maker)) {}
 
 std::string PathPlanner::set_global_path(const GlobalPath& path) {
   if (const std::string fault = path.fault(); !fault.empty()) return fault;
@@ -132,7 +132,7 @@ void PathPlanner::forget_way() {
   active_ = Active();
   agenda_.restart();
   firm_agenda_.restart();
-  full_agenda_.restart();
+  making_.reset();
 }
 
 bool PathPlanner::add_hazards(const HazardGrid& grid) {
@@ -149,8 +149,10 @@ bool PathPlanner::ready(Utime now) const {
 
 PlannerOutput PathPlanner::step(Utime now) {
   PlannerOutput out;
+  now_ = now;
   if (ready(now)) {
     if (global_odom_.empty()) lay_global_path();
+    if (making_) take_result(out);
     if (active_.route.empty()) {
       if (failures_ == 0 || new_ground_) begin(out);
     } else {
@@ -196,7 +198,7 @@ void PathPlanner::track_progress() {
 void PathPlanner::begin(PlannerOutput& out) {
   const Point2 start = global_odom_.point_at(global_progress_m_);
   if (distance(start, position(rover())) > config_.max_start_offset_m) {
-    repair(false, out);
+    continuous() ? want_plan({}, out) : static_cast<void>(repair(false, out));
     return;
   }
   active_.margin_m = config_.margin_m;
@@ -283,6 +285,7 @@ void PathPlanner::look_from_retreat(PlannerOutput& out) {
   block_.possible_m = block_.unseen_m = kInfinity;
   const bool blocked = hazard_ahead_m() < config_.stop_hazard_m;
   if (!standing() || !(at_retreat_end() || strayed() || blocked)) return;
+  if (continuous()) return want_plan({}, out);
   if (repair(true, out) || failures_ < config_.patience_frames) return;
   retreat(out);
 }
@@ -343,19 +346,16 @@ void PathPlanner::judge() {
 }
 
 bool PathPlanner::repair(bool because_of_hazard, PlannerOutput& out) {
-  if (continuous()) return plan_on(out) == SearchEnd::kFound;
-  if (count_failure(search(Terrain(memory_), demands(), agenda_)) != SearchEnd::kFound) return false;
+  const SearchEnd end = search(Terrain(memory_), demands(), agenda_);
+  if (end != SearchEnd::kFound) {
+    // A frame whose search goes on is one of patience, but none that ends it.
+    if (end == SearchEnd::kNone || failures_ + 1 < config_.patience_frames) ++failures_;
+    return false;
+  }
   failures_ = 0;
   if (because_of_hazard) ++replans_;
   take_repair(out);
   return true;
-}
-
-// A frame whose search goes on is one of patience, but none that ends it.
-PathPlanner::SearchEnd PathPlanner::count_failure(SearchEnd end) {
-  const bool ends = end == SearchEnd::kNone;
-  if (ends || (end == SearchEnd::kGoesOn && failures_ + 1 < config_.patience_frames)) ++failures_;
-  return end;
 }
 
 // They fall from one to the next. The last is for a goal under hazards, once that is certain.
@@ -454,7 +454,6 @@ void PathPlanner::adopt(Route route, PathKind kind, PlannerOutput& out) {
   no_way_on_ = false;
   agenda_.restart();
   firm_agenda_.restart();
-  full_agenda_.restart();
   active_.progress_m = active_.route.closest(position(rover()), 0.0, kSearchAheadM);
   active_.repair_end_m = 0.0;
   for (size_t i = 0; i < active_.route.points().size(); ++i)

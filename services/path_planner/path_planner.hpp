@@ -10,9 +10,9 @@
 
 #include "path_planner/block_finder.hpp"
 #include "path_planner/driven_track.hpp"
-#include "path_planner/full_agenda.hpp"
 #include "path_planner/hazard_memory.hpp"
 #include "path_planner/local_repair.hpp"
+#include "path_planner/plan_job.hpp"
 #include "path_planner/pose_history.hpp"
 #include "path_planner/repair_agenda.hpp"
 #include "path_planner/route.hpp"
@@ -99,7 +99,8 @@ struct PlannerOutput {
 class PathPlanner {
  public:
   // Path ids count up from first_path_id; a restarted service must not use those of its predecessor.
-  PathPlanner(const PathPlannerConfig& config, std::int64_t first_path_id);
+  PathPlanner(const PathPlannerConfig& config, std::int64_t first_path_id,
+              std::shared_ptr<PlanMaker> maker = std::make_shared<PlanAtOnce>());
 
   // Empty: accepted; otherwise why not, and the old path stays.
   std::string set_global_path(const GlobalPath& path);
@@ -144,6 +145,19 @@ class PathPlanner {
     double way_m = 0.0;
     double curvature_per_m = 0.0;
   };
+  // A place that the active plan led through and where it was found closed, and what that leaves of it.
+  struct ClosedGap {
+    Point2 p;
+    double way_left_m = 0.0;
+  };
+  // A plan that is being made, and what it was made for: anything else since then and it is of no use.
+  struct Making {
+    std::shared_ptr<const PlanJob> job;
+    std::int64_t path_id = -1;
+    bool turning = false;
+    std::optional<ClosedGap> closed;
+    bool again = false;  // something new has come meanwhile
+  };
   enum class SearchEnd { kFound, kNone, kGoesOn };
   struct StartArea {
     Point2 center_map;
@@ -185,16 +199,19 @@ class PathPlanner {
   Terrain terrain() const { return {memory_, continuous() ? &ground_ : nullptr, Terrain::Reach::kMemory}; }
   void go_on(PlannerOutput& out);
   double way_left_m() const;
+  std::optional<ClosedGap> closed_gap() const;
   void note_closed_gap(Point2 p, double detour_m);
   bool halted_before_block();
   bool at_turn() const;
   std::vector<Point2> way_back(const std::vector<Point2>& track) const;
   std::vector<Point2> straight_back(double way_m) const;
   std::vector<Point2> clear_part(const std::vector<Point2>& back) const;
-  SearchEnd plan_on(PlannerOutput& out);
-  SearchEnd count_failure(SearchEnd end);
-  Terrain::Doubt doubt() const;
-  FullRequest full_request(const Terrain& terrain) const;
+  void want_plan(const std::optional<ClosedGap>& closed, PlannerOutput& out);
+  void take_result(PlannerOutput& out);
+  bool still_of_use(const Making& making) const;
+  void go_without(const FullPlan& none, PlannerOutput& out);
+  void retreat_if_stuck(PlannerOutput& out);
+  void fill(FullRequest& request) const;
   std::optional<HeldWay> held_way() const;
   double held_end_m() const;
   void take_plan(const FullPlan& plan, const FullRequest& request, PlannerOutput& out);
@@ -222,7 +239,6 @@ class PathPlanner {
 
   PathPlannerConfig config_;
   LocalRepair local_repair_;
-  FullPlanner full_planner_;
   HazardMemory memory_;
   GroundMap ground_;  // of the Full level
   PoseHistory history_;
@@ -259,7 +275,9 @@ class PathPlanner {
   bool no_way_on_ = false;          // from the rover by all that is known: driving on would lead deeper into a dead end
   RepairAgenda agenda_;
   RepairAgenda firm_agenda_;
-  FullAgenda full_agenda_;
+  std::shared_ptr<PlanMaker> maker_;
+  std::optional<Making> making_;
+  Utime now_ = kNever;
   RepairResult last_repair_;
   LeadIn last_lead_;            // of the last repair
   double last_margin_m_ = 0.0;  // likewise

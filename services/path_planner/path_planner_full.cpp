@@ -50,7 +50,7 @@ void PathPlanner::set_level(bool full) {
     // The rest of the plan is driven as a repair is: the global path follows.
     if (active_.kind == PathKind::kContinuous) active_.kind = PathKind::kRepair;
   }
-  if (full_level_ != full) full_agenda_.restart();
+  if (full_level_ != full) making_.reset();
   full_level_ = full;
 }
 
@@ -80,24 +80,19 @@ void PathPlanner::go_on(PlannerOutput& out) {
   const bool blocked =
       no_way_on_ || halted || block_.confirmed_m - active_.progress_m < (turning ? kTurnBlockM : kNearBlockM);
   const bool ends_early = legs_.empty() && !leads_to_goal();  // the legs that followed were given up
-  const bool goes_on = full_agenda_.begun() && !turning;
-  const bool wanted = (new_map_ && !turning) || goes_on || active_.kind != PathKind::kContinuous || ends_early;
+  const bool wanted = (new_map_ && !turning) || active_.kind != PathKind::kContinuous || ends_early;
   if (!blocked && !wanted) {
     failures_ = 0;
-    full_agenda_.restart();
     return;
   }
   // One map may show a gap closed that the next one opens; the plan's first metres are free meanwhile.
-  const double before_m = way_left_m();
+  want_plan(closed_gap(), out);
+}
+
+std::optional<PathPlanner::ClosedGap> PathPlanner::closed_gap() const {
   const bool closed = active_.kind == PathKind::kContinuous && block_.confirmed_m - active_.progress_m < kNearBlockM;
-  const Point2 closed_at = active_.route.point_at(std::min(block_.confirmed_m, active_.route.length_m()));
-  const bool planned = plan_on(out) == SearchEnd::kFound;
-  // A gap that was found closed from near may look open again from afar: without this the rover goes to and fro.
-  if (planned && closed) note_closed_gap(closed_at, way_left_m() - before_m);
-  if (!planned && active_.kind == PathKind::kContinuous) no_way_on_ = failures_ >= config_.patience_frames;
-  if (!stuck() || !standing()) return;
-  ground_.doubt_closed();
-  retreat(out);
+  if (!closed) return std::nullopt;
+  return ClosedGap{active_.route.point_at(std::min(block_.confirmed_m, active_.route.length_m())), way_left_m()};
 }
 
 // All legs together.
@@ -136,63 +131,77 @@ bool PathPlanner::at_turn() const {
          });
 }
 
-// A frame begins no further search once its share of work is done; the next one goes on.
-PathPlanner::SearchEnd PathPlanner::plan_on(PlannerOutput& out) {
-  for (int work = 0; work < config_.full.frame_work;) {
-    const Terrain ground(memory_, &ground_, Terrain::Reach::kGround, doubt());
-    const FullRequest request = full_request(ground);
-    const FullPlan plan = full_planner_.plan(request, full_agenda_.lattice());
-    work += plan.work;
-    last_repair_.status = plan.plan.found               ? RepairStatus::kFound
-                          : plan.plan.unseen_in_the_way ? RepairStatus::kUnseen
-                                                        : RepairStatus::kNoWay;
-    if (plan.plan.found) {
-      full_agenda_.restart();
-      take_plan(plan, request, out);
-      frames_before_unseen_ = 0;
-      // A plan on which the rover is not let go is none.
-      failures_ = hazard_ahead_m() < config_.stop_hazard_m ? failures_ + 1 : 0;
-      return SearchEnd::kFound;
-    }
-    if (!full_agenda_.advance(plan)) return count_failure(SearchEnd::kNone);
+void PathPlanner::want_plan(const std::optional<ClosedGap>& closed, PlannerOutput& out) {
+  if (making_) {
+    making_->again = true;
+    return;
   }
-  return count_failure(SearchEnd::kGoesOn);
+  auto job = std::make_shared<PlanJob>(config_.full, memory_, ground_, global_odom_, dead_ends_);
+  fill(job->request());
+  if (!maker_->start(job, now_)) return;
+  making_ = Making{std::move(job), active_.id, turning_, closed};
+  take_result(out);
 }
 
-Terrain::Doubt PathPlanner::doubt() const {
-  using Ground = FullAgenda::Ground;
-  if (full_agenda_.ground() == Ground::kAfarDoubted)
-    return {position(rover()), config_.full.doubt_from_m, config_.full.doubt_cells};
-  if (full_agenda_.ground() == Ground::kSeenFreeSpots) return {position(rover()), 0.0, config_.full.doubt_cells, true};
-  return {};
+void PathPlanner::take_result(PlannerOutput& out) {
+  const std::optional<FullPlan> plan = maker_->result(now_);
+  if (!plan) return;
+  const Making made = *std::exchange(making_, std::nullopt);
+  new_map_ = new_map_ || made.again;
+  if (!still_of_use(made)) {
+    new_map_ = true;
+    return;
+  }
+  if (!plan->plan.found) return go_without(*plan, out);
+  last_repair_.status = RepairStatus::kFound;
+  take_plan(*plan, made.job->request(), out);
+  frames_before_unseen_ = 0;
+  // A plan on which the rover is not let go is none.
+  failures_ = hazard_ahead_m() < config_.stop_hazard_m ? failures_ + 1 : 0;
+  // A gap that was found closed from near may look open again from afar: without this the rover goes to and fro.
+  if (made.closed) note_closed_gap(made.closed->p, way_left_m() - made.closed->way_left_m);
+  retreat_if_stuck(out);
 }
 
-FullRequest PathPlanner::full_request(const Terrain& terrain) const {
+bool PathPlanner::still_of_use(const Making& making) const {
+  return continuous() && making.path_id == active_.id && making.turning == turning_;
+}
+
+void PathPlanner::go_without(const FullPlan& none, PlannerOutput& out) {
+  last_repair_.status = none.plan.unseen_in_the_way ? RepairStatus::kUnseen : RepairStatus::kNoWay;
+  ++failures_;
+  if (active_.kind == PathKind::kContinuous) no_way_on_ = failures_ >= config_.patience_frames;
+  if (active_.kind == PathKind::kRetreat && failures_ >= config_.patience_frames)
+    retreat(out);
+  else if (active_.kind != PathKind::kRetreat)
+    retreat_if_stuck(out);
+}
+
+void PathPlanner::retreat_if_stuck(PlannerOutput& out) {
+  if (active_.route.empty() || !stuck() || !standing()) return;
+  ground_.doubt_closed();
+  retreat(out);
+}
+
+void PathPlanner::fill(FullRequest& request) const {
   const LeadIn lead = lead_ins().front();
+  const double way_m = lead.way_m + std::max(0.0, history_.newest().forward_mps) * config_.full.latency_s;
   const double curvature = standing() ? 0.0 : lead.curvature_per_m;
   const double sigma = sigma_margin_m();
-  const FullAgenda::Ground view = full_agenda_.ground();
-  const double turn_margin_m = config_.tight_margin_m + config_.full.turn_extra_m;
   const bool any_goal = failures_ + 1 >= config_.patience_frames && goal_near();
-  return {.terrain = terrain,
-          .footprint = config_.footprint,
-          .view = config_.repair.view,
-          .global = global_odom_,
-          .from_m = global_progress_m_,
-          .rover = rover(),
-          .start = advanced(rover(), lead.way_m, curvature),
-          .start_curvature_per_m = curvature,
-          .stopped = advanced(rover(), lead.way_m, curvature),
-          .turning = turning_,
-          .may_back = view != FullAgenda::Ground::kAfarDoubted,  // astern nothing looks there
-          .held = held_way(),
-          .roomy_margin_m = config_.margin_m + config_.plan_extra_m + sigma,
-          .tight_margin_m = config_.tight_margin_m + sigma,
-          .squeeze_margin_m = config_.full.squeeze_margin_m + sigma,
-          .turn_margin_m =
-              (view == FullAgenda::Ground::kLeastTurns ? config_.full.squeeze_margin_m : turn_margin_m) + sigma,
-          .goal_reach_m = any_goal ? config_.blocked_goal_reach_m : goal_reach_m(),
-          .dead_ends = dead_ends_};
+  request.footprint = config_.footprint;
+  request.view = config_.repair.view;
+  request.from_m = global_progress_m_;
+  request.rover = rover();
+  request.start = request.stopped = advanced(rover(), way_m, curvature);
+  request.start_curvature_per_m = curvature;
+  request.turning = turning_;
+  request.held = held_way();
+  request.roomy_margin_m = config_.margin_m + config_.plan_extra_m + sigma;
+  request.tight_margin_m = config_.tight_margin_m + sigma;
+  request.squeeze_margin_m = config_.full.squeeze_margin_m + sigma;
+  request.turn_margin_m = config_.tight_margin_m + config_.full.turn_extra_m + sigma;
+  request.goal_reach_m = any_goal ? config_.blocked_goal_reach_m : goal_reach_m();
 }
 
 // Arc length to which the active plan is kept where it is held: past a halt that lies there.
@@ -209,6 +218,7 @@ std::optional<HeldWay> PathPlanner::held_way() const {
   const double blocked = std::min({block_.confirmed_m, block_.possible_m, block_.unseen_m});
   if (end - active_.progress_m < kLeastHeldM || blocked < end || strayed()) return std::nullopt;
   HeldWay held;
+  held.end_m = end;
   for (double s = active_.progress_m; s < end; s += kPoseStepM) held.poses.push_back(active_.route.pose_at(s));
   held.poses.push_back(active_.route.pose_at(end));
   for (const size_t i : active_.route.kinks()) {
@@ -311,14 +321,14 @@ std::vector<RoutePoint> PathPlanner::way_to_plan(const FullPlan& plan, const Ful
   const std::int8_t level = global_odom_.level_at(global_progress_m_);
   if (plan.held) {
     const double begin = std::max(0.0, active_.progress_m - kBehindM);
-    const double end = held_end_m();
+    const double end = request.held->end_m;
     const size_t first = active_.route.vertex_after(begin);
     for (size_t i = first > 0 ? first - 1 : 0; active_.route.s_at(i) < end - kPoseStepM; ++i)
       points.push_back({active_.route.points()[i].p, kNaN, level});
   } else {
-    const double lead = distance(position(rover()), position(request.start));
+    const double lead = distance(position(request.rover), position(request.start));
     for (double way = 0.0; way < lead - kPoseStepM; way += 2.0 * kPoseStepM)
-      points.push_back({position(advanced(rover(), way, request.start_curvature_per_m)), kNaN, level});
+      points.push_back({position(advanced(request.rover, way, request.start_curvature_per_m)), kNaN, level});
   }
   return points;
 }

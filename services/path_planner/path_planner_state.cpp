@@ -83,7 +83,7 @@ std::vector<std::uint8_t> PathPlanner::save() const {
 bool PathPlanner::restore(const std::vector<std::uint8_t>& bytes) {
   StateReader in(bytes);
   if (in.get<std::uint32_t>() != kVersion) return false;
-  PathPlanner fresh(config_, next_path_id_);
+  PathPlanner fresh(config_, next_path_id_, maker_);
   fresh.next_path_id_ = std::max(next_path_id_, in.get<std::int64_t>());
   fresh.replans_ = in.get<std::int32_t>();
   if (in.get<std::uint8_t>() != 0) {

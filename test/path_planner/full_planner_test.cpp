@@ -51,15 +51,6 @@ std::uint8_t channel(Point2 p) {
   return sides || end ? TraversabilityGrid::kImpassable : kFree;
 }
 
-// In all the ways in which the lattice is asked.
-FullPlan plan_of(const FullPlanner& planner, const FullRequest& request) {
-  FullAgenda agenda;
-  FullPlan plan = planner.plan(request, agenda.lattice());
-  while (!plan.plan.found && agenda.advance(plan) && agenda.ground() == FullAgenda::Ground::kKnown)
-    plan = planner.plan(request, agenda.lattice());
-  return plan;
-}
-
 struct Ground {
   HazardMemory memory{planner_config().memory};
   GroundMap map{280, 0.1, 3.0};
@@ -73,7 +64,7 @@ struct Ground {
   }
 
   FullRequest request(const Terrain& terrain, const Pose2& rover = {}) const {
-    FullRequest out{.terrain = terrain,
+    FullRequest out{.terrain = &terrain,
                     .footprint = planner_config().footprint,
                     .view = planner_config().repair.view,
                     .global = global,
@@ -93,7 +84,7 @@ struct Ground {
 
   FullPlan plan(const Pose2& rover = {}) const {
     const Terrain terrain(memory, &map, Terrain::Reach::kGround);
-    return plan_of(FullPlanner(planner_config().full), request(terrain, rover));
+    return FullPlanner(planner_config().full).plan(request(terrain, rover));
   }
 };
 
@@ -318,32 +309,6 @@ TEST(HeadingField, IsLaidWhereWaysFromTheRoverLead) {
   EXPECT_LT(8 * settled, terrain.cells() * terrain.cells() * 3 * HeadingField::kHeadings);
 }
 
-TEST(FullAgenda, AsksTheLatticeInOtherWaysAndThenTakesLessForKnown) {
-  using View = FullAgenda::Ground;
-  FullAgenda agenda;
-  FullPlan failed;
-  EXPECT_FALSE(agenda.begun());
-  EXPECT_TRUE(agenda.advance(failed));
-  EXPECT_TRUE(agenda.begun());
-  EXPECT_EQ(agenda.lattice(), LatticeUse::kSure);
-  EXPECT_TRUE(agenda.advance(failed));
-  EXPECT_EQ(agenda.ground(), View::kLeastTurns);
-  EXPECT_EQ(agenda.lattice(), LatticeUse::kLenient);
-  failed.exhausted = true;
-  EXPECT_TRUE(agenda.advance(failed));
-  failed.exhausted = false;
-  EXPECT_TRUE(agenda.advance(failed));
-  EXPECT_EQ(agenda.ground(), View::kLeastTurns);
-  EXPECT_EQ(agenda.lattice(), LatticeUse::kHasty);
-  EXPECT_TRUE(agenda.advance(failed));
-  EXPECT_EQ(agenda.ground(), View::kAfarDoubted);
-  failed.hopeless = true;
-  EXPECT_TRUE(agenda.advance(failed));
-  EXPECT_EQ(agenda.ground(), View::kSeenFreeSpots);
-  EXPECT_FALSE(agenda.advance(failed));
-  EXPECT_FALSE(agenda.begun());
-}
-
 TEST(FullPlanner, OverFreeGroundThePlanIsStraight) {
   const FullPlan plan = Ground(free_ground).plan();
   ASSERT_TRUE(plan.plan.found);
@@ -397,7 +362,7 @@ TEST(FullPlanner, AGapForTheLeastMarginIsDearNotClosed) {
     const Terrain terrain(ground.memory, &ground.map, Terrain::Reach::kGround);
     FullRequest request = ground.request(terrain);
     request.squeeze_margin_m = squeeze_m;
-    return plan_of(FullPlanner(planner_config().full), request);
+    return FullPlanner(planner_config().full).plan(request);
   };
   EXPECT_NEAR(y_at(plan(9.0, 0.06).plan.poses, 4.0), 0.0, 0.05);
   EXPECT_GT(y_at(plan(3.0, 0.06).plan.poses, 4.0), 0.8);
@@ -417,7 +382,7 @@ TEST(FullPlanner, OutOfADeadEndItBacksToWhereAWayLeadsOn) {
   const Terrain terrain(ground.memory, &ground.map, Terrain::Reach::kGround);
   FullRequest request = ground.request(terrain);
   request.may_back = false;
-  EXPECT_FALSE(plan_of(FullPlanner(planner_config().full), request).plan.found);
+  EXPECT_FALSE(FullPlanner(planner_config().full).plan(request).plan.found);
   const CurvePlan plan = ground.plan().plan;
   ASSERT_TRUE(plan.found);
   EXPECT_TRUE(plan.backs_first);
@@ -460,12 +425,12 @@ TEST(FullPlanner, WhereTheMapIsClosedAWayLeadsOutOfIt) {
   ground.global = Route({{{-3.0, -7.0}}, {{10.0, -7.0}}});
   const Terrain terrain(ground.memory, &ground.map, Terrain::Reach::kGround);
   FullRequest request = ground.request(terrain);
-  const FullPlan plan = plan_of(FullPlanner(planner_config().full), request);
+  const FullPlan plan = FullPlanner(planner_config().full).plan(request);
   ASSERT_TRUE(plan.plan.found);
   EXPECT_LT(plan.plan.poses.back().y_m, -13.0);
   EXPECT_LT(plan.plan.poses.back().x_m, 5.0);
   request.from_m = 6.0;  // the goal is in sight
-  EXPECT_FALSE(plan_of(FullPlanner(planner_config().full), request).plan.found);
+  EXPECT_FALSE(FullPlanner(planner_config().full).plan(request).plan.found);
 }
 
 // Where there is room: a stone that is passable would come under a wheel, beside the rover's centre line.
@@ -532,16 +497,16 @@ TEST(FullPlanner, ThePlanBeingDrivenIsHeldUnlessAnotherOneIsClearlyCheaper) {
   const Terrain terrain(ground.memory, &ground.map, Terrain::Reach::kGround);
   FullRequest request = ground.request(terrain);
   const FullPlanner planner(planner_config().full);
-  EXPECT_LT(y_at(plan_of(planner, request).plan.poses, 5.0), 0.0);
+  EXPECT_LT(y_at(planner.plan(request).plan.poses, 5.0), 0.0);
   request.held = held_to_the(1.0);
-  const FullPlan held = plan_of(planner, request);
+  const FullPlan held = planner.plan(request);
   ASSERT_TRUE(held.plan.found);
   EXPECT_TRUE(held.held);
   EXPECT_NEAR(distance(position(held.plan.poses.front()), position(request.held->poses.back())), 0.0, 1e-9);
   EXPECT_GT(y_at(held.plan.poses, 5.0), 0.0);
   request.held->halts = 1;  // with a point turn in it
   request.held->turn_left_rad = kPi / 2;
-  EXPECT_FALSE(plan_of(planner, request).held);
+  EXPECT_FALSE(planner.plan(request).held);
 }
 
 TEST(FullPlanner, ABlockedPlanIsNotHeld) {
@@ -549,7 +514,7 @@ TEST(FullPlanner, ABlockedPlanIsNotHeld) {
   const Terrain terrain(ground.memory, &ground.map, Terrain::Reach::kGround);
   FullRequest request = ground.request(terrain);
   request.held = held_to_the(1.0);
-  const FullPlan plan = plan_of(FullPlanner(planner_config().full), request);
+  const FullPlan plan = FullPlanner(planner_config().full).plan(request);
   ASSERT_TRUE(plan.plan.found);
   EXPECT_FALSE(plan.held);
 }
@@ -643,43 +608,79 @@ TEST_F(FullLevel, DoubtfulSpotsAreApproachedWhereNothingElseLeadsOn) {
   EXPECT_GT(rig.odom.x_m, 6.0);
 }
 
-// One search a frame: the plan comes when all before it have found nothing, and only then there is none.
-class FullLevelSlow : public FullLevel {
+// Makes a plan when it is told to.
+class PlanOnDemand final : public PlanMaker {
+ public:
+  bool start(std::shared_ptr<const PlanJob> job, Utime /*now*/) override {
+    job_ = std::move(job);
+    ++started;
+    return true;
+  }
+  std::optional<FullPlan> result(Utime /*now*/) override {
+    if (!job_ || !let_go) return std::nullopt;
+    return std::exchange(job_, nullptr)->run();
+  }
+  int started = 0;
+  bool let_go = false;
+
+ private:
+  std::shared_ptr<const PlanJob> job_;
+};
+
+class FullLevelBeside : public testing::Test {
  protected:
-  FullLevelSlow() {
-    PathPlannerConfig config = planner_config();
-    config.full.frame_work = 1;
-    config.patience_frames = 2;
-    rig = PlannerRig(config);
+  FullLevelBeside() {
+    rig.planner = PathPlanner(planner_config(), 1, maker);
+    rig.planner.set_start_area({0.0, 0.0}, 2.0, 0);
     rig.send_path({{0.0, 0.0}, {30.0, 0.0}});
     rig.step();
     rig.planner.set_level(true);
   }
-  int frames_until(const std::function<bool(const PlannerOutput&)>& done) {
-    for (int frames = 1; frames < 50; ++frames)
-      if (done(rig.look())) return frames;
-    return 50;
+  void send_map(const std::function<std::uint8_t(Point2)>& cost) {
+    rig.planner.add_traversability(map_about(position(rig.odom), cost, rig.now));
   }
+  std::shared_ptr<PlanOnDemand> maker = std::make_shared<PlanOnDemand>();
+  PlannerRig rig;
 };
 
-TEST_F(FullLevelSlow, ASearchGoesOnWithTheNextFrameAndNoNewMap) {
-  send_map([](Point2 p) {
-    const double y = std::abs(p.y_m - std::round(p.y_m));
-    return std::abs(p.x_m - 4.0) < 0.1 && y < 0.12 ? TraversabilityGrid::kImpassable : kFree;
-  });
-  const int frames =
-      frames_until([](const PlannerOutput& out) { return out.path && out.path->kind == PathKind::kContinuous; });
-  EXPECT_EQ(frames, 3);  // nothing by what is known, nor with tighter turns
+TEST_F(FullLevelBeside, FramesAreJudgedWhileAPlanIsBeingMadeAndItIsTakenWhenItIsThere) {
+  send_map(wall(1.2, 1.8));
+  rig.step();
+  const size_t paths = rig.paths.size();
+  rig.rocks = {{{1.6, 0.0}, 0.2, 0.3}};
+  EXPECT_LT(rig.look(3).status.blocked_in_m, 1.0);
+  EXPECT_EQ(maker->started, 1);
+  EXPECT_EQ(rig.paths.size(), paths);
+  rig.rocks.clear();
+  maker->let_go = true;
+  EXPECT_TRUE(rig.step().path);
+  EXPECT_EQ(rig.paths.back().kind, PathKind::kContinuous);
 }
 
-TEST_F(FullLevelSlow, ThereIsNoWayOnceAllSearchesHaveFoundNone) {
+TEST_F(FullLevelBeside, WhatComesMeanwhileIsPlannedForNext) {
   send_map(free_ground);
   rig.step();
-  rig.go(1.0);
-  send_map(wall(0.0, 0.0));
-  rig.forward_mps = 0.1;
-  const int frames = frames_until([](const PlannerOutput& out) { return out.status.blocked_in_m == 0.0; });
-  EXPECT_EQ(frames, 4);
+  send_map(wall(1.2, 1.8));
+  rig.step();
+  EXPECT_EQ(maker->started, 1);
+  maker->let_go = true;
+  rig.step();
+  EXPECT_EQ(maker->started, 2);
+  rig.step();
+  const Route route(rig.paths.back().points);
+  EXPECT_NEAR(route.point_at(route.closest({4.0, 1.2})).y_m, 1.2, 0.4);
+}
+
+TEST_F(FullLevelBeside, APlanForAnotherPathIsOfNoUse) {
+  send_map(wall(1.2, 1.8));
+  rig.step();
+  rig.send_path({{0.0, 0.0}, {0.0, 30.0}}, 8);
+  maker->let_go = true;
+  rig.step();
+  EXPECT_TRUE(std::none_of(rig.paths.begin(), rig.paths.end(),
+                           [](const LocalPath& p) { return p.kind == PathKind::kContinuous; }));
+  rig.step();
+  EXPECT_NEAR(Route(rig.paths.back().points).point_at(5.0).x_m, 0.0, 1.5);
 }
 
 // In a channel in which it cannot turn, and of which the map does not show the mouth.
@@ -829,7 +830,7 @@ TEST(FullPlanner, ARoverFarBesideTheGoalDrivesToIt) {
   const Terrain terrain(far.memory, &far.map, Terrain::Reach::kGround);
   FullRequest request = far.request(terrain);
   request.from_m = 3.0;
-  const FullPlan plan = plan_of(FullPlanner(config.full), request);
+  const FullPlan plan = FullPlanner(config.full).plan(request);
   ASSERT_TRUE(plan.plan.found);
   EXPECT_GT(plan.plan.poses.back().y_m, 11.0) << "out of the map towards the goal";
 }

@@ -298,6 +298,8 @@ TEST_F(PlannerNodeTest, AtTheFullLevelAMapMakesAContinuousPath) {
   tick(3);
   world_.send(channel::kTraversability, free_map(), "traversability");
   tick(5);
+  EXPECT_EQ(paths_->back().kind, +path_t::GLOBAL);  // the plan is being made
+  tick(15);
   EXPECT_EQ(paths_->back().kind, +path_t::CONTINUOUS);
   EXPECT_EQ(malformed(channel::kTraversability), 0);
   EXPECT_EQ(statuses_->back().replans, 0);

@@ -94,6 +94,8 @@ class Node {
   void log(const char* level, const std::string& event);
 
   Utime now() const { return now_; }
+  // Whether the newest ticks were paced by the clock, not by lockstep.
+  bool follows_clock() const { return last_tick_wall_.has_value(); }
   const NodeOptions& options() const { return options_; }
 
   // Announces the node, then handles messages while `running`.
