@@ -91,6 +91,7 @@ void PathPlanner::add_pose(const PoseSample& sample) {
   if (!sample.usable) {
     history_.clear();  // what comes after need not fit to what was before
     driven_.clear();
+    making_.reset();
     return;
   }
   history_.add(sample);
@@ -153,6 +154,7 @@ PlannerOutput PathPlanner::step(Utime now) {
   if (ready(now)) {
     if (global_odom_.empty()) lay_global_path();
     if (making_) take_result(out);
+    new_map_ = std::exchange(plan_waits_, false) || new_map_;
     if (active_.route.empty()) {
       if (failures_ == 0 || new_ground_) begin(out);
     } else {
@@ -173,6 +175,9 @@ void PathPlanner::lay_global_path() {
   T_map_odom_laid_ = planar(history_.newest().T_map_odom);
   global_odom_ = transformed(global_map_, inverse(T_map_odom_laid_));
   global_progress_m_ = global_odom_.closest(position(rover()));
+  if (!making_) return;
+  making_.reset();  // it leads back to where the path lay
+  plan_waits_ = true;
 }
 
 void PathPlanner::send_again(PlannerOutput& out) {

@@ -277,6 +277,7 @@ class PathPlanner {
   RepairAgenda firm_agenda_;
   std::shared_ptr<PlanMaker> maker_;
   std::optional<Making> making_;
+  bool plan_waits_ = false;  // one is wanted, but another one was being made
   Utime now_ = kNever;
   RepairResult last_repair_;
   LeadIn last_lead_;            // of the last repair

@@ -138,7 +138,8 @@ void PathPlanner::want_plan(const std::optional<ClosedGap>& closed, PlannerOutpu
   }
   auto job = std::make_shared<PlanJob>(config_.full, memory_, ground_, global_odom_, dead_ends_);
   fill(job->request());
-  if (!maker_->start(job, now_)) return;
+  plan_waits_ = !maker_->start(job, now_);
+  if (plan_waits_) return;
   making_ = Making{std::move(job), active_.id, turning_, closed};
   take_result(out);
 }
@@ -147,11 +148,8 @@ void PathPlanner::take_result(PlannerOutput& out) {
   const std::optional<FullPlan> plan = maker_->result(now_);
   if (!plan) return;
   const Making made = *std::exchange(making_, std::nullopt);
-  new_map_ = new_map_ || made.again;
-  if (!still_of_use(made)) {
-    new_map_ = true;
-    return;
-  }
+  plan_waits_ = made.again || !still_of_use(made);
+  if (!still_of_use(made)) return;
   if (!plan->plan.found) return go_without(*plan, out);
   last_repair_.status = RepairStatus::kFound;
   take_plan(*plan, made.job->request(), out);
