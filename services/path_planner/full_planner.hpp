@@ -25,7 +25,7 @@ struct FullPlannerConfig {
   double least_corridor_m = 0.30;  // of a plan between hazards: on a slope a point turn slides by 0.2 m
   double doubt_from_m = 2.0;       // where that leaves no way: small spots of the map never nearer do not count ...
   int doubt_cells = 8;             // ... up to so many cells, unless the LocCam confirms them
-  double latency_s = 0.2;          // of a plan, from the map to its release, message time
+  double latency_s = 0.1;          // of a plan, from the map to its release, message time
   double turn_extra_m = 0.04;      // of the margin, for point turns: the rover does not halt exactly
   int most_retreats = 12;          // one after the other, without new ground gained
   int map_cells = 280;             // of the ground that is remembered, each way; their size is the hazard memory's
