@@ -203,7 +203,8 @@ void PathPlanner::track_progress() {
 void PathPlanner::begin(PlannerOutput& out) {
   const Point2 start = global_odom_.point_at(global_progress_m_);
   if (distance(start, position(rover())) > config_.max_start_offset_m) {
-    continuous() ? want_plan({}, out) : static_cast<void>(repair(false, out));
+    if (continuous()) return want_plan({}, out);
+    repair(false, out);
     return;
   }
   active_.margin_m = config_.margin_m;

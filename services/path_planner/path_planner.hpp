@@ -266,9 +266,10 @@ class PathPlanner {
   int frames_before_unseen_ = 0;
   int frames_before_possible_ = 0;
   bool full_level_ = false;
+  bool new_map_ = false;            // since the last judgement
+  bool plan_waits_ = false;         // one is wanted, but another one was being made
   Utime map_utime_ = kNever;        // of the newest map; kNever: none
   double map_travelled_m_ = 0.0;    // by the rover when it came
-  bool new_map_ = false;            // since the last judgement
   std::deque<CurveLeg> legs_;       // of the plan that is being driven, those to come
   double legs_end_m_ = 0.0;         // along the global path: where the last one ends ...
   double legs_goal_reach_m_ = 0.0;  // ... and within this of the goal it is there
@@ -277,7 +278,6 @@ class PathPlanner {
   RepairAgenda firm_agenda_;
   std::shared_ptr<PlanMaker> maker_;
   std::optional<Making> making_;
-  bool plan_waits_ = false;  // one is wanted, but another one was being made
   Utime now_ = kNever;
   RepairResult last_repair_;
   LeadIn last_lead_;            // of the last repair
