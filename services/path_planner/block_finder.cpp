@@ -10,7 +10,7 @@ constexpr double kMergeM = 1.0;  // the controller takes a cross-track error out
 class BlockFinder {
  public:
   explicit BlockFinder(const BlockQuery& query)
-      : query_(query), check_(query.terrain, query.footprint, query.margin_m, 0.0, query.start) {}
+      : query_(query), check_(query.terrain, query.footprint, query.margin_m, 0.0, query.start.value_or(query.rover)) {}
 
   Block run() {
     const Pose2 here = query_.route.pose_at(query_.from_m);

@@ -1,6 +1,8 @@
 // How far the rover can follow its path: where the swept rectangle first meets a hazard or ground that was never seen.
 #pragma once
 
+#include <optional>
+
 #include "path_planner/route.hpp"
 #include "path_planner/terrain.hpp"
 
@@ -15,7 +17,8 @@ struct BlockQuery {
   double margin_m = 0.0;
   bool turning = false;             // the rover turns on the spot to the route's heading first
   double turn_threshold_rad = 0.7;  // bends of the route above it are a point turn
-  Pose2 start;                      // a hazard nearer than the margin there may be left, but not come closer to
+  // A hazard nearer than the margin here may be left, but not come closer to; none: where the rover is.
+  std::optional<Pose2> start{};
 };
 
 // Arc lengths along the route, infinity: not as far as the map reaches.

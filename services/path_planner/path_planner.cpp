@@ -348,7 +348,7 @@ void PathPlanner::judge() {
   const double margin_m = active_.retreat_from ? kRetreatMarginM : active_.margin_m + sigma_margin_m();
   const Terrain ground = terrain();
   block_ = find_block({ground, active_.route, config_.footprint, active_.progress_m, heading_on, margin_m, turning_,
-                       config_.turn_threshold_rad, active_.retreat_from.value_or(heading_on)});
+                       config_.turn_threshold_rad, active_.retreat_from});
 }
 
 bool PathPlanner::repair(bool because_of_hazard, PlannerOutput& out) {

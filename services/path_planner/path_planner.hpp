@@ -278,7 +278,7 @@ class PathPlanner {
   RepairAgenda firm_agenda_;
   std::shared_ptr<PlanMaker> maker_;
   std::optional<Making> making_;
-  Utime now_ = kNever;
+  Utime now_ = kNever;  // of the step
   RepairResult last_repair_;
   LeadIn last_lead_;            // of the last repair
   double last_margin_m_ = 0.0;  // likewise

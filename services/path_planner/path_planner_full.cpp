@@ -148,8 +148,9 @@ void PathPlanner::take_result(PlannerOutput& out) {
   const std::optional<FullPlan> plan = maker_->result(now_);
   if (!plan) return;
   const Making made = *std::exchange(making_, std::nullopt);
-  plan_waits_ = made.again || !still_of_use(made);
-  if (!still_of_use(made)) return;
+  const bool of_use = still_of_use(made);
+  plan_waits_ = made.again || !of_use;
+  if (!of_use) return;
   if (!plan->plan.found) return go_without(*plan, out);
   last_repair_.status = RepairStatus::kFound;
   take_plan(*plan, made.job->request(), out);
@@ -169,10 +170,8 @@ void PathPlanner::go_without(const FullPlan& none, PlannerOutput& out) {
   last_repair_.status = none.plan.unseen_in_the_way ? RepairStatus::kUnseen : RepairStatus::kNoWay;
   ++failures_;
   if (active_.kind == PathKind::kContinuous) no_way_on_ = failures_ >= config_.patience_frames;
-  if (active_.kind == PathKind::kRetreat && failures_ >= config_.patience_frames)
-    retreat(out);
-  else if (active_.kind != PathKind::kRetreat)
-    retreat_if_stuck(out);
+  if (active_.kind != PathKind::kRetreat) return retreat_if_stuck(out);
+  if (failures_ >= config_.patience_frames) retreat(out);
 }
 
 void PathPlanner::retreat_if_stuck(PlannerOutput& out) {

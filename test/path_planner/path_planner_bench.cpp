@@ -87,7 +87,7 @@ void block_test(benchmark::State& state) {
   const PathPlannerConfig config = planner_config();
   for (auto _ : state) {
     const Terrain terrain(s.memory);
-    benchmark::DoNotOptimize(find_block({terrain, s.route, config.footprint, 4.0, {}, config.margin_m}));
+    benchmark::DoNotOptimize(find_block({terrain, s.route, config.footprint, 4.0, {0.0, 0.0, 0.0}, config.margin_m}));
   }
 }
 BENCHMARK(block_test)->Unit(benchmark::kMillisecond);
