@@ -22,7 +22,7 @@ double FullPlanner::held_cost(const CurveProblem& problem, const HeldWay& held) 
 GoalField FullPlanner::goal_field(const FullRequest& request) const {
   return {config_.goal,
           {*request.terrain, request.global, request.from_m, position(request.rover), request.footprint.half_width_m,
-           request.squeeze_margin_m, request.goal_reach_m, request.dead_ends}};
+           request.squeeze_margin_m, request.goal_reach_m, request.dead_ends, request.back_m}};
 }
 
 // The lattice lets through what almost fits; where that leads the search astray, one that does not is asked, and last

@@ -48,7 +48,8 @@ struct FullRequest {
   Footprint footprint;
   ViewArea view;
   const Route& global;  // in odom
-  double from_m = 0.0;  // along it: where the rover is
+  double from_m = 0.0;  // along it: where the rover is ...
+  double back_m = 0.0;  // ... and from how much further it has come back
   Pose2 rover;
   Pose2 start;  // of a new way
   double start_curvature_per_m = 0.0;

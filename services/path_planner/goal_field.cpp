@@ -22,8 +22,9 @@ GoalField::GoalField(const GoalFieldConfig& config, const GoalQuery& query)
     : config_(config), query_(query), terrain_(query.terrain) {
   const double length = query_.global.length_m();
   goal_ = query_.global.point_at(length);
-  goal_in_sight_ = query_.from_m + config_.horizon_m >= length && terrain_.inside_m(goal_) >= kMapRimM;
-  line_m_ = std::min(query_.from_m + config_.horizon_m, length);
+  const double horizon_m = query_.from_m + query_.back_m + config_.horizon_m;
+  goal_in_sight_ = horizon_m >= length && terrain_.inside_m(goal_) >= kMapRimM;
+  line_m_ = std::min(horizon_m, length);
   line_in_sight_ = !goal_in_sight_ && line_m_ < length;
   lay_stations();
   lay_costs();

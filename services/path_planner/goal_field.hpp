@@ -35,6 +35,7 @@ struct GoalQuery {
   double margin_m = 0.0;      // the least
   double goal_reach_m = 0.0;
   const std::vector<DeadEnd>& dead_ends;
+  double back_m = 0.0;  // by which the rover has come back along the global path: the goal line stays where it was
 };
 
 class GoalField {

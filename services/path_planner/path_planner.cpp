@@ -79,7 +79,7 @@ std::string PathPlanner::set_global_path(const GlobalPath& path) {
   failures_ = 0;
   retreats_ = wanted_retreats_ = 0;
   dead_ends_.clear();
-  furthest_m_ = 0.0;
+  furthest_m_ = horizon_from_m_ = 0.0;
   return "";
 }
 
@@ -194,6 +194,7 @@ void PathPlanner::track_progress() {
   active_.progress_m = active_.route.closest(p, active_.progress_m - kSearchBackM, active_.progress_m + kSearchAheadM);
   global_progress_m_ =
       global_odom_.closest(p, global_progress_m_ - 3.0 * kSearchAheadM, global_progress_m_ + 3.0 * kSearchAheadM);
+  horizon_from_m_ = std::max(horizon_from_m_, global_progress_m_);
   if (global_progress_m_ < furthest_m_ + kGainM) return;
   furthest_m_ = global_progress_m_;
   retreats_ = wanted_retreats_ = 0;

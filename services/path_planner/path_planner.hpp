@@ -262,6 +262,7 @@ class PathPlanner {
   int retreats_ = 0;                // since the rover last got further along the global path than ever
   int wanted_retreats_ = 0;         // likewise, those of them that FDIR wanted
   double furthest_m_ = 0.0;         // along the global path
+  double horizon_from_m_ = 0.0;     // likewise, to the last cm
   bool turning_ = false;            // on the spot, to the active path's heading
   int frames_before_unseen_ = 0;
   int frames_before_possible_ = 0;

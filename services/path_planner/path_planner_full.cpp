@@ -13,6 +13,7 @@ constexpr double kLeastHeldM = 0.3;
 constexpr double kLeadM = 0.25;  // of the way being driven, with which a new plan begins
 constexpr double kHalfCellM = 0.05;
 constexpr double kControlM = 0.05;
+constexpr double kMostBackM = 4.0;    // further back the goal line leaves the ground that is remembered
 constexpr double kLeastHaltM = 0.1;   // shorter ways to a halt are none
 constexpr double kManoeuvreM = 1.5;   // to a change of direction: nearer, the plan is not changed any more
 constexpr double kBackRadiusM = 2.0;  // of the way from a plan's end back to the global path
@@ -189,6 +190,9 @@ void PathPlanner::fill(FullRequest& request) const {
   request.footprint = config_.footprint;
   request.view = config_.repair.view;
   request.from_m = global_progress_m_;
+  // Were the goal line to come and go with the rover, so would what blocks the ways to it: it went to and fro between
+  // two of them until its time was over.
+  request.back_m = std::clamp(horizon_from_m_ - global_progress_m_, 0.0, kMostBackM);
   request.rover = rover();
   request.start = request.stopped = advanced(rover(), way_m, curvature);
   request.start_curvature_per_m = curvature;

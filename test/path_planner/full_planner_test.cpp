@@ -612,7 +612,7 @@ TEST_F(FullLevel, DoubtfulSpotsAreApproachedWhereNothingElseLeadsOn) {
 class PlanOnDemand final : public PlanMaker {
  public:
   bool start(std::shared_ptr<const PlanJob> job, Utime /*now*/) override {
-    job_ = std::move(job);
+    newest = job_ = std::move(job);
     ++started;
     return true;
   }
@@ -620,6 +620,7 @@ class PlanOnDemand final : public PlanMaker {
     if (!job_ || !let_go) return std::nullopt;
     return std::exchange(job_, nullptr)->run();
   }
+  std::shared_ptr<const PlanJob> newest;
   int started = 0;
   bool let_go = false;
 
@@ -669,6 +670,32 @@ TEST_F(FullLevelBeside, WhatComesMeanwhileIsPlannedForNext) {
   rig.step();
   const Route route(rig.paths.back().points);
   EXPECT_NEAR(route.point_at(route.closest({4.0, 1.2})).y_m, 1.2, 0.4);
+}
+
+// Else what blocks the ways to it comes and goes with the rover.
+TEST_F(FullLevelBeside, TheGoalLineStaysWhereItWasWhenTheRoverComesBack) {
+  maker->let_go = true;
+  send_map(free_ground);
+  rig.step();
+  rig.go(3.0);
+  send_map(free_ground);
+  rig.step();
+  const std::shared_ptr<const PlanJob> job_ahead = maker->newest;
+  const FullRequest& ahead = job_ahead->request();
+  EXPECT_EQ(ahead.back_m, 0.0);
+  rig.odom.x_m -= 0.7;
+  send_map(free_ground);
+  rig.step();
+  const FullRequest& back = maker->newest->request();
+  EXPECT_NEAR(back.back_m, 0.7, 0.01);
+  EXPECT_NEAR(back.from_m + back.back_m, ahead.from_m, 1e-6);
+  const Terrain terrain(rig.planner.memory());
+  const auto past_line_m = [&](const FullRequest& request) {
+    return GoalField(planner_config().full.goal, {terrain, request.global, request.from_m, position(request.rover),
+                                                  0.47, 0.11, 0.3, request.dead_ends, request.back_m})
+        .past_line_m({5.0, 0.0});
+  };
+  EXPECT_NEAR(past_line_m(back), past_line_m(ahead), 0.3);
 }
 
 TEST_F(FullLevelBeside, APlanForAnotherPathIsOfNoUse) {
