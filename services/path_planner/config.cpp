@@ -126,6 +126,7 @@ void read_full(const Config& c, const PathPlannerConfig& shared, FullPlannerConf
   c.read("squeeze_m", out.squeeze_margin_m, {0.0, 1.0});
   c.read("least_corridor_m", out.least_corridor_m, {0.05, 1.0});
   c.read("latency_s", out.latency_s, {0.0, 2.0});
+  c.read("patience_s", out.patience_s, {0.0, 0.2});
   c.read("block_slack_m", out.block_slack_m, {0.0, 1.0});
   c.read("stale_s", out.stale_s, {0.5, 60.0});
   c.read("stale_way_m", out.stale_way_m, {0.2, 10.0});

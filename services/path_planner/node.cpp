@@ -52,9 +52,10 @@ PathPlannerNode::PathPlannerNode(Node& node, const PathPlannerConfig& config)
     : node_(node),
       kept_(node),
       path_latency_(std::max<Utime>(0, to_utime(config.release_latency_s) - kTickUs)),
-      planner_(
-          config, node.options().boot_id * kPathsPerBoot,
-          std::make_shared<PlanBeside>(to_utime(config.full.latency_s), [&node] { return node.follows_clock(); })) {
+      planner_(config, node.options().boot_id * kPathsPerBoot,
+               std::make_shared<PlanBeside>(
+                   PlanBeside::Times{to_utime(config.full.latency_s), to_utime(config.full.patience_s)},
+                   [&node] { return node.follows_clock(); })) {
   node_.subscribe<path_t>(channel::kGlobalPath, [this](const path_t& m) { on_global_path(m); });
   node_.subscribe<pose_t>(channel::kPose, [this](const pose_t& m) { planner_.add_pose(pose_from(m)); });
   node_.subscribe<hazards_t>(channel::kHazards, [this](const hazards_t& m) { on_hazards(m); });

@@ -153,7 +153,7 @@ PlannerOutput PathPlanner::step(Utime now) {
   now_ = now;
   if (ready(now)) {
     if (global_odom_.empty()) lay_global_path();
-    if (making_) take_result(out);
+    if (making_) take_result(false, out);
     new_map_ = std::exchange(plan_waits_, false) || new_map_;
     if (active_.route.empty()) {
       if (failures_ == 0 || new_ground_) begin(out);
@@ -249,9 +249,12 @@ void PathPlanner::react(PlannerOutput& out) {
   if (stuck() && standing()) retreat(out);
 }
 
+bool PathPlanner::in_the_way() const {
+  return hazard_ahead_m() < config_.stop_hazard_m || unseen_ahead_m() < config_.stop_unseen_m;
+}
+
 bool PathPlanner::stuck() const {
-  const bool in_the_way = hazard_ahead_m() < config_.stop_hazard_m || unseen_ahead_m() < config_.stop_unseen_m;
-  return (in_the_way || strayed()) && failures_ >= config_.patience_frames;
+  return (in_the_way() || strayed()) && failures_ >= config_.patience_frames;
 }
 
 // Outside the corridor, or about to leave it, the rover is not let on (supervisor): only another path helps.

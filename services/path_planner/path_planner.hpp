@@ -156,6 +156,8 @@ class PathPlanner {
     std::int64_t path_id = -1;
     bool turning = false;
     std::optional<ClosedGap> closed;
+    bool pressing = false;
+    bool aside = false;  // for a single hit: of use only where the rover drives on past it
     bool again = false;  // something new has come meanwhile
   };
   enum class SearchEnd { kFound, kNone, kGoesOn };
@@ -176,6 +178,7 @@ class PathPlanner {
   void begin(PlannerOutput& out);
   void react(PlannerOutput& out);
   void follow_correction(PlannerOutput& out);
+  bool in_the_way() const;
   bool stuck() const;
   bool strayed() const;
   bool retreat(PlannerOutput& out);
@@ -206,12 +209,14 @@ class PathPlanner {
   std::vector<Point2> way_back(const std::vector<Point2>& track) const;
   std::vector<Point2> straight_back(double way_m) const;
   std::vector<Point2> clear_part(const std::vector<Point2>& back) const;
-  void want_plan(const std::optional<ClosedGap>& closed, PlannerOutput& out);
-  void take_result(PlannerOutput& out);
+  void want_plan(const std::optional<ClosedGap>& closed, PlannerOutput& out, bool aside = false);
+  void take_result(bool pressing, PlannerOutput& out);
   bool still_of_use(const Making& making) const;
+  bool leads_aside(const FullPlan& plan) const;
   void go_without(const FullPlan& none, PlannerOutput& out);
   void retreat_if_stuck(PlannerOutput& out);
   void fill(FullRequest& request) const;
+  LeadIn lead_to_plan() const;
   std::optional<HeldWay> held_way() const;
   double held_end_m() const;
   void take_plan(const FullPlan& plan, const FullRequest& request, PlannerOutput& out);

@@ -28,6 +28,7 @@ constexpr double kAtKinkM = 0.15;
 constexpr double kTurnBlockM = 1.5;     // likewise while the rover turns on the spot
 constexpr double kDetourM = 1.5;        // by which a closed gap makes the way longer, and so is worth remembering
 constexpr double kNearPossibleM = 1.5;  // nearer ones that stay are planned around
+constexpr double kAsideM = 0.5;         // by which a way past a single hit may be longer
 constexpr double kNearBlockM = 3.5;     // nearer blocks are planned for at once, others with the next map
 
 // Whether the rectangle is clear at the second pose, and on the turn to its heading.
@@ -84,6 +85,7 @@ void PathPlanner::go_on(PlannerOutput& out) {
   const bool wanted = (new_map_ && !turning) || active_.kind != PathKind::kContinuous || ends_early;
   if (!blocked && !wanted) {
     failures_ = 0;
+    if (!turning && in_the_way() && !standing()) want_plan({}, out, true);
     return;
   }
   // One map may show a gap closed that the next one opens; the plan's first metres are free meanwhile.
@@ -132,26 +134,30 @@ bool PathPlanner::at_turn() const {
          });
 }
 
-void PathPlanner::want_plan(const std::optional<ClosedGap>& closed, PlannerOutput& out) {
-  if (making_) {
+// A plan that was begun before a moving rover's way was blocked nearby does not know of that: another one presses.
+void PathPlanner::want_plan(const std::optional<ClosedGap>& closed, PlannerOutput& out, bool aside) {
+  const bool pressing = in_the_way() && !standing();
+  if (making_ && (making_->pressing || !pressing)) {
     making_->again = true;
     return;
   }
   auto job = std::make_shared<PlanJob>(config_.full, memory_, ground_, global_odom_, dead_ends_);
   fill(job->request());
-  plan_waits_ = !maker_->start(job, now_);
-  if (plan_waits_) return;
-  making_ = Making{std::move(job), active_.id, turning_, closed};
-  take_result(out);
+  if (!maker_->start(job, now_)) {
+    (making_ ? making_->again : plan_waits_) = true;
+    return;
+  }
+  making_ = Making{std::move(job), active_.id, turning_, closed, pressing, aside};
+  take_result(pressing, out);
 }
 
-void PathPlanner::take_result(PlannerOutput& out) {
-  const std::optional<FullPlan> plan = maker_->result(now_);
+void PathPlanner::take_result(bool pressing, PlannerOutput& out) {
+  const std::optional<FullPlan> plan = maker_->result(now_, pressing);
   if (!plan) return;
   const Making made = *std::exchange(making_, std::nullopt);
   const bool of_use = still_of_use(made);
   plan_waits_ = made.again || !of_use;
-  if (!of_use) return;
+  if (!of_use || (made.aside && !leads_aside(*plan))) return;
   if (!plan->plan.found) return go_without(*plan, out);
   last_repair_.status = RepairStatus::kFound;
   take_plan(*plan, made.job->request(), out);
@@ -165,6 +171,15 @@ void PathPlanner::take_result(PlannerOutput& out) {
 
 bool PathPlanner::still_of_use(const Making& making) const {
   return continuous() && making.path_id == active_.id && making.turning == turning_;
+}
+
+// The next frame as often as not takes a single hit back: nothing is given up for it.
+bool PathPlanner::leads_aside(const FullPlan& plan) const {
+  if (!plan.plan.found || plan.plan.halts > 0 || plan.plan.backs_first) return false;
+  double way_m = global_odom_.length_m() - plan.end_station_m;
+  for (size_t i = 1; i < plan.plan.poses.size(); ++i)
+    way_m += distance(position(plan.plan.poses[i - 1]), position(plan.plan.poses[i]));
+  return way_m < way_left_m() + kAsideM;
 }
 
 void PathPlanner::go_without(const FullPlan& none, PlannerOutput& out) {
@@ -182,9 +197,9 @@ void PathPlanner::retreat_if_stuck(PlannerOutput& out) {
 }
 
 void PathPlanner::fill(FullRequest& request) const {
-  const LeadIn lead = lead_ins().front();
-  const double way_m = lead.way_m + std::max(0.0, history_.newest().forward_mps) * config_.full.latency_s;
-  const double curvature = standing() ? 0.0 : lead.curvature_per_m;
+  const LeadIn halt = lead_ins().front();
+  const double late_m = std::max(0.0, history_.newest().forward_mps) * config_.full.latency_s;
+  const double curvature = standing() ? 0.0 : halt.curvature_per_m;
   const double sigma = sigma_margin_m();
   const bool any_goal = failures_ + 1 >= config_.patience_frames && goal_near();
   request.footprint = config_.footprint;
@@ -194,7 +209,8 @@ void PathPlanner::fill(FullRequest& request) const {
   // two of them until its time was over.
   request.back_m = std::clamp(horizon_from_m_ - global_progress_m_, 0.0, kMostBackM);
   request.rover = rover();
-  request.start = request.stopped = advanced(rover(), way_m, curvature);
+  request.start = advanced(rover(), lead_to_plan().way_m + late_m, curvature);
+  request.stopped = advanced(rover(), halt.way_m + late_m, curvature);
   request.start_curvature_per_m = curvature;
   request.turning = turning_;
   request.held = held_way();
@@ -203,6 +219,12 @@ void PathPlanner::fill(FullRequest& request) const {
   request.squeeze_margin_m = config_.full.squeeze_margin_m + sigma;
   request.turn_margin_m = config_.tight_margin_m + config_.full.turn_extra_m + sigma;
   request.goal_reach_m = any_goal ? config_.blocked_goal_reach_m : goal_reach_m();
+}
+
+// Where the block is nearer than the rover can halt, a plan bends away at once.
+PathPlanner::LeadIn PathPlanner::lead_to_plan() const {
+  const std::vector<LeadIn> leads = lead_ins();
+  return hazard_ahead_m() < leads.front().way_m ? leads.back() : leads.front();
 }
 
 // Arc length to which the active plan is kept where it is held: past a halt that lies there.
@@ -243,7 +265,7 @@ std::vector<Point2> PathPlanner::way_back(const std::vector<Point2>& track) cons
   const double straight_m = distance(straight.front(), straight.back());
   const std::vector<Point2> along = track.size() < 2 ? track : clear_part(track);
   const bool turns =
-      along.size() < 2 ||
+      along.size() < 2 || distance(along.front(), along.back()) < kLeastStraightBackM ||
       std::abs(wrap_angle(rover().yaw_rad + kPi -
                           std::atan2(along[1].y_m - along[0].y_m, along[1].x_m - along[0].x_m))) > kBackTurnRad;
   return turns && straight_m >= kLeastStraightBackM ? straight : along;
@@ -261,14 +283,18 @@ std::vector<Point2> PathPlanner::straight_back(double way_m) const {
   return out;
 }
 
-// Of the way back, what the rectangle surely passes, stern first.
+// Of the way back, what the rectangle surely passes, stern first: whether the rover turns to the track's heading at
+// once or, as the block test has it, on the way. A way back that this test stops would be taken again and again.
 std::vector<Point2> PathPlanner::clear_part(const std::vector<Point2>& back) const {
   std::vector<RoutePoint> points;
   for (const Point2& p : back) points.push_back({p});
   const Route route(std::move(points));
   const Terrain ground = terrain();
   const FootprintCheck check(ground, config_.footprint, kBackMarginM, 0.0, rover());
-  double clear_m = route.length_m();
+  const Pose2 astern{rover().x_m, rover().y_m, wrap_angle(rover().yaw_rad + kPi)};
+  const Block block = find_block(
+      {ground, route, config_.footprint, 0.0, astern, kBackMarginM, false, config_.turn_threshold_rad, rover()});
+  double clear_m = std::min(route.length_m(), block.confirmed_m - kBackReserveM);
   Pose2 before = rover();
   for (double s = 0.0; s < clear_m; s += kPoseStepM) {
     Pose2 pose = route.pose_at(s);

@@ -17,12 +17,16 @@ FullPlan PlanJob::run() const {
   FullRequest request = request_;
   request.terrain = &known;
   FullPlan plan = planner.plan(request);
+  const auto go_on_with = [&plan](FullPlan next) {
+    next.work_s += plan.work_s;
+    plan = std::move(next);
+  };
   if (!plan.plan.found) {
     request.turn_margin_m = request.squeeze_margin_m;
-    plan = planner.plan(request);
+    go_on_with(planner.plan(request));
   }
-  if (!plan.plan.found) plan = run_in_doubt({position(request.rover), config_.doubt_from_m, config_.doubt_cells});
-  if (!plan.plan.found) plan = run_in_doubt({position(request.rover), 0.0, config_.doubt_cells, true});
+  if (!plan.plan.found) go_on_with(run_in_doubt({position(request.rover), config_.doubt_from_m, config_.doubt_cells}));
+  if (!plan.plan.found) go_on_with(run_in_doubt({position(request.rover), 0.0, config_.doubt_cells, true}));
   return plan;
 }
 

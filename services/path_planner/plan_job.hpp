@@ -43,8 +43,8 @@ class PlanMaker {
   virtual ~PlanMaker() = default;
   // False while it still works at a plan that nobody waits for.
   virtual bool start(std::shared_ptr<const PlanJob> job, Utime now) = 0;
-  // Of the newest job, once, when it is there.
-  virtual std::optional<FullPlan> result(Utime now) = 0;
+  // Of the newest job, once, when it is there. Pressing: it is waited for, if that is a matter of a moment.
+  virtual std::optional<FullPlan> result(Utime now, bool pressing) = 0;
 };
 
 class PlanAtOnce final : public PlanMaker {
@@ -53,7 +53,9 @@ class PlanAtOnce final : public PlanMaker {
     plan_ = job->run();
     return true;
   }
-  std::optional<FullPlan> result(Utime /*now*/) override { return std::exchange(plan_, std::nullopt); }
+  std::optional<FullPlan> result(Utime /*now*/, bool /*pressing*/) override {
+    return std::exchange(plan_, std::nullopt);
+  }
 
  private:
   std::optional<FullPlan> plan_;

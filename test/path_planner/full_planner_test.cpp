@@ -616,13 +616,14 @@ class PlanOnDemand final : public PlanMaker {
     ++started;
     return true;
   }
-  std::optional<FullPlan> result(Utime /*now*/) override {
-    if (!job_ || !let_go) return std::nullopt;
+  std::optional<FullPlan> result(Utime /*now*/, bool pressing) override {
+    if (!job_ || !(let_go || (pressing && quick))) return std::nullopt;
     return std::exchange(job_, nullptr)->run();
   }
   std::shared_ptr<const PlanJob> newest;
   int started = 0;
   bool let_go = false;
+  bool quick = false;  // for one that presses
 
  private:
   std::shared_ptr<const PlanJob> job_;
@@ -656,6 +657,71 @@ TEST_F(FullLevelBeside, FramesAreJudgedWhileAPlanIsBeingMadeAndItIsTakenWhenItIs
   maker->let_go = true;
   EXPECT_TRUE(rig.step().path);
   EXPECT_EQ(rig.paths.back().kind, PathKind::kContinuous);
+}
+
+TEST_F(FullLevelBeside, AMovingRoverIsNotStoppedWhereAPlanIsThereInAMoment) {
+  maker->quick = true;
+  send_map(free_ground);
+  rig.step();
+  EXPECT_EQ(rig.paths.back().kind, PathKind::kGlobal);  // nothing presses
+  rig.rocks = {{{1.5, -0.7}, 0.15, 0.3}};
+  rig.forward_mps = 0.2;
+  const PlannerOutput out = rig.look(3);
+  EXPECT_EQ(rig.paths.back().kind, PathKind::kContinuous);
+  EXPECT_TRUE(std::isinf(out.status.blocked_in_m));
+}
+
+// It would be one too many each time that a frame comes before it is there.
+TEST_F(FullLevelBeside, APlanThatPressesIsNotBegunAnewWithEachFrame) {
+  send_map(free_ground);
+  rig.step();
+  rig.rocks = {{{1.5, 0.0}, 0.2, 0.3}};
+  rig.forward_mps = 0.2;
+  rig.look(4);
+  EXPECT_EQ(maker->started, 2);
+}
+
+TEST_F(FullLevelBeside, ASingleHitBesideTheWayIsDrivenPastAtOnce) {
+  maker->let_go = true;
+  send_map(free_ground);
+  rig.step();
+  const size_t paths = rig.paths.size();
+  rig.forward_mps = 0.2;
+  rig.rocks = {{{1.5, -0.55}, 0.1, 0.3}};
+  EXPECT_TRUE(std::isinf(rig.look(1).status.blocked_in_m));
+  EXPECT_EQ(rig.paths.size(), paths + 1);
+  EXPECT_TRUE(Route(rig.paths.back().points).kinks().empty());
+}
+
+TEST_F(FullLevelBeside, ASingleHitForWhichTheRoverWouldHaveToTurnIsLeftToTheNextFrames) {
+  maker->let_go = true;
+  send_map(free_ground);
+  rig.step();
+  const size_t paths = rig.paths.size();
+  rig.forward_mps = 0.2;
+  rig.rocks = {{{1.2, 0.0}, 0.2, 0.3}};
+  const PlannerOutput stopped = rig.look(1);
+  EXPECT_EQ(maker->started, 2);
+  EXPECT_LT(stopped.status.blocked_in_m, 0.5);
+  EXPECT_EQ(stopped.status.state, PlannerState::kFollowing);
+  rig.rocks.clear();
+  EXPECT_TRUE(std::isinf(rig.look(2).status.blocked_in_m));
+  EXPECT_EQ(rig.paths.size(), paths);
+}
+
+TEST_F(FullLevelBeside, WhereTheBlockIsNearerThanTheRoverCanHaltAPlanBendsAwayAtOnce) {
+  const auto start_x_m = [&](double rock_x_m) {
+    rig.rocks = {{{rock_x_m, 0.0}, 0.2, 0.3}};
+    rig.look(4);
+    return maker->newest->request().start.x_m;
+  };
+  rig.forward_mps = 0.2;
+  send_map(free_ground);
+  maker->let_go = true;
+  EXPECT_NEAR(start_x_m(2.6), 0.24, 0.01);
+  EXPECT_NEAR(maker->newest->request().stopped.x_m, 0.24, 0.01);
+  EXPECT_NEAR(start_x_m(1.2), 0.04, 0.01);
+  EXPECT_NEAR(maker->newest->request().stopped.x_m, 0.24, 0.01);
 }
 
 TEST_F(FullLevelBeside, WhatComesMeanwhileIsPlannedForNext) {
@@ -734,6 +800,37 @@ TEST_F(FullLevel, WhereThereIsNoRoomToTurnTheRoverGoesStraightBack) {
   const Point2 end = to_body(there, rig.paths.back().points.back().p);
   EXPECT_LT(end.x_m, -0.5);
   EXPECT_NEAR(end.y_m, 0.0, 0.05);
+}
+
+// On a slope the rover drives with its nose aside of its track. Back on it, the stern would meet the rock before the
+// rover has come onto the track's heading: that way was begun and stopped again and again.
+TEST(FullPlanner, AWayBackOnWhichTheRoverWouldBeStoppedIsNone) {
+  const auto ways_back = [](double rock_aside_m) {
+    PlannerRig rig;
+    rig.send_path({{0.0, 0.0}, {30.0, 0.0}});
+    rig.step();
+    rig.planner.set_level(true);
+    rig.planner.add_traversability(map_about(position(rig.odom), free_ground, rig.now));
+    rig.step();
+    for (; rig.odom.x_m < 3.0; rig.odom.x_m += 0.05) rig.step();  // without a frame that tells what is beside the track
+    rig.planner.set_level(false);                                 // forgets the free map
+    rig.planner.set_level(true);
+    const Point2 there = position(rig.odom);
+    rig.odom.yaw_rad = -0.2;
+    for (const double y : {-0.75, -0.25, 0.25}) rig.rocks.push_back({{there.x_m + 1.2, there.y_m + y}, 0.2, 0.3});
+    const auto channel_with_a_rock = [&](Point2 p) {
+      const double x = p.x_m - there.x_m, y = p.y_m - there.y_m;
+      const bool wall = std::abs(x - 1.2) < 0.1 || (std::abs(std::abs(y) - 0.9) < 0.1 && x > -12.0);
+      const bool rock = std::hypot(x + 0.95, y - rock_aside_m) < 0.08;
+      return wall || rock ? TraversabilityGrid::kImpassable : kFree;
+    };
+    rig.planner.add_traversability(map_about(there, channel_with_a_rock, rig.now));
+    rig.look(planner_config().patience_frames + 2);
+    return std::count_if(rig.paths.begin(), rig.paths.end(),
+                         [](const LocalPath& p) { return p.kind == PathKind::kRetreat; });
+  };
+  EXPECT_EQ(ways_back(0.6), 0);
+  EXPECT_EQ(ways_back(0.8), 1);
 }
 
 // A PATH astern, then one ahead; each begins where the rover is, and none but the last leads to the goal.
