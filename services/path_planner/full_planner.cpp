@@ -82,14 +82,15 @@ FullPlan FullPlanner::plan_on(const FullRequest& request, const GoalField& field
                        kInfinity,
                        request.may_back};
   double most = kInfinity;
+  double held_cost_m = 0.0;
   if (request.held) {
-    const double cost = held_cost(problem, *request.held);
+    held_cost_m = held_cost(problem, *request.held);
     CurveProblem rest = problem;
     rest.start = rest.stopped = request.held->poses.back();
     rest.start_curvature_per_m = request.held->end_curvature_per_m;
-    if (std::isfinite(cost)) out.plan = search_curves(search, rest);
+    if (std::isfinite(held_cost_m)) out.plan = search_curves(search, rest);
     out.held = out.plan.found;
-    if (out.held) most = (cost + out.plan.cost - config_.switch_gain_m) / (1.0 + config_.switch_share);
+    if (out.held) most = (held_cost_m + out.plan.cost - config_.switch_gain_m) / (1.0 + config_.switch_share);
   }
   if (request.turning) most -= config_.search.turn_cost_m;
   for (const double sure_m : {config_.sure_way_m, config_.least_sure_way_m}) {
@@ -109,6 +110,7 @@ FullPlan FullPlanner::plan_on(const FullRequest& request, const GoalField& field
   }
   out.work_s += kExpansionS * out.plan.expansions;
   if (!out.plan.found) return out;
+  out.cost = out.plan.cost + (out.held ? held_cost_m : 0.0);
   out.clearance_m = kAmpleM;
   for (const Pose2& pose : out.plan.poses) out.clearance_m = squeeze.clearance_m(pose, out.clearance_m);
   if (out.held)

@@ -337,8 +337,8 @@ double PathPlanner::seen_way(const Terrain& terrain, const std::vector<Pose2>& p
 
 // A turn goes on below the error that starts one. Were the rover taken for one that drives off at that error, its path
 // would look blocked in the middle of each turn beside a rock, and the next plan would turn it back.
-void PathPlanner::track_turn() {
-  const double error = std::abs(wrap_angle(active_.route.pose_at(active_.progress_m).yaw_rad - rover().yaw_rad));
+void PathPlanner::track_turn(const Pose2& heading_on) {
+  const double error = std::abs(wrap_angle(active_.route.pose_at(active_.progress_m).yaw_rad - heading_on.yaw_rad));
   const bool driving = std::abs(history_.newest().forward_mps) > kTurnCreepMps;
   turning_ = error > config_.turn_threshold_rad || (turning_ && error > config_.turn_stop_rad && !driving);
 }
@@ -347,8 +347,7 @@ void PathPlanner::judge() {
   Pose2 heading_on = rover();
   if (active_.kind == PathKind::kRetreat)
     heading_on.yaw_rad = wrap_angle(heading_on.yaw_rad + kPi);  // the rectangle looks the same from behind
-  else
-    track_turn();
+  track_turn(heading_on);
   const double margin_m = active_.retreat_from ? kRetreatMarginM : active_.margin_m + sigma_margin_m();
   const Terrain ground = terrain();
   block_ = find_block({ground, active_.route, config_.footprint, active_.progress_m, heading_on, margin_m, turning_,

@@ -138,6 +138,8 @@ class PathPlanner {
     double margin_m = 0.0;
     double corridor_half_width_m = 0.0;
     double progress_m = 0.0;
+    double cost = kInfinity;            // of the newest plan, where it was made ...
+    double cost_at_m = 0.0;             // ... along the route
     std::optional<Pose2> retreat_from;  // of a way back over the own track
   };
   // What the rover drives of its own accord before a repair bends away.
@@ -148,7 +150,7 @@ class PathPlanner {
   // A place that the active plan led through and where it was found closed, and what that leaves of it.
   struct ClosedGap {
     Point2 p;
-    double way_left_m = 0.0;
+    double cost_left = 0.0;
   };
   // A plan that is being made, and what it was made for: anything else since then and it is of no use.
   struct Making {
@@ -197,17 +199,18 @@ class PathPlanner {
   double goal_reach_m() const { return kGoalShare * global_->goal_tolerance_m; }
   std::vector<LeadIn> lead_ins() const;
   double seen_way(const Terrain& terrain, const std::vector<Pose2>& poses) const;
-  void track_turn();
+  void track_turn(const Pose2& heading_on);
   bool continuous() const;
   Terrain terrain() const { return {memory_, continuous() ? &ground_ : nullptr, Terrain::Reach::kMemory}; }
   void go_on(PlannerOutput& out);
   double way_left_m() const;
   std::optional<ClosedGap> closed_gap() const;
-  void note_closed_gap(Point2 p, double detour_m);
+  void note_closed_gap(const ClosedGap& gap, const FullPlan& plan);
   bool halted_before_block();
   bool at_turn() const;
   std::vector<Point2> way_back(const std::vector<Point2>& track) const;
-  std::vector<Point2> straight_back(double way_m) const;
+  std::vector<Point2> straight_back(const Pose2& from, double way_m) const;
+  std::vector<Point2> turned_back(double way_m) const;
   std::vector<Point2> clear_part(const std::vector<Point2>& back) const;
   void want_plan(const std::optional<ClosedGap>& closed, PlannerOutput& out, bool aside = false);
   void take_result(bool pressing, PlannerOutput& out);

@@ -1,4 +1,5 @@
 // The planner at the Full level: a plan with each new map, and when a hazard blocks the one that is being driven.
+#include <array>
 #include <cmath>
 
 #include "path_planner/path_planner.hpp"
@@ -23,10 +24,12 @@ constexpr double kBackTurnStepRad = 0.1;
 constexpr double kBackTurnRad = 0.35;        // more between stern and track needs room to turn
 constexpr double kLeastStraightBackM = 0.2;  // so little may free the bow to turn
 constexpr double kBackAheadM = 3.0;
+// Between rocks at bow and flank: turns on the spot after which the rover may go straight back.
+constexpr std::array<double, 6> kTurnsBackDeg = {45.0, -45.0, 60.0, -60.0, 75.0, -75.0};
 constexpr double kCreepMps = 0.05;  // of the body origin while the rover turns on the spot
 constexpr double kAtKinkM = 0.15;
 constexpr double kTurnBlockM = 1.5;     // likewise while the rover turns on the spot
-constexpr double kDetourM = 1.5;        // by which a closed gap makes the way longer, and so is worth remembering
+constexpr double kDetourM = 1.5;        // by which a closed gap makes the way dearer, and so is worth remembering
 constexpr double kNearPossibleM = 1.5;  // nearer ones that stay are planned around
 constexpr double kAsideM = 0.5;         // by which a way past a single hit may be longer
 constexpr double kNearBlockM = 3.5;     // nearer blocks are planned for at once, others with the next map
@@ -85,7 +88,7 @@ void PathPlanner::go_on(PlannerOutput& out) {
   const bool wanted = (new_map_ && !turning) || active_.kind != PathKind::kContinuous || ends_early;
   if (!blocked && !wanted) {
     failures_ = 0;
-    if (!turning && in_the_way() && !standing()) want_plan({}, out, true);
+    if (!turning && in_the_way()) want_plan({}, out, true);
     return;
   }
   // One map may show a gap closed that the next one opens; the plan's first metres are free meanwhile.
@@ -95,7 +98,8 @@ void PathPlanner::go_on(PlannerOutput& out) {
 std::optional<PathPlanner::ClosedGap> PathPlanner::closed_gap() const {
   const bool closed = active_.kind == PathKind::kContinuous && block_.confirmed_m - active_.progress_m < kNearBlockM;
   if (!closed) return std::nullopt;
-  return ClosedGap{active_.route.point_at(std::min(block_.confirmed_m, active_.route.length_m())), way_left_m()};
+  return ClosedGap{active_.route.point_at(std::min(block_.confirmed_m, active_.route.length_m())),
+                   active_.cost - (active_.progress_m - active_.cost_at_m)};
 }
 
 // All legs together.
@@ -107,12 +111,15 @@ double PathPlanner::way_left_m() const {
   return way_m;
 }
 
-// It is tried again where all other ways are longer by more than the one that was taken instead, twice that the second
-// time.
-void PathPlanner::note_closed_gap(Point2 p, double detour_m) {
-  if (detour_m < kDetourM) return;
-  const double through_m = 2.0 * config_.repair.dead_end_reach_m;
-  dead_ends_.push_back({p, std::max(config_.repair.dead_end_cost, detour_m / through_m)});
+// It is tried again where all other ways are dearer by more than the one that was taken instead, twice that the second
+// time. By cost, as plans are chosen: the other way may be shorter.
+void PathPlanner::note_closed_gap(const ClosedGap& gap, const FullPlan& plan) {
+  const double reach_m = config_.repair.dead_end_reach_m;
+  const bool past_it = std::any_of(plan.plan.poses.begin(), plan.plan.poses.end(),
+                                   [&](const Pose2& pose) { return distance(position(pose), gap.p) < reach_m; });
+  const double detour = plan.cost - gap.cost_left;
+  if (past_it || detour < kDetourM) return;
+  dead_ends_.push_back({gap.p, std::max(config_.repair.dead_end_cost, detour / (2.0 * reach_m))});
 }
 
 // A single hit that is neither confirmed nor cleared on approach is planned around before the rover is stopped by it,
@@ -134,9 +141,9 @@ bool PathPlanner::at_turn() const {
          });
 }
 
-// A plan that was begun before a moving rover's way was blocked nearby does not know of that: another one presses.
+// A plan that was begun before the way was blocked nearby does not know of that: another one presses.
 void PathPlanner::want_plan(const std::optional<ClosedGap>& closed, PlannerOutput& out, bool aside) {
-  const bool pressing = in_the_way() && !standing();
+  const bool pressing = in_the_way();
   if (making_ && (making_->pressing || !pressing)) {
     making_->again = true;
     return;
@@ -165,7 +172,7 @@ void PathPlanner::take_result(bool pressing, PlannerOutput& out) {
   // A plan on which the rover is not let go is none.
   failures_ = hazard_ahead_m() < config_.stop_hazard_m ? failures_ + 1 : 0;
   // A gap that was found closed from near may look open again from afar: without this the rover goes to and fro.
-  if (made.closed) note_closed_gap(made.closed->p, way_left_m() - made.closed->way_left_m);
+  if (made.closed) note_closed_gap(*made.closed, *plan);
   retreat_if_stuck(out);
 }
 
@@ -258,25 +265,40 @@ std::optional<HeldWay> PathPlanner::held_way() const {
 }
 
 // The driven track, as far as the rectangle passes it; where that begins with a turn, straight back over known ground
-// if that is free: there may be no room to turn.
+// if that is free: there may be no room to turn. Where neither leads anywhere, straight back after a turn on the spot.
 std::vector<Point2> PathPlanner::way_back(const std::vector<Point2>& track) const {
   const double way_m = (1 + retreats_) * config_.retreat_m;
-  const std::vector<Point2> straight = straight_back(way_m);
+  const std::vector<Point2> straight = straight_back(rover(), way_m);
   const double straight_m = distance(straight.front(), straight.back());
   const std::vector<Point2> along = track.size() < 2 ? track : clear_part(track);
+  const bool short_track = along.size() < 2 || distance(along.front(), along.back()) < kLeastStraightBackM;
+  if (short_track && straight_m < kLeastStraightBackM) return turned_back(way_m);
   const bool turns =
-      along.size() < 2 || distance(along.front(), along.back()) < kLeastStraightBackM ||
+      short_track ||
       std::abs(wrap_angle(rover().yaw_rad + kPi -
                           std::atan2(along[1].y_m - along[0].y_m, along[1].x_m - along[0].x_m))) > kBackTurnRad;
   return turns && straight_m >= kLeastStraightBackM ? straight : along;
 }
 
-std::vector<Point2> PathPlanner::straight_back(double way_m) const {
+std::vector<Point2> PathPlanner::turned_back(double way_m) const {
+  const Terrain ground = terrain();
+  const FootprintCheck check(ground, config_.footprint, kBackMarginM, 0.0, rover());
+  std::vector<Point2> best;
+  for (const double turn_deg : kTurnsBackDeg) {
+    const Pose2 turned{rover().x_m, rover().y_m, rover().yaw_rad + to_rad(turn_deg)};
+    if (!clear_turn(check, rover(), turned)) continue;
+    const std::vector<Point2> back = straight_back(turned, way_m);
+    if (back.size() > best.size()) best = back;
+  }
+  return best;
+}
+
+std::vector<Point2> PathPlanner::straight_back(const Pose2& from, double way_m) const {
   const Terrain ground = terrain();
   const FootprintCheck check(ground, config_.footprint, config_.full.squeeze_margin_m, 0.0, rover());
-  std::vector<Point2> out = {position(rover())};
+  std::vector<Point2> out = {position(from)};
   for (double s = kPoseStepM; s <= way_m; s += kPoseStepM) {
-    const Pose2 pose = advanced(rover(), -s, 0.0);
+    const Pose2 pose = advanced(from, -s, 0.0);
     if (!check.clear(pose) || !check.all_unseen(pose, [](Point2) { return false; })) break;
     out.push_back(position(pose));
   }
@@ -292,8 +314,9 @@ std::vector<Point2> PathPlanner::clear_part(const std::vector<Point2>& back) con
   const Terrain ground = terrain();
   const FootprintCheck check(ground, config_.footprint, kBackMarginM, 0.0, rover());
   const Pose2 astern{rover().x_m, rover().y_m, wrap_angle(rover().yaw_rad + kPi)};
+  const bool turning = std::abs(wrap_angle(route.pose_at(0.0).yaw_rad - astern.yaw_rad)) > config_.turn_threshold_rad;
   const Block block = find_block(
-      {ground, route, config_.footprint, 0.0, astern, kBackMarginM, false, config_.turn_threshold_rad, rover()});
+      {ground, route, config_.footprint, 0.0, astern, kBackMarginM, turning, config_.turn_threshold_rad, rover()});
   double clear_m = std::min(route.length_m(), block.confirmed_m - kBackReserveM);
   Pose2 before = rover();
   for (double s = 0.0; s < clear_m; s += kPoseStepM) {
@@ -323,6 +346,8 @@ void PathPlanner::take_plan(const FullPlan& plan, const FullRequest& request, Pl
   legs_end_m_ = plan.end_station_m;
   const bool turning = turning_;
   drive_leg(std::move(points), out);
+  active_.cost = plan.cost;
+  active_.cost_at_m = active_.progress_m;
   turning_ = turning && plan.held;
   judge();
 }

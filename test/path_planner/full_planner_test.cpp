@@ -651,7 +651,7 @@ TEST_F(FullLevelBeside, FramesAreJudgedWhileAPlanIsBeingMadeAndItIsTakenWhenItIs
   const size_t paths = rig.paths.size();
   rig.rocks = {{{1.6, 0.0}, 0.2, 0.3}};
   EXPECT_LT(rig.look(3).status.blocked_in_m, 1.0);
-  EXPECT_EQ(maker->started, 1);
+  EXPECT_EQ(maker->started, 2);  // the rock presses
   EXPECT_EQ(rig.paths.size(), paths);
   rig.rocks.clear();
   maker->let_go = true;
@@ -833,6 +833,25 @@ TEST(FullPlanner, AWayBackOnWhichTheRoverWouldBeStoppedIsNone) {
   EXPECT_EQ(ways_back(0.8), 1);
 }
 
+// A rock close behind, no track to go back on, and no way ahead.
+TEST_F(FullLevel, WhereNothingLeadsStraightBackTheRoverTurnsFirst) {
+  rig.planner.set_level(true);
+  send_map(free_ground);
+  rig.step();
+  send_map([](Point2 p) {
+    const bool enclosed = std::abs(std::hypot(p.x_m, p.y_m) - 2.7) < 0.2;
+    return enclosed || std::hypot(p.x_m + 1.1, p.y_m - 0.25) < 0.1 ? TraversabilityGrid::kImpassable : kFree;
+  });
+  rig.look(planner_config().patience_frames + 2);
+  ASSERT_EQ(rig.paths.back().kind, PathKind::kRetreat);
+  const Point2 end = rig.paths.back().points.back().p;
+  EXPECT_GT(std::hypot(end.x_m, end.y_m), 0.5);
+  EXPECT_LT(end.x_m, -0.1);
+  EXPECT_LT(end.y_m, -0.4);  // away from the rock
+  rig.forward_mps = -0.1;
+  EXPECT_TRUE(std::isinf(rig.look(1).status.blocked_in_m));
+}
+
 // A PATH astern, then one ahead; each begins where the rover is, and none but the last leads to the goal.
 TEST_F(FullLevel, APlanThatBacksIsDrivenLegByLeg) {
   rig.planner.set_level(true);
@@ -896,6 +915,33 @@ TEST_F(FullLevel, AGapThatWasFoundClosedIsNotTriedAgainFromAfar) {
   send_map(gaps(true));
   rig.look(1);
   EXPECT_NEAR(y_at_wall(), 6.0, 1.2) << "the gap that was closed looks open again";
+}
+
+// Plans are chosen by cost: what the rover takes instead may be shorter, and still the gap is not worth another try.
+TEST_F(FullLevel, AGapThatWasFoundClosedIsNotTriedAgainThoughTheOtherWayIsShorter) {
+  const auto gaps = [](bool wide_open) {
+    return [=](Point2 p) {
+      const bool gap = (wide_open && std::abs(p.y_m - 3.0) < 1.5) || std::abs(p.y_m - 0.05) < 0.52;
+      return std::abs(p.x_m - 4.0) < 0.15 && !gap ? TraversabilityGrid::kImpassable : kFree;
+    };
+  };
+  const auto y_at_wall = [&] {
+    const Route route(rig.paths.back().points);
+    for (double s = 0.0; s < route.length_m(); s += 0.05)
+      if (route.point_at(s).x_m >= 4.0) return route.point_at(s).y_m;
+    return kNaN;
+  };
+  rig.planner.set_level(true);
+  send_map(gaps(true));
+  rig.step();
+  rig.go(1.0);
+  EXPECT_GT(y_at_wall(), 1.5);
+  send_map(gaps(false));
+  rig.look(1);
+  EXPECT_NEAR(y_at_wall(), 0.05, 0.3);
+  send_map(gaps(true));
+  rig.look(1);
+  EXPECT_NEAR(y_at_wall(), 0.05, 0.3) << "the gap that was closed looks open again";
 }
 
 // The track that a retreat leads over lies in odom: when map moves it stays what it is, and free.
