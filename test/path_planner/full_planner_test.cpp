@@ -918,7 +918,8 @@ TEST_F(FullLevel, AGapThatWasFoundClosedIsNotTriedAgainFromAfar) {
 }
 
 // Plans are chosen by cost: what the rover takes instead may be shorter, and still the gap is not worth another try.
-TEST_F(FullLevel, AGapThatWasFoundClosedIsNotTriedAgainThoughTheOtherWayIsShorter) {
+TEST_F(FullLevelBeside, AGapThatWasFoundClosedIsRememberedThoughTheOtherWayIsShorter) {
+  maker->let_go = true;
   const auto gaps = [](bool wide_open) {
     return [=](Point2 p) {
       const bool gap = (wide_open && std::abs(p.y_m - 3.0) < 1.5) || std::abs(p.y_m - 0.05) < 0.52;
@@ -931,17 +932,20 @@ TEST_F(FullLevel, AGapThatWasFoundClosedIsNotTriedAgainThoughTheOtherWayIsShorte
       if (route.point_at(s).x_m >= 4.0) return route.point_at(s).y_m;
     return kNaN;
   };
-  rig.planner.set_level(true);
   send_map(gaps(true));
   rig.step();
   rig.go(1.0);
-  EXPECT_GT(y_at_wall(), 1.5);
+  const double y_of_gap = y_at_wall();
+  EXPECT_GT(y_of_gap, 1.5);
   send_map(gaps(false));
   rig.look(1);
   EXPECT_NEAR(y_at_wall(), 0.05, 0.3);
-  send_map(gaps(true));
+  send_map(gaps(false));
   rig.look(1);
-  EXPECT_NEAR(y_at_wall(), 0.05, 0.3) << "the gap that was closed looks open again";
+  const std::vector<DeadEnd>& closed = maker->newest->request().dead_ends;
+  ASSERT_EQ(closed.size(), 1u);
+  EXPECT_LT(distance(closed.front().p, {4.0, y_of_gap}), 1.5);
+  EXPECT_GE(closed.front().cost_per_m, planner_config().repair.dead_end_cost);
 }
 
 // The track that a retreat leads over lies in odom: when map moves it stays what it is, and free.
