@@ -26,7 +26,7 @@ struct FullPlannerConfig {
   double doubt_from_m = 2.0;       // where that leaves no way: small spots of the map never nearer do not count ...
   int doubt_cells = 8;             // ... up to so many cells, unless the LocCam confirms them
   double latency_s = 0.1;          // of a plan, from the map to its release, message time
-  double patience_s = 0.15;        // for one that is needed not to be stopped, in the planner's step
+  double patience_s = 0.15;        // of the planner's step, for a plan without which the rover is stopped
   double turn_extra_m = 0.04;      // of the margin, for point turns: the rover does not halt exactly
   int most_retreats = 12;          // one after the other, without new ground gained
   int map_cells = 280;             // of the ground that is remembered, each way; their size is the hazard memory's

@@ -147,7 +147,7 @@ class PathPlanner {
     double way_m = 0.0;
     double curvature_per_m = 0.0;
   };
-  // A place that the active plan led through and where it was found closed, and what that leaves of it.
+  // A place that the active plan led through and where it was found closed, and what the rest of it would cost.
   struct ClosedGap {
     Point2 p;
     double cost_left = 0.0;

@@ -34,6 +34,12 @@ constexpr double kNearPossibleM = 1.5;  // nearer ones that stay are planned aro
 constexpr double kAsideM = 0.5;         // by which a way past a single hit may be longer
 constexpr double kNearBlockM = 3.5;     // nearer blocks are planned for at once, others with the next map
 
+double length_m(const std::vector<Pose2>& poses) {
+  double sum = 0.0;
+  for (size_t i = 1; i < poses.size(); ++i) sum += distance(position(poses[i - 1]), position(poses[i]));
+  return sum;
+}
+
 // Whether the rectangle is clear at the second pose, and on the turn to its heading.
 bool clear_turn(const FootprintCheck& check, const Pose2& from, const Pose2& to) {
   const double turn = wrap_angle(to.yaw_rad - from.yaw_rad);
@@ -106,8 +112,7 @@ std::optional<PathPlanner::ClosedGap> PathPlanner::closed_gap() const {
 double PathPlanner::way_left_m() const {
   if (legs_.empty()) return goal_distance_m();
   double way_m = active_.route.length_m() - active_.progress_m + global_odom_.length_m() - legs_end_m_;
-  for (const CurveLeg& leg : legs_)
-    for (size_t i = 1; i < leg.poses.size(); ++i) way_m += distance(position(leg.poses[i - 1]), position(leg.poses[i]));
+  for (const CurveLeg& leg : legs_) way_m += length_m(leg.poses);
   return way_m;
 }
 
@@ -183,9 +188,7 @@ bool PathPlanner::still_of_use(const Making& making) const {
 // The next frame as often as not takes a single hit back: nothing is given up for it.
 bool PathPlanner::leads_aside(const FullPlan& plan) const {
   if (!plan.plan.found || plan.plan.halts > 0 || plan.plan.backs_first) return false;
-  double way_m = global_odom_.length_m() - plan.end_station_m;
-  for (size_t i = 1; i < plan.plan.poses.size(); ++i)
-    way_m += distance(position(plan.plan.poses[i - 1]), position(plan.plan.poses[i]));
+  const double way_m = length_m(plan.plan.poses) + global_odom_.length_m() - plan.end_station_m;
   return way_m < way_left_m() + kAsideM;
 }
 

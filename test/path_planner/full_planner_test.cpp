@@ -641,6 +641,13 @@ class FullLevelBeside : public testing::Test {
   void send_map(const std::function<std::uint8_t(Point2)>& cost) {
     rig.planner.add_traversability(map_about(position(rig.odom), cost, rig.now));
   }
+  // At speed on a plan over free ground.
+  void drive_freely() {
+    maker->let_go = true;
+    send_map(free_ground);
+    rig.step();
+    rig.forward_mps = 0.2;
+  }
   std::shared_ptr<PlanOnDemand> maker = std::make_shared<PlanOnDemand>();
   PlannerRig rig;
 };
@@ -682,11 +689,8 @@ TEST_F(FullLevelBeside, APlanThatPressesIsNotBegunAnewWithEachFrame) {
 }
 
 TEST_F(FullLevelBeside, ASingleHitBesideTheWayIsDrivenPastAtOnce) {
-  maker->let_go = true;
-  send_map(free_ground);
-  rig.step();
+  drive_freely();
   const size_t paths = rig.paths.size();
-  rig.forward_mps = 0.2;
   rig.rocks = {{{1.5, -0.55}, 0.1, 0.3}};
   EXPECT_TRUE(std::isinf(rig.look(1).status.blocked_in_m));
   EXPECT_EQ(rig.paths.size(), paths + 1);
@@ -694,11 +698,8 @@ TEST_F(FullLevelBeside, ASingleHitBesideTheWayIsDrivenPastAtOnce) {
 }
 
 TEST_F(FullLevelBeside, ASingleHitForWhichTheRoverWouldHaveToTurnIsLeftToTheNextFrames) {
-  maker->let_go = true;
-  send_map(free_ground);
-  rig.step();
+  drive_freely();
   const size_t paths = rig.paths.size();
-  rig.forward_mps = 0.2;
   rig.rocks = {{{1.2, 0.0}, 0.2, 0.3}};
   const PlannerOutput stopped = rig.look(1);
   EXPECT_EQ(maker->started, 2);
