@@ -85,7 +85,7 @@ void HazardMemory::add(const HazardGrid& grid, const Eigen::Isometry3d& T_odom_b
     if (value == HazardGrid::kUnseen) note_unseen(cell, grid, {in_body.x(), in_body.y()});
     if (value == HazardGrid::kFree) note_free(cell, in_body.norm());
     // The margin about a hazard is ground that was seen; this service keeps margins of its own.
-    if (value == HazardGrid::kMargin) cell.seen = true, cell.looks = 0;
+    if (value == HazardGrid::kMargin) note_seen(cell, in_body.norm());
   });
   // From the obstacle's side, so that none falls between the cells of the turned grid.
   for (int iy = 0; iy < grid.cells_y; ++iy)
@@ -113,20 +113,26 @@ void HazardMemory::note_obstacle(CellIndex index) {
 
 void HazardMemory::note_free(GroundCell& cell, double range_m) const {
   const bool close = range_m <= config_.clear_range_m;
-  cell.seen = true;
+  note_seen(cell, range_m);
   if (range_m <= config_.sure_range_m && !surely_free(cell)) ++cell.near_free;
-  if (close) cell.looks = 0;
   if (confirmed(cell) && !close) return;
   const int enough = confirmed(cell) ? frames(config_.confirmed_clear, cell) : config_.possible_clear;
   if (cell.contrary < enough) ++cell.contrary;
   if (cell.contrary >= enough) cell.hits = 0;
 }
 
+void HazardMemory::note_seen(GroundCell& cell, double range_m) const {
+  cell.seen = true;
+  const auto near_m = blind(cell) ? cell.vain_m : static_cast<float>(config_.clear_range_m);
+  if (static_cast<float>(range_m) <= near_m) cell.looks = 0;
+}
+
 void HazardMemory::note_unseen(GroundCell& cell, const HazardGrid& grid, Point2 in_body) const {
-  if (cell.looks >= config_.blind_looks) return;
   if (!surely_in_view(config_.view, config_.clear_range_m, in_body) || hidden(grid, config_.view.camera, in_body))
     return;
-  ++cell.looks;
+  const auto range_m = static_cast<float>(std::hypot(in_body.x_m, in_body.y_m));
+  cell.vain_m = cell.looks == 0 ? range_m : std::min(cell.vain_m, range_m);
+  if (!blind(cell)) ++cell.looks;
 }
 
 void HazardMemory::mark_driven(const Pose2& pose, const Footprint& footprint) {

@@ -52,6 +52,7 @@ struct GroundCell {
   std::uint8_t near_free = 0;  // frames in a row that saw it free from sure_range_m or nearer
   std::uint8_t relapses = 0;   // obstacles seen where it had been told free: each doubles the frames that tell so again
   std::uint8_t looks = 0;   // frames in a row that looked at it from close by in vain: no texture, no light, or a drop
+  float vain_m = 0.0F;      // the nearest of these looks, from the body origin
   std::uint16_t frame = 0;  // the last that counted as a hit: two grid cells may fall into one cell here
   bool driven = false;      // the vehicle stood on it: no map makes it impassable
 };
@@ -71,7 +72,8 @@ class HazardMemory {
 
   bool confirmed(const GroundCell& cell) const { return cell.hits >= config_.confirm_hits; }
   // Looked at again and again from close by in vain: no longer ground that another view will show. Smooth dust is seen
-  // from afar, where the picture is coarse, and not from near.
+  // from afar, where the picture is coarse, and not from near: a look from further off than those in vain does not
+  // change it. One that did let the rover back off from dust, see it from 1.8 m, and come back, five times.
   bool blind(const GroundCell& cell) const { return cell.looks >= config_.blind_looks; }
   // Seen free again and again by the LocCam, whose picture of near ground is the sharper one.
   bool surely_free(const GroundCell& cell) const { return cell.near_free >= frames(config_.sure_free, cell); }
@@ -83,6 +85,7 @@ class HazardMemory {
  private:
   void note_obstacle(CellIndex index);
   void note_free(GroundCell& cell, double range_m) const;
+  void note_seen(GroundCell& cell, double range_m) const;
   // So many, twice that after each relapse; what the cell's counters hold at most.
   static int frames(int first, const GroundCell& cell) { return std::min(first << cell.relapses, 255); }
   void note_unseen(GroundCell& cell, const HazardGrid& grid, Point2 in_body) const;

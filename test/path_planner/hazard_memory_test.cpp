@@ -237,6 +237,19 @@ TEST_F(HazardMemoryTest, GroundLookedAtInVainFromCloseByBecomesAHazard) {
   EXPECT_FALSE(memory_.blind(at(hole)));
 }
 
+TEST_F(HazardMemoryTest, GroundThatIsBlindFromNearIsNotSeenFromFurtherOff) {
+  const Point2 dust{1.95, 0.05};
+  for (int i = 0; i < config_.blind_looks; ++i)
+    memory_.add(frame(HazardGrid::kUnseen), from_planar({0.1 * i, 0.0, 0.0}), 0.0);
+  const double nearest_x_m = 0.1 * (config_.blind_looks - 1);
+  for (const std::uint8_t seen : {HazardGrid::kFree, HazardGrid::kMargin}) {
+    memory_.add(frame(seen), from_planar({nearest_x_m - 0.2, 0.0, 0.0}), 0.0);
+    EXPECT_TRUE(memory_.blind(at(dust))) << "seen from within clear_range_m, but not from as near as in vain";
+  }
+  memory_.add(frame(HazardGrid::kFree), from_planar({nearest_x_m, 0.0, 0.0}), 0.0);
+  EXPECT_FALSE(memory_.blind(at(dust)));
+}
+
 TEST_F(HazardMemoryTest, GroundHiddenBehindAnObstacleIsNotBlind) {
   HazardGrid grid = frame(HazardGrid::kUnseen);
   for (int iy = 15; iy < 25; ++iy) grid.cells[static_cast<size_t>(iy) * grid.cells_x + 6] = HazardGrid::kObstacle;
