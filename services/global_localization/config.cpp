@@ -50,6 +50,7 @@ void read_acceptance(const Config& yaml, AcceptanceConfig& acceptance) {
   yaml.read("max_residual_ratio", acceptance.max_residual_ratio, {0.05, 1.0});
   yaml.read("max_sigma_m", acceptance.max_sigma_m, {0.01, 10.0});
   yaml.read_deg("max_sigma_deg", acceptance.max_sigma_rad, {0.01, 10.0});
+  yaml.read("max_body_sigma_m", acceptance.max_body_sigma_m, {0.01, 10.0});
   yaml.read("gate_chi2", acceptance.gate_chi2, {1.0, 100.0});
 }
 

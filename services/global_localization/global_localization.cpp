@@ -187,6 +187,8 @@ void GlobalLocalization::match(const Prior& prior, const TerrainTemplate& terrai
     out.reason = "best match at the border of the search window";
   } else if (!(out.sigma_m <= limits.max_sigma_m && cov(2, 2) <= limits.max_sigma_rad * limits.max_sigma_rad)) {
     out.reason = "the match is not sharp enough";
+  } else if (!(largest_sigma(out.cov) <= limits.max_body_sigma_m)) {
+    out.reason = "too far from the ground that was matched";
   } else if (surprise(config_.search, prior, out) > limits.gate_chi2) {
     out.reason = "further off than the pose's covariance allows";
   }

@@ -126,13 +126,13 @@ std::string corrections_table(const Metrics& m) {
   if (m.global_corrections.empty()) return "";
   std::string out =
       "<table><tr><th class=\"n\">time [s]</th><th>global correction</th><th class=\"n\">error before [m]</th>"
-      "<th class=\"n\">after [m]</th><th>why not</th></tr>\n";
+      "<th class=\"n\">after [m]</th><th class=\"n\">of the fix alone [m]</th><th>why not</th></tr>\n";
   for (const CorrectionFigure& c : m.global_corrections)
     out += fmt::format(
         "<tr><td class=\"n\">{:.1f}</td><td class=\"{}\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>"
-        "<td>{}</td></tr>\n",
+        "<td class=\"n\">{}</td><td>{}</td></tr>\n",
         c.t_s - m.window.begin_s, c.accepted ? "good" : "", c.accepted ? "accepted" : "abstained", shown(c.before_m, 2),
-        shown(c.after_m, 2), escaped(c.reason));
+        shown(c.after_m, 2), shown(c.fix_m, 2), escaped(c.reason));
   return out + "</table>\n";
 }
 

@@ -9,6 +9,7 @@ namespace rover::report {
 namespace {
 
 constexpr double kCollisionPauseS = 1.0;  // contacts closer together are one collision
+constexpr double kTakenWithinS = 0.1;     // after its release localization has taken a correction
 
 class Spread {
  public:
@@ -222,14 +223,19 @@ int count_replans(const RunRecord& run, const Window& window) {
 
 void judge_corrections(const RunRecord& run, const TrueTrack& truth, Metrics& m) {
   for (const CorrectionRecord& correction : run.corrections) {
-    CorrectionFigure figure{correction.t_s, kNaN, kNaN, correction.accepted, correction.reason};
+    CorrectionFigure figure{.t_s = correction.t_s, .accepted = correction.accepted, .reason = correction.reason};
     const PoseSample* pose = newest(run.poses, correction.t_s);
     if (pose != nullptr && !truth.empty()) {
       const Eigen::Vector2d p = truth.at(pose->t_s).translation().head<2>();
-      const Eigen::Vector2d before = (pose->T_map_odom * pose->T_odom_body).translation().head<2>();
+      const auto error_m = [&](const Eigen::Isometry3d& T_map_odom) {
+        return ((T_map_odom * pose->T_odom_body).translation().head<2>() - p).norm();
+      };
       const Eigen::Vector2d in_odom = pose->T_odom_body.translation().head<2>();
-      figure.before_m = (before - p).norm();
-      figure.after_m = correction.accepted ? (transform(correction.T_map_odom, in_odom) - p).norm() : figure.before_m;
+      figure.before_m = figure.after_m = error_m(pose->T_map_odom);
+      if (correction.accepted) {
+        figure.after_m = error_m(newest(run.poses, correction.released_s + kTakenWithinS)->T_map_odom);
+        figure.fix_m = (transform(correction.T_map_odom, in_odom) - p).norm();
+      }
     }
     m.global_corrections.push_back(figure);
   }

@@ -34,7 +34,8 @@ struct LevelFigures {
 struct CorrectionFigure {
   double t_s = 0.0;
   double before_m = kNaN;
-  double after_m = kNaN;
+  double after_m = kNaN;  // of the estimate that localization made of it
+  double fix_m = kNaN;    // of the fix alone; NaN for an abstention
   bool accepted = false;
   std::string reason;  // of an abstention
 };

@@ -60,6 +60,7 @@ Json corrections_json(const Metrics& m) {
     list.push_back({{"t_s", correction.t_s},
                     {"before_m", number(correction.before_m)},
                     {"after_m", number(correction.after_m)},
+                    {"fix_m", number(correction.fix_m)},
                     {"accepted", correction.accepted},
                     {"reason", text(correction.reason)}});
   return list;

@@ -35,7 +35,8 @@ void leave_out_truth_figures(Metrics& m) {
   m.rocks_detected.reset();
   m.rocks_missed.reset();
   m.false_stops.reset();
-  for (CorrectionFigure& correction : m.global_corrections) correction.before_m = correction.after_m = kNaN;
+  for (CorrectionFigure& correction : m.global_corrections)
+    correction.before_m = correction.after_m = correction.fix_m = kNaN;
 }
 
 }  // namespace rover::report

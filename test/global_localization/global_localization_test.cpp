@@ -82,6 +82,22 @@ TEST(GlobalLocalization, TheMapsDistortionReachesTheBodyThroughTheArm) {
   EXPECT_NEAR(across.dot(c.cov.block<2, 1>(0, 2)), arm_m * turn_rad * turn_rad, 1e-4);
 }
 
+// At the Efficient level nothing is mapped, and the ground that could be matched falls behind.
+TEST(GlobalLocalization, AbstainsFarFromTheGroundThatWasMatched) {
+  GlobalConfig config;
+  config.map_sigma_rad = to_rad(1.2);
+  GlobalLocalization core(config, orbital_of(hills, 0.5, 0.0), kCellM);
+  core.take(view_of(hills, kTruth, kPlace, all_seen), kPlace);
+  const double limit_m = config.acceptance.max_body_sigma_m / config.map_sigma_rad;
+  const auto on_by = [&](double way_m) {
+    Prior further = prior({1.0, 1.0}, 1.0);
+    further.p_odom_body += Eigen::Vector2d(way_m, 0.0);
+    return core.correct(further);
+  };
+  EXPECT_EQ(on_by(0.9 * limit_m).reason, "");
+  EXPECT_EQ(on_by(1.1 * limit_m).reason, "too far from the ground that was matched");
+}
+
 // The published matcher's score collapses when 1 % of the cells are empty.
 TEST(GlobalLocalization, HolesDoNotHurt) {
   const Correction whole = driven(hills, 0.5, all_seen, 0.1).correct(prior({4.0, -5.0}, 6.0));

@@ -125,13 +125,16 @@ TEST(Metrics, HazardStopsAndLevels) {
 
 TEST(Metrics, ACorrectionIsJudgedAgainstTheTruthOfItsMap) {
   RunRecord run = straight_run(10.0);
-  for (PoseSample& pose : run.poses) pose.T_map_odom.translation().y() = 2.0;
-  run.corrections = {{55.0, true, {0.0, 0.1, 0.0}}, {60.0, false, {0.0, 5.0, 0.0}}};
+  const double released_s = 57.0;
+  for (PoseSample& pose : run.poses) pose.T_map_odom.translation().y() = pose.t_s < released_s ? 2.0 : 0.4;
+  run.corrections = {{55.0, true, {0.0, 0.1, 0.0}, released_s}, {60.0, false, {0.0, 5.0, 0.0}, 60.5}};
   const Metrics m = figures(run);
   ASSERT_EQ(m.global_corrections.size(), 2u);
   EXPECT_NEAR(m.global_corrections[0].before_m, 2.0, 1e-9);
-  EXPECT_NEAR(m.global_corrections[0].after_m, 0.1, 1e-9);
-  EXPECT_NEAR(m.global_corrections[1].after_m, 2.0, 1e-9);
+  EXPECT_NEAR(m.global_corrections[0].after_m, 0.4, 1e-9) << "what localization made of the fix";
+  EXPECT_NEAR(m.global_corrections[0].fix_m, 0.1, 1e-9);
+  EXPECT_NEAR(m.global_corrections[1].after_m, 0.4, 1e-9);
+  EXPECT_TRUE(std::isnan(m.global_corrections[1].fix_m));
 }
 
 TEST(Metrics, ServicesAddUpOverTheirBoots) {
