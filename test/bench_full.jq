@@ -10,6 +10,7 @@ def demand(what; measured; met): "| \(what) | \(measured) | \(yes(met)) |";
 def levels_used: .levels.EFFICIENT.way_m > 1 and .levels.FULL.way_m > 1;
 def explained: all(.level_switches[]; (.reason // "") != "");
 def per_100_m: if sum(.driven_length_m) > 0 then 100 * sum(.hazard_stops) / sum(.driven_length_m) else null end;
+def growth: [.services | to_entries[] | {name: .key, mb: (.value.rss_mb - .value.rss_first_half_mb), ok: (.value.rss_mb <= ([1.05 * .value.rss_first_half_mb, .value.rss_first_half_mb + 2] | max))}] | (max_by(.mb) // {}) + {ok: (length > 0 and all(.ok))};
 def fixes: [.global_corrections[] | select(.accepted)];
 
 is("full_hard"; "auto") as $full | is("full_hard"; "efficient") as $plain | is("combined_500"; "auto") as $long
@@ -27,6 +28,7 @@ demand("both levels used, each switch explained"; "\($long | map(select(levels_u
 demand("duty at least 0.75"; "least \($long | least(.duty) | r(2))"; ($long | least(.duty) // 0) >= 0.75),
 demand("at least 1.5 times real time"; "least \($long | least(.realtime_factor) | r(2))"; ($long | least(.realtime_factor) // 0) >= 1.5),
 demand("error after each fix in `long_drift` and `combined_500` below one cell of the orbital map (1 m)"; "\($fixed | map(fixes | length) | add // 0) fixes, estimate at most \([$fixed[] | fixes[].after_m] | max | r(2)) m off, fix alone \([$fixed[] | fixes[].fix_m] | max | r(2)) m"; ($fixed | map(fixes | length) | add // 0) > 0 and ([$fixed[] | fixes[] | .after_m, .fix_m] | max) < 1),
+demand("memory of each service constant over `combined_500`: at most 5 % or 2 MB above the largest of the drive's first half"; "largest growth \($long | most(growth.mb) | r(1)) MB (\($long | map(growth) | max_by(.mb) | .name // "-"))"; ($long | length) == 2 and ($long | all(growth.ok))),
 "",
 "Efficient alone reaches \($same | reached) of \($same | length) goals of `full_hard`, so its stops are those of the way until it gave up. Hazard stops per 100 m driven: \($full | per_100_m | r(1)) at the Full level, \($same | per_100_m | r(1)) at the Efficient one.",
 "",
@@ -38,10 +40,10 @@ demand("error after each fix in `long_drift` and `combined_500` below one cell o
 "",
 "What each service costs at each level, CPU seconds per metre, mean over all runs that were there:",
 "",
-"| service | Efficient | Full |", "|---|---|---|",
+"| service | Efficient | Full | memory over `combined_500`: first half, whole [MB] |", "|---|---|---|---|",
 (def mean(f): [.[] | f | values] | if length == 0 then null else add / length end;
  . as $rows | ($rows | map(.services | keys) | add // [] | unique)[] | . as $name
- | "| \($name) | \($rows | mean(.services[$name].cpu_s_per_m_efficient) | r(3)) | \($rows | mean(.services[$name].cpu_s_per_m_full) | r(3)) |"),
+ | "| \($name) | \($rows | mean(.services[$name].cpu_s_per_m_efficient) | r(3)) | \($rows | mean(.services[$name].cpu_s_per_m_full) | r(3)) | \($long | most(.services[$name].rss_first_half_mb) | r(1)), \($long | most(.services[$name].rss_mb) | r(1)) |"),
 "",
 "Why the level changed:",
 "",

@@ -132,8 +132,7 @@ void add_heartbeat(const heartbeat_t& message, std::map<std::string, ServiceReco
   ServiceRecord& service = services[message.service];
   const std::int64_t boot = message.header.boot_id;
   service.cpu_s_of_boot[boot] = message.cpu_s;
-  service.cpu.push_back({to_seconds(message.header.utime), boot, message.cpu_s});
-  service.rss_mb = std::max(service.rss_mb, message.rss_mb);
+  service.heartbeats.push_back({to_seconds(message.header.utime), boot, message.cpu_s, message.rss_mb});
   service.p50_ms = message.step_p50_ms;
   service.p99_ms = std::max(service.p99_ms, message.step_p99_ms);
   for (const input_health_t& input : message.inputs) service.gaps[{boot, input.channel}] = input.gaps;

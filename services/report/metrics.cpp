@@ -245,8 +245,8 @@ void judge_corrections(const RunRecord& run, const TrueTrack& truth, Metrics& m)
 void judge_cpu_by_level(const RunRecord& run, const ServiceRecord& record, const Metrics& m, ServiceFigures& figures) {
   double efficient_s = 0.0;
   double full_s = 0.0;
-  const CpuSample* before = nullptr;
-  for (const CpuSample& sample : record.cpu) {
+  const HeartbeatSample* before = nullptr;
+  for (const HeartbeatSample& sample : record.heartbeats) {
     const bool goes_on = before != nullptr && before->boot_id == sample.boot_id;
     if (goes_on && m.window.contains(sample.t_s)) {
       const StateChange* state = newest(run.states, sample.t_s);
@@ -259,13 +259,22 @@ void judge_cpu_by_level(const RunRecord& run, const ServiceRecord& record, const
   if (m.full.way_m > kLeastWayM) figures.cpu_s_per_m_full = full_s / m.full.way_m;
 }
 
+// Of the whole run and until half of the drive's time: what grows all the time shows in the difference.
+void judge_memory(const ServiceRecord& record, const Window& window, ServiceFigures& figures) {
+  const double half_s = 0.5 * (window.begin_s + window.end_s);
+  for (const HeartbeatSample& sample : record.heartbeats) {
+    figures.rss_mb = std::max(figures.rss_mb, sample.rss_mb);
+    if (sample.t_s <= half_s) figures.rss_first_half_mb = std::max(figures.rss_first_half_mb, sample.rss_mb);
+  }
+}
+
 void judge_services(const RunRecord& run, Metrics& m) {
   for (const auto& [name, record] : run.services) {
     ServiceFigures figures;
     for (const auto& [boot, cpu_s] : record.cpu_s_of_boot) figures.cpu_s += cpu_s;
     if (m.driven_length_m > 0.0) figures.cpu_s_per_m = figures.cpu_s / m.driven_length_m;
     judge_cpu_by_level(run, record, m, figures);
-    figures.rss_mb = record.rss_mb;
+    judge_memory(record, m.window, figures);
     figures.p50_ms = record.p50_ms;
     figures.p99_ms = record.p99_ms;
     figures.restarts = static_cast<int>(record.cpu_s_of_boot.size()) - 1;

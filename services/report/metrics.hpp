@@ -45,7 +45,8 @@ struct ServiceFigures {
   double cpu_s_per_m = kNaN;
   double cpu_s_per_m_efficient = kNaN;  // at that level
   double cpu_s_per_m_full = kNaN;
-  double rss_mb = 0.0;
+  double rss_mb = 0.0;  // largest, of the run and of the drive's first half
+  double rss_first_half_mb = 0.0;
   int restarts = 0;
   double p50_ms = 0.0;
   double p99_ms = 0.0;

@@ -85,6 +85,7 @@ Json services_json(const Metrics& m) {
                       {"cpu_s_per_m_efficient", number(s.cpu_s_per_m_efficient)},
                       {"cpu_s_per_m_full", number(s.cpu_s_per_m_full)},
                       {"rss_mb", s.rss_mb},
+                      {"rss_first_half_mb", s.rss_first_half_mb},
                       {"restarts", s.restarts},
                       {"p50_ms", s.p50_ms},
                       {"p99_ms", s.p99_ms}};

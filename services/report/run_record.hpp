@@ -144,17 +144,17 @@ struct SlamSample {
   Pose2 T_map_odom;
 };
 
-// CPU time of a process so far, by its heartbeats.
-struct CpuSample {
+// CPU time of a process so far, and its memory.
+struct HeartbeatSample {
   double t_s = 0.0;
   std::int64_t boot_id = 0;
   double cpu_s = 0.0;
+  double rss_mb = 0.0;
 };
 
 struct ServiceRecord {
   std::map<std::int64_t, double> cpu_s_of_boot;
-  std::vector<CpuSample> cpu;
-  double rss_mb = 0.0;
+  std::vector<HeartbeatSample> heartbeats;
   double p50_ms = 0.0;
   double p99_ms = 0.0;
   std::map<std::pair<std::int64_t, std::string>, std::int64_t> gaps;  // of each boot and input

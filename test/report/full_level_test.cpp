@@ -103,7 +103,7 @@ TEST(Levels, WayTimeAndCpuAreOfEach) {
                 {205.0, State::kGoalReached, true, ""}};
   ServiceRecord& slam = run.services["slam"];
   for (double t = 0.0; t <= 205.0; t += 1.0)
-    slam.cpu.push_back({t, 1, 7.0 + (t <= 5.0 ? 0.0 : t < 105.0 ? 0.02 * (t - 5.0) : 2.0 + 0.06 * (t - 105.0))});
+    slam.heartbeats.push_back({t, 1, 7.0 + (t <= 5.0 ? 0.0 : t < 105.0 ? 0.02 * (t - 5.0) : 2.0 + 0.06 * (t - 105.0))});
   const Metrics m = figures(run);
   EXPECT_NEAR(m.efficient.way_m, 10.0, 0.06);
   EXPECT_NEAR(m.full.way_m, 10.0, 0.06);

@@ -142,7 +142,10 @@ TEST(Metrics, ServicesAddUpOverTheirBoots) {
   ServiceRecord& stereo = run.services["stereo"];
   stereo.cpu_s_of_boot = {{1, 3.0}, {2, 2.0}};
   stereo.gaps = {{{1, "LOCCAM_LEFT"}, 2}, {{2, "LOCCAM_LEFT"}, 1}};
+  stereo.heartbeats = {{20.0, 1, 1.0, 30.0}, {90.0, 2, 2.0, 41.0}, {100.0, 2, 2.0, 40.0}};
   const Metrics m = figures(run);
+  EXPECT_DOUBLE_EQ(m.services.at("stereo").rss_first_half_mb, 30.0);
+  EXPECT_DOUBLE_EQ(m.services.at("stereo").rss_mb, 41.0);
   EXPECT_DOUBLE_EQ(m.services.at("stereo").cpu_s, 5.0);
   EXPECT_NEAR(m.services.at("stereo").cpu_s_per_m, 0.5, 1e-9);
   EXPECT_EQ(m.services.at("stereo").restarts, 1);

@@ -120,8 +120,8 @@ TEST_F(ReportTest, NamesAreTheProjectsContract) {
                            "realtime_factor",
                            "final_truth_pose"})
     EXPECT_TRUE(m.contains(name)) << name;
-  for (const char* name :
-       {"cpu_s", "cpu_s_per_m", "cpu_s_per_m_efficient", "cpu_s_per_m_full", "rss_mb", "restarts", "p50_ms", "p99_ms"})
+  for (const char* name : {"cpu_s", "cpu_s_per_m", "cpu_s_per_m_efficient", "cpu_s_per_m_full", "rss_mb",
+                           "rss_first_half_mb", "restarts", "p50_ms", "p99_ms"})
     EXPECT_TRUE(m["services"]["stereo"].contains(name)) << name;
   for (const char* name : {"messages", "lost", "bytes"}) EXPECT_TRUE(m["bus"].contains(name)) << name;
 }
