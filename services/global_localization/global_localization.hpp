@@ -36,7 +36,7 @@ struct AcceptanceConfig {
   double max_residual_ratio = 0.8;  // to the residual at the next best place
   double max_sigma_m = 0.4;         // of the match, in the weakest direction
   double max_sigma_rad = to_rad(1.0);
-  double max_body_sigma_m = 0.8;  // of the body, which may stand far from the ground that was matched
+  double max_body_sigma_m = 1.1;  // of the body, which may stand far from the ground that was matched
   double gate_chi2 = 16.3;  // against the pose, whose sigma counts as at least a third of the window's least reach
 };
 
