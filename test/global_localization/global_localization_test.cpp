@@ -86,6 +86,7 @@ TEST(GlobalLocalization, TheMapsDistortionReachesTheBodyThroughTheArm) {
 TEST(GlobalLocalization, AbstainsFarFromTheGroundThatWasMatched) {
   GlobalConfig config;
   config.map_sigma_rad = to_rad(1.2);
+  config.acceptance.max_body_sigma_m = 0.8;
   GlobalLocalization core(config, orbital_of(hills, 0.5, 0.0), kCellM);
   core.take(view_of(hills, kTruth, kPlace, all_seen), kPlace);
   const double limit_m = config.acceptance.max_body_sigma_m / config.map_sigma_rad;
