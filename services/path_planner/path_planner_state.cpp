@@ -5,7 +5,7 @@
 namespace rover::planning {
 namespace {
 
-constexpr std::uint32_t kVersion = 3;
+constexpr std::uint32_t kVersion = 4;
 
 void put_points(StateWriter& out, const std::vector<RoutePoint>& points) {
   out.put(static_cast<std::uint64_t>(points.size()));
@@ -34,22 +34,26 @@ void put_map(StateWriter& out, const GridMap<GroundCell>& map) {
     out.put(cell.hits);
     out.put(cell.contrary);
     out.put(cell.looks);
+    out.put(cell.vain_m);
   });
 }
 
-// False where the stored map has another size.
+// False where the stored map has another size, or a range that is none.
 bool get_map(StateReader& in, GridMap<GroundCell>& map) {
   const CellIndex origin = in.get<CellIndex>();
   if (in.get<int>() != map.cells()) return false;
   const CellIndex center{origin.ix + map.cells() / 2, origin.iy + map.cells() / 2};
   map.move_to(map.center_x_m(center), map.center_y_m(center));
+  bool sound = true;
   map.for_each([&](CellIndex, GroundCell& cell) {
     cell.seen = in.get<std::uint8_t>() != 0;
     cell.hits = in.get<std::uint8_t>();
     cell.contrary = in.get<std::uint8_t>();
     cell.looks = in.get<std::uint8_t>();
+    cell.vain_m = in.get<float>();
+    sound &= cell.vain_m >= 0.0F;
   });
-  return true;
+  return sound;
 }
 
 }  // namespace

@@ -50,6 +50,24 @@ TEST(Checkpoint, ARestartedPlannerGoesOnWithThePathAndItsMemory) {
   EXPECT_FALSE(rig.step().path) << "once is enough";
 }
 
+// Else no look could ever clear it, or any.
+TEST(Checkpoint, ARestartedPlannerKnowsFromHowNearGroundWasBlind) {
+  PlannerRig rig = driven();
+  rig.camera.near_m = 1.6;  // so much of the ground nearby is not seen any more
+  rig.look(8);
+  PathPlanner restarted(planner_config(), 1'000'001);
+  ASSERT_TRUE(restarted.restore(rig.planner.save()));
+  const HazardMemory& memory = rig.planner.memory();
+  int blind = 0;
+  memory.map().for_each([&](CellIndex i, const GroundCell& cell) {
+    if (!memory.blind(cell)) return;
+    ++blind;
+    ASSERT_GT(cell.vain_m, 0.9F);
+    ASSERT_EQ(restarted.memory().map().get(i).vain_m, cell.vain_m);
+  });
+  EXPECT_GT(blind, 10);
+}
+
 TEST(Checkpoint, PathIdsOfARestartedPlannerAreNew) {
   PlannerRig rig = driven();
   PathPlanner restarted(planner_config(), 1'000'001);
