@@ -29,7 +29,7 @@ struct SearchConfig {
 struct AcceptanceConfig {
   double min_area_m2 = 100.0;  // seen
   // What the ground lets expect of a match, by its relief and the map's noise ("featured").
-  double max_expected_sigma_cells = 0.3;
+  double max_expected_sigma_cells = 0.2;
   double max_expected_sigma_rad = to_rad(0.25);
   double min_score = 0.5;           // correlation of the gradients
   double max_residual_m = 0.25;     // of the heights
