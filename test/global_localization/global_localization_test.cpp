@@ -85,7 +85,7 @@ TEST(GlobalLocalization, TheMapsDistortionReachesTheBodyThroughTheArm) {
 // At the Efficient level nothing is mapped, and the ground that could be matched falls behind.
 TEST(GlobalLocalization, AbstainsFarFromTheGroundThatWasMatched) {
   GlobalConfig config;
-  config.map_sigma_rad = to_rad(1.2);
+  config.map_sigma_rad = to_rad(3.0);
   config.acceptance.max_body_sigma_m = 0.8;
   GlobalLocalization core(config, orbital_of(hills, 0.5, 0.0), kCellM);
   core.take(view_of(hills, kTruth, kPlace, all_seen), kPlace);
