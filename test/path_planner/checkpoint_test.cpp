@@ -50,7 +50,7 @@ TEST(Checkpoint, ARestartedPlannerGoesOnWithThePathAndItsMemory) {
   EXPECT_FALSE(rig.step().path) << "once is enough";
 }
 
-// Else no look could ever clear it, or any.
+// Without that range no look would clear it any more.
 TEST(Checkpoint, ARestartedPlannerKnowsFromHowNearGroundWasBlind) {
   PlannerRig rig = driven();
   rig.camera.near_m = 1.6;  // so much of the ground nearby is not seen any more
