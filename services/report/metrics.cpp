@@ -233,7 +233,9 @@ void judge_corrections(const RunRecord& run, const TrueTrack& truth, Metrics& m)
       const Eigen::Vector2d in_odom = pose->T_odom_body.translation().head<2>();
       figure.before_m = figure.after_m = error_m(pose->T_map_odom);
       if (correction.accepted) {
-        figure.after_m = error_m(newest(run.poses, correction.released_s + kTakenWithinS)->T_map_odom);
+        // A damaged log may say that it was released before its map, or before every pose.
+        const double taken_s = std::max(correction.t_s, correction.released_s + kTakenWithinS);
+        figure.after_m = error_m(newest(run.poses, taken_s)->T_map_odom);
         figure.fix_m = (transform(correction.T_map_odom, in_odom) - p).norm();
       }
     }
