@@ -132,9 +132,9 @@ function(rover_benchmark name)
 endfunction()
 
 # rover_test(NAME [CORE] SOURCES ... LINK ... [LABEL unit|integration]): builds and registers a GoogleTest program.
-# CORE: of a service's core.
+# CORE: of a service's core. WILD: it has rows of test/results/wild.md.
 function(rover_test name)
-  cmake_parse_arguments(ARG "CORE" "LABEL;TIMEOUT" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "CORE;WILD" "LABEL;TIMEOUT" "SOURCES;LINK" ${ARGN})
   if(NOT ARG_LABEL)
     set(ARG_LABEL unit)
   endif()
@@ -157,5 +157,9 @@ function(rover_test name)
   if(ARG_CORE)
     add_dependencies(core_tests ${name})
     set_property(TEST ${name} APPEND PROPERTY LABELS core)
+  endif()
+  if(ARG_WILD)
+    target_link_libraries(${name} PRIVATE wild_rows)
+    set_property(TEST ${name} APPEND PROPERTY LABELS wild)
   endif()
 endfunction()
