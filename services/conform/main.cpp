@@ -22,7 +22,7 @@ using namespace rover;
 using namespace rover::conform;
 
 struct Arguments {
-  std::string config_dir = "config";
+  std::string config_dir = project_dir() + "/config";
   std::string bus;
   bool move = false;
   double listen_s = 10.0;
@@ -138,6 +138,7 @@ int main(int argc, char** argv) {
       "Example: ./rover conform --move");
   app.name("./rover conform");
   app.add_option("--config", arguments.config_dir, "folder of the configuration: cameras.yaml, bus.yaml")
+      ->transform(is_user_path())
       ->capture_default_str();
   app.add_option("--bus", arguments.bus, "LCM URL instead of the one in bus.yaml");
   app.add_flag("--move", arguments.move, "also give commands: the rover rolls about 0.4 m");

@@ -1,26 +1,25 @@
 #include "launcher/arguments.hpp"
 
-#include <cstdio>
 #include <filesystem>
 #include <regex>
 #include <sstream>
 
+#include "common/bus/child_process.hpp"
 #include "common/bus/config.hpp"
 
 namespace rover {
+
+std::string scenario_file(const RunArguments& arguments) {
+  return arguments.scenario.empty() ? arguments.source_dir + "/config/scenarios/default.yaml" : arguments.scenario;
+}
 
 std::string scenario_name(const std::string& file) {
   return std::filesystem::path(file).stem().string();
 }
 
 std::string commit_of(const std::string& source_dir) {
-  const std::string command = "git -C '" + source_dir + "' describe --always --dirty --abbrev=12 2>/dev/null";
-  std::string commit;
-  if (FILE* pipe = popen(command.c_str(), "r")) {
-    char line[128] = {};
-    if (fgets(line, sizeof line, pipe) != nullptr) commit = line;
-    pclose(pipe);
-  }
+  std::string commit =
+      output_of({"git", "-C", source_dir, "describe", "--always", "--dirty", "--abbrev=12"}).value_or("");
   while (!commit.empty() && commit.back() == '\n') commit.pop_back();
   return commit.empty() ? "unknown" : commit;
 }

@@ -23,6 +23,8 @@ struct RunArguments {
   bool quiet = false;            // no progress (benches)
 };
 
+// The scenario that is meant: the default one where none is named.
+std::string scenario_file(const RunArguments& arguments);
 // Name of a scenario file without folder and ending.
 std::string scenario_name(const std::string& file);
 // The sources' commit, with -dirty where they differ from it; "unknown" outside of a checkout.

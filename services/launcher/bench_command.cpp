@@ -9,6 +9,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "common/bus/child_process.hpp"
 #include "common/bus/config.hpp"
 #include "launcher/run_command.hpp"
 
@@ -155,10 +156,11 @@ int bench(const BenchArguments& arguments) {
       run_jobs(arguments, todo, rows);
     }
   }
-  const std::string command = "'" + arguments.run.bin_dir + "/rover_bench_table' --suite " + arguments.suite +
-                              " --rows '" + rows.file() + "' --out '" + arguments.run.source_dir + "/test/results/" +
-                              arguments.suite + ".md' --command '" + arguments.command + "'";
-  return std::system(command.c_str()) == 0 ? 0 : 1;
+  const std::string table = arguments.run.source_dir + "/test/results/" + arguments.suite + ".md";
+  return run_program({arguments.run.bin_dir + "/rover_bench_table", "--suite", arguments.suite, "--rows", rows.file(),
+                      "--out", table, "--command", arguments.command}) == 0
+             ? 0
+             : 1;
 }
 
 }  // namespace rover

@@ -32,10 +32,9 @@ std::vector<std::string> services_of(const DriveArguments& arguments) {
   return service_names(arguments.level != "efficient");
 }
 
-std::vector<ServiceCommand> service_commands(const DriveArguments& arguments, const RunFolder& folder) {
+std::vector<ServiceCommand> service_commands(const DriveArguments& arguments) {
   std::vector<ServiceCommand> commands;
-  for (const std::string& name : services_of(arguments))
-    commands.push_back(service_command(name, arguments.bin_dir, folder, false));
+  for (const std::string& name : services_of(arguments)) commands.push_back({name});
   return commands;
 }
 
@@ -126,9 +125,9 @@ int drive_in(const DriveArguments& arguments, const RunFolder& folder) {
   if (const std::string line = page_line(folder.config_dir); !line.empty()) std::printf("%s\n", line.c_str());
   std::fflush(stdout);
   write_json(folder.dir + "/launch.json", {{"bus", folder.bus_url}, {"allow_injection", false}});
-  write_s6_tree(folder.dir, service_commands(arguments, folder));
+  write_s6_tree(folder.dir, service_commands(arguments), false);
   {
-    S6Session session(folder.dir);
+    S6Session session(folder, arguments.bin_dir);
     attend(arguments, folder, session);
     session.stop();
   }

@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "common/bus/channels.hpp"
+#include "common/bus/child_process.hpp"
 #include "common/bus/faults.hpp"
 #include "common/bus/s6_client.hpp"
 #include "common/bus/streams.hpp"
@@ -74,13 +75,8 @@ void signal_through_s6(const LiveRun& run, const std::string& service, const cha
 }
 
 int pid_of(const LiveRun& run, const std::string& service) {
-  const std::string command = "s6-svstat -o pid '" + run.dir + "/services/" + service + "'";
-  int pid = -1;
-  if (FILE* pipe = popen(command.c_str(), "r")) {
-    if (std::fscanf(pipe, "%d", &pid) != 1) pid = -1;
-    pclose(pipe);
-  }
-  return pid;
+  const auto said = output_of({"s6-svstat", "-o", "pid", run.dir + "/services/" + service});
+  return said ? std::atoi(said->c_str()) : -1;
 }
 
 // Each blow falls on a new process: s6 gives it a second at least.

@@ -7,6 +7,7 @@
 #include "launcher/bench_command.hpp"
 #include "launcher/drive_command.hpp"
 #include "launcher/inject_command.hpp"
+#include "launcher/needed_programs.hpp"
 #include "launcher/replay_command.hpp"
 #include "launcher/run_command.hpp"
 #include "status/status_command.hpp"
@@ -22,13 +23,15 @@ std::string command_line(int argc, char** argv) {
 void add_run_options(CLI::App& command, rover::RunArguments& run) {
   command.add_option("--level", run.level, "autonomy level: efficient, auto or full; default: the scenario's")
       ->check(CLI::IsMember({"auto", "efficient", "full"}));
-  command.add_option("--set", run.set, "set a value of the configuration: file.key=value, repeatable");
+  rover::repeatable(
+      command.add_option("--set", run.set, "set a value of the configuration: file.key=value, repeatable"));
 }
 
 void add_status_options(CLI::App& command, rover::status::StatusArguments& status) {
   CLI::Option* json = command.add_flag("--json", status.json, "one JSON document");
   command.add_flag("--watch", status.watch, "again each second, until Ctrl-C")->excludes(json);
-  command.add_option("--run", status.target.run, "folder of the run; default: the newest in logs/ that runs");
+  command.add_option("--run", status.target.run, "folder of the run; default: the newest in logs/ that runs")
+      ->transform(rover::is_user_path());
   command.add_option("--bus", status.target.bus, "LCM URL; default: the run's. Without a run: the bus alone");
 }
 
@@ -38,17 +41,21 @@ CLI::App* add_inject_command(CLI::App& app, rover::InjectArguments& inject) {
   command->add_option("target", inject.target, "service, CHANNEL, CHANNEL.field, wheel ...; see --list");
   command->add_option("--amount", inject.amount, "in the fault's unit; default: its usual one");
   command->add_option("--for", inject.for_s, "duration in seconds of message time; default: until the end");
-  command->add_option("--run", inject.run_dir, "the run's folder; default: the newest that runs");
+  command->add_option("--run", inject.run_dir, "the run's folder; default: the newest that runs")
+      ->transform(rover::is_user_path());
   command->add_flag("--list", inject.list, "list the faults");
-  inject.source_dir = std::filesystem::current_path();
+  inject.source_dir = rover::project_dir();
   return command;
 }
 
 CLI::App* add_replay_command(CLI::App& app, rover::ReplayArguments& replay) {
   CLI::App* command = app.add_subcommand(
       "replay", "play a log back. Example: ./rover replay logs/RUN --services stereo,visual_odometry --speed 2");
-  command->add_option("log", replay.log, "an LCM log, or the folder of a run")->required();
-  command->add_option("--services", replay.services, "run live; what they said in the log is muted; all: every one")
+  command->add_option("log", replay.log, "an LCM log, or the folder of a run")
+      ->required()
+      ->transform(rover::is_user_path());
+  rover::repeatable(command->add_option("--services", replay.services,
+                                        "run live; what they said in the log is muted; all: every one"))
       ->delimiter(',');
   CLI::Option* check =
       command->add_flag("--check", replay.check, "compare what the services say with the log, byte by byte");
@@ -58,9 +65,12 @@ CLI::App* add_replay_command(CLI::App& app, rover::ReplayArguments& replay) {
   command->add_option("--until", replay.until_s, "end at this message time [s]")->check(CLI::NonNegativeNumber);
   command->add_option("--speed", replay.speed, "times real time, or max")->excludes(check)->capture_default_str();
   command->add_flag("--loop", replay.loop, "again and again, until q or Ctrl-C")->excludes(check);
-  command->add_option("--config", replay.config_dir, "configuration; default: that beside the log, or the project's");
-  command->add_option("--set", replay.run.set, "set a value of the configuration: file.key=value, repeatable");
-  command->add_option("--out", replay.run.out, "folder of the replay; default: logs/<time>-replay-<log>");
+  command->add_option("--config", replay.config_dir, "configuration; default: that beside the log, or the project's")
+      ->transform(rover::is_user_path());
+  rover::repeatable(
+      command->add_option("--set", replay.run.set, "set a value of the configuration: file.key=value, repeatable"));
+  command->add_option("--out", replay.run.out, "folder of the replay; default: logs/<time>-replay-<log>")
+      ->transform(rover::is_user_path());
   command->add_option("--bus", replay.run.bus, "LCM URL; default: of the configuration");
   return command;
 }
@@ -68,11 +78,15 @@ CLI::App* add_replay_command(CLI::App& app, rover::ReplayArguments& replay) {
 CLI::App* add_drive_command(CLI::App& app, rover::DriveArguments& drive) {
   CLI::App* command = app.add_subcommand(
       "drive", "the stack for a vehicle's drivers. Example: ./rover drive --ground ground.yaml --map map.tif");
-  command->add_option("--config", drive.config_dir, "folder of the configuration; default: config");
-  command->add_option("--ground", drive.ground, "start pose and path; default: ground.yaml of the configuration");
-  command->add_option("--map", drive.map, "orbital map (GeoTIFF) for the page and the report");
+  command->add_option("--config", drive.config_dir, "folder of the configuration; default: config")
+      ->transform(rover::is_user_path());
+  command->add_option("--ground", drive.ground, "start pose and path; default: ground.yaml of the configuration")
+      ->transform(rover::is_user_path());
+  command->add_option("--map", drive.map, "orbital map (GeoTIFF) for the page and the report")
+      ->transform(rover::is_user_path());
   command->add_option("--bus", drive.bus, "LCM URL; default: of bus.yaml");
-  command->add_option("--out", drive.out, "folder of the run; default: logs/<time>-drive");
+  command->add_option("--out", drive.out, "folder of the run; default: logs/<time>-drive")
+      ->transform(rover::is_user_path());
   command->add_option("--record", drive.record, "full or reduced")->check(CLI::IsMember({"full", "reduced"}));
   command->add_option("--patience", drive.patience_s, "seconds to wait for the driver's first TICK")
       ->check(CLI::Range(1.0, 3600.0))
@@ -82,7 +96,8 @@ CLI::App* add_drive_command(CLI::App& app, rover::DriveArguments& drive) {
       ->capture_default_str();
   command->add_flag("--headless", drive.headless, "no page");
   command->add_flag("--until-goal", drive.until_goal, "end at the goal, without an order to stop");
-  command->add_option("--set", drive.set, "set a value of the configuration: file.key=value, repeatable");
+  rover::repeatable(
+      command->add_option("--set", drive.set, "set a value of the configuration: file.key=value, repeatable"));
   return command;
 }
 
@@ -92,15 +107,19 @@ int main(int argc, char** argv) {
   CLI::App app("./rover: guidance, navigation and control of a planetary rover");
   app.name("./rover");
   app.require_subcommand(1);
+  bool tell_needs = false;  // for the script ./rover, which builds what is needed
+  app.add_flag("--needs-full-level", tell_needs)->group("");
   rover::RunArguments run;
-  run.source_dir = std::filesystem::current_path();
+  run.source_dir = rover::project_dir();
   run.bin_dir = std::filesystem::canonical("/proc/self/exe").parent_path();
 
   CLI::App* run_command = app.add_subcommand("run", "drive a scenario to its goal. Example: ./rover run --seed 3");
-  run_command->add_option("scenario", run.scenario, "scenario file; default: config/scenarios/default.yaml");
+  run_command->add_option("scenario", run.scenario, "scenario file; default: config/scenarios/default.yaml")
+      ->transform(rover::is_user_path());
   run_command->add_option("--seed", run.seed, "seed of rocks, noise and errors; default: the scenario's")
       ->check(CLI::NonNegativeNumber);
-  run_command->add_option("--out", run.out, "folder of the run; default: logs/<time>-<scenario>");
+  run_command->add_option("--out", run.out, "folder of the run; default: logs/<time>-<scenario>")
+      ->transform(rover::is_user_path());
   run_command->add_option("--bus", run.bus, "LCM URL; default: of config/bus.yaml");
   run_command->add_option("--record", run.record, "full or reduced")->check(CLI::IsMember({"full", "reduced"}));
   run_command->add_flag("--headless", run.headless, "no page");
@@ -142,6 +161,12 @@ int main(int argc, char** argv) {
     return rover::end_of_parse(app, error);
   }
   try {
+    if (tell_needs) {
+      const bool full = (run_command->parsed() && rover::needs_full_level(run)) ||
+                        (drive_command->parsed() && rover::needs_full_level(drive)) ||
+                        (replay_command->parsed() && rover::needs_full_level(replay));
+      return full ? 0 : 1;
+    }
     if (status_command->parsed()) return rover::status::show_status(status);
     if (run_command->parsed()) return rover::run(run).exit_status;
     if (drive_command->parsed()) return rover::drive(drive);

@@ -148,10 +148,9 @@ Plan make_plan(const ReplayArguments& arguments, const RecordedLog& log, const s
   return plan;
 }
 
-std::vector<ServiceCommand> service_commands(const Plan& plan, const RunArguments& arguments, const RunFolder& folder) {
+std::vector<ServiceCommand> service_commands(const Plan& plan) {
   std::vector<ServiceCommand> commands;
-  for (const std::string& name : plan.live)
-    commands.push_back(service_command(name, arguments.bin_dir, folder, plan.injects));
+  for (const std::string& name : plan.live) commands.push_back({name});
   return commands;
 }
 
@@ -261,14 +260,14 @@ int play_live(const ReplayArguments& arguments, const Plan& plan, RecordedLog& l
   const RunFolder folder = make_replay_folder(arguments.run, plan.name, plan.config_from, plan.log_dir);
   std::ofstream(folder.dir + "/launch.json")
       << nlohmann::json{{"bus", folder.bus_url}, {"allow_injection", plan.injects}}.dump(2) << "\n";
-  write_s6_tree(folder.dir, service_commands(plan, arguments.run, folder));
+  write_s6_tree(folder.dir, service_commands(plan), plan.injects);
   set_boots(plan, log, folder);
   replay::Comparison judge;
   replay::Played played;
   Watch watch(folder.dir);
   std::string gone;
   {
-    S6Session session(folder.dir);
+    S6Session session(folder, arguments.run.bin_dir);
     try {
       played = play_once(plan, log, folder.bus_url, watch, keyboard, arguments.check ? &judge : nullptr);
     } catch (const replay::ServiceGone& error) {

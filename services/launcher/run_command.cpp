@@ -29,18 +29,15 @@ bool allows_injection(const RunArguments& arguments, const RunFolder& folder) {
 }
 
 std::vector<ServiceCommand> service_commands(const RunArguments& arguments, const RunFolder& folder) {
-  const bool injects = allows_injection(arguments, folder);
   std::vector<ServiceCommand> commands;
   std::string participants;
   for (const std::string& name : services_of(folder)) {
-    commands.push_back(service_command(name, arguments.bin_dir, folder, injects));
+    commands.push_back({name});
     participants += (participants.empty() ? "" : ",") + name;
   }
-  ServiceCommand simulator = service_command("rover_simulator", arguments.bin_dir, folder, injects);
-  simulator.command += " --scenario '" + folder.scenario + "' --seed " + std::to_string(folder.seed) +
-                       " --participants " + participants + (arguments.realtime ? " --realtime" : "");
-  simulator.once = true;
-  commands.push_back(simulator);
+  const std::string flags = "--scenario \"$ROVER_RUN/config/scenario.yaml\" --seed " + std::to_string(folder.seed) +
+                            " --participants " + participants + (arguments.realtime ? " --realtime" : "");
+  commands.push_back({"rover_simulator", flags, true});
   return commands;
 }
 
@@ -110,7 +107,7 @@ void print_result(const RunFolder& folder, const nlohmann::json& metrics) {
 
 RunResult run(const RunArguments& given) {
   RunArguments arguments = given;
-  if (arguments.scenario.empty()) arguments.scenario = arguments.source_dir + "/config/scenarios/default.yaml";
+  arguments.scenario = scenario_file(given);
   RunResult result;
   RunFolder folder;
   try {
@@ -136,10 +133,10 @@ RunResult run(const RunArguments& given) {
   if (const std::string line = page_line(folder.config_dir); !arguments.quiet && !line.empty())
     std::printf("%s\n", line.c_str());
   write_launch_json(arguments, folder);
-  write_s6_tree(folder.dir, service_commands(arguments, folder));
+  write_s6_tree(folder.dir, service_commands(arguments, folder), allows_injection(arguments, folder));
   End end = End::kFailed;
   {
-    S6Session session(folder.dir);
+    S6Session session(folder, arguments.bin_dir);
     end = wait_for_end(arguments, folder, session);
     session.stop();
   }

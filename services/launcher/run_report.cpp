@@ -1,15 +1,15 @@
 #include "launcher/run_report.hpp"
 
 #include <cstdio>
-#include <cstdlib>
 #include <fstream>
+
+#include "common/bus/child_process.hpp"
 
 namespace rover {
 
 bool make_report(const std::string& bin_dir, const RunFolder& folder) {
   const std::string log = folder.dir + "/service_logs/report.log";
-  const std::string command = "'" + bin_dir + "/rover_report' '" + folder.dir + "' > '" + log + "' 2>&1";
-  if (std::system(command.c_str()) == 0) return true;
+  if (run_into(log, {bin_dir + "/rover_report", folder.dir}) == 0) return true;
   std::fprintf(stderr, "the report failed; see %s\n", log.c_str());
   return false;
 }

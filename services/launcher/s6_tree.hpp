@@ -9,21 +9,19 @@
 namespace rover {
 
 struct ServiceCommand {
-  std::string name;
-  std::string command;  // executed by sh, in the run's folder
-  bool once = false;    // not started again after a clean exit
+  std::string name;   // of the executable too
+  std::string flags;  // beside those that all services take; words of our own alone, a shell reads them
+  bool once = false;  // not started again after a clean exit
 };
 
-// A service of `folder`'s run as the launcher starts it.
-ServiceCommand service_command(const std::string& name, const std::string& bin_dir, const RunFolder& folder,
-                               bool allow_injection);
-
-void write_s6_tree(const std::string& run_dir, const std::vector<ServiceCommand>& services);
+// The scripts hold no text of the user's: folders and bus come by the environment that S6Session gives them.
+void write_s6_tree(const std::string& run_dir, const std::vector<ServiceCommand>& services, bool allow_injection);
 
 // Keeps s6-svscan on a run's tree as a child that dies with this process.
 class S6Session {
  public:
-  explicit S6Session(const std::string& run_dir);
+  // The executables lie in `bin_dir`.
+  S6Session(const RunFolder& folder, const std::string& bin_dir);
   ~S6Session();
   S6Session(const S6Session&) = delete;
   S6Session& operator=(const S6Session&) = delete;
@@ -32,7 +30,6 @@ class S6Session {
   bool running();
 
  private:
-  std::string run_dir_;
   int pid_ = -1;
 };
 

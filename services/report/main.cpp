@@ -9,16 +9,22 @@
 
 int main(int argc, char** argv) {
   std::vector<std::string> run_dirs;
-  std::string config_dir = "config";
+  std::string config_dir = rover::project_dir() + "/config";
   std::string out;
   CLI::App app(
       "One run: makes its metrics.json, report.html, traverse.svg and traverse.png again. Two: compares them in one "
       "page.\n"
       "Examples: ./rover report logs/RUN       ./rover report logs/RUN_A logs/RUN_B");
   app.name("./rover report");
-  app.add_option("run_dir", run_dirs, "the run's folder, or two")->required()->expected(1, 2);
-  app.add_option("--out", out, "of a comparison; default: compare-A-B.html in the current folder");
-  app.add_option("--config", config_dir, "vehicle of a run whose folder holds no configuration")->capture_default_str();
+  app.add_option("run_dir", run_dirs, "the run's folder, or two")
+      ->required()
+      ->expected(1, 2)
+      ->transform(rover::is_user_path());
+  app.add_option("--out", out, "of a comparison; default: compare-A-B.html in the current folder")
+      ->transform(rover::is_user_path());
+  app.add_option("--config", config_dir, "vehicle of a run whose folder holds no configuration")
+      ->transform(rover::is_user_path())
+      ->capture_default_str();
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -2,16 +2,37 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
+#include "common/bus/config.hpp"
 #include "report/metrics_json.hpp"
 #include "report/no_truth.hpp"
 #include "report/rasterise.hpp"
 
 namespace rover::report {
+namespace {
+
+// The files of an earlier report may be made again. Anything else by these names is somebody's.
+void check_targets(const std::string& dir) {
+  namespace fs = std::filesystem;
+  const std::string metrics = dir + "/metrics.json";
+  const bool made_before =
+      fs::is_regular_file(metrics) && read_file(metrics).find("\"path_ratio\"") != std::string::npos;
+  for (const char* name :
+       {"metrics.json", "traverse.svg", "traverse.png", "elevation.png", "levels.png", "report.html"}) {
+    const fs::path file = fs::path(dir) / name;
+    if (fs::is_symlink(file) || (fs::exists(file) && !made_before))
+      throw ConfigError(file.string() + ": exists already and is no report's; move it away");
+  }
+}
+
+}  // namespace
 
 std::string write_report(const Study& study) {
   constexpr double kPngScale = 1.0;
   const RunFolder& folder = study.folder;
   const Metrics& m = study.judgement.metrics;
+  check_targets(folder.dir);
   write_file(folder.dir + "/metrics.json", metrics_json(m).dump(2) + "\n");
   const Pictures pictures = draw_pictures(study);
   write_file(folder.dir + "/traverse.svg", "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" + pictures.map);

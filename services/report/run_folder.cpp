@@ -108,10 +108,16 @@ std::string read_file(const std::string& path) {
 }
 
 void write_file(const std::string& path, const std::string& content) {
-  std::ofstream file(path, std::ios::binary | std::ios::trunc);
+  // An earlier one stays until this one is whole.
+  const std::string fresh = path + ".new";
+  std::ofstream file(fresh, std::ios::binary | std::ios::trunc);
   file << content;
   file.close();
-  if (!file) throw ConfigError(path + ": cannot be written");
+  std::error_code error;
+  if (file) fs::rename(fresh, path, error);
+  if (file && !error) return;
+  fs::remove(fresh, error);
+  throw ConfigError(path + ": cannot be written");
 }
 
 }  // namespace rover::report

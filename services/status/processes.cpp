@@ -2,11 +2,12 @@
 
 #include <unistd.h>
 
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <sstream>
+
+#include "common/bus/child_process.hpp"
 
 namespace rover::status {
 namespace fs = std::filesystem;
@@ -18,14 +19,10 @@ double ticks_to_s(double ticks) {
 
 // 0 where it is down.
 int s6_pid(const fs::path& service_dir) {
-  const std::string command = "s6-svstat -o up,pid '" + service_dir.string() + "' 2>/dev/null";
-  FILE* pipe = popen(command.c_str(), "r");
-  if (pipe == nullptr) return 0;
-  char up[8] = {};
+  std::istringstream said(output_of({"s6-svstat", "-o", "up,pid", service_dir.string()}).value_or(""));
+  std::string up;
   int pid = 0;
-  const bool read = std::fscanf(pipe, "%7s %d", up, &pid) == 2;
-  pclose(pipe);
-  return read && std::string(up) == "true" ? pid : 0;
+  return said >> up >> pid && up == "true" ? pid : 0;
 }
 
 // boots/NAME counts the starts.

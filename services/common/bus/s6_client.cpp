@@ -1,14 +1,12 @@
 #include "common/bus/s6_client.hpp"
 
 #include <signal.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <time.h>
 
 #include <cerrno>
 #include <filesystem>
 
-extern char** environ;
+#include "common/bus/child_process.hpp"
 
 namespace rover {
 
@@ -29,12 +27,7 @@ bool keeps_service(const std::string& run_dir, const std::string& service) {
 
 bool control_service(const std::string& run_dir, const std::string& service, const char* option) {
   if (!keeps_service(run_dir, service)) return false;
-  const std::string dir = run_dir + "/services/" + service;
-  const char* command[] = {"s6-svc", option, dir.c_str(), nullptr};
-  pid_t pid = 0;
-  if (posix_spawnp(&pid, command[0], nullptr, nullptr, const_cast<char**>(command), environ) != 0) return false;
-  int status = 0;
-  return waitpid(pid, &status, 0) == pid && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  return run_program({"s6-svc", option, run_dir + "/services/" + service}) == 0;
 }
 
 bool kill_service(const std::string& run_dir, const std::string& service) {

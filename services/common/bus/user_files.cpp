@@ -40,12 +40,13 @@ std::string user_path(const std::string& typed) {
   fs::path path = typed;
   const char* home = std::getenv("HOME");
   if (home != nullptr && (typed == "~" || typed.rfind("~/", 0) == 0)) path = home + typed.substr(1);
-  if (!path.has_filename()) path = path.parent_path();
   std::error_code error;
+  path = fs::absolute(path, error);
+  if (!path.has_filename()) path = path.parent_path();
   const bool has_name = path.has_filename() && path.filename() != "." && path.filename() != "..";
-  const fs::path known = fs::weakly_canonical(fs::absolute(has_name ? path.parent_path() : path), error);
+  const fs::path folder = error ? path : fs::weakly_canonical(has_name ? path.parent_path() : path, error);
   if (error) throw ConfigError(typed + ": " + error.message());
-  return (has_name ? known / path.filename() : known).string();
+  return (has_name ? folder / path.filename() : folder).string();
 }
 
 NewFolder::NewFolder(const std::string& path) : target_(fs::absolute(path)) {
