@@ -36,7 +36,7 @@ void read_armed(const Config& c, MonitorRow& row) {
   if (armed == "efficient") row.level = Level::kEfficient;
 }
 
-FdirLine read_line(const Config& c) {
+FdirLine read_line(const Config& c, const Vehicle& vehicle) {
   FdirLine line;
   MonitorRow& row = line.row;
   row.id = c.text("id");
@@ -55,6 +55,7 @@ FdirLine read_line(const Config& c) {
   row.response = static_cast<Response>(std::find(kResponses.begin(), kResponses.end(), response) - kResponses.begin());
   if (c.has("back_limit")) row.back_limit = c.number("back_limit", {row.limit, 1e6});
   if (c.has("back_limit") && row.response != Response::kStopRetreat) c.fail("back_limit", "belongs to stop_retreat");
+  if (row.response == Response::kSlow) row.slow_mps = c.number("slow_mps", {0.01, vehicle.top_speed_mps});
   const bool of_service =
       quantity->expansion == Expansion::kEachRequired || quantity->expansion == Expansion::kEachFull;
   if (row.response == Response::kRestartService && !of_service) c.fail("response", "no service to start anew");
@@ -71,7 +72,7 @@ std::vector<FdirLine> read_lines(const std::string& config_dir, const Vehicle& v
   std::vector<FdirLine> lines;
   std::set<std::string> ids;
   for (const Config& c : config.list("rows")) {
-    const FdirLine line = read_line(c);
+    const FdirLine line = read_line(c, vehicle);
     if (!ids.insert(line.row.id).second) c.fail("id", "'" + line.row.id + "' is there twice");
     if (line.quantity == "drive_current_a" && line.row.limit > vehicle.drive_current_limit_a)
       c.fail("limit", "is above drive.current_limit_a of vehicle.yaml");
@@ -153,7 +154,6 @@ SupervisorConfig load_config(const std::string& config_dir) {
   out.fdir.optional_services = split(config.text("optional_services"));
   out.fdir.full_services = split(config.text("full_services"));
   config.read("max_speed_mps", out.max_speed_mps, {0.01, vehicle.top_speed_mps});
-  config.read("slow_speed_mps", out.slow_speed_mps, {0.01, vehicle.top_speed_mps});
   config.read("teleop_speed_mps", out.teleop_speed_mps, {0.01, vehicle.top_speed_mps});
   config.read("teleop_max_age_s", out.teleop_max_age_s, {0.1, 5.0});
   config.read("permit_validity_s", out.permit_validity_s, {0.04, 0.2});

@@ -157,8 +157,10 @@ bool Fdir::wants_retreat() const {
   return first_standing([](const Monitor& m) { return m.row().response == Response::kStopRetreat; }) != nullptr;
 }
 
-bool Fdir::slows() const {
-  return first_standing([](const Monitor& m) { return m.row().response == Response::kSlow; }) != nullptr;
+double Fdir::speed_limit_mps() const {
+  double least = kInfinity;
+  for (const std::string& id : standing_) least = std::min(least, find(id)->monitor.row().slow_mps);
+  return least;
 }
 
 }  // namespace rover::supervisor

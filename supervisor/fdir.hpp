@@ -59,7 +59,8 @@ class Fdir {
   // The first of those standing that stops the rover (for good); null: none.
   const Monitor* first_blocking() const;
   const Monitor* first_safe() const;
-  bool slows() const;
+  // The most that the standing rows let the rover drive; infinity: none slows it.
+  double speed_limit_mps() const;
   // Whom standing rows want to be started anew.
   std::vector<std::string> ailing_services() const;
 

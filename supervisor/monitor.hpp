@@ -36,6 +36,7 @@ struct MonitorRow {
   bool latched = false;  // cleared by the ground, or where the row is not armed
   Response response = Response::kStop;
   double back_limit = kInfinity;  // stop_retreat: the limit on a way back, which is what ends such a fault
+  double slow_mps = kInfinity;    // slow: the most that is driven then
   StateSet armed;
   std::optional<Level> level;  // armed in that level alone
   bool stops = true;           // restart_service: the rover stands meanwhile

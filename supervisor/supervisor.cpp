@@ -350,7 +350,7 @@ Permit Supervisor::permit(FactSet facts, Utime now) const {
 
 double Supervisor::speed_limit_mps() const {
   const double allowed = state_ == kTeleop ? config_.teleop_speed_mps : config_.max_speed_mps;
-  return fdir_.slows() ? std::min(allowed, config_.slow_speed_mps) : allowed;
+  return std::min(allowed, fdir_.speed_limit_mps());
 }
 
 void Supervisor::restore(const Memory& memory) {

@@ -24,7 +24,6 @@ struct SupervisorConfig {
   LevelConfig level;
   ServiceKeeperConfig keeper;
   double max_speed_mps = 0.2;
-  double slow_speed_mps = 0.05;  // while a row with the response "slow" stands
   double teleop_speed_mps = 0.1;
   double teleop_max_age_s = 0.5;  // of the operator's newest motion command
   double permit_validity_s = 0.2;

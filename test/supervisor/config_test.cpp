@@ -69,5 +69,10 @@ TEST_F(ConfigTest, ALimitOfTheWayBackBelongsToRowsThatLeadBack) {
   EXPECT_THROW(load_with("limit: 35.0, n: 3", "limit: 35.0, back_limit: 38.0, n: 3"), ConfigError);
 }
 
+TEST_F(ConfigTest, ARowThatSlowsSaysHowMuch) {
+  EXPECT_THROW(load_with("slow_mps: 0.10", "slow_mps: 5.0"), ConfigError);  // more than the vehicle can
+  EXPECT_THROW(load_with("slow_mps: 5.0, ", ""), ConfigError);
+}
+
 }  // namespace
 }  // namespace rover::supervisor

@@ -148,6 +148,7 @@ std::vector<RowCase> pose_cases() {
       no_odometry("vo_age_high", 3.0),
       no_odometry("vo_age", 8.0),
       tilted("roll_high", 16.0, 0.0),
+      tilted("roll_steep", 18.0, 0.0),
       tilted("roll", -20.5, 0.0),
       tilted("pitch_high", 0.0, 26.0),
       tilted("pitch", 0.0, -35.5),

@@ -645,13 +645,20 @@ TEST_F(SupervisorTest, SensorsThatFallSilentOrReportAFaultStop) {
   EXPECT_EQ(changes_.back().cause, "command_age");
 }
 
-TEST_F(SupervisorTest, AWarningSlowsTheRover) {
+TEST_F(SupervisorTest, WarningsSlowTheRoverTheMoreTheWorse) {
   start_driving();
   EXPECT_EQ(out_.permit.max_speed_mps, config_.max_speed_mps);
   pose_.roll_rad = to_rad(16.0);
   run(0.2);
   EXPECT_TRUE(out_.permit.granted);
-  EXPECT_EQ(out_.permit.max_speed_mps, config_.slow_speed_mps);
+  EXPECT_EQ(out_.permit.max_speed_mps, 0.10);
+  pose_.roll_rad = to_rad(18.0);
+  run(0.2);
+  EXPECT_TRUE(out_.permit.granted);
+  EXPECT_EQ(out_.permit.max_speed_mps, 0.05);  // the least of the standing rows counts
+  pose_.roll_rad = to_rad(16.0);
+  run(1.1);
+  EXPECT_EQ(out_.permit.max_speed_mps, 0.10);
   pose_.roll_rad = 0.0;
   run(1.1);
   EXPECT_EQ(out_.permit.max_speed_mps, config_.max_speed_mps);
