@@ -3,6 +3,7 @@
 # test/results/data.md. A data set that is not there is named and left out.
 # Called by ./rover bench data.
 set -euo pipefail
+[ -z "${ROVER_DATA:-}" ] || ROVER_DATA=$(realpath -m "$ROVER_DATA")  # of the user's folder
 cd "$(dirname "$(readlink -f "$0")")/.."
 BUILD=$1
 OUT=test/results/data.md

@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
 BUILD=$1
 OUT=test/results/wild.md
-ROWS=$PWD/$BUILD/wild_rows.tsv
+ROWS=$BUILD/wild_rows.tsv
 rm -f "$ROWS"
 ROVER_WILD_ROWS=$ROWS ctest --test-dir "$BUILD" -L wild -j 2 --output-on-failure
 {

@@ -1,7 +1,7 @@
 
 # The value that an option wants, or the next argument of a command.
 _rover_values() {
-  local runs=("$_ROVER_DIR"/logs/*/) command=$1 before=$2 word=$3
+  local runs=("$_ROVER_DIR"/logs/*/) scenarios=$_ROVER_DIR/config/scenarios command=$1 before=$2 word=$3
   case $before in
     --level) compgen -W "auto efficient full" -- "$word" && return ;;
     --record) compgen -W "full reduced" -- "$word" && return ;;
@@ -14,10 +14,10 @@ _rover_values() {
   esac
   case $command in
     help) compgen -W "$_ROVER_COMMANDS" -- "$word" ;;
-    run) compgen -f -X '!*.yaml' -- "$word"; compgen -W "$(cd "$_ROVER_DIR" && echo config/scenarios/*.yaml)" -- "$word" ;;
+    run) compgen -f -X '!*.yaml' -- "$word"; compgen -d -- "$word"; compgen -f -X '!*.yaml' -- "${word:-$scenarios/}" ;;
     report | spy | repair) compgen -f -- "$word"; compgen -W "${runs[*]%/}" -- "$word" ;;
     plan) compgen -f -- "$word" ;;
-    bench) [ "$before" != bench ] || compgen -W "seed speed micro faults restarts page" -- "$word" ;;
+    bench) [ "$before" != bench ] || compgen -W "seed full slam correction speed micro faults restarts page data wild" -- "$word" ;;
     test) compgen -W "unit sanitize" -- "$word" ;;
     inject)
       [ "$before" != inject ] ||
