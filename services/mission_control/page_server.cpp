@@ -8,7 +8,6 @@
 #include <iterator>
 
 #include "mission_control/page_files.hpp"
-#include "rover_simulator/world/dtm_reader.hpp"
 
 namespace rover::mission {
 namespace {
@@ -106,6 +105,7 @@ PageServer::PageServer(PageConfig config, PageContext context, Station& station,
       station_(station),
       ear_(bus, audience_, context_.services),
       broadcaster_(audience_, ear_, station_),
+      map_(context_.run_dir, config_.path.slope, context_.rover_length_m),
       server_(std::make_unique<httplib::Server>()) {
   server_->set_default_headers(kHeaders);
   server_->set_payload_max_length(kLargestBody);
@@ -268,30 +268,11 @@ void PageServer::add_pictures() {
     send(response, *pictures_.camera(name, *image), "image/jpeg");
   });
   server_->Get(R"(/map/(relief|slope|difficulty))", [this](const Request& request, Response& response) {
-    const GroundMap* map = ground();
-    if (map == nullptr) return refuse(response, 404, "there is no orbital map");
     const std::string name = request.matches[1];
-    const std::lock_guard lock(ground_mutex_);
-    std::vector<std::uint8_t>& picture = map_pictures_[name];
-    if (picture.empty())
-      picture = name == "relief" ? map->relief_jpeg() : name == "slope" ? map->slope_png() : map->difficulty_png();
-    send(response, picture, name == "relief" ? "image/jpeg" : "image/png");
+    const auto picture = map_.picture(name);
+    if (!picture) return refuse(response, 404, "there is no orbital map");
+    send(response, *picture, name == "relief" ? "image/jpeg" : "image/png");
   });
-}
-
-const GroundMap* PageServer::ground() {
-  const std::lock_guard lock(ground_mutex_);
-  if (ground_looked_for_) return ground_.get();
-  ground_looked_for_ = true;
-  try {
-    if (context_.run_dir.empty()) return nullptr;
-    ElevationRaster raster = read_elevation(context_.run_dir + "/orbital_map.tif");
-    ground_ = std::make_unique<GroundMap>(
-        GroundHeights{raster.width, raster.height, raster.resolution_m, std::move(raster.z_m)}, config_.path.slope,
-        context_.rover_length_m);
-  } catch (const DtmError&) {  // a vehicle may drive without one
-  }
-  return ground_.get();
 }
 
 nlohmann::json PageServer::setup() {
@@ -299,7 +280,7 @@ nlohmann::json PageServer::setup() {
   out["run"] = context_.run_name;
   out["injection"] = context_.allow_injection;
   out["services"] = context_.services;
-  const GroundMap* map = ground();
+  const GroundMap* map = map_.get();
   out["map"] =
       map == nullptr
           ? json()
@@ -372,7 +353,7 @@ void PageServer::inject(const Command& command, Response& response) {
 
 // An operator's path goes over ground that the map knows and a rover can climb.
 std::string PageServer::path_problem(const Command& command) {
-  const GroundMap* map = ground();
+  const GroundMap* map = map_.get();
   if (map == nullptr) return "there is no orbital map to check the path against";
   const PathCheck found = map->check(command.points);
   if (!found.inside) return "the path leaves the map";
@@ -387,7 +368,7 @@ std::string PageServer::path_problem(const Command& command) {
 void PageServer::check(const Request& request, Response& response) {
   const ParsedPoints parsed = parse_points(request.body, config_.path.limits);
   if (!parsed.error.empty()) return refuse(response, 400, parsed.error);
-  const GroundMap* map = ground();
+  const GroundMap* map = map_.get();
   if (map == nullptr) return refuse(response, 422, "there is no orbital map to check the path against");
   PathCheck found = map->check(parsed.points);
   for (double& slope : found.slope_rad) slope = to_deg(slope);

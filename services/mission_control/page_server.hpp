@@ -12,6 +12,7 @@
 #include "mission_control/broadcaster.hpp"
 #include "mission_control/config.hpp"
 #include "mission_control/pictures.hpp"
+#include "mission_control/run_map.hpp"
 
 namespace httplib {
 class Server;
@@ -66,8 +67,6 @@ class PageServer {
   std::string path_problem(const Command& command);
   nlohmann::json setup();
   nlohmann::json history();
-  // Read when it is first asked for; null where there is none.
-  const GroundMap* ground();
 
   PageConfig config_;
   PageContext context_;
@@ -76,10 +75,7 @@ class PageServer {
   Ear ear_;
   Pictures pictures_;
   Broadcaster broadcaster_;
-  std::mutex ground_mutex_;
-  bool ground_looked_for_ = false;
-  std::unique_ptr<GroundMap> ground_;
-  std::map<std::string, std::vector<std::uint8_t>> map_pictures_;
+  RunMap map_;
   std::unique_ptr<httplib::Server> server_;
   std::atomic<bool> running_ = true;
   std::atomic<bool> ended_ = true;  // the thread has, or was never begun
