@@ -102,10 +102,6 @@ void attend(const DriveArguments& arguments, const RunFolder& folder, S6Session&
   progress.finish();
 }
 
-void write_json(const std::string& file, const nlohmann::json& facts) {
-  std::ofstream(file) << facts.dump(2) << "\n";
-}
-
 int report(const DriveArguments& arguments, const RunFolder& folder) {
   if (!make_report(arguments.bin_dir, folder)) return 1;
   const nlohmann::json metrics = read_metrics(folder);

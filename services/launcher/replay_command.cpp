@@ -16,6 +16,7 @@
 #include "common/bus/service_names.hpp"
 #include "launcher/preflight.hpp"
 #include "launcher/run_folder.hpp"
+#include "launcher/run_report.hpp"
 #include "launcher/s6_tree.hpp"
 #include "replay/field_difference.hpp"
 #include "replay/player.hpp"
@@ -233,7 +234,7 @@ void write_run_json(const Plan& plan, const RunArguments& arguments, const RunFo
   facts["live"] = plan.live;
   facts["simulated_s"] = played.sim_s();
   facts["wall_s"] = played.wall_s;
-  std::ofstream(folder.dir + "/run.json") << facts.dump(2) << "\n";
+  write_json(folder.dir + "/run.json", facts);
 }
 
 int tell_verdict(const Plan& plan, replay::Comparison& judge, const replay::Played& played) {
@@ -258,8 +259,7 @@ int tell_verdict(const Plan& plan, replay::Comparison& judge, const replay::Play
 int play_live(const ReplayArguments& arguments, const Plan& plan, RecordedLog& log, const replay::Keyboard& keyboard,
               bool& quit) {
   const RunFolder folder = make_replay_folder(arguments.run, plan.name, plan.config_from, plan.log_dir);
-  std::ofstream(folder.dir + "/launch.json")
-      << nlohmann::json{{"bus", folder.bus_url}, {"allow_injection", plan.injects}}.dump(2) << "\n";
+  write_json(folder.dir + "/launch.json", {{"bus", folder.bus_url}, {"allow_injection", plan.injects}});
   write_s6_tree(folder.dir, service_commands(plan), plan.injects);
   set_boots(plan, log, folder);
   replay::Comparison judge;

@@ -83,13 +83,13 @@ void write_run_json(const RunArguments& arguments, const RunFolder& folder) {
                                 {"level", folder.level},
                                 {"realtime", arguments.realtime},
                                 {"interrupted", !going()}};
-  std::ofstream(folder.dir + "/run.json") << facts.dump(2) << "\n";
+  write_json(folder.dir + "/run.json", facts);
 }
 
 // For ./rover inject, while the run lasts.
 void write_launch_json(const RunArguments& arguments, const RunFolder& folder) {
   const nlohmann::json facts = {{"bus", folder.bus_url}, {"allow_injection", allows_injection(arguments, folder)}};
-  std::ofstream(folder.dir + "/launch.json") << facts.dump(2) << "\n";
+  write_json(folder.dir + "/launch.json", facts);
 }
 
 void print_result(const RunFolder& folder, const nlohmann::json& metrics) {

@@ -7,6 +7,10 @@
 
 namespace rover {
 
+void write_json(const std::string& file, const nlohmann::json& facts) {
+  std::ofstream(file) << facts.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
+}
+
 bool make_report(const std::string& bin_dir, const RunFolder& folder) {
   const std::string log = folder.dir + "/service_logs/report.log";
   if (run_into(log, {bin_dir + "/rover_report", folder.dir}) == 0) return true;

@@ -1,4 +1,4 @@
-// The report of a run that has ended, and its figures.
+// What a run leaves beside its log: facts, the report and its figures.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -8,6 +8,8 @@
 
 namespace rover {
 
+// Names that are no UTF-8 are written as far as they are.
+void write_json(const std::string& file, const nlohmann::json& facts);
 // False where it failed; that is said on the terminal.
 bool make_report(const std::string& bin_dir, const RunFolder& folder);
 // metrics.json; discarded where it cannot be read.

@@ -33,7 +33,8 @@ std::string write_report(const Study& study) {
   const RunFolder& folder = study.folder;
   const Metrics& m = study.judgement.metrics;
   check_targets(folder.dir);
-  write_file(folder.dir + "/metrics.json", metrics_json(m).dump(2) + "\n");
+  write_file(folder.dir + "/metrics.json",
+             metrics_json(m).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
   const Pictures pictures = draw_pictures(study);
   write_file(folder.dir + "/traverse.svg", "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" + pictures.map);
   write_png(pictures.map, kPngScale, folder.dir + "/traverse.png");
