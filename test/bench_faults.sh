@@ -6,17 +6,22 @@ set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
 BUILD=$1
 shift
-first=1 last=30 resume= jobs=2 part=
+seeds=1..30 resume= jobs=2 part=
 while [ $# -gt 0 ]; do
   case $1 in
-    --seeds) IFS=. read -r first _ last <<<"$2" && shift ;;
     --resume) resume=yes ;;
-    --jobs) jobs=$2 && shift ;;
-    --part) part=$2 && shift ;;
+    --seeds | --jobs | --part)
+      [ $# -gt 1 ] || { echo "rover bench faults: $1 needs a value" >&2; exit 2; }
+      printf -v "${1#--}" %s "$2"
+      shift
+      ;;
     *) echo "rover bench faults: '$1' is not an option" >&2 && exit 2 ;;
   esac
   shift
 done
+[[ $jobs =~ ^[1-9][0-9]?$ ]] || { echo "rover bench faults: --jobs: '$jobs' is not a number from 1 to 99" >&2; exit 2; }
+[[ $seeds =~ ^([1-9][0-9]{0,8})\.\.([1-9][0-9]{0,8})$ ]] || { echo "rover bench faults: --seeds: '$seeds' is not a range like 1..30" >&2; exit 2; }
+first=${BASH_REMATCH[1]} last=${BASH_REMATCH[2]}
 case $part in
   "") test/bench_faults_stack.sh "$BUILD" ;;
   stack) exec test/bench_faults_stack.sh "$BUILD" ;;

@@ -179,5 +179,8 @@ int main(int argc, char** argv) {
   } catch (const rover::ConfigError& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 2;
+  } catch (const std::exception& error) {  // the file system's
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
   }
 }
