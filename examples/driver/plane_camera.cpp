@@ -78,7 +78,12 @@ PlaneCamera::Eye PlaneCamera::eye(const rover::PinholeCamera& camera, const Eige
     for (int u = 0; u < width_; ++u) pixels.emplace_back(u, v);
   const cv::Matx33d K(camera.fx_px, 0, camera.cx_px, 0, camera.fy_px, camera.cy_px, 0, 0, 1);
   std::vector<cv::Point2d> ideal;
-  cv::undistortPoints(pixels, ideal, K, std::vector<double>(camera.distortion.begin(), camera.distortion.end()));
+  const bool fisheye = camera.model == rover::DistortionModel::kEquidistant;
+  const std::vector<double> D(camera.distortion.begin(), camera.distortion.begin() + (fisheye ? 4 : 5));
+  if (fisheye)
+    cv::fisheye::undistortPoints(pixels, ideal, K, D);
+  else
+    cv::undistortPoints(pixels, ideal, K, D);
   Eye out;
   out.p_body = T_body_cam.translation();
   for (const cv::Point2d& p : ideal)

@@ -14,8 +14,12 @@ cv::Mat intrinsics(const PinholeCamera& camera) {
   return (cv::Mat_<double>(3, 3) << camera.fx_px, 0, camera.cx_px, 0, camera.fy_px, camera.cy_px, 0, 0, 1);
 }
 
+bool is_fisheye(const PinholeCamera& camera) {
+  return camera.model == DistortionModel::kEquidistant;
+}
+
 cv::Mat distortion(const PinholeCamera& camera) {
-  cv::Mat coefficients(1, static_cast<int>(camera.distortion.size()), CV_64F);
+  cv::Mat coefficients(1, is_fisheye(camera) ? 4 : 5, CV_64F);
   for (int i = 0; i < coefficients.cols; ++i) coefficients.at<double>(i) = camera.distortion[static_cast<size_t>(i)];
   return coefficients;
 }
@@ -43,7 +47,10 @@ Rectifier::Rectifier(const StereoRig& rig, const MatchPad& pad, std::optional<do
   cv::eigen2cv(Eigen::Vector3d(T_right_left.translation()), t);
   const cv::Mat K1 = intrinsics(rig.left), K2 = intrinsics(rig.right);
   const cv::Mat D1 = distortion(rig.left), D2 = distortion(rig.right);
-  cv::stereoRectify(K1, D1, K2, D2, size, R, t, R1, R2, P1, P2, Q, cv::CALIB_ZERO_DISPARITY, 0.0, size);
+  if (is_fisheye(rig.left))
+    cv::fisheye::stereoRectify(K1, D1, K2, D2, size, R, t, R1, R2, P1, P2, Q, cv::CALIB_ZERO_DISPARITY, size);
+  else
+    cv::stereoRectify(K1, D1, K2, D2, size, R, t, R1, R2, P1, P2, Q, cv::CALIB_ZERO_DISPARITY, 0.0, size);
 
   camera_.width = rig.width;
   camera_.height = rig.height;
@@ -56,9 +63,13 @@ Rectifier::Rectifier(const StereoRig& rig, const MatchPad& pad, std::optional<do
   camera_.T_body_cam = rig.T_body_left * make_pose(R_rect_left.transpose(), Eigen::Vector3d::Zero());
   if (ground_below_m) reference_ = disparity_plane(camera_, {0, 0, -*ground_below_m}, Eigen::Vector3d::UnitZ());
 
-  const auto make_map = [](const cv::Mat& K, const cv::Mat& D, const cv::Mat& rotation, const cv::Mat& P, cv::Size to) {
+  const auto make_map = [&rig](const cv::Mat& K, const cv::Mat& D, const cv::Mat& rotation, const cv::Mat& P,
+                               cv::Size to) {
     Map map;
-    cv::initUndistortRectifyMap(K, D, rotation, P, to, CV_16SC2, map.xy, map.fraction);
+    if (is_fisheye(rig.left))
+      cv::fisheye::initUndistortRectifyMap(K, D, rotation, P, to, CV_16SC2, map.xy, map.fraction);
+    else
+      cv::initUndistortRectifyMap(K, D, rotation, P, to, CV_16SC2, map.xy, map.fraction);
     return map;
   };
   const cv::Mat P = P1.colRange(0, 3);

@@ -36,6 +36,22 @@ TEST(RayTable, ProjectionInvertsRays) {
   }
 }
 
+// 100 deg from corner to corner.
+TEST(RayTable, ProjectionInvertsRaysOfAFisheyeLens) {
+  StereoRig rig = test::loccam_rig();
+  rig.right.model = DistortionModel::kEquidistant;
+  rig.right.distortion = {0.02, -0.015, 0.004, -0.001};
+  rig.right.fx_px = rig.right.fy_px = 370.0;
+  for (int v = 0; v <= rig.height; v += 16)
+    for (int u = 0; u <= rig.width; u += 16) {
+      const Eigen::Vector2d pixel(u, v);
+      EXPECT_LT((project(rig.right, 3.0 * ray_of_pixel(rig.right, pixel)) - pixel).norm(), 1e-6);
+      EXPECT_TRUE(has_ray(rig.right, pixel));
+    }
+  rig.right.fx_px = rig.right.fy_px = 200.0;
+  EXPECT_FALSE(has_ray(rig.right, {0.0, 0.0})) << "91 deg from the axis";
+}
+
 TEST(CalibrationError, HasTheSizeAskedFor) {
   const StereoRig nominal = test::loccam_rig();
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {

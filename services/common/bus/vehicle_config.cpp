@@ -1,6 +1,7 @@
 #include "common/bus/vehicle_config.hpp"
 
 #include <algorithm>
+#include <sstream>
 
 #include "common/core/frames.hpp"
 
@@ -9,6 +10,8 @@ namespace {
 
 constexpr Range kMetres{0.0, 10.0};
 constexpr Range kSignedMetres{-10.0, 10.0};
+constexpr double kLeastBaselineM = 0.005;
+constexpr double kMostBaselineM = 5.0;
 
 template <size_t N>
 std::array<double, N> fixed(const Config& config, const std::string& key, Range range) {
@@ -23,13 +26,18 @@ Eigen::Vector3d vector3(const Config& config, const std::string& key, Range rang
   return {values[0], values[1], values[2]};
 }
 
-PinholeCamera pinhole(const Config& config) {
+PinholeCamera pinhole(const Config& config, DistortionModel model) {
   PinholeCamera camera;
+  camera.model = model;
   camera.fx_px = config.number("fx_px", {10, 1e5});
   camera.fy_px = config.number("fy_px", {10, 1e5});
   camera.cx_px = config.number("cx_px", {0, 1e5});
   camera.cy_px = config.number("cy_px", {0, 1e5});
-  camera.distortion = fixed<5>(config, "distortion", {-10, 10});
+  const Range range{-10, 10};
+  if (model == DistortionModel::kRadTan)
+    camera.distortion = fixed<5>(config, "distortion", range);
+  else
+    std::ranges::copy(fixed<4>(config, "distortion", range), camera.distortion.begin());
   return camera;
 }
 
@@ -93,18 +101,44 @@ Vehicle load_vehicle(const std::string& config_dir) {
   return vehicle;
 }
 
+std::string problem_of_pair(const Eigen::Isometry3d& T_left_right) {
+  const Eigen::Vector3d& p = T_left_right.translation();
+  if (!is_finite(T_left_right)) return "the pose of the right camera is not finite";
+  const Eigen::Matrix3d& R = T_left_right.linear();
+  if ((R * R.transpose() - Eigen::Matrix3d::Identity()).norm() > 1e-3 || R.determinant() < 0.0)
+    return "the rotation between the cameras is no rotation";
+  if (p.norm() < kLeastBaselineM || p.norm() > kMostBaselineM) {
+    std::ostringstream text;
+    text << "a baseline of " << p.norm() << " m; " << kLeastBaselineM << " to " << kMostBaselineM
+         << " m are expected (is it in millimetres, or the size of the board's squares?)";
+    return text.str();
+  }
+  if (p.x() < 0.5 * p.norm()) return "the second camera is not to the right of the first one; exchange left and right";
+  return {};
+}
+
+const char* name_of(DistortionModel model) {
+  return model == DistortionModel::kRadTan ? "radtan" : "equidistant";
+}
+
 StereoRig load_stereo_rig(const std::string& config_dir, const std::string& camera) {
   const Config config = Config::load(config_dir + "/cameras.yaml");
   const Config rig_config = config.section(camera);
   StereoRig rig;
   rig.width = rig_config.integer("width_px", {16, 8192});
   rig.height = rig_config.integer("height_px", {16, 8192});
-  rig.left = pinhole(rig_config.section("left"));
-  rig.right = pinhole(rig_config.section("right"));
+  auto model = DistortionModel::kRadTan;
+  const std::vector<std::string> models = {name_of(model), name_of(DistortionModel::kEquidistant)};
+  if (rig_config.has("distortion_model") && rig_config.one_of("distortion_model", models) == models[1])
+    model = DistortionModel::kEquidistant;
+  rig.left = pinhole(rig_config.section("left"), model);
+  rig.right = pinhole(rig_config.section("right"), model);
   const Config right = rig_config.section("right_in_left");
   const Eigen::Vector3d rpy = vector3(right, "rpy_deg", {-180, 180}) * (kPi / 180.0);
   rig.T_left_right =
       make_pose(rotation_from_rpy(rpy.x(), rpy.y(), rpy.z()), vector3(right, "position_m", kSignedMetres));
+  const std::string problem = problem_of_pair(rig.T_left_right);
+  if (!problem.empty()) rig_config.fail("right_in_left", problem);
   const Config mount = rig_config.section("left_in_body");
   rig.T_body_left = make_pose(
       camera_rotation(to_rad(mount.number("pitch_down_deg", {-90, 90})), to_rad(mount.number("roll_deg", {-180, 180})),

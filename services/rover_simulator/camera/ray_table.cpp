@@ -1,11 +1,25 @@
 #include "rover_simulator/camera/ray_table.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace rover {
 namespace {
 
+constexpr double kMostAngle = 1.4;  // from the axis; towards 90 deg a ray (x, y, 1) grows without end
+
+// k1 k2 k3 k4: angle from the axis in the picture over the true one (Kannala and Brandt 2006).
+double fisheye_angle(const PinholeCamera& camera, double angle) {
+  const auto& k = camera.distortion;
+  const double a2 = angle * angle;
+  return angle * (1.0 + a2 * (k[0] + a2 * (k[1] + a2 * (k[2] + a2 * k[3]))));
+}
+
 Eigen::Vector2d distort(const PinholeCamera& camera, const Eigen::Vector2d& p) {
+  if (camera.model == DistortionModel::kEquidistant) {
+    const double radius = p.norm();
+    return radius > 0.0 ? Eigen::Vector2d(p * (fisheye_angle(camera, std::atan(radius)) / radius)) : p;
+  }
   const auto& [k1, k2, p1, p2, k3] = camera.distortion;
   const double x = p.x();
   const double y = p.y();
@@ -13,6 +27,15 @@ Eigen::Vector2d distort(const PinholeCamera& camera, const Eigen::Vector2d& p) {
   const double radial = 1.0 + r2 * (k1 + r2 * (k2 + r2 * k3));
   return {x * radial + 2.0 * p1 * x * y + p2 * (r2 + 2.0 * x * x),
           y * radial + p1 * (r2 + 2.0 * y * y) + 2.0 * p2 * x * y};
+}
+
+Eigen::Vector3d fisheye_ray(const PinholeCamera& camera, const Eigen::Vector2d& target) {
+  const double in_picture = target.norm();
+  if (in_picture == 0.0) return Eigen::Vector3d::UnitZ();
+  double angle = in_picture;
+  for (int i = 0; i < 30; ++i) angle = std::clamp(angle + in_picture - fisheye_angle(camera, angle), 0.0, kMostAngle);
+  const double scale = std::tan(angle) / in_picture;
+  return {target.x() * scale, target.y() * scale, 1.0};
 }
 
 }  // namespace
@@ -24,6 +47,7 @@ Eigen::Vector2d project(const PinholeCamera& camera, const Eigen::Vector3d& dire
 
 Eigen::Vector3d ray_of_pixel(const PinholeCamera& camera, const Eigen::Vector2d& pixel) {
   const Eigen::Vector2d target((pixel.x() - camera.cx_px) / camera.fx_px, (pixel.y() - camera.cy_px) / camera.fy_px);
+  if (camera.model == DistortionModel::kEquidistant) return fisheye_ray(camera, target);
   Eigen::Vector2d p = target;
   // Fixed point iteration; lenses of our kind (distortion of a few percent) gain a digit or more a round.
   for (int i = 0; i < 30; ++i) {
@@ -32,6 +56,10 @@ Eigen::Vector3d ray_of_pixel(const PinholeCamera& camera, const Eigen::Vector2d&
     if (step.squaredNorm() < 1e-22) break;
   }
   return {p.x(), p.y(), 1.0};
+}
+
+bool has_ray(const PinholeCamera& camera, const Eigen::Vector2d& pixel) {
+  return (project(camera, ray_of_pixel(camera, pixel)) - pixel).norm() < 1e-3;
 }
 
 RayTable make_ray_table(const PinholeCamera& camera, int width, int height) {

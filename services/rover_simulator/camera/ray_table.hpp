@@ -1,4 +1,4 @@
-// The viewing ray of each pixel, with the lens distortion taken out once (OpenCV's five-parameter model).
+// The viewing ray of each pixel, with the lens distortion taken out once (OpenCV's models).
 #pragma once
 
 #include <Eigen/Dense>
@@ -12,6 +12,8 @@ namespace rover {
 Eigen::Vector2d project(const PinholeCamera& camera, const Eigen::Vector3d& direction);
 // Direction (x, y, 1) in camera axes that the pixel sees.
 Eigen::Vector3d ray_of_pixel(const PinholeCamera& camera, const Eigen::Vector2d& pixel);
+// Is there one? Not beyond 80 deg from the axis, nor where the distortion folds the picture.
+bool has_ray(const PinholeCamera& camera, const Eigen::Vector2d& pixel);
 
 struct RayTable {
   int width = 0;

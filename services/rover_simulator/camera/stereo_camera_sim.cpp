@@ -35,6 +35,19 @@ void shade_band(const TileScene& scene, const CameraView& camera, const HitBand&
 
 }  // namespace
 
+std::string problem_of_rendering(const StereoRig& rig) {
+  if (rig.width % (2 * kPacket) != 0 || rig.height % HitBand::kRows != 0)
+    return "the simulator renders widths that are multiples of " + std::to_string(2 * kPacket) + " px and heights of " +
+           std::to_string(HitBand::kRows) + " px";
+  for (const PinholeCamera& camera : {rig.left, rig.right})
+    for (const int u : {0, rig.width})
+      for (const int v : {0, rig.height})
+        if (!has_ray(camera, {u, v}))
+          return "the simulator renders up to 80 deg from the axis; the picture's corners are beyond, or the "
+                 "distortion folds them";
+  return {};
+}
+
 StereoCameraSim::StereoCameraSim(const StereoRig& nominal, const CameraSimConfig& config, const Surface& surface,
                                  std::uint64_t seed)
     : StereoCameraSim(nominal, config, std::make_shared<TileScene>(surface, config.scene), seed) {}
@@ -47,7 +60,7 @@ StereoCameraSim::StereoCameraSim(const StereoRig& nominal, const CameraSimConfig
       scene_(std::move(scene)),
       left_(make_eye(rig_.left)),
       right_(make_eye(rig_.right)) {
-  ROVER_CHECK(rig_.width % (2 * kPacket) == 0 && rig_.height % HitBand::kRows == 0, rig_.width, rig_.height);
+  ROVER_CHECK(problem_of_rendering(rig_).empty(), rig_.width, rig_.height);
 }
 
 StereoCameraSim::Eye StereoCameraSim::make_eye(const PinholeCamera& camera) const {

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "common/core/camera_rig.hpp"
@@ -21,6 +22,9 @@ struct CameraSimConfig {
   ImagerConfig imager;
   TileSceneConfig scene;  // only for the camera that makes a scene of its own
 };
+
+// Why no picture of such a camera can be made; empty: it can.
+std::string problem_of_rendering(const StereoRig& rig);
 
 class StereoCameraSim {
  public:
