@@ -118,7 +118,7 @@ int main(int argc, char** argv) {
       ->excludes(mount);
   app.add_option("--out", arguments.out, "new file; default: the terminal");
   try {
-    app.parse(argc, argv);
+    rover::parse_arguments(app, argc, argv);
   } catch (const CLI::ParseError& error) {
     return end_of_parse(app, error);
   }

@@ -146,7 +146,7 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(2.0, 600.0))
       ->capture_default_str();
   try {
-    app.parse(argc, argv);
+    rover::parse_arguments(app, argc, argv);
   } catch (const CLI::ParseError& error) {
     return end_of_parse(app, error);
   }

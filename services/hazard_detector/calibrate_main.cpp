@@ -7,6 +7,7 @@
 #include <lcm/lcm-cpp.hpp>
 
 #include "common/bus/channels.hpp"
+#include "common/bus/command_line.hpp"
 #include "common/bus/convert.hpp"
 #include "common/bus/streams.hpp"
 #include "common/bus/vehicle_config.hpp"
@@ -20,7 +21,7 @@ namespace {
 
 struct Arguments {
   std::string log;
-  std::string config_dir = "config";
+  std::string config_dir = rover::project_dir() + "/config";
   std::string out;
 };
 
@@ -78,10 +79,10 @@ int main(int argc, char** argv) {
   app.add_option("--config", arguments.config_dir, "folder with vehicle.yaml");
   app.add_option("--out", arguments.out, "file to write; default: the one in the config folder that is read at start");
   try {
-    app.parse(argc, argv);
+    rover::parse_arguments(app, argc, argv);
     return rover::hazard::run(arguments);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
+    return rover::end_of_parse(app, error);
   } catch (const rover::ConfigError& error) {
     std::cerr << error.what() << "\n";
     return 2;

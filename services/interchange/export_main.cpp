@@ -18,7 +18,7 @@ int main(int argc, char** argv) {
   app.add_option("--format", formats, "of csv, tum, geojson, mcap; default: all")->delimiter(',');
   app.add_option("--channels", channels, "these alone; default: all")->delimiter(',');
   try {
-    app.parse(argc, argv);
+    rover::parse_arguments(app, argc, argv);
   } catch (const CLI::ParseError& error) {
     return rover::end_of_parse(app, error);
   }

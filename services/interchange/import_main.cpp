@@ -26,7 +26,7 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--config", options.config_dir, "configuration that is adapted")->capture_default_str();
   try {
-    app.parse(argc, argv);
+    rover::parse_arguments(app, argc, argv);
   } catch (const CLI::ParseError& error) {
     return rover::end_of_parse(app, error);
   }

@@ -1,11 +1,12 @@
 #include "launcher/arguments.hpp"
 
+#include <algorithm>
 #include <filesystem>
-#include <regex>
 #include <sstream>
 
 #include "common/bus/child_process.hpp"
 #include "common/bus/config.hpp"
+#include "common/core/decimal.hpp"
 
 namespace rover {
 
@@ -25,17 +26,22 @@ std::string commit_of(const std::string& source_dir) {
 }
 
 std::vector<std::int64_t> parse_seeds(const std::string& text) {
-  static const std::regex range(R"((\d{1,9})\.\.(\d{1,9}))");
-  static const std::regex list(R"(\d{1,9}(,\d{1,9})*)");
+  constexpr std::int64_t kMostSeeds = 10'000;
   std::vector<std::int64_t> seeds;
-  std::smatch match;
-  if (std::regex_match(text, match, range)) {
-    for (std::int64_t seed = std::stoll(match[1]); seed <= std::stoll(match[2]); ++seed) seeds.push_back(seed);
-  } else if (std::regex_match(text, list)) {
-    std::istringstream items(text);
-    for (std::string item; std::getline(items, item, ',');) seeds.push_back(std::stoll(item));
+  const size_t dots = text.find("..");
+  if (dots != std::string::npos) {
+    const auto first = parse_whole_number(text.substr(0, dots));
+    const auto last = parse_whole_number(text.substr(dots + 2));
+    if (first && last && *first >= 0 && *last >= *first && *last - *first < kMostSeeds)
+      for (std::int64_t seed = *first; seed <= *last; ++seed) seeds.push_back(seed);
+  } else {
+    std::istringstream items(text + ",");
+    for (std::string item; std::getline(items, item, ',');) seeds.push_back(parse_whole_number(item).value_or(-1));
+    if (std::any_of(seeds.begin(), seeds.end(), [](std::int64_t seed) { return seed < 0; })) seeds.clear();
   }
-  if (seeds.empty()) throw ConfigError("--seeds: '" + text + "' is neither a range like 1..10 nor a list like 1,4,7");
+  if (seeds.empty())
+    throw ConfigError("--seeds: '" + text +
+                      "' is neither a range like 1..10 (of 10,000 at most) nor a list like 1,4,7");
   return seeds;
 }
 

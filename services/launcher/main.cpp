@@ -60,9 +60,9 @@ CLI::App* add_replay_command(CLI::App& app, rover::ReplayArguments& replay) {
   CLI::Option* check =
       command->add_flag("--check", replay.check, "compare what the services say with the log, byte by byte");
   command->add_option("--from", replay.from_s, "begin at this message time [s]")
-      ->check(CLI::NonNegativeNumber)
+      ->check(rover::not_negative())
       ->excludes(check);
-  command->add_option("--until", replay.until_s, "end at this message time [s]")->check(CLI::NonNegativeNumber);
+  command->add_option("--until", replay.until_s, "end at this message time [s]")->check(rover::not_negative());
   command->add_option("--speed", replay.speed, "times real time, or max")->excludes(check)->capture_default_str();
   command->add_flag("--loop", replay.loop, "again and again, until q or Ctrl-C")->excludes(check);
   command->add_option("--config", replay.config_dir, "configuration; default: that beside the log, or the project's")
@@ -117,7 +117,7 @@ int main(int argc, char** argv) {
   run_command->add_option("scenario", run.scenario, "scenario file; default: config/scenarios/default.yaml")
       ->transform(rover::is_user_path());
   run_command->add_option("--seed", run.seed, "seed of rocks, noise and errors; default: the scenario's")
-      ->check(CLI::NonNegativeNumber);
+      ->check(rover::not_negative());
   run_command->add_option("--out", run.out, "folder of the run; default: logs/<time>-<scenario>")
       ->transform(rover::is_user_path());
   run_command->add_option("--bus", run.bus, "LCM URL; default: of config/bus.yaml");
@@ -156,7 +156,7 @@ int main(int argc, char** argv) {
   CLI::App* drive_command = add_drive_command(app, drive);
 
   try {
-    app.parse(argc, argv);
+    rover::parse_arguments(app, argc, argv);
   } catch (const CLI::ParseError& error) {
     return rover::end_of_parse(app, error);
   }

@@ -14,6 +14,7 @@
 #include "common/bus/config.hpp"
 #include "common/bus/interrupt.hpp"
 #include "common/bus/service_names.hpp"
+#include "common/core/decimal.hpp"
 #include "launcher/preflight.hpp"
 #include "launcher/run_folder.hpp"
 #include "launcher/run_report.hpp"
@@ -82,11 +83,10 @@ std::vector<std::string> live_services(const ReplayArguments& arguments, const R
 
 double speed_of(const std::string& text) {
   if (text == "max") return 0.0;
-  char* end = nullptr;
-  const double speed = std::strtod(text.c_str(), &end);
-  if (end == text.c_str() || *end != '\0' || !(speed >= 0.01 && speed <= 1000.0))
+  const auto speed = parse_number(text);
+  if (!speed || *speed < 0.01 || *speed > 1000.0)
     throw ConfigError("--speed " + text + ": 0.01 to 1000, or max, is expected");
-  return speed;
+  return *speed;
 }
 
 void set_range(const ReplayArguments& arguments, const RecordedLog& log, replay::PlayerOptions& player) {

@@ -3,11 +3,11 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
-#include <regex>
 
 #include "common/bus/config.hpp"
 #include "common/bus/yaml_file.hpp"
@@ -28,18 +28,9 @@ std::string time_stamp() {
 
 // The elevation model is named absolutely in the run's copy, which lies elsewhere.
 void copy_scenario(const std::string& file, const std::string& dtm_file, const fs::path& to) {
-  YAML::Node scenario = YAML::LoadFile(file);
+  YAML::Node scenario = load_yaml(file);
   if (!dtm_file.empty()) scenario["world"]["dtm"] = fs::absolute(dtm_file).lexically_normal().string();
   write_yaml(to, scenario);
-}
-
-// A file that is not YAML at all is named here, before any service reads it.
-YAML::Node load_yaml(const fs::path& file) {
-  try {
-    return YAML::LoadFile(file);
-  } catch (const YAML::Exception& error) {
-    throw ConfigError(file.string() + ":" + std::to_string(error.mark.line + 1) + ": not valid YAML: " + error.msg);
-  }
 }
 
 // What the ground knows and orders: the start by its own belief, the height from the orbital map.
@@ -61,6 +52,27 @@ void write_ground(const Scenario& scenario, const std::string& level, double sta
   ground["path"]["corridor_half_width_m"] = scenario.path.corridor_half_width_m;
   ground["path"]["goal_tolerance_m"] = scenario.path.goal_tolerance_m;
   write_yaml(file, ground);
+}
+
+// Empty where it is not names between dots.
+std::vector<std::string> keys_of(const std::string& path) {
+  std::vector<std::string> keys(1);
+  for (const char c : path) {
+    if (c == '.') {
+      keys.emplace_back();
+    } else if (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_') {
+      keys.back() += c;
+    } else {
+      return {};
+    }
+  }
+  return std::find(keys.begin(), keys.end(), "") == keys.end() ? keys : std::vector<std::string>{};
+}
+
+std::string replaced(std::string text, const std::string& old, const std::string& with) {
+  for (size_t at = text.find(old); at != std::string::npos; at = text.find(old, at + with.size()))
+    text.replace(at, old.size(), with);
+  return text;
 }
 
 double height_at(const ElevationRaster& raster, double x_m, double y_m) {
@@ -106,28 +118,21 @@ void copy_configuration(const std::string& from, const std::string& to) {
 }
 
 void apply_setting(const std::string& setting, const std::string& config_dir) {
-  static const std::regex form(R"(([A-Za-z0-9_]+)\.([A-Za-z0-9_.]+)=(.*))");
-  std::smatch match;
-  if (!std::regex_match(setting, match, form))
+  const size_t equals = setting.find('=');
+  const std::vector<std::string> keys = keys_of(setting.substr(0, equals));
+  if (equals == std::string::npos || equals + 1 == setting.size() || keys.size() < 2)
     throw ConfigError("--set " + setting + ": file.key=value is expected, as in path_planner.margin_m=0.2");
-  const fs::path file = fs::path(config_dir) / (match[1].str() + ".yaml");
-  if (!fs::exists(file)) throw ConfigError("--set " + setting + ": there is no config/" + match[1].str() + ".yaml");
+  const fs::path file = fs::path(config_dir) / (keys.front() + ".yaml");
+  if (!fs::exists(file)) throw ConfigError("--set " + setting + ": there is no config/" + keys.front() + ".yaml");
   const YAML::Node root = load_yaml(file);
   YAML::Node node = root;
-  std::string rest = match[2];
-  for (size_t dot = rest.find('.'); dot != std::string::npos; dot = rest.find('.')) {
-    YAML::Node child = node[rest.substr(0, dot)];
+  for (size_t i = 1; i + 1 < keys.size(); ++i) {
+    const YAML::Node child = node[keys[i]];
     if (!child.IsDefined() || !child.IsMap())
-      throw ConfigError("--set " + setting + ": no section '" + rest.substr(0, dot) + "' in " +
-                        file.filename().string());
+      throw ConfigError("--set " + setting + ": no section '" + keys[i] + "' in " + file.filename().string());
     node.reset(child);
-    rest = rest.substr(dot + 1);
   }
-  try {
-    node[rest] = YAML::Load(match[3]);
-  } catch (const YAML::Exception& error) {
-    throw ConfigError("--set " + setting + ": not a value: " + error.msg);
-  }
+  node[keys.back()] = parse_yaml(setting.substr(equals + 1), "--set " + setting.substr(0, equals));
   write_yaml(file, root);
 }
 
@@ -152,7 +157,8 @@ RunFolder make_run_folder(const RunArguments& arguments) {
     fill_run_folder(arguments, dtm_file, folder);
   } catch (const std::exception& error) {
     remove_run_folder(folder);
-    throw ConfigError(in_users_files(error.what(), folder, arguments.source_dir + "/config"));
+    const std::string message = replaced(error.what(), folder.scenario, arguments.scenario + " with --set");
+    throw ConfigError(in_users_files(message, folder, arguments.source_dir + "/config"));
   }
   return folder;
 }
@@ -174,12 +180,8 @@ RunFolder make_replay_folder(const RunArguments& arguments, const std::string& n
   return folder;
 }
 
-std::string in_users_files(std::string message, const RunFolder& folder, const std::string& users_config_dir) {
-  const std::string own = fs::path(users_config_dir).lexically_normal().string();
-  size_t at = message.find(folder.config_dir);
-  for (; at != std::string::npos; at = message.find(folder.config_dir, at + own.size()))
-    message.replace(at, folder.config_dir.size(), own);
-  return message;
+std::string in_users_files(const std::string& message, const RunFolder& folder, const std::string& users_config_dir) {
+  return replaced(message, folder.config_dir, fs::path(users_config_dir).lexically_normal().string());
 }
 
 void remove_run_folder(const RunFolder& folder) {

@@ -27,7 +27,7 @@ RunFolder make_run_folder(const RunArguments& arguments);
 RunFolder make_replay_folder(const RunArguments& arguments, const std::string& name, const std::string& config_from,
                              const std::string& log_dir);
 // A message that names files of the run's own configuration, with the names of the user's folder instead.
-std::string in_users_files(std::string message, const RunFolder& folder, const std::string& users_config_dir);
+std::string in_users_files(const std::string& message, const RunFolder& folder, const std::string& users_config_dir);
 // Takes back what make_run_folder made, for a run that never began.
 void remove_run_folder(const RunFolder& folder);
 

@@ -20,7 +20,7 @@ int main(int argc, char** argv) {
   app.add_option("--out", arguments.out, "folder for the results; default: logs/plan-<map>");
   app.add_option("--config", arguments.config_dir, "folder with orbital_planner.yaml")->capture_default_str();
   try {
-    app.parse(argc, argv);
+    rover::parse_arguments(app, argc, argv);
   } catch (const CLI::ParseError& error) {
     return rover::end_of_parse(app, error);
   }

@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
   CLI::Option* out = app.add_option("--out", repair.out, "the whole log; default: NAME.repaired.lcm beside it");
   app.add_flag("--in-place", repair.in_place, "replace the damaged log")->excludes(out);
   try {
-    app.parse(argc, argv);
+    rover::parse_arguments(app, argc, argv);
   } catch (const CLI::ParseError& error) {
     return rover::end_of_parse(app, error);
   }

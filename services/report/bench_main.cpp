@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "common/bus/command_line.hpp"
 #include "report/bench_rows.hpp"
 #include "report/run_folder.hpp"
 
@@ -16,9 +17,9 @@ int main(int argc, char** argv) {
   app.add_option("--out", out_file, "the Markdown file to write")->required();
   app.add_option("--command", context.command, "the command that made the rows");
   try {
-    app.parse(argc, argv);
+    rover::parse_arguments(app, argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
+    return rover::end_of_parse(app, error);
   }
   if (context.command.empty()) context.command = "./rover bench " + context.suite;
   try {

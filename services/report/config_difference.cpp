@@ -4,6 +4,9 @@
 
 #include <map>
 
+#include "common/bus/config.hpp"
+#include "common/bus/yaml_file.hpp"
+
 namespace rover::report {
 namespace {
 
@@ -39,10 +42,11 @@ void flatten(const std::string& key, const YAML::Node& node, Values& out) {
 Values values_of(const ConfigTexts& texts) {
   Values out;
   for (const auto& [name, text] : texts) {
+    const std::string key = name.substr(0, name.rfind('.')) + ": ";
     try {
-      flatten(name.substr(0, name.rfind('.')) + ": ", YAML::Load(text), out);
-    } catch (const YAML::Exception&) {
-      continue;
+      flatten(key, parse_yaml(text, name), out);
+    } catch (const ConfigError& error) {
+      out[key] = error.what();
     }
   }
   return out;

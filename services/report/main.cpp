@@ -26,7 +26,7 @@ int main(int argc, char** argv) {
       ->transform(rover::is_user_path())
       ->capture_default_str();
   try {
-    app.parse(argc, argv);
+    rover::parse_arguments(app, argc, argv);
   } catch (const CLI::ParseError& error) {
     return rover::end_of_parse(app, error);
   }

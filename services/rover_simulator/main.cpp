@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/bus/bus_url.hpp"
+#include "common/bus/command_line.hpp"
 #include "common/bus/interrupt.hpp"
 #include "common/bus/vehicle_config.hpp"
 #include "rover_simulator/simulator.hpp"
@@ -13,7 +14,7 @@
 namespace {
 
 struct Arguments {
-  std::string config_dir = "config";
+  std::string config_dir = rover::project_dir() + "/config";
   std::string scenario;
   std::string bus;
   std::string run_dir;
@@ -83,9 +84,9 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(0.05, 10.0))
       ->capture_default_str();
   try {
-    app.parse(argc, argv);
+    rover::parse_arguments(app, argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
+    return rover::end_of_parse(app, error);
   }
   rover::catch_interrupts();
   try {

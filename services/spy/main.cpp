@@ -21,7 +21,7 @@ int main(int argc, char** argv) {
   app.add_option("--run", spy.target.run, "folder of the run; default: the newest in logs/ that runs");
   app.add_option("--bus", spy.target.bus, "LCM URL; default: the run's");
   try {
-    app.parse(argc, argv);
+    rover::parse_arguments(app, argc, argv);
   } catch (const CLI::ParseError& error) {
     return rover::end_of_parse(app, error);
   }

@@ -30,9 +30,15 @@ TEST(Config, UnknownKeyInASectionIsNamedToo) {
 
 TEST(Config, WrongTypeRangeAndNanAreRefused) {
   const Config config = Config::parse("a: fast\nb: 7\nc: .nan\nd: [1, 2]\n", "x.yaml");
-  EXPECT_EQ(error_of([&] { (void)config.number("a", {0, 1}); }), "x.yaml:1: a: not a number");
+  EXPECT_EQ(error_of([&] {
+              (void)config.number("a", {0, 1});
+            }),
+            "x.yaml:1: a: not a number: 'fast'; plain decimal is expected, as 0.5 or 1e-3");
   EXPECT_EQ(error_of([&] { (void)config.number("b", {0, 1}); }), "x.yaml:2: b: out of range [0, 1]");
-  EXPECT_EQ(error_of([&] { (void)config.number("c", {0, 1}); }), "x.yaml:3: c: out of range [0, 1]");
+  EXPECT_EQ(error_of([&] {
+              (void)config.number("c", {0, 1});
+            }),
+            "x.yaml:3: c: not a number: '.nan'; plain decimal is expected, as 0.5 or 1e-3");
   EXPECT_EQ(error_of([&] { (void)config.numbers("d", {0, 9}, 3); }), "x.yaml:4: d: 3 numbers expected, found 2");
   EXPECT_EQ(error_of([&] { (void)config.number("e", {0, 1}); }), "x.yaml:1: e: missing");
 }

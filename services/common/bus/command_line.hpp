@@ -8,6 +8,7 @@
 
 #include "common/bus/config.hpp"
 #include "common/bus/user_files.hpp"
+#include "common/core/decimal.hpp"
 
 namespace rover {
 
@@ -24,9 +25,43 @@ inline CLI::Validator is_user_path() {
   return CLI::Validator(change, "PATH");
 }
 
+inline CLI::Validator not_negative() {
+  const auto problem = [](std::string& value) -> std::string {
+    return parse_number(value).value_or(-1.0) < 0.0 ? "'" + value + "' is negative" : std::string();
+  };
+  return CLI::Validator(problem, "");
+}
+
 // Makes an option for lists take one value each time that it is given: what follows it is not its own.
 inline CLI::Option* repeatable(CLI::Option* option) {
   return option->allow_extra_args(false);
+}
+
+// The library takes 012 for ten, saturates 1e20, and leaves nan within every range.
+inline std::string problem_of_value(const std::string& type, const std::string& value) {
+  const auto whole = parse_whole_number(value);
+  if (type.starts_with("INT") && !whole)
+    return "not a whole number: '" + value + "'; decimal digits are expected, no leading zero";
+  if (type.starts_with("UINT") && (!whole || *whole < 0)) return "not a whole number from 0: '" + value + "'";
+  if (type.starts_with("FLOAT") && !parse_number(value))
+    return "not a number: '" + value + "'; plain decimal is expected";
+  if (type.starts_with("TEXT") && value.empty()) return "an empty text";
+  return {};
+}
+
+inline void check_values(CLI::App& app) {
+  for (CLI::Option* option : app.get_options()) {
+    const std::string type = option->get_type_name();
+    // A transformation comes before the library's own checks.
+    option->transform(CLI::Validator([type](std::string& value) { return problem_of_value(type, value); }, ""));
+  }
+  for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) check_values(*command);
+}
+
+// Instead of app.parse: numbers are those of core/decimal.hpp and no text is empty, in all options and commands.
+inline void parse_arguments(CLI::App& app, int argc, char** argv) {
+  check_values(app);
+  app.parse(argc, argv);
 }
 
 // Exit status: 0 where help was asked for, else 2 with one line that says where to find it.

@@ -1,9 +1,11 @@
 #include "common/bus/config.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <sstream>
 
+#include "common/bus/yaml_file.hpp"
+#include "common/core/decimal.hpp"
 #include "common/core/frames.hpp"
 
 namespace rover {
@@ -15,19 +17,34 @@ struct Config::Seen {
 
 namespace {
 
+// Not in quotes.
+bool is_plain(const YAML::Node& node) {
+  return node.Tag() != "!";
+}
+
 std::string where(const std::string& file, const YAML::Node& node) {
   const YAML::Mark mark = node.Mark();
   return mark.is_null() ? file : file + ":" + std::to_string(mark.line + 1);
 }
 
-YAML::Node checked_map(const YAML::Node& node, const std::string& file) {
+const YAML::Node& checked_map(const YAML::Node& node, const std::string& file) {
   if (!node.IsMap()) throw ConfigError(where(file, node) + ": a mapping of keys to values is expected here");
-  std::set<std::string> keys;
-  for (const auto& entry : node) {
-    const auto key = entry.first.as<std::string>("");
-    if (!keys.insert(key).second) throw ConfigError(where(file, entry.first) + ": " + key + ": given twice");
-  }
   return node;
+}
+
+std::string one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, ' ');
+  return text;
+}
+
+// As it is written, short enough for a line.
+std::string shown(const YAML::Node& node) {
+  constexpr size_t kMost = 60;
+  std::string text = node.Scalar();
+  if (text.size() > kMost) text.replace(kMost, std::string::npos, "...");
+  const std::string quote = is_plain(node) ? "'" : "\"";
+  return quote + text + quote;
 }
 
 }  // namespace
@@ -35,21 +52,14 @@ YAML::Node checked_map(const YAML::Node& node, const std::string& file) {
 Config::Config(YAML::Node node, std::string file, std::string prefix)
     : node_(std::move(node)), file_(std::move(file)), prefix_(std::move(prefix)), seen_(std::make_shared<Seen>()) {}
 
+ConfigError::ConfigError(const std::string& what) : std::runtime_error(one_line(what)) {}
+
 Config Config::load(const std::string& file) {
-  if (!std::filesystem::is_regular_file(file)) throw ConfigError(file + ": no such file");
-  try {
-    return {checked_map(YAML::LoadFile(file), file), file, ""};
-  } catch (const YAML::Exception& error) {
-    throw ConfigError(file + ":" + std::to_string(error.mark.line + 1) + ": not valid YAML: " + error.msg);
-  }
+  return {checked_map(load_yaml(file), file), file, ""};
 }
 
 Config Config::parse(const std::string& text, const std::string& name) {
-  try {
-    return {checked_map(YAML::Load(text), name), name, ""};
-  } catch (const YAML::Exception& error) {
-    throw ConfigError(name + ":" + std::to_string(error.mark.line + 1) + ": not valid YAML: " + error.msg);
-  }
+  return {checked_map(parse_yaml(text, name), name), name, ""};
 }
 
 bool Config::has(const std::string& key) const {
@@ -74,12 +84,10 @@ YAML::Node Config::required(const std::string& key) const {
   return node;
 }
 
-template <class T>
-T Config::value(const std::string& key, const char* type) const {
+YAML::Node Config::scalar(const std::string& key) const {
   const YAML::Node node = required(key);
-  T out{};
-  if (!node.IsScalar() || !YAML::convert<T>::decode(node, out)) fail(key, std::string("not ") + type);
-  return out;
+  if (!node.IsScalar()) fail(key, "a single value is expected, not a list or a section");
+  return node;
 }
 
 namespace {
@@ -96,16 +104,23 @@ bool outside(double value, Range range) {
 
 }  // namespace
 
+double Config::number_in(const YAML::Node& node, const std::string& key, Range range) const {
+  const auto number = is_plain(node) ? parse_number(node.Scalar()) : std::nullopt;
+  if (!number) fail(key, "not a number: " + shown(node) + "; plain decimal is expected, as 0.5 or 1e-3");
+  if (outside(*number, range)) fail(key, range_text(range));
+  return *number;
+}
+
 double Config::number(const std::string& key, Range range) const {
-  const double number = value<double>(key, "a number");
-  if (outside(number, range)) fail(key, range_text(range));
-  return number;
+  return number_in(scalar(key), key, range);
 }
 
 std::int64_t Config::integer64(const std::string& key, Range range) const {
-  const auto number = value<std::int64_t>(key, "a whole number");
-  if (outside(static_cast<double>(number), range)) fail(key, range_text(range));
-  return number;
+  const YAML::Node node = scalar(key);
+  const auto number = is_plain(node) ? parse_whole_number(node.Scalar()) : std::nullopt;
+  if (!number) fail(key, "not a whole number: " + shown(node) + "; decimal digits are expected, no leading zero");
+  if (outside(static_cast<double>(*number), range)) fail(key, range_text(range));
+  return *number;
 }
 
 int Config::integer(const std::string& key, Range range) const {
@@ -113,11 +128,14 @@ int Config::integer(const std::string& key, Range range) const {
 }
 
 bool Config::boolean(const std::string& key) const {
-  return value<bool>(key, "true or false");
+  const YAML::Node node = scalar(key);
+  if (!is_plain(node) || (node.Scalar() != "true" && node.Scalar() != "false"))
+    fail(key, shown(node) + " is neither true nor false");
+  return node.Scalar() == "true";
 }
 
 std::string Config::text(const std::string& key) const {
-  return value<std::string>(key, "a text");
+  return scalar(key).Scalar();
 }
 
 std::string Config::one_of(const std::string& key, const std::vector<std::string>& choices) const {
@@ -127,7 +145,7 @@ std::string Config::one_of(const std::string& key, const std::vector<std::string
     if (choice == allowed) return choice;
     list += (list.empty() ? "" : ", ") + allowed;
   }
-  fail(key, "'" + choice + "' is not one of " + list);
+  fail(key, shown(required(key)) + " is not one of " + list);
 }
 
 std::vector<double> Config::numbers(const std::string& key, Range range, size_t count) const {
@@ -137,10 +155,8 @@ std::vector<double> Config::numbers(const std::string& key, Range range, size_t 
     fail(key, std::to_string(count) + " numbers expected, found " + std::to_string(node.size()));
   std::vector<double> values;
   for (const YAML::Node& item : node) {
-    double number = 0.0;
-    if (!item.IsScalar() || !YAML::convert<double>::decode(item, number)) fail(key, "not a list of numbers");
-    if (outside(number, range)) fail(key, range_text(range));
-    values.push_back(number);
+    if (!item.IsScalar()) fail(key, "not a list of numbers");
+    values.push_back(number_in(item, key, range));
   }
   return values;
 }

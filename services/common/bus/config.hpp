@@ -1,5 +1,6 @@
-// Strict YAML: what is read must be there in the right type and range, and what is there must have been read.
-// Every error is one line "file:line: key: what is wrong" in a ConfigError; main prints it and exits with 2.
+// Strict YAML (yaml_file.hpp): what is read must be there in the right type and range, and what is there must have been
+// read. Every error is one line "file:line: key: what is wrong" in a ConfigError; main prints it and exits with 2.
+// Numbers are plain decimal (core/decimal.hpp), truth values are true and false; in quotes each of them is a text.
 #pragma once
 
 #include <yaml-cpp/yaml.h>
@@ -12,9 +13,10 @@
 
 namespace rover {
 
+// One line of printable text, whatever of the user's it quotes.
 class ConfigError : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit ConfigError(const std::string& what);
 };
 
 struct Range {
@@ -59,8 +61,8 @@ class Config {
  private:
   Config(YAML::Node node, std::string file, std::string prefix);
   YAML::Node required(const std::string& key) const;
-  template <class T>
-  T value(const std::string& key, const char* type) const;
+  YAML::Node scalar(const std::string& key) const;
+  double number_in(const YAML::Node& node, const std::string& key, Range range) const;
 
   struct Seen;
   YAML::Node node_;

@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "common/bus/bus_url.hpp"
+#include "common/bus/command_line.hpp"
 #include "common/bus/interrupt.hpp"
 
 namespace rover {
@@ -30,6 +31,7 @@ std::int64_t boot_id_from_clock() {
 std::string load_bus_url(const std::string& config_dir) {
   const Config config = Config::load(config_dir + "/bus.yaml");
   const std::string url = config.text("url");
+  if (const std::string problem = bus_url_problem(url); !problem.empty()) config.fail("url", problem);
   config.finish();
   return url;
 }
@@ -38,7 +40,7 @@ int node_main(int argc, char** argv, const std::string& service, const NodeFacto
   NodeOptions options;
   options.name = service;
   options.boot_id = boot_id_from_clock();
-  std::string config_dir = "config";
+  std::string config_dir = project_dir() + "/config";
   std::string bus;
   CLI::App app(service + ": a service of the rover");
   app.add_option("--config", config_dir, "folder of the configuration")->capture_default_str();
@@ -48,9 +50,9 @@ int node_main(int argc, char** argv, const std::string& service, const NodeFacto
   app.add_flag("--allow-injection", options.allow_injection, "obey INJECT");
   app.add_option("--mute", options.muted, "channels not to take");
   try {
-    app.parse(argc, argv);
+    parse_arguments(app, argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
+    return end_of_parse(app, error);
   }
   catch_interrupts();
   std::signal(SIGPIPE, SIG_IGN);
