@@ -19,11 +19,11 @@ void read_ramps(const Config& c, LocomotionConfig& out) {
 
 void read_steering(const Config& c, LocomotionConfig& out) {
   c.read("rate_share", out.steering_rate_share, {0.1, 1.0});
-  c.read_deg("aligned_deg", out.aligned_rad, {0.1, 20.0});
+  c.read_deg("aligned_deg", out.alignment_tolerance_rad, {0.1, 20.0});
   c.read_deg("slow_from_deg", out.steering_slow_rad, {0.1, 30.0});
   c.read_deg("stop_from_deg", out.steering_stop_rad, {0.2, 45.0});
-  c.read_deg("hold_slack_deg", out.hold_slack_rad, {0.1, 20.0});
-  c.read("hold_patience_s", out.hold_patience_s, {0.1, 20.0});
+  c.read_deg("hold_slack_deg", out.hold_tolerance_rad, {0.1, 20.0});
+  c.read("hold_patience_s", out.hold_delay_s, {0.1, 20.0});
   c.read("slow_from_curvature_per_m", out.curvature_slow_per_m, {0.01, 2.0});
   c.read("stop_from_curvature_per_m", out.curvature_stop_per_m, {0.02, 4.0});
   if (out.steering_stop_rad <= out.steering_slow_rad) c.fail("stop_from_deg", "must be larger than slow_from_deg");
@@ -31,11 +31,11 @@ void read_steering(const Config& c, LocomotionConfig& out) {
     c.fail("stop_from_curvature_per_m", "must be larger than slow_from_curvature_per_m");
 }
 
-void read_stall(const Config& c, SteeringStallConfig& out) {
-  c.read("patience_s", out.patience_s, {0.2, 20.0});
-  c.read_deg("most_mean_error_deg", out.most_mean_error_rad, {0.0, 45.0});
+void read_stall(const Config& c, StallRecoveryConfig& out) {
+  c.read("patience_s", out.wait_s, {0.2, 20.0});
+  c.read_deg("most_mean_error_deg", out.max_mean_error_rad, {0.0, 45.0});
   c.read("speed_mps", out.speed_mps, {0.005, 0.1});
-  c.read("way_m", out.way_m, {0.0, 1.0});
+  c.read("way_m", out.max_distance_m, {0.0, 1.0});
 }
 
 }  // namespace

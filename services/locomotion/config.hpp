@@ -1,4 +1,4 @@
-// config/locomotion.yaml over the defaults of the core.
+// Reads config/locomotion.yaml; keys that are absent keep the defaults of the core.
 #pragma once
 
 #include <string>

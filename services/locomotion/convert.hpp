@@ -1,4 +1,4 @@
-// Between messages and the core's types.
+// Conversion between LCM messages and the types of the core.
 #pragma once
 
 #include <rover/drive_permit_t.hpp>

@@ -7,14 +7,13 @@
 namespace rover::locomotion {
 namespace {
 
-struct Rolling {
+struct WheelMotion {
   double angle_rad;
   double speed_mps;
 };
 
-// A rolling direction is a line: one that points backwards is turned by half a revolution, and the wheel runs
-// backwards.
-Rolling into_steering_range(double along_mps, double left_mps) {
+// A steered wheel covers only half a revolution: a backward direction becomes the opposite angle with reversed speed.
+WheelMotion to_steering_range(double along_mps, double left_mps) {
   const double speed = std::hypot(along_mps, left_mps);
   if (along_mps >= 0.0) return {std::atan2(left_mps, along_mps), speed};
   return {std::atan2(-left_mps, -along_mps), -speed};
@@ -38,12 +37,12 @@ WheelSetpoints arc_setpoints(const Vehicle& vehicle, double speed_mps, double cu
 
 WheelSetpoints point_turn_setpoints(const Vehicle& vehicle, double turn_rate_radps) {
   WheelSetpoints out;
-  std::array<Rolling, 6> unit{};
+  std::array<WheelMotion, 6> unit_motion{};
   for (size_t i = 0; i < 6; ++i) {
-    unit[i] = into_steering_range(-vehicle.wheel_y_m[i], vehicle.wheel_x_m[i]);
-    out.drive_rate_radps[i] = turn_rate_radps * unit[i].speed_mps / vehicle.wheel_radius_m;
+    unit_motion[i] = to_steering_range(-vehicle.wheel_y_m[i], vehicle.wheel_x_m[i]);
+    out.drive_rate_radps[i] = turn_rate_radps * unit_motion[i].speed_mps / vehicle.wheel_radius_m;
   }
-  for (size_t k = 0; k < 4; ++k) out.steer_angle_rad[k] = unit[kSteeredWheels[k]].angle_rad;
+  for (size_t k = 0; k < 4; ++k) out.steer_angle_rad[k] = unit_motion[kSteeredWheels[k]].angle_rad;
   return out;
 }
 
@@ -53,8 +52,8 @@ double point_turn_radius_m(const Vehicle& vehicle) {
   return radius;
 }
 
-double steepest_steering(const Vehicle& vehicle, double max_curvature_per_m) {
-  // d/dk atan2(k x, 1 - k y) = x / (1 - 2 k y + k^2 (x^2 + y^2)), steepest at k = y / (x^2 + y^2) or at the bound.
+double max_steering_gradient(const Vehicle& vehicle, double max_curvature_per_m) {
+  // d/dk atan2(k x, 1 - k y) = x / (1 - 2 k y + k^2 (x^2 + y^2)), maximal at k = y / (x^2 + y^2) or at the bound.
   double steepest = 0.0;
   for (const int i : kSteeredWheels) {
     const double x = std::abs(vehicle.wheel_x_m[i]);

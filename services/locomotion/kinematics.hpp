@@ -1,8 +1,6 @@
-// Inverse kinematics of the double Ackermann rover: four steered corner wheels, two fixed middle wheels.
-//
-// A wheel at p = (x, y) of a body that moves with speed v along x and turns at w rolls with (v - w y, w x). All wheels
-// roll about one centre of rotation on the axis of the middle wheels, so none scrubs. (Siegwart and Nourbakhsh,
-// Introduction to Autonomous Mobile Robots, ch. 3.)
+// Inverse kinematics of a double-Ackermann rover: four steered corner wheels, two fixed middle wheels. The contact
+// point (x, y) moves with (v - w y, w x); all wheels share one centre of rotation on the axis of the middle wheels, so
+// none scrubs. Source: Siegwart and Nourbakhsh, Introduction to Autonomous Mobile Robots, ch. 3.
 #pragma once
 
 #include <array>
@@ -16,14 +14,14 @@ struct WheelSetpoints {
   std::array<double, 4> steer_angle_rad{};   // FL FR RL RR, positive left
 };
 
-// Of the body origin; the radius has to be larger than the half track, so that no wheel turns backwards.
+// Speed and curvature of the body origin. The radius must exceed half the track width (checked).
 WheelSetpoints arc_setpoints(const Vehicle& vehicle, double speed_mps, double curvature_per_m);
-// About the body origin. The angles do not depend on the rate; left wheels run backwards for a positive rate.
+// Rotation about the body origin. The angles do not depend on the rate; left wheels reverse for a positive rate.
 WheelSetpoints point_turn_setpoints(const Vehicle& vehicle, double turn_rate_radps);
 
-// Distance of the outermost wheel from the body origin: its speed in a point turn is this times the rate.
+// Distance of the outermost wheel from the body origin: wheel speed = radius * turn rate.
 double point_turn_radius_m(const Vehicle& vehicle);
-// Largest change of a steering angle for a change of curvature, over all curvatures up to the given one [rad m].
-double steepest_steering(const Vehicle& vehicle, double max_curvature_per_m);
+// Largest |d angle / d curvature| of any steered wheel, for curvatures up to max_curvature_per_m [rad m].
+double max_steering_gradient(const Vehicle& vehicle, double max_curvature_per_m);
 
 }  // namespace rover::locomotion

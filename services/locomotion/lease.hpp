@@ -1,4 +1,4 @@
-// Motion needs a lease: a drive permit and a motion command, both fresh. Anything doubtful is no lease.
+// Motion lease: the rover moves only with a valid drive permit and a valid motion command. Any doubt means no lease.
 #pragma once
 
 #include "common/core/time.hpp"
@@ -23,9 +23,9 @@ struct DrivePermit {
   double max_speed_mps = 0.0;
 };
 
-// Valid at `now`, and from at most `max_age` before it, whatever its author wrote into valid_until.
+// True if utime is at most max_age old and not in the future, and now <= valid_until. max_age bounds any publisher.
 bool is_fresh(Utime utime, Utime valid_until, Utime now, Utime max_age);
-bool permits(const DrivePermit& permit, Utime now, Utime max_age);
-bool commands(const MotionCommand& command, Utime now, Utime max_age);
+bool permit_valid(const DrivePermit& permit, Utime now, Utime max_age);
+bool command_valid(const MotionCommand& command, Utime now, Utime max_age);
 
 }  // namespace rover::locomotion

@@ -6,16 +6,16 @@
 namespace rover::locomotion {
 namespace {
 
-constexpr double kMaxStepS = 0.1;  // ramps do not leap after a gap in the ticks
+constexpr double kMaxStepS = 0.1;  // limits ramp steps after a gap in the ticks
 
-// Arrives exactly: rest and alignment are tested for equality.
+// Reaches `to` exactly, because standstill and alignment are tested for equality.
 double move_towards(double from, double to, double step) {
   if (std::abs(to - from) <= step) return to;
   return from + std::copysign(step, to - from);
 }
 
-// 1 up to `slow`, falling to 0 at `stop`.
-double falling(double value, double slow, double stop) {
+// 1 up to `slow`, then linear to 0 at `stop`.
+double linear_falloff(double value, double slow, double stop) {
   return std::clamp((stop - value) / (stop - slow), 0.0, 1.0);
 }
 
@@ -40,74 +40,74 @@ bool finite(const std::array<double, 4>& values) {
 Locomotion::Locomotion(const LocomotionConfig& config, const Vehicle& vehicle)
     : config_(config),
       vehicle_(vehicle),
-      curvature_rate_(config.steering_rate_share * vehicle.steer_rate_radps /
-                      steepest_steering(vehicle, config.max_curvature_per_m)),
+      max_curvature_rate_(config.steering_rate_share * vehicle.steer_rate_radps /
+                          max_steering_gradient(vehicle, config.max_curvature_per_m)),
       turn_radius_m_(point_turn_radius_m(vehicle)),
-      stall_(config.stall) {}
+      stall_recovery_(config.stall) {}
 
 WheelCommand Locomotion::step(Utime now, const MotionCommand& command, const DrivePermit& permit,
                               const WheelReading& wheels) {
   const double dt_s = last_step_ == kNever ? 0.0 : std::min(to_seconds(now - last_step_), kMaxStepS);
   last_step_ = now;
   WheelCommand out;
-  const bool wheels_known = usable(wheels, now);
+  const bool wheels_usable = usable(wheels, now);
   const Utime max_age = to_utime(config_.lease_max_age_s);
-  out.lease = wheels_known && permits(permit, now, max_age) && commands(command, now, max_age);
-  if (wheels_known && !started_) {
+  out.lease = wheels_usable && permit_valid(permit, now, max_age) && command_valid(command, now, max_age);
+  if (wheels_usable && !initialised_) {
     steer_rad_ = wheels.steer_angle_rad;
-    started_ = true;
+    initialised_ = true;
   }
-  if (wheels_known && wheels.command_expired) motion_mps_ = 0.0;
+  if (wheels_usable && wheels.command_expired) motion_mps_ = 0.0;
   if (out.lease) {
-    if (held_) go_on(wheels);
-    out.state = drive(target_of(command, permit), wheels, dt_s);
+    if (holding_) resume(wheels);
+    out.state = drive(target_from(command, permit), wheels, dt_s);
   } else {
     ramp(0.0, config_.emergency_deceleration_mps2, dt_s);
-    if (wheels_known && motion_mps_ == 0.0) rest(wheels, dt_s);
+    if (wheels_usable && motion_mps_ == 0.0) update_hold(wheels, dt_s);
   }
-  out.valid = started_ && wheels_known;
+  out.valid = initialised_ && wheels_usable;
   out.wheels = setpoints();
-  out.steering_error_rad = wheels_known ? steering_error(wheels) : 0.0;
+  out.steering_error_rad = wheels_usable ? steering_error(wheels) : 0.0;
   return out;
 }
 
-// Not held anew at each tick: angles that give way a little would creep on.
-void Locomotion::rest(const WheelReading& wheels, double dt_s) {
-  pushed_off_s_ = held_ && steering_error(wheels) > config_.hold_slack_rad ? pushed_off_s_ + dt_s : 0.0;
-  if (!held_ || pushed_off_s_ > config_.hold_patience_s) hold(wheels);
+// Held angles are not refreshed every tick: a slowly yielding wheel would creep away.
+void Locomotion::update_hold(const WheelReading& wheels, double dt_s) {
+  deflected_s_ = holding_ && steering_error(wheels) > config_.hold_tolerance_rad ? deflected_s_ + dt_s : 0.0;
+  if (!holding_ || deflected_s_ > config_.hold_delay_s) hold_measured_angles(wheels);
 }
 
-void Locomotion::hold(const WheelReading& wheels) {
-  held_ = true;
-  pushed_off_s_ = 0.0;
+void Locomotion::hold_measured_angles(const WheelReading& wheels) {
+  holding_ = true;
+  deflected_s_ = 0.0;
   steer_rad_ = wheels.steer_angle_rad;
 }
 
-void Locomotion::go_on(const WheelReading& wheels) {
-  held_ = false;
-  stall_.clear();
-  const auto wanted = geometry_angles();
-  aligned_ = aligned_ && largest_difference(wanted, wheels.steer_angle_rad) <= config_.aligned_rad;
-  if (aligned_) steer_rad_ = wanted;
+void Locomotion::resume(const WheelReading& wheels) {
+  holding_ = false;
+  stall_recovery_.reset();
+  const auto desired = desired_angles();
+  aligned_ = aligned_ && largest_difference(desired, wheels.steer_angle_rad) <= config_.alignment_tolerance_rad;
+  if (aligned_) steer_rad_ = desired;
 }
 
 LocomotionState Locomotion::drive(const Target& target, const WheelReading& wheels, double dt_s) {
   steer(target, wheels, dt_s);
-  const double freeing_mps = std::min(freeing_speed_mps(target, wheels, dt_s), std::abs(target.motion_mps));
-  const bool steered = aligned_ && target.geometry == geometry_;
-  const double allowed_mps = steered ? std::abs(target.motion_mps) * allowed_share(target, wheels) : 0.0;
-  const bool may_roll = steered || freeing_mps > 0.0;
-  ramp(std::copysign(std::max(allowed_mps, freeing_mps), target.motion_mps), config_.acceleration_mps2, dt_s);
+  const double recovery_mps = std::min(recovery_speed_mps(target, wheels, dt_s), std::abs(target.motion_mps));
+  const bool steering_ready = aligned_ && target.geometry == geometry_;
+  const double allowed_mps = steering_ready ? std::abs(target.motion_mps) * speed_factor(target, wheels) : 0.0;
+  const bool may_roll = steering_ready || recovery_mps > 0.0;
+  ramp(std::copysign(std::max(allowed_mps, recovery_mps), target.motion_mps), config_.acceleration_mps2, dt_s);
   return may_roll ? LocomotionState::kDriving : LocomotionState::kAligning;
 }
 
-double Locomotion::freeing_speed_mps(const Target& target, const WheelReading& wheels, double dt_s) {
+double Locomotion::recovery_speed_mps(const Target& target, const WheelReading& wheels, double dt_s) {
   const double error = steering_error(wheels);
-  if (error <= config_.aligned_rad) stall_.clear();
-  const bool steering_done =
-      target.geometry == geometry_ && curvature_per_m_ == target.curvature_per_m && steer_rad_ == geometry_angles();
-  if (!steering_done || error <= config_.aligned_rad) return 0.0;
-  return stall_.freeing_speed_mps(mean_difference(steer_rad_, wheels.steer_angle_rad), motion_mps_, dt_s);
+  if (error <= config_.alignment_tolerance_rad) stall_recovery_.reset();
+  const bool setpoints_reached =
+      target.geometry == geometry_ && curvature_per_m_ == target.curvature_per_m && steer_rad_ == desired_angles();
+  if (!setpoints_reached || error <= config_.alignment_tolerance_rad) return 0.0;
+  return stall_recovery_.recovery_speed_mps(mean_difference(steer_rad_, wheels.steer_angle_rad), motion_mps_, dt_s);
 }
 
 bool Locomotion::usable(const WheelReading& wheels, Utime now) const {
@@ -115,7 +115,7 @@ bool Locomotion::usable(const WheelReading& wheels, Utime now) const {
          !wheels.fault && finite(wheels.steer_angle_rad);
 }
 
-Locomotion::Target Locomotion::target_of(const MotionCommand& command, const DrivePermit& permit) const {
+Locomotion::Target Locomotion::target_from(const MotionCommand& command, const DrivePermit& permit) const {
   if (command.mode == MotionMode::kArc) {
     const double limit = std::min(vehicle_.top_speed_mps, permit.max_speed_mps);
     const double curvature =
@@ -130,50 +130,51 @@ Locomotion::Target Locomotion::target_of(const MotionCommand& command, const Dri
 }
 
 void Locomotion::steer(const Target& target, const WheelReading& wheels, double dt_s) {
-  if (target.geometry != geometry_ && motion_mps_ == 0.0) switch_geometry(target);
+  if (target.geometry != geometry_ && motion_mps_ == 0.0) set_geometry(target);
   if (target.geometry != geometry_) return;
   if (!aligned_) {
     align(target, wheels, dt_s);
   } else if (geometry_ == Geometry::kArc) {
-    curvature_per_m_ = move_towards(curvature_per_m_, target.curvature_per_m, curvature_rate_ * dt_s);
-    steer_rad_ = geometry_angles();
+    curvature_per_m_ = move_towards(curvature_per_m_, target.curvature_per_m, max_curvature_rate_ * dt_s);
+    steer_rad_ = desired_angles();
   }
 }
 
-void Locomotion::switch_geometry(const Target& target) {
+void Locomotion::set_geometry(const Target& target) {
   geometry_ = target.geometry;
   aligned_ = false;
 }
 
 void Locomotion::align(const Target& target, const WheelReading& wheels, double dt_s) {
   curvature_per_m_ = target.curvature_per_m;
-  const auto wanted = geometry_angles();
+  const auto desired = desired_angles();
   const double step = vehicle_.steer_rate_radps * dt_s;
-  for (size_t k = 0; k < 4; ++k) steer_rad_[k] = move_towards(steer_rad_[k], wanted[k], step);
-  aligned_ = steer_rad_ == wanted && steering_error(wheels) <= config_.aligned_rad;
+  for (size_t k = 0; k < 4; ++k) steer_rad_[k] = move_towards(steer_rad_[k], desired[k], step);
+  aligned_ = steer_rad_ == desired && steering_error(wheels) <= config_.alignment_tolerance_rad;
 }
 
 double Locomotion::steering_error(const WheelReading& wheels) const {
   return largest_difference(steer_rad_, wheels.steer_angle_rad);
 }
 
-double Locomotion::allowed_share(const Target& target, const WheelReading& wheels) const {
-  const double steering = falling(steering_error(wheels), config_.steering_slow_rad, config_.steering_stop_rad);
-  const double behind = std::abs(target.curvature_per_m - curvature_per_m_);
-  return steering * falling(behind, config_.curvature_slow_per_m, config_.curvature_stop_per_m);
+double Locomotion::speed_factor(const Target& target, const WheelReading& wheels) const {
+  const double steering_factor =
+      linear_falloff(steering_error(wheels), config_.steering_slow_rad, config_.steering_stop_rad);
+  const double curvature_error = std::abs(target.curvature_per_m - curvature_per_m_);
+  return steering_factor * linear_falloff(curvature_error, config_.curvature_slow_per_m, config_.curvature_stop_per_m);
 }
 
 void Locomotion::ramp(double motion_mps, double rate_mps2, double dt_s) {
   motion_mps_ = move_towards(motion_mps_, motion_mps, rate_mps2 * dt_s);
 }
 
-WheelSetpoints Locomotion::rolling(double motion_mps) const {
+WheelSetpoints Locomotion::wheel_setpoints(double motion_mps) const {
   return geometry_ == Geometry::kArc ? arc_setpoints(vehicle_, motion_mps, curvature_per_m_)
                                      : point_turn_setpoints(vehicle_, motion_mps / turn_radius_m_);
 }
 
 WheelSetpoints Locomotion::setpoints() const {
-  WheelSetpoints out = rolling(motion_mps_);
+  WheelSetpoints out = wheel_setpoints(motion_mps_);
   out.steer_angle_rad = steer_rad_;
   return out;
 }

@@ -36,7 +36,7 @@ void LocomotionNode::step(Utime now) {
   report(command);
 }
 
-// Nobody knows what time it is: no lease holds.
+// Without ticks the time is unknown, so no lease can be checked: step without a permit.
 void LocomotionNode::stop() {
   wheel_command_t message{};
   message.valid_until_utime = node_.now();
@@ -45,10 +45,10 @@ void LocomotionNode::stop() {
 }
 
 void LocomotionNode::report(const WheelCommand& command) {
-  const bool late = command.steering_error_rad > steering_slow_rad_ && command.state == LocomotionState::kDriving;
-  if (late != steering_late_) {
-    steering_late_ = late;
-    node_.set_status(late ? heartbeat_t::DEGRADED : heartbeat_t::OK, late ? "steering behind its setpoint" : "");
+  const bool lagging = command.steering_error_rad > steering_slow_rad_ && command.state == LocomotionState::kDriving;
+  if (lagging != steering_lagging_) {
+    steering_lagging_ = lagging;
+    node_.set_status(lagging ? heartbeat_t::DEGRADED : heartbeat_t::OK, lagging ? "steering behind its setpoint" : "");
   }
   if (command.state == state_) return;
   state_ = command.state;

@@ -1,4 +1,4 @@
-// Locomotion on the bus: MOTION_COMMAND, DRIVE_PERMIT and WHEEL_STATE in, WHEEL_COMMAND out each tick.
+// LCM node: subscribes to MOTION_COMMAND, DRIVE_PERMIT, WHEEL_STATE; publishes WHEEL_COMMAND each tick.
 #pragma once
 
 #include "common/bus/node.hpp"
@@ -24,7 +24,7 @@ class LocomotionNode {
   DrivePermit permit_;
   WheelReading wheels_;
   LocomotionState state_ = LocomotionState::kHolding;
-  bool steering_late_ = false;
+  bool steering_lagging_ = false;
 };
 
 }  // namespace rover::locomotion

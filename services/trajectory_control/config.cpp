@@ -28,7 +28,7 @@ void read_path(const Config& c, const Vehicle& vehicle, TrackedPathConfig& out) 
   c.read_deg("kink_deg", out.kink_rad, {5.0, 180.0});
   c.read("kink_chord_m", out.kink_chord_m, {0.05, 2.0});
   out.max_curvature_rate =
-      share * vehicle.steer_rate_radps / locomotion::steepest_steering(vehicle, 1.0 / vehicle.min_turn_radius_m);
+      share * vehicle.steer_rate_radps / locomotion::max_steering_gradient(vehicle, 1.0 / vehicle.min_turn_radius_m);
 }
 
 void read_steering(const Config& c, SteeringLawConfig& out) {

@@ -11,7 +11,7 @@ MotionCommand teleop_command(Utime now, const TeleopInput& input, const DrivePer
   out.utime = out.valid_until = now;
   const bool fresh = input.utime >= 0 && input.utime <= now && now - input.utime <= to_utime(config.teleop_max_age_s);
   const bool finite = std::isfinite(input.speed_mps) && std::isfinite(input.curvature_per_m);
-  if (!fresh || !finite || !permits(permit, now, to_utime(config.permit_max_age_s))) return out;
+  if (!fresh || !finite || !permit_valid(permit, now, to_utime(config.permit_max_age_s))) return out;
   out.valid_until = now + to_utime(config.command_validity_s);
   const double speed = std::clamp(input.speed_mps, -permit.max_speed_mps, permit.max_speed_mps);
   if (std::abs(input.curvature_per_m) > config.path.max_curvature_per_m) {

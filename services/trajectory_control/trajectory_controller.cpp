@@ -100,7 +100,7 @@ ControlOutput TrajectoryController::step_ahead(Utime now, const PoseInput& pose,
     out.command.valid_until = valid_until;
     return out;
   }
-  if (!permits(permit, now, to_utime(config_.permit_max_age_s))) {
+  if (!permit_valid(permit, now, to_utime(config_.permit_max_age_s))) {
     out.state = ControlState::kNoPermit;
     return out;
   }

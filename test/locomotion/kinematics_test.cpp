@@ -12,7 +12,7 @@ namespace {
 
 const Vehicle kVehicle = load_vehicle(ROVER_SOURCE_DIR "/config");
 
-TEST(ArcSetpoints, ForwardKinematicsGivesTheArcBackWithoutScrub) {
+TEST(ArcSetpoints, ForwardKinematicsReturnsTheArcWithoutScrub) {
   for (double k = -1.0; k <= 1.0; k += 0.05)
     for (const double speed : {-0.2, 0.05, 0.2}) {
       const test::Twist twist = test::forward_kinematics(kVehicle, arc_setpoints(kVehicle, speed, k));
@@ -23,7 +23,7 @@ TEST(ArcSetpoints, ForwardKinematicsGivesTheArcBackWithoutScrub) {
     }
 }
 
-TEST(ArcSetpoints, EachWheelAxisPointsAtTheCentreOfRotation) {
+TEST(ArcSetpoints, EveryWheelAxisPassesThroughTheCentreOfRotation) {
   const double radius = 1.25;
   const WheelSetpoints wheels = arc_setpoints(kVehicle, 0.2, 1.0 / radius);
   for (size_t k = 0; k < 4; ++k) {
@@ -34,7 +34,7 @@ TEST(ArcSetpoints, EachWheelAxisPointsAtTheCentreOfRotation) {
   }
 }
 
-TEST(ArcSetpoints, AreMirroredLeftAndRight) {
+TEST(ArcSetpoints, LeftAndRightTurnsAreMirrored) {
   const WheelSetpoints left = arc_setpoints(kVehicle, 0.2, 0.7);
   const WheelSetpoints right = arc_setpoints(kVehicle, 0.2, -0.7);
   for (size_t pair = 0; pair < 3; ++pair)
@@ -44,7 +44,7 @@ TEST(ArcSetpoints, AreMirroredLeftAndRight) {
   EXPECT_LT(left.steer_angle_rad[2], 0.0);
 }
 
-TEST(PointTurnSetpoints, ForwardKinematicsGivesTheTurnBackWithoutScrub) {
+TEST(PointTurnSetpoints, ForwardKinematicsReturnsTheTurnWithoutScrub) {
   for (const double rate : {-0.2, 0.0, 0.1}) {
     const test::Twist twist = test::forward_kinematics(kVehicle, point_turn_setpoints(kVehicle, rate));
     EXPECT_NEAR(twist.forward_mps, 0.0, 1e-12);
@@ -54,7 +54,7 @@ TEST(PointTurnSetpoints, ForwardKinematicsGivesTheTurnBackWithoutScrub) {
   }
 }
 
-TEST(Steering, StaysWithinItsLimits) {
+TEST(Steering, AnglesStayWithinTheVehicleLimits) {
   for (double k = -1.0; k <= 1.0; k += 0.05)
     for (const double angle : arc_setpoints(kVehicle, 0.2, k).steer_angle_rad)
       EXPECT_LE(std::abs(angle), kVehicle.steer_max_rad);
@@ -62,20 +62,20 @@ TEST(Steering, StaysWithinItsLimits) {
     EXPECT_LE(std::abs(angle), kVehicle.steer_max_rad);
 }
 
-TEST(SteepestSteering, IsTheLargestDifferenceQuotient) {
+TEST(MaxSteeringGradient, IsTheLargestDifferenceQuotientOfTheSteeringAngles) {
   for (const double limit : {0.2, 0.5, 1.0}) {
-    double steepest = 0.0;
+    double largest = 0.0;
     constexpr double h = 1e-4;
     for (double k = -limit; k + h <= limit; k += h) {
       const auto a = arc_setpoints(kVehicle, 0.0, k).steer_angle_rad;
       const auto b = arc_setpoints(kVehicle, 0.0, k + h).steer_angle_rad;
-      for (size_t i = 0; i < 4; ++i) steepest = std::max(steepest, std::abs(b[i] - a[i]) / h);
+      for (size_t i = 0; i < 4; ++i) largest = std::max(largest, std::abs(b[i] - a[i]) / h);
     }
-    EXPECT_NEAR(steepest_steering(kVehicle, limit), steepest, 1e-3) << limit;
+    EXPECT_NEAR(max_steering_gradient(kVehicle, limit), largest, 1e-3) << limit;
   }
 }
 
-TEST(PointTurnRadius, IsTheCornerWheels) {
+TEST(PointTurnRadius, IsTheDistanceOfTheCornerWheels) {
   EXPECT_NEAR(point_turn_radius_m(kVehicle), std::hypot(0.75, 0.41), 1e-12);
 }
 

@@ -11,7 +11,7 @@
 namespace rover::locomotion {
 namespace {
 
-// Locomotion and a kinematic rover; permit and command are renewed at each tick unless taken away.
+// Locomotion with a kinematic rover; permit and command are refreshed each tick unless disabled.
 class LocomotionTest : public testing::Test {
  protected:
   void tick() {
@@ -21,8 +21,8 @@ class LocomotionTest : public testing::Test {
       command_.utime = now_ - kTickUs;
       command_.valid_until = now_ + to_utime(0.18);
     }
-    if (wheels_alive_) wheels_ = {now_, rover_.wheels().steer_angle_rad, wheel_fault_, expired_};
-    if (rock_at_rad_) wheels_.steer_angle_rad[3] = std::max(wheels_.steer_angle_rad[3], *rock_at_rad_);
+    if (wheels_alive_) wheels_ = {now_, rover_.wheels().steer_angle_rad, wheel_fault_, command_expired_};
+    if (blocked_at_rad_) wheels_.steer_angle_rad[3] = std::max(wheels_.steer_angle_rad[3], *blocked_at_rad_);
     out_ = locomotion_.step(now_, command_, permit_, wheels_);
     if (out_.valid) applied_ = out_.wheels;
     rover_.step(applied_, to_seconds(kTickUs));
@@ -31,7 +31,7 @@ class LocomotionTest : public testing::Test {
   void run(double seconds) {
     for (Utime end = now_ + to_utime(seconds); now_ < end;) tick();
   }
-  // Seconds until the commanded wheels stand, and the way the rover makes meanwhile.
+  // Seconds until the commanded wheel speed is zero.
   double time_to_stop() {
     const Utime start = now_;
     while (commanded_speed() != 0.0 && now_ - start < to_utime(10.0)) tick();
@@ -58,13 +58,13 @@ class LocomotionTest : public testing::Test {
   bool command_alive_ = true;
   bool wheels_alive_ = true;
   bool wheel_fault_ = false;
-  bool expired_ = false;
-  std::optional<double> rock_at_rad_;  // keeps the right rear wheel from steering further to the right
+  bool command_expired_ = false;
+  std::optional<double> blocked_at_rad_;  // a rock limits the right rear wheel to this angle
   double max_speed_ = 0.2;
   double largest_scrub_ = 0.0;
 };
 
-TEST_F(LocomotionTest, RampsUpAndDownAtTheVehiclesAcceleration) {
+TEST_F(LocomotionTest, RampsUpAndDownAtTheVehicleAcceleration) {
   arc(0.2, 0.0);
   double before = 0.0;
   while (now_ < to_utime(3.0)) {
@@ -92,7 +92,7 @@ TEST_F(LocomotionTest, NoWheelTurnsWithoutCommand) {
   EXPECT_EQ(commanded_speed(), 0.0);
 }
 
-TEST_F(LocomotionTest, ALostPermitStopsTheWheelsWithinItsLifeAndTheEmergencyRamp) {
+TEST_F(LocomotionTest, LostPermitStopsWithinItsValidityPlusEmergencyRamp) {
   arc(0.2, 0.0);
   run(3.0);
   permit_alive_ = false;
@@ -102,7 +102,7 @@ TEST_F(LocomotionTest, ALostPermitStopsTheWheelsWithinItsLifeAndTheEmergencyRamp
   EXPECT_LT(rover_.pose().x_m - x, 0.2 * 0.2 + 0.05 + 0.03);
 }
 
-TEST_F(LocomotionTest, AWithdrawnPermitStopsAtOnce) {
+TEST_F(LocomotionTest, WithdrawnPermitStopsAtOnce) {
   arc(0.2, 0.0);
   run(3.0);
   permit_alive_ = false;
@@ -110,14 +110,14 @@ TEST_F(LocomotionTest, AWithdrawnPermitStopsAtOnce) {
   EXPECT_LE(time_to_stop(), 0.5 + 0.03);
 }
 
-TEST_F(LocomotionTest, ALostCommandStopsTheWheels) {
+TEST_F(LocomotionTest, LostCommandStopsTheWheels) {
   arc(0.2, 0.0);
   run(3.0);
   command_alive_ = false;
   EXPECT_LE(time_to_stop(), 0.2 + 0.5 + 0.03);
 }
 
-TEST_F(LocomotionTest, NotANumberStopsTheWheels) {
+TEST_F(LocomotionTest, NanInCommandStopsTheWheels) {
   arc(0.2, 0.0);
   run(3.0);
   command_.curvature_per_m = kNaN;
@@ -125,7 +125,7 @@ TEST_F(LocomotionTest, NotANumberStopsTheWheels) {
   for (const double angle : out_.wheels.steer_angle_rad) EXPECT_TRUE(std::isfinite(angle));
 }
 
-TEST_F(LocomotionTest, WheelsThatAreNotKnownAreNotCommanded) {
+TEST_F(LocomotionTest, NoWheelStateMeansNoValidCommand) {
   wheels_alive_ = false;
   arc(0.2, 0.0);
   run(1.0);
@@ -133,7 +133,7 @@ TEST_F(LocomotionTest, WheelsThatAreNotKnownAreNotCommanded) {
   EXPECT_EQ(commanded_speed(), 0.0);
 }
 
-TEST_F(LocomotionTest, WheelStatesThatEndStopTheRover) {
+TEST_F(LocomotionTest, StaleWheelStateStopsTheRover) {
   arc(0.2, 0.0);
   run(3.0);
   wheels_alive_ = false;
@@ -142,38 +142,38 @@ TEST_F(LocomotionTest, WheelStatesThatEndStopTheRover) {
   EXPECT_EQ(commanded_speed(), 0.0);
 }
 
-TEST_F(LocomotionTest, AWheelFaultStopsTheRover) {
+TEST_F(LocomotionTest, WheelFaultStopsTheRover) {
   arc(0.2, 0.0);
   run(3.0);
   wheel_fault_ = true;
   EXPECT_LE(time_to_stop(), 0.5 + 0.03);
 }
 
-TEST_F(LocomotionTest, AfterTheDriversOwnStopTheRampBeginsAtRest) {
+TEST_F(LocomotionTest, RampRestartsFromZeroAfterTheDriverStopped) {
   arc(0.2, 0.0);
   run(3.0);
-  expired_ = true;
+  command_expired_ = true;
   tick();
-  expired_ = false;
+  command_expired_ = false;
   EXPECT_LT(commanded_speed(), 0.01);
   run(3.0);
   EXPECT_NEAR(commanded_speed(), 0.2, 1e-12);
 }
 
-TEST_F(LocomotionTest, SpeedIsBoundedByThePermit) {
+TEST_F(LocomotionTest, SpeedIsLimitedByThePermit) {
   max_speed_ = 0.05;
   arc(0.2, 0.0);
   run(3.0);
   EXPECT_NEAR(commanded_speed(), 0.05, 1e-12);
 }
 
-TEST_F(LocomotionTest, CurvatureIsBoundedByTheLeastRadius) {
+TEST_F(LocomotionTest, CurvatureIsLimitedByTheMinimumRadius) {
   arc(0.1, 5.0);
   run(15.0);
   EXPECT_NEAR(rover_.twist().turn_radps / rover_.twist().forward_mps, 1.0, 1e-3);
 }
 
-TEST_F(LocomotionTest, WheelsShareOneCentreOfRotationWhileTheSteeringSwings) {
+TEST_F(LocomotionTest, WheelsShareOneCentreOfRotationWhileSteering) {
   arc(0.2, 0.8);
   run(8.0);
   arc(0.2, -0.8);
@@ -182,7 +182,7 @@ TEST_F(LocomotionTest, WheelsShareOneCentreOfRotationWhileTheSteeringSwings) {
   EXPECT_LT(largest_scrub_, 0.005);
 }
 
-TEST_F(LocomotionTest, SteeringSetpointsRespectTheMotorsRate) {
+TEST_F(LocomotionTest, SteeringSetpointsRespectTheMotorRate) {
   arc(0.2, 1.0);
   auto before = rover_.wheels().steer_angle_rad;
   for (int i = 0; i < 600; ++i) {
@@ -194,18 +194,19 @@ TEST_F(LocomotionTest, SteeringSetpointsRespectTheMotorsRate) {
   }
 }
 
-TEST_F(LocomotionTest, StandsUntilTheWheelsAreAlignedForAPointTurn) {
+TEST_F(LocomotionTest, StaysStationaryUntilAlignedForAPointTurn) {
   arc(0.2, 0.0);
   run(3.0);
   point_turn(0.2);
   double rolled_misaligned = 0.0;
   for (int i = 0; i < 1000; ++i) {
     tick();
-    const auto wanted = point_turn_setpoints(config_.vehicle, 0.0).steer_angle_rad;
-    double off = 0.0;
-    for (size_t k = 0; k < 4; ++k) off = std::max(off, std::abs(rover_.wheels().steer_angle_rad[k] - wanted[k]));
+    const auto desired = point_turn_setpoints(config_.vehicle, 0.0).steer_angle_rad;
+    double error_rad = 0.0;
+    for (size_t k = 0; k < 4; ++k)
+      error_rad = std::max(error_rad, std::abs(rover_.wheels().steer_angle_rad[k] - desired[k]));
     const bool straight = std::abs(rover_.wheels().steer_angle_rad[0]) < 0.02;
-    if (off > to_rad(6.0) && !straight) rolled_misaligned = std::max(rolled_misaligned, commanded_speed());
+    if (error_rad > to_rad(6.0) && !straight) rolled_misaligned = std::max(rolled_misaligned, commanded_speed());
   }
   EXPECT_EQ(rolled_misaligned, 0.0);
   EXPECT_NEAR(rover_.twist().turn_radps, 0.2, 1e-3);
@@ -215,20 +216,20 @@ TEST_F(LocomotionTest, StandsUntilTheWheelsAreAlignedForAPointTurn) {
   EXPECT_NEAR(rover_.twist().forward_mps, 0.2, 1e-3);
 }
 
-TEST_F(LocomotionTest, AJammedSteeringMotorHoldsTheRover) {
+TEST_F(LocomotionTest, JammedSteeringMotorStopsTheRover) {
   arc(0.2, 0.0);
   run(3.0);
   arc(0.2, 0.8);
   for (int i = 0; i < 500; ++i) {
     tick();
-    wheels_alive_ = false;  // the reading below is of wheels that do not follow
+    wheels_alive_ = false;  // replaced by the reading below: wheels that do not move
     wheels_ = {now_ + kTickUs, {}, false, false};
   }
   EXPECT_EQ(commanded_speed(), 0.0);
   EXPECT_GT(out_.steering_error_rad, config_.locomotion.steering_stop_rad);
 }
 
-TEST_F(LocomotionTest, TheSteeringKeepsItsAngleWhenTheLeaseIsLost) {
+TEST_F(LocomotionTest, SteeringHoldsItsAngleWhenTheLeaseIsLost) {
   arc(0.2, 0.6);
   run(8.0);
   const auto angles = out_.wheels.steer_angle_rad;
@@ -238,23 +239,23 @@ TEST_F(LocomotionTest, TheSteeringKeepsItsAngleWhenTheLeaseIsLost) {
   for (size_t k = 0; k < 4; ++k) EXPECT_NEAR(out_.wheels.steer_angle_rad[k], angles[k], 1e-9);
 }
 
-TEST_F(LocomotionTest, WithoutALeaseNoServoPushesOnAgainstARock) {
-  rock_at_rad_ = -0.3;
+TEST_F(LocomotionTest, WithoutALeaseTheServoDoesNotPushAgainstARock) {
+  blocked_at_rad_ = -0.3;
   point_turn(0.2);
   run(7.0);
   EXPECT_LT(out_.wheels.steer_angle_rad[3], -1.0);
   permit_alive_ = false;
   run(1.0);
   EXPECT_EQ(out_.wheels.steer_angle_rad[3], -0.3);
-  rock_at_rad_ = -0.2;  // it gives way under the weight: the angle is kept at first, it does not creep on
+  blocked_at_rad_ = -0.2;  // the wheel yields: the held angle does not follow at first
   run(0.9);
   EXPECT_EQ(out_.wheels.steer_angle_rad[3], -0.3);
-  run(0.3);  // it stays pushed off: the servo yields, or it would heat up for as long as the rover stands
+  run(0.3);  // lasting deflection: the servo yields, otherwise it would overheat
   EXPECT_EQ(out_.wheels.steer_angle_rad[3], -0.2);
 }
 
-TEST_F(LocomotionTest, AlignmentGoesOnFromTheAnglesThatWereHeld) {
-  rock_at_rad_ = -0.3;
+TEST_F(LocomotionTest, AlignmentResumesFromTheHeldAngles) {
+  blocked_at_rad_ = -0.3;
   point_turn(0.2);
   run(7.0);
   permit_alive_ = false;
@@ -268,7 +269,7 @@ TEST_F(LocomotionTest, AlignmentGoesOnFromTheAnglesThatWereHeld) {
   }
 }
 
-TEST_F(LocomotionTest, ALostLeaseInABendCostsNoNewAlignment) {
+TEST_F(LocomotionTest, LostLeaseInABendNeedsNoNewAlignment) {
   arc(0.2, 0.6);
   run(8.0);
   permit_alive_ = false;
@@ -278,21 +279,21 @@ TEST_F(LocomotionTest, ALostLeaseInABendCostsNoNewAlignment) {
   EXPECT_EQ(out_.state, LocomotionState::kDriving);
 }
 
-TEST_F(LocomotionTest, AWheelAgainstARockIsRolledFree) {
-  rock_at_rad_ = -0.8;  // 15 deg short of a point turn's angle
+TEST_F(LocomotionTest, StalledWheelIsRolledFree) {
+  blocked_at_rad_ = -0.8;  // 15 deg short of the point-turn angle
   point_turn(0.2);
   run(5.5);
   EXPECT_EQ(commanded_speed(), 0.0);
   run(1.5);
   EXPECT_GT(commanded_speed(), 0.0);
   EXPECT_LE(commanded_speed(), config_.locomotion.stall.speed_mps + 1e-12);
-  rock_at_rad_.reset();
+  blocked_at_rad_.reset();
   run(3.0);
   EXPECT_NEAR(rover_.twist().turn_radps, 0.2, 1e-3);
 }
 
-TEST_F(LocomotionTest, AWheelThatDoesNotComeFreeStopsTheRover) {
-  rock_at_rad_ = -0.8;
+TEST_F(LocomotionTest, StallRecoveryGivesUpAfterItsDistance) {
+  blocked_at_rad_ = -0.8;
   point_turn(0.2);
   double rolled_m = 0.0;
   for (int i = 0; i < 1500; ++i) {
@@ -300,17 +301,17 @@ TEST_F(LocomotionTest, AWheelThatDoesNotComeFreeStopsTheRover) {
     rolled_m += commanded_speed() * 0.02;
   }
   EXPECT_EQ(commanded_speed(), 0.0);
-  EXPECT_NEAR(rolled_m, config_.locomotion.stall.way_m, 0.02);
+  EXPECT_NEAR(rolled_m, config_.locomotion.stall.max_distance_m, 0.02);
 }
 
-TEST_F(LocomotionTest, AWheelFarFromItsAngleIsNotRolled) {
-  rock_at_rad_ = 0.0;  // 61 deg short
+TEST_F(LocomotionTest, NoStallRecoveryWithALargeMeanSteeringError) {
+  blocked_at_rad_ = 0.0;  // 61 deg short of the point-turn angle
   point_turn(0.2);
   run(20.0);
   EXPECT_EQ(commanded_speed(), 0.0);
 }
 
-TEST_F(LocomotionTest, StartsFromTheAnglesThatTheWheelsHave) {
+TEST_F(LocomotionTest, StartsFromTheMeasuredSteeringAngles) {
   WheelSetpoints turned;
   turned.steer_angle_rad = {-1.0, 1.0, 1.0, -1.0};
   for (int i = 0; i < 1000; ++i) rover_.step(turned, 0.02);

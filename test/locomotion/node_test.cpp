@@ -47,7 +47,7 @@ class LocomotionNodeTest : public testing::Test {
   bool permit_ = true;
 };
 
-TEST_F(LocomotionNodeTest, PublishesAtEachTickWithALifetime) {
+TEST_F(LocomotionNodeTest, PublishesEachTickWithValidUntil) {
   run(3.0);
   ASSERT_GE(commands_->size(), 149u);
   const wheel_command_t& last = commands_->back();
@@ -55,21 +55,21 @@ TEST_F(LocomotionNodeTest, PublishesAtEachTickWithALifetime) {
   EXPECT_NEAR(last.drive_rate_radps[0], 0.1 / 0.125, 1e-9);
 }
 
-TEST_F(LocomotionNodeTest, NoPermitNoMotion) {
+TEST_F(LocomotionNodeTest, NoMotionWithoutPermit) {
   permit_ = false;
   run(2.0);
   ASSERT_FALSE(commands_->empty());
   for (const wheel_command_t& c : *commands_) EXPECT_EQ(c.drive_rate_radps[0], 0.0);
 }
 
-TEST_F(LocomotionNodeTest, AnUnknownModeIsAStop) {
+TEST_F(LocomotionNodeTest, UnknownModeStops) {
   run(3.0);
   command_.mode = 77;
   run(3.0);
   EXPECT_EQ(commands_->back().drive_rate_radps[0], 0.0);
 }
 
-TEST_F(LocomotionNodeTest, AnUnknownWheelStatusIsAFault) {
+TEST_F(LocomotionNodeTest, UnknownWheelStatusIsAFault) {
   run(3.0);
   wheel_state_.status = 9;
   run(1.0);

@@ -19,7 +19,7 @@ class ControllerTest : public testing::Test {
     EXPECT_EQ(out.state, state);
     EXPECT_EQ(out.command.mode, MotionMode::kStop);
     EXPECT_EQ(out.command.speed_mps, 0.0);
-    EXPECT_FALSE(locomotion::commands(out.command, kNow, 200'000));
+    EXPECT_FALSE(locomotion::command_valid(out.command, kNow, 200'000));
   }
 
   // Of the same path, from where the rover is, after three seconds at that velocity.
