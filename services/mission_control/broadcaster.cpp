@@ -23,8 +23,8 @@ double length_of(const GlobalPath& path) {
 
 }  // namespace
 
-Broadcaster::Broadcaster(Audience& audience, Ear& ear, Station& station)
-    : audience_(audience), ear_(ear), station_(station), thread_([this] { run(); }) {}
+Broadcaster::Broadcaster(Audience& audience, Ear& ear, Station& station, std::function<void()> made)
+    : audience_(audience), ear_(ear), station_(station), made_(std::move(made)), thread_([this] { run(); }) {}
 
 Broadcaster::~Broadcaster() {
   stop();
@@ -42,9 +42,12 @@ void Broadcaster::run() {
   while (running_) {
     if (!audience_.wait_for_page(1s)) continue;
     auto frame = std::make_shared<const Frame>(make(++number));
+    {
+      const std::lock_guard lock(mutex_);
+      newest_ = std::move(frame);
+    }
+    made_();
     std::unique_lock lock(mutex_);
-    newest_ = std::move(frame);
-    changed_.notify_all();
     changed_.wait_for(lock, kPeriod, [this] { return !running_; });
   }
 }
@@ -67,14 +70,14 @@ Broadcaster::Frame Broadcaster::make(std::int64_t number) {
   const auto [view, truth] =
       ear_.with([](Gatherer& gatherer) { return std::pair(gatherer.view(wall_seconds()), gatherer.truth()); });
   frame.view = as_event("view", to_json(view, book_view()));
-  if (audience_.truth_wanted() && truth.utime != kNever) frame.truth = as_event("truth", to_json(truth));
+  frame.view_and_truth = frame.view;
+  if (audience_.truth_wanted() && truth.utime != kNever) frame.view_and_truth += as_event("truth", to_json(truth));
   return frame;
 }
 
-std::shared_ptr<const Broadcaster::Frame> Broadcaster::after(std::int64_t number) {
-  std::unique_lock lock(mutex_);
-  changed_.wait_for(lock, 1s, [&] { return !running_ || (newest_ && newest_->number > number); });
-  return running_ && newest_ && newest_->number > number ? newest_ : nullptr;
+std::shared_ptr<const Broadcaster::Frame> Broadcaster::newest() {
+  const std::lock_guard lock(mutex_);
+  return newest_;
 }
 
 }  // namespace rover::mission

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -16,23 +17,23 @@ namespace rover::mission {
 
 class Broadcaster {
  public:
-  // One view as server-sent events; that of the true world apart, for those who asked for it.
+  // One view as server-sent events; that of the true world added, for those who asked for it.
   struct Frame {
     std::int64_t number = 0;
     std::string view;
-    std::string truth;  // empty: nobody asked, or there is none
+    std::string view_and_truth;  // the view alone where nobody asked for the truth, or there is none
   };
 
-  Broadcaster(Audience& audience, Ear& ear, Station& station);
+  // `made`: a frame is there, in the broadcaster's thread.
+  Broadcaster(Audience& audience, Ear& ear, Station& station, std::function<void()> made);
   ~Broadcaster();
   Broadcaster(const Broadcaster&) = delete;
   Broadcaster& operator=(const Broadcaster&) = delete;
 
-  // The first frame after that number; null where none comes within a second or all is over.
-  std::shared_ptr<const Frame> after(std::int64_t number);
-  // Wakes and ends all who wait.
+  // Null where none was made yet.
+  std::shared_ptr<const Frame> newest();
+  // No more frames.
   void stop();
-  bool stopped() const { return !running_; }
 
  private:
   void run();
@@ -42,6 +43,7 @@ class Broadcaster {
   Audience& audience_;
   Ear& ear_;
   Station& station_;
+  std::function<void()> made_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::shared_ptr<const Frame> newest_;

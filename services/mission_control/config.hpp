@@ -8,6 +8,7 @@
 #include "common/core/vehicle.hpp"
 #include "mission_control/command.hpp"
 #include "mission_control/ground_map.hpp"
+#include "mission_control/http_server.hpp"
 #include "mission_control/orders.hpp"
 #include "mission_control/request_guard.hpp"
 
@@ -35,6 +36,7 @@ struct PageConfig {
   bool served = true;
   GuardConfig guard;
   int most_pages = 16;
+  ServerLimits limits;  // but for the number of connections, which follows from most_pages
   DrawnPath path;
 };
 

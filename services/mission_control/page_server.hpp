@@ -4,21 +4,14 @@
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "mission_control/broadcaster.hpp"
 #include "mission_control/config.hpp"
+#include "mission_control/http_server.hpp"
 #include "mission_control/pictures.hpp"
 #include "mission_control/run_map.hpp"
-
-namespace httplib {
-class Server;
-struct Request;
-struct Response;
-}  // namespace httplib
 
 namespace rover::mission {
 
@@ -41,32 +34,27 @@ class PageServer {
   PageServer(const PageServer&) = delete;
   PageServer& operator=(const PageServer&) = delete;
 
-  // Serves in threads of its own. Where the address is not to be had it is tried again each second.
+  // Where the address is not to be had it is tried again each second.
   void start();
   // Often, in the thread that handles the bus.
   void attend() { ear_.attend(wall_seconds()); }
   // Whether it is being served.
-  bool serving() const;
+  bool serving() const { return server_.serving(); }
 
  private:
-  using Request = httplib::Request;
-  using Response = httplib::Response;
-
-  void serve();
-  void add_routes();
   void add_files();
   void add_state();
   void add_pictures();
-  bool guard(const Request& request, Response& response) const;
-  bool greet(const Request& request, Response& response) const;
-  void stream(const Request& request, Response& response);
-  void command(const Request& request, Response& response);
-  void give(const Command& command, Response& response);
-  void inject(const Command& command, Response& response);
-  void check(const Request& request, Response& response);
+  void add_commands();
+  Response stream(const Request& request);
+  Response command(const Request& request);
+  Response give(const Command& command);
+  Response inject(const Command& command);
+  Response check(const Request& request);
   std::string path_problem(const Command& command);
   nlohmann::json setup();
   nlohmann::json history();
+  nlohmann::json camera();
 
   PageConfig config_;
   PageContext context_;
@@ -74,12 +62,9 @@ class PageServer {
   Audience audience_;
   Ear ear_;
   Pictures pictures_;
-  Broadcaster broadcaster_;
   RunMap map_;
-  std::unique_ptr<httplib::Server> server_;
-  std::atomic<bool> running_ = true;
-  std::atomic<bool> ended_ = true;  // the thread has, or was never begun
-  std::thread thread_;
+  HttpServer server_;
+  Broadcaster broadcaster_;  // wakes the server
 };
 
 }  // namespace rover::mission

@@ -40,9 +40,21 @@ Verdict judge(const GuardConfig& config, const RequestFacts& request) {
   if (!host_is_ours(config, request.host)) return {403, "not the address of this page (Host)"};
   if (!config.token.empty() && !same_secret(request.token, config.token))
     return {401, "a token is needed: open the page once as /?token=..."};
-  if (request.method == "GET" || request.method == "HEAD") return {};
+  if (request.method == "GET") return {};
   if (request.method == "POST") return judge_change(request);
   return {405, "GET and POST alone"};
+}
+
+RequestFacts facts_of(const Request& request) {
+  static const std::string kBearer = "Bearer ";
+  const std::string authorization = request.header("authorization");
+  return {request.method,
+          request.header("host"),
+          request.header("origin"),
+          request.header("sec-fetch-site"),
+          request.header("content-type"),
+          authorization.rfind(kBearer, 0) == 0 ? authorization.substr(kBearer.size())
+                                               : cookie(request.header("cookie"), "rover_token")};
 }
 
 bool same_secret(const std::string& a, const std::string& b) {

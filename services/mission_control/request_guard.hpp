@@ -5,7 +5,10 @@
 // comes from (Origin, Sec-Fetch-Site). Both have to be the page's own.
 #pragma once
 
+#include <optional>
 #include <string>
+
+#include "mission_control/http_message.hpp"
 
 namespace rover::mission {
 
@@ -25,14 +28,9 @@ struct RequestFacts {
   std::string token;  // from the cookie or the Authorization header
 };
 
-// HTTP status and reason; status 200: let it pass.
-struct Verdict {
-  int status = 200;
-  std::string reason;
-};
-
 bool is_loopback(const std::string& address);
 Verdict judge(const GuardConfig& config, const RequestFacts& request);
+RequestFacts facts_of(const Request& request);
 // In a time that does not tell how much of it was right.
 bool same_secret(const std::string& a, const std::string& b);
 // Value of one cookie of a Cookie header, empty where there is none.

@@ -97,8 +97,6 @@ TEST(Page, BadRequestsAre4xxAndGiveNothing) {
   EXPECT_EQ(status_of(post(server.port(), "/api/other", go)), 404);
   EXPECT_EQ(status_of(get(server.port(), "/api/command")), 404);
   EXPECT_EQ(status_of(get(server.port(), "/" + std::string(10'000, 'a'))), 414);
-  EXPECT_EQ(raw("GET /map/relief HTTP/1.1\r\nConnection: close\r\nHost: " + own + "\r\nRange: bytes=0-,0-,0-\r\n", ""),
-            400);
   EXPECT_TRUE(server.taken().empty());
 }
 

@@ -60,7 +60,7 @@ TEST(RequestGuard, OnlyJsonIsACommand) {
 }
 
 TEST(RequestGuard, OtherMethodsAreRefused) {
-  for (const char* method : {"PUT", "DELETE", "PATCH", "OPTIONS", "TRACE", "CONNECT", ""}) {
+  for (const char* method : {"HEAD", "PUT", "DELETE", "PATCH", "OPTIONS", "TRACE", "CONNECT", ""}) {
     RequestFacts request = own_command();
     request.method = method;
     EXPECT_EQ(judge(kLocal, request).status, 405) << method;

@@ -1,0 +1,61 @@
+// A request and an answer of HTTP, without sockets.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace rover::mission {
+
+struct Request {
+  std::string method;
+  std::string path;                            // percent-decoded, without the query
+  std::map<std::string, std::string> params;   // of the query, percent-decoded; the first of each name
+  std::map<std::string, std::string> headers;  // names in lower case; several of one name are joined with ", "
+  std::string body;
+
+  // Empty where there is none. `name` in lower case.
+  std::string header(const std::string& name) const { return value(headers, name); }
+  std::string param(const std::string& name) const { return value(params, name); }
+
+ private:
+  static std::string value(const std::map<std::string, std::string>& from, const std::string& name) {
+    const auto it = from.find(name);
+    return it == from.end() ? "" : it->second;
+  }
+};
+
+// HTTP status and reason; status 200: let it pass.
+struct Verdict {
+  int status = 200;
+  std::string reason;
+};
+
+// Bytes, and what keeps them alive (nothing: they are the program's own).
+struct Content {
+  std::string_view bytes;
+  std::shared_ptr<const void> owner;
+
+  static Content of(std::string text) {
+    auto owner = std::make_shared<const std::string>(std::move(text));
+    return {*owner, owner};
+  }
+};
+
+struct Response {
+  using Headers = std::vector<std::pair<std::string, std::string>>;
+
+  int status = 200;
+  std::string type;  // Content-Type; empty: none
+  Content content;
+  Headers headers;
+  // Set: after `content` the answer goes on with what this returns, until the client leaves. Called often, in the
+  // server's own thread, so it must not block. Empty: there is nothing new.
+  std::function<Content()> next;
+};
+
+}  // namespace rover::mission
