@@ -140,7 +140,7 @@ int main(int argc, char** argv) {
   app.add_option("--config", arguments.config_dir, "folder of the configuration: cameras.yaml, bus.yaml")
       ->transform(is_user_path())
       ->capture_default_str();
-  app.add_option("--bus", arguments.bus, "LCM URL instead of the one in bus.yaml");
+  app.add_option("--bus", arguments.bus, "LCM URL instead of the one in bus.yaml")->check(is_bus_url());
   app.add_flag("--move", arguments.move, "also give commands: the rover rolls about 0.4 m");
   app.add_option("--listen", arguments.listen_s, "seconds to listen")
       ->check(CLI::Range(2.0, 600.0))

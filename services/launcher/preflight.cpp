@@ -46,19 +46,9 @@ bool is_taken(const std::string& address, int port) {
 }  // namespace
 
 std::vector<std::string> bus_problems(const std::string& bus_url) {
+  if (const std::string problem = bus_url_problem(bus_url); !problem.empty()) return {"bus: " + problem};
   std::vector<std::string> problems;
-  if (bus_url.rfind("udpm://", 0) != 0) return problems;
   const std::optional<BusAddress> address = parse_udpm(bus_url);
-  if (!address) {
-    problems.push_back("bus: " + bus_url + " is not of the form udpm://GROUP:PORT?ttl=0&recv_buf_size=BYTES");
-    return problems;
-  }
-  try {
-    reports_url(bus_url);
-  } catch (const ConfigError& error) {
-    problems.emplace_back(error.what());
-    return problems;
-  }
   long allowed = 0;
   std::ifstream("/proc/sys/net/core/rmem_max") >> allowed;
   if (allowed > 0 && allowed < address->receive_buffer)

@@ -6,7 +6,7 @@
 
 namespace rover {
 
-// Lines that say what is wrong with the bus; empty where all is well. Only udpm:// buses have needs.
+// Lines that say what is wrong with the bus; empty where all is well.
 std::vector<std::string> bus_problems(const std::string& bus_url);
 
 // Holds the bus for this process: two rovers on one bus would drive each other. Released when the process ends.

@@ -13,7 +13,10 @@ TEST(BusUrl, ItsPartsAreRead) {
   EXPECT_EQ(address->group, "239.255.76.67");
   EXPECT_EQ(address->port, 7667);
   EXPECT_EQ(address->receive_buffer, 4194304);
-  for (const char* other : {"memq://", "udpm://239.255.76.67", "udpm://239.255.76.67:123456", "file:///a.lcm"})
+  for (const char* other :
+       {"memq://", "udpm://239.255.76.67", "udpm://239.255.76.67:123456", "file:///a.lcm", "udpm://10.0.0.1:7667",
+        "udpm://239.255.76.67:7667?ttl=0;rm", "udpm://239.255.76.67:7667?colour=1",
+        "udpm://239.255.76.67:7667?ttl=", "udpm://239.255.76.67:7667?ttl=-1", ""})
     EXPECT_FALSE(parse_udpm(other)) << other;
 }
 

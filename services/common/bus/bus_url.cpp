@@ -13,7 +13,8 @@ constexpr int kLastPort = 65535;
 }  // namespace
 
 std::optional<BusAddress> parse_udpm(const std::string& url) {
-  static const std::regex form(R"(udpm://([0-9.]+):([0-9]{1,5})(\?.*)?)");
+  static const std::regex form(
+      R"(udpm://((?:22[4-9]|23[0-9])(?:\.[0-9]{1,3}){3}):([0-9]{1,5})(?:\?(?:(?:ttl|recv_buf_size)=[0-9]{1,10}(?:&|$))*)?)");
   static const std::regex buffer(R"(recv_buf_size=([0-9]{1,10}))");
   std::smatch match;
   if (!std::regex_match(url, match, form)) return std::nullopt;
@@ -24,11 +25,21 @@ std::optional<BusAddress> parse_udpm(const std::string& url) {
   return address;
 }
 
+std::string bus_url_problem(const std::string& url) {
+  if (!parse_udpm(url)) return "'" + url + "' is not of the form udpm://GROUP:PORT?ttl=0&recv_buf_size=BYTES";
+  try {
+    reports_url(url);
+    return "";
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+}
+
 std::string reports_url(const std::string& bus_url) {
   const std::optional<BusAddress> address = parse_udpm(bus_url);
   if (!address) return bus_url;
   if (address->port + kReportsAbove > kLastPort)
-    throw ConfigError("bus: " + bus_url + ": the port has to be " + std::to_string(kLastPort - kReportsAbove) +
+    throw ConfigError("'" + bus_url + "': the port has to be " + std::to_string(kLastPort - kReportsAbove) +
                       " or lower; the reports of lockstep go " + std::to_string(kReportsAbove) + " above it");
   const size_t port_at = bus_url.find(':', std::string("udpm://").size()) + 1;
   return bus_url.substr(0, port_at) + std::to_string(address->port + kReportsAbove) +

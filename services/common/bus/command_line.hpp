@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <string>
 
+#include "common/bus/bus_url.hpp"
 #include "common/bus/config.hpp"
 #include "common/bus/user_files.hpp"
 #include "common/core/decimal.hpp"
@@ -23,6 +24,11 @@ inline CLI::Validator is_user_path() {
     }
   };
   return CLI::Validator(change, "PATH");
+}
+
+// For options whose values are buses.
+inline CLI::Validator is_bus_url() {
+  return CLI::Validator([](std::string& url) { return bus_url_problem(url); }, "URL");
 }
 
 inline CLI::Validator not_negative() {
@@ -62,6 +68,12 @@ inline void check_values(CLI::App& app) {
 inline void parse_arguments(CLI::App& app, int argc, char** argv) {
   check_values(app);
   app.parse(argc, argv);
+}
+
+// The same for every command that reads a log.
+inline CLI::Option* add_log_run(CLI::App& app, int& number) {
+  return app.add_option("--log-run", number, "of a log that holds several runs: the first is 1")
+      ->check(CLI::Range(1, 1'000'000));
 }
 
 // Exit status: 0 where help was asked for, else 2 with one line that says where to find it.
