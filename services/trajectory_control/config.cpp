@@ -17,18 +17,18 @@ void read_vehicle(const Vehicle& vehicle, TrajectoryControlConfig& out) {
 }
 
 void read_path(const Config& c, const Vehicle& vehicle, TrackedPathConfig& out) {
-  double share = 0.9;
+  double rate_share = 0.9;
   c.read("cruise_speed_mps", out.cruise_speed_mps, {0.01, vehicle.top_speed_mps});
   c.read("max_wheel_speed_mps", out.max_wheel_speed_mps, {0.01, 2.0});
   c.read("deceleration_mps2", out.deceleration_mps2, {0.01, vehicle.deceleration_mps2});
-  c.read("steering_rate_share", share, {0.1, 1.0});
-  c.read("least_speed_mps", out.least_speed_mps, {0.01, 0.2});
+  c.read("steering_rate_share", rate_share, {0.1, 1.0});
+  c.read("least_speed_mps", out.min_speed_mps, {0.01, 0.2});
   c.read("smoothing_length_m", out.smoother.length_m, {0.05, 5.0});
   c.read("smoothing_distance_m", out.smoother.max_distance_m, {0.0, 0.5});
-  c.read_deg("kink_deg", out.kink_rad, {5.0, 180.0});
-  c.read("kink_chord_m", out.kink_chord_m, {0.05, 2.0});
-  out.max_curvature_rate =
-      share * vehicle.steer_rate_radps / locomotion::max_steering_gradient(vehicle, 1.0 / vehicle.min_turn_radius_m);
+  c.read_deg("kink_deg", out.corner_rad, {5.0, 180.0});
+  c.read("kink_chord_m", out.corner_chord_m, {0.05, 2.0});
+  out.max_curvature_rate = rate_share * vehicle.steer_rate_radps /
+                           locomotion::max_steering_gradient(vehicle, 1.0 / vehicle.min_turn_radius_m);
 }
 
 void read_steering(const Config& c, SteeringLawConfig& out) {
@@ -62,7 +62,7 @@ TrajectoryControlConfig load_config(const std::string& config_dir) {
   config.read("response_delay_s", out.response_delay_s, {0.0, 2.0});
   config.read("end_tolerance_m", out.end_tolerance_m, {0.005, 0.5});
   config.read("creep_speed_mps", out.creep_speed_mps, {0.005, 0.1});
-  config.read("steering_way_m", out.steering_way_m, {0.02, 2.0});
+  config.read("steering_way_m", out.steering_distance_m, {0.02, 2.0});
   config.read("look_ahead_m", out.look_ahead_m, {0.1, 10.0});
   config.read("side_slip_time_s", out.side_slip_time_s, {0.05, 20.0});
   read_path(config.section("path"), vehicle, out.path);

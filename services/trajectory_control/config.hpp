@@ -1,4 +1,4 @@
-// config/trajectory_control.yaml over the defaults of the core.
+// Reads config/trajectory_control.yaml; keys that are absent keep the defaults of the core.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Between messages and the core's types.
+// Conversion between LCM messages and the types of the core.
 #pragma once
 
 #include <rover/control_status_t.hpp>
@@ -10,7 +10,7 @@
 
 namespace rover::control {
 
-// Without points where the message contradicts itself or is not in odom.
+// Returns no points if the message is inconsistent or not in the odom frame.
 PathInput path_from(const path_t& message);
 PoseInput pose_from(const pose_t& message);
 void status_to(const ControlOutput& output, control_status_t& message);

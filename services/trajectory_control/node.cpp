@@ -45,13 +45,13 @@ TrajectoryControlNode::TrajectoryControlNode(Node& node, const TrajectoryControl
 }
 
 void TrajectoryControlNode::on_path(const path_t& message) {
-  const bool taken = controller_.set_path(path_from(message));
-  if (!taken) node_.reject(channel::kPath, "not a path in odom");
-  node_.log(taken ? "INFO" : "ERROR", "PATH id=" + std::to_string(message.path_id) +
-                                          " points=" + std::to_string(message.point_count) + (taken ? "" : " refused"));
+  const bool accepted = controller_.set_path(path_from(message));
+  if (!accepted) node_.reject(channel::kPath, "not a path in odom");
+  node_.log(accepted ? "INFO" : "ERROR", "PATH id=" + std::to_string(message.path_id) + " points=" +
+                                             std::to_string(message.point_count) + (accepted ? "" : " refused"));
 }
 
-// The supervisor answers it.
+// Only the supervisor acknowledges ground commands.
 void TrajectoryControlNode::on_ground_command(const ground_command_t& message) {
   if (message.kind == ground_command_t::TELEOP)
     teleop_ = {message.header.utime, message.speed_mps, message.curvature_per_m};

@@ -1,5 +1,5 @@
-// Trajectory control on the bus: PATH, POSE and DRIVE_PERMIT in, MOTION_COMMAND and CONTROL_STATUS out each tick. In
-// the state TELEOP the operator's commands take the place of the path.
+// LCM node: subscribes to PATH, POSE, DRIVE_PERMIT; publishes MOTION_COMMAND and CONTROL_STATUS each tick. In the
+// supervisor state TELEOP it sends the operator's commands instead of following the path.
 #pragma once
 
 #include <rover/ground_command_t.hpp>

@@ -5,10 +5,10 @@
 
 namespace rover::control {
 
-double curvature_to(const SteeringLawConfig& config, double path_curvature_per_m, const TrackError& error,
+double steering_law(const SteeringLawConfig& config, double path_curvature_per_m, const TrackError& error,
                     double integral_per_m) {
   const double e = std::clamp(error.cross_track_m, -config.max_cross_track_m, config.max_cross_track_m);
-  // Left of a left bend the parallel curve is tighter; not followed beyond twice the path's curvature.
+  // On the inner side of a bend the parallel curve is tighter; limited to twice the path curvature.
   const double parallel = std::max(1.0 - path_curvature_per_m * e, 0.5);
   const double forward = path_curvature_per_m * std::cos(error.heading_rad) / parallel;
   const double feedback =

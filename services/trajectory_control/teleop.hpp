@@ -1,4 +1,4 @@
-// What an operator's hand commands, within the rover's limits: arcs down to the least radius, point turns below it.
+// Converts operator commands into motion within the vehicle limits: arcs down to the minimum radius, else point turns.
 #pragma once
 
 #include "common/core/time.hpp"
@@ -8,12 +8,12 @@
 namespace rover::control {
 
 struct TeleopInput {
-  Utime utime = kNever;  // of the operator's newest command
+  Utime utime = kNever;  // of the newest operator command
   double speed_mps = 0.0;
   double curvature_per_m = 0.0;  // left positive
 };
 
-// Stands still under a permit that is not fresh, a command that is too old, and numbers that are none.
+// Returns STOP without lease if the permit is invalid, the command is older than teleop_max_age_s, or a number is NaN.
 MotionCommand teleop_command(Utime now, const TeleopInput& input, const DrivePermit& permit,
                              const TrajectoryControlConfig& config);
 

@@ -1,9 +1,6 @@
-// A path made ready for following: smooth legs between point turns, each sampled with heading, curvature and the
-// speed that curvature, steering rate and the stop at its end allow.
-//
-// Where the polyline bends by more than a threshold within a short way (no arc of the least radius follows that) the
-// path is cut: the rover stops there and turns on the spot. Each leg is followed along the smoothest curve near it,
-// whose curvature the slow steering can follow; the cross track is measured against the leg itself.
+// Reference trajectory for path following. The polyline is split at sharp corners (no arc of the minimum radius can
+// follow them); the rover turns on the spot there. Each segment is a smoothed curve with heading, curvature and a speed
+// profile (curvature, steering rate, stop at the end). The cross track is measured against the unsmoothed path.
 #pragma once
 
 #include <Eigen/Dense>
@@ -19,19 +16,19 @@ namespace rover::control {
 struct PathInput {
   std::int64_t id = -1;
   double corridor_half_width_m = 0.0;
-  std::vector<Eigen::Vector2d> points;  // in odom
-  bool backwards = false;               // the rover drives it stern first
+  std::vector<Eigen::Vector2d> points;  // odom frame
+  bool reverse = false;                 // driven in reverse
 };
 
 struct TrackedPathConfig {
   double sample_m = 0.05;
   SmootherConfig smoother;
-  double kink_rad = 0.698;  // 40 deg between chords of half a metre before and behind: point turn
-  double kink_chord_m = 0.30;
+  double corner_rad = 0.698;  // 40 deg between the chords before and after a point: point turn
+  double corner_chord_m = 0.30;
   double max_curvature_per_m = 1.0;
-  double max_curvature_rate = 0.185;  // [1/(m s)], of the steering motors
+  double max_curvature_rate = 0.185;  // [1/(m s)], limit of the steering motors
   double cruise_speed_mps = 0.2;
-  double least_speed_mps = 0.06;  // curvature changes do not slow the rover below it
+  double min_speed_mps = 0.06;  // lower bound for slow-down due to curvature changes
   double max_wheel_speed_mps = 0.29;
   double outer_wheel_x_m = 0.75;
   double outer_wheel_y_m = 0.41;
@@ -39,33 +36,33 @@ struct TrackedPathConfig {
 };
 
 struct PathSample {
-  Eigen::Vector2d p = Eigen::Vector2d::Zero();      // on the smooth curve
-  Eigen::Vector2d given = Eigen::Vector2d::Zero();  // on the path
+  Eigen::Vector2d p = Eigen::Vector2d::Zero();       // on the smoothed curve
+  Eigen::Vector2d p_path = Eigen::Vector2d::Zero();  // on the unsmoothed path
   double yaw_rad = 0.0;
   double curvature_per_m = 0.0;
   double speed_mps = 0.0;
 };
 
-// Where the rover is with respect to a leg.
+// Projection of the rover position onto a segment (Frenet frame).
 struct Projection {
-  double s_m = 0.0;            // along the leg, clamped to it
-  double beyond_m = 0.0;       // past the end (positive) or before the start (negative)
-  double cross_track_m = 0.0;  // positive: rover left of the curve
-  double yaw_rad = 0.0;        // of the curve
+  double s_m = 0.0;            // arc length, clamped to the segment
+  double beyond_m = 0.0;       // distance past the end (positive) or before the start (negative)
+  double cross_track_m = 0.0;  // positive: rover is left of the curve
+  double yaw_rad = 0.0;        // heading of the curve
   double distance_m = 0.0;
 };
 
-class Leg {
+class PathSegment {
  public:
-  Leg(std::vector<Eigen::Vector2d> samples, double step_m, double start_m, const TrackedPathConfig& config);
+  PathSegment(std::vector<Eigen::Vector2d> samples, double step_m, double start_m, const TrackedPathConfig& config);
 
   double length_m() const { return step_m_ * static_cast<double>(samples_.size() - 1); }
-  double start_m() const { return start_m_; }  // along the whole path
+  double start_m() const { return start_m_; }  // arc length of its start on the whole path
   const std::vector<PathSample>& samples() const { return samples_; }
   PathSample at(double s_m) const;
-  // Closest point of the smooth curve with s in [from, to].
+  // Closest point of the smoothed curve with arc length in [from_m, to_m].
   Projection project(const Eigen::Vector2d& p, double from_m, double to_m) const;
-  // Signed distance from the path as it was given, near s.
+  // Signed distance to the unsmoothed path, searched around near_m.
   double cross_track_m(const Eigen::Vector2d& p, double near_m) const;
 
  private:
@@ -80,30 +77,30 @@ class Leg {
   double start_m_;
 };
 
-struct Place {
-  size_t leg = 0;
+struct PathPosition {
+  size_t segment = 0;
   double s_m = 0.0;
 };
 
 class TrackedPath {
  public:
-  // Nothing where the input is not a path: fewer than two distinct points, a number not finite, no corridor.
+  // Returns nullopt for an invalid path: fewer than two distinct points, non-finite numbers, no corridor.
   static std::optional<TrackedPath> build(const PathInput& input, const TrackedPathConfig& config);
 
   std::int64_t id() const { return id_; }
   double corridor_half_width_m() const { return corridor_half_width_m_; }
-  double length_m() const { return legs_.back().start_m() + legs_.back().length_m(); }
-  const std::vector<Leg>& legs() const { return legs_; }
-  // The sample closest to the pose on the whole path; of parts that pass by well inside the corridor, the one that runs
-  // the rover's way. The heading never leads away from the closest place of a part: a path that begins with a point
-  // turn begins where the rover is.
-  Place locate(const Pose2& pose) const;
+  double length_m() const { return segments_.back().start_m() + segments_.back().length_m(); }
+  const std::vector<PathSegment>& segments() const { return segments_; }
+  // Closest sample to the pose on the whole path. If several parts pass within kCandidateShare of the corridor half
+  // width, the heading selects among their closest samples, so a path that starts with a point turn starts at the
+  // rover.
+  PathPosition locate(const Pose2& pose) const;
 
  private:
   TrackedPath() = default;
   std::int64_t id_ = -1;
   double corridor_half_width_m_ = 0.0;
-  std::vector<Leg> legs_;
+  std::vector<PathSegment> segments_;
 };
 
 }  // namespace rover::control

@@ -1,4 +1,5 @@
-// Follows a path inside its safety corridor with arcs and point turns. No fresh pose, no motion.
+// Path-following controller: keeps the rover inside its safety corridor with arcs and point turns. Without a fresh pose
+// it commands no motion.
 #pragma once
 
 #include <cstdint>
@@ -22,17 +23,17 @@ struct TrajectoryControlConfig {
   double pose_max_age_s = 0.2;
   double permit_max_age_s = 0.2;
   double command_validity_s = 0.2;
-  double response_delay_s = 0.2;  // from pose to the wheels' answer: three ticks and the steering's lag
-  double end_tolerance_m = 0.03;  // a stop from the speed there takes about this way
-  double creep_speed_mps = 0.02;  // to the very end
-  double steering_way_m = 0.25;   // passed at most while the steering comes to the wanted curvature
-  double turn_start_rad = 0.698;  // 40 deg: heading error that calls for a point turn
-  double turn_stop_rad = 0.035;   // 2 deg
+  double response_delay_s = 0.2;      // from pose to wheel response: three ticks plus steering lag
+  double end_tolerance_m = 0.03;      // about the stopping distance from the speed there
+  double creep_speed_mps = 0.02;      // minimum speed, also just before the end
+  double steering_distance_m = 0.25;  // travelled at most while the steering reaches the commanded curvature
+  double turn_start_rad = 0.698;      // 40 deg: heading error that starts a point turn
+  double turn_stop_rad = 0.035;       // 2 deg
   double max_turn_rate_radps = 0.2;
   double turn_deceleration_radps2 = 0.1;
-  double look_ahead_m = 1.5;      // of the predicted corridor error
-  double side_slip_time_s = 1.0;  // low pass of the measured side slip
-  double teleop_max_age_s = 0.5;  // of the operator's newest command
+  double look_ahead_m = 1.5;      // prediction horizon of the corridor error
+  double side_slip_time_s = 1.0;  // low-pass time constant of the measured side slip
+  double teleop_max_age_s = 0.5;  // of the newest operator command
 };
 
 enum class ControlState : std::int8_t {
@@ -47,8 +48,8 @@ enum class ControlState : std::int8_t {
 
 struct PoseInput {
   Utime utime = kNever;
-  bool usable = false;  // status tells of a position
-  Pose2 odom;           // body in odom
+  bool usable = false;  // pose status is OK or DEGRADED
+  Pose2 odom;           // body in the odom frame
   double forward_mps = 0.0;
   double left_mps = 0.0;
 };
@@ -69,37 +70,38 @@ class TrajectoryController {
  public:
   explicit TrajectoryController(const TrajectoryControlConfig& config) : config_(config) {}
 
-  // Replaces the path, also at speed. False: not a path, and the rover has none from now on.
+  // Replaces the path, also while moving. False: the path is invalid and the old one is removed.
   bool set_path(const PathInput& input);
-  // One tick; pose and permit are the newest received.
+  // One control tick; pose and permit are the newest received.
   ControlOutput step(Utime now, const PoseInput& pose, const DrivePermit& permit);
 
  private:
-  ControlOutput step_ahead(Utime now, const PoseInput& pose, const DrivePermit& permit);
-  void set_direction(bool backwards);
+  ControlOutput step_forward(Utime now, const PoseInput& pose, const DrivePermit& permit);
+  void set_reverse(bool reverse);
   bool is_fresh(const PoseInput& pose, Utime now) const;
-  const Leg& leg() const { return path_->legs()[place_.leg]; }
-  bool on_last_leg() const { return place_.leg + 1 == path_->legs().size(); }
+  const PathSegment& segment() const { return path_->segments()[path_position_.segment]; }
+  bool on_last_segment() const { return path_position_.segment + 1 == path_->segments().size(); }
   Projection advance_on_path(const Pose2& pose);
-  bool update_turning(const ControlOutput& out, double forward_mps);
-  void follow(const PoseInput& pose, const Projection& here, double dt_s, double max_speed_mps, MotionCommand& command);
+  bool update_point_turn(const ControlOutput& out, double forward_mps);
+  void follow_arc(const PoseInput& pose, const Projection& projection, double dt_s, double max_speed_mps,
+                  MotionCommand& command);
   double speed_while_steering(double curvature_per_m, double wanted_per_m) const;
-  void integrate(double cross_track_m, double way_m);
-  void turn(double heading_error_rad, MotionCommand& command) const;
+  void integrate(double cross_track_m, double distance_m);
+  void point_turn(double heading_error_rad, MotionCommand& command) const;
   void update_side_slip(const PoseInput& pose, double dt_s);
-  double curvature_at(const Pose2& pose, const Projection& place) const;
-  double predict_corridor_error(const Pose2& pose, const Projection& here) const;
+  double curvature_command(const Pose2& pose, const Projection& foot_point) const;
+  double predict_corridor_error(const Pose2& pose, const Projection& projection) const;
 
   TrajectoryControlConfig config_;
   std::optional<TrackedPath> path_;
   PathInput input_;
   bool relocate_ = false;
   bool turning_ = false;
-  Place place_;
-  double curvature_per_m_ = 0.0;  // the steering's, as the commands and its rate make it
+  PathPosition path_position_;
+  double steering_curvature_per_m_ = 0.0;  // modelled steering: commands with a rate limit
   double integral_per_m_ = 0.0;
   double side_slip_rad_ = 0.0;
-  bool backwards_ = false;  // curvature, integral and side slip are those of a rover whose stern is its bow
+  bool reverse_ = false;  // curvature, integral and side slip refer to a body rotated by 180 deg
   Utime last_step_ = kNever;
 };
 

@@ -1,4 +1,4 @@
-// A world around one node on an in-process bus: sends it messages, gives it ticks, keeps what it publishes.
+// Test harness for one node on an in-process bus: sends messages and ticks, records what the node publishes.
 #pragma once
 
 #include <deque>
@@ -16,7 +16,7 @@ namespace rover::test {
 
 class BusWorld {
  public:
-  // All messages of a type on a channel, from now on.
+  // Records all messages of a type on a channel from now on.
   template <class Message>
   std::shared_ptr<std::vector<Message>> listen(const std::string& channel) {
     auto kept = std::make_shared<std::vector<Message>>();
@@ -29,7 +29,7 @@ class BusWorld {
     return kept;
   }
 
-  // Measured now, to be taken at the next tick; `publisher` as a service of its own.
+  // Measured now, released for the next tick, with an own sequence counter per publisher.
   template <class Message>
   void send(const std::string& channel, Message message, const std::string& publisher = "world") {
     message.header = counter(publisher).next(channel, now, now + kTickUs);

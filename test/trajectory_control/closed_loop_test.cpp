@@ -1,4 +1,4 @@
-// Trajectory control and locomotion with their shipped configuration drive a kinematic rover.
+// Trajectory control and locomotion with the default configuration in closed loop with a kinematic rover.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -52,7 +52,7 @@ Record drive(DriveLoop& loop, const std::vector<Eigen::Vector2d>& points, double
   return out;
 }
 
-TEST(ClosedLoop, SeedTraverseWithSixRepairs) {
+TEST(ClosedLoop, TracksSeedTraverseWithSixRepairs) {
   DriveLoop loop;
   const Record r = drive(loop, polyline(test::seed_traverse()));
   EXPECT_TRUE(r.ended);
@@ -67,7 +67,7 @@ TEST(ClosedLoop, SeedTraverseWithSixRepairs) {
   RecordProperty("cross_track_rms_mm", static_cast<int>(1e3 * r.cross_track_rms_m));
 }
 
-TEST(ClosedLoop, JaggedPathsDriveAlmostAsWell) {
+TEST(ClosedLoop, TracksAJaggedPath) {
   std::mt19937 random(3);
   std::normal_distribution<double> noise(0.0, 0.02);
   auto points = polyline(test::seed_traverse());
@@ -80,11 +80,11 @@ TEST(ClosedLoop, JaggedPathsDriveAlmostAsWell) {
   EXPECT_GT(86.0 / (0.2 * r.seconds), 0.90);
 }
 
-TEST(ClosedLoop, NoisyPosesAreBorne) {
+TEST(ClosedLoop, TracksWithNoisyPoses) {
   std::mt19937 random(4);
   std::normal_distribution<double> noise;
   DriveLoop loop;
-  loop.alter_pose = [&](PoseInput& pose) {
+  loop.modify_pose = [&](PoseInput& pose) {
     pose.odom.x_m += 0.005 * noise(random);
     pose.odom.y_m += 0.005 * noise(random);
     pose.odom.yaw_rad += 0.002 * noise(random);
@@ -96,7 +96,7 @@ TEST(ClosedLoop, NoisyPosesAreBorne) {
   EXPECT_LT(r.cross_track_rms_m, 0.05);
 }
 
-TEST(ClosedLoop, AStepAsideIsTakenBackWithoutOvershoot) {
+TEST(ClosedLoop, LateralOffsetDecaysWithoutOvershoot) {
   DriveLoop loop;
   loop.rover.put({0.0, 0.3, 0.0});
   loop.controller.set_path({1, 0.75, {{0.0, 0.0}, {20.0, 0.0}}});
@@ -111,7 +111,7 @@ TEST(ClosedLoop, AStepAsideIsTakenBackWithoutOvershoot) {
   EXPECT_GT(lowest, -0.04);
 }
 
-TEST(ClosedLoop, DriftOnASideSlopeIsTakenOut) {
+TEST(ClosedLoop, IntegralRemovesDriftOnASideSlope) {
   DriveLoop loop;
   loop.rover.side_slip = std::tan(to_rad(6.0));
   loop.controller.set_path({1, 0.75, {{0.0, 0.0}, {40.0, 0.0}}});
@@ -126,7 +126,7 @@ TEST(ClosedLoop, DriftOnASideSlopeIsTakenOut) {
   EXPECT_LT(largest, 0.15);
 }
 
-TEST(ClosedLoop, SlipAlongThePathIsBorne) {
+TEST(ClosedLoop, TracksWithLongitudinalSlip) {
   DriveLoop loop;
   loop.rover.slip_ratio = 0.4;
   const Record r = drive(loop, polyline({{0.0, 3.0}, {0.7, 1.0}, {-0.7, 1.0}, {0.0, 3.0}}));
@@ -134,7 +134,7 @@ TEST(ClosedLoop, SlipAlongThePathIsBorne) {
   EXPECT_LT(r.cross_track_max_m, 0.25);
 }
 
-TEST(ClosedLoop, StartsWithAPointTurnWhereThePathLeadsElsewhere) {
+TEST(ClosedLoop, StartsWithAPointTurnForALargeHeadingError) {
   DriveLoop loop;
   loop.rover.put({0.0, 0.0, to_rad(120.0)});
   const Record r = drive(loop, {{0.0, 0.0}, {6.0, 0.0}});
@@ -144,7 +144,7 @@ TEST(ClosedLoop, StartsWithAPointTurnWhereThePathLeadsElsewhere) {
   EXPECT_LT(r.end_error_m, 0.05);
 }
 
-TEST(ClosedLoop, StartsWithAnArcWhereTheHeadingIsNearlyRight) {
+TEST(ClosedLoop, StartsWithAnArcForASmallHeadingError) {
   DriveLoop loop;
   loop.rover.put({0.0, 0.0, to_rad(30.0)});
   const Record r = drive(loop, {{0.0, 0.0}, {10.0, 0.0}});
@@ -153,7 +153,7 @@ TEST(ClosedLoop, StartsWithAnArcWhereTheHeadingIsNearlyRight) {
   EXPECT_LT(r.cross_track_max_m, 0.35);
 }
 
-TEST(ClosedLoop, CornersArePointTurns) {
+TEST(ClosedLoop, TurnsOnTheSpotAtCorners) {
   DriveLoop loop;
   const Record r = drive(loop, {{0, 0}, {4, 0}, {4, 4}, {0, 4}});
   EXPECT_TRUE(r.ended);
@@ -162,7 +162,7 @@ TEST(ClosedLoop, CornersArePointTurns) {
   EXPECT_LT(r.end_error_m, 0.05);
 }
 
-TEST(ClosedLoop, BendsBelowTheLeastRadiusStayInTheCorridor) {
+TEST(ClosedLoop, BendsBelowTheMinimumRadiusStayInTheCorridor) {
   for (const double radius : {0.2, 0.4, 0.6, 0.8}) {
     DriveLoop loop;
     const Record r = drive(loop, polyline({{0.0, 3.0}, {1.0 / radius, radius * kPi / 2.0}, {0.0, 3.0}}, 0.05));
@@ -177,7 +177,7 @@ struct Replacement {
   double cross_track_max_m = 0.0;
 };
 
-// At 0.2 m/s on a line a repair comes that begins where the rover was 0.1 s ago, bending after `straight_m`.
+// At 0.2 m/s on a line, switches to a repair that starts where the rover was 0.1 s ago and bends after straight_m.
 Replacement replace_path_at_speed(double straight_m) {
   DriveLoop loop;
   loop.controller.set_path({1, 0.75, polyline({{0.0, 20.0}})});
@@ -199,20 +199,20 @@ Replacement replace_path_at_speed(double straight_m) {
   return out;
 }
 
-TEST(ClosedLoop, ANewPathAtSpeedIsTakenWithoutAStop) {
+TEST(ClosedLoop, NewPathAtSpeedIsFollowedWithoutAStop) {
   const Replacement r = replace_path_at_speed(0.5);
   EXPECT_GT(r.slowest_mps, 0.09);
   EXPECT_LT(r.cross_track_max_m, 0.08);
 }
 
-TEST(ClosedLoop, ANewPathThatBendsAtOnceIsReachedWithinTheSteeringsLimits) {
+TEST(ClosedLoop, NewPathThatBendsAtOnceIsReachedWithinTheSteeringLimits) {
   const Replacement r = replace_path_at_speed(0.1);
-  EXPECT_GT(r.slowest_mps, 0.02);  // it creeps while the wheels steer, but does not stop
+  EXPECT_GT(r.slowest_mps, 0.02);  // slow while the wheels steer, but no stop
   EXPECT_LT(r.cross_track_max_m, 0.15);
 }
 
-// The planner's way back out of a dead end: the driven track, stern first, on the same controller.
-TEST(ClosedLoop, ARetreatIsDrivenBackwardsAlongTheTrack) {
+// Backtracking out of a blocked passage: the driven track in reverse, with the same controller.
+TEST(ClosedLoop, BacktrackingPathIsDrivenInReverse) {
   DriveLoop loop;
   const auto track = polyline({{0.0, 1.0}, {0.7, 2.0}, {-0.7, 1.0}});
   ASSERT_TRUE(drive(loop, track).ended);
@@ -235,8 +235,8 @@ TEST(ClosedLoop, ARetreatIsDrivenBackwardsAlongTheTrack) {
   EXPECT_NEAR(loop.rover.pose().yaw_rad, 0.0, 0.15);
 }
 
-// A retreat of the rendered simulator: the rover had turned on the spot, driven 0.3 m and turned again.
-TEST(ClosedLoop, ARetreatOverAPointTurnStaysInItsCorridor) {
+// A track with two point turns 0.3 m apart, recorded in the rendered simulator.
+TEST(ClosedLoop, BacktrackingOverAPointTurnStaysInTheCorridor) {
   DriveLoop loop;
   loop.rover.put({13.758, 3.431, to_rad(-47.6)});
   const std::vector<Eigen::Vector2d> back = {{13.758, 3.431}, {13.687, 3.364}, {13.629, 3.280}, {13.613, 3.179},
@@ -252,8 +252,8 @@ TEST(ClosedLoop, ARetreatOverAPointTurnStaysInItsCorridor) {
   EXPECT_EQ(loop.output.state, ControlState::kPathEnd);
 }
 
-// Wherever on the way back the turn lies, and whichever way the rover looks.
-TEST(ClosedLoop, ARetreatOverAPointTurnNearItsStartStaysInItsCorridor) {
+// For any position of the point turn on the backtracking path and any heading.
+TEST(ClosedLoop, BacktrackingOverAPointTurnNearItsStartStaysInTheCorridor) {
   for (const double first_m : {0.1, 0.15, 0.2, 0.25, 0.3, 0.4})
     for (const double turn_deg : {-150.0, -90.0, -50.0, 50.0, 90.0, 150.0})
       for (const double yaw_deg : {0.0, 90.0, 180.0, 270.0}) {
@@ -261,7 +261,8 @@ TEST(ClosedLoop, ARetreatOverAPointTurnNearItsStartStaysInItsCorridor) {
         loop.rover.put({0.0, 0.0, to_rad(yaw_deg)});
         const Eigen::Vector2d along(std::cos(to_rad(turn_deg)), std::sin(to_rad(turn_deg)));
         std::vector<Eigen::Vector2d> back = {{0.0, 0.0}, {first_m, 0.0}};
-        for (double way = 0.1; way < 1.05; way += 0.1) back.push_back(back[1] + way * along);
+        for (double distance_m = 0.1; distance_m < 1.05; distance_m += 0.1)
+          back.push_back(back[1] + distance_m * along);
         loop.controller.set_path({1, 0.25, back, true});
         loop.run(0.1);
         double largest = 0.0;
@@ -275,7 +276,7 @@ TEST(ClosedLoop, ARetreatOverAPointTurnNearItsStartStaysInItsCorridor) {
       }
 }
 
-TEST(ClosedLoop, TheSamePathAgainChangesNothing) {
+TEST(ClosedLoop, ResendingTheSamePathChangesNothing) {
   DriveLoop once;
   DriveLoop again;
   const auto points = polyline({{0.0, 3.0}, {0.6, 2.0}, {-0.6, 2.0}});
@@ -290,7 +291,7 @@ TEST(ClosedLoop, TheSamePathAgainChangesNothing) {
   }
 }
 
-TEST(ClosedLoop, AStalePoseStopsTheRover) {
+TEST(ClosedLoop, StalePoseStopsTheRover) {
   DriveLoop loop;
   loop.controller.set_path({1, 0.75, {{0.0, 0.0}, {20.0, 0.0}}});
   loop.run(10.0);
@@ -305,7 +306,7 @@ TEST(ClosedLoop, AStalePoseStopsTheRover) {
   EXPECT_GT(loop.speed(), 0.15);
 }
 
-TEST(ClosedLoop, AWithdrawnPermitStopsWithinAHandsBreadth) {
+TEST(ClosedLoop, WithdrawnPermitStopsWithinTenCentimetres) {
   DriveLoop loop;
   loop.controller.set_path({1, 0.75, {{0.0, 0.0}, {20.0, 0.0}}});
   loop.run(10.0);
@@ -316,7 +317,7 @@ TEST(ClosedLoop, AWithdrawnPermitStopsWithinAHandsBreadth) {
   EXPECT_LT(loop.rover.pose().x_m - x, 0.10);
 }
 
-TEST(ClosedLoop, ALostLeaseStopsTheRover) {
+TEST(ClosedLoop, LostLeaseStopsTheRover) {
   for (const bool permit_dies : {true, false}) {
     DriveLoop loop;
     loop.controller.set_path({1, 0.75, {{0.0, 0.0}, {20.0, 0.0}}});
@@ -329,7 +330,7 @@ TEST(ClosedLoop, ALostLeaseStopsTheRover) {
   }
 }
 
-TEST(ClosedLoop, PushedOutOfTheCorridorItStandsUntilANewPath) {
+TEST(ClosedLoop, OutOfCorridorStaysStationaryUntilANewPath) {
   DriveLoop loop;
   loop.controller.set_path({1, 0.5, {{0.0, 0.0}, {20.0, 0.0}}});
   loop.run(10.0);

@@ -1,5 +1,5 @@
-// Closed loop of trajectory control, locomotion and a kinematic rover with the design's latencies: each message is
-// taken one tick after it was made, wheel states at once.
+// Closed loop of trajectory control, locomotion and a kinematic rover. Messages are used one tick after publication,
+// wheel states at once.
 #pragma once
 
 #include <functional>
@@ -18,7 +18,7 @@ inline const char* config_dir() {
   return ROVER_SOURCE_DIR "/config";
 }
 
-// A polyline from arcs: each a curvature and a length, sampled at `step_m`.
+// An arc of a polyline.
 struct ArcPiece {
   double curvature_per_m;
   double length_m;
@@ -32,9 +32,9 @@ inline std::vector<Eigen::Vector2d> polyline(const std::vector<ArcPiece>& pieces
     const int count = std::max(1, static_cast<int>(std::lround(piece.length_m / step_m)));
     const double ds = piece.length_m / count;
     for (int i = 0; i < count; ++i) {
-      const double middle = p.yaw_rad + 0.5 * ds * piece.curvature_per_m;
-      p.x_m += ds * std::cos(middle);
-      p.y_m += ds * std::sin(middle);
+      const double mid_yaw_rad = p.yaw_rad + 0.5 * ds * piece.curvature_per_m;
+      p.x_m += ds * std::cos(mid_yaw_rad);
+      p.y_m += ds * std::sin(mid_yaw_rad);
       p.yaw_rad += ds * piece.curvature_per_m;
       out.emplace_back(p.x_m, p.y_m);
     }
@@ -42,16 +42,16 @@ inline std::vector<Eigen::Vector2d> polyline(const std::vector<ArcPiece>& pieces
   return out;
 }
 
-// Around an obstacle and back onto the old line, radius 1.25 m, about 0.9 m to the side.
+// A detour around an obstacle back onto the line: radius 1.25 m, about 0.9 m to the side.
 inline void append_repair(std::vector<ArcPiece>& pieces, double side) {
   const double k = side * 0.8;
-  const double bend = to_rad(45.0) / 0.8;
-  for (const ArcPiece& p : {ArcPiece{k, bend}, ArcPiece{-k, bend}, ArcPiece{0.0, 1.0}, ArcPiece{-k, bend},
-                            ArcPiece{k, bend}, ArcPiece{0.0, 4.0}})
+  const double arc_m = to_rad(45.0) / 0.8;
+  for (const ArcPiece& p : {ArcPiece{k, arc_m}, ArcPiece{-k, arc_m}, ArcPiece{0.0, 1.0}, ArcPiece{-k, arc_m},
+                            ArcPiece{k, arc_m}, ArcPiece{0.0, 4.0}})
     pieces.push_back(p);
 }
 
-// 86 m with six repairs and wide bends between.
+// 86 m with six detours and wide bends between them.
 inline std::vector<ArcPiece> seed_traverse() {
   std::vector<ArcPiece> pieces = {{0.0, 4.0}};
   for (int i = 0; i < 6; ++i) {
@@ -81,14 +81,14 @@ class DriveLoop {
     const locomotion::WheelCommand wheel_command = wheels.step(now, command_, permit_, reading);
     const control::ControlOutput control_output = controller.step(now, pose_, permit_);
 
-    // What has been made at this tick is taken at the next.
-    const bool driver_obeys = wheel_command.valid;
-    applied_ = driver_obeys ? wheel_command.wheels : stopped(applied_);
+    // Outputs of this tick are used at the next one.
+    const bool wheel_command_valid = wheel_command.valid;
+    applied_ = wheel_command_valid ? wheel_command.wheels : stopped(applied_);
     command_ = control_output.command;
     output = control_output;
     wheel_output = wheel_command;
     if (pose_alive) pose_ = {now, true, rover.pose(), rover.twist().forward_mps, rover.twist().left_mps};
-    if (alter_pose) alter_pose(pose_);
+    if (modify_pose) modify_pose(pose_);
     if (permit_alive) permit_ = {now, permitted ? now + to_utime(0.2) : now, permitted, max_speed_mps};
     if (!control_alive) command_ = last_command_;
     last_command_ = command_;
@@ -113,7 +113,7 @@ class DriveLoop {
   bool pose_alive = true;
   bool control_alive = true;
   double max_speed_mps = 0.2;
-  std::function<void(control::PoseInput&)> alter_pose;
+  std::function<void(control::PoseInput&)> modify_pose;
 
  private:
   static locomotion::WheelSetpoints stopped(locomotion::WheelSetpoints wheels) {

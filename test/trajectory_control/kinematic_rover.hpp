@@ -1,5 +1,5 @@
-// A rover of pure kinematics for closed loops: steering motors with a rate limit and a first-order lag, drive motors
-// with a first-order lag, a body that moves as its wheels roll on the average, and slip where a test wants it.
+// Kinematic rover for closed-loop tests: rate-limited first-order steering, first-order drive motors, body motion as
+// the least-squares fit of the wheel motion, and optional slip.
 #pragma once
 
 #include <Eigen/Dense>
@@ -17,7 +17,7 @@ struct Twist {
   double forward_mps = 0.0;
   double left_mps = 0.0;
   double turn_radps = 0.0;
-  double scrub_mps = 0.0;  // largest difference of a wheel's rolling from its motion over ground
+  double scrub_mps = 0.0;  // largest difference between wheel rolling and ground motion
 };
 
 // Forward kinematics by least squares over the six wheels.
@@ -47,10 +47,10 @@ class KinematicRover {
   void step(const locomotion::WheelSetpoints& command, double dt_s) {
     constexpr double kSteeringLagS = 0.15;
     constexpr double kDriveLagS = 0.10;
-    const double most = vehicle_.steer_rate_radps * dt_s;
+    const double max_step_rad = vehicle_.steer_rate_radps * dt_s;
     for (size_t k = 0; k < 4; ++k) {
       double& angle = wheels_.steer_angle_rad[k];
-      angle += std::clamp((command.steer_angle_rad[k] - angle) * dt_s / kSteeringLagS, -most, most);
+      angle += std::clamp((command.steer_angle_rad[k] - angle) * dt_s / kSteeringLagS, -max_step_rad, max_step_rad);
     }
     for (size_t i = 0; i < 6; ++i) {
       double& rate = wheels_.drive_rate_radps[i];
@@ -77,9 +77,9 @@ class KinematicRover {
     return fastest * vehicle_.wheel_radius_m;
   }
 
-  double slip_ratio = 0.0;  // lost of the forward motion
-  double turn_slip = 0.0;   // lost of the turn
-  double side_slip = 0.0;   // to the left, per forward motion
+  double slip_ratio = 0.0;  // lost fraction of the forward motion
+  double turn_slip = 0.0;   // lost fraction of the turn rate
+  double side_slip = 0.0;   // leftward speed per forward speed
 
  private:
   Vehicle vehicle_;

@@ -67,7 +67,7 @@ TEST_F(ControlNodeTest, FollowsAPathAndReportsEachTick) {
   EXPECT_EQ(commands_->back().valid_until_utime - commands_->back().header.utime, 200'000);
 }
 
-TEST_F(ControlNodeTest, APathInMapOrWithANumberMissingIsNotFollowed) {
+TEST_F(ControlNodeTest, PathInMapFrameOrWithNanIsRejected) {
   path_t in_map = path();
   in_map.frame = path_t::MAP;
   world_.send(channel::kPath, in_map);
@@ -85,7 +85,7 @@ TEST_F(ControlNodeTest, APathInMapOrWithANumberMissingIsNotFollowed) {
   EXPECT_EQ(commands_->back().mode, +motion_command_t::STOP);
 }
 
-TEST_F(ControlNodeTest, PoseStatusDecides) {
+TEST_F(ControlNodeTest, OnlyPoseStatusOkAndDegradedAreUsed) {
   world_.send(channel::kPath, path());
   const std::vector<std::pair<int, int>> expected = {{pose_t::OK, control_status_t::FOLLOWING},
                                                      {pose_t::DEGRADED, control_status_t::FOLLOWING},

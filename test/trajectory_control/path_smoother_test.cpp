@@ -18,7 +18,7 @@ double largest_distance(const Points& a, const Points& b) {
   return largest;
 }
 
-// Sum of squared third differences: the change of curvature.
+// Sum of squared third differences (change of curvature).
 double roughness(const Points& p) {
   double sum = 0.0;
   for (size_t i = 0; i + 3 < p.size(); ++i)
@@ -26,25 +26,25 @@ double roughness(const Points& p) {
   return sum;
 }
 
-TEST(Smoother, LeavesLinesAndWideArcsAsTheyAre) {
+TEST(Smoother, KeepsLinesAndWideArcs) {
   const Points line = test::polyline({{0.0, 20.0}}, kStep);
   EXPECT_LT(largest_distance(smooth(line, kStep, {}), line), 1e-4);
   const Points arc = test::polyline({{0.1, 20.0}}, kStep);
   EXPECT_LT(largest_distance(smooth(arc, kStep, {}), arc), 5e-3);
 }
 
-TEST(Smoother, StaysWithinTheDistanceAndIsMuchSmoother) {
+TEST(Smoother, StaysWithinMaxDistanceAndReducesRoughness) {
   const Points path = test::polyline(test::seed_traverse(), kStep);
-  for (const double allowed : {0.03, 0.05, 0.1}) {
-    const Points curve = smooth(path, kStep, {.length_m = 1.0, .max_distance_m = allowed});
-    EXPECT_LT(largest_distance(curve, path), 1.1 * allowed);
+  for (const double max_distance_m : {0.03, 0.05, 0.1}) {
+    const Points curve = smooth(path, kStep, {.length_m = 1.0, .max_distance_m = max_distance_m});
+    EXPECT_LT(largest_distance(curve, path), 1.1 * max_distance_m);
     EXPECT_LT(roughness(curve), 0.2 * roughness(path));
     EXPECT_EQ(curve.front(), path.front());
     EXPECT_EQ(curve.back(), path.back());
   }
 }
 
-TEST(Smoother, TakesTheStairsOutOfAGridPath) {
+TEST(Smoother, RemovesStaircaseOfAGridPath) {
   Points stairs;
   for (int i = 0; i < 200; ++i) {
     const double x = i * kStep * 0.9;
@@ -57,7 +57,7 @@ TEST(Smoother, TakesTheStairsOutOfAGridPath) {
   }
 }
 
-TEST(Smoother, ShortPathsAndNoDistanceComeBackUnchanged) {
+TEST(Smoother, ShortPathsAndZeroDistanceAreUnchanged) {
   const Points four = {{0, 0}, {1, 0}, {1, 1}, {2, 1}};
   EXPECT_EQ(smooth(four, 1.0, {}), four);
   const Points path = test::polyline({{0.8, 1.0}, {-0.8, 1.0}}, kStep);

@@ -20,7 +20,7 @@ class TeleopTest : public testing::Test {
   DrivePermit permit_{now_ - kTickUs, now_ + 150'000, true, 0.1};
 };
 
-TEST_F(TeleopTest, DrivesArcsWithinThePermitsSpeed) {
+TEST_F(TeleopTest, DrivesArcsWithinThePermittedSpeed) {
   const MotionCommand command = drive(0.5, 0.3);
   EXPECT_EQ(command.mode, MotionMode::kArc);
   EXPECT_EQ(command.speed_mps, 0.1);
@@ -29,14 +29,14 @@ TEST_F(TeleopTest, DrivesArcsWithinThePermitsSpeed) {
   EXPECT_EQ(drive(-0.5, 0.0).speed_mps, -0.1);
 }
 
-TEST_F(TeleopTest, TurnsOnTheSpotBelowTheLeastRadius) {
+TEST_F(TeleopTest, TurnsOnTheSpotBelowTheMinimumRadius) {
   const MotionCommand command = drive(0.1, -50.0);
   EXPECT_EQ(command.mode, MotionMode::kPointTurn);
   EXPECT_EQ(command.turn_rate_radps, -config_.max_turn_rate_radps);
   EXPECT_EQ(command.speed_mps, 0.0);
 }
 
-TEST_F(TeleopTest, StandsWithoutAFreshCommandOrPermitOrWithANumberThatIsNone) {
+TEST_F(TeleopTest, StopsWithoutFreshCommandOrPermitAndOnNan) {
   EXPECT_EQ(drive(kNaN, 0.0).valid_until, now_);
   EXPECT_EQ(drive(0.1, kNaN).valid_until, now_);
   EXPECT_EQ(drive(0.0, 0.0).mode, MotionMode::kStop);

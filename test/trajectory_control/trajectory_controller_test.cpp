@@ -9,7 +9,7 @@ namespace {
 
 constexpr Utime kNow = 5'000'000;
 
-// One step with all well, unless the test alters something first.
+// One step with valid inputs, unless the test modifies one of them first.
 class ControllerTest : public testing::Test {
  protected:
   ControllerTest() { controller_.set_path({7, 0.75, {{0.0, 0.0}, {20.0, 0.0}}}); }
@@ -22,7 +22,7 @@ class ControllerTest : public testing::Test {
     EXPECT_FALSE(locomotion::command_valid(out.command, kNow, 200'000));
   }
 
-  // Of the same path, from where the rover is, after three seconds at that velocity.
+  // Prediction on the same path from the current position after 3 s at that velocity.
   double predicted_after_moving(double forward_mps, double left_mps) {
     TrajectoryController controller(load_config(test::config_dir()));
     controller.set_path({7, 0.75, {{0.0, 0.0}, {20.0, 0.0}}});
@@ -42,7 +42,7 @@ class ControllerTest : public testing::Test {
   DrivePermit permit_{kNow - 20'000, kNow + 180'000, true, 0.2};
 };
 
-TEST_F(ControllerTest, DrivesWhenAllIsWell) {
+TEST_F(ControllerTest, FollowsWithFreshPoseAndPermit) {
   const ControlOutput out = step();
   EXPECT_EQ(out.state, ControlState::kFollowing);
   EXPECT_EQ(out.command.mode, MotionMode::kArc);
@@ -58,30 +58,29 @@ TEST_F(ControllerTest, DrivesWhenAllIsWell) {
   EXPECT_EQ(out.corridor_half_width_m, 0.75);
 }
 
-// The original drives on for ever on a stale pose (reference, fault 7).
-TEST_F(ControllerTest, AStalePoseIsNoCommand) {
+TEST_F(ControllerTest, StalePoseGivesNoCommand) {
   pose_.utime = kNow - 200'000;
   EXPECT_EQ(step().state, ControlState::kFollowing);
   pose_.utime = kNow - 200'001;
   expect_no_command(ControlState::kStalePose);
 }
 
-TEST_F(ControllerTest, APoseThatNeverCameIsNoCommand) {
+TEST_F(ControllerTest, MissingPoseGivesNoCommand) {
   pose_ = {};
   expect_no_command(ControlState::kStalePose);
 }
 
-TEST_F(ControllerTest, APoseOfTheFutureIsNoCommand) {
+TEST_F(ControllerTest, PoseFromTheFutureGivesNoCommand) {
   pose_.utime = kNow + 1;
   expect_no_command(ControlState::kStalePose);
 }
 
-TEST_F(ControllerTest, ALostPoseIsNoCommand) {
+TEST_F(ControllerTest, LostPoseGivesNoCommand) {
   pose_.usable = false;
   expect_no_command(ControlState::kStalePose);
 }
 
-TEST_F(ControllerTest, NotANumberIsNoCommand) {
+TEST_F(ControllerTest, NanInPoseGivesNoCommand) {
   const PoseInput good = pose_;
   for (double* field : {&pose_.odom.x_m, &pose_.odom.y_m, &pose_.odom.yaw_rad, &pose_.forward_mps, &pose_.left_mps}) {
     pose_ = good;
@@ -90,27 +89,27 @@ TEST_F(ControllerTest, NotANumberIsNoCommand) {
   }
 }
 
-TEST_F(ControllerTest, NoPermitIsNoCommand) {
+TEST_F(ControllerTest, NoPermitGivesNoCommand) {
   permit_.granted = false;
   expect_no_command(ControlState::kNoPermit);
   permit_ = {};
   expect_no_command(ControlState::kNoPermit);
 }
 
-TEST_F(ControllerTest, AStalePermitIsNoCommand) {
+TEST_F(ControllerTest, StalePermitGivesNoCommand) {
   permit_.valid_until = kNow + 10'000'000;
   permit_.utime = kNow - 200'001;
   expect_no_command(ControlState::kNoPermit);
 }
 
-TEST_F(ControllerTest, OutsideOfTheCorridorIsNoCommand) {
+TEST_F(ControllerTest, OutOfCorridorGivesNoCommandWithOrWithoutPermit) {
   pose_.odom.y_m = -0.76;
   expect_no_command(ControlState::kOutOfCorridor);
-  permit_.granted = false;  // the supervisor has to go on seeing it
+  permit_.granted = false;  // the supervisor must still see the state
   expect_no_command(ControlState::kOutOfCorridor);
 }
 
-TEST_F(ControllerTest, WithoutAPathItIsIdle) {
+TEST_F(ControllerTest, IdleWithoutPath) {
   TrajectoryController empty(load_config(test::config_dir()));
   const ControlOutput out = empty.step(kNow, pose_, permit_);
   EXPECT_EQ(out.state, ControlState::kIdle);
@@ -118,24 +117,24 @@ TEST_F(ControllerTest, WithoutAPathItIsIdle) {
   EXPECT_EQ(out.command.mode, MotionMode::kStop);
 }
 
-TEST_F(ControllerTest, ABrokenPathTakesTheOldOneAway) {
+TEST_F(ControllerTest, InvalidPathRemovesTheOldOne) {
   EXPECT_FALSE(controller_.set_path({8, 0.75, {{0.0, 0.0}}}));
   const ControlOutput out = step();
   EXPECT_EQ(out.state, ControlState::kIdle);
   EXPECT_EQ(out.command.mode, MotionMode::kStop);
 }
 
-TEST_F(ControllerTest, SpeedIsBoundedByThePermit) {
+TEST_F(ControllerTest, SpeedIsLimitedByThePermit) {
   permit_.max_speed_mps = 0.07;
   EXPECT_DOUBLE_EQ(step().command.speed_mps, 0.07);
 }
 
-TEST_F(ControllerTest, OnThePathItDrivesAtFullSpeed) {
+TEST_F(ControllerTest, FullSpeedOnThePath) {
   pose_.odom = {3.0, 0.0, 0.0};
   EXPECT_NEAR(step().command.speed_mps, 0.2, 1e-9);
 }
 
-TEST_F(ControllerTest, PassesLittleWayWhileTheWheelsSteer) {
+TEST_F(ControllerTest, SlowsDownWhileTheWheelsSteer) {
   pose_.odom = {3.0, 0.0, to_rad(-30.0)};
   const ControlOutput out = step();
   EXPECT_EQ(out.state, ControlState::kFollowing);
@@ -144,7 +143,7 @@ TEST_F(ControllerTest, PassesLittleWayWhileTheWheelsSteer) {
   EXPECT_GT(out.command.speed_mps, 0.0);
 }
 
-TEST_F(ControllerTest, SteersAheadOfABendByTheDelayOfItsAnswer) {
+TEST_F(ControllerTest, CompensatesTheResponseDelayBeforeABend) {
   const TrajectoryControlConfig config = load_config(test::config_dir());
   const auto points = test::polyline({{0.0, 5.0}, {0.5, 5.0}});
   const auto curvature_at_speed = [&](double speed) {
@@ -157,7 +156,7 @@ TEST_F(ControllerTest, SteersAheadOfABendByTheDelayOfItsAnswer) {
   EXPECT_GT(curvature_at_speed(0.2), curvature_at_speed(0.0) + 0.01);
 }
 
-TEST_F(ControllerTest, ALargeHeadingErrorIsTurnedOnTheSpot) {
+TEST_F(ControllerTest, LargeHeadingErrorTurnsOnTheSpot) {
   for (const double sign : {-1.0, 1.0}) {
     pose_.odom.yaw_rad = sign * to_rad(41.0);
     const ControlOutput out = step();
@@ -168,9 +167,8 @@ TEST_F(ControllerTest, ALargeHeadingErrorIsTurnedOnTheSpot) {
   }
 }
 
-// At 35 deg off the least radius leads 0.25 m to the side, and the supervisor stops a rover that is about to leave its
-// corridor (seen in a corridor of 0.2 m at 0.08 m/s, and at 31 deg from rest).
-TEST_F(ControllerTest, ASlowRoverThatWouldLeaveItsCorridorTurnsOnTheSpot) {
+// From a heading error of 35 deg the minimum radius leads 0.25 m aside: out of a corridor of 0.2 m half width.
+TEST_F(ControllerTest, SlowRoverThatWouldLeaveItsCorridorTurnsOnTheSpot) {
   controller_.set_path({8, 0.2, {{0.0, 0.0}, {20.0, 0.0}}});
   for (const double forward_mps : {0.0, 0.08}) {
     pose_ = {kNow - 20'000, true, {3.0, 0.0, 0.61}, forward_mps, 0.0};
@@ -178,7 +176,7 @@ TEST_F(ControllerTest, ASlowRoverThatWouldLeaveItsCorridorTurnsOnTheSpot) {
   }
 }
 
-TEST_F(ControllerTest, AtSpeedOrInAWideCorridorTheSameErrorIsDrivenOut) {
+TEST_F(ControllerTest, AtSpeedOrInAWideCorridorTheSameErrorIsDrivenWithAnArc) {
   pose_ = {kNow - 20'000, true, {3.0, 0.0, 0.61}, 0.0, 0.0};
   EXPECT_EQ(step().state, ControlState::kFollowing);
   controller_.set_path({8, 0.2, {{0.0, 0.0}, {20.0, 0.0}}});
@@ -186,7 +184,7 @@ TEST_F(ControllerTest, AtSpeedOrInAWideCorridorTheSameErrorIsDrivenOut) {
   EXPECT_EQ(step().state, ControlState::kFollowing);
 }
 
-TEST_F(ControllerTest, APointTurnGoesOnUntilTheHeadingFits) {
+TEST_F(ControllerTest, PointTurnContinuesUntilTheStopAngle) {
   pose_.odom.yaw_rad = to_rad(41.0);
   step();
   pose_.odom.yaw_rad = to_rad(20.0);
@@ -197,20 +195,20 @@ TEST_F(ControllerTest, APointTurnGoesOnUntilTheHeadingFits) {
   EXPECT_EQ(step().state, ControlState::kFollowing);
 }
 
-TEST_F(ControllerTest, SideSlipOnASlopeIsForeseen) {
+TEST_F(ControllerTest, PredictedCorridorErrorIncludesSideSlip) {
   pose_.odom = {3.0, 0.0, 0.0};
   const double level = step().predicted_corridor_error_m;
   EXPECT_LT(level, 0.01);
   EXPECT_GT(predicted_after_moving(0.2, 0.06), 0.05);
 }
 
-// An operator backs on a path that leads ahead: that is no slip of 180 degrees.
-TEST_F(ControllerTest, BackingByHandIsNoSideSlip) {
+// Reverse motion on a forward path must not be measured as a side slip of 180 deg.
+TEST_F(ControllerTest, TeleoperatedReverseIsNotTakenForSideSlip) {
   pose_.odom = {3.0, 0.0, 0.0};
   EXPECT_LT(predicted_after_moving(-0.2, 0.01), 0.01);
 }
 
-TEST_F(ControllerTest, PathEndIsReportedAlsoWithoutPermit) {
+TEST_F(ControllerTest, PathEndIsReportedWithAndWithoutPermit) {
   pose_.odom = {19.99, 0.0, 0.0};
   EXPECT_EQ(step().state, ControlState::kPathEnd);
   permit_.granted = false;
