@@ -115,16 +115,21 @@ bool RequestParser::add_header(bool more_expected) {
   if (!read_header()) return refuse({400, "the address has a wrong escape"});
   state_ = State::kBody;
   parsing_->parser.eager(true);
-  return add_body();
+  return !take_whole();
 }
 
 bool RequestParser::add_body() {
-  if (parsing_->body_bytes + parsing_->pending.size() > 2 * limits_.body_bytes + kShortestChunked)
+  if (take_whole()) return false;
+  if (parsing_->body_bytes + parsing_->pending.size() > 2 * limits_.body_bytes)
     return refuse({413, "the body is too long"});
-  if (!parsing_->parser.is_done()) return true;
+  return true;
+}
+
+bool RequestParser::take_whole() {
+  if (!parsing_->parser.is_done()) return false;
   request_.body = std::move(parsing_->parser.get().body());
   state_ = State::kWhole;
-  return false;
+  return true;
 }
 
 Verdict RequestParser::header_problem() const {

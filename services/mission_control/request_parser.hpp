@@ -44,6 +44,7 @@ class RequestParser {
   bool advance();
   bool add_header(bool more_expected);
   bool add_body();
+  bool take_whole();
   Verdict header_problem() const;
   bool read_header();
   bool refuse(Verdict why);

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <random>
 
-#include "test/mission_control/raw_http.hpp"
+#include "test/mission_control/page_under_test.hpp"
 
 namespace rover::mission::test {
 namespace {

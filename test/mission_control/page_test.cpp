@@ -3,7 +3,8 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "test/mission_control/raw_http.hpp"
+#include "test/mission_control/page_under_test.hpp"
+#include "test/wild.hpp"
 
 namespace rover::mission::test {
 namespace {
@@ -100,6 +101,31 @@ TEST(Page, BadRequestsAre4xxAndGiveNothing) {
   EXPECT_TRUE(server.taken().empty());
 }
 
+TEST(Page, GetAndPostAreTheOnlyMethods) {
+  TestServer server;
+  const std::string host = " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(server.port()) + "\r\n";
+  for (const char* method : {"HEAD", "OPTIONS", "PUT", "DELETE", "TRACE", "BREW"}) {
+    const std::string answer = talk(server.port(), method + (" /" + host) + "\r\n");
+    EXPECT_EQ(status_of(answer), 405) << method;
+    EXPECT_NE(answer.find("\r\nAllow: GET, POST\r\n"), std::string::npos) << method;
+    wild_row("The page's server", std::string(method) + " /", method == std::string("HEAD") ? "200" : "405",
+             body_of(answer));
+  }
+}
+
+// No part of an answer is ever sent, so many parts cannot multiply it.
+TEST(Page, RangesAreIgnored) {
+  TestServer server;
+  std::string ranges = "Range: bytes=0-";
+  for (int i = 0; i < 1000; ++i) ranges += ",0-";
+  const std::string answer =
+      talk(server.port(), "GET /map/relief HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(server.port()) + "\r\n" +
+                              ranges + "\r\n\r\n");
+  EXPECT_EQ(status_of(answer), 200);
+  EXPECT_EQ(body_of(answer), body_of(get(server.port(), "/map/relief")));
+  wild_row("The page's server", "1000 overlapping ranges (cpp-httplib 1766)", "400", "200, the whole picture once");
+}
+
 TEST(Page, PathsAreCheckedAgainstTheMap) {
   TestServer server;
   const auto send_path = [&](const char* points) {
@@ -162,6 +188,19 @@ TEST(Page, WithATokenNothingIsShownWithoutIt) {
       "GET / HTTP/1.1\r\nConnection: close\r\nHost: rover:1\r\nCookie: rover_token=" + token + "\r\n\r\n";
   EXPECT_EQ(status_of(talk(server.port(), with_cookie)), 200);
   EXPECT_TRUE(server.taken().empty());
+}
+
+// Neither a body nor the rest of one is waited for.
+TEST(Page, TheTokenIsJudgedBeforeTheBodyIsRead) {
+  TestServer server([](PageConfig& config, PageContext&) {
+    config.guard.token = "0123456789abcdef";
+    config.limits.request_time = std::chrono::minutes(10);
+  });
+  const std::string post = "POST /api/command HTTP/1.1\r\nHost: rover:1\r\n";
+  const std::string answer = talk(server.port(), post + "Content-Length: 60000\r\n\r\n");
+  EXPECT_EQ(status_of(answer), 401);
+  EXPECT_EQ(status_of(talk(server.port(), post + "Transfer-Encoding: chunked\r\n\r\n1000\r\n")), 401);
+  wild_row("The page's server", "a body without the token", "read first, then 401", body_of(answer));
 }
 
 TEST(Page, APortThatIsTakenIsTriedAgainAndSharedWithNobody) {
