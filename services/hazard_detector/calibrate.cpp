@@ -15,13 +15,13 @@ struct Observation {
 
 struct Problem {
   const StereoCamera& camera;
-  double ground_below_m;
+  double origin_height_m;
   const std::vector<Observation>& observations;
   double scale_px = 1.0;
 
   DisparityPlane model(const std::vector<double>& x) const {
-    const StereoCamera at = calibrated_camera(camera, {x[0], x[1], x[2]}, ground_below_m);
-    return disparity_plane(at, {0, 0, -ground_below_m}, Eigen::Vector3d::UnitZ());
+    const StereoCamera at = calibrated_camera(camera, {x[0], x[1], x[2]}, origin_height_m);
+    return disparity_plane(at, {0, 0, -origin_height_m}, Eigen::Vector3d::UnitZ());
   }
 };
 
@@ -38,11 +38,11 @@ double cost(const std::vector<double>& x, std::vector<double>&, void* data) {
 }
 
 std::vector<double> minimise(Problem& problem, const std::vector<double>& start, const CalibrateConfig& config) {
-  const std::vector<double> reach{config.max_height_change_m, config.max_angle_change_rad, config.max_angle_change_rad};
+  const std::vector<double> range{config.max_height_change_m, config.max_angle_change_rad, config.max_angle_change_rad};
   std::vector<double> low = start, high = start, x = start;
   for (size_t i = 0; i < 3; ++i) {
-    low[i] -= reach[i];
-    high[i] += reach[i];
+    low[i] -= range[i];
+    high[i] += range[i];
   }
   for (double scale : config.scales_px) {
     problem.scale_px = scale;
@@ -77,7 +77,7 @@ bool CalibrationFrames::add(const Disparity& disparity, const StereoCamera& came
   return true;
 }
 
-CalibrationFit CalibrationFrames::fit(double ground_below_m) const {
+CalibrationFit CalibrationFrames::fit(double origin_height_m) const {
   std::vector<Observation> observations;
   for (int v = 0; v < camera_.height; v += config_.step_px)
     for (int u = 0; u < camera_.width; u += config_.step_px) {
@@ -88,11 +88,11 @@ CalibrationFit CalibrationFrames::fit(double ground_below_m) const {
   CalibrationFit fit;
   fit.pixels = static_cast<int>(observations.size());
   if (fit.pixels < config_.min_pixels) {
-    fit.why = "too few pixels with stereo";
+    fit.failure = "too few pixels with stereo";
     return fit;
   }
-  const GroundCalibration start = nominal_calibration(camera_, ground_below_m);
-  Problem problem{camera_, ground_below_m, observations};
+  const GroundCalibration start = nominal_calibration(camera_, origin_height_m);
+  Problem problem{camera_, origin_height_m, observations};
   const std::vector<double> x = minimise(problem, {start.height_m, start.pitch_rad, start.roll_rad}, config_);
   const DisparityPlane plane = problem.model(x);
   double squares = 0.0;
@@ -104,10 +104,10 @@ CalibrationFit CalibrationFrames::fit(double ground_below_m) const {
     ++inliers;
   }
   fit.calibration = {x[0], x[1], x[2]};
-  fit.inlier_share = static_cast<double>(inliers) / fit.pixels;
+  fit.inlier_fraction = static_cast<double>(inliers) / fit.pixels;
   fit.rms_px = std::sqrt(squares / std::max(1, inliers));
-  fit.ok = fit.inlier_share >= config_.min_inlier_share;
-  if (!fit.ok) fit.why = "the ground is not flat enough";
+  fit.ok = fit.inlier_fraction >= config_.min_inlier_fraction;
+  if (!fit.ok) fit.failure = "the ground is not flat enough";
   return fit;
 }
 

@@ -29,17 +29,17 @@ CalibrationFrames read_frames(const std::string& file) {
   lcm::LogFile log(file, "r");
   if (!log.good()) throw ConfigError(file + ": cannot be read");
   CalibrationFrames frames{CalibrateConfig{}};
-  int left_out = 0;
+  int skipped = 0;
   while (const lcm::LogEvent* event = log.readNextEvent()) {
     if (event->channel != channel::kDisparity) continue;
     disparity_t message{};
-    if (decode_message(event->data, event->datalen, message) && fault_of(message).empty())
+    if (decode_message(event->data, event->datalen, message) && validation_error(message).empty())
       frames.add(disparity_from(message), camera_from(message));
     else
-      ++left_out;
+      ++skipped;
   }
   if (frames.frames() == 0) throw ConfigError(file + ": holds no usable DISPARITY");
-  if (left_out > 0) std::cerr << file << ": " << left_out << " unusable DISPARITY left out\n";
+  if (skipped > 0) std::cerr << file << ": " << skipped << " unusable DISPARITY left out\n";
   return frames;
 }
 
@@ -49,7 +49,7 @@ void write(const std::string& file, const CalibrationFit& fit, int frames) {
       "# Written by hazard_calibrate: the rectified left LocCam over flat ground.\n"
       "# {} frames, {} pixels, {:.1f} % inliers, {:.3f} px rms.\n"
       "height_m: {:.5f}\npitch_deg: {:.4f}\nroll_deg: {:.4f}\n",
-      frames, fit.pixels, 100.0 * fit.inlier_share, fit.rms_px, fit.calibration.height_m,
+      frames, fit.pixels, 100.0 * fit.inlier_fraction, fit.rms_px, fit.calibration.height_m,
       to_deg(fit.calibration.pitch_rad), to_deg(fit.calibration.roll_rad));
   if (!out.flush()) throw ConfigError(file + ": cannot be written");
 }
@@ -58,7 +58,7 @@ int run(const Arguments& arguments) {
   const CalibrationFrames frames = read_frames(arguments.log);
   const CalibrationFit fit = frames.fit(load_vehicle(arguments.config_dir).origin_height_m);
   if (!fit.ok) {
-    std::cerr << arguments.log << ": " << fit.why << "\n";
+    std::cerr << arguments.log << ": " << fit.failure << "\n";
     return 1;
   }
   const std::string file = arguments.out.empty() ? arguments.config_dir + "/" + kCalibrationFile : arguments.out;

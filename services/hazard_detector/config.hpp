@@ -1,4 +1,4 @@
-// config/hazard_detector.yaml (and vehicle.yaml, and the calibration where there is one) into what the core needs.
+// Reads config/hazard_detector.yaml, vehicle.yaml and, if present, the calibration file.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ struct NodeConfig {
   Utime latency_us = 60'000;
 };
 
-// The calibration's file beside the others; hazard_calibrate writes it. Without it the camera's mount counts.
+// Written by hazard_calibrate into the config folder. Without it the camera mount in the messages is used.
 inline constexpr char kCalibrationFile[] = "hazard_detector_calibration.yaml";
 
 NodeConfig load_config(const std::string& config_dir);

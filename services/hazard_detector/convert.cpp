@@ -6,7 +6,7 @@
 
 namespace rover::hazard {
 
-std::string fault_of(const disparity_t& message) {
+std::string validation_error(const disparity_t& message) {
   if (disparity_from(message).px16.empty()) return "size contradicts width and height";
   const bool lens = message.focal_px > 1.0 && std::isfinite(message.focal_px) && message.baseline_m > 0.0 &&
                     std::isfinite(message.baseline_m) && std::isfinite(message.cx_px) && std::isfinite(message.cy_px);

@@ -1,4 +1,4 @@
-// Between the messages and the core.
+// Conversion between LCM messages and the types of the core.
 #pragma once
 
 #include <rover/disparity_t.hpp>
@@ -9,8 +9,8 @@
 
 namespace rover::hazard {
 
-// What is wrong with the message; empty: nothing.
-std::string fault_of(const disparity_t& message);
+// Reason why the message is unusable; empty if it is valid.
+std::string validation_error(const disparity_t& message);
 
 void hazards_to(const HazardResult& result, const GridShape& shape, hazards_t& message);
 

@@ -1,6 +1,5 @@
-// The look-up table: for each sampled pixel the disparity of flat ground, d_cal (Azkarate et al. 2020, section on
-// hazard detection), with the ray that turns a disparity into a point. Samples are spread evenly over the ground rather
-// than over the image: near rows, where a cell has hundreds of pixels, are thinned out.
+// Look-up table: for each sampled pixel the disparity of flat ground, d_cal (Azkarate et al. 2020, hazard detection),
+// and the viewing ray. Samples are evenly spaced on the ground, not in the image: near rows are subsampled.
 #pragma once
 
 #include <vector>
@@ -14,18 +13,18 @@ struct Sample {
   int index;  // v * width + u
   float u, v;
   float d_cal_px16;           // 1/16 px
-  float ray_x, ray_y, ray_z;  // body axes, per unit of depth
-  bool in_roi;                // seen by both cameras and within the region of interest on flat ground
+  float ray_x, ray_y, ray_z;  // body frame, per metre of depth
+  bool in_roi;                // on flat ground: inside the region of interest and seen by both cameras
 };
 
 class DisparityTable {
  public:
-  // `camera` with the calibration already applied.
+  // `camera` must have the calibration applied.
   DisparityTable(const StereoCamera& camera, const HazardConfig& config);
 
   const StereoCamera& camera() const { return camera_; }
   const std::vector<Sample>& samples() const { return samples_; }
-  // d_cal as a plane in the disparity image.
+  // d_cal as a linear function of pixel coordinates.
   const DisparityPlane& flat_ground() const { return flat_ground_; }
   double height_m() const { return height_m_; }
 

@@ -1,4 +1,4 @@
-// Cells of the rover-frame map, index iy * cells_x + ix.
+// Rover-frame grid; cell index is iy * cells_x + ix.
 #pragma once
 
 #include <cmath>
@@ -30,14 +30,14 @@ struct GridShape {
   double y_m(int iy) const { return origin_y_m + (iy + 0.5) * cell_m; }
 };
 
-// What the samples say of one cell.
+// Sample counts of one cell.
 struct CellEvidence {
-  int measured = 0;   // samples with stereo whose point lies in the cell
-  int expected = 0;   // samples that would see the cell's ground if nothing stood before it
-  int high = 0;       // beyond the near limit
-  int raised = 0;     // beyond the limit for an obstacle's foot
-  int low = 0;        // beyond the far limit
-  float sum_z_m = 0;  // heights over flat ground
+  int measured = 0;   // samples with valid stereo whose 3-D point lies in the cell
+  int expected = 0;   // samples that would hit the ground of the cell without occlusion
+  int high = 0;       // above the obstacle limit T_near
+  int raised = 0;     // above grow_height_m
+  int low = 0;        // below the hole limit T_far
+  float sum_z_m = 0;  // sum of heights over flat ground
 };
 
 enum class Cell : std::int8_t { kUnseen = 0, kFree = 1, kObstacle = 2, kHole = 3, kMargin = 4 };

@@ -1,4 +1,4 @@
-// Where the camera stands over flat ground: what makes the look-up table of tolerated disparities.
+// Camera pose over flat ground, from which the disparity look-up table is computed.
 #pragma once
 
 #include <optional>
@@ -7,17 +7,17 @@
 
 namespace rover::hazard {
 
-// Of the rectified left camera over flat ground, with the rover level.
+// Rectified left camera over flat ground, with the rover level.
 struct GroundCalibration {
   double height_m = 0.0;
   double pitch_rad = 0.0;  // positive down
   double roll_rad = 0.0;
 };
 
-// Nominal calibration: from the camera's mount and the height of the body origin over flat ground.
-GroundCalibration nominal_calibration(const StereoCamera& camera, double ground_below_m);
+// From the camera mount and the height of the body origin over flat ground.
+GroundCalibration nominal_calibration(const StereoCamera& camera, double origin_height_m);
 
-// The camera with height, pitch and roll from the calibration; x, y and yaw stay those of the mount.
-StereoCamera calibrated_camera(StereoCamera camera, const GroundCalibration& calibration, double ground_below_m);
+// Replaces height, pitch and roll of the camera by the calibration; x, y and yaw stay those of the mount.
+StereoCamera calibrated_camera(StereoCamera camera, const GroundCalibration& calibration, double origin_height_m);
 
 }  // namespace rover::hazard

@@ -6,34 +6,35 @@
 namespace rover::hazard {
 namespace {
 
-constexpr int kPitchSteps = 12;       // hypotheses to each side of zero: 1 deg
-constexpr int kRollSteps = 6;         // 2 deg
-constexpr double kBin = 0.02;         // of the offsets' histogram [m]
-constexpr double kBelowWeight = 0.5;  // what a cell below the plane takes from its score
-constexpr int kRefinements = 4;
-constexpr size_t kSearchPoints = 250;  // enough for the search; the refinement takes all
+constexpr int kPitchSteps = 12;        // hypotheses on each side of zero, steps of 1 deg
+constexpr int kRollSteps = 6;          // steps of 2 deg
+constexpr double kBinM = 0.02;         // bin width of the offset histogram
+constexpr double kBelowPenalty = 0.5;  // score penalty per cell below the plane
+constexpr int kIrlsIterations = 4;
+constexpr size_t kSearchPoints = 250;  // subsample for the search; the refinement uses all points
 
 struct WeightedPoint {
   float x_m, y_m, z_m, weight;
 };
 
-double weight_of(const GroundPoint& p, const PlanePrior& prior) {
-  const double ahead = std::max(0.0, p.x_m - prior.wheel_line_x_m) / prior.near_weight_m;
+double distance_weight(const GroundPoint& p, const PlanePrior& prior) {
+  const double ahead = std::max(0.0, p.x_m - prior.front_axle_x_m) / prior.half_weight_m;
   return 1.0 / (1.0 + ahead * ahead);
 }
 
-// Offsets of all points under the slopes, as a histogram over the bounded offsets and as far around as needed.
+// Histogram of point offsets for given slopes, slightly wider than the offset bounds (Hough-like vote).
 class OffsetHistogram {
  public:
   explicit OffsetHistogram(const PlanePrior& prior)
-      : reach_(prior.max_offset_m + 3.0 * prior.inlier_m), bins_(static_cast<size_t>(std::ceil(2.0 * reach_ / kBin))) {}
+      : range_(prior.max_offset_m + 3.0 * prior.inlier_m),
+        bins_(static_cast<size_t>(std::ceil(2.0 * range_ / kBinM))) {}
 
   void fill(const std::vector<WeightedPoint>& points, const PlanePrior& prior, double slope_x, double slope_y) {
     std::fill(bins_.begin(), bins_.end(), 0.0f);
     below_ = 0.0f;
     const float sx = static_cast<float>(slope_x), sy = static_cast<float>(slope_y);
-    const float shift = static_cast<float>(reach_ + slope_x * prior.wheel_line_x_m);
-    const float per_bin = static_cast<float>(1.0 / kBin);
+    const float shift = static_cast<float>(range_ + slope_x * prior.front_axle_x_m);
+    const float per_bin = static_cast<float>(1.0 / kBinM);
     for (const WeightedPoint& p : points) {
       const float bin = (p.z_m - sx * p.x_m - sy * p.y_m + shift) * per_bin;
       if (bin < 0.0f)
@@ -43,16 +44,16 @@ class OffsetHistogram {
     }
   }
 
-  // Best score and its offset.
+  // Returns the best score and its offset.
   std::pair<double, double> best(const PlanePrior& prior) const {
-    const int half = std::max(1, static_cast<int>(std::lround(prior.inlier_m / kBin)));
+    const int half = std::max(1, static_cast<int>(std::lround(prior.inlier_m / kBinM)));
     std::pair<double, double> best{-1e9, 0.0};
     double below = below_, inside = 0.0;
     for (int i = 0; i < std::min<int>(2 * half, static_cast<int>(bins_.size())); ++i)
       inside += bins_[static_cast<size_t>(i)];
     for (int centre = half; centre + half < static_cast<int>(bins_.size()); ++centre) {
-      const double offset = centre * kBin - reach_;
-      const double score = inside - kBelowWeight * below;
+      const double offset = centre * kBinM - range_;
+      const double score = inside - kBelowPenalty * below;
       if (std::abs(offset) <= prior.max_offset_m && score > best.first) best = {score, offset};
       inside += bins_[static_cast<size_t>(centre + half)] - bins_[static_cast<size_t>(centre - half)];
       below += bins_[static_cast<size_t>(centre - half)];
@@ -61,22 +62,22 @@ class OffsetHistogram {
   }
 
  private:
-  double reach_;
+  double range_;
   std::vector<float> bins_;  // sums of weights
   float below_ = 0.0f;
 };
 
-std::vector<WeightedPoint> thinned(const GroundPoints& points, const PlanePrior& prior) {
+std::vector<WeightedPoint> subsample(const GroundPoints& points, const PlanePrior& prior) {
   const size_t step = std::max<size_t>(1, points.size() / kSearchPoints);
-  std::vector<WeightedPoint> some;
+  std::vector<WeightedPoint> out;
   for (size_t i = 0; i < points.size(); i += step) {
     const GroundPoint& p = points[i];
-    some.push_back({p.x_m, p.y_m, p.z_m, static_cast<float>(weight_of(p, prior))});
+    out.push_back({p.x_m, p.y_m, p.z_m, static_cast<float>(distance_weight(p, prior))});
   }
-  return some;
+  return out;
 }
 
-GroundPlane search(const std::vector<WeightedPoint>& points, const PlanePrior& prior) {
+GroundPlane grid_search(const std::vector<WeightedPoint>& points, const PlanePrior& prior) {
   OffsetHistogram histogram(prior);
   GroundPlane plane;
   double best = -1e9;
@@ -86,7 +87,7 @@ GroundPlane search(const std::vector<WeightedPoint>& points, const PlanePrior& p
       const double slope_y = std::tan(prior.max_slope_rad * j / kRollSteps);
       histogram.fill(points, prior, slope_x, slope_y);
       const auto [raw_score, offset] = histogram.best(prior);
-      // Among equals the one nearest to the plane under the rover.
+      // Tie-break: prefer the plane closest to the one under the rover.
       const double score = raw_score - 1e-3 * (std::abs(i) + std::abs(j)) - 1e-2 * std::abs(offset);
       if (score > best) {
         best = score;
@@ -96,16 +97,16 @@ GroundPlane search(const std::vector<WeightedPoint>& points, const PlanePrior& p
   return plane;
 }
 
-// One step of iteratively reweighted least squares with Tukey's weights.
-void refine(const GroundPoints& points, const PlanePrior& prior, GroundPlane& plane) {
+// One step of iteratively reweighted least squares with Tukey weights.
+void irls_step(const GroundPoints& points, const PlanePrior& prior, GroundPlane& plane) {
   Eigen::Matrix3d A = Eigen::Matrix3d::Identity() * 1e-3;
   Eigen::Vector3d b = Eigen::Vector3d::Zero();
   for (const GroundPoint& p : points) {
-    const Eigen::Vector3d a(1.0, p.x_m - prior.wheel_line_x_m, p.y_m);
+    const Eigen::Vector3d a(1.0, p.x_m - prior.front_axle_x_m, p.y_m);
     const double residual = p.z_m - a.dot(Eigen::Vector3d(plane.offset_m, plane.slope_x, plane.slope_y));
     const double s = residual / prior.tukey_m;
     if (std::abs(s) >= 1.0) continue;
-    const double weight = weight_of(p, prior) * (1.0 - s * s) * (1.0 - s * s);
+    const double weight = distance_weight(p, prior) * (1.0 - s * s) * (1.0 - s * s);
     A += weight * a * a.transpose();
     b += weight * a * residual;
   }
@@ -120,8 +121,8 @@ void refine(const GroundPoints& points, const PlanePrior& prior, GroundPlane& pl
 
 GroundPlane fit_ground_plane(const GroundPoints& points, const PlanePrior& prior) {
   if (static_cast<int>(points.size()) < prior.min_cells) return {};
-  GroundPlane plane = search(thinned(points, prior), prior);
-  for (int i = 0; i < kRefinements; ++i) refine(points, prior, plane);
+  GroundPlane plane = grid_search(subsample(points, prior), prior);
+  for (int i = 0; i < kIrlsIterations; ++i) irls_step(points, prior, plane);
   return plane;
 }
 

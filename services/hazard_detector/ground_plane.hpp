@@ -1,7 +1,6 @@
-// The plane of the ground ahead. The rover stands on the ground, so the plane starts near the wheels: its slope and its
-// offset at the wheel line are bounded. Within the bounds an exhaustive search finds the plane with most supporters,
-// and cells below a plane count against it (ground has rocks above it, rarely holes), so a rock's top cannot become
-// ground; an iteratively reweighted fit refines it. Nothing is drawn at random.
+// Robust ground plane fit: exhaustive (deterministic) search for the plane with most inliers, refined by iteratively
+// reweighted least squares with Tukey weights. Slope and offset at the front axle are bounded, because the rover stands
+// on the ground. Cells below a plane reduce its score, so that the top of a rock is not fitted as ground.
 #pragma once
 
 #include <Eigen/Dense>
@@ -11,20 +10,20 @@
 
 namespace rover::hazard {
 
-// z = offset_m - ground_below + slope_x (x - wheel line) + slope_y y, body axes.
+// z = offset_m - origin_height_m + slope_x (x - front axle) + slope_y y, body frame.
 struct GroundPlane {
   double offset_m = 0.0;
   double slope_x = 0.0;
   double slope_y = 0.0;
-  bool measured = false;  // false: the prior
+  bool measured = false;  // false: too few cells, this is the prior (flat ground)
 
   Eigen::Vector3d normal() const { return Eigen::Vector3d(-slope_x, -slope_y, 1.0).normalized(); }
-  // As rotations of the body: pitch positive where the ground falls away ahead.
+  // Pitch is positive if the ground falls away ahead, roll if it rises to the left.
   double pitch_rad() const { return -std::atan(slope_x); }
   double roll_rad() const { return std::atan(slope_y); }
 };
 
-// Mean of a cell in body axes, z counted from flat ground under the rover.
+// Mean of a cell in the body frame; z is relative to flat ground under the rover.
 struct GroundPoint {
   float x_m, y_m, z_m;
 };

@@ -1,4 +1,4 @@
-// Parameters of the hazard detector. Lengths in metres, angles in radians.
+// Parameters of the hazard detector.
 #pragma once
 
 #include <optional>
@@ -9,53 +9,53 @@ namespace rover::hazard {
 
 struct GridConfig {
   double cell_m = 0.1;
-  double min_x_m = 0.5;  // body axes
+  double min_x_m = 0.5;  // body frame
   double max_x_m = 4.0;
   double half_width_m = 2.0;
 };
 
-// What is known of the ground ahead before it is seen: the rover stands on it.
+// Prior of the ground plane ahead: the rover stands on it, so slope and offset are bounded.
 struct PlanePrior {
-  double wheel_line_x_m = 0.75;   // front axle
-  double max_slope_rad = 0.2094;  // 12 deg against the plane the rover stands on
-  double max_offset_m = 0.14;     // at the wheel line; 10 deg about the body origin make 0.13
-  double inlier_m = 0.05;         // half band of a plane's supporters in the search
-  double tukey_m = 0.12;          // residuals beyond do not pull the refined plane
-  double near_weight_m = 1.0;     // a cell this far ahead of the wheel line weighs half
-  int min_cells = 40;             // with fewer measured cells the prior stands
+  double front_axle_x_m = 0.75;   // front axle
+  double max_slope_rad = 0.2094;  // 12 deg, relative to the plane under the rover
+  double max_offset_m = 0.14;     // at the front axle; 10 deg of body pitch cause 0.13
+  double inlier_m = 0.05;         // inlier distance in the search
+  double tukey_m = 0.12;          // Tukey scale: larger residuals have no weight
+  double half_weight_m = 1.0;     // distance ahead of the front axle at which a cell weighs half
+  int min_cells = 40;             // fewer measured cells: the prior is used
 };
 
-// The ground may bend away from the plane, within bounds that grow with the distance from the wheels.
-struct ReliefConfig {
-  double window_m = 0.6;        // half side of the neighbourhood that makes a local ground
-  double node_m = 0.3;          // between nodes of the local ground
-  double low_quantile = 0.25;   // of the neighbourhood's heights: ground under rocks
-  double high_quantile = 0.75;  // ground around holes
-  double bound_m = 0.05;        // at the wheel line
-  double bound_per_m = 0.05;    // more for each metre ahead
+// Local ground height relative to the plane; the deviation bound grows with the distance from the front axle.
+struct LocalGroundConfig {
+  double window_m = 0.6;              // half side of the neighbourhood
+  double node_m = 0.3;                // node spacing of the local ground grid
+  double low_quantile = 0.25;         // of the neighbourhood heights: ground under rocks
+  double high_quantile = 0.75;        // ground around holes
+  double max_deviation_m = 0.05;      // at the front axle
+  double max_deviation_per_m = 0.05;  // growth per metre ahead
   int min_cells = 12;
-  double step_reach_m = 0.2;   // obstacles also count from the lowest cell within this distance
-  double step_slack_m = 0.02;  // plus this: slope of the ground against the plane over that distance
+  double step_radius_m = 0.2;      // obstacle height also counts from the lowest cell within this radius
+  double step_tolerance_m = 0.02;  // added to that cell: slope of the ground over that radius
 };
 
 struct HazardConfig {
-  double ground_below_m = 0.62;                  // of the body origin on flat ground
-  std::optional<GroundCalibration> calibration;  // none: from the camera's mount
+  double origin_height_m = 0.62;                 // body origin over flat ground
+  std::optional<GroundCalibration> calibration;  // nullopt: use the camera mount
   GridConfig grid;
   PlanePrior prior;
-  ReliefConfig relief;
-  double near_m = 0.15;          // T_near: an obstacle stands higher than this over its ground
-  double far_m = 0.20;           // T_far: a hole is deeper than this
-  double grow_m = 0.08;          // cells beside an obstacle that stand higher than this belong to it
-  int min_cell_samples = 3;      // hazard samples that make a cell suspect
-  int min_cluster_samples = 12;  // hazard samples of connected suspect cells that make a hazard
-  double free_share = 0.5;       // of a cell's samples must be measured ground for FREE
+  LocalGroundConfig local_ground;
+  double obstacle_height_m = 0.15;  // T_near: obstacles are higher than this over the local ground
+  double hole_depth_m = 0.20;       // T_far: holes are deeper than this
+  double grow_height_m = 0.08;      // region growing: neighbours of an obstacle higher than this belong to it
+  int min_cell_samples = 3;         // hazard samples that make a cell suspect
+  int min_cluster_samples = 12;     // hazard samples of a connected component
+  double min_free_fraction = 0.5;   // fraction of expected samples measured as ground
   int min_free_samples = 4;
   double margin_m = 0.10;
   double roi_near_m = 0.4;  // region of interest: ground ahead of the camera
   double roi_far_m = 3.0;
-  double min_coverage = 0.4;  // of its samples, below: BLIND
-  int samples_per_cell = 5;   // along each side of a cell, where the image resolves them
+  double min_coverage = 0.4;  // fraction of its samples with valid stereo; below: BLIND
+  int samples_per_cell = 5;   // along each side of a cell, if the image resolution allows
   int max_step_px = 4;
 };
 

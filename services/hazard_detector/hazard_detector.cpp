@@ -12,7 +12,7 @@ bool same_camera(const StereoCamera& a, const StereoCamera& b) {
   return a.same_optics(b) && a.T_body_cam.matrix() == b.T_body_cam.matrix();
 }
 
-// Cell of a point, -1 outside the grid.
+// Cell index of a point, -1 outside the grid.
 struct CellLookup {
   float origin_x, origin_y, per_m;
   int cells_x, cells_y;
@@ -31,12 +31,12 @@ struct CellLookup {
   }
 };
 
-// Limits of one cell, as factors on the disparity of the reference plane: h / (h - height) for each height.
-struct Limits {
+// Limits of one cell as factors h / (h - height) on the disparity of the reference plane.
+struct LimitFactors {
   float high, raised, low;
 };
 
-float limit(double camera_height_m, double height_m) {
+float limit_factor(double camera_height_m, double height_m) {
   return static_cast<float>(camera_height_m / std::max(0.05, camera_height_m - height_m));
 }
 
@@ -47,32 +47,32 @@ HazardDetector::HazardDetector(const HazardConfig& config)
 
 HazardResult HazardDetector::step(const Disparity& disparity, const StereoCamera& camera) {
   ROVER_CHECK(disparity.width == camera.width && disparity.height == camera.height, disparity.width, camera.width);
-  prepare(camera);
+  update_table(camera);
   HazardResult result;
-  result.coverage = locate(disparity);
+  result.coverage = accumulate_samples(disparity);
   result.plane = fit_plane();
-  judge(disparity, result.plane, bend(result.plane));
-  result.cells = cell_states(evidence_, shape_, config_);
+  classify_samples(disparity, result.plane, fit_local_ground(result.plane));
+  result.cells = classify_cells(evidence_, shape_, config_);
   summarize(result);
   if (result.coverage < config_.min_coverage) result.status = Status::kBlind;
   return result;
 }
 
-void HazardDetector::prepare(const StereoCamera& camera) {
+void HazardDetector::update_table(const StereoCamera& camera) {
   std::fill(evidence_.begin(), evidence_.end(), CellEvidence{});
-  if (table_ && same_camera(camera, mount_)) return;
-  mount_ = camera;
-  table_.emplace(config_.calibration ? calibrated_camera(camera, *config_.calibration, config_.ground_below_m) : camera,
-                 config_);
+  if (table_ && same_camera(camera, camera_)) return;
+  camera_ = camera;
+  table_.emplace(
+      config_.calibration ? calibrated_camera(camera, *config_.calibration, config_.origin_height_m) : camera, config_);
   cell_of_sample_.assign(table_->samples().size(), -1);
 }
 
-// Puts every measured sample into its cell, and counts the region of interest.
-double HazardDetector::locate(const Disparity& disparity) {
+// Accumulates measured samples into cells; returns the stereo coverage of the region of interest.
+double HazardDetector::accumulate_samples(const Disparity& disparity) {
   const StereoCamera& camera = table_->camera();
   const CellLookup lookup(shape_);
   const Eigen::Vector3f p_cam = camera.T_body_cam.translation().cast<float>();
-  const float ground_z = p_cam.z() + static_cast<float>(config_.ground_below_m);
+  const float ground_z = p_cam.z() + static_cast<float>(config_.origin_height_m);
   const float depth_px16 = static_cast<float>(16.0 * camera.focal_px * camera.baseline_m);
   const std::vector<Sample>& samples = table_->samples();
   int roi = 0, roi_measured = 0;
@@ -106,37 +106,37 @@ GroundPlane HazardDetector::fit_plane() const {
   return fit_ground_plane(points, config_.prior);
 }
 
-LocalGround HazardDetector::bend(const GroundPlane& plane) const {
+LocalGround HazardDetector::fit_local_ground(const GroundPlane& plane) const {
   std::vector<float> over_plane(evidence_.size(), std::numeric_limits<float>::quiet_NaN());
   for (int iy = 0; iy < shape_.cells_y; ++iy)
     for (int ix = 0; ix < shape_.cells_x; ++ix) {
       const size_t i = static_cast<size_t>(shape_.at(ix, iy));
       if (evidence_[i].measured < config_.min_free_samples) continue;
-      const double plane_m = plane.offset_m + plane.slope_x * (shape_.x_m(ix) - config_.prior.wheel_line_x_m) +
+      const double plane_m = plane.offset_m + plane.slope_x * (shape_.x_m(ix) - config_.prior.front_axle_x_m) +
                              plane.slope_y * shape_.y_m(iy);
       over_plane[i] = evidence_[i].sum_z_m / static_cast<float>(evidence_[i].measured) - static_cast<float>(plane_m);
     }
-  return local_ground(over_plane, shape_, config_.relief, config_.prior.wheel_line_x_m);
+  return estimate_local_ground(over_plane, shape_, config_.local_ground, config_.prior.front_axle_x_m);
 }
 
-// Compares each sample's disparity with the limits: the table's d_cal, corrected by the plane ahead, times the factors
-// of its cell. And counts, for each cell, the samples that would see its ground.
-void HazardDetector::judge(const Disparity& disparity, const GroundPlane& plane, const LocalGround& ground) {
+// Compares each disparity with d_cal, corrected for the fitted plane, times the limit factors of its cell. Also counts
+// the samples that would hit the ground of each cell.
+void HazardDetector::classify_samples(const Disparity& disparity, const GroundPlane& plane, const LocalGround& ground) {
   const StereoCamera& camera = table_->camera();
   const Eigen::Vector3d normal = plane.normal();
-  const Eigen::Vector3d p_plane(config_.prior.wheel_line_x_m, 0.0, plane.offset_m - config_.ground_below_m);
+  const Eigen::Vector3d p_plane(config_.prior.front_axle_x_m, 0.0, plane.offset_m - config_.origin_height_m);
   const double height_m = normal.dot(camera.T_body_cam.translation() - p_plane);
-  const DisparityPlane ahead = disparity_plane(camera, p_plane, normal);
+  const DisparityPlane fitted = disparity_plane(camera, p_plane, normal);
   const DisparityPlane& flat = table_->flat_ground();
-  const float du = static_cast<float>(16.0 * (ahead.per_u - flat.per_u));
-  const float dv = static_cast<float>(16.0 * (ahead.per_v - flat.per_v));
-  const float d0 = static_cast<float>(16.0 * (ahead.at_origin_px - flat.at_origin_px));
-  std::vector<Limits> limits;
+  const float du = static_cast<float>(16.0 * (fitted.per_u - flat.per_u));
+  const float dv = static_cast<float>(16.0 * (fitted.per_v - flat.per_v));
+  const float d0 = static_cast<float>(16.0 * (fitted.at_origin_px - flat.at_origin_px));
+  std::vector<LimitFactors> limits;
   limits.reserve(evidence_.size());
   for (size_t i = 0; i < evidence_.size(); ++i)
-    limits.push_back({limit(height_m, ground.low_m[i] + config_.near_m),
-                      limit(height_m, ground.low_m[i] + config_.grow_m),
-                      limit(height_m, ground.high_m[i] - config_.far_m)});
+    limits.push_back({limit_factor(height_m, ground.low_m[i] + config_.obstacle_height_m),
+                      limit_factor(height_m, ground.low_m[i] + config_.grow_height_m),
+                      limit_factor(height_m, ground.high_m[i] - config_.hole_depth_m)});
   const CellLookup lookup(shape_);
   const Eigen::Vector3f p_cam = camera.T_body_cam.translation().cast<float>();
   const float depth_px16 = static_cast<float>(16.0 * camera.focal_px * camera.baseline_m);
@@ -152,7 +152,7 @@ void HazardDetector::judge(const Disparity& disparity, const GroundPlane& plane,
     const int cell = cell_of_sample_[k];
     if (cell < 0) continue;
     const float d = static_cast<float>(disparity.px16[static_cast<size_t>(s.index)]);
-    const Limits& l = limits[static_cast<size_t>(cell)];
+    const LimitFactors& l = limits[static_cast<size_t>(cell)];
     CellEvidence& e = evidence_[static_cast<size_t>(cell)];
     e.high += d > l.high * reference;
     e.raised += d > l.raised * reference;

@@ -1,7 +1,6 @@
-// Natural ground bends away from the fitted plane; rocks and holes stand out of their surroundings. So limits count
-// from a local ground: a low quantile of the neighbourhood's heights for obstacles, a high one for holes. How far it
-// may lie from the plane is bounded, and the bound grows with the distance from the wheels, so neither a boulder nor a
-// pit wider than the neighbourhood becomes ground.
+// Local ground height, because natural ground deviates from the fitted plane: a low quantile of the neighbourhood for
+// obstacles, a high quantile for holes. The deviation is bounded (the bound grows with distance), so that a boulder or
+// pit wider than the neighbourhood is not taken for ground.
 #pragma once
 
 #include <vector>
@@ -11,14 +10,14 @@
 
 namespace rover::hazard {
 
-// Heights over the plane, one each cell.
+// Heights over the plane, one per cell.
 struct LocalGround {
   std::vector<float> low_m;
   std::vector<float> high_m;
 };
 
-// `over_plane_m`: mean height of each cell over the plane, NaN where not measured.
-LocalGround local_ground(const std::vector<float>& over_plane_m, const GridShape& shape, const ReliefConfig& config,
-                         double wheel_line_x_m);
+// `over_plane_m`: mean height of each cell over the plane, NaN if not measured.
+LocalGround estimate_local_ground(const std::vector<float>& over_plane_m, const GridShape& shape,
+                                  const LocalGroundConfig& config, double front_axle_x_m);
 
 }  // namespace rover::hazard

@@ -9,13 +9,13 @@ namespace rover::hazard {
 
 HazardNode::HazardNode(Node& node, const NodeConfig& config) : node_(node), core_(config.core) {
   node_.subscribe_slow<disparity_t>(channel::kDisparity, config.latency_us,
-                                    [this](const disparity_t& message) { take(message); });
+                                    [this](const disparity_t& message) { on_disparity(message); });
 }
 
-void HazardNode::take(const disparity_t& message) {
-  const std::string fault = fault_of(message);
-  if (!fault.empty()) {
-    node_.reject(channel::kDisparity, fault);
+void HazardNode::on_disparity(const disparity_t& message) {
+  const std::string error = validation_error(message);
+  if (!error.empty()) {
+    node_.reject(channel::kDisparity, error);
     return;
   }
   const HazardResult result = core_.step(disparity_from(message), camera_from(message));
@@ -26,8 +26,8 @@ void HazardNode::take(const disparity_t& message) {
 }
 
 void HazardNode::report(const HazardResult& result) {
-  if (result.status == last_) return;
-  last_ = result.status;
+  if (result.status == last_status_) return;
+  last_status_ = result.status;
   const bool blind = result.status == Status::kBlind;
   node_.set_status(blind ? heartbeat_t::DEGRADED : heartbeat_t::OK, blind ? "too little stereo" : "");
   static constexpr const char* kNames[] = {"CLEAR", "HAZARD", "BLIND"};

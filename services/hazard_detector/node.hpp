@@ -1,4 +1,4 @@
-// The bus side of the hazard detector: a HAZARDS for each DISPARITY, in every state of the rover.
+// LCM node: publishes one HAZARDS for each DISPARITY, in every state of the rover.
 #pragma once
 
 #include <memory>
@@ -18,12 +18,12 @@ class HazardNode {
   HazardNode& operator=(const HazardNode&) = delete;
 
  private:
-  void take(const disparity_t& message);
+  void on_disparity(const disparity_t& message);
   void report(const HazardResult& result);
 
   Node& node_;
   HazardDetector core_;
-  Status last_ = Status::kClear;
+  Status last_status_ = Status::kClear;
 };
 
 std::shared_ptr<HazardNode> make_hazard_detector(Node& node, const std::string& config_dir);

@@ -13,10 +13,10 @@ struct Truth {
 
 class CalibrateTest : public testing::TestWithParam<Truth> {
  protected:
-  // Frames of flat ground (or of the world) seen by a camera that stands as `truth` says, labelled with its mount.
+  // Frames rendered with the true camera pose but labelled with the nominal mount.
   CalibrationFrames record(const Truth& truth, const synthetic::World& world, int frames) {
     StereoCamera actual = mount_;
-    actual.T_body_cam.translation().z() = truth.height_m - kBelow;
+    actual.T_body_cam.translation().z() = truth.height_m - kOriginHeightM;
     actual.T_body_cam.linear() = camera_rotation(to_rad(truth.pitch_deg), to_rad(truth.roll_deg));
     const auto exact = synthetic::exact_disparity(world, actual);
     synthetic::NoiseField noise(7);
@@ -25,14 +25,14 @@ class CalibrateTest : public testing::TestWithParam<Truth> {
     return recorded;
   }
 
-  static constexpr double kBelow = 0.62;
+  static constexpr double kOriginHeightM = 0.62;
   StereoCamera mount_ = synthetic::loccam_camera();
 };
 
 TEST_P(CalibrateTest, FindsHeightPitchAndRoll) {
   synthetic::World pebbles;
   pebbles.rocks = {{1.3, 0.1, 0.05, 0.05}, {1.8, -0.3, 0.08, 0.08}, {2.3, 0.4, 0.1, 0.1}};
-  const CalibrationFit fit = record(GetParam(), pebbles, 10).fit(kBelow);
+  const CalibrationFit fit = record(GetParam(), pebbles, 10).fit(kOriginHeightM);
   ASSERT_TRUE(fit.ok);
   EXPECT_NEAR(fit.calibration.height_m, GetParam().height_m, 0.002);
   EXPECT_NEAR(to_deg(fit.calibration.pitch_rad), GetParam().pitch_deg, 0.05);
@@ -44,21 +44,21 @@ INSTANTIATE_TEST_SUITE_P(Mounts, CalibrateTest,
                          testing::Values(Truth{0.679, 33.0, 0.0}, Truth{0.70, 34.5, 1.2}, Truth{0.62, 30.0, -3.0},
                                          Truth{0.75, 38.0, 4.0}));
 
-TEST_F(CalibrateTest, RefusesGroundThatIsNotFlat) {
+TEST_F(CalibrateTest, RejectsGroundThatIsNotFlat) {
   synthetic::World world;
   world.relief = [](double x, double y) { return 0.15 * std::sin(4.0 * x) * std::cos(3.0 * y); };
-  EXPECT_FALSE(record({0.679, 33.0, 0.0}, world, 3).fit(kBelow).ok);
+  EXPECT_FALSE(record({0.679, 33.0, 0.0}, world, 3).fit(kOriginHeightM).ok);
 }
 
-TEST_F(CalibrateTest, RefusesTooLittleStereo) {
+TEST_F(CalibrateTest, RejectsTooLittleStereo) {
   CalibrationFrames frames{CalibrateConfig{}};
   EXPECT_TRUE(frames.add(Disparity(512, 384), mount_));
-  const CalibrationFit fit = frames.fit(kBelow);
+  const CalibrationFit fit = frames.fit(kOriginHeightM);
   EXPECT_FALSE(fit.ok);
-  EXPECT_STREQ(fit.why, "too few pixels with stereo");
+  EXPECT_STREQ(fit.failure, "too few pixels with stereo");
 }
 
-TEST_F(CalibrateTest, RefusesFramesOfAnotherCamera) {
+TEST_F(CalibrateTest, RejectsFramesOfAnotherCamera) {
   CalibrationFrames frames{CalibrateConfig{}};
   EXPECT_TRUE(frames.add(Disparity(512, 384), mount_));
   StereoCamera other = mount_;
@@ -66,8 +66,8 @@ TEST_F(CalibrateTest, RefusesFramesOfAnotherCamera) {
   EXPECT_FALSE(frames.add(Disparity(512, 384), other));
 }
 
-TEST_F(CalibrateTest, NominalCalibrationGivesTheMountBack) {
-  const StereoCamera again = calibrated_camera(mount_, nominal_calibration(mount_, kBelow), kBelow);
+TEST_F(CalibrateTest, NominalCalibrationReproducesTheMount) {
+  const StereoCamera again = calibrated_camera(mount_, nominal_calibration(mount_, kOriginHeightM), kOriginHeightM);
   EXPECT_TRUE(again.T_body_cam.isApprox(mount_.T_body_cam, 1e-12));
 }
 

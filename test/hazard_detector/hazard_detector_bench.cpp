@@ -1,4 +1,4 @@
-// Time of the hazard decision beyond the disparity, at 512x384 on one core; the gate is 2 ms.
+// Time of hazard detection without stereo matching, 512x384, one core; limit 2 ms.
 #include <benchmark/benchmark.h>
 
 #include <random>

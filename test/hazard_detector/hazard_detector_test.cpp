@@ -9,14 +9,14 @@ namespace {
 
 using HazardDetectorTest = SceneTest;
 
-TEST_F(HazardDetectorTest, FlatGroundIsClearAndFreeWhereBothCamerasSeeIt) {
-  const HazardResult result = judge({});
+TEST_F(HazardDetectorTest, FlatGroundIsFreeWhereBothCamerasSeeIt) {
+  const HazardResult result = detect({});
   EXPECT_EQ(result.status, Status::kClear);
   EXPECT_TRUE(std::isnan(result.nearest_hazard_m));
   EXPECT_GT(result.coverage, 0.9);
   EXPECT_EQ(map(result).hazards(), 0);
   EXPECT_NEAR(result.plane.pitch_rad(), 0.0, to_rad(0.3));
-  // The field of view of both cameras opens from +-0.4 m at the wheels to +-0.7 m at 1.6 m.
+  // The common field of view widens from +-0.4 m at the wheels to +-0.7 m at 1.6 m.
   for (double x = 1.05; x < 2.7; x += 0.1)
     for (double y = -0.65; y <= 0.7; y += 0.1)
       if (std::abs(y) < 0.3 + 0.55 * (x - 1.0)) {
@@ -24,7 +24,7 @@ TEST_F(HazardDetectorTest, FlatGroundIsClearAndFreeWhereBothCamerasSeeIt) {
       }
 }
 
-TEST_F(HazardDetectorTest, ThousandsOfNoisyFlatFramesHaveNoHazard) {
+TEST_F(HazardDetectorTest, NoFalseAlarmInThousandsOfNoisyFrames) {
   for (const synthetic::World& world : {synthetic::World{}, under_pitched_body(9.0), sloped(-10.0)}) {
     const auto exact = synthetic::exact_disparity(world, camera_);
     for (int frame = 0; frame < 700; ++frame) {
@@ -35,10 +35,9 @@ TEST_F(HazardDetectorTest, ThousandsOfNoisyFlatFramesHaveNoHazard) {
   }
 }
 
-// The original calls flat ground a hazard under 8-10 deg of body pitch.
-TEST_F(HazardDetectorTest, FlatGroundUnderAPitchedBodyIsClear) {
+TEST_F(HazardDetectorTest, FlatGroundIsClearUnderBodyPitchOfTenDegrees) {
   for (double pitch_deg : {-10.0, -9.0, -8.0, 8.0, 9.0, 10.0}) {
-    const HazardResult result = judge(under_pitched_body(pitch_deg));
+    const HazardResult result = detect(under_pitched_body(pitch_deg));
     EXPECT_EQ(result.status, Status::kClear) << pitch_deg;
     EXPECT_NEAR(result.plane.pitch_rad(), to_rad(pitch_deg), to_rad(0.3));
   }
@@ -47,7 +46,7 @@ TEST_F(HazardDetectorTest, FlatGroundUnderAPitchedBodyIsClear) {
 TEST_F(HazardDetectorTest, SlopesOfTenDegreesInAllDirectionsAreClear) {
   for (double heading_deg = 0.0; heading_deg < 360.0; heading_deg += 30.0) {
     const double heading = to_rad(heading_deg);
-    const HazardResult result = judge(sloped(10.0 * std::cos(heading), 10.0 * std::sin(heading)));
+    const HazardResult result = detect(sloped(10.0 * std::cos(heading), 10.0 * std::sin(heading)));
     EXPECT_EQ(result.status, Status::kClear) << heading_deg;
     EXPECT_NEAR(result.plane.roll_rad(), to_rad(10.0 * std::sin(heading)), to_rad(0.5));
   }
@@ -57,16 +56,16 @@ TEST_F(HazardDetectorTest, RollingGroundIsClear) {
   for (double phase = 0.0; phase < 6.2; phase += 0.9) {
     synthetic::World world;
     world.relief = [phase](double x, double y) { return 0.1 * std::sin(2.1 * x + phase) * std::cos(1.2 * y + phase); };
-    const HazardResult result = judge(world);
+    const HazardResult result = detect(world);
     EXPECT_EQ(result.status, Status::kClear) << phase;
     EXPECT_GT(map(result).count_near(Cell::kFree, 1.8, 0.0, 0.5), 60) << phase;
   }
 }
 
-TEST_F(HazardDetectorTest, ARockOfFifteenCentimetresWithAFlatTopIsAnObstacleWithAMargin) {
+TEST_F(HazardDetectorTest, FlatTopRockOfFifteenCentimetresIsAnObstacleWithMargin) {
   synthetic::World world;
   world.rocks.push_back({1.8, 0.1, 0.15, 0.17, true});
-  const HazardResult result = judge(world);
+  const HazardResult result = detect(world);
   EXPECT_EQ(result.status, Status::kHazard);
   EXPECT_EQ(map(result).at(1.8, 0.05), Cell::kObstacle);
   EXPECT_NEAR(result.nearest_hazard_m, 1.65, 0.12);
@@ -74,23 +73,22 @@ TEST_F(HazardDetectorTest, ARockOfFifteenCentimetresWithAFlatTopIsAnObstacleWith
   EXPECT_EQ(map(result).count_near(Cell::kFree, 1.8, 0.1, 0.15), 0);
 }
 
-TEST_F(HazardDetectorTest, SmallRocksAreDrivenOver) {
+TEST_F(HazardDetectorTest, RocksOfTenCentimetresAreFree) {
   for (double x = 1.25; x < 2.8; x += 0.2)
     for (bool box : {false, true}) {
       synthetic::World world;
       world.rocks.push_back({x, 0.05, 0.1, 0.10, box});
-      const HazardResult result = judge(world);
+      const HazardResult result = detect(world);
       EXPECT_EQ(result.status, Status::kClear) << x;
       EXPECT_EQ(map(result).at(x, 0.05), Cell::kFree) << x << " " << box;
     }
 }
 
-// The original calls a textureless rock safe: no stereo on it, so no hazard.
-TEST_F(HazardDetectorTest, ARockWithoutTextureIsNeverFree) {
+TEST_F(HazardDetectorTest, TexturelessRockIsNeverFree) {
   for (double x : {1.3, 1.8, 2.3}) {
     synthetic::World world;
     world.rocks.push_back({x, 0.0, 0.25, 0.25, false, true});
-    const HazardResult result = judge(world);
+    const HazardResult result = detect(world);
     EXPECT_EQ(map(result).count_near(Cell::kFree, x, 0.0, 0.2), 0) << x;
   }
 }
@@ -98,13 +96,12 @@ TEST_F(HazardDetectorTest, ARockWithoutTextureIsNeverFree) {
 TEST_F(HazardDetectorTest, GroundHiddenBehindARockIsUnseen) {
   synthetic::World world;
   world.rocks.push_back({1.5, 0.0, 0.2, 0.3, true});
-  const HazardResult result = judge(world);
-  // The line of sight over the rock's top meets the ground 0.9 m behind.
+  const HazardResult result = detect(world);
+  // The line of sight over the top of the rock meets the ground 0.9 m behind it.
   for (double x = 1.95; x < 2.4; x += 0.1) EXPECT_EQ(map(result).at(x, 0.0), Cell::kUnseen) << x;
 }
 
-// The original calls an all-invalid frame safe.
-TEST_F(HazardDetectorTest, AFrameWithoutStereoIsBlind) {
+TEST_F(HazardDetectorTest, FrameWithoutStereoIsBlind) {
   const HazardResult result = detector_.step(Disparity(512, 384), camera_);
   EXPECT_EQ(result.status, Status::kBlind);
   EXPECT_EQ(result.coverage, 0.0);
@@ -112,7 +109,7 @@ TEST_F(HazardDetectorTest, AFrameWithoutStereoIsBlind) {
   EXPECT_FALSE(result.plane.measured);
 }
 
-TEST_F(HazardDetectorTest, HalfBlindGroundIsUnseenThereAndFreeElsewhere) {
+TEST_F(HazardDetectorTest, ImageHalfWithoutStereoIsUnseenThereAndFreeElsewhere) {
   auto exact = synthetic::exact_disparity({}, camera_);
   for (int v = 0; v < 384; ++v)
     for (int u = 0; u < 220; ++u) exact[static_cast<size_t>(v) * 512 + u] = 0.0f;
@@ -123,8 +120,8 @@ TEST_F(HazardDetectorTest, HalfBlindGroundIsUnseenThereAndFreeElsewhere) {
   EXPECT_LT(result.coverage, 0.7);
 }
 
-// A patch of smooth dust: what lies there stays unseen, and whether the rover may go on is the planner's to say.
-TEST_F(HazardDetectorTest, NoStereoNearTheWheelsLeavesTheGroundThereUnseen) {
+// A patch of smooth dust. Whether the rover may continue over unseen ground is decided by the planner.
+TEST_F(HazardDetectorTest, NoStereoNearTheWheelsLeavesThatGroundUnseen) {
   auto exact = synthetic::exact_disparity({}, camera_);
   std::fill(exact.begin() + 150 * 512, exact.end(), 0.0f);
   const HazardResult result = detector_.step(noise_.apply(exact, camera_, 0.2, 0.0), camera_);
@@ -138,23 +135,23 @@ TEST_F(HazardDetectorTest, HolesAreHazards) {
     for (double x : {1.5, 1.9, 2.3}) {
       synthetic::World world;
       world.pits.push_back({x, 0.0, 0.4, depth});
-      const HazardResult result = judge(world);
+      const HazardResult result = detect(world);
       EXPECT_EQ(result.status, Status::kHazard) << x << " " << depth;
       EXPECT_GT(map(result).count(Cell::kHole), 3) << x << " " << depth;
       EXPECT_EQ(map(result).at(x, 0.0) == Cell::kFree, false) << x << " " << depth;
     }
 }
 
-// A smooth step across the whole view, steep within 2 cm.
-synthetic::World ledge(double x_m, double rise_m) {
+// A step across the whole view, 0.02 m wide.
+synthetic::World step_edge(double x_m, double rise_m) {
   synthetic::World world;
   world.relief = [x_m, rise_m](double x, double) { return rise_m / (1.0 + std::exp(-(x - x_m) / 0.005)); };
   return world;
 }
 
-TEST_F(HazardDetectorTest, AStepUpAcrossTheWholeViewIsAHazard) {
+TEST_F(HazardDetectorTest, StepUpAcrossTheWholeViewIsAHazard) {
   for (double x_m : {1.4, 1.8, 2.3}) {
-    const HazardResult result = judge(ledge(x_m, 0.2));
+    const HazardResult result = detect(step_edge(x_m, 0.2));
     EXPECT_EQ(result.status, Status::kHazard) << x_m;
     for (double y = -0.35; y < 0.4; y += 0.1)
       EXPECT_GT(
@@ -163,46 +160,45 @@ TEST_F(HazardDetectorTest, AStepUpAcrossTheWholeViewIsAHazard) {
   }
 }
 
-// The ground behind the edge is hidden: a barrier of unseen or hazardous cells that no path may cross.
-TEST_F(HazardDetectorTest, AStepDownAcrossTheWholeViewIsNeverFree) {
+// The ground behind the edge is occluded: a barrier of unseen or hazard cells blocks every path.
+TEST_F(HazardDetectorTest, StepDownAcrossTheWholeViewIsNeverFree) {
   for (double x_m : {1.4, 1.8, 2.3}) {
-    const HazardResult result = judge(ledge(x_m, -0.3));
+    const HazardResult result = detect(step_edge(x_m, -0.3));
     const double hidden_m = 0.3 * (x_m - 0.527) / 0.679;
     for (double x = x_m + 0.1; x < x_m + hidden_m - 0.1; x += 0.1)
       for (double y = -0.35; y < 0.4; y += 0.1) EXPECT_NE(map(result).at(x, y), Cell::kFree) << x << " " << y;
   }
 }
 
-TEST_F(HazardDetectorTest, ABoulderThatFillsTheViewDoesNotBecomeTheGround) {
+TEST_F(HazardDetectorTest, BoulderThatFillsTheViewIsNotFittedAsGround) {
   for (double x : {1.4, 1.7, 2.0}) {
     synthetic::World world;
     world.rocks.push_back({x, 0.0, 0.5, 0.35, true});
-    const HazardResult result = judge(world);
+    const HazardResult result = detect(world);
     EXPECT_EQ(result.status, Status::kHazard) << x;
     EXPECT_GT(map(result).count_near(Cell::kObstacle, x, 0.0, 0.5), 40) << x;
     EXPECT_NEAR(result.plane.offset_m, 0.0, 0.03) << x;
   }
 }
 
-TEST_F(HazardDetectorTest, AWallCloseAheadIsAHazardOrBlindNeverClear) {
+TEST_F(HazardDetectorTest, WallCloseAheadIsHazardOrBlindNeverClear) {
   for (double x : {1.1, 1.3, 1.6}) {
     synthetic::World world;
     world.rocks.push_back({x + 2.0, 0.0, 2.0, 1.0, true});
-    const HazardResult result = judge(world);
+    const HazardResult result = detect(world);
     EXPECT_NE(result.status, Status::kClear) << x;
     EXPECT_EQ(map(result).count_near(Cell::kFree, x + 0.5, 0.0, 0.3), 0) << x;
   }
 }
 
-TEST_F(HazardDetectorTest, StrayPointsAreNotAHazard) {
+TEST_F(HazardDetectorTest, StereoOutliersAreNotAHazard) {
   auto exact = synthetic::exact_disparity({}, camera_);
   std::mt19937_64 random(5);
   for (int k = 0; k < 400; ++k) exact[random() % exact.size()] += 10.0f;
   EXPECT_EQ(detector_.step(noise_.apply(exact, camera_, 0.2, 0.05), camera_).status, Status::kClear);
 }
 
-// The original reports nothing in point turns and for 30 frames after a replan: here each frame stands by itself.
-TEST_F(HazardDetectorTest, EachFrameStandsByItself) {
+TEST_F(HazardDetectorTest, FramesAreIndependent) {
   synthetic::World rock;
   rock.rocks.push_back({1.6, 0.0, 0.2, 0.25});
   const auto with = noise_.apply(synthetic::exact_disparity(rock, camera_), camera_, 0.2, 0.05);
@@ -215,7 +211,7 @@ TEST_F(HazardDetectorTest, EachFrameStandsByItself) {
   EXPECT_EQ(again.plane.slope_x, first.plane.slope_x);
 }
 
-TEST_F(HazardDetectorTest, ADifferentCameraMakesADifferentTable) {
+TEST_F(HazardDetectorTest, AnotherCameraRebuildsTheTable) {
   StereoCamera steep = camera_;
   steep.T_body_cam.linear() = camera_rotation(to_rad(40.0));
   const auto exact = synthetic::exact_disparity({}, steep);
@@ -225,13 +221,13 @@ TEST_F(HazardDetectorTest, ADifferentCameraMakesADifferentTable) {
   EXPECT_EQ(result.status, Status::kClear);
 }
 
-TEST_F(HazardDetectorTest, TheCalibrationReplacesTheMount) {
-  // The camera stands 2 cm higher and looks 1 deg farther down than its mount says.
+TEST_F(HazardDetectorTest, CalibrationReplacesTheMount) {
+  // The true camera is 0.02 m higher and pitched down by 1 deg more than its nominal mount.
   StereoCamera actual = camera_;
   actual.T_body_cam.translation().z() += 0.02;
   actual.T_body_cam.linear() = camera_rotation(to_rad(34.0));
   HazardConfig config;
-  config.calibration = nominal_calibration(actual, config.ground_below_m);
+  config.calibration = nominal_calibration(actual, config.origin_height_m);
   HazardDetector calibrated(config);
   const HazardResult result =
       calibrated.step(noise_.apply(synthetic::exact_disparity({}, actual), camera_, 0.2, 0.0), camera_);

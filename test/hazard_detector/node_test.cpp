@@ -32,7 +32,7 @@ class HazardNodeTest : public testing::Test {
     world_.hear(channel::kHazards, hazards_);
   }
 
-  void give(const disparity_t& message, Utime utime) {
+  void send_disparity(const disparity_t& message, Utime utime) {
     world_.send(channel::kDisparity, message, utime);
     world_.tick(utime);
   }
@@ -42,10 +42,10 @@ class HazardNodeTest : public testing::Test {
   std::vector<hazards_t> hazards_;
 };
 
-TEST_F(HazardNodeTest, EachDisparityGivesAMapOfItsExposureReleasedAfterTheLatency) {
+TEST_F(HazardNodeTest, PublishesOneMapPerDisparityWithItsExposureTimeAfterTheLatency) {
   synthetic::World world;
   world.rocks = {{1.8, 0.1, 0.2, 0.25}};
-  give(disparity_of(world), 100'000);
+  send_disparity(disparity_of(world), 100'000);
   world_.tick(200'000);
   ASSERT_EQ(hazards_.size(), 1u);
   const hazards_t& h = hazards_[0];
@@ -59,10 +59,10 @@ TEST_F(HazardNodeTest, EachDisparityGivesAMapOfItsExposureReleasedAfterTheLatenc
   EXPECT_EQ(h.cells[static_cast<size_t>(iy * h.cells_x + ix)], +hazards_t::OBSTACLE);
 }
 
-TEST_F(HazardNodeTest, ABlindFrameIsReportedAsBlind) {
+TEST_F(HazardNodeTest, FrameWithoutStereoIsPublishedAsBlind) {
   disparity_t message = disparity_of({});
   std::fill(message.disparity_px16.begin(), message.disparity_px16.end(), +disparity_t::INVALID);
-  give(message, 100'000);
+  send_disparity(message, 100'000);
   world_.tick(200'000);
   ASSERT_EQ(hazards_.size(), 1u);
   EXPECT_EQ(hazards_[0].state, +hazards_t::BLIND);
@@ -70,7 +70,7 @@ TEST_F(HazardNodeTest, ABlindFrameIsReportedAsBlind) {
                           [](int cell) { return cell == hazards_t::UNSEEN; }));
 }
 
-TEST_F(HazardNodeTest, UnusableMessagesAreCountedAndGiveNothing) {
+TEST_F(HazardNodeTest, MalformedDisparitiesAreCountedAndIgnored) {
   std::vector<disparity_t> bad(6, disparity_of({}));
   bad[0].focal_px = kNaN;
   bad[1].baseline_m = 0.0;
@@ -80,11 +80,11 @@ TEST_F(HazardNodeTest, UnusableMessagesAreCountedAndGiveNothing) {
   bad[4].position_body_cam_m[2] = kNaN;
   bad[5].cx_px = kInfinity;
   Utime t = 100'000;
-  for (const disparity_t& message : bad) give(message, t += 100'000);
+  for (const disparity_t& message : bad) send_disparity(message, t += 100'000);
   world_.tick(t + 100'000);
   EXPECT_TRUE(hazards_.empty());
   EXPECT_EQ(world_.malformed(channel::kDisparity), 6);
-  give(disparity_of({}), t + 200'000);
+  send_disparity(disparity_of({}), t + 200'000);
   ASSERT_EQ(hazards_.size(), 1u);
   EXPECT_EQ(hazards_[0].state, +hazards_t::CLEAR);
 }
@@ -102,15 +102,15 @@ class HazardConfigTest : public testing::Test {
   std::filesystem::path dir_;
 };
 
-TEST_F(HazardConfigTest, TheThresholdIsTheVehiclesHazardHeight) {
+TEST_F(HazardConfigTest, ObstacleThresholdIsTheVehicleHazardHeight) {
   const NodeConfig config = load_config(dir_.string());
-  EXPECT_DOUBLE_EQ(config.core.near_m, 0.15);
-  EXPECT_DOUBLE_EQ(config.core.ground_below_m, 0.62);
-  EXPECT_DOUBLE_EQ(config.core.prior.wheel_line_x_m, 0.75);
+  EXPECT_DOUBLE_EQ(config.core.obstacle_height_m, 0.15);
+  EXPECT_DOUBLE_EQ(config.core.origin_height_m, 0.62);
+  EXPECT_DOUBLE_EQ(config.core.prior.front_axle_x_m, 0.75);
   EXPECT_FALSE(config.core.calibration);
 }
 
-TEST_F(HazardConfigTest, TheCalibrationIsReadWhereThereIsOne) {
+TEST_F(HazardConfigTest, CalibrationFileIsReadIfPresent) {
   write(kCalibrationFile, "height_m: 0.70\npitch_deg: 34.0\nroll_deg: -0.5\n");
   const NodeConfig config = load_config(dir_.string());
   ASSERT_TRUE(config.core.calibration);
@@ -119,7 +119,7 @@ TEST_F(HazardConfigTest, TheCalibrationIsReadWhereThereIsOne) {
   EXPECT_THROW(load_config(dir_.string()), ConfigError);
 }
 
-TEST_F(HazardConfigTest, WrongKeysAndRangesStopTheStart) {
+TEST_F(HazardConfigTest, UnknownKeysAndWrongRangesStopTheStart) {
   const std::string sections = "grid: {}\nplane: {}\nrelief: {}\n";
   for (const char* bad : {"limits: {near: 0.1}\ncoverage: {}\n", "limits: {far_m: -1}\ncoverage: {}\n",
                           "limits: {}\ncoverage: {roi_far_m: 0.3}\n", "limits: {}\n"}) {

@@ -1,5 +1,5 @@
-// Stereo-like noise for many frames of one scene: part of it independent, part shared by neighbours as matching blocks
-// make it. Drawn once, then read from a different place each frame.
+// Stereo-like noise for many frames of one scene: an independent part and a part correlated within matching blocks.
+// Samples are drawn once and read at a different offset for each frame.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ class NoiseField {
     for (float& value : normal_) value = normal(random_);
   }
 
-  // `drop`: share of blocks without stereo.
+  // `drop`: fraction of blocks without stereo.
   Disparity apply(const std::vector<float>& exact, const StereoCamera& camera, double sigma_px, double drop) {
     const size_t white = random_() % normal_.size(), shared = random_() % normal_.size(),
                  lost = random_() % normal_.size();
@@ -38,12 +38,12 @@ class NoiseField {
 
  private:
   float at(size_t i) const { return normal_[i & (normal_.size() - 1)]; }
-  // Of the normal distribution, by bisection.
-  static double quantile(double share) {
+  // Quantile of the normal distribution, by bisection.
+  static double quantile(double probability) {
     double low = -5.0, high = 5.0;
     for (int i = 0; i < 40; ++i) {
-      const double middle = 0.5 * (low + high);
-      (0.5 * std::erfc(-middle / std::sqrt(2.0)) < share ? low : high) = middle;
+      const double mid = 0.5 * (low + high);
+      (0.5 * std::erfc(-mid / std::sqrt(2.0)) < probability ? low : high) = mid;
     }
     return low;
   }

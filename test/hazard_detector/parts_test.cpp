@@ -1,9 +1,9 @@
-// The parts of the hazard detector against oracles.
+// Unit tests of the parts of the hazard detector against oracles.
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "hazard_detector/cell_states.hpp"
+#include "hazard_detector/cell_classifier.hpp"
 #include "hazard_detector/disparity_table.hpp"
 #include "hazard_detector/ground_plane.hpp"
 #include "hazard_detector/local_ground.hpp"
@@ -12,7 +12,7 @@
 namespace rover::hazard {
 namespace {
 
-TEST(DisparityTableTest, TableIsTheDisparityOfFlatGround) {
+TEST(DisparityTableTest, TableMatchesTheDisparityOfFlatGround) {
   const StereoCamera camera = synthetic::loccam_camera();
   const DisparityTable table(camera, HazardConfig{});
   const auto exact = synthetic::exact_disparity({}, camera);
@@ -27,7 +27,7 @@ TEST(DisparityTableTest, TableIsTheDisparityOfFlatGround) {
   }
 }
 
-TEST(DisparityTableTest, SamplesAreSpreadOverTheGround) {
+TEST(DisparityTableTest, SamplesAreSpreadEvenlyOverTheGround) {
   const StereoCamera camera = synthetic::loccam_camera();
   const DisparityTable table(camera, HazardConfig{});
   const GridShape shape{GridConfig{}};
@@ -54,7 +54,7 @@ GroundPoints plane_points(double offset, double sx, double sy, std::mt19937_64& 
   return points;
 }
 
-TEST(GroundPlaneTest, FindsAnyPlaneWithinTheBounds) {
+TEST(GroundPlaneTest, FindsPlanesWithinTheBounds) {
   std::mt19937_64 random(3);
   for (double offset : {-0.1, 0.0, 0.1})
     for (double sx : {-0.18, 0.0, 0.18})
@@ -67,7 +67,7 @@ TEST(GroundPlaneTest, FindsAnyPlaneWithinTheBounds) {
       }
 }
 
-TEST(GroundPlaneTest, FortyPercentOfTallCellsDoNotPullIt) {
+TEST(GroundPlaneTest, FortyPercentOutlierCellsDoNotBiasThePlane) {
   std::mt19937_64 random(4);
   GroundPoints points = plane_points(0.0, 0.05, 0.0, random);
   for (size_t i = 0; i < points.size(); ++i)
@@ -77,7 +77,7 @@ TEST(GroundPlaneTest, FortyPercentOfTallCellsDoNotPullIt) {
   EXPECT_NEAR(plane.slope_x, 0.05, 0.02);
 }
 
-TEST(GroundPlaneTest, StaysWithinTheBoundsAndNeedsCells) {
+TEST(GroundPlaneTest, PlaneStaysWithinTheBoundsAndNeedsMinCells) {
   std::mt19937_64 random(5);
   const PlanePrior prior;
   const GroundPlane steep = fit_ground_plane(plane_points(0.4, 0.6, -0.6, random), prior);
@@ -100,51 +100,52 @@ TEST(LocalGroundTest, FollowsASmoothRiseButNotARock) {
       heights[static_cast<size_t>(shape.at(ix, iy))] = static_cast<float>(
           0.08 * std::exp(-(x - 2.5) * (x - 2.5) / 0.8) + (std::hypot(x - 2.0, y) < 0.2 ? 0.25 : 0.0));
     }
-  const LocalGround ground = local_ground(heights, shape, ReliefConfig{}, 0.75);
+  const LocalGround ground = estimate_local_ground(heights, shape, LocalGroundConfig{}, 0.75);
   const size_t rock = static_cast<size_t>(shape.at(15, 20)), crest = static_cast<size_t>(shape.at(20, 35));
   EXPECT_LT(ground.low_m[rock], 0.08f);
   EXPECT_GT(heights[rock] - ground.low_m[rock], 0.2f);
   EXPECT_NEAR(ground.low_m[crest], 0.06f, 0.025f);
 }
 
-TEST(LocalGroundTest, IsNoHigherThanTheLowestCellCloseBy) {
+TEST(LocalGroundTest, IsNotHigherThanTheLowestNeighbourCell) {
   const GridShape shape{GridConfig{}};
   std::mt19937_64 random(9);
   std::uniform_real_distribution<float> height(-0.05f, 0.4f);
   std::vector<float> heights(static_cast<size_t>(shape.size()));
   for (float& h : heights) h = height(random);
-  const ReliefConfig config;
-  const LocalGround ground = local_ground(heights, shape, config, 0.75);
+  const LocalGroundConfig config;
+  const LocalGround ground = estimate_local_ground(heights, shape, config, 0.75);
   for (int iy = 0; iy < shape.cells_y; ++iy)
     for (int ix = 0; ix < shape.cells_x; ++ix) {
       float lowest = 1.0f;
       for (int y = iy - 2; y <= iy + 2; ++y)
         for (int x = ix - 2; x <= ix + 2; ++x)
           if (shape.contains(x, y)) lowest = std::min(lowest, heights[static_cast<size_t>(shape.at(x, y))]);
-      ASSERT_LE(ground.low_m[static_cast<size_t>(shape.at(ix, iy))], lowest + config.step_slack_m + 1e-6);
+      ASSERT_LE(ground.low_m[static_cast<size_t>(shape.at(ix, iy))], lowest + config.step_tolerance_m + 1e-6);
     }
 }
 
-TEST(LocalGroundTest, IsBoundedByTheDistanceFromTheWheels) {
+TEST(LocalGroundTest, DeviationFromThePlaneIsBoundedByTheDistance) {
   const GridShape shape{GridConfig{}};
-  const ReliefConfig config;
+  const LocalGroundConfig config;
   const std::vector<float> plateau(static_cast<size_t>(shape.size()), 0.5f), unseen(plateau.size(), NAN);
-  const LocalGround high = local_ground(plateau, shape, config, 0.75);
+  const LocalGround high = estimate_local_ground(plateau, shape, config, 0.75);
   for (int ix = 0; ix < shape.cells_x; ++ix) {
     const double ahead = std::max(0.0, shape.x_m(ix) + config.node_m - 0.75);
-    EXPECT_LE(high.low_m[static_cast<size_t>(shape.at(ix, 10))], config.bound_m + config.bound_per_m * ahead + 1e-6);
+    EXPECT_LE(high.low_m[static_cast<size_t>(shape.at(ix, 10))],
+              config.max_deviation_m + config.max_deviation_per_m * ahead + 1e-6);
   }
-  for (float height : local_ground(unseen, shape, config, 0.75).low_m) EXPECT_EQ(height, 0.0f);
+  for (float height : estimate_local_ground(unseen, shape, config, 0.75).low_m) EXPECT_EQ(height, 0.0f);
 }
 
-class CellStatesTest : public testing::Test {
+class CellClassifierTest : public testing::Test {
  protected:
-  CellStatesTest() : evidence_(static_cast<size_t>(shape_.size())) {
+  CellClassifierTest() : evidence_(static_cast<size_t>(shape_.size())) {
     for (CellEvidence& e : evidence_) e = {.measured = 25, .expected = 25};
   }
   CellEvidence& at(int ix, int iy) { return evidence_[static_cast<size_t>(shape_.at(ix, iy))]; }
   Cell state(int ix, int iy) const {
-    return cell_states(evidence_, shape_, config_)[static_cast<size_t>(shape_.at(ix, iy))];
+    return classify_cells(evidence_, shape_, config_)[static_cast<size_t>(shape_.at(ix, iy))];
   }
 
   GridShape shape_{GridConfig{}};
@@ -152,28 +153,28 @@ class CellStatesTest : public testing::Test {
   std::vector<CellEvidence> evidence_;
 };
 
-TEST_F(CellStatesTest, FreeNeedsMostOfTheExpectedSamples) {
+TEST_F(CellClassifierTest, FreeNeedsMostOfTheExpectedSamples) {
   for (int ix : {10, 11}) at(ix, 10).measured = 13;
   for (int ix : {20, 21, 22}) at(ix, 10).measured = 12;
   EXPECT_EQ(state(10, 10), Cell::kFree);
   EXPECT_EQ(state(21, 10), Cell::kUnseen);
 }
 
-TEST_F(CellStatesTest, ACellWithoutAnySampleOfItsOwnIsNotFreeByItsNeighbours) {
+TEST_F(CellClassifierTest, CellWithoutOwnSamplesIsNotFreeByItsNeighbours) {
   for (int ix : {10, 11, 12}) at(ix, 10) = {.measured = 0, .expected = 6};
   for (int ix : {20, 21, 22}) at(ix, 10) = {.measured = 1, .expected = 6};
   EXPECT_EQ(state(11, 10), Cell::kUnseen);
   EXPECT_EQ(state(21, 10), Cell::kFree);
 }
 
-TEST_F(CellStatesTest, OnlyASingleGapIsFilled) {
+TEST_F(CellClassifierTest, OnlyASingleGapIsFilled) {
   at(10, 10).measured = 0;
   for (int ix : {20, 21, 22}) at(ix, 10).measured = 0;
   EXPECT_EQ(state(10, 10), Cell::kFree);
   EXPECT_EQ(state(21, 10), Cell::kUnseen);
 }
 
-TEST_F(CellStatesTest, AClusterNeedsEnoughSamplesTogether) {
+TEST_F(CellClassifierTest, HazardClusterNeedsMinSamples) {
   at(10, 10).high = 11;
   EXPECT_NE(state(10, 10), Cell::kObstacle);
   at(11, 11).high = 3;
@@ -183,7 +184,7 @@ TEST_F(CellStatesTest, AClusterNeedsEnoughSamplesTogether) {
   EXPECT_EQ(state(13, 13), Cell::kFree);
 }
 
-TEST_F(CellStatesTest, FlanksBelongToTheRockAndHolesAreTold) {
+TEST_F(CellClassifierTest, ObstacleGrowsOverItsSidesAndHolesAreDetected) {
   at(10, 10).high = 20;
   at(11, 10).raised = 5;
   at(20, 20).low = 20;

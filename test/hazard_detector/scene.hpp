@@ -1,4 +1,4 @@
-// One world seen by the ideal LocCam and judged by a detector, with questions to the resulting map.
+// Test fixture: detects hazards in a synthetic world seen by the ideal LocCam, with queries on the resulting map.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 
 namespace rover::hazard {
 
-// Ground that slopes by the angle (positive: falls away ahead) and passes under the front wheels.
+// Ground sloped by the angles (positive pitch: falls away ahead) that passes under the front wheels.
 inline synthetic::World sloped(double pitch_deg, double roll_deg = 0.0) {
   synthetic::World world;
   world.slope_x = -std::tan(to_rad(pitch_deg));
@@ -22,7 +22,7 @@ inline synthetic::World sloped(double pitch_deg, double roll_deg = 0.0) {
   return world;
 }
 
-// Flat ground under a body that is pitched about its origin.
+// Flat ground under a body pitched about its origin.
 inline synthetic::World under_pitched_body(double pitch_deg) {
   synthetic::World world;
   world.slope_x = -std::tan(to_rad(pitch_deg));
@@ -40,7 +40,7 @@ struct Map {
   }
   int count(Cell state) const { return static_cast<int>(std::count(result.cells.begin(), result.cells.end(), state)); }
   int hazards() const { return count(Cell::kObstacle) + count(Cell::kHole); }
-  // Cells in the state whose centre lies within the distance of a point.
+  // Number of cells with that state whose centre is within distance_m of a point.
   int count_near(Cell state, double x_m, double y_m, double distance_m) const {
     int n = 0;
     for (int iy = 0; iy < shape.cells_y; ++iy)
@@ -53,7 +53,7 @@ struct Map {
 
 class SceneTest : public testing::Test {
  protected:
-  HazardResult judge(const synthetic::World& world, double sigma_px = 0.2, double drop = 0.05) {
+  HazardResult detect(const synthetic::World& world, double sigma_px = 0.2, double drop = 0.05) {
     return detector_.step(noise_.apply(synthetic::exact_disparity(world, camera_), camera_, sigma_px, drop), camera_);
   }
   Map map(const HazardResult& result) const { return {detector_.shape(), result}; }
