@@ -20,7 +20,7 @@ std::vector<std::string> split(const std::string& words) {
 using enum State;
 
 constexpr StateSet kMotion = {kDriving, kHazardStop, kRepairing, kSweeping, kCorrecting, kFaultStop, kTeleop};
-// Nothing is judged before all inputs have once been there.
+// All states but BOOT: no row is evaluated before every input has arrived once.
 constexpr StateSet kAlways = {kStandby, kDriving,     kHazardStop, kRepairing, kSweeping, kCorrecting,
                               kPaused,  kGoalReached, kFaultStop,  kSafe,      kTeleop};
 
@@ -30,8 +30,8 @@ const std::vector<std::string> kResponses = {"log",  "slow",        "stop", "sto
 void read_armed(const Config& c, MonitorRow& row) {
   const std::string armed = c.has("armed") ? c.one_of("armed", {"always", "under_way", "motion", "full", "efficient"})
                                            : std::string("always");
-  const bool ever = armed == "always" || armed == "efficient";
-  row.armed = ever ? kAlways : armed == "motion" ? kMotion : kUnderWayOrFaultStop;
+  const bool always = armed == "always" || armed == "efficient";
+  row.armed = always ? kAlways : armed == "motion" ? kMotion : kUnderWayOrFaultStop;
   if (armed == "full") row.level = Level::kFull;
   if (armed == "efficient") row.level = Level::kEfficient;
 }
@@ -53,8 +53,8 @@ FdirLine read_line(const Config& c, const Vehicle& vehicle) {
   c.read("latched", row.latched);
   const std::string response = c.one_of("response", kResponses);
   row.response = static_cast<Response>(std::find(kResponses.begin(), kResponses.end(), response) - kResponses.begin());
-  if (c.has("back_limit")) row.back_limit = c.number("back_limit", {row.limit, 1e6});
-  if (c.has("back_limit") && row.response != Response::kStopRetreat) c.fail("back_limit", "belongs to stop_retreat");
+  if (c.has("back_limit")) row.backtrack_limit = c.number("back_limit", {row.limit, 1e6});
+  if (c.has("back_limit") && row.response != Response::kStopBacktrack) c.fail("back_limit", "belongs to stop_retreat");
   if (row.response == Response::kSlow) row.slow_mps = c.number("slow_mps", {0.01, vehicle.top_speed_mps});
   const bool of_service =
       quantity->expansion == Expansion::kEachRequired || quantity->expansion == Expansion::kEachFull;
@@ -65,7 +65,7 @@ FdirLine read_line(const Config& c, const Vehicle& vehicle) {
   return line;
 }
 
-// A sensor that the vehicle does not have is not a dead one. Motors have no higher limit here than in vehicle.yaml.
+// Skips IMU rows if the vehicle has no IMU. Motor current limits must not exceed those of vehicle.yaml.
 std::vector<FdirLine> read_lines(const std::string& config_dir, const Vehicle& vehicle) {
   const bool has_imu = Config::load(config_dir + "/vehicle.yaml").has("imu");
   const Config config = Config::load(config_dir + "/fdir.yaml");
@@ -84,37 +84,38 @@ std::vector<FdirLine> read_lines(const std::string& config_dir, const Vehicle& v
   return lines;
 }
 
-// What starts a drive and gives a permit is as old as the rows allow at most; without such a row the default counts.
-void take_age(const std::vector<FdirLine>& lines, const std::string& quantity, double& max_age_s) {
-  double least = kInfinity;
+// Inputs required for a permit must not be older than the stopping rows allow; without such a row the default applies.
+void tighten_max_age(const std::vector<FdirLine>& lines, const std::string& quantity, double& max_age_s) {
+  double min_age_s = kInfinity;
   for (const FdirLine& line : lines)
     if (line.quantity == quantity && line.row.response >= Response::kStop)
-      least = std::min(least, line.row.limit + line.row.persistence_s);
-  if (std::isfinite(least)) max_age_s = least;
+      min_age_s = std::min(min_age_s, line.row.limit + line.row.persistence_s);
+  if (std::isfinite(min_age_s)) max_age_s = min_age_s;
 }
 
-void take_ages(SupervisorConfig& out) {
-  take_age(out.fdir.lines, "pose_age_s", out.pose_max_age_s);
-  take_age(out.fdir.lines, "planner_age_s", out.planner_max_age_s);
-  take_age(out.fdir.lines, "control_age_s", out.control_max_age_s);
-  take_age(out.fdir.lines, "wheel_state_age_s", out.wheels_max_age_s);
-  take_age(out.fdir.lines, "hazards_age_s", out.hazards_max_age_s);
-  take_age(out.fdir.lines, "heartbeat_age_s", out.heartbeat_max_age_s);
+void apply_row_ages(SupervisorConfig& out) {
+  tighten_max_age(out.fdir.lines, "pose_age_s", out.pose_max_age_s);
+  tighten_max_age(out.fdir.lines, "planner_age_s", out.planner_max_age_s);
+  tighten_max_age(out.fdir.lines, "control_age_s", out.control_max_age_s);
+  tighten_max_age(out.fdir.lines, "wheel_state_age_s", out.wheels_max_age_s);
+  tighten_max_age(out.fdir.lines, "hazards_age_s", out.hazards_max_age_s);
+  tighten_max_age(out.fdir.lines, "heartbeat_age_s", out.heartbeat_max_age_s);
 }
 
-// Whatever the row's own response is: without the map the rover stops to sweep.
-void take_terrain_way(SupervisorConfig& out) {
+// Applies whatever the response of the row is: without a recent map the rover stops to sweep.
+void apply_terrain_distance(SupervisorConfig& out) {
   for (const FdirLine& line : out.fdir.lines)
-    if (line.quantity == "terrain_way_m") out.terrain_max_way_m = std::min(out.terrain_max_way_m, line.row.limit);
+    if (line.quantity == "terrain_way_m")
+      out.terrain_max_distance_m = std::min(out.terrain_max_distance_m, line.row.limit);
 }
 
 void read_level(const Config& c, LevelConfig& out) {
   c.read("window_s", out.window_s, {5.0, 3600.0});
   c.read("slow_mps", out.slow_mps, {0.0, 1.0});
   c.read("hazards_per_m", out.hazards_per_m, {0.0, 100.0});
-  c.read("least_hazards", out.least_hazards, {1.0, 1000.0});
+  c.read("least_hazards", out.min_hazards, {1.0, 1000.0});
   c.read("easy_difficulty", out.easy_difficulty, {0.0, 1.0});
-  c.read("easy_way_m", out.easy_way_m, {0.0, 1000.0});
+  c.read("easy_way_m", out.easy_distance_m, {0.0, 1000.0});
   c.read("failing_starts", out.failing_starts, {1.0, 100.0});
   c.read("failing_sweep_s", out.failing_sweep_s, {1.0, 600.0});
 }
@@ -122,18 +123,18 @@ void read_level(const Config& c, LevelConfig& out) {
 void read_sweep(const Config& c, SupervisorConfig& out) {
   c.read("known_ahead", out.terrain_known_ahead, {0.01, 1.0});
   c.read("known_around", out.terrain_known_around, {0.01, 1.0});
-  c.read("patience_s", out.sweep_patience_s, {1.0, 600.0});
+  c.read("patience_s", out.sweep_timeout_s, {1.0, 600.0});
 }
 
 void read_hazard_stop(const Config& c, SupervisorConfig& out) {
   c.read("hazard_m", out.hazard_stop_m, {0.1, 5.0});
   c.read("unseen_m", out.unseen_stop_m, {0.05, 5.0});
   c.read("hysteresis_m", out.stop_hysteresis_m, {0.0, 2.0});
-  c.read("standing_speed_mps", out.standing_speed_mps, {0.001, 0.1});
-  c.read_deg("standing_rate_degps", out.standing_rate_radps, {0.05, 10.0});
+  c.read("standing_speed_mps", out.stationary_speed_mps, {0.001, 0.1});
+  c.read_deg("standing_rate_degps", out.stationary_rate_radps, {0.05, 10.0});
 }
 
-void take_vehicle(const Vehicle& vehicle, SupervisorConfig& out) {
+void apply_vehicle(const Vehicle& vehicle, SupervisorConfig& out) {
   out.max_speed_mps = vehicle.top_speed_mps;
   out.derive.drive_nominal_a = vehicle.drive_current_nominal_a;
   out.derive.steer_nominal_a = vehicle.steer_current_nominal_a;
@@ -145,10 +146,10 @@ void take_vehicle(const Vehicle& vehicle, SupervisorConfig& out) {
 SupervisorConfig load_config(const std::string& config_dir) {
   const Vehicle vehicle = load_vehicle(config_dir);
   SupervisorConfig out;
-  take_vehicle(vehicle, out);
+  apply_vehicle(vehicle, out);
   out.fdir.lines = read_lines(config_dir, vehicle);
-  take_ages(out);
-  take_terrain_way(out);
+  apply_row_ages(out);
+  apply_terrain_distance(out);
   const Config config = Config::load(config_dir + "/supervisor.yaml");
   out.fdir.required_services = split(config.text("required_services"));
   out.fdir.optional_services = split(config.text("optional_services"));
@@ -162,10 +163,10 @@ SupervisorConfig load_config(const std::string& config_dir) {
   read_sweep(config.section("sweep"), out);
   read_level(config.section("level"), out.level);
   const Config restarts = config.section("restarts");
-  restarts.read("patience_s", out.keeper.patience_s, {1.0, 60.0});
-  restarts.read("window_s", out.keeper.window_s, {1.0, 3600.0});
-  out.derive.start_window_s = out.keeper.window_s;
-  config.section("motors").read("thermal_time_s", out.derive.motor_time_s, {1.0, 3600.0});
+  restarts.read("patience_s", out.restarter.retry_interval_s, {1.0, 60.0});
+  restarts.read("window_s", out.restarter.window_s, {1.0, 3600.0});
+  out.derive.start_window_s = out.restarter.window_s;
+  config.section("motors").read("thermal_time_s", out.derive.thermal_time_s, {1.0, 3600.0});
   config.finish();
   return out;
 }

@@ -1,4 +1,4 @@
-// config/supervisor.yaml over the defaults of the core.
+// Reads supervisor.yaml and fdir.yaml; keys that are absent keep the defaults of the core.
 #pragma once
 
 #include <string>

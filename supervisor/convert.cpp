@@ -9,7 +9,7 @@
 namespace rover::supervisor {
 namespace {
 
-// LCM has no value for "none": a quantity without a number goes out as zero, its name is then empty.
+// LCM has no optional values: a missing number is sent as 0 with an empty quantity name.
 double number_or_zero(double value) {
   return std::isnan(value) ? 0.0 : value;
 }
@@ -48,7 +48,7 @@ PlannerReport report_from(const planner_status_t& message) {
   out.state = static_cast<PlannerState>(message.state);
   out.path_id = message.path_id;
   out.blocked_in_m = message.blocked_in_m;
-  // What is not known as unseen ground counts as a hazard, with the longer stopping distance.
+  // Unknown kinds count as hazards, which have the longer stopping distance.
   out.block_kind = message.block_kind == planner_status_t::UNSEEN ? BlockKind::kUnseen : BlockKind::kHazard;
   out.goal_distance_m = message.goal_distance_m;
   out.replans = message.replans;
@@ -73,7 +73,7 @@ SlipReport report_from(const slip_t& message) {
   return {message.header.utime, message.valid == 1, message.slip_ratio};
 }
 
-// As with the IMU: a current or a rate that is no number is a fault of the sensor.
+// A non-finite current or rate is a sensor fault.
 WheelReport report_from(const wheel_state_t& message) {
   const auto finite = [](const auto& values) {
     return std::all_of(std::begin(values), std::end(values), [](double v) { return std::isfinite(v); });
@@ -82,13 +82,13 @@ WheelReport report_from(const wheel_state_t& message) {
   out.utime = message.header.utime;
   out.fault = message.status == wheel_state_t::FAULT || !finite(message.drive_current_a) ||
               !finite(message.steer_current_a) || !finite(message.drive_rate_radps);
-  std::copy_n(message.drive_current_a, 6, out.drive_a.begin());
-  std::copy_n(message.steer_current_a, 4, out.steer_a.begin());
-  std::copy_n(message.drive_rate_radps, 6, out.drive_radps.begin());
+  std::copy_n(message.drive_current_a, 6, out.drive_current_a.begin());
+  std::copy_n(message.steer_current_a, 4, out.steer_current_a.begin());
+  std::copy_n(message.drive_rate_radps, 6, out.drive_rate_radps.begin());
   return out;
 }
 
-// An increment that is no number is a fault of the sensor.
+// A non-finite increment is a sensor fault.
 ImuReport report_from(const imu_t& message) {
   bool finite = std::isfinite(message.fog_delta_yaw_rad);
   for (int i = 0; i < 3; ++i)
@@ -100,9 +100,9 @@ TerrainReport report_from(const traversability_t& message, const Pose2& body_odo
   TerrainReport out;
   out.utime = message.header.utime;
   out.difficulty = message.difficulty;
-  const CostView map{message.cell_m,  message.origin_x_m, message.origin_y_m,       message.cells_x,
-                     message.cells_y, message.cells,      traversability_t::UNKNOWN};
-  out.known = known_shares(map, body_odom);
+  const CostmapView map{message.cell_m,  message.origin_x_m, message.origin_y_m,       message.cells_x,
+                        message.cells_y, message.cells,      traversability_t::UNKNOWN};
+  out.known = known_fractions(map, body_odom);
   return out;
 }
 
@@ -118,9 +118,9 @@ ServiceReport report_from(const heartbeat_t& message) {
   const bool known = message.status >= heartbeat_t::OK && message.status <= heartbeat_t::FAULT;
   out.status = known ? static_cast<ServiceStatus>(message.status) : ServiceStatus::kFault;
   for (const input_health_t& input : message.inputs) {
-    // Ticks have no gaps to be seen (a step of the clock is a row of its own): counted, they would only hide the loss.
+    // Ticks have no detectable gaps (clock_step covers them); counting them would dilute the loss ratio.
     if (input.channel != channel::kTick) out.received += input.received;
-    out.lost += input.gaps + input.malformed;  // what came late was a gap before, what came twice is not lost
+    out.lost += input.gaps + input.malformed;  // late messages already counted as gaps; duplicates are not losses
   }
   return out;
 }
@@ -129,7 +129,7 @@ PathLevels levels_from(const path_t& message) {
   PathLevels out;
   const size_t count = std::min({message.x_m.size(), message.y_m.size(), message.level.size()});
   out.path_id = message.path_id;
-  out.backwards = message.kind == path_t::RETREAT;
+  out.reverse = message.kind == path_t::RETREAT;
   double s_m = 0.0;
   for (size_t i = 0; i < count; ++i) {
     if (i > 0) s_m += std::hypot(message.x_m[i] - message.x_m[i - 1], message.y_m[i] - message.y_m[i - 1]);
@@ -165,7 +165,7 @@ fault_t message_of(const FaultChange& change) {
   out.value = change.value;
   out.limit = change.limit;
   out.visible_utime = change.visible_utime;
-  out.standing = change.standing ? 1 : 0;
+  out.standing = change.active ? 1 : 0;
   out.first = change.first ? 1 : 0;
   return out;
 }

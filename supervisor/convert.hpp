@@ -1,4 +1,4 @@
-// Between messages and the core's types.
+// Conversion between LCM messages and the types of the core.
 #pragma once
 
 #include <rover/control_status_t.hpp>
@@ -28,7 +28,7 @@ ControlReport report_from(const control_status_t& message);
 SlipReport report_from(const slip_t& message);
 WheelReport report_from(const wheel_state_t& message);
 ImuReport report_from(const imu_t& message);
-// `body_odom`: the newest pose in odom.
+// `body_odom`: newest body pose in the odom frame.
 TerrainReport report_from(const traversability_t& message, const Pose2& body_odom);
 SlamReport report_from(const slam_pose_t& message);
 ServiceReport report_from(const heartbeat_t& message);
@@ -37,7 +37,7 @@ GroundCommand command_from(const ground_command_t& message);
 
 drive_permit_t message_of(const Permit& permit);
 fault_t message_of(const FaultChange& change);
-// `change`: the one that led to the state.
+// `change`: the transition that led to the state.
 supervisor_state_t state_message(const StateChange& change, Utime since, int hazard_stops,
                                  const std::vector<std::string>& faults);
 

@@ -41,94 +41,88 @@ void Fdir::add(const FdirLine& line, const Quantity* quantity, const std::string
   MonitorRow row = line.row;
   row.id += suffix;
   row.quantity = line.quantity;
-  watches_.push_back({Monitor(row), quantity, subject});
+  entries_.push_back({Monitor(row), quantity, subject});
 }
 
-Reading Fdir::read(const Watch& watch, const Now& now) {
-  const MonitorRow& row = watch.monitor.row();
-  const bool relaxed = row.response == Response::kStopRetreat && now.way_back;
-  if (relaxed && std::isfinite(row.back_limit)) {
-    Reading out = watch.quantity->read(now, watch.subject, row.back_limit);
-    out.limit = row.back_limit;
+Reading Fdir::read(const Entry& entry, const MonitorContext& context) {
+  const MonitorRow& row = entry.monitor.row();
+  const bool relaxed = row.response == Response::kStopBacktrack && context.backtracking;
+  if (relaxed && std::isfinite(row.backtrack_limit)) {
+    Reading out = entry.quantity->read(context, entry.subject, row.backtrack_limit);
+    out.limit = row.backtrack_limit;
     return out;
   }
-  Reading out = watch.quantity->read(now, watch.subject, row.limit);
-  // What is not known or not a number is no better on the way back.
+  Reading out = entry.quantity->read(context, entry.subject, row.limit);
+  // Stale and invalid readings are not relaxed.
   if (relaxed && out.condition == Condition::kTrue) out.condition = Condition::kFalse;
   return out;
 }
 
-std::vector<FaultChange> Fdir::step(const Now& now, State state, Level level) {
+std::vector<FaultChange> Fdir::step(const MonitorContext& context, State state, Level level) {
   std::vector<FaultChange> changes;
-  for (Watch& watch : watches_) {
-    const MonitorRow& row = watch.monitor.row();
+  for (Entry& entry : entries_) {
+    const MonitorRow& row = entry.monitor.row();
     const bool armed = row.armed.has(state) && row.level.value_or(level) == level;
-    if (watch.monitor.step(now.utime, armed, read(watch, now))) changes.push_back(record(watch));
+    if (entry.monitor.step(context.utime, armed, read(entry, context))) changes.push_back(record(entry));
   }
   return changes;
 }
 
-FaultChange Fdir::change_of(const Watch& watch) const {
-  const Monitor& m = watch.monitor;
-  const bool first = !standing_.empty() && standing_.front() == m.row().id;
-  return {m.row().id,
-          m.reading().condition,
-          m.row().response,
-          m.reading().value,
-          m.limit(),
-          m.visible_utime(),
-          m.standing(),
-          first,
-          watch.subject.service};
+FaultChange Fdir::change_of(const Entry& entry) const {
+  const Monitor& m = entry.monitor;
+  const bool first = !active_.empty() && active_.front() == m.row().id;
+  return {
+      m.row().id, m.reading().condition, m.row().response, m.reading().value, m.limit(), m.visible_utime(), m.active(),
+      first,      entry.subject.service};
 }
 
-FaultChange Fdir::record(const Watch& watch) {
-  const std::string& id = watch.monitor.row().id;
-  const bool first = !standing_.empty() && standing_.front() == id;
-  if (watch.monitor.standing()) {
-    standing_.push_back(id);
-    return change_of(watch);
+FaultChange Fdir::record(const Entry& entry) {
+  const std::string& id = entry.monitor.row().id;
+  const bool first = !active_.empty() && active_.front() == id;
+  if (entry.monitor.active()) {
+    active_.push_back(id);
+    return change_of(entry);
   }
-  std::erase(standing_, id);
-  FaultChange change = change_of(watch);
+  std::erase(active_, id);
+  FaultChange change = change_of(entry);
   change.first = first;
   return change;
 }
 
-const Fdir::Watch* Fdir::find(const std::string& id) const {
+const Fdir::Entry* Fdir::find(const std::string& id) const {
   const auto it =
-      std::find_if(watches_.begin(), watches_.end(), [&](const Watch& w) { return w.monitor.row().id == id; });
-  return it == watches_.end() ? nullptr : &*it;
+      std::find_if(entries_.begin(), entries_.end(), [&](const Entry& w) { return w.monitor.row().id == id; });
+  return it == entries_.end() ? nullptr : &*it;
 }
 
-Fdir::Cleared Fdir::clear(const std::string& id, const Now& now) {
-  for (Watch& watch : watches_) {
-    if (watch.monitor.row().id != id || !watch.monitor.standing()) continue;
-    const Reading reading = read(watch, now);
-    if (!watch.monitor.unlatch(reading)) return {{}, "the condition still holds"};
-    return {{record(watch)}, ""};
+Fdir::Cleared Fdir::clear(const std::string& id, const MonitorContext& context) {
+  for (Entry& entry : entries_) {
+    if (entry.monitor.row().id != id || !entry.monitor.active()) continue;
+    const Reading reading = read(entry, context);
+    if (!entry.monitor.unlatch(reading)) return {{}, "the condition still holds"};
+    return {{record(entry)}, ""};
   }
   return {{}, "no such fault stands"};
 }
 
 void Fdir::restore(const std::vector<std::string>& ids) {
   for (const std::string& id : ids)
-    for (Watch& watch : watches_) {
-      if (watch.monitor.row().id != id || watch.monitor.standing()) continue;
-      watch.monitor.restore_standing();
-      standing_.push_back(id);
+    for (Entry& entry : entries_) {
+      if (entry.monitor.row().id != id || entry.monitor.active()) continue;
+      entry.monitor.restore_active();
+      active_.push_back(id);
     }
 }
 
 std::vector<FaultChange> Fdir::report() const {
   std::vector<FaultChange> changes;
-  for (const std::string& id : standing_) changes.push_back(change_of(*find(id)));
+  for (const std::string& id : active_) changes.push_back(change_of(*find(id)));
   return changes;
 }
 
 template <class Fits>
-const Monitor* Fdir::first_standing(Fits fits) const {
-  for (const std::string& id : standing_) {
+const Monitor* Fdir::first_active(Fits fits) const {
+  for (const std::string& id : active_) {
     const Monitor& monitor = find(id)->monitor;
     if (fits(monitor)) return &monitor;
   }
@@ -136,31 +130,31 @@ const Monitor* Fdir::first_standing(Fits fits) const {
 }
 
 const Monitor* Fdir::first_blocking() const {
-  return first_standing([](const Monitor& m) { return m.blocks(); });
+  return first_active([](const Monitor& m) { return m.blocks_motion(); });
 }
 
 const Monitor* Fdir::first_safe() const {
-  return first_standing([](const Monitor& m) { return m.row().response == Response::kSafe; });
+  return first_active([](const Monitor& m) { return m.row().response == Response::kSafe; });
 }
 
-std::vector<std::string> Fdir::ailing_services() const {
+std::vector<std::string> Fdir::services_to_restart() const {
   std::vector<std::string> services;
-  for (const std::string& id : standing_) {
-    const Watch& watch = *find(id);
-    const bool bad = watch.monitor.reading().condition != Condition::kFalse;
-    if (bad && watch.monitor.row().response == Response::kRestartService) services.push_back(watch.subject.service);
+  for (const std::string& id : active_) {
+    const Entry& entry = *find(id);
+    const bool bad = entry.monitor.reading().condition != Condition::kFalse;
+    if (bad && entry.monitor.row().response == Response::kRestartService) services.push_back(entry.subject.service);
   }
   return services;
 }
 
-bool Fdir::wants_retreat() const {
-  return first_standing([](const Monitor& m) { return m.row().response == Response::kStopRetreat; }) != nullptr;
+bool Fdir::backtrack_requested() const {
+  return first_active([](const Monitor& m) { return m.row().response == Response::kStopBacktrack; }) != nullptr;
 }
 
 double Fdir::speed_limit_mps() const {
-  double least = kInfinity;
-  for (const std::string& id : standing_) least = std::min(least, find(id)->monitor.row().slow_mps);
-  return least;
+  double min_mps = kInfinity;
+  for (const std::string& id : active_) min_mps = std::min(min_mps, find(id)->monitor.row().slow_mps);
+  return min_mps;
 }
 
 }  // namespace rover::supervisor

@@ -1,4 +1,4 @@
-// Fault detection, isolation and recovery: the rows of config/fdir.yaml, each standing for itself, several at once.
+// Fault detection, isolation and recovery (FDIR): independent monitors built from config/fdir.yaml.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace rover::supervisor {
 
-// One line of the table; a line about motors or services becomes a row for each.
+// One line of the table; lines about motors or services expand to one monitor each.
 struct FdirLine {
   MonitorRow row;
   std::string quantity;
@@ -17,7 +17,7 @@ struct FdirLine {
 
 struct FdirConfig {
   std::vector<FdirLine> lines;
-  std::vector<std::string> required_services;  // without one of them the rover stands
+  std::vector<std::string> required_services;  // the rover stops if one of them is missing
   std::vector<std::string> optional_services;
   std::vector<std::string> full_services;  // required at the Full level
 };
@@ -29,58 +29,58 @@ struct FaultChange {
   double value = kNaN;
   double limit = kNaN;
   Utime visible_utime = kNever;
-  bool standing = false;
+  bool active = false;
   bool first = false;
-  std::string service;  // whom the row is about
+  std::string service;  // affected service, empty if none
 };
 
 class Fdir {
  public:
-  // Every quantity has to be known (checked).
+  // All quantities must be known (checked).
   explicit Fdir(const FdirConfig& config);
 
-  // Raised and cleared, in the table's order.
-  std::vector<FaultChange> step(const Now& now, State state, Level level);
-  // By ground command: the row's change, or why it was not cleared.
+  // Returns raised and cleared faults in table order.
+  std::vector<FaultChange> step(const MonitorContext& context, State state, Level level);
+  // Ground command CLEAR_FAULT: the change, or the reason why it was refused.
   struct Cleared {
     std::vector<FaultChange> change;
-    std::string refusal;
+    std::string refusal_reason;
   };
-  Cleared clear(const std::string& id, const Now& now);
-  // Those that stood before a restart of the supervisor. Names that the table does not know are left out.
+  Cleared clear(const std::string& id, const MonitorContext& context);
+  // Restores faults that were active before a restart; unknown ids are ignored.
   void restore(const std::vector<std::string>& ids);
 
-  // Ids in the order in which they were raised.
-  const std::vector<std::string>& standing() const { return standing_; }
-  // The standing rows as they were raised, for those who missed it.
+  // Ids of active faults in the order of raising.
+  const std::vector<std::string>& active() const { return active_; }
+  // Active faults as change records, for periodic publication.
   std::vector<FaultChange> report() const;
-  // Whether a row stands whose remedy is a way back.
-  bool wants_retreat() const;
-  // The first of those standing that stops the rover (for good); null: none.
+  // True if an active fault has the response stop_retreat.
+  bool backtrack_requested() const;
+  // First active fault that stops the rover, or that leads to SAFE; null if none.
   const Monitor* first_blocking() const;
   const Monitor* first_safe() const;
-  // The most that the standing rows let the rover drive; infinity: none slows it.
+  // Lowest slow_mps of the active faults; infinity if none.
   double speed_limit_mps() const;
-  // Whom standing rows want to be started anew.
-  std::vector<std::string> ailing_services() const;
+  // Services with an active restart_service fault.
+  std::vector<std::string> services_to_restart() const;
 
  private:
-  struct Watch {
+  struct Entry {
     Monitor monitor;
     const Quantity* quantity;
     Subject subject;
   };
   void add(const FdirLine& line, const Quantity* quantity, const std::string& suffix, const Subject& subject);
   void expand(const FdirLine& line, const FdirConfig& config);
-  const Watch* find(const std::string& id) const;
-  static Reading read(const Watch& watch, const Now& now);
-  FaultChange record(const Watch& watch);
-  FaultChange change_of(const Watch& watch) const;
+  const Entry* find(const std::string& id) const;
+  static Reading read(const Entry& entry, const MonitorContext& context);
+  FaultChange record(const Entry& entry);
+  FaultChange change_of(const Entry& entry) const;
   template <class Fits>
-  const Monitor* first_standing(Fits fits) const;
+  const Monitor* first_active(Fits fits) const;
 
-  std::vector<Watch> watches_;
-  std::vector<std::string> standing_;
+  std::vector<Entry> entries_;
+  std::vector<std::string> active_;
 };
 
 }  // namespace rover::supervisor

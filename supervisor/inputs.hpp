@@ -1,4 +1,4 @@
-// What the supervisor uses of the messages: the newest of each stream, with the time of its measurement.
+// Newest data of each input stream with its measurement time, reduced to what the supervisor needs.
 #pragma once
 
 #include <array>
@@ -14,21 +14,21 @@ namespace rover::supervisor {
 
 struct PoseReport {
   Utime utime = kNever;
-  bool usable = false;  // status tells of a position, all numbers finite
+  bool usable = false;  // status OK or DEGRADED, all numbers finite
   double speed_mps = kNaN;
   double turn_rate_radps = kNaN;
   double roll_rad = 0.0;
   double pitch_rad = 0.0;
-  double tilt_rate_radps = 0.0;  // about the body's x and y
-  double sigma_m = 0.0;          // of the horizontal position, larger axis
+  double tilt_rate_radps = 0.0;  // about body x and y
+  double sigma_m = 0.0;          // horizontal position, larger axis
   double travelled_m = 0.0;
-  Utime vo_utime = kNever;  // newest visual odometry in it
+  Utime vo_utime = kNever;  // newest visual odometry used in the pose
 };
 
 struct HazardsReport {
   Utime utime = kNever;
   bool blind = true;
-  double coverage = 1.0;  // of the region of interest, by valid stereo
+  double coverage = 1.0;  // fraction of the region of interest with valid stereo
 };
 
 enum class PlannerState : std::int8_t { kIdle = 0, kFollowing = 1, kRepairing = 2, kNoPath = 3 };
@@ -48,7 +48,7 @@ struct ControlReport {
   Utime utime = kNever;
   bool path_end = false;
   bool out_of_corridor = false;
-  bool stale_pose = false;  // nothing is predicted from it
+  bool stale_pose = false;  // no valid prediction
   std::int64_t path_id = -1;
   double cross_track_m = kNaN;
   double corridor_half_width_m = kNaN;
@@ -64,10 +64,10 @@ struct SlipReport {
 
 struct WheelReport {
   Utime utime = kNever;
-  bool fault = false;               // by the driver's own word
-  std::array<double, 6> drive_a{};  // FL FR ML MR RL RR
-  std::array<double, 4> steer_a{};  // FL FR RL RR
-  std::array<double, 6> drive_radps{};
+  bool fault = false;                       // reported by the driver, or non-finite values
+  std::array<double, 6> drive_current_a{};  // FL FR ML MR RL RR
+  std::array<double, 4> steer_current_a{};  // FL FR RL RR
+  std::array<double, 6> drive_rate_radps{};
 };
 
 struct ImuReport {
@@ -75,12 +75,12 @@ struct ImuReport {
   bool fault = false;
 };
 
-// Of the Full level: cost map and what it says of the ground ahead.
+// Full level: summary of the costmap.
 struct TerrainReport {
   Utime utime = kNever;
   double difficulty = kNaN;  // 0 easy .. 1 hard
-  KnownShares known;
-  double travelled_m = 0.0;  // where it came
+  KnownFractions known;
+  double travelled_m = 0.0;  // odometer when it arrived
 };
 
 struct SlamReport {
@@ -95,14 +95,14 @@ struct ServiceReport {
   std::int64_t boot_id = 0;
   int pid = 0;
   ServiceStatus status = ServiceStatus::kOk;
-  std::int64_t received = 0;  // messages taken, over all inputs
+  std::int64_t received = 0;  // received messages over all inputs
   std::int64_t lost = 0;      // gaps, malformed
 };
 
 struct Inputs {
   PoseReport pose;
   HazardsReport hazards;
-  int blind_in_a_row = 0;
+  int consecutive_blind_frames = 0;
   PlannerReport planner;
   ControlReport control;
   SlipReport slip;

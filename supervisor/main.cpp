@@ -8,7 +8,7 @@
 
 int main(int argc, char** argv) {
   if (argc == 2 && std::string(argv[1]) == "--drawing") {
-    std::printf("%s", rover::supervisor::drawing().c_str());
+    std::printf("%s", rover::supervisor::to_graphviz().c_str());
     return 0;
   }
   return rover::node_main(argc, argv, "supervisor", [](const rover::NodeContext& context) {

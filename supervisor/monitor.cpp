@@ -16,15 +16,15 @@ bool Monitor::step(Utime now, bool armed, const Reading& reading) {
   reading_ = reading;
   if (!armed) {
     history_ = 0;
-    bad_since_ = good_since_ = judged_utime_ = kNever;
-    return set(false);
+    bad_since_ = good_since_ = last_data_utime_ = kNever;
+    return set_active(false);
   }
   const bool bad = reading.condition != Condition::kFalse;
-  if (reading.data_utime != judged_utime_ || reading.condition == Condition::kStale) remember(bad);
-  judged_utime_ = reading.data_utime;
+  if (reading.data_utime != last_data_utime_ || reading.condition == Condition::kStale) push_history(bad);
+  last_data_utime_ = reading.data_utime;
   if (!bad) {
     if (good_since_ == kNever) good_since_ = now;
-    if (standing_) return !row_.latched && now - good_since_ >= to_utime(row_.clear_s) && set(false);
+    if (active_) return !row_.latched && now - good_since_ >= to_utime(row_.clear_s) && set_active(false);
   } else {
     good_since_ = kNever;
   }
@@ -33,12 +33,12 @@ bool Monitor::step(Utime now, bool armed, const Reading& reading) {
     return false;
   }
   if (bad_since_ == kNever) bad_since_ = now;
-  if (standing_ || !bad || now - bad_since_ < to_utime(row_.persistence_s)) return false;
+  if (active_ || !bad || now - bad_since_ < to_utime(row_.persistence_s)) return false;
   visible_utime_ = reading.condition == Condition::kStale ? now : reading.data_utime;
-  return set(true);
+  return set_active(true);
 }
 
-void Monitor::remember(bool bad) {
+void Monitor::push_history(bool bad) {
   const std::uint64_t mask = row_.m == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << row_.m) - 1;
   history_ = ((history_ << 1) | static_cast<std::uint64_t>(bad)) & mask;
 }
@@ -46,15 +46,15 @@ void Monitor::remember(bool bad) {
 bool Monitor::unlatch(const Reading& reading) {
   reading_ = reading;
   if (reading_.condition != Condition::kFalse) return false;
-  standing_ = false;
+  active_ = false;
   history_ = 0;
   bad_since_ = kNever;
   return true;
 }
 
-bool Monitor::set(bool standing) {
-  const bool changed = standing_ != standing;
-  standing_ = standing;
+bool Monitor::set_active(bool active) {
+  const bool changed = active_ != active;
+  active_ = active;
   return changed;
 }
 

@@ -7,13 +7,13 @@
 #include "common/bus/convert.hpp"
 #include "common/bus/s6_client.hpp"
 #include "supervisor/convert.hpp"
-#include "supervisor/memory_codec.hpp"
+#include "supervisor/persistent_state_codec.hpp"
 
 namespace rover::supervisor {
 namespace {
 
 constexpr Utime kStatePeriodUs = 100'000;
-constexpr Utime kFaultPeriodUs = 1'000'000;  // of those that stand: for who missed how they were raised
+constexpr Utime kFaultPeriodUs = 1'000'000;  // repetition of active faults, for late subscribers
 
 std::string text_of(const StateChange& change) {
   std::ostringstream out;
@@ -31,7 +31,7 @@ std::string text_of(const StateChange& change) {
 
 std::string text_of(const FaultChange& change) {
   std::ostringstream out;
-  out << (change.standing ? "FAULT_RAISED" : "FAULT_CLEARED") << " id=" << change.id << " value=" << change.value
+  out << (change.active ? "FAULT_RAISED" : "FAULT_CLEARED") << " id=" << change.id << " value=" << change.value
       << " limit=" << change.limit << " condition=" << static_cast<int>(change.condition);
   return out.str();
 }
@@ -43,12 +43,12 @@ std::string text_of(const CommandAnswer& answer) {
 }  // namespace
 
 SupervisorNode::SupervisorNode(Node& node, const SupervisorConfig& config, Kill kill)
-    : node_(node), kept_(node), kill_(std::move(kill)), supervisor_(config) {
+    : node_(node), checkpoint_(node), kill_(std::move(kill)), supervisor_(config) {
   restore();
   subscribe();
   subscribe_vehicle();
   node_.on_step([this](Utime now) { step(now); });
-  node_.on_silence([this] { withdraw(); });
+  node_.on_silence([this] { withdraw_permit(); });
 }
 
 void SupervisorNode::subscribe() {
@@ -72,7 +72,7 @@ void SupervisorNode::subscribe() {
   node_.subscribe<slam_pose_t>(channel::kSlamPose,
                                [this](const slam_pose_t& m) { supervisor_.on_slam(report_from(m)); });
   node_.subscribe<ground_command_t>(channel::kGroundCommand, [this](const ground_command_t& m) {
-    // Localization takes the start pose, and answers for it.
+    // Localization handles and acknowledges SET_START_POSE.
     if (m.kind != ground_command_t::SET_START_POSE) supervisor_.on_command(command_from(m));
   });
 }
@@ -87,7 +87,7 @@ void SupervisorNode::subscribe_vehicle() {
 }
 
 void SupervisorNode::step(Utime now) {
-  kept_.tell();
+  checkpoint_.tell();
   const SupervisorOutput output = supervisor_.step(now);
   drive_permit_t permit = message_of(output.permit);
   node_.publish(channel::kDrivePermit, permit, now);
@@ -98,7 +98,7 @@ void SupervisorNode::step(Utime now) {
   save();
 }
 
-void SupervisorNode::withdraw() {
+void SupervisorNode::withdraw_permit() {
   drive_permit_t permit = message_of(Permit{false, 0.0, node_.now(), "no ticks"});
   node_.publish(channel::kDrivePermit, permit, node_.now());
 }
@@ -117,10 +117,10 @@ void SupervisorNode::publish_answers(const std::vector<CommandAnswer>& answers, 
 void SupervisorNode::publish_faults(const SupervisorOutput& output, Utime now) {
   for (const FaultChange& change : output.faults) {
     publish_fault(change, now);
-    node_.log(change.standing ? "WARN" : "INFO", text_of(change));
+    node_.log(change.active ? "WARN" : "INFO", text_of(change));
   }
   if (output.faults.empty() && now % kFaultPeriodUs == 0)
-    for (const FaultChange& standing : supervisor_.standing_report()) publish_fault(standing, now);
+    for (const FaultChange& active : supervisor_.active_report()) publish_fault(active, now);
 }
 
 void SupervisorNode::publish_fault(const FaultChange& change, Utime now) {
@@ -138,31 +138,31 @@ void SupervisorNode::publish_states(const SupervisorOutput& output, Utime now) {
 
 void SupervisorNode::publish_state(const StateChange& change, Utime now) {
   supervisor_state_t message =
-      state_message(change, supervisor_.since(), supervisor_.hazard_stops(), supervisor_.standing_faults());
+      state_message(change, supervisor_.since(), supervisor_.hazard_stops(), supervisor_.active_faults());
   node_.publish(channel::kState, message, now);
 }
 
-// A process that is gone is started anew by s6 without a word from here.
+// s6 restarts crashed processes by itself; only a running (hung) one must be killed.
 void SupervisorNode::restart(const std::string& service) {
-  const bool hangs = process_alive(pids_[service]);
-  const bool killed = hangs && kill_(service);
-  node_.log("WARN", "RESTART service=" + service + " why=" + (hangs ? "hang" : "crash") +
-                        (hangs && !killed ? " not possible" : ""));
+  const bool running = process_alive(pids_[service]);
+  const bool killed = running && kill_(service);
+  node_.log("WARN", "RESTART service=" + service + " why=" + (running ? "hang" : "crash") +
+                        (running && !killed ? " not possible" : ""));
 }
 
 void SupervisorNode::restore() {
-  kept_.restore([this](const KeptState::Bytes& bytes) {
-    const auto memory = memory_from(bytes);
-    if (memory) supervisor_.restore(*memory);
-    return memory.has_value();
+  checkpoint_.restore([this](const KeptState::Bytes& bytes) {
+    const auto persistent_state = persistent_state_from(bytes);
+    if (persistent_state) supervisor_.restore(*persistent_state);
+    return persistent_state.has_value();
   });
 }
 
 void SupervisorNode::save() {
-  const Memory memory = supervisor_.memory();
-  if (memory == saved_) return;
-  if (kept_.save(bytes_of(memory)))
-    saved_ = memory;
+  const PersistentState persistent_state = supervisor_.persistent_state();
+  if (persistent_state == saved_) return;
+  if (checkpoint_.save(bytes_of(persistent_state)))
+    saved_ = persistent_state;
   else
     node_.set_status(heartbeat_t::DEGRADED, "checkpoint not written");
 }

@@ -1,4 +1,4 @@
-// The supervisor on the bus: reads every stream's state, grants DRIVE_PERMIT each tick, answers the ground.
+// LCM node: subscribes to all monitored streams, publishes DRIVE_PERMIT each tick, states, faults and acknowledgements.
 #pragma once
 
 #include <functional>
@@ -12,7 +12,7 @@ namespace rover::supervisor {
 
 class SupervisorNode {
  public:
-  // Kills the service, so that it starts anew; false where that is not possible.
+  // Kills a service so that s6 restarts it; returns false on failure.
   using Kill = std::function<bool(const std::string& service)>;
   SupervisorNode(Node& node, const SupervisorConfig& config, Kill kill);
 
@@ -20,7 +20,7 @@ class SupervisorNode {
   void subscribe();
   void subscribe_vehicle();
   void step(Utime now);
-  void withdraw();
+  void withdraw_permit();
   void restore();
   void save();
   void publish_answers(const std::vector<CommandAnswer>& answers, Utime now);
@@ -31,11 +31,11 @@ class SupervisorNode {
   void restart(const std::string& service);
 
   Node& node_;
-  KeptState kept_;
+  KeptState checkpoint_;
   Kill kill_;
-  Pose2 body_odom_{};  // newest
+  Pose2 body_odom_{};  // newest pose
   Supervisor supervisor_;
-  Memory saved_;
+  PersistentState saved_;
   std::map<std::string, int> pids_;
 };
 

@@ -1,4 +1,4 @@
-// What the supervisor takes of a path: the level that it asks for along its way, and whether it is driven backwards.
+// Autonomy level along a path, and whether the path is driven in reverse.
 #pragma once
 
 #include <cstdint>
@@ -10,14 +10,14 @@ namespace rover::supervisor {
 
 struct PathLevels {
   std::int64_t path_id = -1;
-  std::vector<double> s_m;   // of each point, from the path's start, growing
-  std::vector<Level> level;  // from that point on
-  bool backwards = false;    // a way back, or a leg of a manoeuvre
+  std::vector<double> s_m;   // arc length of each point, increasing
+  std::vector<Level> level;  // level from that point on
+  bool reverse = false;      // backtracking, or a reverse segment of a manoeuvre
 
-  // Efficient where nothing is known.
-  Level at(double s_m_wanted) const {
+  // Efficient if unknown.
+  Level at(double query_s_m) const {
     Level found = Level::kEfficient;
-    for (size_t i = 0; i < s_m.size() && s_m[i] <= s_m_wanted; ++i) found = level[i];
+    for (size_t i = 0; i < s_m.size() && s_m[i] <= query_s_m; ++i) found = level[i];
     return found;
   }
 };

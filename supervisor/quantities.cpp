@@ -6,175 +6,177 @@
 namespace rover::supervisor {
 namespace {
 
-// The prediction errs to the safe side in tight repairs while the rover is on its path; from this share of the corridor
-// on it is believed.
-constexpr double kPredictionFrom = 0.4;
+// The prediction is pessimistic in tight repairs, so it counts only if the cross track exceeds this share of the
+// corridor half width.
+constexpr double kPredictionMinShare = 0.4;
 
 template <auto Report>
-Reading age(const Now& now, const Subject&, double limit) {
-  return age_reading((now.in.*Report).utime, now.utime, limit);
+Reading age(const MonitorContext& context, const Subject&, double limit) {
+  return age_reading((context.inputs.*Report).utime, context.utime, limit);
 }
 
-Reading vo_age(const Now& now, const Subject&, double limit) {
-  return age_reading(now.in.pose.vo_utime, now.utime, limit);
+Reading vo_age(const MonitorContext& context, const Subject&, double limit) {
+  return age_reading(context.inputs.pose.vo_utime, context.utime, limit);
 }
 
-Reading motion_command_age(const Now& now, const Subject&, double limit) {
-  return age_reading(now.in.motion_command_utime, now.utime, limit);
+Reading motion_command_age(const MonitorContext& context, const Subject&, double limit) {
+  return age_reading(context.inputs.motion_command_utime, context.utime, limit);
 }
 
-Reading pose_lost(const Now& now, const Subject&, double) {
-  return flag_reading(!now.in.pose.usable, now.in.pose.utime, now.utime);
-}
-
-template <auto Value>
-Reading pose_above(const Now& now, const Subject&, double limit) {
-  return above_reading(std::abs(now.in.pose.*Value), limit, now.in.pose.utime, now.utime);
+Reading pose_lost(const MonitorContext& context, const Subject&, double) {
+  return flag_reading(!context.inputs.pose.usable, context.inputs.pose.utime, context.utime);
 }
 
 template <auto Value>
-Reading pose_above_deg(const Now& now, const Subject&, double limit) {
-  return above_reading(to_deg(std::abs(now.in.pose.*Value)), limit, now.in.pose.utime, now.utime);
+Reading pose_above(const MonitorContext& context, const Subject&, double limit) {
+  return above_reading(std::abs(context.inputs.pose.*Value), limit, context.inputs.pose.utime, context.utime);
 }
 
-Reading blind_frames(const Now& now, const Subject&, double limit) {
-  return above_reading(now.in.blind_in_a_row, limit, now.in.hazards.utime, now.utime);
+template <auto Value>
+Reading pose_above_deg(const MonitorContext& context, const Subject&, double limit) {
+  return above_reading(to_deg(std::abs(context.inputs.pose.*Value)), limit, context.inputs.pose.utime, context.utime);
 }
 
-Reading stereo_coverage(const Now& now, const Subject&, double limit) {
-  return below_reading(now.in.hazards.coverage, limit, now.in.hazards.utime, now.utime);
+Reading blind_frames(const MonitorContext& context, const Subject&, double limit) {
+  return above_reading(context.inputs.consecutive_blind_frames, limit, context.inputs.hazards.utime, context.utime);
 }
 
-// The map comes with the way, not with time: what ages it is ground that was driven since. A rover that sweeps is about
-// to have a new one.
-Reading terrain_way(const Now& now, const Subject&, double limit) {
-  if (now.sweep_s > 0.0) return flag_reading(false, now.utime, now.utime);
-  if (now.in.terrain.utime < 0) return age_reading(kNever, now.utime, limit);
-  const double way = std::abs(now.in.pose.travelled_m - now.in.terrain.travelled_m);
-  return above_reading(way, limit, now.in.pose.utime, now.utime);
+Reading stereo_coverage(const MonitorContext& context, const Subject&, double limit) {
+  return below_reading(context.inputs.hazards.coverage, limit, context.inputs.hazards.utime, context.utime);
 }
 
-Reading sweep_time(const Now& now, const Subject&, double limit) {
-  return above_reading(now.sweep_s, limit, now.utime, now.utime);
+// Maps are published per distance, so their age is the distance driven since. During a sweep a new map is due.
+Reading terrain_distance(const MonitorContext& context, const Subject&, double limit) {
+  if (context.sweep_s > 0.0) return flag_reading(false, context.utime, context.utime);
+  if (context.inputs.terrain.utime < 0) return age_reading(kNever, context.utime, limit);
+  const double distance_m = std::abs(context.inputs.pose.travelled_m - context.inputs.terrain.travelled_m);
+  return above_reading(distance_m, limit, context.inputs.pose.utime, context.utime);
 }
 
-Reading slam_lost(const Now& now, const Subject&, double) {
-  return flag_reading(now.in.slam.lost, now.in.slam.utime, now.utime);
+Reading sweep_time(const MonitorContext& context, const Subject&, double limit) {
+  return above_reading(context.sweep_s, limit, context.utime, context.utime);
 }
 
-Reading corridor_deviation(const Now& now, const Subject&, double) {
-  const ControlReport& control = now.in.control;
-  Reading out = flag_reading(control.out_of_corridor, control.utime, now.utime);
+Reading slam_lost(const MonitorContext& context, const Subject&, double) {
+  return flag_reading(context.inputs.slam.lost, context.inputs.slam.utime, context.utime);
+}
+
+Reading corridor_deviation(const MonitorContext& context, const Subject&, double) {
+  const ControlReport& control = context.inputs.control;
+  Reading out = flag_reading(control.out_of_corridor, control.utime, context.utime);
   out.value = control.cross_track_m;
   out.limit = control.corridor_half_width_m;
   return out;
 }
 
-Reading predicted_corridor_share(const Now& now, const Subject&, double limit) {
-  const ControlReport& control = now.in.control;
+Reading predicted_corridor_share(const MonitorContext& context, const Subject&, double limit) {
+  const ControlReport& control = context.inputs.control;
   if (control.stale_pose || !(control.corridor_half_width_m > 0.0))
-    return flag_reading(false, control.utime, now.utime);
+    return flag_reading(false, control.utime, context.utime);
   const double predicted = control.predicted_error_m / control.corridor_half_width_m;
-  const bool strays = std::abs(control.cross_track_m) > kPredictionFrom * control.corridor_half_width_m;
-  Reading out = above_reading(predicted, limit, control.utime, now.utime);
-  if (!strays && out.condition == Condition::kTrue) out.condition = Condition::kFalse;
+  const bool deviates = std::abs(control.cross_track_m) > kPredictionMinShare * control.corridor_half_width_m;
+  Reading out = above_reading(predicted, limit, control.utime, context.utime);
+  if (!deviates && out.condition == Condition::kTrue) out.condition = Condition::kFalse;
   return out;
 }
 
-// A planner without a path is the concern of no_path.
-Reading path_mismatch(const Now& now, const Subject&, double) {
-  const bool another = now.in.planner.path_id >= 0 && now.in.control.path_id != now.in.planner.path_id;
-  Reading out = flag_reading(another, now.in.control.utime, now.utime);
-  out.value = static_cast<double>(now.in.control.path_id);
-  out.limit = static_cast<double>(now.in.planner.path_id);
+// A planner without a path is covered by no_path.
+Reading path_mismatch(const MonitorContext& context, const Subject&, double) {
+  const bool mismatch =
+      context.inputs.planner.path_id >= 0 && context.inputs.control.path_id != context.inputs.planner.path_id;
+  Reading out = flag_reading(mismatch, context.inputs.control.utime, context.utime);
+  out.value = static_cast<double>(context.inputs.control.path_id);
+  out.limit = static_cast<double>(context.inputs.planner.path_id);
   return out;
 }
 
-Reading no_path(const Now& now, const Subject&, double) {
-  const bool none = now.in.planner.state == PlannerState::kNoPath && now.standing_still;
-  return flag_reading(none, now.in.planner.utime, now.utime);
+Reading no_path(const MonitorContext& context, const Subject&, double) {
+  const bool none = context.inputs.planner.state == PlannerState::kNoPath && context.stationary;
+  return flag_reading(none, context.inputs.planner.utime, context.utime);
 }
 
-Reading blocked(const Now& now, const Subject&, double) {
-  const bool waits = now.waits_before_block && now.blocked_in_m <= now.stop_distance_m;
-  Reading out = flag_reading(waits, now.in.planner.utime, now.utime);
-  out.value = now.in.planner.blocked_in_m;
-  out.limit = now.stop_distance_m;
+Reading blocked(const MonitorContext& context, const Subject&, double) {
+  const bool waiting = context.waiting_for_path && context.blocked_in_m <= context.stop_distance_m;
+  Reading out = flag_reading(waiting, context.inputs.planner.utime, context.utime);
+  out.value = context.inputs.planner.blocked_in_m;
+  out.limit = context.stop_distance_m;
   return out;
 }
 
-// At rest slip is not defined, and says so itself; that is not a fault.
-Reading slip_ratio(const Now& now, const Subject&, double limit) {
-  if (!now.in.slip.valid) return flag_reading(false, now.in.slip.utime, now.utime);
-  return above_reading(now.in.slip.ratio, limit, now.in.slip.utime, now.utime);
+// Slip is undefined at rest (valid == 0); that is not a fault.
+Reading slip_ratio(const MonitorContext& context, const Subject&, double limit) {
+  if (!context.inputs.slip.valid) return flag_reading(false, context.inputs.slip.utime, context.utime);
+  return above_reading(context.inputs.slip.ratio, limit, context.inputs.slip.utime, context.utime);
 }
 
 template <auto Values>
-Reading motor_above(const Now& now, const Subject& motor, double limit) {
-  const double current = (now.in.wheels.*Values)[static_cast<size_t>(motor.index)];
-  return above_reading(std::abs(current), limit, now.in.wheels.utime, now.utime);
+Reading motor_above(const MonitorContext& context, const Subject& motor, double limit) {
+  const double current = (context.inputs.wheels.*Values)[static_cast<size_t>(motor.index)];
+  return above_reading(std::abs(current), limit, context.inputs.wheels.utime, context.utime);
 }
 
 template <auto Values>
-Reading heat_above(const Now& now, const Subject& motor, double limit) {
-  const double load = (now.derived.*Values)[static_cast<size_t>(motor.index)];
-  return above_reading(load, limit, now.in.wheels.utime, now.utime);
+Reading i2t_load_above(const MonitorContext& context, const Subject& motor, double limit) {
+  const double load = (context.derived.*Values)[static_cast<size_t>(motor.index)];
+  return above_reading(load, limit, context.inputs.wheels.utime, context.utime);
 }
 
-Reading wheel_fault(const Now& now, const Subject&, double) {
-  return flag_reading(now.in.wheels.fault, now.in.wheels.utime, now.utime);
+Reading wheel_fault(const MonitorContext& context, const Subject&, double) {
+  return flag_reading(context.inputs.wheels.fault, context.inputs.wheels.utime, context.utime);
 }
 
-Reading imu_fault(const Now& now, const Subject&, double) {
-  return flag_reading(now.in.imu.fault, now.in.imu.utime, now.utime);
+Reading imu_fault(const MonitorContext& context, const Subject&, double) {
+  return flag_reading(context.inputs.imu.fault, context.inputs.imu.utime, context.utime);
 }
 
-const ServiceReport& service(const Now& now, const Subject& subject) {
+const ServiceReport& service(const MonitorContext& context, const Subject& subject) {
   static const ServiceReport kNone;
-  const auto it = now.in.services.find(subject.service);
-  return it == now.in.services.end() ? kNone : it->second;
+  const auto it = context.inputs.services.find(subject.service);
+  return it == context.inputs.services.end() ? kNone : it->second;
 }
 
-Reading heartbeat_age(const Now& now, const Subject& subject, double limit) {
-  return age_reading(service(now, subject).utime, now.utime, limit);
+Reading heartbeat_age(const MonitorContext& context, const Subject& subject, double limit) {
+  return age_reading(service(context, subject).utime, context.utime, limit);
 }
 
-// A service that nobody has heard yet is not there: on a vehicle without a page, say.
-Reading optional_heartbeat_age(const Now& now, const Subject& subject, double limit) {
-  const ServiceReport& report = service(now, subject);
-  return report.utime < 0 ? flag_reading(false, now.utime, now.utime) : age_reading(report.utime, now.utime, limit);
+// An optional service that never sent a heartbeat is not installed.
+Reading optional_heartbeat_age(const MonitorContext& context, const Subject& subject, double limit) {
+  const ServiceReport& report = service(context, subject);
+  return report.utime < 0 ? flag_reading(false, context.utime, context.utime)
+                          : age_reading(report.utime, context.utime, limit);
 }
 
 template <ServiceStatus From>
-Reading service_status(const Now& now, const Subject& subject, double) {
-  const ServiceReport& report = service(now, subject);
-  Reading out = flag_reading(report.status >= From, report.utime, now.utime);
+Reading service_status(const MonitorContext& context, const Subject& subject, double) {
+  const ServiceReport& report = service(context, subject);
+  Reading out = flag_reading(report.status >= From, report.utime, context.utime);
   out.value = static_cast<double>(report.status);
   return out;
 }
 
-// The recorder says so itself when the disk no longer takes its log; the rover drives on.
-Reading log_lost(const Now& now, const Subject&, double limit) {
-  return service_status<ServiceStatus::kDegraded>(now, {"recorder", 0}, limit);
+// The recorder reports DEGRADED if it cannot write its log; the rover continues.
+Reading log_lost(const MonitorContext& context, const Subject&, double limit) {
+  return service_status<ServiceStatus::kDegraded>(context, {"recorder", 0}, limit);
 }
 
-Reading service_starts(const Now& now, const Subject& subject, double limit) {
-  const auto it = now.derived.starts.find(subject.service);
-  return above_reading(it == now.derived.starts.end() ? 0 : it->second, limit, now.utime, now.utime);
+Reading service_starts(const MonitorContext& context, const Subject& subject, double limit) {
+  const auto it = context.derived.starts.find(subject.service);
+  return above_reading(it == context.derived.starts.end() ? 0 : it->second, limit, context.utime, context.utime);
 }
 
-Reading restart_tries(const Now& now, const Subject& subject, double limit) {
-  const auto it = now.derived.tries.find(subject.service);
-  return above_reading(it == now.derived.tries.end() ? 0 : it->second, limit, now.utime, now.utime);
+Reading restart_tries(const MonitorContext& context, const Subject& subject, double limit) {
+  const auto it = context.derived.restart_attempts.find(subject.service);
+  return above_reading(it == context.derived.restart_attempts.end() ? 0 : it->second, limit, context.utime,
+                       context.utime);
 }
 
-Reading lost_share(const Now& now, const Subject&, double limit) {
-  return above_reading(now.derived.lost_share, limit, now.derived.lost_utime, now.utime);
+Reading loss_ratio(const MonitorContext& context, const Subject&, double limit) {
+  return above_reading(context.derived.loss_ratio, limit, context.derived.lost_utime, context.utime);
 }
 
 template <auto Value>
-Reading derived_above(const Now& now, const Subject&, double limit) {
-  return above_reading(now.derived.*Value, limit, now.utime, now.utime);
+Reading derived_above(const MonitorContext& context, const Subject&, double limit) {
+  return above_reading(context.derived.*Value, limit, context.utime, context.utime);
 }
 
 using enum Expansion;
@@ -187,10 +189,10 @@ constexpr std::array kQuantities = {
     Quantity{"roll_deg", kOne, pose_above_deg<&P::roll_rad>},
     Quantity{"pitch_deg", kOne, pose_above_deg<&P::pitch_rad>},
     Quantity{"tilt_rate_degps", kOne, pose_above_deg<&P::tilt_rate_radps>},
-    Quantity{"drive_current_a", kEachDrive, motor_above<&WheelReport::drive_a>},
-    Quantity{"drive_i2t_load", kEachDrive, heat_above<&Derived::drive_heat>},
-    Quantity{"steer_current_a", kEachSteer, motor_above<&WheelReport::steer_a>},
-    Quantity{"steer_i2t_load", kEachSteer, heat_above<&Derived::steer_heat>},
+    Quantity{"drive_current_a", kEachDrive, motor_above<&WheelReport::drive_current_a>},
+    Quantity{"drive_i2t_load", kEachDrive, i2t_load_above<&DerivedValues::drive_i2t_load>},
+    Quantity{"steer_current_a", kEachSteer, motor_above<&WheelReport::steer_current_a>},
+    Quantity{"steer_i2t_load", kEachSteer, i2t_load_above<&DerivedValues::steer_i2t_load>},
     Quantity{"wheel_state_age_s", kOne, age<&Inputs::wheels>},
     Quantity{"wheel_fault", kOne, wheel_fault},
     Quantity{"imu_age_s", kOne, age<&Inputs::imu>},
@@ -205,7 +207,7 @@ constexpr std::array kQuantities = {
     Quantity{"planner_age_s", kOne, age<&Inputs::planner>},
     Quantity{"control_age_s", kOne, age<&Inputs::control>},
     Quantity{"motion_command_age_s", kOne, motion_command_age},
-    Quantity{"terrain_way_m", kOne, terrain_way},
+    Quantity{"terrain_way_m", kOne, terrain_distance},
     Quantity{"sweep_s", kOne, sweep_time},
     Quantity{"slam_lost", kOne, slam_lost},
     Quantity{"path_mismatch", kOne, path_mismatch},
@@ -222,11 +224,11 @@ constexpr std::array kQuantities = {
     Quantity{"full_service_fault", kEachFull, service_status<ServiceStatus::kFault>},
     Quantity{"full_starts_per_minute", kEachFull, service_starts},
     Quantity{"full_restart_tries", kEachFull, restart_tries},
-    Quantity{"lost_share", kOne, lost_share},
-    Quantity{"clock_step_s", kOne, derived_above<&Derived::clock_step_s>},
-    Quantity{"unpermitted_motion_s", kOne, derived_above<&Derived::unpermitted_s>},
-    Quantity{"idle_drive_s", kOne, derived_above<&Derived::idle_s>},
-    Quantity{"fault_stops", kOne, derived_above<&Derived::fault_stops>},
+    Quantity{"lost_share", kOne, loss_ratio},
+    Quantity{"clock_step_s", kOne, derived_above<&DerivedValues::clock_step_s>},
+    Quantity{"unpermitted_motion_s", kOne, derived_above<&DerivedValues::unpermitted_s>},
+    Quantity{"idle_drive_s", kOne, derived_above<&DerivedValues::idle_s>},
+    Quantity{"fault_stops", kOne, derived_above<&DerivedValues::fault_stops>},
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The quantities that rows of config/fdir.yaml watch, by name: each says how it reads the inputs.
+// Quantities that rows of config/fdir.yaml can monitor: name and reading function.
 #pragma once
 
 #include <functional>
@@ -11,49 +11,49 @@
 
 namespace rover::supervisor {
 
-// What is computed from the inputs over time, beside them.
-struct Derived {
-  std::array<double, 6> drive_heat{};  // i2t load, 1 at the nominal current kept for ever
-  std::array<double, 4> steer_heat{};
-  double lost_share = 0.0;  // of the messages of the newest seconds, over all services
+// Values derived from the inputs over time (DerivedValueTracker).
+struct DerivedValues {
+  std::array<double, 6> drive_i2t_load{};  // i2t load; 1: steady nominal current
+  std::array<double, 4> steer_i2t_load{};
+  double loss_ratio = 0.0;  // lost fraction of recent messages, over all services
   Utime lost_utime = kNever;
-  std::map<std::string, int> tries;   // of the supervisor to start the service anew, in the newest minute
-  std::map<std::string, int> starts;  // of each service beyond its first, in the newest minute
-  double clock_step_s = 0.0;          // between the newest two ticks
-  double unpermitted_s = 0.0;         // wheels have turned for that long without a permit
-  double idle_s = 0.0;                // the rover could have driven for that long and has not
-  double fault_stops = 0.0;           // of the newest metres of way
+  std::map<std::string, int> restart_attempts;  // kills by the supervisor within the last minute
+  std::map<std::string, int> starts;            // service starts within the last minute, without the first
+  double clock_step_s = 0.0;                    // deviation of the last tick interval
+  double unpermitted_s = 0.0;                   // duration of wheel motion without a permit
+  double idle_s = 0.0;                          // duration of a permit without wheel motion
+  double fault_stops = 0.0;                     // within the last fault_stop_distance_m
 };
 
-// Whom an expanded row is about.
+// Subject of an expanded row.
 struct Subject {
   std::string service;
-  int index = 0;  // motor
+  int index = 0;  // motor index
 };
 
-// Which rows one line of the table becomes.
+// How a line of the table expands into rows.
 enum class Expansion { kOne, kEachRequired, kEachOptional, kEachFull, kEachDrive, kEachSteer };
 
-struct Now {
-  const Inputs& in;
-  const Derived& derived;
+struct MonitorContext {
+  const Inputs& inputs;
+  const DerivedValues& derived;
   Utime utime;
-  bool standing_still;
-  bool waits_before_block;  // in a state that waits for a way past a hazard
+  bool stationary;
+  bool waiting_for_path;  // HAZARD_STOP or REPAIRING
   double blocked_in_m;
   double stop_distance_m;
-  double sweep_s;  // for how long the rover stands and sweeps
-  bool way_back;   // its path is the remedy of stop_retreat, backwards over ground that it knows
+  double sweep_s;     // time since the sweep began, 0 if not sweeping
+  bool backtracking;  // on a reverse path that recovers from a stop_retreat fault
 };
 
 struct Quantity {
   const char* name;
   Expansion expansion;
-  Reading (*read)(const Now& now, const Subject& subject, double limit);
+  Reading (*read)(const MonitorContext& context, const Subject& subject, double limit);
 };
 
 std::span<const Quantity> quantities();
-// Null where there is none of that name.
+// Null if unknown.
 const Quantity* find_quantity(const std::string& name);
 
 inline constexpr std::array<const char*, 6> kDriveNames = {"FL", "FR", "ML", "MR", "RL", "RR"};

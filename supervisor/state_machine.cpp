@@ -12,8 +12,7 @@ using F = Fact;
 constexpr StateSet kAllButSafe = {kBoot,       kStandby, kDriving,     kHazardStop, kRepairing, kSweeping,
                                   kCorrecting, kPaused,  kGoalReached, kFaultStop,  kTeleop};
 
-// The first row that fits decides: what ends the drive for good, commands of the ground, faults, the goal, what has to
-// be waited for, hazards.
+// First match wins. Order of priority: SAFE, ground commands, faults, goal, sweeping and correction, hazards.
 constexpr std::array kTransitions = {
     Transition{kAllButSafe, {F::kCommandEmergencyStop}, {}, kSafe, "emergency_stop", F::kCommandEmergencyStop},
     Transition{kAllButSafe, {F::kSafeFault}, {}, kSafe, "safe_fault", F::kSafeFault},
@@ -76,7 +75,7 @@ constexpr std::array kTransitions = {
                "path_clear",
                F::kPathClear},
     Transition{{kHazardStop},
-               {F::kStanding, F::kPlannerRepairing},
+               {F::kStationary, F::kPlannerRepairing},
                {F::kBlockingFault},
                kRepairing,
                "planner_repairing",
@@ -94,9 +93,8 @@ constexpr std::array kPermitRules = {
 
 using L = LevelFact;
 
-// The ground's word first, then the path's, then what the rover finds on its way. What raised the level lowers it: a
-// segment's end only what a segment began; where the path leaves the choice, so do services that fail. The windows of
-// the measured facts start anew at each change (hysteresis).
+// Priority: ground command, path segment, on-board measures. The end of a segment lowers only a level that a segment
+// raised; failing services lower it unless the path requires Full. Windows are reset at each change (hysteresis).
 constexpr std::array kLevelTransitions = {
     LevelTransition{Level::kEfficient, {L::kForcedFull, L::kFullReady}, {}, Level::kFull, "forced", L::kForcedFull},
     LevelTransition{Level::kFull, {L::kForcedEfficient}, {}, Level::kEfficient, "forced", L::kForcedEfficient},
@@ -162,16 +160,16 @@ std::string names(FactSet facts, const char* prefix) {
   return names(facts, kFactNames, prefix);
 }
 
-// Of an edge: what has to hold, and what must not.
+// Guard text of an edge.
 template <class Set, size_t N>
-std::string condition(Set needs, Set bars, const std::array<const char*, N>& of) {
-  const std::string first = names(needs, of, "");
-  const std::string second = names(bars, of, "not ");
-  return first + (first.empty() || second.empty() ? "" : ", ") + second;
+std::string condition(Set required, Set forbidden, const std::array<const char*, N>& of) {
+  const std::string required_text = names(required, of, "");
+  const std::string forbidden_text = names(forbidden, of, "not ");
+  return required_text + (required_text.empty() || forbidden_text.empty() ? "" : ", ") + forbidden_text;
 }
 
-bool fits(const Transition& row, State state, FactSet facts) {
-  return row.from.has(state) && facts.has_all(row.needs) && !facts.has_any(row.bars);
+bool matches(const Transition& row, State state, FactSet facts) {
+  return row.from.has(state) && facts.has_all(row.required) && !facts.has_any(row.forbidden);
 }
 
 }  // namespace
@@ -197,48 +195,48 @@ const char* name(Level level) {
 
 const Transition* next_transition(State state, FactSet facts) {
   const auto row = std::find_if(kTransitions.begin(), kTransitions.end(),
-                                [&](const Transition& t) { return fits(t, state, facts); });
+                                [&](const Transition& t) { return matches(t, state, facts); });
   return row == kTransitions.end() ? nullptr : &*row;
 }
 
 const LevelTransition* next_level(Level level, LevelFactSet facts) {
   const auto row = std::find_if(kLevelTransitions.begin(), kLevelTransitions.end(), [&](const LevelTransition& t) {
-    return t.from == level && facts.has_all(t.needs) && !facts.has_any(t.bars);
+    return t.from == level && facts.has_all(t.required) && !facts.has_any(t.forbidden);
   });
   return row == kLevelTransitions.end() ? nullptr : &*row;
 }
 
 bool permit_allowed(State state, FactSet facts) {
   return std::any_of(kPermitRules.begin(), kPermitRules.end(), [&](const PermitRule& rule) {
-    return rule.state == state && facts.has_all(rule.needs) && !facts.has_any(rule.bars);
+    return rule.state == state && facts.has_all(rule.required) && !facts.has_any(rule.forbidden);
   });
 }
 
-std::string refusal(State state, FactSet facts, Fact command) {
+std::string refusal_reason(State state, FactSet facts, Fact command) {
   for (const Transition& row : kTransitions) {
-    if (!row.from.has(state) || !row.needs.has(command)) continue;
-    FactSet missing = row.needs.without(facts);
+    if (!row.from.has(state) || !row.required.has(command)) continue;
+    FactSet missing = row.required.without(facts);
     missing.erase(command);
-    const std::string lacks = names(missing, "no ");
-    const std::string stands = names(row.bars.common(facts), "");
-    return lacks + (lacks.empty() || stands.empty() ? "" : ", ") + stands;
+    const std::string missing_text = names(missing, "no ");
+    const std::string blocking_text = names(row.forbidden.intersection(facts), "");
+    return missing_text + (missing_text.empty() || blocking_text.empty() ? "" : ", ") + blocking_text;
   }
   return std::string("not possible in ") + name(state);
 }
 
-std::string drawing() {
+std::string to_graphviz() {
   std::ostringstream out;
   out << "digraph supervisor {\n  rankdir=LR;\n  node [shape=box, style=rounded];\n";
   for (const Transition& row : kTransitions)
     for (int s = 0; s < kStateCount; ++s) {
       if (!row.from.has(static_cast<State>(s))) continue;
       out << "  " << kStateNames[s] << " -> " << name(row.to) << " [label=\"" << row.cause << "\\n"
-          << condition(row.needs, row.bars, kFactNames) << "\"];\n";
+          << condition(row.required, row.forbidden, kFactNames) << "\"];\n";
     }
   out << "  subgraph cluster_level {\n    label=\"level\";\n";
   for (const LevelTransition& row : kLevelTransitions)
     out << "    " << name(row.from) << " -> " << name(row.to) << " [label=\"" << row.cause << "\\n"
-        << condition(row.needs, row.bars, kLevelFactNames) << "\"];\n";
+        << condition(row.required, row.forbidden, kLevelFactNames) << "\"];\n";
   out << "  }\n}\n";
   return out.str();
 }

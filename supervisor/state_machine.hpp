@@ -1,9 +1,6 @@
-// The supervisor's machine as data: one table of transitions over facts, run by generic code.
-//
-// A fact is true or false at a tick: a condition measured (path clear), a state of the monitors (blocking fault), or a
-// ground command just received. The first row of a table that fits decides. So every combination of state, level and
-// facts can be tested, and the drawing is made from the tables. The level is a machine of its own beside the states:
-// what it changes for them is one fact, kLevelFull.
+// Table-driven state machine. Guards are facts: boolean conditions at a tick (measured, fault active, command
+// received). The first matching row of the table fires, so all combinations of state and facts are tested, and the
+// Graphviz drawing is generated. The autonomy level is a second machine; the states see it only as the fact kLevelFull.
 #pragma once
 
 #include <array>
@@ -34,20 +31,20 @@ inline constexpr int kStateCount = 12;
 enum class Level : std::int8_t { kEfficient = 0, kFull = 1 };
 
 enum class Fact : int {
-  kInputsReady,  // every required service and stream is there, pose known
+  kInputsReady,  // all required services and streams alive, pose valid
   kPoseFresh,
   kPathPresent,
-  kBlockingFault,  // at least one stands whose response is to stop
-  kSafeFault,      // at least one stands whose response is to stop for good
-  kPathBlocked,    // within the stopping distance, or no path to judge
-  kPathClear,      // beyond the stopping distance and its hysteresis
-  kStanding,
+  kBlockingFault,  // an active fault stops the rover
+  kSafeFault,      // an active fault leads to SAFE
+  kPathBlocked,    // blocked within the stopping distance, or no path
+  kPathClear,      // free beyond the stopping distance plus hysteresis
+  kStationary,
   kPlannerRepairing,
   kGoalReached,
   kLevelFull,
-  kTerrainKnown,      // the Full level's map of the ground ahead is there, fresh and not empty
-  kCorrectionWanted,  // global localization asks to stand still
-  kTeleopFresh,       // the operator's newest motion command is young enough to be driven
+  kTerrainKnown,      // the Full-level map is recent and covers the ground ahead
+  kCorrectionWanted,  // global localization requests standstill
+  kTeleopFresh,       // the newest operator command is recent
   kCommandGo,
   kCommandStop,
   kCommandPause,
@@ -58,21 +55,21 @@ enum class Fact : int {
 };
 inline constexpr int kFactCount = 21;
 
-// What the level is chosen from.
+// Facts of the level machine.
 enum class LevelFact : int {
-  kFullReady,   // the services of the Full level live
+  kFullReady,   // all services of the Full level are alive
   kForcedFull,  // by ground command
   kForcedEfficient,
-  kPathFull,      // the path's segment asks for Full
-  kRaisedByPath,  // the level was raised because of the path, not on board
-  kSlowProgress,  // effective speed below its limit, over a whole window
-  kManyHazards,   // per way, over a whole window
-  kEasyAhead,     // difficulty of the ground ahead below its limit, for the whole of a way
-  kFullFailing,   // one of the Full level's services dies over and over, or a sweep is in vain
+  kPathFull,      // the current path segment requires Full
+  kRaisedByPath,  // the level was raised by the path, not on board
+  kSlowProgress,  // effective speed below its limit over a full window
+  kManyHazards,   // hazards per metre above its limit in the window
+  kEasyAhead,     // terrain difficulty below its limit over easy_distance_m
+  kFullFailing,   // a Full-level service restarts repeatedly, or a sweep fails
 };
 inline constexpr int kLevelFactCount = 9;
 
-// A small set of enumerators.
+// Bit set of enumerators.
 template <class Enum>
 class EnumSet {
  public:
@@ -92,7 +89,7 @@ class EnumSet {
   constexpr bool has_all(EnumSet other) const { return (bits_ & other.bits_) == other.bits_; }
   constexpr bool has_any(EnumSet other) const { return (bits_ & other.bits_) != 0; }
   constexpr EnumSet without(EnumSet other) const { return from_bits(bits_ & ~other.bits_); }
-  constexpr EnumSet common(EnumSet other) const { return from_bits(bits_ & other.bits_); }
+  constexpr EnumSet intersection(EnumSet other) const { return from_bits(bits_ & other.bits_); }
   constexpr bool empty() const { return bits_ == 0; }
   constexpr std::uint32_t bits() const { return bits_; }
 
@@ -104,36 +101,36 @@ using FactSet = EnumSet<Fact>;
 using LevelFactSet = EnumSet<LevelFact>;
 using StateSet = EnumSet<State>;
 
-// On the way to the goal, or standing on it for a moment; and with the stop of a fault that may clear.
+// States of a drive in progress; the second set includes stops by faults that may clear.
 inline constexpr StateSet kUnderWay = {State::kDriving, State::kHazardStop, State::kRepairing, State::kSweeping,
                                        State::kCorrecting};
 inline constexpr StateSet kUnderWayOrFaultStop = {State::kDriving,  State::kHazardStop, State::kRepairing,
                                                   State::kSweeping, State::kCorrecting, State::kFaultStop};
 
-// From any of the states, where all of `needs` and none of `bars` hold.
+// Fires in any `from` state if all `required` and no `forbidden` facts are true.
 struct Transition {
   StateSet from;
-  FactSet needs;
-  FactSet bars;
+  FactSet required;
+  FactSet forbidden;
   State to;
   const char* cause;
-  Fact evidence;  // whose measured quantity the change is published with
+  Fact evidence;  // fact whose measured value is published with the change
 };
 
 struct LevelTransition {
   Level from;
-  LevelFactSet needs;
-  LevelFactSet bars;
+  LevelFactSet required;
+  LevelFactSet forbidden;
   Level to;
   const char* cause;
   LevelFact evidence;
 };
 
-// A permit is granted in this state alone, where all of `needs` and none of `bars` hold.
+// Permits are granted only by these rules.
 struct PermitRule {
   State state;
-  FactSet needs;
-  FactSet bars;
+  FactSet required;
+  FactSet forbidden;
 };
 
 std::span<const Transition> transitions();
@@ -146,13 +143,13 @@ inline constexpr FactSet kCommandFacts = {Fact::kCommandGo,     Fact::kCommandSt
                                           Fact::kCommandResume, Fact::kCommandEmergencyStop, Fact::kCommandClearSafe,
                                           Fact::kCommandTeleop};
 
-// The row that fires, or null.
+// First matching row, or null.
 const Transition* next_transition(State state, FactSet facts);
 const LevelTransition* next_level(Level level, LevelFactSet facts);
 bool permit_allowed(State state, FactSet facts);
-// Why the command does nothing in this state, for its refusal.
-std::string refusal(State state, FactSet facts, Fact command);
-// The machine as a Graphviz drawing.
-std::string drawing();
+// Reason why the command is refused in this state.
+std::string refusal_reason(State state, FactSet facts, Fact command);
+// Both machines in Graphviz format.
+std::string to_graphviz();
 
 }  // namespace rover::supervisor

@@ -42,107 +42,112 @@ Evidence evidence_of(const Monitor& m) {
 }  // namespace
 
 Supervisor::Supervisor(const SupervisorConfig& config)
-    : config_(config), derive_(config.derive), fdir_(config.fdir), keeper_(config.keeper), judge_(config.level) {}
+    : config_(config),
+      derive_(config.derive),
+      fdir_(config.fdir),
+      restarter_(config.restarter),
+      level_selector_(config.level) {}
 
 void Supervisor::on_service(const std::string& name, const ServiceReport& report) {
-  ServiceReport& newest = in_.services[name];
+  ServiceReport& newest = inputs_.services[name];
   if (report.utime < newest.utime || report.boot_id < newest.boot_id) return;
   derive_.on_service(name, newest, report);
   newest = report;
 }
 
 void Supervisor::on_hazards(const HazardsReport& hazards) {
-  in_.hazards = hazards;
-  in_.blind_in_a_row = hazards.blind ? in_.blind_in_a_row + 1 : 0;
+  inputs_.hazards = hazards;
+  inputs_.consecutive_blind_frames = hazards.blind ? inputs_.consecutive_blind_frames + 1 : 0;
 }
 
-// A manoeuvre's legs astern are no remedy of anything: the ordinary limits count there.
+// Reverse segments of ordinary manoeuvres do not relax limits: only paths that follow a stop_retreat fault do.
 void Supervisor::on_path(PathLevels path) {
-  if (path.path_id != path_.path_id) way_back_ = path.backwards && (way_back_ || fdir_.wants_retreat());
+  if (path.path_id != path_.path_id) backtracking_ = path.reverse && (backtracking_ || fdir_.backtrack_requested());
   path_ = std::move(path);
 }
 
 void Supervisor::on_wheels(const WheelReport& wheels) {
-  in_.wheels = wheels;
+  inputs_.wheels = wheels;
   derive_.on_wheels(wheels);
 }
 
 void Supervisor::on_terrain(const TerrainReport& terrain) {
-  in_.terrain = terrain;
-  in_.terrain.travelled_m = in_.pose.travelled_m;
+  inputs_.terrain = terrain;
+  inputs_.terrain.travelled_m = inputs_.pose.travelled_m;
 }
 
 SupervisorOutput Supervisor::step(Utime now) {
   if (since_ == kNever) begin(now);
   SupervisorOutput out;
-  derive_.step(now, in_, permitted_);
-  run_rows(now, out);
+  derive_.step(now, inputs_, permitted_);
+  run_monitors(now, out);
   run_level(now, out);
   FactSet current = facts(now);
   for (const GroundCommand& command : commands_) out.answers.push_back(answer(command, current, now, out));
   commands_.clear();
-  // The table has no cycle under unchanging facts (tested), so this ends.
+  // Terminates: the table has no cycle for constant facts (tested).
   while (const Transition* row = next_transition(state_, current)) fire(*row, now, out);
   out.permit = permit(current, now);
   permitted_ = out.permit.granted;
   return out;
 }
 
-// Nobody has been heard before the start: silence counts from here.
+// Heartbeat ages count from the start, because nothing was received before.
 void Supervisor::begin(Utime now) {
   since_ = now;
   for (const std::string& service : config_.fdir.required_services) {
-    ServiceReport& report = in_.services[service];
+    ServiceReport& report = inputs_.services[service];
     if (report.utime == kNever && state_ != kBoot) report.utime = now;
   }
 }
 
-Now Supervisor::judged(Utime now) const {
-  const bool waits = state_ == kHazardStop || state_ == kRepairing;
-  const bool way_back = way_back_ && path_.path_id == in_.planner.path_id && state_ != kTeleop;
-  return {in_,          derive_.values(), now, standing_still(), waits, blocked_in_m(), stop_distance_m(),
-          sweep_s(now), way_back};
+MonitorContext Supervisor::monitor_context(Utime now) const {
+  const bool waiting = state_ == kHazardStop || state_ == kRepairing;
+  const bool backtracking = backtracking_ && path_.path_id == inputs_.planner.path_id && state_ != kTeleop;
+  return {inputs_,        derive_.values(),  now,          stationary(), waiting,
+          blocked_in_m(), stop_distance_m(), sweep_s(now), backtracking};
 }
 
-void Supervisor::run_rows(Utime now, SupervisorOutput& out) {
-  derive_.set_tries(keeper_.tries(now));
-  out.faults = fdir_.step(judged(now), state_, level_);
-  out.restarts = keeper_.step(now, fdir_.ailing_services());
+void Supervisor::run_monitors(Utime now, SupervisorOutput& out) {
+  derive_.set_restart_attempts(restarter_.restart_attempts(now));
+  out.faults = fdir_.step(monitor_context(now), state_, level_);
+  out.restarts = restarter_.step(now, fdir_.services_to_restart());
 }
 
 void Supervisor::run_level(Utime now, SupervisorOutput& out) {
-  judge_.step(now, in_, hazard_stops_, StateSet{kDriving, kHazardStop, kRepairing}.has(state_));
+  level_selector_.step(now, inputs_, hazard_stops_, StateSet{kDriving, kHazardStop, kRepairing}.has(state_));
   if (const LevelTransition* row = next_level(level_, level_facts(now))) fire(*row, out);
 }
 
 LevelFactSet Supervisor::level_facts(Utime now) {
   using F = LevelFact;
   LevelFactSet out;
-  const double planner_age = age_s(in_.planner.utime, now);
-  const bool followed = path_.path_id >= 0 && path_.path_id == in_.control.path_id;
-  // Of a new path one of the two is heard of first.
-  if (followed) path_full_ = path_.at(in_.control.arc_length_m) == Level::kFull;
-  const LevelConfig& limits = judge_.config();
+  const double planner_age = age_s(inputs_.planner.utime, now);
+  const bool followed = path_.path_id >= 0 && path_.path_id == inputs_.control.path_id;
+  // PATH and CONTROL_STATUS of a new path arrive at different ticks; keep the old value until both match.
+  if (followed) path_full_ = path_.at(inputs_.control.arc_length_m) == Level::kFull;
+  const LevelConfig& limits = level_selector_.config();
   const std::vector<std::string>& full = config_.fdir.full_services;
   set_level_fact(out, F::kFullReady, !full.empty() && alive(full, now), {});
-  failing_fact(out, now);
+  full_failing_fact(out, now);
   set_level_fact(out, F::kForcedFull, forced_ == ForcedLevel::kFull, {"forced_level", 1.0, 1.0, 0.0, 0.0});
   set_level_fact(out, F::kForcedEfficient, forced_ == ForcedLevel::kEfficient, {"forced_level", 0.0, 0.0, 0.0, 0.0});
   set_level_fact(out, F::kPathFull, path_full_,
-                 {"path_level", path_full_ ? 1.0 : 0.0, 1.0, 0.0, age_s(in_.control.utime, now)});
+                 {"path_level", path_full_ ? 1.0 : 0.0, 1.0, 0.0, age_s(inputs_.control.utime, now)});
   set_level_fact(out, F::kRaisedByPath, raised_by_path_, {});
-  set_level_fact(out, F::kSlowProgress, judge_.slow_progress(),
-                 {"effective_speed_mps", judge_.speed_mps(), limits.slow_mps, limits.window_s, planner_age});
-  set_level_fact(out, F::kManyHazards, judge_.many_hazards(),
-                 {"hazards_per_m", judge_.hazards_per_m(), limits.hazards_per_m, limits.window_s, planner_age});
+  set_level_fact(out, F::kSlowProgress, level_selector_.slow_progress(),
+                 {"effective_speed_mps", level_selector_.speed_mps(), limits.slow_mps, limits.window_s, planner_age});
   set_level_fact(
-      out, F::kEasyAhead, judge_.easy_ahead() && terrain_fresh(),
-      {"terrain_difficulty", in_.terrain.difficulty, limits.easy_difficulty, 0.0, age_s(in_.terrain.utime, now)});
+      out, F::kManyHazards, level_selector_.many_hazards(),
+      {"hazards_per_m", level_selector_.hazards_per_m(), limits.hazards_per_m, limits.window_s, planner_age});
+  set_level_fact(out, F::kEasyAhead, level_selector_.easy_ahead() && terrain_fresh(),
+                 {"terrain_difficulty", inputs_.terrain.difficulty, limits.easy_difficulty, 0.0,
+                  age_s(inputs_.terrain.utime, now)});
   return out;
 }
 
-void Supervisor::failing_fact(LevelFactSet& facts, Utime now) {
-  const LevelConfig& limits = judge_.config();
+void Supervisor::full_failing_fact(LevelFactSet& facts, Utime now) {
+  const LevelConfig& limits = level_selector_.config();
   const double starts = failing_starts();
   if (starts >= limits.failing_starts)
     return set_level_fact(facts, LevelFact::kFullFailing, true,
@@ -151,51 +156,51 @@ void Supervisor::failing_fact(LevelFactSet& facts, Utime now) {
                  {"sweep_s", sweep_s(now), limits.failing_sweep_s, 0.0, 0.0});
 }
 
-// The largest count over the services of the Full level: of starts, and of kills that were to bring one about.
+// Largest number of starts or kills over the services of the Full level.
 double Supervisor::failing_starts() const {
-  int most = 0;
+  int max_count = 0;
   for (const std::string& service : config_.fdir.full_services)
-    for (const auto* counts : {&derive_.values().starts, &derive_.values().tries})
-      if (const auto it = counts->find(service); it != counts->end()) most = std::max(most, it->second);
-  return most;
+    for (const auto* counts : {&derive_.values().starts, &derive_.values().restart_attempts})
+      if (const auto it = counts->find(service); it != counts->end()) max_count = std::max(max_count, it->second);
+  return max_count;
 }
 
 bool Supervisor::terrain_fresh() const {
-  return in_.terrain.utime >= 0 &&
-         std::abs(in_.pose.travelled_m - in_.terrain.travelled_m) <= config_.terrain_max_way_m;
+  return inputs_.terrain.utime >= 0 &&
+         std::abs(inputs_.pose.travelled_m - inputs_.terrain.travelled_m) <= config_.terrain_max_distance_m;
 }
 
 double Supervisor::sweep_s(Utime now) const {
   return state_ == kSweeping ? to_seconds(now - since_) : 0.0;
 }
 
-// A sweep goes on until it shows both sides too, unless there is nothing to be seen of them.
+// A sweep continues until both sides are known, or until its timeout.
 void Supervisor::terrain_fact(FactSet& facts, Utime now) {
-  const KnownShares& known = in_.terrain.known;
+  const KnownFractions& known = inputs_.terrain.known;
   const bool swept =
-      state_ != kSweeping || known.around >= config_.terrain_known_around || sweep_s(now) > config_.sweep_patience_s;
+      state_ != kSweeping || known.around >= config_.terrain_known_around || sweep_s(now) > config_.sweep_timeout_s;
   const bool ahead = known.ahead >= config_.terrain_known_ahead;
   set_fact(facts, Fact::kTerrainKnown, terrain_fresh() && ahead && swept,
            {"terrain_known_ahead", terrain_fresh() ? known.ahead : 0.0, config_.terrain_known_ahead, 0.0,
-            age_s(in_.terrain.utime, now)});
+            age_s(inputs_.terrain.utime, now)});
 }
 
 FactSet Supervisor::facts(Utime now) {
   FactSet out;
-  const PoseReport& pose = in_.pose;
+  const PoseReport& pose = inputs_.pose;
   const double pose_age = age_s(pose.utime, now);
-  const double planner_age = age_s(in_.planner.utime, now);
-  const double control_age = age_s(in_.control.utime, now);
-  const bool arrived = in_.control.path_end && in_.planner.goal_distance_m < config_.goal_tolerance_m;
+  const double planner_age = age_s(inputs_.planner.utime, now);
+  const double control_age = age_s(inputs_.control.utime, now);
+  const bool arrived = inputs_.control.path_end && inputs_.planner.goal_distance_m < config_.goal_tolerance_m;
   set_fact(out, Fact::kInputsReady, inputs_ready(now), {});
   set_fact(out, Fact::kPoseFresh, pose.usable && fresh(pose.utime, now, config_.pose_max_age_s),
            {"pose_age_s", pose_age, config_.pose_max_age_s, 0.0, pose_age});
-  set_fact(out, Fact::kStanding, standing_still(),
-           {"speed_mps", pose.speed_mps, config_.standing_speed_mps, 0, pose_age});
-  set_fact(out, Fact::kPlannerRepairing, in_.planner.state == PlannerState::kRepairing,
+  set_fact(out, Fact::kStationary, stationary(),
+           {"speed_mps", pose.speed_mps, config_.stationary_speed_mps, 0, pose_age});
+  set_fact(out, Fact::kPlannerRepairing, inputs_.planner.state == PlannerState::kRepairing,
            {"", kNaN, kNaN, 0, planner_age});
   set_fact(out, Fact::kGoalReached, arrived,
-           {"goal_distance_m", in_.planner.goal_distance_m, config_.goal_tolerance_m, 0.0,
+           {"goal_distance_m", inputs_.planner.goal_distance_m, config_.goal_tolerance_m, 0.0,
             std::max(planner_age, control_age)});
   set_fact(out, Fact::kLevelFull, level_ == Level::kFull, {"level", level_ == Level::kFull ? 1.0 : 0.0, 1.0, 0.0, 0.0});
   set_fact(out, Fact::kCorrectionWanted, correction_wanted_, {});
@@ -218,15 +223,17 @@ void Supervisor::set_level_fact(LevelFactSet& facts, LevelFact fact, bool on, co
 }
 
 void Supervisor::path_facts(FactSet& facts, double planner_age_s) {
-  const PlannerReport& planner = in_.planner;
+  const PlannerReport& planner = inputs_.planner;
   const bool present = planner.path_id >= 0;
-  const double way = blocked_in_m();
+  const double distance_m = blocked_in_m();
   const double stop = stop_distance_m();
-  // The hysteresis keeps measuring noise from starting and stopping the rover; a new path is judged by itself.
+  // Hysteresis against oscillation by measurement noise; it does not apply to a new path.
   const double clear = planner.path_id == blocked_path_id_ ? stop + config_.stop_hysteresis_m : stop;
   set_fact(facts, Fact::kPathPresent, present, {"path_id", double(planner.path_id), 0.0, 0.0, planner_age_s});
-  set_fact(facts, Fact::kPathBlocked, !present || !(way > stop), {"blocked_in_m", way, stop, 0.0, planner_age_s});
-  set_fact(facts, Fact::kPathClear, present && way > clear, {"blocked_in_m", way, clear, 0.0, planner_age_s});
+  set_fact(facts, Fact::kPathBlocked, !present || !(distance_m > stop),
+           {"blocked_in_m", distance_m, stop, 0.0, planner_age_s});
+  set_fact(facts, Fact::kPathClear, present && distance_m > clear,
+           {"blocked_in_m", distance_m, clear, 0.0, planner_age_s});
 }
 
 void Supervisor::fault_facts(FactSet& facts) {
@@ -239,33 +246,33 @@ void Supervisor::fault_facts(FactSet& facts) {
 }
 
 bool Supervisor::inputs_ready(Utime now) const {
-  return alive(config_.fdir.required_services, now) && in_.pose.usable && in_.pose.vo_utime >= 0 &&
-         fresh(in_.pose.utime, now, config_.pose_max_age_s) &&
-         fresh(in_.hazards.utime, now, config_.hazards_max_age_s) &&
-         fresh(in_.planner.utime, now, config_.planner_max_age_s) &&
-         fresh(in_.control.utime, now, config_.control_max_age_s) &&
-         fresh(in_.wheels.utime, now, config_.wheels_max_age_s);
+  return alive(config_.fdir.required_services, now) && inputs_.pose.usable && inputs_.pose.vo_utime >= 0 &&
+         fresh(inputs_.pose.utime, now, config_.pose_max_age_s) &&
+         fresh(inputs_.hazards.utime, now, config_.hazards_max_age_s) &&
+         fresh(inputs_.planner.utime, now, config_.planner_max_age_s) &&
+         fresh(inputs_.control.utime, now, config_.control_max_age_s) &&
+         fresh(inputs_.wheels.utime, now, config_.wheels_max_age_s);
 }
 
 bool Supervisor::alive(const std::vector<std::string>& services, Utime now) const {
   return std::all_of(services.begin(), services.end(), [&](const std::string& name) {
-    const auto it = in_.services.find(name);
-    return it != in_.services.end() && fresh(it->second.utime, now, config_.heartbeat_max_age_s);
+    const auto it = inputs_.services.find(name);
+    return it != inputs_.services.end() && fresh(it->second.utime, now, config_.heartbeat_max_age_s);
   });
 }
 
-bool Supervisor::standing_still() const {
-  return in_.pose.speed_mps < config_.standing_speed_mps &&
-         std::abs(in_.pose.turn_rate_radps) < config_.standing_rate_radps;
+bool Supervisor::stationary() const {
+  return inputs_.pose.speed_mps < config_.stationary_speed_mps &&
+         std::abs(inputs_.pose.turn_rate_radps) < config_.stationary_rate_radps;
 }
 
 double Supervisor::stop_distance_m() const {
-  return in_.planner.block_kind == BlockKind::kUnseen ? config_.unseen_stop_m : config_.hazard_stop_m;
+  return inputs_.planner.block_kind == BlockKind::kUnseen ? config_.unseen_stop_m : config_.hazard_stop_m;
 }
 
-// Without a number: at once.
+// NaN and a missing path count as blocked at 0 m.
 double Supervisor::blocked_in_m() const {
-  return in_.planner.path_id < 0 || std::isnan(in_.planner.blocked_in_m) ? 0.0 : in_.planner.blocked_in_m;
+  return inputs_.planner.path_id < 0 || std::isnan(inputs_.planner.blocked_in_m) ? 0.0 : inputs_.planner.blocked_in_m;
 }
 
 CommandAnswer Supervisor::answer(const GroundCommand& command, FactSet& facts, Utime now, SupervisorOutput& out) {
@@ -282,12 +289,12 @@ CommandAnswer Supervisor::transition(const GroundCommand& command, Fact fact, Fa
   FactSet with_command = facts;
   with_command.insert(fact);
   const Transition* row = next_transition(state_, with_command);
-  if (row == nullptr || !row->needs.has(fact)) return {command.id, false, refusal(state_, facts, fact)};
+  if (row == nullptr || !row->required.has(fact)) return {command.id, false, refusal_reason(state_, facts, fact)};
   fire(*row, now, out);
   return {command.id, true, ""};
 }
 
-// The first command of a series asks for the state, each that follows keeps it driving.
+// The first command enters TELEOP, the following ones keep it fresh.
 CommandAnswer Supervisor::teleop(const GroundCommand& command, FactSet& facts, Utime now, SupervisorOutput& out) {
   const CommandAnswer answer = state_ == kTeleop ? CommandAnswer{command.id, true, ""}
                                                  : transition(command, Fact::kCommandTeleop, facts, now, out);
@@ -308,12 +315,12 @@ CommandAnswer Supervisor::force_level(const GroundCommand& command, Utime now) {
 }
 
 CommandAnswer Supervisor::clear_fault(const GroundCommand& command, FactSet& facts, Utime now, SupervisorOutput& out) {
-  // What is counted is forgiven.
-  derive_.forget_counts(in_);
-  keeper_.forget();
-  derive_.set_tries(keeper_.tries(now));
-  Fdir::Cleared cleared = fdir_.clear(command.target, judged(now));
-  if (!cleared.refusal.empty()) return {command.id, false, cleared.refusal};
+  // CLEAR_FAULT also resets all counters.
+  derive_.reset_counters(inputs_);
+  restarter_.reset();
+  derive_.set_restart_attempts(restarter_.restart_attempts(now));
+  Fdir::Cleared cleared = fdir_.clear(command.target, monitor_context(now));
+  if (!cleared.refusal_reason.empty()) return {command.id, false, cleared.refusal_reason};
   out.faults.insert(out.faults.end(), cleared.change.begin(), cleared.change.end());
   fault_facts(facts);
   return {command.id, true, ""};
@@ -321,12 +328,12 @@ CommandAnswer Supervisor::clear_fault(const GroundCommand& command, FactSet& fac
 
 void Supervisor::fire(const Transition& row, Utime now, SupervisorOutput& out) {
   StateChange change{state_, row.to, level_, level_, row.cause, evidence_[static_cast<size_t>(row.evidence)]};
-  if (row.needs.has(Fact::kBlockingFault)) change.cause = blocking_fault_;
-  if (row.needs.has(Fact::kSafeFault)) change.cause = safe_fault_;
+  if (row.required.has(Fact::kBlockingFault)) change.cause = blocking_fault_;
+  if (row.required.has(Fact::kSafeFault)) change.cause = safe_fault_;
   if (state_ == kDriving && row.to == kHazardStop) ++hazard_stops_;
-  if (row.to == kHazardStop) blocked_path_id_ = in_.planner.path_id;
-  if (row.to == kFaultStop) derive_.on_fault_stop(in_.pose.travelled_m);
-  if (state_ == kStandby) judge_.restart();
+  if (row.to == kHazardStop) blocked_path_id_ = inputs_.planner.path_id;
+  if (row.to == kFaultStop) derive_.on_fault_stop(inputs_.pose.travelled_m);
+  if (state_ == kStandby) level_selector_.reset();
   state_ = row.to;
   since_ = now;
   last_change_ = change;
@@ -338,7 +345,7 @@ void Supervisor::fire(const LevelTransition& row, SupervisorOutput& out) {
                            row.to, row.cause, level_evidence_[static_cast<size_t>(row.evidence)]};
   raised_by_path_ = row.to == Level::kFull && row.evidence == LevelFact::kPathFull;
   level_ = row.to;
-  judge_.restart();
+  level_selector_.reset();
   last_change_ = change;
   out.changes.push_back(change);
 }
@@ -353,20 +360,20 @@ double Supervisor::speed_limit_mps() const {
   return std::min(allowed, fdir_.speed_limit_mps());
 }
 
-void Supervisor::restore(const Memory& memory) {
-  state_ = memory.state;
+void Supervisor::restore(const PersistentState& persistent_state) {
+  state_ = persistent_state.state;
   if (kUnderWayOrFaultStop.has(state_)) state_ = kFaultStop;
   if (state_ == kTeleop) state_ = kStandby;
-  level_ = memory.level;
-  raised_by_path_ = memory.raised_by_path;
-  forced_ = memory.forced;
-  hazard_stops_ = memory.hazard_stops;
-  fdir_.restore(memory.faults);
-  last_change_ = {memory.state, state_, level_, level_, "supervisor_restarted", {}};
+  level_ = persistent_state.level;
+  raised_by_path_ = persistent_state.raised_by_path;
+  forced_ = persistent_state.forced;
+  hazard_stops_ = persistent_state.hazard_stops;
+  fdir_.restore(persistent_state.faults);
+  last_change_ = {persistent_state.state, state_, level_, level_, "supervisor_restarted", {}};
 }
 
-Memory Supervisor::memory() const {
-  return {state_, level_, raised_by_path_, forced_, hazard_stops_, fdir_.standing()};
+PersistentState Supervisor::persistent_state() const {
+  return {state_, level_, raised_by_path_, forced_, hazard_stops_, fdir_.active()};
 }
 
 }  // namespace rover::supervisor

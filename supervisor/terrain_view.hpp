@@ -1,4 +1,4 @@
-// How much of the ground before the rover the Full level's cost map knows.
+// Fraction of known cells in front of the rover in the Full-level costmap.
 #pragma once
 
 #include <cstdint>
@@ -8,26 +8,26 @@
 
 namespace rover::supervisor {
 
-// A cost map aligned with odom, row by row along x.
-struct CostView {
+// Costmap aligned with odom, row-major along x.
+struct CostmapView {
   double cell_m = 0.0;
-  double origin_x_m = 0.0;  // odom, of the corner with the smallest x and y
+  double origin_x_m = 0.0;  // odom frame, corner with the smallest x and y
   double origin_y_m = 0.0;
   int cells_x = 0;
   int cells_y = 0;
   std::span<const std::uint8_t> cells;
   std::uint8_t unknown = 255;
 
-  // Of the place in odom; what lies outside is not known.
+  // Position in odom; cells outside the map are unknown.
   bool known(double x_m, double y_m) const;
 };
 
-// Shares 0 .. 1 of what a sweep of the NavCam shows, on the next metres of a straight way and to both sides.
-struct KnownShares {
-  double ahead = 0.0;   // 1.2 .. 3 m before the body's origin, 0.6 m to each side
-  double around = 0.0;  // 1.5 .. 4 m away, 10 .. 50 deg to the side of which less is known
+// Known fractions 0 .. 1 of the area that a NavCam sweep covers.
+struct KnownFractions {
+  double ahead = 0.0;   // 1.2 .. 3 m ahead of the body origin, 0.6 m to each side
+  double around = 0.0;  // 1.5 .. 4 m away, 10 .. 50 deg to the side, minimum of both sides
 };
 
-KnownShares known_shares(const CostView& map, const Pose2& body_odom);
+KnownFractions known_fractions(const CostmapView& map, const Pose2& body_odom);
 
 }  // namespace rover::supervisor

@@ -1,4 +1,4 @@
-// Supervisor, trajectory control and locomotion drive a kinematic rover; planner and sensors are stand-ins.
+// Supervisor, trajectory control and locomotion in closed loop with a kinematic rover; planner and sensors are mocked.
 #include <gtest/gtest.h>
 
 #include "supervisor/config.hpp"
@@ -29,7 +29,7 @@ class MissionTest : public testing::Test {
     }
     WheelReport wheels;
     wheels.utime = made;
-    wheels.drive_radps.fill(loop_.speed() / kWheelRadiusM);
+    wheels.drive_rate_radps.fill(loop_.speed() / kWheelRadiusM);
     supervisor_.on_wheels(wheels);
     supervisor_.on_imu({made, false});
     supervisor_.on_motion_command(made);
@@ -104,7 +104,7 @@ TEST_F(MissionTest, DrivesTheSeedTraverseToItsGoal) {
   EXPECT_EQ(changes_.size(), 3u);  // STANDBY, DRIVING, GOAL_REACHED
 }
 
-TEST_F(MissionTest, StopsBeforeAHazardAndGoesOnAroundIt) {
+TEST_F(MissionTest, StopsBeforeAHazardAndResumesOnANewPath) {
   follow({{0.0, 0.0}, {20.0, 0.0}});
   blocked_at_m_ = 5.0;
   go();
@@ -125,7 +125,7 @@ TEST_F(MissionTest, StopsBeforeAHazardAndGoesOnAroundIt) {
   EXPECT_GT(loop_.speed(), 0.05);
 }
 
-TEST_F(MissionTest, StandsWithinASecondOfAnyFault) {
+TEST_F(MissionTest, StopsOnAnyStaleInputAndRecovers) {
   follow({{0.0, 0.0}, {100.0, 0.0}});
   go();
   run(5.0);
@@ -146,7 +146,7 @@ TEST_F(MissionTest, StandsWithinASecondOfAnyFault) {
   stops_and_recovers(hazards_alive_, "hazards_age");
 }
 
-TEST_F(MissionTest, ADeadSupervisorStopsTheRover) {
+TEST_F(MissionTest, DeadSupervisorStopsTheRover) {
   follow({{0.0, 0.0}, {20.0, 0.0}});
   go();
   run(10.0);

@@ -1,4 +1,4 @@
-// What the core takes from the table beside its rows.
+// Configuration of the supervisor derived from fdir.yaml, and its checks.
 #include "supervisor/config.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The project's configuration with one text of fdir.yaml replaced.
+// The default configuration with one text of fdir.yaml replaced.
 class ConfigTest : public testing::Test {
  protected:
   ConfigTest() : dir_(fs::path(testing::TempDir()) / "supervisor_config_test") {
@@ -36,7 +36,7 @@ class ConfigTest : public testing::Test {
   fs::path dir_;
 };
 
-TEST_F(ConfigTest, TheAgesOfThePermitAreThoseOfTheRows) {
+TEST_F(ConfigTest, PermitAgesFollowTheFdirRows) {
   const SupervisorConfig config = load_with("quantity: pose_age_s, limit: 0.3", "quantity: pose_age_s, limit: 0.6");
   EXPECT_EQ(config.pose_max_age_s, 0.6);
   EXPECT_EQ(config.hazards_max_age_s, 1.2);
@@ -44,13 +44,13 @@ TEST_F(ConfigTest, TheAgesOfThePermitAreThoseOfTheRows) {
   EXPECT_NEAR(config.heartbeat_max_age_s, 1.05, 1e-9);
 }
 
-TEST_F(ConfigTest, ARowThatOnlyLogsGatesNothing) {
+TEST_F(ConfigTest, LogRowsDoNotChangePermitAges) {
   const SupervisorConfig config =
       load_with("limit: 1.2, response: stop}    # 2.5 Hz", "limit: 9.0, response: log}    # 2.5 Hz");
   EXPECT_EQ(config.hazards_max_age_s, SupervisorConfig().hazards_max_age_s);
 }
 
-TEST_F(ConfigTest, AnUnknownQuantityIsNamedWithFileAndLine) {
+TEST_F(ConfigTest, UnknownQuantityIsReportedWithFileAndLine) {
   try {
     load_with("quantity: imu_fault", "quantity: imu_mood");
     FAIL();
@@ -60,17 +60,17 @@ TEST_F(ConfigTest, AnUnknownQuantityIsNamedWithFileAndLine) {
   }
 }
 
-TEST_F(ConfigTest, ALimitOfTheWayBackIsNoLower) {
+TEST_F(ConfigTest, BackLimitMustNotBeLowerThanLimit) {
   EXPECT_NO_THROW(load_with("back_limit: 23.0", "back_limit: 20.0"));
   EXPECT_THROW(load_with("back_limit: 20.0", "back_limit: 19.0"), ConfigError);
 }
 
-TEST_F(ConfigTest, ALimitOfTheWayBackBelongsToRowsThatLeadBack) {
+TEST_F(ConfigTest, BackLimitIsOnlyForStopRetreatRows) {
   EXPECT_THROW(load_with("limit: 35.0, n: 3", "limit: 35.0, back_limit: 38.0, n: 3"), ConfigError);
 }
 
-TEST_F(ConfigTest, ARowThatSlowsSaysHowMuch) {
-  EXPECT_THROW(load_with("slow_mps: 0.10", "slow_mps: 5.0"), ConfigError);  // more than the vehicle can
+TEST_F(ConfigTest, SlowRowsNeedAValidSpeed) {
+  EXPECT_THROW(load_with("slow_mps: 0.10", "slow_mps: 5.0"), ConfigError);  // above the vehicle top speed
   EXPECT_THROW(load_with("slow_mps: 5.0, ", ""), ConfigError);
 }
 

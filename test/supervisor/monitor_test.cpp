@@ -16,7 +16,7 @@ MonitorRow row(double persistence_s, bool latched = false) {
   return out;
 }
 
-// Seconds until the monitor changes under a steady value, -1 where it does not within 10 s.
+// Seconds until the monitor changes for a constant value, -1 if it does not within 10 s.
 double time_to_change(Monitor& monitor, Utime& now, double value, bool armed = true) {
   const Utime start = now;
   for (; now - start <= to_utime(10.0); now += kTickUs)
@@ -24,34 +24,33 @@ double time_to_change(Monitor& monitor, Utime& now, double value, bool armed = t
   return -1.0;
 }
 
-TEST(Monitor, RaisesAfterItsPersistenceAndClearsAfterConfirmation) {
+TEST(Monitor, RaisesAfterPersistenceAndClearsAfterClearTime) {
   Monitor monitor(row(0.5));
   Utime now = 0;
   EXPECT_EQ(time_to_change(monitor, now, 0.5), -1.0);
   EXPECT_NEAR(time_to_change(monitor, now, 1.5), 0.5, 1e-9);
-  EXPECT_TRUE(monitor.blocks());
+  EXPECT_TRUE(monitor.blocks_motion());
   EXPECT_EQ(monitor.visible_utime(), now);
   EXPECT_NEAR(time_to_change(monitor, now, 0.5), 1.0, 1e-9);
-  EXPECT_FALSE(monitor.standing());
+  EXPECT_FALSE(monitor.active());
 }
 
-TEST(Monitor, ShortExcursionsDoNotCount) {
+TEST(Monitor, ShortExcursionsDoNotRaise) {
   Monitor monitor(row(0.1));
   for (int i = 0; i < 100; ++i)
     EXPECT_FALSE(monitor.step(i * kTickUs, true, above_reading(i % 4 == 0 ? 0.0 : 2.0, 1.0, i * kTickUs, i * kTickUs)));
 }
 
-TEST(Monitor, AGoodReadingInBetweenRestartsTheConfirmation) {
+TEST(Monitor, BadReadingRestartsTheClearTime) {
   Monitor monitor(row(0.0));
   Utime now = 0;
   time_to_change(monitor, now, 2.0);
   for (int i = 0; i < 200; ++i, now += kTickUs)
     EXPECT_FALSE(monitor.step(now, true, above_reading(i % 25 == 0 ? 2.0 : 0.0, 1.0, now, now)));
-  EXPECT_TRUE(monitor.standing());
+  EXPECT_TRUE(monitor.active());
 }
 
-// The original counts NaN and silence as healthy (reference, fault 8).
-TEST(Monitor, NotANumberAndSilenceRaise) {
+TEST(Monitor, NanAndSilenceRaise) {
   Monitor nan(row(0.0));
   EXPECT_TRUE(nan.step(0, true, above_reading(kNaN, 1.0, 0, 0)));
   EXPECT_EQ(nan.reading().condition, Condition::kInvalid);
@@ -68,7 +67,7 @@ TEST(Monitor, NOfMCountsMeasurementsNotTicks) {
   counted.n = 3;
   counted.m = 5;
   Monitor monitor(counted);
-  // The same bad measurement, looked at many times, is one.
+  // The same bad measurement, evaluated many times, counts once.
   for (int i = 0; i < 20; ++i) EXPECT_FALSE(monitor.step(i * kTickUs, true, above_reading(2.0, 1.0, 0, i * kTickUs)));
   Utime now = 20 * kTickUs;
   const auto measure = [&](double value) {
@@ -78,11 +77,11 @@ TEST(Monitor, NOfMCountsMeasurementsNotTicks) {
   EXPECT_FALSE(measure(0.0));
   EXPECT_FALSE(measure(2.0));
   EXPECT_FALSE(measure(0.0));
-  EXPECT_TRUE(measure(2.0));  // with the first: three of the newest five
+  EXPECT_TRUE(measure(2.0));  // including the first one: three of the newest five
   EXPECT_EQ(monitor.visible_utime(), now);
 }
 
-TEST(Monitor, TwoOfFiveAreNotThree) {
+TEST(Monitor, TwoBadOfFiveDoNotRaiseThreeOfFive) {
   MonitorRow counted = row(0.0);
   counted.n = 3;
   counted.m = 5;
@@ -91,26 +90,26 @@ TEST(Monitor, TwoOfFiveAreNotThree) {
     EXPECT_FALSE(monitor.step(i * kTickUs, true, above_reading(i % 5 < 2 ? 2.0 : 0.0, 1.0, i * kTickUs, i * kTickUs)));
 }
 
-TEST(Monitor, ARestoredFaultClearsLikeAnyOther) {
+TEST(Monitor, RestoredFaultClearsLikeAnyOther) {
   Monitor monitor(row(0.0));
-  monitor.restore_standing();
+  monitor.restore_active();
   Utime now = 0;
   EXPECT_NEAR(time_to_change(monitor, now, 0.0), 1.0, 1e-9);
-  EXPECT_FALSE(monitor.standing());
+  EXPECT_FALSE(monitor.active());
 }
 
-TEST(Monitor, ALatchedFaultWaitsForTheGround) {
+TEST(Monitor, LatchedFaultNeedsAGroundCommand) {
   Monitor monitor(row(0.0, true));
   Utime now = 0;
   time_to_change(monitor, now, 2.0);
   EXPECT_FALSE(monitor.unlatch(above_reading(2.0, 1.0, now, now)));
   EXPECT_EQ(time_to_change(monitor, now, 0.0), -1.0);
-  EXPECT_TRUE(monitor.standing());
+  EXPECT_TRUE(monitor.active());
   EXPECT_TRUE(monitor.unlatch(above_reading(0.0, 1.0, now, now)));
-  EXPECT_FALSE(monitor.standing());
+  EXPECT_FALSE(monitor.active());
 }
 
-TEST(Monitor, UnlatchedItTakesItsWholePersistenceAgain) {
+TEST(Monitor, AfterUnlatchingTheFullPersistenceApplies) {
   Monitor monitor(row(0.5, true));
   Utime now = 0;
   EXPECT_NEAR(time_to_change(monitor, now, 2.0), 0.5, 1e-9);
@@ -119,22 +118,22 @@ TEST(Monitor, UnlatchedItTakesItsWholePersistenceAgain) {
   EXPECT_NEAR(time_to_change(monitor, now, 2.0), 0.5, 1e-9);
 }
 
-TEST(Monitor, OutsideOfItsStatesItIsQuietAndForgets) {
+TEST(Monitor, DisarmedMonitorClearsAndForgets) {
   Monitor monitor(row(0.0, true));
   Utime now = 0;
   EXPECT_EQ(time_to_change(monitor, now, 2.0, false), -1.0);
   EXPECT_EQ(time_to_change(monitor, now, 2.0), 0.0);
   EXPECT_EQ(time_to_change(monitor, now, 2.0, false), 0.0);
-  EXPECT_FALSE(monitor.standing());
+  EXPECT_FALSE(monitor.active());
 }
 
-TEST(Monitor, AResponseOfLoggingDoesNotBlock) {
+TEST(Monitor, LogResponseDoesNotBlockMotion) {
   MonitorRow logged = row(0.0);
   logged.response = Response::kLog;
   Monitor monitor(logged);
   EXPECT_TRUE(monitor.step(0, true, above_reading(2.0, 1.0, 0, 0)));
-  EXPECT_TRUE(monitor.standing());
-  EXPECT_FALSE(monitor.blocks());
+  EXPECT_TRUE(monitor.active());
+  EXPECT_FALSE(monitor.blocks_motion());
 }
 
 }  // namespace

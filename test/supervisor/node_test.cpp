@@ -74,7 +74,7 @@ class SupervisorNodeTest : public testing::Test {
   hazards_t hazards_{};
 };
 
-TEST_F(SupervisorNodeTest, GrantsAfterGoAndReportsStates) {
+TEST_F(SupervisorNodeTest, GrantsPermitAfterGoAndPublishesStates) {
   for (int i = 0; i < 10; ++i) tick();
   ASSERT_EQ(permits_->size(), 10u);
   EXPECT_EQ(permits_->back().granted, 0);
@@ -94,7 +94,7 @@ TEST_F(SupervisorNodeTest, GrantsAfterGoAndReportsStates) {
   EXPECT_NEAR(static_cast<double>(states_->size() - before), 10.0, 1.0);
 }
 
-TEST_F(SupervisorNodeTest, NotANumberInThePoseEndsTheDrive) {
+TEST_F(SupervisorNodeTest, NanInThePoseStopsTheRover) {
   for (int i = 0; i < 10; ++i) tick();
   command(ground_command_t::GO, 1);
   for (double* field : {&pose_.position_odom_body_m[1], &pose_.quat_map_odom_wxyz[2], &pose_.velocity_body_mps[0],
@@ -112,13 +112,13 @@ TEST_F(SupervisorNodeTest, NotANumberInThePoseEndsTheDrive) {
   EXPECT_EQ(states_->back().faults, std::vector<std::string>{"pose_status"});
 }
 
-TEST_F(SupervisorNodeTest, LeavesTheStartPoseToLocalization) {
+TEST_F(SupervisorNodeTest, DoesNotAnswerSetStartPose) {
   tick();
   command(ground_command_t::SET_START_POSE, 5);
   EXPECT_TRUE(acks_->empty());
 }
 
-TEST_F(SupervisorNodeTest, RefusesWithAReason) {
+TEST_F(SupervisorNodeTest, RefusesUnknownCommandsWithAReason) {
   tick();
   command(77, 5);
   ASSERT_EQ(acks_->size(), 1u);
@@ -126,7 +126,7 @@ TEST_F(SupervisorNodeTest, RefusesWithAReason) {
   EXPECT_FALSE(acks_->back().reason.empty());
 }
 
-TEST(Convert, WhatIsNotKnownToBeGoodIsBad) {
+TEST(Convert, UnknownStatusCountsAsBad) {
   hazards_t hazards{};
   hazards.state = 17;
   EXPECT_TRUE(report_from(hazards).blind);

@@ -5,7 +5,7 @@
 namespace rover::supervisor {
 namespace {
 
-constexpr std::int64_t kHoldEvery = 7;  // of the messages of a stream one comes late
+constexpr std::int64_t kDelayEvery = 7;  // one of this many messages of a stream is delayed
 
 }  // namespace
 
@@ -44,15 +44,15 @@ void RowsRig::send(const std::string& channel, Message message, const std::strin
   StreamCounter& counter = counters_.try_emplace({publisher, boot_id}, StreamCounter(publisher, boot_id)).first->second;
   message.header = counter.next(channel, world.now, world.now + kTickUs);
   const auto publish = [this, channel, message] { world.bus.publish(channel, &message); };
-  std::function<void()>& held = held_[channel + " " + publisher];
-  if (bus_ == Bus::kOutOfOrder && message.header.seq % kHoldEvery == 0) {
-    held = publish;
+  std::function<void()>& delayed = delayed_[channel + " " + publisher];
+  if (bus_ == Bus::kOutOfOrder && message.header.seq % kDelayEvery == 0) {
+    delayed = publish;
     return;
   }
   publish();
   if (bus_ == Bus::kDuplicates) publish();
-  if (held) held();
-  held = nullptr;
+  if (delayed) delayed();
+  delayed = nullptr;
 }
 
 void RowsRig::tick() {
@@ -63,12 +63,12 @@ void RowsRig::tick() {
   world.tick(node_);
   world.bus.handleTimeout(0);
   ++ticks_;
-  note_changes();
+  record_changes();
 }
 
 void RowsRig::send_sensors() {
   if (wheels_follow) std::fill_n(wheels.drive_rate_radps, 6, permitted() ? 1.6 : 0.0);
-  if (odometry_lives) pose.last_vo_utime = world.now;
+  if (odometry_alive) pose.last_vo_utime = world.now;
   pose.velocity_body_mps[0] = 0.125 * wheels.drive_rate_radps[0];
   pose.travelled_m += pose.velocity_body_mps[0] * to_seconds(kTickUs);
   send(channel::kPose, pose);
@@ -101,12 +101,12 @@ void RowsRig::send_heartbeats() {
   }
 }
 
-// Standing rows are said again each second: a change is what was not known.
-void RowsRig::note_changes() {
-  for (; noted_ < faults_->size(); ++noted_) {
-    const fault_t& fault = (*faults_)[noted_];
+// Active faults are republished each second; only changes are recorded.
+void RowsRig::record_changes() {
+  for (; recorded_ < faults_->size(); ++recorded_) {
+    const fault_t& fault = (*faults_)[recorded_];
     const bool raised = fault.standing == 1;
-    if (raised ? !standing_.insert(fault.id).second : standing_.erase(fault.id) == 0) continue;
+    if (raised ? !active_.insert(fault.id).second : active_.erase(fault.id) == 0) continue;
     changes_.push_back({fault.id, raised, ticks_, fault.condition, fault.first == 1});
   }
 }
@@ -136,18 +136,18 @@ bool RowsRig::start_driving(bool full) {
   return permitted() && changes_.empty();
 }
 
-bool RowsRig::stands(const std::string& id) const {
-  return standing_.contains(id);
+bool RowsRig::is_active(const std::string& id) const {
+  return active_.contains(id);
 }
 
 bool RowsRig::raised_within(const std::string& id, double seconds) {
-  for (const Utime end = world.now + to_utime(seconds); world.now < end && !stands(id);) tick();
-  return stands(id);
+  for (const Utime end = world.now + to_utime(seconds); world.now < end && !is_active(id);) tick();
+  return is_active(id);
 }
 
 bool RowsRig::cleared_within(const std::string& id, double seconds) {
-  for (const Utime end = world.now + to_utime(seconds); world.now < end && stands(id);) tick();
-  return !stands(id);
+  for (const Utime end = world.now + to_utime(seconds); world.now < end && is_active(id);) tick();
+  return !is_active(id);
 }
 
 bool RowsRig::permit_within(double seconds) {

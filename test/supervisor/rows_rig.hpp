@@ -1,4 +1,4 @@
-// The supervisor's node in a world that is well until a test spoils it: every message it takes, at its rate.
+// Test harness: the supervisor node with healthy inputs at their rates, into which tests inject faults.
 #pragma once
 
 #include <functional>
@@ -25,7 +25,7 @@
 
 namespace rover::supervisor {
 
-// What the bus does to the messages.
+// Disturbance of the messages on the bus.
 enum class Bus { kPlain, kDuplicates, kOutOfOrder };
 
 struct ServiceOnBus {
@@ -36,7 +36,7 @@ struct ServiceOnBus {
   bool silent = false;
 };
 
-// A row raised or cleared; `tick` counts from the begin.
+// A row raised or cleared; `tick` counts from the start.
 struct RowChange {
   std::string id;
   bool raised;
@@ -51,15 +51,15 @@ class RowsRig {
 
   void tick();
   void run(double seconds);
-  // The answer to it; refused where there is none.
+  // Returns whether it was accepted; false without acknowledgement.
   bool command(std::int8_t kind, const std::string& target = "", std::int8_t level = ground_command_t::AUTO);
-  // Under way, with a permit; in the Full level where asked for. False where that does not come about.
+  // Starts a drive, at the Full level if requested. Returns whether a permit was granted without any fault.
   bool start_driving(bool full);
-  // Whether the row stands within that time.
+  // Returns whether the row becomes active within that time.
   bool raised_within(const std::string& id, double seconds);
   bool cleared_within(const std::string& id, double seconds);
   bool permit_within(double seconds);
-  bool stands(const std::string& id) const;
+  bool is_active(const std::string& id) const;
   bool permitted() const { return !permits_->empty() && permits_->back().granted == 1; }
   const std::vector<RowChange>& changes();
 
@@ -72,9 +72,9 @@ class RowsRig {
   imu_t imu{};
   traversability_t terrain{};
   slam_pose_t slam{};
-  bool wheels_follow = true;  // the permit
-  bool odometry_lives = true;
-  std::set<std::string> silent;  // channels on which nothing is sent
+  bool wheels_follow = true;  // wheels turn if permitted
+  bool odometry_alive = true;
+  std::set<std::string> silent;  // channels without messages
   std::map<std::string, ServiceOnBus> services;
   std::function<void()> each_tick = [] {};
   test::BusWorld world;
@@ -86,7 +86,7 @@ class RowsRig {
   void send_sensors();
   void send_decisions();
   void send_heartbeats();
-  void note_changes();
+  void record_changes();
 
   Bus bus_;
   SupervisorConfig config_;
@@ -96,10 +96,10 @@ class RowsRig {
   std::shared_ptr<std::vector<command_ack_t>> acks_;
   std::shared_ptr<std::vector<fault_t>> faults_;
   std::map<std::pair<std::string, std::int64_t>, StreamCounter> counters_;
-  std::map<std::string, std::function<void()>> held_;  // by channel and publisher: to be sent after what follows it
+  std::map<std::string, std::function<void()>> delayed_;  // by channel and publisher: sent after the next message
   std::vector<RowChange> changes_;
-  std::set<std::string> standing_;
-  size_t noted_ = 0;
+  std::set<std::string> active_;
+  size_t recorded_ = 0;
   std::int64_t ticks_ = 0;
   std::int64_t command_id_ = 0;
 };

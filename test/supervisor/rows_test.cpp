@@ -1,5 +1,5 @@
-// Each line of config/fdir.yaml: raised by its cause and by no other row's name missing, cleared when the cause has
-// gone; with messages that come twice or late; by NaN and by silence; two at a time, cleared in either order.
+// Every row of config/fdir.yaml: raised by its cause and cleared afterwards, also with duplicated and reordered
+// messages, NaN and silence, and for pairs of faults cleared in either order.
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
 
@@ -15,16 +15,16 @@ using Change = std::function<void(RowsRig&)>;
 
 struct RowCase {
   std::string line;  // id in fdir.yaml
-  std::string row;   // what becomes of it for one motor or service; empty: the same
-  Change spoil;
-  Change mend;
-  double within_s = 2.0;  // raised
+  std::string row;   // expanded id for one motor or service; empty: same as line
+  Change inject;
+  Change recover;
+  double within_s = 2.0;  // time limit to raise
   double cleared_s = 4.0;
-  bool full = false;           // in the Full level
-  std::string as_ground = {};  // "fault", "safe": cleared by that command
+  bool full = false;            // at the Full level
+  std::string cleared_by = {};  // "fault", "safe": needs CLEAR_FAULT, CLEAR_SAFE
 };
 
-// What the test names in its messages.
+// Name in test messages.
 void PrintTo(const RowCase& c, std::ostream* out) {
   *out << c.line;
 }
@@ -32,11 +32,11 @@ void PrintTo(const RowCase& c, std::ostream* out) {
 Change set_silent(const std::string& channel) {
   return [channel](RowsRig& rig) { rig.silent.insert(channel); };
 }
-Change set_heard(const std::string& channel) {
+Change clear_silent(const std::string& channel) {
   return [channel](RowsRig& rig) { rig.silent.erase(channel); };
 }
 RowCase silence(const std::string& line, const std::string& channel, double within_s = 2.0) {
-  return {line, "", set_silent(channel), set_heard(channel), within_s};
+  return {line, "", set_silent(channel), clear_silent(channel), within_s};
 }
 void attitude(RowsRig& rig, double roll_deg, double pitch_deg) {
   pose_to(make_pose(rotation_from_rpy(to_rad(roll_deg), to_rad(pitch_deg), 0.0), Eigen::Vector3d::Zero()),
@@ -70,15 +70,15 @@ RowCase covariance(const std::string& line, double sigma_m) {
   return {line, "", [=](RowsRig& rig) { rig.pose.covariance[0] = sigma_m * sigma_m; },
           [](RowsRig& rig) { rig.pose.covariance[0] = 0.0; }};
 }
-RowCase coverage(const std::string& line, float share) {
-  return {line, "", [=](RowsRig& rig) { rig.hazards.coverage = share; },
+RowCase coverage(const std::string& line, float fraction) {
+  return {line, "", [=](RowsRig& rig) { rig.hazards.coverage = fraction; },
           [](RowsRig& rig) { rig.hazards.coverage = 0.9f; }, 3.0};
 }
-RowCase mute_service(const std::string& line, const std::string& service, double within_s) {
+RowCase silent_service(const std::string& line, const std::string& service, double within_s) {
   return {line, line + "." + service, [=](RowsRig& rig) { rig.services[service].silent = true; },
           [=](RowsRig& rig) { rig.services[service].silent = false; }, within_s};
 }
-RowCase starting_over(const std::string& line, const std::string& service) {
+RowCase restarting(const std::string& line, const std::string& service) {
   return {line,
           line + "." + service,
           [=](RowsRig& rig) {
@@ -92,7 +92,7 @@ RowCase starting_over(const std::string& line, const std::string& service) {
           false,
           "safe"};
 }
-RowCase silent_for_good(const std::string& line, const std::string& service) {
+RowCase permanently_silent(const std::string& line, const std::string& service) {
   return {line,
           line + "." + service,
           [=](RowsRig& rig) { rig.services[service].silent = true; },
@@ -103,11 +103,11 @@ RowCase silent_for_good(const std::string& line, const std::string& service) {
           "safe"};
 }
 RowCase no_odometry(const std::string& line, double within_s) {
-  return {line, "", [](RowsRig& rig) { rig.odometry_lives = false; }, [](RowsRig& rig) { rig.odometry_lives = true; },
+  return {line, "", [](RowsRig& rig) { rig.odometry_alive = false; }, [](RowsRig& rig) { rig.odometry_alive = true; },
           within_s};
 }
-// Messages lost before the services, of the hundred that each takes between two heartbeats.
-RowCase losing(const std::string& line, std::int64_t lost) {
+// Lost messages per service, of 100 between two heartbeats.
+RowCase losing_messages(const std::string& line, std::int64_t lost) {
   return {line,
           "",
           [=](RowsRig& rig) {
@@ -159,7 +159,7 @@ std::vector<RowCase> pose_cases() {
   };
 }
 
-std::vector<RowCase> sight_cases() {
+std::vector<RowCase> perception_cases() {
   return {
       silence("hazards_age", channel::kHazards, 3.0),
       {"hazards_blind", "", [](RowsRig& rig) { rig.hazards.state = hazards_t::BLIND; },
@@ -169,7 +169,7 @@ std::vector<RowCase> sight_cases() {
   };
 }
 
-// At the Full level.
+// Rows of the Full level.
 std::vector<RowCase> full_cases() {
   return {
       silence("terrain_way", channel::kTraversability, 10.0),
@@ -177,12 +177,12 @@ std::vector<RowCase> full_cases() {
        [](RowsRig& rig) { rig.terrain.cells = {traversability_t::FREE}; }, 70.0, 2.0, false, "fault"},
       {"slam_lost", "", [](RowsRig& rig) { rig.slam.status = slam_pose_t::LOST; },
        [](RowsRig& rig) { rig.slam.status = slam_pose_t::OK; }, 8.0},
-      mute_service("full_heartbeat", "slam", 2.0),
+      silent_service("full_heartbeat", "slam", 2.0),
       {"full_service_fault", "full_service_fault.pan_tilt",
        [](RowsRig& rig) { rig.services["pan_tilt"].status = heartbeat_t::FAULT; },
        [](RowsRig& rig) { rig.services["pan_tilt"].status = heartbeat_t::OK; }},
-      starting_over("full_starts", "traversability"),
-      silent_for_good("full_restart_failed", "point_cloud"),
+      restarting("full_starts", "traversability"),
+      permanently_silent("full_restart_failed", "point_cloud"),
   };
 }
 
@@ -224,22 +224,22 @@ std::vector<RowCase> path_cases() {
 
 std::vector<RowCase> service_cases() {
   return {
-      mute_service("heartbeat_late", "stereo", 2.0),
-      mute_service("heartbeat", "path_planner", 2.0),
+      silent_service("heartbeat_late", "stereo", 2.0),
+      silent_service("heartbeat", "path_planner", 2.0),
       {"service_fault", "service_fault.localization",
        [](RowsRig& rig) { rig.services["localization"].status = heartbeat_t::FAULT; },
        [](RowsRig& rig) { rig.services["localization"].status = heartbeat_t::OK; }},
-      mute_service("full_idle_heartbeat", "slam", 2.0),
-      starting_over("starts", "locomotion"),
-      silent_for_good("restart_failed", "stereo"),
-      mute_service("optional_heartbeat", "recorder", 8.0),
+      silent_service("full_idle_heartbeat", "slam", 2.0),
+      restarting("starts", "locomotion"),
+      permanently_silent("restart_failed", "stereo"),
+      silent_service("optional_heartbeat", "recorder", 8.0),
       {"log_disk", "", [](RowsRig& rig) { rig.services["recorder"].status = heartbeat_t::DEGRADED; },
        [](RowsRig& rig) { rig.services["recorder"].status = heartbeat_t::OK; }},
-      losing("message_loss_high", 5),
-      losing("message_loss", 80),
+      losing_messages("message_loss_high", 5),
+      losing_messages("message_loss", 80),
       {"unpermitted_motion", "",
        [](RowsRig& rig) {
-         rig.silent.insert(channel::kMotionCommand);  // a stop, but the wheels go on
+         rig.silent.insert(channel::kMotionCommand);  // stops the rover, but the wheels keep turning
          rig.wheels_follow = false;
          std::fill_n(rig.wheels.drive_rate_radps, 6, 1.6);
        },
@@ -271,7 +271,8 @@ std::set<std::string> armed_at(const std::string& when) {
 
 std::vector<RowCase> all_cases() {
   std::vector<RowCase> out;
-  for (const auto& group : {sensor_cases(), pose_cases(), sight_cases(), path_cases(), service_cases(), full_cases()})
+  for (const auto& group :
+       {sensor_cases(), pose_cases(), perception_cases(), path_cases(), service_cases(), full_cases()})
     out.insert(out.end(), group.begin(), group.end());
   const std::set<std::string> full = armed_at("full");
   for (RowCase& c : out) {
@@ -281,13 +282,13 @@ std::vector<RowCase> all_cases() {
   return out;
 }
 
-// The ground clears what is latched.
+// Clears latched faults by ground command.
 void clear_by_ground(RowsRig& rig, const RowCase& c) {
-  if (!c.as_ground.empty()) rig.command(ground_command_t::CLEAR_FAULT, c.row);
+  if (!c.cleared_by.empty()) rig.command(ground_command_t::CLEAR_FAULT, c.row);
 }
 
-void drive_on(RowsRig& rig, const RowCase& c) {
-  if (c.as_ground != "safe") return;
+void resume_drive(RowsRig& rig, const RowCase& c) {
+  if (c.cleared_by != "safe") return;
   rig.run(3.0);
   EXPECT_TRUE(rig.command(ground_command_t::CLEAR_SAFE));
   EXPECT_TRUE(rig.command(ground_command_t::GO));
@@ -300,39 +301,39 @@ std::vector<std::string> raised_rows(const std::vector<RowChange>& changes) {
   return out;
 }
 
-// One row from its cause to the drive that goes on; what was raised meanwhile.
-std::vector<std::string> walk_through(const RowCase& c, Bus bus) {
+// Injects the cause of a row, clears it and resumes the drive. Returns the rows raised meanwhile.
+std::vector<std::string> run_case(const RowCase& c, Bus bus) {
   RowsRig rig(bus);
   EXPECT_TRUE(rig.start_driving(c.full)) << "not under way";
-  c.spoil(rig);
+  c.inject(rig);
   EXPECT_TRUE(rig.raised_within(c.row, c.within_s)) << "not raised";
   const std::vector<std::string> raised = raised_rows(rig.changes());
-  c.mend(rig);
+  c.recover(rig);
   clear_by_ground(rig, c);
   EXPECT_TRUE(rig.cleared_within(c.row, c.cleared_s)) << "not cleared";
-  drive_on(rig, c);
+  resume_drive(rig, c);
   EXPECT_TRUE(rig.permit_within(5.0)) << "does not drive on";
   return raised;
 }
 
-class Rows : public testing::TestWithParam<RowCase> {};
+class FdirRows : public testing::TestWithParam<RowCase> {};
 
-TEST_P(Rows, IsRaisedAndCleared) {
-  EXPECT_FALSE(walk_through(GetParam(), Bus::kPlain).empty());
+TEST_P(FdirRows, IsRaisedAndCleared) {
+  EXPECT_FALSE(run_case(GetParam(), Bus::kPlain).empty());
 }
 
-TEST_P(Rows, MessagesThatComeTwiceChangeNothing) {
-  EXPECT_EQ(walk_through(GetParam(), Bus::kDuplicates), walk_through(GetParam(), Bus::kPlain));
+TEST_P(FdirRows, DuplicatedMessagesChangeNothing) {
+  EXPECT_EQ(run_case(GetParam(), Bus::kDuplicates), run_case(GetParam(), Bus::kPlain));
 }
 
-TEST_P(Rows, MessagesThatComeLateRaiseNothingElse) {
-  EXPECT_EQ(walk_through(GetParam(), Bus::kOutOfOrder), walk_through(GetParam(), Bus::kPlain));
+TEST_P(FdirRows, ReorderedMessagesRaiseNothingElse) {
+  EXPECT_EQ(run_case(GetParam(), Bus::kOutOfOrder), run_case(GetParam(), Bus::kPlain));
 }
 
-INSTANTIATE_TEST_SUITE_P(Fdir, Rows, testing::ValuesIn(all_cases()),
+INSTANTIATE_TEST_SUITE_P(Fdir, FdirRows, testing::ValuesIn(all_cases()),
                          [](const auto& named) { return named.param.line; });
 
-TEST(RowsTable, HasACaseForEachLine) {
+TEST(FdirTable, HasATestCaseForEachRow) {
   std::set<std::string> lines, cases;
   for (const YAML::Node& row : YAML::LoadFile(ROVER_SOURCE_DIR "/config/fdir.yaml")["rows"])
     lines.insert(row["id"].as<std::string>());
@@ -340,7 +341,7 @@ TEST(RowsTable, HasACaseForEachLine) {
   EXPECT_EQ(lines, cases);
 }
 
-TEST(RowsTable, AWorldThatIsWellRaisesNothing) {
+TEST(FdirTable, HealthyInputsRaiseNothing) {
   for (const Bus bus : {Bus::kPlain, Bus::kDuplicates, Bus::kOutOfOrder}) {
     RowsRig rig(bus);
     ASSERT_TRUE(rig.start_driving(false));
@@ -350,8 +351,8 @@ TEST(RowsTable, AWorldThatIsWellRaisesNothing) {
   }
 }
 
-// A number that is none, in each field that a row looks at.
-TEST(RowsTable, NotANumberIsAFault) {
+// NaN in each monitored field.
+TEST(FdirTable, NanIsAFault) {
   const std::vector<std::pair<std::string, Change>> cases = {
       {"imu_fault", [](RowsRig& rig) { rig.imu.delta_angle_rad[1] = kNaN; }},
       {"imu_fault", [](RowsRig& rig) { rig.imu.fog_delta_yaw_rad = kNaN; }},
@@ -371,17 +372,17 @@ TEST(RowsTable, NotANumberIsAFault) {
       {"hazards_blind", [](RowsRig& rig) { rig.hazards.coverage = static_cast<float>(kNaN); }},
       {"corridor_predicted", [](RowsRig& rig) { rig.control.predicted_corridor_error_m = kNaN; }},
   };
-  for (const auto& [row, spoil] : cases) {
+  for (const auto& [row, inject] : cases) {
     RowsRig rig;
     ASSERT_TRUE(rig.start_driving(false));
-    spoil(rig);
+    inject(rig);
     EXPECT_TRUE(rig.raised_within(row, 5.0)) << row;
     EXPECT_FALSE(rig.permitted()) << row;
   }
 }
 
-// A block of NaN metres stops like one of none, without a row: there is no telling how far the way is free.
-TEST(RowsTable, ABlockWithoutANumberStops) {
+// NaN in blocked_in_m stops like 0 m, without a fault row.
+TEST(FdirTable, NanBlockDistanceStops) {
   RowsRig rig;
   ASSERT_TRUE(rig.start_driving(false));
   rig.planner.blocked_in_m = kNaN;
@@ -389,8 +390,8 @@ TEST(RowsTable, ABlockWithoutANumberStops) {
   EXPECT_FALSE(rig.permitted());
 }
 
-// Who falls silent while he is faulty has not become well.
-TEST(RowsTable, SilenceDoesNotClear) {
+// A stream that falls silent during a fault keeps the fault active.
+TEST(FdirTable, SilenceDoesNotClearAFault) {
   const std::vector<std::pair<std::string, std::string>> streams = {{"imu_fault", channel::kImu},
                                                                     {"wheel_fault", channel::kWheelState},
                                                                     {"roll", channel::kPose},
@@ -401,17 +402,17 @@ TEST(RowsTable, SilenceDoesNotClear) {
     const RowCase& c = *std::find_if(cases.begin(), cases.end(), [&](const RowCase& r) { return r.line == line; });
     RowsRig rig;
     ASSERT_TRUE(rig.start_driving(false));
-    c.spoil(rig);
+    c.inject(rig);
     ASSERT_TRUE(rig.raised_within(c.row, c.within_s));
     rig.silent.insert(channel);
-    c.mend(rig);
+    c.recover(rig);
     rig.run(5.0);
-    EXPECT_TRUE(rig.stands(c.row)) << line;
+    EXPECT_TRUE(rig.is_active(c.row)) << line;
   }
 }
 
-// Any two of causes that have nothing to do with each other, cleared in either order.
-TEST(RowsTable, TwoFaultsStandForThemselves) {
+// All pairs of independent causes, cleared in either order.
+TEST(FdirTable, TwoFaultsAreIndependent) {
   const std::set<std::string> lines = {"imu_fault",       "wheel_fault",   "roll",
                                        "pose_sigma",      "drive_current", "hazards_age",
                                        "out_of_corridor", "service_fault", "path_mismatch"};
@@ -424,17 +425,17 @@ TEST(RowsTable, TwoFaultsStandForThemselves) {
       SCOPED_TRACE(first.line + " then " + second.line);
       RowsRig rig;
       ASSERT_TRUE(rig.start_driving(false));
-      first.spoil(rig);
+      first.inject(rig);
       ASSERT_TRUE(rig.raised_within(first.row, first.within_s));
       EXPECT_TRUE(rig.changes().front().first);
-      second.spoil(rig);
+      second.inject(rig);
       ASSERT_TRUE(rig.raised_within(second.row, 5.0));
       EXPECT_FALSE(rig.changes().back().first);
-      first.mend(rig);
+      first.recover(rig);
       ASSERT_TRUE(rig.cleared_within(first.row, first.cleared_s));
-      EXPECT_TRUE(rig.stands(second.row));
+      EXPECT_TRUE(rig.is_active(second.row));
       EXPECT_FALSE(rig.permitted());
-      second.mend(rig);
+      second.recover(rig);
       ASSERT_TRUE(rig.cleared_within(second.row, second.cleared_s));
       EXPECT_TRUE(rig.permit_within(5.0));
     }

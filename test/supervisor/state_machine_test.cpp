@@ -1,4 +1,4 @@
-// The machine's table, walked through every state with every set of facts.
+// Exhaustive tests of the transition tables: every state with every set of facts.
 #include "supervisor/state_machine.hpp"
 
 #include <gtest/gtest.h>
@@ -16,18 +16,18 @@ using F = Fact;
 
 constexpr std::uint32_t kFactSets = 1U << kFactCount;
 
-// A drive that waits.
-constexpr StateSet kHeld = {kHazardStop, kRepairing, kSweeping, kCorrecting, kFaultStop};
+// States of a drive that waits.
+constexpr StateSet kWaiting = {kHazardStop, kRepairing, kSweeping, kCorrecting, kFaultStop};
 
 State state(int s) {
   return static_cast<State>(s);
 }
 
-// Of a clear path and a blocked one at most one holds, and without a path it is blocked; commands are carried out one
-// by one; a fault that ends the drive blocks: so the facts are made.
-bool possible(FactSet facts) {
+// Constraints between facts: a path is not both clear and blocked, no path means blocked, one command at a time, and a
+// safe fault is also a blocking fault.
+bool is_consistent(FactSet facts) {
   const bool blocked = facts.has(F::kPathBlocked);
-  const bool one_command = std::popcount(facts.common(kCommandFacts).bits()) <= 1;
+  const bool one_command = std::popcount(facts.intersection(kCommandFacts).bits()) <= 1;
   return !(blocked && facts.has(F::kPathClear)) && (facts.has(F::kPathPresent) || blocked) && one_command &&
          (facts.has(F::kBlockingFault) || !facts.has(F::kSafeFault));
 }
@@ -37,11 +37,11 @@ void for_all(Visit visit) {
   for (int s = 0; s < kStateCount; ++s)
     for (std::uint32_t bits = 0; bits < kFactSets; ++bits) {
       const FactSet facts = FactSet::from_bits(bits);
-      if (possible(facts)) visit(state(s), facts);
+      if (is_consistent(facts)) visit(state(s), facts);
     }
 }
 
-// As the supervisor runs it: commands last for one transition.
+// As in the supervisor: a command is valid for one transition.
 State settle(State s, FactSet facts, int& steps) {
   for (steps = 0; steps <= kStateCount; ++steps) {
     const Transition* row = next_transition(s, facts);
@@ -63,7 +63,7 @@ std::set<State> reachable() {
   return out;
 }
 
-TEST(StateMachine, SettlesUnderEveryFact) {
+TEST(StateMachine, SettlesForEveryFactSet) {
   int longest = 0;
   for_all([&](State s, FactSet facts) {
     int steps = 0;
@@ -73,7 +73,7 @@ TEST(StateMachine, SettlesUnderEveryFact) {
   EXPECT_LE(longest, 4);
 }
 
-TEST(StateMachine, NoPermitWithAnythingAgainstIt) {
+TEST(StateMachine, NoPermitWithAnyBlockingFact) {
   int granted = 0;
   for_all([&](State s, FactSet facts) {
     int steps = 0;
@@ -94,7 +94,7 @@ TEST(StateMachine, NoPermitWithAnythingAgainstIt) {
   EXPECT_GT(granted, 0);
 }
 
-TEST(StateMachine, ABlockingFaultEndsDrivingInTheSameTick) {
+TEST(StateMachine, BlockingFaultStopsDrivingInTheSameTick) {
   for_all([&](State s, FactSet facts) {
     if (!facts.has(F::kBlockingFault)) return;
     int steps = 0;
@@ -103,7 +103,7 @@ TEST(StateMachine, ABlockingFaultEndsDrivingInTheSameTick) {
   });
 }
 
-TEST(StateMachine, SafeIsLeftByGroundCommandAlone) {
+TEST(StateMachine, OnlyClearSafeLeavesSafe) {
   for_all([&](State s, FactSet facts) {
     if (s != kSafe) return;
     int steps = 0;
@@ -113,7 +113,7 @@ TEST(StateMachine, SafeIsLeftByGroundCommandAlone) {
   });
 }
 
-TEST(StateMachine, AFaultThatEndsTheDriveLeadsToSafeAndHoldsIt) {
+TEST(StateMachine, SafeFaultLeadsToSafeAndKeepsIt) {
   for_all([&](State s, FactSet facts) {
     int steps = 0;
     if (facts.has(F::kSafeFault)) {
@@ -122,7 +122,7 @@ TEST(StateMachine, AFaultThatEndsTheDriveLeadsToSafeAndHoldsIt) {
   });
 }
 
-TEST(StateMachine, AnEmergencyStopLeadsToSafeFromEverywhere) {
+TEST(StateMachine, EmergencyStopLeadsToSafeFromEveryState) {
   for_all([&](State s, FactSet facts) {
     if (s == kSafe || !facts.has(F::kCommandEmergencyStop)) return;
     const Transition* row = next_transition(s, facts);
@@ -131,21 +131,21 @@ TEST(StateMachine, AnEmergencyStopLeadsToSafeFromEverywhere) {
   });
 }
 
-TEST(StateMachine, DrivingBeginsByGroundCommandOrAfterADriveThatItBegan) {
+TEST(StateMachine, DrivingStartsByGroundCommandOrResumesADrive) {
   for (const Transition& row : transitions()) {
     if (row.to != kDriving) continue;
-    const bool commanded = row.needs.has_any(kCommandFacts);
-    const bool resumed = kHeld.has_all(row.from);
+    const bool commanded = row.required.has_any(kCommandFacts);
+    const bool resumed = kWaiting.has_all(row.from);
     EXPECT_TRUE(commanded || resumed) << row.cause;
   }
-  // And into those nothing leads but from a drive.
+  // The waiting states are entered only from a drive.
   for (const Transition& row : transitions())
-    if (kHeld.has(row.to)) {
-      EXPECT_TRUE(row.from.without(kHeld).without({kDriving}).empty()) << row.cause;
+    if (kWaiting.has(row.to)) {
+      EXPECT_TRUE(row.from.without(kWaiting).without({kDriving}).empty()) << row.cause;
     }
 }
 
-TEST(StateMachine, EveryReachableStateHasAWayOutAndBackToDriving) {
+TEST(StateMachine, EveryReachableStateCanBeLeftAndLeadsBackToDriving) {
   for (const State s : reachable()) {
     bool leaves = false;
     for (const Transition& row : transitions()) leaves |= row.from.has(s) && row.to != s;
@@ -161,7 +161,7 @@ TEST(StateMachine, EveryReachableStateHasAWayOutAndBackToDriving) {
   }
 }
 
-TEST(StateMachine, EveryRowFiresUnderSomeFacts) {
+TEST(StateMachine, EveryTransitionFiresForSomeFacts) {
   std::set<const Transition*> fired;
   for_all([&](State s, FactSet facts) {
     if (const Transition* row = next_transition(s, facts)) fired.insert(row);
@@ -169,11 +169,11 @@ TEST(StateMachine, EveryRowFiresUnderSomeFacts) {
   EXPECT_EQ(fired.size(), transitions().size());
 }
 
-TEST(StateMachine, ReachesEveryState) {
+TEST(StateMachine, EveryStateIsReachable) {
   EXPECT_EQ(reachable().size(), static_cast<size_t>(kStateCount));
 }
 
-TEST(StateMachine, FollowsASmallReferenceOfItsRules) {
+TEST(StateMachine, MatchesAReferenceImplementation) {
   for_all([&](State s, FactSet facts) {
     if (facts.has_any(kCommandFacts) || facts.has(F::kSafeFault)) return;
     int steps = 0;
@@ -205,12 +205,12 @@ void for_all_levels(Visit visit) {
     for (std::uint32_t bits = 0; bits < (1U << kLevelFactCount); ++bits) {
       const LevelFactSet facts = LevelFactSet::from_bits(bits);
       const bool both = facts.has_all({L::kForcedFull, L::kForcedEfficient});
-      // Only a level that is Full was raised by the path, and was there by the path's word.
+      // kRaisedByPath is only possible at the Full level.
       if (!both && (level == Level::kFull || !facts.has(L::kRaisedByPath))) visit(level, facts);
     }
 }
 
-TEST(LevelMachine, ChangesByItsRulesAlone) {
+TEST(LevelMachine, ChangesOnlyByItsRules) {
   for_all_levels([](Level level, LevelFactSet facts) {
     const LevelTransition* row = next_level(level, facts);
     const bool found_hard = facts.has_any({L::kSlowProgress, L::kManyHazards}) && !facts.has(L::kFullFailing);
@@ -227,8 +227,8 @@ TEST(LevelMachine, ChangesByItsRulesAlone) {
   });
 }
 
-// What raises the level must not at once lower it again: the windows of the measured facts start anew at a change.
-TEST(LevelMachine, DoesNotSwingUnderWhatLasts) {
+// After a change, with the windows reset, constant facts must not change the level again.
+TEST(LevelMachine, DoesNotOscillateUnderConstantFacts) {
   constexpr LevelFactSet kWindowed = {L::kSlowProgress, L::kManyHazards, L::kEasyAhead};
   for_all_levels([&](Level level, LevelFactSet facts) {
     const LevelTransition* row = next_level(level, facts);
@@ -239,7 +239,7 @@ TEST(LevelMachine, DoesNotSwingUnderWhatLasts) {
   });
 }
 
-TEST(LevelMachine, EveryRowFiresUnderSomeFacts) {
+TEST(LevelMachine, EveryTransitionFiresForSomeFacts) {
   std::set<const LevelTransition*> fired;
   for_all_levels([&](Level level, LevelFactSet facts) {
     if (const LevelTransition* row = next_level(level, facts)) fired.insert(row);
@@ -248,17 +248,18 @@ TEST(LevelMachine, EveryRowFiresUnderSomeFacts) {
 }
 
 TEST(StateMachine, RefusalsNameTheReason) {
-  EXPECT_EQ(refusal(kDriving, {}, F::kCommandGo), "not possible in DRIVING");
-  EXPECT_EQ(refusal(kStandby, {F::kPoseFresh}, F::kCommandGo), "no path_present");
-  EXPECT_EQ(refusal(kStandby, {F::kPoseFresh, F::kPathPresent, F::kBlockingFault}, F::kCommandGo), "blocking_fault");
+  EXPECT_EQ(refusal_reason(kDriving, {}, F::kCommandGo), "not possible in DRIVING");
+  EXPECT_EQ(refusal_reason(kStandby, {F::kPoseFresh}, F::kCommandGo), "no path_present");
+  EXPECT_EQ(refusal_reason(kStandby, {F::kPoseFresh, F::kPathPresent, F::kBlockingFault}, F::kCommandGo),
+            "blocking_fault");
 }
 
-TEST(StateMachine, TheCommittedDrawingIsTheTables) {
+TEST(StateMachine, CommittedDotFileMatchesTheTables) {
   std::ifstream file(ROVER_SOURCE_DIR "/supervisor/state_machine.dot");
   ASSERT_TRUE(file.good());
   std::stringstream committed;
   committed << file.rdbuf();
-  EXPECT_EQ(committed.str(), drawing());
+  EXPECT_EQ(committed.str(), to_graphviz());
 }
 
 }  // namespace

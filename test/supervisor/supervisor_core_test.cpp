@@ -1,4 +1,4 @@
-// Behaviour of the supervisor: streams that live, fall silent or turn bad, and the ground's commands.
+// Behaviour of the supervisor core for healthy, silent and faulty inputs, and for ground commands.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace rover::supervisor {
 namespace {
 
-// Healthy streams at their rates, each of which a test may silence or alter.
+// Healthy streams at their rates; tests silence or modify single ones.
 class SupervisorTest : public testing::Test {
  protected:
   void tick() {
@@ -25,7 +25,7 @@ class SupervisorTest : public testing::Test {
     }
     if (wheels_alive_) {
       wheels_.utime = made;
-      if (wheels_follow_) wheels_.drive_radps.fill(out_.permit.granted ? 0.8 : 0.0);
+      if (wheels_follow_) wheels_.drive_rate_radps.fill(out_.permit.granted ? 0.8 : 0.0);
       supervisor_.on_wheels(wheels_);
     }
     if (imu_alive_) supervisor_.on_imu({made, false});
@@ -80,7 +80,7 @@ class SupervisorTest : public testing::Test {
     ASSERT_TRUE(faults_.empty());
     changes_.clear();
   }
-  // Seconds from now until the permit is withdrawn.
+  // Seconds until the permit is withdrawn.
   double time_to_withdrawal(double limit_s = 30.0) {
     const Utime start = now_;
     while (out_.permit.granted && now_ - start < to_utime(limit_s)) tick();
@@ -121,7 +121,7 @@ class SupervisorTest : public testing::Test {
   std::map<std::string, ServiceReport> services_;
   double coverage_ = 0.9;
   bool wheels_alive_ = true;
-  bool wheels_follow_ = true;  // the permit
+  bool wheels_follow_ = true;  // wheels turn if permitted
   bool imu_alive_ = true;
   bool command_alive_ = true;
   bool pose_alive_ = true;
@@ -176,7 +176,7 @@ TEST_F(SupervisorTest, UnknownCommandsAreRefused) {
   EXPECT_EQ(supervisor_.state(), State::kStandby);
 }
 
-TEST_F(SupervisorTest, AStalePoseStopsAndClearsByItself) {
+TEST_F(SupervisorTest, StalePoseStopsAndClearsByItself) {
   start_driving();
   pose_alive_ = false;
   EXPECT_LE(time_to_withdrawal(), 0.32);
@@ -193,23 +193,23 @@ TEST_F(SupervisorTest, AStalePoseStopsAndClearsByItself) {
   EXPECT_EQ(changes_.back().cause, "faults_cleared");
 }
 
-TEST_F(SupervisorTest, ALostPoseStopsAtOnce) {
+TEST_F(SupervisorTest, LostPoseStopsAtOnce) {
   start_driving();
   pose_usable_ = false;
   EXPECT_LE(time_to_withdrawal(), 0.02);
   EXPECT_EQ(changes_.back().cause, "pose_status");
 }
 
-TEST_F(SupervisorTest, SilentHazardsStop) {
+TEST_F(SupervisorTest, StaleHazardsStop) {
   start_driving();
   hazards_alive_ = false;
   const double seconds = time_to_withdrawal();
-  EXPECT_GT(seconds, 0.5);  // one lost frame is no fault
+  EXPECT_GT(seconds, 0.5);  // one lost frame is not a fault
   EXPECT_LE(seconds, 1.2);
   EXPECT_EQ(changes_.back().cause, "hazards_age");
 }
 
-TEST_F(SupervisorTest, BlindHazardsStopAfterSomeFrames) {
+TEST_F(SupervisorTest, ThreeBlindFramesStop) {
   start_driving();
   blind_ = true;
   const double seconds = time_to_withdrawal();
@@ -220,17 +220,17 @@ TEST_F(SupervisorTest, BlindHazardsStopAfterSomeFrames) {
   EXPECT_LE(time_to_permit(), 1.45);
 }
 
-// The LocCam does not look where a backing rover goes; the path that the planner is on counts.
-TEST_F(SupervisorTest, BlindHazardsLetTheRoverBack) {
+// The LocCam does not see where the reversing rover goes. Only the path followed by the planner counts.
+TEST_F(SupervisorTest, BlindFramesAllowBacktracking) {
   start_driving();
   blind_ = true;
   time_to_withdrawal();
-  EXPECT_EQ(faults_.back().response, Response::kStopRetreat);
+  EXPECT_EQ(faults_.back().response, Response::kStopBacktrack);
   run(20.0);
   EXPECT_FALSE(out_.permit.granted);
   PathLevels back;
   back.path_id = 2;
-  back.backwards = true;
+  back.reverse = true;
   supervisor_.on_path(back);
   run(5.0);
   EXPECT_FALSE(out_.permit.granted) << "another path is followed";
@@ -240,7 +240,7 @@ TEST_F(SupervisorTest, BlindHazardsLetTheRoverBack) {
   EXPECT_LE(time_to_withdrawal(), 0.5);
 }
 
-TEST_F(SupervisorTest, ARoverThatLeansTooFarMayComeBack) {
+TEST_F(SupervisorTest, ExcessiveRollAllowsBacktrackingUpToItsLimit) {
   start_driving();
   pose_.roll_rad = to_rad(-20.5);
   time_to_withdrawal();
@@ -249,7 +249,7 @@ TEST_F(SupervisorTest, ARoverThatLeansTooFarMayComeBack) {
   EXPECT_FALSE(out_.permit.granted);
   PathLevels back;
   back.path_id = planner_.path_id = control_.path_id = 2;
-  back.backwards = true;
+  back.reverse = true;
   supervisor_.on_path(back);
   EXPECT_LE(time_to_permit(), 1.1);
   pose_.roll_rad = to_rad(-23.5);
@@ -258,12 +258,12 @@ TEST_F(SupervisorTest, ARoverThatLeansTooFarMayComeBack) {
   EXPECT_EQ(changes_.back().evidence.threshold, 23.0);
 }
 
-// Manoeuvres have legs astern too; what was driven there before is not what a fault is answered by.
-TEST_F(SupervisorTest, AWayBackThatAnswersNoFaultHasTheOrdinaryLimits) {
+// Reverse segments of ordinary manoeuvres do not relax the limits.
+TEST_F(SupervisorTest, ReversePathWithoutFaultHasTheOrdinaryLimits) {
   start_driving();
   PathLevels back;
   back.path_id = planner_.path_id = control_.path_id = 2;
-  back.backwards = true;
+  back.reverse = true;
   supervisor_.on_path(back);
   run(1.0);
   ASSERT_TRUE(out_.permit.granted);
@@ -272,20 +272,20 @@ TEST_F(SupervisorTest, AWayBackThatAnswersNoFaultHasTheOrdinaryLimits) {
   EXPECT_EQ(changes_.back().evidence.threshold, 20.0);
 }
 
-TEST_F(SupervisorTest, OnAWayBackWhatIsNotKnownStillStops) {
+TEST_F(SupervisorTest, NanStopsWhileBacktracking) {
   start_driving();
   blind_ = true;
   time_to_withdrawal();
   PathLevels back;
   back.path_id = planner_.path_id = control_.path_id = 2;
-  back.backwards = true;
+  back.reverse = true;
   supervisor_.on_path(back);
   time_to_permit();
   pose_.roll_rad = kNaN;
   EXPECT_LE(time_to_withdrawal(), 0.1);
 }
 
-TEST_F(SupervisorTest, ASilentPlannerOrControllerStops) {
+TEST_F(SupervisorTest, StalePlannerOrControllerStops) {
   start_driving();
   planner_alive_ = false;
   EXPECT_LE(time_to_withdrawal(), 0.32);
@@ -297,11 +297,11 @@ TEST_F(SupervisorTest, ASilentPlannerOrControllerStops) {
   EXPECT_EQ(changes_.back().cause, "control_age");
 }
 
-TEST_F(SupervisorTest, ADeadServiceStops) {
+TEST_F(SupervisorTest, MissingHeartbeatStops) {
   for (const std::string& service : config_.fdir.required_services) {
     SCOPED_TRACE(service);
     if (supervisor_.state() == State::kBoot) start_driving();
-    pose_.travelled_m += 5.0;  // fault stops count on a stretch of way
+    pose_.travelled_m += 5.0;  // avoids the row fault_stops, which counts per distance
     dead_service_ = service;
     EXPECT_LE(time_to_withdrawal(), 1.3);
     EXPECT_EQ(changes_.back().cause, "heartbeat." + service);
@@ -310,7 +310,7 @@ TEST_F(SupervisorTest, ADeadServiceStops) {
   }
 }
 
-TEST_F(SupervisorTest, OutOfTheCorridorStops) {
+TEST_F(SupervisorTest, OutOfCorridorStops) {
   start_driving();
   control_.out_of_corridor = true;
   control_.cross_track_m = -0.8;
@@ -320,7 +320,7 @@ TEST_F(SupervisorTest, OutOfTheCorridorStops) {
   EXPECT_EQ(changes_.back().evidence.threshold, 0.75);
 }
 
-TEST_F(SupervisorTest, AControllerOnAnotherPathStops) {
+TEST_F(SupervisorTest, ControllerOnAnotherPathStops) {
   start_driving();
   planner_.path_id = 2;
   run(0.5);
@@ -332,7 +332,7 @@ TEST_F(SupervisorTest, AControllerOnAnotherPathStops) {
   EXPECT_EQ(changes_.back().cause, "path_mismatch");
 }
 
-TEST_F(SupervisorTest, APlannerWithoutAPathIsNotOnAnotherOne) {
+TEST_F(SupervisorTest, PlannerWithoutPathIsNotAPathMismatch) {
   start_driving();
   planner_.path_id = -1;
   planner_.state = PlannerState::kNoPath;
@@ -342,7 +342,6 @@ TEST_F(SupervisorTest, APlannerWithoutAPathIsNotOnAnotherOne) {
   EXPECT_EQ(faults_.front().id, "no_path");
 }
 
-// The original's slip buffer freezes at rest, so that its slip stop never clears (reference, fault 8).
 TEST_F(SupervisorTest, SlipStopsAndClearsAtRest) {
   start_driving();
   slip_ = 0.9;
@@ -353,8 +352,7 @@ TEST_F(SupervisorTest, SlipStopsAndClearsAtRest) {
   EXPECT_NEAR(time_to_permit(), 3.0, 0.1);
 }
 
-// The original clears the newest fault and reports nominal while another stands (reference, fault 8).
-TEST_F(SupervisorTest, TwoFaultsEachStandForThemselves) {
+TEST_F(SupervisorTest, TwoFaultsAreIndependent) {
   for (const bool pose_first_to_clear : {true, false}) {
     if (supervisor_.state() == State::kBoot) start_driving();
     pose_alive_ = false;
@@ -362,8 +360,8 @@ TEST_F(SupervisorTest, TwoFaultsEachStandForThemselves) {
     control_.out_of_corridor = true;
     planner_alive_ = false;
     run(1.0);
-    EXPECT_EQ(supervisor_.standing_faults().front(), "pose_age");
-    EXPECT_EQ(std::count_if(faults_.begin(), faults_.end(), [](const FaultChange& f) { return f.standing && f.first; }),
+    EXPECT_EQ(supervisor_.active_faults().front(), "pose_age");
+    EXPECT_EQ(std::count_if(faults_.begin(), faults_.end(), [](const FaultChange& f) { return f.active && f.first; }),
               pose_first_to_clear ? 1 : 2);
     (pose_first_to_clear ? pose_alive_ : planner_alive_) = true;
     run(5.0);
@@ -372,11 +370,11 @@ TEST_F(SupervisorTest, TwoFaultsEachStandForThemselves) {
     pose_alive_ = planner_alive_ = true;
     control_.out_of_corridor = false;
     EXPECT_NEAR(time_to_permit(), 1.0, 0.05);
-    EXPECT_TRUE(supervisor_.standing_faults().empty());
+    EXPECT_TRUE(supervisor_.active_faults().empty());
   }
 }
 
-TEST_F(SupervisorTest, AHazardAheadStopsRepairsAndGoesOn) {
+TEST_F(SupervisorTest, HazardAheadStopsRepairsAndResumes) {
   start_driving();
   speed_ = 0.2;
   planner_.state = PlannerState::kRepairing;
@@ -404,7 +402,7 @@ TEST_F(SupervisorTest, AHazardAheadStopsRepairsAndGoesOn) {
   EXPECT_EQ(supervisor_.hazard_stops(), 1);
 }
 
-TEST_F(SupervisorTest, HysteresisHoldsOnTheSamePathAndNotOnANewOne) {
+TEST_F(SupervisorTest, StopHysteresisAppliesToTheSamePathOnly) {
   start_driving();
   planner_.block_kind = BlockKind::kHazard;
   planner_.blocked_in_m = 0.49;
@@ -428,7 +426,7 @@ TEST_F(SupervisorTest, UnseenGroundHasAShorterStoppingDistance) {
   EXPECT_EQ(supervisor_.state(), State::kHazardStop);
 }
 
-TEST_F(SupervisorTest, ABlockThatIsNoNumberOrAMissingPathIsABlock) {
+TEST_F(SupervisorTest, NanBlockDistanceAndMissingPathCountAsBlocked) {
   start_driving();
   planner_.blocked_in_m = kNaN;
   tick();
@@ -441,7 +439,7 @@ TEST_F(SupervisorTest, ABlockThatIsNoNumberOrAMissingPathIsABlock) {
   EXPECT_EQ(supervisor_.state(), State::kHazardStop);
 }
 
-TEST_F(SupervisorTest, AFaultDuringAHazardStopDoesNotForgetTheHazard) {
+TEST_F(SupervisorTest, FaultDuringAHazardStopReturnsToHazardStop) {
   start_driving();
   planner_.block_kind = BlockKind::kHazard;
   planner_.blocked_in_m = 0.3;
@@ -456,7 +454,7 @@ TEST_F(SupervisorTest, AFaultDuringAHazardStopDoesNotForgetTheHazard) {
   for (const StateChange& change : changes_) EXPECT_NE(change.to, State::kDriving);
 }
 
-TEST_F(SupervisorTest, NoPathEndsTheDriveWithItsName) {
+TEST_F(SupervisorTest, NoPathStopsWithThatCauseAndIsLatched) {
   start_driving();
   planner_.state = PlannerState::kNoPath;
   planner_.block_kind = BlockKind::kHazard;
@@ -473,7 +471,7 @@ TEST_F(SupervisorTest, NoPathEndsTheDriveWithItsName) {
   EXPECT_EQ(supervisor_.state(), State::kDriving);
 }
 
-TEST_F(SupervisorTest, AFaultThatStillHoldsIsNotClearedByCommand) {
+TEST_F(SupervisorTest, ActiveConditionIsNotClearedByCommand) {
   start_driving();
   planner_.state = PlannerState::kNoPath;
   planner_.blocked_in_m = 0.4;
@@ -483,7 +481,7 @@ TEST_F(SupervisorTest, AFaultThatStillHoldsIsNotClearedByCommand) {
   EXPECT_EQ(supervisor_.state(), State::kFaultStop);
 }
 
-TEST_F(SupervisorTest, StandingBeforeABlockForTooLongEndsTheDrive) {
+TEST_F(SupervisorTest, BlockedForSixtySecondsEndsTheDrive) {
   start_driving();
   planner_.block_kind = BlockKind::kHazard;
   planner_.blocked_in_m = 0.4;
@@ -495,10 +493,10 @@ TEST_F(SupervisorTest, StandingBeforeABlockForTooLongEndsTheDrive) {
   EXPECT_TRUE(command(CommandKind::kStop).accepted);
   EXPECT_EQ(supervisor_.state(), State::kStandby);
   run(0.1);
-  EXPECT_TRUE(supervisor_.standing_faults().empty());
+  EXPECT_TRUE(supervisor_.active_faults().empty());
 }
 
-TEST_F(SupervisorTest, TheGoalNeedsThePathsEndAndTheDistance) {
+TEST_F(SupervisorTest, GoalNeedsPathEndAndGoalDistance) {
   start_driving();
   control_.path_end = true;
   planner_.goal_distance_m = 3.0;
@@ -532,7 +530,7 @@ TEST_F(SupervisorTest, PauseAndResume) {
   EXPECT_TRUE(out_.permit.granted);
 }
 
-TEST_F(SupervisorTest, AnEmergencyStopIsLatched) {
+TEST_F(SupervisorTest, EmergencyStopIsLatched) {
   start_driving();
   EXPECT_TRUE(command(CommandKind::kEmergencyStop).accepted);
   EXPECT_EQ(supervisor_.state(), State::kSafe);
@@ -545,7 +543,7 @@ TEST_F(SupervisorTest, AnEmergencyStopIsLatched) {
   EXPECT_FALSE(out_.permit.granted);
 }
 
-TEST_F(SupervisorTest, CommandsOfOneTickAreCarriedOutInTheirOrder) {
+TEST_F(SupervisorTest, CommandsOfOneTickAreExecutedInOrder) {
   start_driving();
   supervisor_.on_command({1, CommandKind::kPause, "", {}});
   supervisor_.on_command({2, CommandKind::kEmergencyStop, "", {}});
@@ -558,7 +556,7 @@ TEST_F(SupervisorTest, CommandsOfOneTickAreCarriedOutInTheirOrder) {
   EXPECT_EQ(supervisor_.state(), State::kSafe);
 }
 
-TEST_F(SupervisorTest, OldHeartbeatsDoNotMakeAServiceYoungerOrOlder) {
+TEST_F(SupervisorTest, OldHeartbeatsAreIgnored) {
   start_driving();
   supervisor_.on_service("stereo", {});
   tick();
@@ -571,14 +569,14 @@ struct RowCase {
   double at_limit, beyond;
 };
 
-// Every row of what is measured of the vehicle: not at its limit, but beyond it and as no number; and back again.
-TEST_F(SupervisorTest, AttitudeAndCurrentsStopBeyondTheirLimits) {
+// Each row: not raised just below its limit, raised beyond it and by NaN, cleared afterwards.
+TEST_F(SupervisorTest, AttitudeAndCurrentsStopBeyondTheirLimitsAndOnNan) {
   const std::vector<RowCase> cases = {
       {"roll", [](PoseReport& p, WheelReport&, double v) { p.roll_rad = to_rad(v); }, 19.9, -20.1},
       {"pitch", [](PoseReport& p, WheelReport&, double v) { p.pitch_rad = to_rad(v); }, -34.9, 35.1},
       {"tilt_rate", [](PoseReport& p, WheelReport&, double v) { p.tilt_rate_radps = to_rad(v); }, 29.9, 30.1},
       {"pose_sigma", [](PoseReport& p, WheelReport&, double v) { p.sigma_m = v; }, 2.9, 3.1},
-      {"drive_current.ML", [](PoseReport&, WheelReport& w, double v) { w.drive_a[2] = v; }, -9.9, -10.1},
+      {"drive_current.ML", [](PoseReport&, WheelReport& w, double v) { w.drive_current_a[2] = v; }, -9.9, -10.1},
   };
   for (const RowCase& row : cases)
     for (const double bad : {row.beyond, kNaN}) {
@@ -596,34 +594,34 @@ TEST_F(SupervisorTest, AttitudeAndCurrentsStopBeyondTheirLimits) {
     }
 }
 
-// The driver limits the current of a servo that stalls, so the row lies below that limit; before it stops the rover the
-// wheel is given time to come free.
-TEST_F(SupervisorTest, AServoThatStallsForLongStops) {
+// The driver limits the current of a stalled servo, so the row is below that limit. The persistence leaves time for
+// stall recovery.
+TEST_F(SupervisorTest, LastingServoStallStops) {
   start_driving();
-  wheels_.steer_a[3] = 0.89;
+  wheels_.steer_current_a[3] = 0.89;
   run(5.0);
   ASSERT_TRUE(out_.permit.granted);
-  wheels_.steer_a[3] = 1.0;
+  wheels_.steer_current_a[3] = 1.0;
   const double seconds = time_to_withdrawal(30.0);
   EXPECT_GT(seconds, 12.0);
   EXPECT_LT(seconds, 13.5);
   EXPECT_EQ(changes_.back().cause, "steer_current.RR");
-  wheels_.steer_a[3] = 0.0;
+  wheels_.steer_current_a[3] = 0.0;
   EXPECT_LE(time_to_permit(), 2.2);
 }
 
-TEST_F(SupervisorTest, AMotorHeatsUpBelowItsInstantLimit) {
+TEST_F(SupervisorTest, MotorI2tLoadStopsBelowTheCurrentLimit) {
   start_driving();
-  wheels_.drive_a[0] = 5.0;  // 1.6 times nominal
+  wheels_.drive_current_a[0] = 5.0;  // 1.6 times nominal
   const double seconds = time_to_withdrawal(300.0);
   EXPECT_GT(seconds, 20.0);
   EXPECT_LT(seconds, 60.0);
   EXPECT_EQ(changes_.back().cause, "drive_heat.FL");
-  wheels_.drive_a[0] = 0.0;
+  wheels_.drive_current_a[0] = 0.0;
   EXPECT_GT(time_to_permit(120.0), 20.0);
 }
 
-TEST_F(SupervisorTest, SensorsThatFallSilentOrReportAFaultStop) {
+TEST_F(SupervisorTest, SilentOrFaultySensorsStop) {
   start_driving();
   imu_alive_ = false;
   EXPECT_LE(time_to_withdrawal(), 0.24);
@@ -645,7 +643,7 @@ TEST_F(SupervisorTest, SensorsThatFallSilentOrReportAFaultStop) {
   EXPECT_EQ(changes_.back().cause, "command_age");
 }
 
-TEST_F(SupervisorTest, WarningsSlowTheRoverTheMoreTheWorse) {
+TEST_F(SupervisorTest, SlowRowsReduceTheSpeedInSteps) {
   start_driving();
   EXPECT_EQ(out_.permit.max_speed_mps, config_.max_speed_mps);
   pose_.roll_rad = to_rad(16.0);
@@ -655,7 +653,7 @@ TEST_F(SupervisorTest, WarningsSlowTheRoverTheMoreTheWorse) {
   pose_.roll_rad = to_rad(18.0);
   run(0.2);
   EXPECT_TRUE(out_.permit.granted);
-  EXPECT_EQ(out_.permit.max_speed_mps, 0.05);  // the least of the standing rows counts
+  EXPECT_EQ(out_.permit.max_speed_mps, 0.05);  // lowest speed of the active rows
   pose_.roll_rad = to_rad(16.0);
   run(1.1);
   EXPECT_EQ(out_.permit.max_speed_mps, 0.10);
@@ -664,28 +662,28 @@ TEST_F(SupervisorTest, WarningsSlowTheRoverTheMoreTheWorse) {
   EXPECT_EQ(out_.permit.max_speed_mps, config_.max_speed_mps);
 }
 
-TEST_F(SupervisorTest, ThePredictionStopsARoverThatStraysBeforeItLeaves) {
+TEST_F(SupervisorTest, PredictedCorridorViolationStopsADeviatingRover) {
   start_driving();
   control_.predicted_error_m = 1.2 * control_.corridor_half_width_m;
   run(1.0);
-  EXPECT_TRUE(out_.permit.granted);  // on its path, the prediction errs to the safe side
+  EXPECT_TRUE(out_.permit.granted);  // the prediction is pessimistic, so it is ignored near the path
   control_.cross_track_m = 0.5 * control_.corridor_half_width_m;
   EXPECT_LE(time_to_withdrawal(), 0.1);
   EXPECT_EQ(changes_.back().cause, "corridor_predicted");
   EXPECT_EQ(faults_.back().response, Response::kStopReplan);
 }
 
-TEST_F(SupervisorTest, AStepOfTheClockStops) {
+TEST_F(SupervisorTest, ClockStepStops) {
   start_driving();
   now_ += to_utime(0.8);
   tick();
   EXPECT_FALSE(out_.permit.granted);
   EXPECT_EQ(changes_.back().cause, "clock_step");
   EXPECT_LE(time_to_permit(), 2.0);
-  EXPECT_TRUE(restarts_.empty());  // nobody was at fault
+  EXPECT_TRUE(restarts_.empty());  // no service is restarted
 }
 
-TEST_F(SupervisorTest, ASilentServiceIsStartedAnewThreeTimesThenTheRoverGivesUp) {
+TEST_F(SupervisorTest, SilentServiceIsRestartedThreeTimesThenSafe) {
   start_driving();
   dead_service_ = "stereo";
   run(1.5);
@@ -695,14 +693,14 @@ TEST_F(SupervisorTest, ASilentServiceIsStartedAnewThreeTimesThenTheRoverGivesUp)
   run(20.0);
   EXPECT_EQ(supervisor_.state(), State::kSafe);
   EXPECT_EQ(changes_.back().cause, "restart_failed.stereo");
-  // The service is well again: SAFE stays until the ground has spoken.
+  // The service is healthy again, but SAFE needs a ground command.
   dead_service_.clear();
   run(70.0);
   EXPECT_EQ(supervisor_.state(), State::kSafe);
   EXPECT_TRUE(command(CommandKind::kClearSafe).accepted);
 }
 
-TEST_F(SupervisorTest, AServiceThatStartsOverAndOverEndsTheDrive) {
+TEST_F(SupervisorTest, RepeatedServiceStartsLeadToSafe) {
   start_driving();
   for (int i = 0; i < 4; ++i) {
     ++services_["hazard_detector"].boot_id;
@@ -711,12 +709,12 @@ TEST_F(SupervisorTest, AServiceThatStartsOverAndOverEndsTheDrive) {
   }
   EXPECT_EQ(supervisor_.state(), State::kSafe);
   EXPECT_EQ(changes_.back().cause, "starts.hazard_detector");
-  EXPECT_FALSE(command(CommandKind::kClearSafe).accepted);  // it still stands
+  EXPECT_FALSE(command(CommandKind::kClearSafe).accepted);  // the fault is still active
   EXPECT_TRUE(command(CommandKind::kClearFault, "starts.hazard_detector").accepted);
   EXPECT_TRUE(command(CommandKind::kClearSafe).accepted);
 }
 
-TEST_F(SupervisorTest, AServicesOwnFaultStartsItAnew) {
+TEST_F(SupervisorTest, ServiceFaultStatusRestartsTheService) {
   start_driving();
   services_["stereo"].status = ServiceStatus::kFault;
   EXPECT_LE(time_to_withdrawal(), 0.5);
@@ -724,7 +722,7 @@ TEST_F(SupervisorTest, AServicesOwnFaultStartsItAnew) {
   EXPECT_EQ(restarts_, std::vector<std::string>{"stereo"});
 }
 
-TEST_F(SupervisorTest, LossOnTheBusIsLoggedThenStops) {
+TEST_F(SupervisorTest, MessageLossIsLoggedThenStops) {
   start_driving();
   services_["stereo"].lost += 400;  // of 14000 in the window
   run(1.0);
@@ -738,11 +736,11 @@ TEST_F(SupervisorTest, LossOnTheBusIsLoggedThenStops) {
   EXPECT_EQ(changes_.back().cause, "message_loss");
 }
 
-TEST_F(SupervisorTest, WheelsThatTurnWithoutAPermitEndTheDrive) {
+TEST_F(SupervisorTest, UnpermittedMotionLeadsToSafe) {
   start_driving();
   command(CommandKind::kPause);
   wheels_follow_ = false;
-  wheels_.drive_radps.fill(1.0);
+  wheels_.drive_rate_radps.fill(1.0);
   run(2.5);
   EXPECT_EQ(supervisor_.state(), State::kPaused);
   run(1.0);
@@ -750,11 +748,11 @@ TEST_F(SupervisorTest, WheelsThatTurnWithoutAPermitEndTheDrive) {
   EXPECT_EQ(changes_.back().cause, "unpermitted_motion");
 }
 
-// As when path and control each wait for the other.
-TEST_F(SupervisorTest, ARoverThatDoesNotUseItsPermitGetsANewPath) {
+// For example a deadlock between planner and controller.
+TEST_F(SupervisorTest, UnusedPermitRequestsANewPath) {
   start_driving();
   wheels_follow_ = false;
-  wheels_.drive_radps.fill(0.0);
+  wheels_.drive_rate_radps.fill(0.0);
   run(29.0);
   EXPECT_TRUE(faults_.empty());
   run(2.0);
@@ -780,24 +778,24 @@ TEST_F(SupervisorTest, TeleoperationNeedsFreshCommandsAndIsSlow) {
   EXPECT_EQ(changes_.back().cause, "pose_age");
 }
 
-TEST_F(SupervisorTest, RestartedItGoesOnAsItWasButNeverBetter) {
+TEST_F(SupervisorTest, RestartKeepsLatchedFaults) {
   start_driving();
   planner_.state = PlannerState::kNoPath;
   planner_.blocked_in_m = 0.4;
   run(21.0);
-  ASSERT_EQ(supervisor_.standing_faults(), std::vector<std::string>{"no_path"});
-  const Memory memory = supervisor_.memory();
+  ASSERT_EQ(supervisor_.active_faults(), std::vector<std::string>{"no_path"});
+  const PersistentState persistent_state = supervisor_.persistent_state();
   supervisor_ = Supervisor(config_);
-  supervisor_.restore(memory);
+  supervisor_.restore(persistent_state);
   planner_ = clear_path();
   run(5.0);
-  EXPECT_EQ(supervisor_.state(), State::kFaultStop);  // latched before, latched now
+  EXPECT_EQ(supervisor_.state(), State::kFaultStop);  // still latched after the restart
   EXPECT_TRUE(command(CommandKind::kClearFault, "no_path").accepted);
   EXPECT_EQ(supervisor_.state(), State::kDriving);
   EXPECT_TRUE(restarts_.empty());
 }
 
-TEST_F(SupervisorTest, RestartedWhileDrivingItResumesWhenAllIsSeenToBeWell) {
+TEST_F(SupervisorTest, RestartResumesTheStateWhenInputsAreHealthy) {
   for (const auto& [before, after] : {std::pair(State::kDriving, State::kDriving),
                                       {State::kRepairing, State::kDriving},
                                       {State::kSafe, State::kSafe},
@@ -807,10 +805,10 @@ TEST_F(SupervisorTest, RestartedWhileDrivingItResumesWhenAllIsSeenToBeWell) {
                                       {State::kGoalReached, State::kGoalReached}}) {
     SCOPED_TRACE(name(before));
     supervisor_ = Supervisor(config_);
-    Memory memory;
-    memory.state = before;
-    memory.hazard_stops = 3;
-    supervisor_.restore(memory);
+    PersistentState persistent_state;
+    persistent_state.state = before;
+    persistent_state.hazard_stops = 3;
+    supervisor_.restore(persistent_state);
     tick();
     EXPECT_FALSE(out_.permit.granted);
     run(3.0);
@@ -820,7 +818,7 @@ TEST_F(SupervisorTest, RestartedWhileDrivingItResumesWhenAllIsSeenToBeWell) {
   }
 }
 
-// The Full level's services and its map, as the supervisor sees them.
+// Adds heartbeats of the Full-level services and the map.
 class LevelTest : public SupervisorTest {
  protected:
   void drive(double seconds, double speed_mps) {
@@ -834,10 +832,10 @@ class LevelTest : public SupervisorTest {
           supervisor_.on_service(service, report);
         }
       if (full_alive_ && map_alive_) supervisor_.on_terrain({now_, difficulty_, known_});
-      const double way = out_.permit.granted ? speed_mps * to_seconds(kTickUs) : 0.0;
-      pose_.travelled_m += way;
-      planner_.goal_distance_m -= way;
-      control_.arc_length_m += way;
+      const double distance_m = out_.permit.granted ? speed_mps * to_seconds(kTickUs) : 0.0;
+      pose_.travelled_m += distance_m;
+      planner_.goal_distance_m -= distance_m;
+      control_.arc_length_m += distance_m;
       tick();
     }
   }
@@ -853,7 +851,7 @@ class LevelTest : public SupervisorTest {
 
   bool full_alive_ = true;
   double difficulty_ = 0.8;
-  KnownShares known_{0.5, 0.6};
+  KnownFractions known_{0.5, 0.6};
   bool map_alive_ = true;
   std::string hung_;
   std::string dying_;
@@ -874,7 +872,7 @@ TEST_F(LevelTest, SlowProgressRaisesAndEasyTerrainLowers) {
   EXPECT_EQ(supervisor_.level(), Level::kFull);  // hard ground ahead
   difficulty_ = 0.1;
   drive(40.0, 0.1);
-  EXPECT_EQ(supervisor_.level(), Level::kFull);  // not for the whole of the way yet
+  EXPECT_EQ(supervisor_.level(), Level::kFull);  // not yet over easy_distance_m
   drive(50.0, 0.1);
   EXPECT_EQ(supervisor_.level(), Level::kEfficient);
   EXPECT_EQ(last_level_change()->cause, "easy_terrain");
@@ -890,7 +888,7 @@ TEST_F(LevelTest, ManyHazardsRaise) {
   EXPECT_EQ(last_level_change()->cause, "many_hazards");
 }
 
-TEST_F(LevelTest, ThePathsSegmentsRaiseAndLower) {
+TEST_F(LevelTest, PathSegmentsRaiseAndLower) {
   begin();
   supervisor_.on_path({1, {0.0, 10.0, 20.0}, {Level::kEfficient, Level::kFull, Level::kEfficient}});
   drive(60.0, 0.15);
@@ -902,8 +900,8 @@ TEST_F(LevelTest, ThePathsSegmentsRaiseAndLower) {
   EXPECT_EQ(supervisor_.level(), Level::kEfficient);
 }
 
-// Continuous planning gives a new path each second, which the controller takes up a tick after it is heard of here.
-TEST_F(LevelTest, ANewPathOfTheSameLevelChangesNothing) {
+// Continuous planning publishes a new path each second; the controller reports it one tick later.
+TEST_F(LevelTest, NewPathOfTheSameLevelChangesNothing) {
   begin();
   supervisor_.on_path({1, {0.0}, {Level::kFull}});
   drive(2.0, 0.15);
@@ -925,7 +923,7 @@ TEST_F(LevelTest, ANewPathOfTheSameLevelChangesNothing) {
   EXPECT_EQ(supervisor_.level(), Level::kEfficient);
 }
 
-TEST_F(LevelTest, TheGroundForcesAndReleases) {
+TEST_F(LevelTest, GroundCommandForcesAndReleases) {
   begin();
   drive(1.0, 0.1);
   EXPECT_TRUE(command(CommandKind::kForceLevel, "", ForcedLevel::kFull).accepted);
@@ -939,7 +937,7 @@ TEST_F(LevelTest, TheGroundForcesAndReleases) {
   EXPECT_EQ(supervisor_.level(), Level::kEfficient);
 }
 
-TEST_F(LevelTest, WithoutItsServicesThereIsNoFullLevel) {
+TEST_F(LevelTest, NoFullLevelWithoutItsServices) {
   full_alive_ = false;
   begin();
   EXPECT_FALSE(command(CommandKind::kForceLevel, "", ForcedLevel::kFull).accepted);
@@ -948,7 +946,7 @@ TEST_F(LevelTest, WithoutItsServicesThereIsNoFullLevel) {
   EXPECT_FALSE(command(CommandKind::kForceLevel, "", static_cast<ForcedLevel>(7)).accepted);
 }
 
-TEST_F(LevelTest, AnEmptyMapIsSweptBeforeTheRoverDrivesOn) {
+TEST_F(LevelTest, EmptyMapIsSweptBeforeDriving) {
   begin();
   known_ = {0.0, 0.0};
   drive(1.0, 0.1);
@@ -958,17 +956,17 @@ TEST_F(LevelTest, AnEmptyMapIsSweptBeforeTheRoverDrivesOn) {
   EXPECT_FALSE(out_.permit.granted);
   known_ = {0.9, 0.3};
   drive(1.0, 0.1);
-  EXPECT_EQ(supervisor_.state(), State::kSweeping);  // both sides are to be seen too
+  EXPECT_EQ(supervisor_.state(), State::kSweeping);  // both sides must be known too
   known_ = {0.9, 0.6};
   drive(0.1, 0.1);
   EXPECT_EQ(supervisor_.state(), State::kDriving);
   EXPECT_TRUE(out_.permit.granted);
   known_ = {0.9, 0.3};
   drive(10.0, 0.1);
-  EXPECT_EQ(supervisor_.state(), State::kDriving);  // which a drive straight on does not show again
+  EXPECT_EQ(supervisor_.state(), State::kDriving);  // the sides matter only during a sweep
 }
 
-TEST_F(LevelTest, ASweepIsContentWithTheGroundAheadInTheEnd) {
+TEST_F(LevelTest, SweepTimeoutAcceptsKnownGroundAhead) {
   begin();
   known_ = {0.4, 0.3};
   map_alive_ = false;
@@ -982,7 +980,7 @@ TEST_F(LevelTest, ASweepIsContentWithTheGroundAheadInTheEnd) {
   EXPECT_EQ(supervisor_.state(), State::kDriving);
 }
 
-TEST_F(LevelTest, WithoutNewMapsTheRoverStopsToSweep) {
+TEST_F(LevelTest, StaleMapStopsToSweep) {
   begin();
   drive(1.0, 0.1);
   command(CommandKind::kForceLevel, "", ForcedLevel::kFull);
@@ -996,7 +994,7 @@ TEST_F(LevelTest, WithoutNewMapsTheRoverStopsToSweep) {
   EXPECT_NEAR(pose_.travelled_m - before_m, 1.5, 0.01);
 }
 
-TEST_F(LevelTest, ASweepInVainLowersTheLevelWhereThePathAllowsIt) {
+TEST_F(LevelTest, FailedSweepLowersTheLevelIfThePathAllows) {
   begin();
   for (int i = 0; i < 8 && supervisor_.level() == Level::kEfficient; ++i) {
     planner_.replans += 1;
@@ -1013,7 +1011,7 @@ TEST_F(LevelTest, ASweepInVainLowersTheLevelWhereThePathAllowsIt) {
   EXPECT_TRUE(out_.permit.granted);
 }
 
-TEST_F(LevelTest, ASweepInVainEndsTheDriveWhereThePathAsksForTheMap) {
+TEST_F(LevelTest, FailedSweepStopsIfThePathRequiresFull) {
   begin();
   supervisor_.on_path({1, {0.0}, {Level::kFull}});
   known_ = {0.0, 0.0};
@@ -1023,13 +1021,13 @@ TEST_F(LevelTest, ASweepInVainEndsTheDriveWhereThePathAsksForTheMap) {
   EXPECT_EQ(supervisor_.state(), State::kFaultStop);
   known_ = {0.9, 0.9};
   drive(10.0, 0.15);
-  EXPECT_FALSE(out_.permit.granted);  // the ground's to clear
+  EXPECT_FALSE(out_.permit.granted);  // latched
   EXPECT_TRUE(command(CommandKind::kClearFault, "sweep_in_vain").accepted);
   drive(2.0, 0.15);
   EXPECT_TRUE(out_.permit.granted);
 }
 
-TEST_F(LevelTest, AHungServiceOfTheFullLevelIsNoReasonToStandAtTheEfficientOne) {
+TEST_F(LevelTest, HungFullServiceDoesNotStopAtTheEfficientLevel) {
   begin();
   drive(5.0, 0.15);
   hung_ = "slam";
@@ -1040,7 +1038,7 @@ TEST_F(LevelTest, AHungServiceOfTheFullLevelIsNoReasonToStandAtTheEfficientOne) 
   EXPECT_EQ(supervisor_.level(), Level::kEfficient);
 }
 
-TEST_F(LevelTest, AHungServiceOfTheFullLevelStopsThere) {
+TEST_F(LevelTest, HungFullServiceStopsAtTheFullLevel) {
   begin();
   drive(1.0, 0.1);
   command(CommandKind::kForceLevel, "", ForcedLevel::kFull);
@@ -1054,7 +1052,7 @@ TEST_F(LevelTest, AHungServiceOfTheFullLevelStopsThere) {
   EXPECT_TRUE(out_.permit.granted);
 }
 
-TEST_F(LevelTest, ServicesThatDieOverAndOverLowerTheLevelWhereThePathAllowsIt) {
+TEST_F(LevelTest, RepeatedlyDyingServicesLowerTheLevelIfThePathAllows) {
   begin();
   for (int i = 0; i < 8 && supervisor_.level() == Level::kEfficient; ++i) {
     planner_.replans += 1;
@@ -1071,7 +1069,7 @@ TEST_F(LevelTest, ServicesThatDieOverAndOverLowerTheLevelWhereThePathAllowsIt) {
   EXPECT_EQ(supervisor_.state(), State::kDriving);
 }
 
-TEST_F(LevelTest, ServicesThatDieOverAndOverEndTheDriveWhereThePathAsksForThem) {
+TEST_F(LevelTest, RepeatedlyDyingServicesLeadToSafeIfThePathRequiresFull) {
   begin();
   supervisor_.on_path({1, {0.0}, {Level::kFull}});
   drive(5.0, 0.15);

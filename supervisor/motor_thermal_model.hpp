@@ -1,4 +1,4 @@
-// Thermal model of a motor's winding (i2t): first order, heated by the square of the current.
+// First-order thermal model of a motor winding (i2t), driven by the squared current.
 #pragma once
 
 #include <algorithm>
@@ -8,12 +8,13 @@
 
 namespace rover::supervisor {
 
-class MotorHeat {
+class MotorThermalModel {
  public:
-  // At the nominal current, kept for ever, the load settles at 1.
-  MotorHeat(double nominal_a, double time_constant_s) : nominal_a_(nominal_a), time_constant_s_(time_constant_s) {}
+  // The load converges to 1 at the nominal current.
+  MotorThermalModel(double nominal_a, double time_constant_s)
+      : nominal_a_(nominal_a), time_constant_s_(time_constant_s) {}
 
-  // A current that is no number heats nothing here: the row of the current itself raises on it.
+  // NaN is ignored here; the current row raises on it.
   void add(double current_a, Utime utime) {
     const double dt_s = utime_ == kNever ? 0.0 : std::clamp(to_seconds(utime - utime_), 0.0, time_constant_s_);
     utime_ = utime;
