@@ -1,84 +1,52 @@
 // github.com/ethz-asl/kalibr/wiki/yaml-formats: cam0 and cam1 with camera_model, intrinsics [fu fv pu pv],
 // distortion_model, distortion_coeffs, resolution, T_cn_cnm1 (from the camera before into this one) and, with an IMU,
-// T_cam_imu (from the IMU into the camera).
-#include <yaml-cpp/yaml.h>
-
-#include <cmath>
-
+// T_cam_imu (from the IMU into the camera). OpenVINS's form of it has T_imu_cam instead of both.
 #include "calibration/read.hpp"
-#include "common/bus/config.hpp"
-#include "common/core/frames.hpp"
 
 namespace rover::calibration {
 namespace {
 
-[[noreturn]] void fail(const std::string& file, const std::string& key, const std::string& what) {
-  throw ConfigError(file + ": " + key + ": " + what);
+PinholeCamera camera_of(const ToolFile& camera) {
+  const std::string model = camera.text("camera_model");
+  if (model != "pinhole") camera.fail("camera_model", "the model '" + model + "' is not supported; pinhole is");
+  const std::vector<double> f = camera.numbers("intrinsics", 4);
+  PinholeCamera out{f[0], f[1], f[2], f[3], {}};
+  camera.set_lens(out, camera.text("distortion_model"), "distortion_coeffs");
+  return out;
 }
 
-std::vector<double> numbers(const YAML::Node& camera, const std::string& file, const std::string& key, size_t count) {
-  try {
-    const auto values = camera[key].as<std::vector<double>>();
-    if (values.size() == count) return values;
-    fail(file, key, std::to_string(values.size()) + " numbers instead of " + std::to_string(count));
-  } catch (const YAML::Exception&) {
-    fail(file, key, "missing, or no list of numbers");
-  }
+std::optional<Eigen::Isometry3d> T_camera_imu(const ToolFile& camera) {
+  if (camera.has("T_cam_imu")) return camera.pose("T_cam_imu");
+  if (camera.has("T_imu_cam")) return camera.pose("T_imu_cam").inverse();
+  return std::nullopt;
 }
 
-void expect(const YAML::Node& camera, const std::string& file, const std::string& key, const std::string& value) {
-  const std::string found = camera[key] && camera[key].IsScalar() ? camera[key].as<std::string>() : "missing";
-  if (found != value) fail(file, key, "'" + found + "'; only " + value + " is known here");
-}
-
-PinholeCamera camera_of(const YAML::Node& camera, const std::string& file) {
-  expect(camera, file, "camera_model", "pinhole");
-  expect(camera, file, "distortion_model", "radtan");
-  const auto intrinsics = numbers(camera, file, "intrinsics", 4);
-  const auto distortion = numbers(camera, file, "distortion_coeffs", 4);
-  return {intrinsics[0],
-          intrinsics[1],
-          intrinsics[2],
-          intrinsics[3],
-          {distortion[0], distortion[1], distortion[2], distortion[3], 0.0}};
-}
-
-Eigen::Isometry3d pose(const YAML::Node& camera, const std::string& file, const std::string& key) {
-  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-  try {
-    const auto rows = camera[key].as<std::vector<std::vector<double>>>();
-    if (rows.size() != 4) fail(file, key, "no 4 x 4 matrix");
-    for (int r = 0; r < 4; ++r) {
-      if (rows[static_cast<size_t>(r)].size() != 4) fail(file, key, "no 4 x 4 matrix");
-      for (int c = 0; c < 4; ++c) T.matrix()(r, c) = rows[static_cast<size_t>(r)][static_cast<size_t>(c)];
-    }
-  } catch (const YAML::Exception&) {
-    fail(file, key, "missing, or no 4 x 4 matrix");
-  }
-  return T;
+Eigen::Isometry3d T_left_right(const ToolFile& left, const ToolFile& right) {
+  if (right.has("T_cn_cnm1")) return right.pose("T_cn_cnm1").inverse();
+  const auto T_left_imu = T_camera_imu(left);
+  const auto T_right_imu = T_camera_imu(right);
+  if (!T_left_imu || !T_right_imu)
+    right.fail("T_cn_cnm1", "missing; it, or T_imu_cam or T_cam_imu of both cameras, is expected");
+  return *T_left_imu * T_right_imu->inverse();
 }
 
 }  // namespace
 
-StereoCalibration read_kalibr(const std::string& file) {
-  YAML::Node root;
-  try {
-    root = YAML::LoadFile(file);
-  } catch (const YAML::Exception& error) {
-    throw ConfigError(file + ":" + std::to_string(error.mark.line + 1) + ": not valid YAML: " + error.msg);
-  }
-  if (!root.IsMap() || !root["cam0"].IsDefined() || !root["cam1"].IsDefined() || !root["cam0"].IsMap() ||
-      !root["cam1"].IsMap())
-    throw ConfigError(file + ": neither a camchain of Kalibr's with cam0 and cam1 nor a file of OpenCV's");
+StereoCalibration read_kalibr(const ToolFile& file) {
+  const ToolFile left = file.section("cam0");
+  const ToolFile right = file.section("cam1");
   StereoCalibration out;
-  out.left = camera_of(root["cam0"], file);
-  out.right = camera_of(root["cam1"], file);
-  const auto size = numbers(root["cam0"], file, "resolution", 2);
-  if (numbers(root["cam1"], file, "resolution", 2) != size) fail(file, "resolution", "differs between the cameras");
-  out.width = static_cast<int>(size[0]);
-  out.height = static_cast<int>(size[1]);
-  out.T_left_right = pose(root["cam1"], file, "T_cn_cnm1").inverse();
-  if (root["cam0"]["T_cam_imu"].IsDefined()) out.T_left_imu = pose(root["cam0"], file, "T_cam_imu");
+  out.left = camera_of(left);
+  out.right = camera_of(right);
+  if (left.has("resolution")) {
+    const std::vector<double> size = left.numbers("resolution", 2);
+    if (right.numbers("resolution", 2) != size) right.fail("resolution", "differs between the cameras");
+    if (size[0] < 1 || size[0] > 8192 || size[1] < 1 || size[1] > 8192) left.fail("resolution", "no size of a picture");
+    out.width = static_cast<int>(size[0]);
+    out.height = static_cast<int>(size[1]);
+  }
+  out.T_left_right = T_left_right(left, right);
+  out.T_left_imu = T_camera_imu(left);
   return out;
 }
 

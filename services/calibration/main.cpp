@@ -1,11 +1,8 @@
-// ./rover calibration FILE...: cameras.yaml from the calibration files of OpenCV or Kalibr.
-#include <unistd.h>
-
+// ./rover calibration FILE...: cameras.yaml from the calibration files of OpenCV, Kalibr or ROS.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <optional>
 
 #include "calibration/cameras_yaml.hpp"
 #include "calibration/read.hpp"
@@ -21,8 +18,9 @@ using namespace rover::calibration;
 
 struct Arguments {
   std::vector<std::string> files;
-  std::string config_dir = "config";
+  std::string config_dir = project_dir() + "/config";
   std::string camera = "loccam";
+  std::string model;
   std::vector<int> size;
   std::vector<double> mount;    // x y z [m], pitch down, roll, yaw [deg]
   std::vector<double> imu_rpy;  // of the IMU in body [deg]
@@ -54,31 +52,30 @@ void set_size(const Arguments& arguments, StereoCalibration& calibration) {
     throw ConfigError(arguments.files.front() + ": holds no size of the pictures; give it by --size WIDTH HEIGHT");
 }
 
-void write_new(const std::string& file, const std::string& text) {
-  if (std::filesystem::exists(file)) throw ConfigError(file + ": exists already; it is not overwritten");
+void write_text(const std::string& file, const std::string& text) {
   std::ofstream out(file);
   out << text;
   out.close();
   if (!out) throw ConfigError(file + ": cannot be written");
 }
 
+void write_new(const std::string& file, const std::string& text) {
+  NewFile out(file);
+  write_text(out.path(), text);
+  out.keep();
+}
+
 // What is written has to be what a service reads: checked before anybody gets it.
 void check_text(const std::string& text, const std::string& camera) {
-  const auto dir = std::filesystem::temp_directory_path() / ("rover-calibration-" + std::to_string(getpid()));
-  std::filesystem::create_directories(dir);
-  std::ofstream(dir / "cameras.yaml") << text;
-  std::optional<std::string> problem;
   try {
-    load_stereo_rig(dir, camera);
+    read_stereo_rig(Config::parse(text, "cameras.yaml"), camera);
   } catch (const ConfigError& error) {
-    problem = std::string(error.what()).substr(dir.string().size() + 1);
+    throw ConfigError(std::string("calibration: the result is out of range: ") + error.what());
   }
-  std::filesystem::remove_all(dir);
-  if (problem) throw ConfigError("calibration: the result is out of range: " + *problem);
 }
 
 void convert(const Arguments& arguments) {
-  StereoCalibration calibration = read_calibration(arguments.files);
+  StereoCalibration calibration = read_calibration(arguments.files, arguments.model);
   set_size(arguments, calibration);
   std::string source = "from";
   for (const std::string& file : arguments.files) source += " " + std::filesystem::path(file).filename().string();
@@ -96,15 +93,21 @@ void convert(const Arguments& arguments) {
 int main(int argc, char** argv) {
   Arguments arguments;
   CLI::App app(
-      "./rover calibration FILE...: cameras.yaml from a calibration of OpenCV's (intrinsics and extrinsics) or "
-      "Kalibr's (camchain)\nExample: ./rover calibration camchain-imucam.yaml --imu-rpy 0 0 0 --out "
+      "./rover calibration FILE...: cameras.yaml from a calibration of OpenCV's (intrinsics and extrinsics), "
+      "Kalibr's (camchain) or ROS's (camera_info, left and right)\nExample: ./rover calibration camchain-imucam.yaml "
+      "--imu-rpy 0 0 0 --out "
       "my_config/cameras.yaml");
   app.name("./rover calibration");
-  app.add_option("files", arguments.files, "calibration files")->required();
+  app.add_option("files", arguments.files, "calibration files; of camera_info the left one first")
+      ->required()
+      ->transform(is_user_path());
   app.add_option("--camera", arguments.camera, "whose section")
       ->check(CLI::IsMember({"loccam", "navcam"}))
       ->capture_default_str();
+  app.add_option("--model", arguments.model, "of the lenses, where OpenCV's files do not tell")
+      ->check(CLI::IsMember({"radtan", "equidistant"}));
   app.add_option("--config", arguments.config_dir, "folder of the configuration that it is based on")
+      ->transform(is_user_path())
       ->capture_default_str();
   app.add_option("--size", arguments.size, "width and height of the pictures [px], where the file has none")
       ->expected(2);
@@ -116,7 +119,7 @@ int main(int argc, char** argv) {
                  "mount by the IMU: its roll, pitch, yaw in body [deg]; its position is vehicle.yaml's")
       ->expected(3)
       ->excludes(mount);
-  app.add_option("--out", arguments.out, "new file; default: the terminal");
+  app.add_option("--out", arguments.out, "new file; default: the terminal")->transform(is_user_path());
   try {
     rover::parse_arguments(app, argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -1,49 +1,62 @@
 #include "calibration/read.hpp"
 
-#include <cmath>
-#include <fstream>
-
 #include "common/bus/config.hpp"
-#include "common/core/frames.hpp"
+#include "common/bus/vehicle_config.hpp"
 
 namespace rover::calibration {
 namespace {
 
-constexpr double kMostBaselineM = 5.0;
-constexpr double kLeastBaselineM = 0.005;
-
-// OpenCV's writer begins with a directive that YAML 1.2 readers refuse.
-bool is_opencv(const std::string& file) {
-  std::ifstream in(file);
-  if (!in) throw ConfigError(file + ": cannot be read");
-  std::string line;
-  std::getline(in, line);
-  return line.rfind("%YAML:1.0", 0) == 0 || line.rfind("<?xml", 0) == 0;
+void check_camera(const PinholeCamera& c, const StereoCalibration& pair, const std::string& where) {
+  if (!(c.fx_px >= 10.0 && c.fx_px <= 1e5 && c.fy_px >= 10.0 && c.fy_px <= 1e5))
+    throw ConfigError(where + ": focal lengths of " + std::to_string(c.fx_px) + " and " + std::to_string(c.fy_px) +
+                      " px; 10 to 100000 px are expected");
+  if (pair.width > 0 && pair.height > 0 &&
+      !(c.cx_px > 0.0 && c.cx_px < pair.width && c.cy_px > 0.0 && c.cy_px < pair.height))
+    throw ConfigError(where + ": the principal point is outside of the picture of " + std::to_string(pair.width) +
+                      " x " + std::to_string(pair.height) + " px");
 }
 
 // Whatever the tool: a rig that cannot be is not handed on.
 void check(const StereoCalibration& c, const std::string& file) {
-  const Eigen::Vector3d& p = c.T_left_right.translation();
-  if (!is_finite(c.T_left_right)) throw ConfigError(file + ": the right camera's pose is not finite");
-  if (p.norm() < kLeastBaselineM || p.norm() > kMostBaselineM)
-    throw ConfigError(file + ": a baseline of " + std::to_string(p.norm()) +
-                      " m; metres are expected (the square's size that was given to the calibration?)");
-  if (p.x() < 0.5 * p.norm())
-    throw ConfigError(file + ": the second camera is not to the right of the first one; exchange left and right");
-  const Eigen::Matrix3d& R = c.T_left_right.linear();
-  if ((R * R.transpose() - Eigen::Matrix3d::Identity()).norm() > 1e-3 || R.determinant() < 0.0)
-    throw ConfigError(file + ": the rotation between the cameras is none");
+  check_camera(c.left, c, file + ": left camera");
+  check_camera(c.right, c, file + ": right camera");
+  if (c.left.model != c.right.model)
+    throw ConfigError(file + ": one camera is " + name_of(c.left.model) + ", the other " + name_of(c.right.model) +
+                      "; calibrate both with one model");
+  const std::string problem = problem_of_pair(c.T_left_right);
+  if (!problem.empty()) throw ConfigError(file + ": " + problem);
+}
+
+StereoCalibration read_by_keys(const std::vector<ToolFile>& files, const std::string& model) {
+  const ToolFile& first = files.front();
+  if (first.has("cam0") || is_camera_info(first)) {
+    if (!model.empty()) throw ConfigError(first.file() + ": names its model itself; leave out --model");
+    const size_t count = first.has("cam0") ? 1 : 2;
+    if (files.size() > count) throw ConfigError(files[count].file() + ": one file too many");
+    if (count == 1) return read_kalibr(first);
+    if (files.size() < count || !is_camera_info(files.back()))
+      throw ConfigError(files.back().file() +
+                        ": camera_info of the left and of the right camera are expected: two files");
+    return read_camera_info(first, files.back());
+  }
+  for (const ToolFile& file : files) {
+    if (is_opencv_stereo(file)) continue;
+    if (file.has("camera_matrix"))
+      throw ConfigError(file.file() + ": a calibration of one camera alone; calibrate both as a stereo pair");
+    throw ConfigError(file.file() +
+                      ": neither a camchain of Kalibr's (cam0, cam1), nor OpenCV's M1 D1 M2 D2 R T, nor ROS's "
+                      "camera_info (camera_matrix, distortion_model, projection_matrix)");
+  }
+  return read_opencv(files, model);
 }
 
 }  // namespace
 
-StereoCalibration read_calibration(const std::vector<std::string>& files) {
+StereoCalibration read_calibration(const std::vector<std::string>& files, const std::string& model) {
   if (files.empty()) throw ConfigError("calibration: no file");
-  const bool opencv = is_opencv(files.front());
-  for (const std::string& file : files)
-    if (is_opencv(file) != opencv) throw ConfigError(file + ": is of another tool than " + files.front());
-  if (!opencv && files.size() > 1) throw ConfigError(files[1] + ": one file of Kalibr's is enough");
-  const StereoCalibration out = opencv ? read_opencv(files) : read_kalibr(files.front());
+  std::vector<ToolFile> loaded;
+  for (const std::string& file : files) loaded.push_back(ToolFile::load(file));
+  const StereoCalibration out = read_by_keys(loaded, model);
   check(out, files.front());
   return out;
 }

@@ -1,12 +1,15 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
+#include "calibration/lens_model.hpp"
 #include "common/bus/config.hpp"
+#include "common/bus/vehicle_config.hpp"
+#include "common/core/decimal.hpp"
 #include "common/core/frames.hpp"
+#include "interchange/stamps.hpp"
 #include "interchange/stereo_data_set.hpp"
+#include "interchange/text_rows.hpp"
 
 namespace rover::interchange {
 namespace {
@@ -15,37 +18,36 @@ namespace fs = std::filesystem;
 
 constexpr std::int64_t kMaxGapNs = 100'000'000;  // between two ground-truth poses that a picture may lie between
 
-struct Row {
+struct Listed {
   std::int64_t time_ns = 0;
-  std::vector<std::string> cells;
+  fs::path picture;
 };
 
-// data.csv: a head that begins with '#', then rows that begin with nanoseconds. Times rise.
-std::vector<Row> read_rows(const fs::path& file, size_t least_cells) {
-  std::ifstream in(file);
-  if (!in) throw ConfigError(file.string() + ": cannot be read");
-  std::vector<Row> rows;
-  int number = 0;
-  for (std::string line; std::getline(in, line);) {
-    ++number;
-    const auto fail = [&](const std::string& what) {
-      throw ConfigError(file.string() + ":" + std::to_string(number) + ": " + what);
-    };
-    if (!line.empty() && line.back() == '\r') line.pop_back();
-    if (line.empty() || line.front() == '#') continue;
-    Row row;
-    std::istringstream cells(line);
-    std::string time;
-    std::getline(cells, time, ',');
-    if (time.empty() || time.size() > 19 || time.find_first_not_of("0123456789") != std::string::npos)
-      fail("no time in nanoseconds");
-    row.time_ns = std::stoll(time);
-    for (std::string cell; std::getline(cells, cell, ',');) row.cells.push_back(cell);
-    if (row.cells.size() < least_cells) fail("too few columns");
-    if (!rows.empty() && row.time_ns <= rows.back().time_ns) fail("times do not rise");
-    rows.push_back(std::move(row));
+std::int64_t time_of(const TextRows& rows) {
+  const std::string_view time = rows.cells().front();
+  const auto ns = parse_whole_number(time);
+  if (!ns || *ns < 0) rows.fail("'" + std::string(time.substr(0, 40)) + "' is no time in nanoseconds");
+  return *ns;
+}
+
+struct PictureList {
+  std::vector<Listed> pictures;
+  std::int64_t interval_ns = 0;
+};
+
+// data.csv of a camera: nanoseconds and the picture's name.
+PictureList read_pictures(const fs::path& camera) {
+  const std::string file = (camera / "data.csv").string();
+  TextRows rows(file, ',');
+  PictureList list;
+  Stamps stamps;
+  while (rows.next()) {
+    if (rows.cells().size() < 2 || rows.cells()[1].empty()) rows.fail("no name of a picture after the time");
+    stamps.add(time_of(rows), [&](const std::string& what) { rows.fail(what); });
+    list.pictures.push_back({stamps.all_ns().back(), camera / "data" / rows.cells()[1]});
   }
-  return rows;
+  list.interval_ns = stamps.interval_ns(file);
+  return list;
 }
 
 Eigen::Isometry3d read_T_BS(const Config& sensor) {
@@ -64,13 +66,34 @@ struct Camera {
   Eigen::Isometry3d T_body_camera;
 };
 
-Camera read_camera(const fs::path& file) {
+Camera read_camera(const fs::path& file, StereoRig& rig) {
   const Config sensor = Config::load(file.string());
   sensor.one_of("camera_model", {"pinhole"});
-  sensor.one_of("distortion_model", {"radial-tangential", "radtan"});
   const auto f = sensor.numbers("intrinsics", {0, 1e5}, 4);
-  const auto d = sensor.numbers("distortion_coefficients", {-10, 10}, 4);
-  return {{f[0], f[1], f[2], f[3], {d[0], d[1], d[2], d[3], 0.0}}, read_T_BS(sensor)};
+  Camera camera{{f[0], f[1], f[2], f[3], {}}, read_T_BS(sensor)};
+  const std::string problem = calibration::set_lens(camera.pinhole, sensor.text("distortion_model"),
+                                                    sensor.numbers("distortion_coefficients", {-10, 10}, 0));
+  if (!problem.empty()) sensor.fail("distortion_model", problem);
+  if (sensor.has("resolution")) {
+    const auto size = sensor.numbers("resolution", {16, 8192}, 2);
+    rig.width = static_cast<int>(size[0]);
+    rig.height = static_cast<int>(size[1]);
+  }
+  return camera;
+}
+
+void read_cameras(const fs::path& root, StereoDataSet& set) {
+  const fs::path right_file = root / "cam1" / "sensor.yaml";
+  const Camera left = read_camera(root / "cam0" / "sensor.yaml", set.rig);
+  const Camera right = read_camera(right_file, set.rig);
+  set.rig.left = left.pinhole;
+  set.rig.right = right.pinhole;
+  if (left.pinhole.model != right.pinhole.model)
+    throw ConfigError(right_file.string() + ": distortion_model: another one than that of cam0");
+  set.rig.T_left_right = left.T_body_camera.inverse() * right.T_body_camera;
+  set.rig.T_body_left = left.T_body_camera;
+  const std::string problem = problem_of_pair(set.rig.T_left_right);
+  if (!problem.empty()) throw ConfigError(right_file.string() + ": T_BS: " + problem);
 }
 
 struct TruthRow {
@@ -78,20 +101,31 @@ struct TruthRow {
   Eigen::Isometry3d T_world_body;
 };
 
-std::vector<TruthRow> read_truth(const fs::path& dir) {
+// Columns are known by their order; a head that tells of another one is believed.
+void check_head(const TextRows& rows) {
+  const auto& names = rows.head();
+  if (names.size() >= 8 && names[4].find('w') == std::string_view::npos)
+    rows.fail("the columns time, x, y, z, qw, qx, qy, qz are expected, in this order");
+}
+
+std::vector<TruthRow> read_truth(const fs::path& dir, std::map<std::string, int>& left_out) {
   std::vector<TruthRow> truth;
   if (!fs::exists(dir / "data.csv")) return truth;
-  for (const Row& row : read_rows(dir / "data.csv", 7)) {
-    double v[7];
-    for (size_t i = 0; i < 7; ++i) {
-      char* end = nullptr;
-      v[i] = std::strtod(row.cells[i].c_str(), &end);
-      if (end == row.cells[i].c_str() || !std::isfinite(v[i]))
-        throw ConfigError((dir / "data.csv").string() + ": '" + row.cells[i] + "' is no number");
+  TextRows rows((dir / "data.csv").string(), ',');
+  while (rows.next()) {
+    check_head(rows);
+    if (rows.cells().size() < 8) rows.fail("too few columns; time, x, y, z, qw, qx, qy, qz are expected");
+    const std::int64_t time_ns = time_of(rows);
+    if (!truth.empty() && time_ns <= truth.back().time_ns) rows.fail("times do not rise");
+    Eigen::Matrix<double, 7, 1> v;
+    for (int i = 0; i < 7; ++i) v[i] = rows.number(static_cast<size_t>(i) + 1);
+    if (!v.allFinite()) {
+      ++left_out[kNoNumbers];
+      continue;
     }
     const Eigen::Quaterniond q(v[3], v[4], v[5], v[6]);
-    if (std::abs(q.norm() - 1.0) > 1e-2) throw ConfigError((dir / "data.csv").string() + ": no unit quaternion");
-    truth.push_back({row.time_ns, make_pose(q.normalized().toRotationMatrix(), {v[0], v[1], v[2]})});
+    if (std::abs(q.norm() - 1.0) > 1e-2) rows.fail("qw, qx, qy, qz are no unit quaternion");
+    truth.push_back({time_ns, make_pose(q.normalized().toRotationMatrix(), v.head<3>())});
   }
   return truth;
 }
@@ -108,6 +142,54 @@ std::optional<Eigen::Isometry3d> truth_at(const std::vector<TruthRow>& truth, st
   return interpolate(before->T_world_body, after->T_world_body, u);
 }
 
+// Exposed together, if the clocks that stamped them differ a little.
+std::int64_t most_apart_ns(const PictureList& lefts) {
+  return std::min<std::int64_t>(1'000'000, lefts.interval_ns / 20);
+}
+
+void pair_up(const PictureList& lefts, const PictureList& rights, StereoDataSet& set,
+             std::vector<std::int64_t>& times_ns) {
+  const std::int64_t most_ns = most_apart_ns(lefts);
+  std::int64_t widest_ns = 0;
+  auto right = rights.pictures.begin();
+  for (const Listed& left : lefts.pictures) {
+    while (right != rights.pictures.end() && right->time_ns < left.time_ns - most_ns)
+      ++right, ++set.left_out[kWithoutPartner];
+    if (right == rights.pictures.end() || right->time_ns > left.time_ns + most_ns) {
+      ++set.left_out[kWithoutPartner];
+      continue;
+    }
+    const Listed& partner = *right++;
+    if (!fs::exists(left.picture) || !fs::exists(partner.picture)) {
+      ++set.left_out["pairs of which a picture is not there"];
+      continue;
+    }
+    widest_ns = std::max(widest_ns, std::abs(partner.time_ns - left.time_ns));
+    times_ns.push_back(left.time_ns);
+    set.pairs.push_back(
+        {(left.time_ns - times_ns.front()) / 1000, left.picture.string(), partner.picture.string(), {}});
+  }
+  set.left_out[kWithoutPartner] += static_cast<int>(rights.pictures.end() - right);
+  if (widest_ns > 0)
+    set.notes.push_back("the two pictures of a pair are up to " + std::to_string((widest_ns + 999) / 1000) +
+                        " us apart");
+}
+
+void add_truth(const fs::path& dir, const std::vector<std::int64_t>& times_ns, StereoDataSet& set) {
+  const std::vector<TruthRow> truth = read_truth(dir, set.left_out);
+  const Eigen::Isometry3d T_sensors_body = set.rig.T_body_left * T_body_left_camera().inverse();
+  bool any = false;
+  for (size_t i = 0; i < set.pairs.size(); ++i)
+    if (const auto T_world_sensors = truth_at(truth, times_ns[i])) {
+      set.pairs[i].T_map_body = *T_world_sensors * T_sensors_body;
+      any = true;
+    }
+  if (!truth.empty() && !set.pairs.empty() && !any)
+    throw ConfigError((dir / "data.csv").string() + ": from " + std::to_string(truth.front().time_ns) + " to " +
+                      std::to_string(truth.back().time_ns) + " ns, no picture is of a time with truth; they begin at " +
+                      std::to_string(times_ns.front()) + " ns");
+}
+
 }  // namespace
 
 StereoDataSet read_euroc(const std::string& dir) {
@@ -115,30 +197,11 @@ StereoDataSet read_euroc(const std::string& dir) {
   StereoDataSet set;
   set.layout = "EuRoC";
   set.name = fs::absolute(dir).lexically_normal().filename().string();
-  const Camera left = read_camera(root / "cam0" / "sensor.yaml");
-  const Camera right = read_camera(root / "cam1" / "sensor.yaml");
-  set.rig.left = left.pinhole;
-  set.rig.right = right.pinhole;
-  set.rig.T_left_right = left.T_body_camera.inverse() * right.T_body_camera;
+  read_cameras(root, set);
+  std::vector<std::int64_t> times_ns;
+  pair_up(read_pictures(root / "cam0"), read_pictures(root / "cam1"), set, times_ns);
+  add_truth(root / "state_groundtruth_estimate0", times_ns, set);
   set.rig.T_body_left = T_body_left_camera();
-  const std::vector<TruthRow> truth = read_truth(root / "state_groundtruth_estimate0");
-  const std::vector<Row> lefts = read_rows(root / "cam0" / "data.csv", 1);
-  const std::vector<Row> rights = read_rows(root / "cam1" / "data.csv", 1);
-  const Eigen::Isometry3d T_sensors_body = left.T_body_camera * T_body_left_camera().inverse();
-  size_t j = 0;
-  std::int64_t first_ns = -1;
-  for (const Row& row : lefts) {
-    while (j < rights.size() && rights[j].time_ns < row.time_ns) ++j, ++set.unpaired;
-    if (j == rights.size() || rights[j].time_ns != row.time_ns) {
-      ++set.unpaired;
-      continue;
-    }
-    if (first_ns < 0) first_ns = row.time_ns;
-    StereoPair pair{(row.time_ns - first_ns) / 1000, (root / "cam0" / "data" / row.cells[0]).string(),
-                    (root / "cam1" / "data" / rights[j++].cells[0]).string(), std::nullopt};
-    if (const auto T_world_sensors = truth_at(truth, row.time_ns)) pair.T_map_body = *T_world_sensors * T_sensors_body;
-    set.pairs.push_back(std::move(pair));
-  }
   return set;
 }
 

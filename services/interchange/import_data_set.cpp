@@ -1,12 +1,14 @@
 #include "interchange/import_data_set.hpp"
 
 #include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <lcm/lcm-cpp.hpp>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <rover/ground_command_t.hpp>
 #include <rover/tick_t.hpp>
 #include <rover/truth_t.hpp>
@@ -14,9 +16,13 @@
 #include "common/bus/channels.hpp"
 #include "common/bus/config.hpp"
 #include "common/bus/convert.hpp"
+#include "common/bus/interrupt.hpp"
 #include "common/bus/streams.hpp"
+#include "common/bus/user_files.hpp"
+#include "common/bus/vehicle_config.hpp"
 #include "common/bus/yaml_file.hpp"
 #include "common/core/frames.hpp"
+#include "interchange/picture_file.hpp"
 #include "interchange/stereo_data_set.hpp"
 
 namespace rover::interchange {
@@ -45,28 +51,30 @@ class LogWriter {
     event.channel = channel;
     event.data = bytes.data();
     event.datalen = static_cast<std::int32_t>(bytes.size());
-    if (log_.writeEvent(&event) != 0) throw ConfigError(path_ + ": cannot be written");
+    if (log_.writeEvent(&event) != 0) fail();
+  }
+  // What is still in memory may not have room on the disk.
+  void finish() {
+    if (std::fflush(log_.getFilePtr()) != 0) fail();
   }
 
  private:
+  [[noreturn]] void fail() const { throw ConfigError(path_ + ": cannot be written: " + std::strerror(errno)); }
+
   std::string path_;
   lcm::LogFile log_;
   StreamCounter streams_;
 };
 
-cv::Mat read_picture(const std::string& file) {
-  cv::Mat picture = cv::imread(file, cv::IMREAD_GRAYSCALE);
-  if (picture.empty()) throw ConfigError(file + ": no picture that can be read");
-  return picture;
+std::string size_text(int width, int height) {
+  return std::to_string(width) + " x " + std::to_string(height);
 }
 
 image_t image_message(const std::string& file, const StereoRig& rig) {
-  const cv::Mat picture = read_picture(file);
-  if (picture.cols != rig.width || picture.rows != rig.height)
-    throw ConfigError(file + ": " + std::to_string(picture.cols) + " x " + std::to_string(picture.rows) +
-                      " px, the first picture has " + std::to_string(rig.width) + " x " + std::to_string(rig.height));
-  GrayImage image(picture.cols, picture.rows);
-  picture.copyTo(cv::Mat(picture.rows, picture.cols, CV_8UC1, image.data.data()));
+  const GrayImage image = read_picture(file);
+  if (image.width != rig.width || image.height != rig.height)
+    throw ConfigError(file + ": " + size_text(image.width, image.height) + " px, the first picture has " +
+                      size_text(rig.width, rig.height));
   image_t message{};
   image_to(image, message);
   return message;
@@ -91,11 +99,12 @@ ground_command_t start_command(const Eigen::Isometry3d& T_map_body) {
   return command;
 }
 
-void write_log(const StereoDataSet& set, const std::string& path) {
+void write_log(const StereoDataSet& set, const std::string& path, const std::string& name) {
   LogWriter log(path);
   const Utime last = kFirstPair + set.pairs.back().since_first + kAfterLast;
   auto pair = set.pairs.begin();
   for (Utime t = kFirstTick; t <= last; t += kTickUs) {
+    if (!going()) throw Interrupted("interrupted; nothing is left of " + name);
     if (t == kStartPose)
       log.write(channel::kGroundCommand,
                 start_command(set.pairs.front().T_map_body.value_or(Eigen::Isometry3d::Identity())), t);
@@ -110,10 +119,11 @@ void write_log(const StereoDataSet& set, const std::string& path) {
     tick.member_count = tick.stream_count = 0;
     log.write(channel::kTick, tick, t);
   }
+  log.finish();
 }
 
 void change_yaml(const fs::path& file, const std::function<void(YAML::Node&)>& change) {
-  YAML::Node root = YAML::LoadFile(file.string());
+  YAML::Node root = load_yaml(file.string());
   change(root);
   write_yaml(file, root);
 }
@@ -124,7 +134,8 @@ YAML::Node camera_node(const PinholeCamera& camera) {
   node["fy_px"] = camera.fy_px;
   node["cx_px"] = camera.cx_px;
   node["cy_px"] = camera.cy_px;
-  for (const double d : camera.distortion) node["distortion"].push_back(d);
+  const size_t count = camera.model == DistortionModel::kRadTan ? 5 : 4;
+  for (size_t i = 0; i < count; ++i) node["distortion"].push_back(camera.distortion[i]);
   node.SetStyle(YAML::EmitterStyle::Flow);
   return node;
 }
@@ -133,6 +144,7 @@ YAML::Node rig_node(const StereoRig& rig) {
   YAML::Node node;
   node["width_px"] = rig.width;
   node["height_px"] = rig.height;
+  node["distortion_model"] = name_of(rig.left.model);
   node["left"] = camera_node(rig.left);
   node["right"] = camera_node(rig.right);
   const Eigen::Vector3d rpy = rpy_of(rig.T_left_right.linear());
@@ -180,16 +192,60 @@ void write_configuration(const ImportOptions& options, const StereoDataSet& set,
 void write_facts(const StereoDataSet& set, const fs::path& file) {
   const nlohmann::json facts = {{"scenario", set.name},
                                 {"data_set", {{"layout", set.layout}, {"pairs", set.pairs.size()}}}};
-  std::ofstream(file) << facts.dump(2) << "\n";
+  std::ofstream out(file);
+  out << facts.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
+  out.close();
+  if (!out) throw ConfigError(file.string() + ": cannot be written");
+}
+
+void check_principal_point(const PinholeCamera& camera, const StereoRig& rig, const std::string& picture) {
+  const auto in_the_middle = [](double at, int size) { return at > 0.25 * size && at < 0.75 * size; };
+  if (!in_the_middle(camera.cx_px, rig.width) || !in_the_middle(camera.cy_px, rig.height))
+    throw ConfigError(picture + ": " + size_text(rig.width, rig.height) +
+                      " px, but the calibration has its principal point at " + std::to_string(camera.cx_px) + ", " +
+                      std::to_string(camera.cy_px) + ": is it that of pictures of another size?");
 }
 
 void set_size(StereoDataSet& set) {
-  const cv::Mat first = read_picture(set.pairs.front().left);
-  set.rig.width = first.cols;
-  set.rig.height = first.rows;
-  if (first.total() > kMaxMessageBytes)
-    throw ConfigError(set.pairs.front().left + ": " + std::to_string(first.total()) + " px, a message holds " +
+  const std::string& file = set.pairs.front().left;
+  const GrayImage first = read_picture(file);
+  StereoRig& rig = set.rig;
+  if (rig.width != 0 && (rig.width != first.width || rig.height != first.height))
+    throw ConfigError(file + ": " + size_text(first.width, first.height) +
+                      " px, the calibration is that of pictures of " + size_text(rig.width, rig.height));
+  rig.width = first.width;
+  rig.height = first.height;
+  if (first.data.size() > kMaxMessageBytes)
+    throw ConfigError(file + ": " + std::to_string(first.data.size()) + " px, a message holds " +
                       std::to_string(kMaxMessageBytes) + ": make the pictures and the calibration smaller");
+  check_principal_point(rig.left, rig, file);
+  check_principal_point(rig.right, rig, file);
+}
+
+// Before any of it is written.
+void check_space(const StereoDataSet& set, const fs::path& dir) {
+  constexpr std::uintmax_t kTickBytes = 150;
+  const auto ticks = static_cast<std::uintmax_t>((set.pairs.back().since_first + kFirstPair + kAfterLast) / kTickUs);
+  const std::uintmax_t bytes =
+      2 * set.pairs.size() * static_cast<size_t>(set.rig.width) * set.rig.height + ticks * kTickBytes;
+  const std::uintmax_t available = fs::space(dir).available;
+  if (bytes > available)
+    throw ConfigError(dir.parent_path().string() + ": the log takes " + std::to_string(bytes >> 20) +
+                      " MB, there is room for " + std::to_string(available >> 20) + " MB");
+}
+
+std::vector<std::string> summary(const StereoDataSet& set, const std::string& out) {
+  const auto with_truth = std::count_if(set.pairs.begin(), set.pairs.end(),
+                                        [](const StereoPair& pair) { return pair.T_map_body.has_value(); });
+  std::vector<std::string> lines = {set.layout + ": " + std::to_string(set.pairs.size()) + " stereo pairs of " +
+                                    size_text(set.rig.width, set.rig.height) + " px, " + std::to_string(with_truth) +
+                                    " with ground truth"};
+  for (const auto& [what, count] : set.left_out)
+    if (count > 0) lines.push_back("left out: " + std::to_string(count) + " " + what);
+  for (const std::string& note : set.notes) lines.push_back("note: " + note);
+  lines.push_back("imported: " + out);
+  lines.push_back("next: ./rover replay " + out + " --services stereo,visual_odometry,localization --speed max");
+  return lines;
 }
 
 }  // namespace
@@ -197,34 +253,19 @@ void set_size(StereoDataSet& set) {
 std::vector<std::string> import_data_set(const ImportOptions& options) {
   if (options.max_disparity_px < 16 || options.max_disparity_px > 512 || options.max_disparity_px % 16 != 0)
     throw ConfigError("--max-disparity: a multiple of 16 up to 512 is expected");
-  const fs::path out = fs::absolute(options.out);
-  if (fs::exists(out)) throw ConfigError(out.string() + ": exists already; name another folder by --out");
+  NewFolder out(options.out);
   StereoDataSet set = read_stereo_data_set(options.data_set, options.poses, options.rate_hz);
   set_size(set);
-  // Whole or not at all.
-  const fs::path unfinished = out.string() + ".unfinished";
-  std::error_code error;
-  if (fs::exists(unfinished) || !fs::create_directories(unfinished, error))
-    throw ConfigError(unfinished.string() + ": cannot be made" + (error ? ": " + error.message() : ""));
+  check_space(set, out.dir());
   try {
-    write_configuration(options, set, unfinished / "config");
-    write_log(set, (unfinished / "traverse.lcm").string());
-    write_facts(set, unfinished / "run.json");
-    fs::rename(unfinished, out);
-  } catch (const std::exception& failure) {
-    fs::remove_all(unfinished, error);
-    throw ConfigError(failure.what());
+    write_configuration(options, set, out.dir() / "config");
+    write_log(set, (out.dir() / "traverse.lcm").string(), options.out);
+    write_facts(set, out.dir() / "run.json");
+  } catch (const fs::filesystem_error& failure) {
+    throw ConfigError(failure.path1().string() + ": " + failure.code().message());
   }
-  const auto with_truth = std::count_if(set.pairs.begin(), set.pairs.end(),
-                                        [](const StereoPair& pair) { return pair.T_map_body.has_value(); });
-  std::vector<std::string> lines = {set.layout + ": " + std::to_string(set.pairs.size()) + " stereo pairs of " +
-                                    std::to_string(set.rig.width) + " x " + std::to_string(set.rig.height) + " px, " +
-                                    std::to_string(with_truth) + " with ground truth"};
-  if (set.unpaired > 0) lines.push_back(std::to_string(set.unpaired) + " pictures without a partner are left out");
-  lines.push_back("imported: " + out.string());
-  lines.push_back("next: ./rover replay " + options.out +
-                  " --services stereo,visual_odometry,localization --speed max");
-  return lines;
+  out.keep();
+  return summary(set, options.out);
 }
 
 }  // namespace rover::interchange

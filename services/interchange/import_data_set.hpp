@@ -1,6 +1,7 @@
 // ./rover import: a stereo data set as the log of a run, with its configuration.
 #pragma once
 
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -8,7 +9,7 @@ namespace rover::interchange {
 
 struct ImportOptions {
   std::string data_set;        // folder
-  std::string out;             // the run's folder; must not be there yet
+  std::string out;             // the run's folder; new, or empty
   std::string config_dir;      // the project's
   std::string poses;           // KITTI: file of the ground truth, empty: poses.txt in the folder
   double rate_hz = 10.0;       // KITTI without times.txt
@@ -16,7 +17,13 @@ struct ImportOptions {
   double max_speed_mps = 60.0;
 };
 
-// Lines that say what was written. Throws ConfigError with one line; nothing is left then.
+class Interrupted : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// Lines that say what was written and what was left out. Throws ConfigError with one line, or Interrupted after SIGINT
+// and SIGTERM (common/bus/interrupt.hpp); nothing is left then.
 std::vector<std::string> import_data_set(const ImportOptions& options);
 
 }  // namespace rover::interchange

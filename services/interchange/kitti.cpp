@@ -1,12 +1,14 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "common/bus/config.hpp"
+#include "common/bus/vehicle_config.hpp"
 #include "common/core/frames.hpp"
+#include "interchange/numbered_pictures.hpp"
+#include "interchange/stamps.hpp"
 #include "interchange/stereo_data_set.hpp"
+#include "interchange/text_rows.hpp"
 
 namespace rover::interchange {
 namespace {
@@ -14,43 +16,17 @@ namespace {
 namespace fs = std::filesystem;
 
 using Matrix34d = Eigen::Matrix<double, 3, 4>;
+constexpr double kMostSeconds = 5e9;  // of the clock, too: until the year 2128
 
-std::ifstream open_text(const fs::path& file) {
-  std::ifstream in(file);
-  if (!in) throw ConfigError(file.string() + ": cannot be read");
-  return in;
-}
+using Pictures = std::map<std::int64_t, fs::path>;
 
-[[noreturn]] void fail(const fs::path& file, int line, const std::string& what) {
-  throw ConfigError(file.string() + ":" + std::to_string(line) + ": " + what);
-}
-
-// Rows of twelve numbers, in front of which a name and a colon may stand.
-std::vector<Matrix34d> read_matrices(const fs::path& file) {
-  std::ifstream in = open_text(file);
-  std::vector<Matrix34d> matrices;
-  int number = 0;
-  for (std::string line; std::getline(in, line);) {
-    ++number;
-    if (const size_t colon = line.find(':'); colon != std::string::npos) line = line.substr(colon + 1);
-    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
-    std::istringstream numbers(line);
-    Matrix34d m;
-    for (int i = 0; i < 12; ++i)
-      if (!(numbers >> m(i / 4, i % 4)) || !std::isfinite(m(i / 4, i % 4))) fail(file, number, "not twelve numbers");
-    std::string rest;
-    if (numbers >> rest) fail(file, number, "more than twelve numbers");
-    matrices.push_back(m);
-  }
-  return matrices;
-}
-
-std::vector<fs::path> pictures_in(const fs::path& dir) {
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(dir))
-    if (entry.path().extension() == ".png" || entry.path().extension() == ".jpg") files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
-  return files;
+Matrix34d matrix(const TextRows& rows, size_t first_cell) {
+  if (rows.cells().size() != first_cell + 12)
+    rows.fail(std::to_string(rows.cells().size() - first_cell) +
+              " columns; the twelve numbers of a 3 x 4 matrix are expected");
+  Matrix34d m;
+  for (int i = 0; i < 12; ++i) m(i / 4, i % 4) = rows.number(first_cell + static_cast<size_t>(i));
+  return m;
 }
 
 fs::path first_folder(const fs::path& dir, std::initializer_list<const char*> names) {
@@ -59,35 +35,102 @@ fs::path first_folder(const fs::path& dir, std::initializer_list<const char*> na
   throw ConfigError(dir.string() + ": no folder " + *names.begin());
 }
 
-std::vector<double> read_times(const fs::path& file, size_t count, double rate_hz) {
-  std::vector<double> times;
-  if (!fs::exists(file)) {
-    for (size_t i = 0; i < count; ++i) times.push_back(static_cast<double>(i) / rate_hz);
-    return times;
+// The rows called P0 and P1; the first two where rows have no names.
+std::vector<Matrix34d> read_projections(const fs::path& file) {
+  TextRows rows(file.string(), ' ');
+  std::vector<Matrix34d> P;
+  while (rows.next() && P.size() < 2) {
+    const bool named = rows.cells().front().ends_with(':');
+    if (named && rows.cells().front() != "P" + std::to_string(P.size()) + ":") continue;
+    P.push_back(matrix(rows, named ? 1 : 0));
+    if (!P.back().allFinite()) rows.fail("not a number");
   }
-  std::ifstream in = open_text(file);
-  for (double t = 0.0; in >> t;) {
-    if (!times.empty() && !(t > times.back())) fail(file, static_cast<int>(times.size()) + 1, "times do not rise");
-    times.push_back(t);
-  }
-  if (times.size() < count)
-    throw ConfigError(file.string() + ": " + std::to_string(times.size()) + " times for " + std::to_string(count) +
-                      " pictures");
-  return times;
+  if (P.size() < 2) throw ConfigError(file.string() + ": the projections of two cameras, P0 and P1, are expected");
+  return P;
 }
 
 // P0 and P1 are rectified: one focal length, no distortion, the right camera at +x.
 StereoRig rig_from(const fs::path& file) {
-  const std::vector<Matrix34d> P = read_matrices(file);
-  if (P.size() < 2) throw ConfigError(file.string() + ": the projections of two cameras are expected");
+  const std::vector<Matrix34d> P = read_projections(file);
   StereoRig rig;
   const auto pinhole = [](const Matrix34d& p) { return PinholeCamera{p(0, 0), p(1, 1), p(0, 2), p(1, 2), {}}; };
   rig.left = pinhole(P[0]);
   rig.right = pinhole(P[1]);
-  const double baseline_m = (P[0](0, 3) - P[1](0, 3)) / P[1](0, 0);
-  if (!(rig.left.fx_px > 1.0 && baseline_m > 1e-3)) throw ConfigError(file.string() + ": no stereo pair");
-  rig.T_left_right.translation() = Eigen::Vector3d(baseline_m, 0.0, 0.0);
+  for (const Matrix34d& p : P)
+    if (!(p(0, 0) >= 10.0 && p(1, 1) >= 10.0 && p(0, 2) > 0.0 && p(1, 2) > 0.0))
+      throw ConfigError(file.string() + ": P0 and P1 are no projections of cameras, f 0 cx tx 0 f cy 0 0 0 1 0");
+  rig.T_left_right.translation() = Eigen::Vector3d((P[0](0, 3) - P[1](0, 3)) / P[1](0, 0), 0.0, 0.0);
+  const std::string problem = problem_of_pair(rig.T_left_right);
+  if (!problem.empty()) throw ConfigError(file.string() + ": " + problem);
   return rig;
+}
+
+// The number of the picture that the first row of a file belongs to: 0, or that of the first picture where the file was
+// cut with them.
+std::int64_t first_number(const fs::path& file, size_t rows, const Pictures& pictures) {
+  const std::int64_t first = pictures.begin()->first;
+  const std::int64_t last = pictures.rbegin()->first;
+  const auto count = static_cast<std::int64_t>(rows);
+  if (count > last) return 0;
+  if (count == last - first + 1) return first;
+  throw ConfigError(file.string() + ": " + std::to_string(count) + " rows for the pictures " + std::to_string(first) +
+                    " to " + std::to_string(last) + "; a row for each of them, or for each from 0 on, is expected");
+}
+
+// By the numbers of the pictures, in nanoseconds.
+std::map<std::int64_t, std::int64_t> read_times(const fs::path& file, const Pictures& pictures, double rate_hz) {
+  std::map<std::int64_t, std::int64_t> times_ns;
+  Stamps stamps;
+  const auto nanoseconds = [](double s) { return static_cast<std::int64_t>(std::llround(s * 1e9)); };
+  if (!fs::exists(file)) {
+    for (const auto& [number, picture] : pictures) {
+      const double after_s = static_cast<double>(number - pictures.begin()->first) / rate_hz;
+      if (after_s > kMostSeconds)
+        throw ConfigError(picture.string() + ": the number in the name gives no time; a times.txt is expected");
+      stamps.add(nanoseconds(after_s),
+                 [&](const std::string& what) { throw ConfigError(picture.string() + ": " + what); });
+      times_ns[number] = stamps.all_ns().back();
+    }
+    return times_ns;
+  }
+  TextRows rows(file.string(), ' ');
+  while (rows.next()) {
+    const double s = rows.number(0);
+    if (rows.cells().size() != 1 || !(s >= 0.0 && s <= kMostSeconds)) rows.fail("one time in seconds is expected");
+    stamps.add(nanoseconds(s), [&](const std::string& what) { rows.fail(what); });
+  }
+  stamps.interval_ns(file.string());
+  const std::int64_t first = first_number(file, stamps.all_ns().size(), pictures);
+  for (const auto& [number, picture] : pictures)
+    times_ns[number] = stamps.all_ns()[static_cast<size_t>(number - first)];
+  return times_ns;
+}
+
+// By the numbers of the pictures; rows that are not a number are left out.
+std::map<std::int64_t, Eigen::Isometry3d> read_truth(const fs::path& file, const Pictures& pictures,
+                                                     std::map<std::string, int>& left_out) {
+  TextRows rows(file.string(), ' ');
+  std::vector<std::optional<Eigen::Isometry3d>> poses;
+  while (rows.next()) {
+    const Matrix34d m = matrix(rows, 0);
+    poses.emplace_back();
+    if (!m.allFinite()) continue;
+    const Eigen::Matrix3d R = m.leftCols<3>();
+    if ((R * R.transpose() - Eigen::Matrix3d::Identity()).norm() > 1e-2 || R.determinant() < 0.0)
+      rows.fail("no rotation in the left 3 x 3 of the matrix");
+    // Written with seven digits: made a rotation again.
+    poses.back() = make_pose(Eigen::Quaterniond(R).normalized().toRotationMatrix(), m.col(3));
+  }
+  std::map<std::int64_t, Eigen::Isometry3d> truth;
+  if (poses.empty()) return truth;
+  const std::int64_t first = first_number(file, poses.size(), pictures);
+  for (const auto& [number, picture] : pictures) {
+    if (const auto& pose = poses[static_cast<size_t>(number - first)])
+      truth[number] = *pose;
+    else
+      ++left_out[kNoNumbers];
+  }
+  return truth;
 }
 
 }  // namespace
@@ -99,31 +142,27 @@ StereoDataSet read_kitti(const std::string& dir, const std::string& poses, doubl
   set.name = fs::absolute(root).lexically_normal().filename().string();
   set.rig = rig_from(root / "calib.txt");
   set.rig.T_body_left = T_body_left_camera();
-  const auto left = pictures_in(first_folder(root, {"image_0", "image_l"}));
-  const auto right = pictures_in(first_folder(root, {"image_1", "image_r"}));
-  const auto times = read_times(root / "times.txt", left.size(), rate_hz);
+  const Pictures left = numbered_pictures(first_folder(root, {"image_0", "image_l"}), set.left_out);
+  Pictures right = numbered_pictures(first_folder(root, {"image_1", "image_r"}), set.left_out);
+  const auto times_ns = read_times(root / "times.txt", left, rate_hz);
   const fs::path pose_file = poses.empty() ? root / "poses.txt" : fs::path(poses);
-  std::vector<Matrix34d> truth;
-  if (!poses.empty() || fs::exists(pose_file)) truth = read_matrices(pose_file);
-  if (!truth.empty() && truth.size() < left.size())
-    throw ConfigError(pose_file.string() + ": " + std::to_string(truth.size()) + " poses for " +
-                      std::to_string(left.size()) + " pictures");
-  for (size_t i = 0, j = 0; i < left.size(); ++i) {
-    while (j < right.size() && right[j].filename() < left[i].filename()) ++j, ++set.unpaired;
-    if (j == right.size() || right[j].filename() != left[i].filename()) {
-      ++set.unpaired;
+  std::map<std::int64_t, Eigen::Isometry3d> truth;
+  if (!poses.empty() || fs::exists(pose_file)) truth = read_truth(pose_file, left, set.left_out);
+  std::optional<std::int64_t> first_ns;
+  for (const auto& [number, picture] : left) {
+    const auto partner = right.extract(number);
+    if (partner.empty()) {
+      ++set.left_out[kWithoutPartner];
       continue;
     }
-    StereoPair pair{to_utime(times[i] - times[0]), left[i].string(), right[j++].string(), std::nullopt};
-    if (!truth.empty()) {
-      Eigen::Isometry3d T_first_left = Eigen::Isometry3d::Identity();
-      T_first_left.matrix().topRows<3>() = truth[i];
-      // Written with seven digits: made a rotation again.
-      T_first_left.linear() = Eigen::Quaterniond(T_first_left.linear()).normalized().toRotationMatrix();
-      pair.T_map_body = T_body_left_camera() * T_first_left * T_body_left_camera().inverse();
-    }
+    if (!first_ns) first_ns = times_ns.at(number);
+    StereoPair pair{(times_ns.at(number) - *first_ns) / 1000, picture.string(), partner.mapped().string(),
+                    std::nullopt};
+    if (const auto pose = truth.find(number); pose != truth.end())
+      pair.T_map_body = T_body_left_camera() * pose->second * T_body_left_camera().inverse();
     set.pairs.push_back(std::move(pair));
   }
+  set.left_out[kWithoutPartner] += static_cast<int>(right.size());
   return set;
 }
 

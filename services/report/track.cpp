@@ -9,6 +9,7 @@ namespace rover::report {
 namespace {
 
 constexpr double kStepM = 0.02;
+constexpr double kMostGapS = 0.1;
 
 }  // namespace
 
@@ -48,6 +49,15 @@ Eigen::Isometry3d TrueTrack::at(double t_s) const {
   if (after == truth_.end()) return truth_.back().T_map_body;
   const auto before = std::prev(after);
   return interpolate(before->T_map_body, after->T_map_body, (t_s - before->t_s) / (after->t_s - before->t_s));
+}
+
+std::optional<Eigen::Isometry3d> TrueTrack::known_at(double t_s) const {
+  const auto after = std::lower_bound(truth_.begin(), truth_.end(), t_s,
+                                      [](const TruthSample& sample, double t) { return sample.t_s < t; });
+  if (after == truth_.end()) return std::nullopt;
+  if (after->t_s == t_s) return after->T_map_body;
+  if (after == truth_.begin() || after->t_s - std::prev(after)->t_s > kMostGapS) return std::nullopt;
+  return at(t_s);
 }
 
 Pose2 TrueTrack::planar_at(double t_s) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "report/polyline.hpp"
@@ -26,6 +27,8 @@ class TrueTrack {
   bool empty() const { return truth_.empty(); }
   // Interpolated, held at the ends. Needs a sample.
   Eigen::Isometry3d at(double t_s) const;
+  // None before the first sample, after the last, and between two that are more than 0.1 s apart.
+  std::optional<Eigen::Isometry3d> known_at(double t_s) const;
   Pose2 planar_at(double t_s) const;
   // Horizontal way from the first sample. Steps below 2 cm do not add up: a rover that shakes does not drive.
   double distance_m(double t_s) const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace rover::report {
 namespace {
@@ -85,26 +86,30 @@ TrajectoryError trajectory_error(const std::vector<PosePair>& poses, const std::
 
 std::vector<PosePair> visual_poses(const RunRecord& run, const TrueTrack& truth) {
   std::vector<PosePair> poses;
-  if (truth.empty()) return poses;
   Isometry3d T = Isometry3d::Identity();
+  const auto add = [&](double t_s) {
+    if (const auto true_pose = truth.known_at(t_s)) poses.push_back({*true_pose, T});
+  };
+  bool first = true;
   for (const VisualSample& motion : run.visual) {
     if (motion.lost) continue;
-    if (poses.empty()) poses.push_back({truth.at(motion.from_s), T});
+    if (std::exchange(first, false)) add(motion.from_s);
     T = T * motion.T_from_to;
-    poses.push_back({truth.at(motion.to_s), T});
+    add(motion.to_s);
   }
   return poses;
 }
 
 std::vector<PosePair> published_poses(const RunRecord& run, const TrueTrack& truth) {
   std::vector<PosePair> poses;
-  if (truth.empty()) return poses;
   const auto add = [&](double t_s) {
     const PoseSample* pose = newest(run.poses, t_s);
-    if (pose != nullptr) poses.push_back({truth.at(pose->t_s), pose->T_map_odom * pose->T_odom_body});
+    if (pose != nullptr && truth.known_at(t_s))
+      poses.push_back({truth.at(pose->t_s), pose->T_map_odom * pose->T_odom_body});
   };
+  bool first = true;
   for (const VisualSample& motion : run.visual) {
-    if (poses.empty()) add(motion.from_s);
+    if (std::exchange(first, false)) add(motion.from_s);
     add(motion.to_s);
   }
   return poses;

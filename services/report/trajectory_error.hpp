@@ -40,7 +40,7 @@ TrajectoryError trajectory_error(const std::vector<PosePair>& poses,
                                  const std::vector<double>& lengths_m = {10.0, 20.0, 30.0, 40.0, 50.0});
 
 // Visual odometry alone: its motions put together, at each exposure it speaks of. A motion that does not begin where
-// the one before has ended is put there all the same: what was not seen is an error.
+// the one before has ended is put there all the same: what was not seen is an error. Both: only where truth is known.
 std::vector<PosePair> visual_poses(const RunRecord& run, const TrueTrack& truth);
 // Localization's T_map_body as it was published, at the same exposures.
 std::vector<PosePair> published_poses(const RunRecord& run, const TrueTrack& truth);

@@ -106,5 +106,18 @@ TEST(VisualPoses, WhatWasNotSeenIsAnError) {
   EXPECT_NEAR(trajectory_error(visual_poses(run, TrueTrack(run.truth))).end_error_m, 1.0, 1e-12);
 }
 
+// Truth of a data set begins later than the pictures and ends before them: what is before, after and in a hole of it is
+// no error.
+TEST(VisualPoses, AreJudgedWhereTruthIsKnown) {
+  RunRecord run = seen_run(std::vector<bool>(20, false));
+  run.truth.erase(run.truth.begin(), run.truth.begin() + 5);
+  run.truth.erase(run.truth.end() - 4, run.truth.end());
+  run.truth.erase(run.truth.begin() + 3, run.truth.begin() + 5);
+  const auto poses = visual_poses(run, TrueTrack(run.truth));
+  ASSERT_EQ(poses.size(), 10U);
+  EXPECT_NEAR(trajectory_error(poses).end_error_m, 0.0, 1e-12);
+  EXPECT_NEAR(trajectory_error(poses).length_m, 11.0, 1e-12);
+}
+
 }  // namespace
 }  // namespace rover::report

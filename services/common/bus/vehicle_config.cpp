@@ -122,7 +122,10 @@ const char* name_of(DistortionModel model) {
 }
 
 StereoRig load_stereo_rig(const std::string& config_dir, const std::string& camera) {
-  const Config config = Config::load(config_dir + "/cameras.yaml");
+  return read_stereo_rig(Config::load(config_dir + "/cameras.yaml"), camera);
+}
+
+StereoRig read_stereo_rig(const Config& config, const std::string& camera) {
   const Config rig_config = config.section(camera);
   StereoRig rig;
   rig.width = rig_config.integer("width_px", {16, 8192});

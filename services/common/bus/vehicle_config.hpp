@@ -12,6 +12,8 @@ namespace rover {
 Vehicle load_vehicle(const std::string& config_dir);
 // `camera`: "loccam" or "navcam".
 StereoRig load_stereo_rig(const std::string& config_dir, const std::string& camera);
+// The same of what is in cameras.yaml.
+StereoRig read_stereo_rig(const Config& config, const std::string& camera);
 
 // As cameras.yaml has it: "radtan", "equidistant".
 const char* name_of(DistortionModel model);
