@@ -1,4 +1,4 @@
-// A cloud as the core takes it, and the same cloud laid level around the rover.
+// Point clouds: as measured by the camera, and rotated into gravity-aligned axes.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -11,7 +11,7 @@ namespace rover::slam {
 
 struct CameraPoint {
   Eigen::Vector3f p_cam_m;     // z forward, x right, y down
-  float depth_sigma_m = 0.0F;  // along the camera's axis, from the distance to the camera
+  float depth_sigma_m = 0.0F;  // along the optical axis
 };
 
 struct Cloud {
@@ -20,28 +20,28 @@ struct Cloud {
   std::vector<CameraPoint> points;
 };
 
-// A point about the body's origin in level axes: x along the rover's heading, z up against gravity. It does not know
-// where in the world the rover is.
-struct LevelPoint {
+// Relative to the body's origin, in gravity-aligned axes: x along the heading, z up. Independent of the rover's
+// position in the world.
+struct AlignedPoint {
   float x_m = 0.0F;
   float y_m = 0.0F;
   float z_m = 0.0F;
-  float variance_m2 = 0.0F;  // of z, from the camera and the attitude
-  float ray_x_m = 0.0F;      // how far the point moves by one sigma of its depth
+  float variance_m2 = 0.0F;  // of z, from depth, attitude and body height
+  float ray_x_m = 0.0F;      // horizontal shift of the point by one sigma of depth
   float ray_y_m = 0.0F;
 };
 
 struct AttitudeNoise {
-  double tilt_rad = 0.0015;  // roll and pitch against gravity, from one cloud to the next
+  double tilt_rad = 0.0015;  // of roll and pitch, cloud to cloud
   double height_m = 0.003;   // of the body's origin
 };
 
-struct LevelCloud {
-  Eigen::Vector3f camera_m = Eigen::Vector3f::Zero();  // in the points' axes
-  std::vector<LevelPoint> points;
+struct AlignedCloud {
+  Eigen::Vector3f camera_m = Eigen::Vector3f::Zero();  // in the axes of the points
+  std::vector<AlignedPoint> points;
 };
 
-// Roll and pitch of T_odom_body are used, its place and heading are not.
-LevelCloud level(const Cloud& cloud, const Eigen::Isometry3d& T_odom_body, const AttitudeNoise& noise);
+// Uses roll and pitch of T_odom_body only.
+AlignedCloud align_to_gravity(const Cloud& cloud, const Eigen::Isometry3d& T_odom_body, const AttitudeNoise& noise);
 
 }  // namespace rover::slam

@@ -15,9 +15,9 @@ void read_map(const Config& c, ElevationConfig& m) {
   c.read("gate_sigma", m.gate_sigma, {1.0, 10.0});
   c.read("min_sigma_m", m.min_sigma_m, {0.0001, 0.1});
   c.read("growth_m2_per_m", m.growth_m2_per_m, {0.0, 0.01});
-  c.read("see_through_margin_m", m.see_through_margin_m, {0.01, 1.0});
-  c.read("see_through_rays", m.see_through_rays, {1, 255});
-  c.read("contact_m", m.contact_m, {0.0, 2.0});
+  c.read("see_through_margin_m", m.clearing_margin_m, {0.01, 1.0});
+  c.read("see_through_rays", m.clearing_rays, {1, 255});
+  c.read("contact_m", m.ray_end_margin_m, {0.0, 2.0});
 }
 
 void read_match(const Config& c, MatchConfig& m) {
@@ -25,14 +25,14 @@ void read_match(const Config& c, MatchConfig& m) {
   c.read("max_range_m", m.max_range_m, {1.0, 50.0});
   c.read("min_patches", m.min_patches, {20, 10000});
   c.read("model_sigma_m", m.model_sigma_m, {0.0, 0.1});
-  c.read("blur_m", m.blur_m, {0.0, 0.2});
+  c.read("blur_m", m.horizontal_sigma_m, {0.0, 0.2});
   c.read("kernel_sigma", m.kernel_sigma, {1.0, 10.0});
   c.read("temper", m.temper, {0.001, 10.0});
   c.read("height_sigma_m", m.height_sigma_m, {0.0001, 1.0});
   c.read_deg("tilt_sigma_deg", m.tilt_sigma_rad, {0.001, 5.0});
-  c.read("blind_sigma_m", m.blind_sigma_m, {0.001, 10.0});
-  c.read("probe_m", m.probe_m, {0.005, 1.0});
-  c.read("lever_m", m.lever_m, {0.1, 20.0});
+  c.read("blind_sigma_m", m.unobservable_sigma_m, {0.001, 10.0});
+  c.read("probe_m", m.hessian_step_m, {0.005, 1.0});
+  c.read("lever_m", m.yaw_lever_m, {0.1, 20.0});
 }
 
 void read_filter(const Config& c, FilterConfig& f) {
@@ -47,13 +47,13 @@ void read_filter(const Config& c, FilterConfig& f) {
 
 void read_motion(const Config& c, MotionConfig& m) {
   c.read("along_share", m.along_share, {0.0, 1.0});
-  c.read("scale_share", m.scale_share, {0.0, 1.0});
-  c.read("blind_share", m.blind_share, {0.0, 1.0});
+  c.read("scale_share", m.scale_error_share, {0.0, 1.0});
+  c.read("blind_share", m.dead_reckoned_share, {0.0, 1.0});
   c.read("across_share", m.across_share, {0.0, 1.0});
   c.read_deg("yaw_deg_per_m", m.yaw_rad_per_m, {0.0, 10.0});
   c.read("yaw_share", m.yaw_share, {0.0, 1.0});
-  c.read_deg("slow_yaw_deg_rts", m.slow_yaw_rad_rts, {0.0, 1.0});
-  c.read("still_m", m.still_m, {0.0, 0.1});
+  c.read_deg("slow_yaw_deg_rts", m.gyro_bias_rad_per_sqrt_s, {0.0, 1.0});
+  c.read("still_m", m.min_noise_m, {0.0, 0.1});
 }
 
 void read_attitude(const Config& c, AttitudeNoise& a) {
@@ -62,9 +62,9 @@ void read_attitude(const Config& c, AttitudeNoise& a) {
 }
 
 void read_jump(const Config& c, JumpConfig& j) {
-  c.read("top_speed_mps", j.top_speed_mps, {0.01, 10.0});
+  c.read("top_speed_mps", j.max_speed_mps, {0.01, 10.0});
   c.read("slack_m", j.slack_m, {0.0, 5.0});
-  c.read_deg("top_rate_degps", j.top_rate_radps, {0.1, 360.0});
+  c.read_deg("top_rate_degps", j.max_rate_radps, {0.1, 360.0});
   c.read_deg("slack_deg", j.slack_rad, {0.0, 90.0});
 }
 
@@ -74,8 +74,8 @@ void read_drift(const Config& c, DriftConfig& d) {
 }
 
 void read_anchor(const Config& c, AnchorConfig& a) {
-  c.read("slow_mps", a.slow_mps, {0.0, 1.0});
-  c.read_deg("slow_degps", a.slow_radps, {0.0, 90.0});
+  c.read("slow_mps", a.slew_mps, {0.0, 1.0});
+  c.read_deg("slow_degps", a.slew_radps, {0.0, 90.0});
 }
 
 }  // namespace
@@ -88,7 +88,7 @@ NodeConfig load_config(const std::string& config_dir) {
   yaml.read("latency_s", latency_s, {0.02, 5.0});
   config.latency_us = to_utime(latency_s);
   core.seed = static_cast<std::uint64_t>(yaml.integer64("seed", {0, 1e15}));
-  yaml.read("min_fitting_share", core.min_fitting_share, {0.0, 1.0});
+  yaml.read("min_fitting_share", core.min_inlier_share, {0.0, 1.0});
   yaml.read("lost_clouds", core.lost_clouds, {1, 100});
   read_map(yaml.section("map"), core.map);
   read_match(yaml.section("match"), core.match);

@@ -1,4 +1,4 @@
-// config/slam.yaml into what the core needs.
+// Reads config/slam.yaml.
 #pragma once
 
 #include <string>

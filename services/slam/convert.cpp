@@ -8,12 +8,12 @@
 namespace rover::slam {
 namespace {
 
-constexpr float kMostRangeM = 100.0F;
-constexpr int kMostPoints = 400'000;
+constexpr float kMaxRangeM = 100.0F;
+constexpr int kMaxPoints = 400'000;
 
-bool sound(float x, float y, float z, float sigma) {
-  return std::abs(x) < kMostRangeM && std::abs(y) < kMostRangeM && z > 0.0F && z < kMostRangeM && sigma > 0.0F &&
-         sigma < kMostRangeM;
+bool is_valid(float x, float y, float z, float sigma) {
+  return std::abs(x) < kMaxRangeM && std::abs(y) < kMaxRangeM && z > 0.0F && z < kMaxRangeM && sigma > 0.0F &&
+         sigma < kMaxRangeM;
 }
 
 }  // namespace
@@ -21,12 +21,12 @@ bool sound(float x, float y, float z, float sigma) {
 std::string fault_of(const cloud_t& message) {
   double squares = 0.0;
   for (const double q : message.quat_body_cam_wxyz) squares += q * q;
-  bool mount = std::abs(squares - 1.0) < 1e-3;
-  for (const double p : message.position_body_cam_m) mount = mount && std::abs(p) < 10.0;
-  if (!mount) return "camera's mount is not usable";
-  if (message.point_count > kMostPoints) return "more points than a camera has";
+  bool mount_valid = std::abs(squares - 1.0) < 1e-3;
+  for (const double p : message.position_body_cam_m) mount_valid = mount_valid && std::abs(p) < 10.0;
+  if (!mount_valid) return "camera's mount is not usable";
+  if (message.point_count > kMaxPoints) return "more points than a camera has";
   for (size_t i = 0; i < message.x_m.size(); ++i)
-    if (!sound(message.x_m[i], message.y_m[i], message.z_m[i], message.depth_sigma_m[i]))
+    if (!is_valid(message.x_m[i], message.y_m[i], message.z_m[i], message.depth_sigma_m[i]))
       return "point " + std::to_string(i) + " is not finite or out of range";
   return "";
 }

@@ -1,4 +1,4 @@
-// Between the messages and the core.
+// Conversion between messages and core types.
 #pragma once
 
 #include <rover/cloud_t.hpp>
@@ -12,11 +12,11 @@
 
 namespace rover::slam {
 
-// What is wrong with the message; empty: nothing.
+// Description of the first invalid field; empty if the message is valid.
 std::string fault_of(const cloud_t& message);
 Cloud cloud_from(const cloud_t& message);
 
-// Usable: a status that tells of a position, and every number finite.
+// True if initialised and all numbers are finite.
 bool usable(const pose_t& message);
 PoseSample sample_from(const pose_t& message);
 

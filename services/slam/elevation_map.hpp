@@ -1,4 +1,5 @@
-// The rover-centred elevation map: a Gaussian height in each cell, in a frame that the caller keeps still.
+// Robot-centric elevation map: one Gaussian height per cell (Fankhauser et al. 2014). Its frame is fixed; the window
+// of cells follows the rover.
 #pragma once
 
 #include <limits>
@@ -12,66 +13,66 @@ namespace rover::slam {
 
 struct ElevationConfig {
   int cells = 200;
-  double gate_sigma = 3.5;             // an older height further off than this is contradicted
-  double min_sigma_m = 0.004;          // errors that all clouds share do not average out
-  double growth_m2_per_m = 4e-5;       // of the variance, by the way since the cell was last seen: relative drift
-  double see_through_margin_m = 0.10;  // a ray this far below a cell's height, and 2 sigma, has gone through it
-  int see_through_rays = 3;            // that many forget a cell
-  double contact_m = 0.25;             // of a ray's end do not count: there the ray touches the ground
+  double gate_sigma = 3.5;          // innovation gate: beyond it a measurement is an outlier
+  double min_sigma_m = 0.004;       // floor: errors common to all clouds do not average out
+  double growth_m2_per_m = 4e-5;    // process noise per metre driven since the cell was last seen (drift)
+  double clearing_margin_m = 0.10;  // a ray this far and 2 sigma below a cell's height passed through it
+  int clearing_rays = 3;            // so many rays through a cell clear it
+  double ray_end_margin_m = 0.25;   // no clearing in the last part of a ray, where it touches the ground
   PatchConfig patches;
 };
 
 struct ElevationCell {
   float height_m = 0.0F;      // mean
-  float top_m = 0.0F;         // of the upper part where there is a step within the cell, else the same
+  float top_m = 0.0F;         // upper part of a step inside the cell, else equal to height_m
   float variance_m2 = -1.0F;  // negative: never seen
-  float seen_way_m = 0.0F;    // the rover's way when it was last seen
-  std::uint8_t contradictions = 0;
+  float seen_at_m = 0.0F;     // distance driven when the cell was last seen
+  std::uint8_t outliers = 0;  // measurements in a row that failed the gate
 
   bool seen() const { return variance_m2 >= 0.0F; }
 };
 
-// Where a levelled cloud lies in the map's frame.
+// Pose of a gravity-aligned cloud in the map's frame.
 struct CloudPose {
   Pose2 planar;
-  double z_m = 0.0;    // of the body's origin
-  double way_m = 0.0;  // driven so far
+  double z_m = 0.0;          // of the body's origin
+  double travelled_m = 0.0;  // driven so far
 };
 
 class ElevationMap {
  public:
   explicit ElevationMap(const ElevationConfig& config)
-      : config_(config), grid_(config.cells, config.patches.cell_m), gatherer_(config.patches) {}
+      : config_(config), grid_(config.cells, config.patches.cell_m), binner_(config.patches) {}
 
   void clear() { grid_.clear(); }
-  // The rover's place in the middle; cells that leave are forgotten.
+  // Centres the map on the rover; cells that leave it are dropped.
   void move_to(double x_m, double y_m) { grid_.move_to(x_m, y_m); }
-  // Forgets what the cloud sees through, then fuses it.
-  void insert(const LevelCloud& cloud, const CloudPose& pose);
+  // Clears cells that the cloud's rays pass through, then fuses the cloud.
+  void insert(const AlignedCloud& cloud, const CloudPose& pose);
 
   const GridMap<ElevationCell>& grid() const { return grid_; }
-  // Grown by the way since it was seen.
-  float variance_m2(const ElevationCell& cell, double way_m) const;
+  // Includes the growth since the cell was last seen.
+  float variance_m2(const ElevationCell& cell, double travelled_m) const;
   int seen_cells() const;
 
-  // For a checkpoint: the grid lies about a corner, and every cell is put in.
-  GridMap<ElevationCell>& restored_grid() { return grid_; }
+  // For restoring a checkpoint.
+  GridMap<ElevationCell>& mutable_grid() { return grid_; }
 
  private:
-  size_t scratch(CellIndex i) const;
-  void note_seen(const std::vector<Patch>& patches);
-  void see_through(const Eigen::Vector3f& camera_m, const std::vector<Patch>& patches, const CloudPose& pose);
-  void count_ray(const Eigen::Vector3f& camera_m, const Patch& patch, const CloudPose& pose);
+  size_t cell_offset(CellIndex i) const;
+  void store_cloud_heights(const std::vector<Patch>& patches);
+  void clear_along_rays(const Eigen::Vector3f& camera_m, const std::vector<Patch>& patches, const CloudPose& pose);
+  void trace_ray(const Eigen::Vector3f& camera_m, const Patch& patch, const CloudPose& pose);
   float measured_variance_m2(const Patch& patch) const;
-  float slope_toward(CellIndex i, int dx, int dy) const;
+  float slope_along(CellIndex i, int dx, int dy) const;
   void fuse(ElevationCell& cell, const Patch& patch, const CloudPose& pose) const;
 
   ElevationConfig config_;
   GridMap<ElevationCell> grid_;
-  PatchGatherer gatherer_;
-  // Of the cloud at hand, row by row from the grid's corner.
-  std::vector<float> new_height_m_;   // NaN: not seen by it
-  std::vector<std::uint8_t> passed_;  // rays that went through the cell
+  PatchBinner binner_;
+  // Of the current cloud, row by row from the grid's corner.
+  std::vector<float> new_height_m_;         // NaN: not seen
+  std::vector<std::uint8_t> rays_through_;  // number of rays through each cell
 };
 
 }  // namespace rover::slam

@@ -6,16 +6,16 @@
 
 namespace rover::slam {
 
-bool MapAnchor::take(Utime utime, const Eigen::Isometry3d& T_map_odom, const Eigen::Isometry3d& T_odom_body) {
-  const Pose2 now = planar(T_map_odom), before = T_map_odom_;
-  const double s = to_seconds(utime - utime_);
+bool MapAnchor::add_pose(Utime utime, const Eigen::Isometry3d& T_map_odom, const Eigen::Isometry3d& T_odom_body) {
+  const Pose2 T_new = planar(T_map_odom), T_old = T_map_odom_;
+  const double dt_s = to_seconds(utime - utime_);
   const bool known = utime_ != kNever;
   utime_ = utime;
-  T_map_odom_ = now;
+  T_map_odom_ = T_new;
   if (!known) return false;
-  const Pose2 body = planar(T_odom_body), there = compose(now, body), was = compose(before, body);
-  return std::hypot(there.x_m - was.x_m, there.y_m - was.y_m) > config_.slow_mps * s + config_.slack_m ||
-         std::abs(wrap_angle(there.yaw_rad - was.yaw_rad)) > config_.slow_radps * s + config_.slack_rad;
+  const Pose2 body = planar(T_odom_body), after = compose(T_new, body), before = compose(T_old, body);
+  return std::hypot(after.x_m - before.x_m, after.y_m - before.y_m) > config_.slew_mps * dt_s + config_.slack_m ||
+         std::abs(wrap_angle(after.yaw_rad - before.yaw_rad)) > config_.slew_radps * dt_s + config_.slack_rad;
 }
 
 void MapAnchor::anchor(const Pose2& T_slam_odom) {

@@ -1,8 +1,5 @@
-// T_map_slam: how the frame in which SLAM works lies in map.
-//
-// Localization moves map against odom for two reasons. SLAM's own measurements it takes up slowly; of that nothing
-// comes back here. A correction from elsewhere moves it at once: then SLAM says from there on what POSE says, and
-// measures only what odometry drifts after it. So SLAM never pulls a correction back.
+// T_map_slam: pose of SLAM's own frame in map. Localization applies SLAM's measurements to map -> odom at a limited
+// rate; a faster change is an external correction. SLAM adopts it here, so that it never undoes a correction.
 #pragma once
 
 #include <optional>
@@ -13,8 +10,8 @@
 namespace rover::slam {
 
 struct AnchorConfig {
-  double slow_mps = 0.03;  // localization follows SLAM at 0.02 m/s and 0.3 deg/s at most
-  double slow_radps = to_rad(0.45);
+  double slew_mps = 0.03;  // above localization's slew limits for SLAM, 0.02 m/s and 0.3 deg/s
+  double slew_radps = to_rad(0.45);
   double slack_m = 0.0005;
   double slack_rad = 1e-5;
 };
@@ -23,12 +20,12 @@ class MapAnchor {
  public:
   explicit MapAnchor(const AnchorConfig& config) : config_(config) {}
 
-  // Each POSE. True where map was moved against odom by something else than SLAM.
-  bool take(Utime utime, const Eigen::Isometry3d& T_map_odom, const Eigen::Isometry3d& T_odom_body);
-  // SLAM agrees with the newest POSE where odometry's drift so far is `T_slam_odom`.
+  // Call for each POSE. True: map -> odom was changed by an external correction.
+  bool add_pose(Utime utime, const Eigen::Isometry3d& T_map_odom, const Eigen::Isometry3d& T_odom_body);
+  // Sets T_map_slam so that SLAM agrees with the newest POSE, given the drift `T_slam_odom`.
   void anchor(const Pose2& T_slam_odom);
   bool anchored() const { return T_map_slam_.has_value(); }
-  // Anchored only.
+  // Both require anchored().
   Pose2 T_map_odom(const Pose2& T_slam_odom) const;
   Pose2 T_map_slam() const { return *T_map_slam_; }
   void restore(const Pose2& T_map_slam) { T_map_slam_ = T_map_slam; }

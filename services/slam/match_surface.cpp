@@ -2,7 +2,7 @@
 
 namespace rover::slam {
 
-MatchSurface::MatchSurface(const ElevationMap& map, double z_m, double way_m)
+MatchSurface::MatchSurface(const ElevationMap& map, double z_m, double travelled_m)
     : cells_(map.grid().cells()),
       cell_m_(map.grid().cell_m()),
       limit_(static_cast<float>(cells_ - 1)),
@@ -13,7 +13,7 @@ MatchSurface::MatchSurface(const ElevationMap& map, double z_m, double way_m)
   map.grid().for_each([&](CellIndex, const ElevationCell& cell) {
     height_m_.push_back(cell.seen() ? cell.height_m - static_cast<float>(z_m)
                                     : std::numeric_limits<float>::quiet_NaN());
-    variance_m2_.push_back(map.variance_m2(cell, way_m));
+    variance_m2_.push_back(map.variance_m2(cell, travelled_m));
   });
 }
 

@@ -1,4 +1,4 @@
-// The map as the matcher reads it: heights between the cells' centres, with their slope and variance.
+// Bilinear interpolation of the elevation map for the scan matcher: height, slope and variance.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,8 +12,8 @@ namespace rover::slam {
 
 class MatchSurface {
  public:
-  // Coordinates are from the grid's corner [cells], heights from `z_m`.
-  MatchSurface(const ElevationMap& map, double z_m, double way_m);
+  // Coordinates are relative to the grid's corner [cells], heights relative to `z_m`.
+  MatchSurface(const ElevationMap& map, double z_m, double travelled_m);
 
   struct Sample {
     float height_m;
@@ -22,7 +22,7 @@ class MatchSurface {
   };
   std::optional<Sample> sample(float x, float y) const;
 
-  // NaN where one of the four cells around was never seen.
+  // NaN if one of the four surrounding cells was never seen.
   float height(float x, float y) const {
     const float u = x - 0.5F, v = y - 0.5F;
     if (!(u >= 0.0F && v >= 0.0F && u < limit_ && v < limit_)) return std::numeric_limits<float>::quiet_NaN();
@@ -34,7 +34,7 @@ class MatchSurface {
   }
 
   double cell_m() const { return cell_m_; }
-  // Of the corner, in the map's frame.
+  // Position of the corner in the map's frame.
   double corner_x_m() const { return corner_.ix * cell_m_; }
   double corner_y_m() const { return corner_.iy * cell_m_; }
 

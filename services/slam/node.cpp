@@ -5,62 +5,62 @@
 namespace rover::slam {
 namespace {
 
-constexpr Utime kFreshVo = 800'000;  // a frame each 0.4 s, told 0.3 s later: older ones mean that one is missing
+constexpr Utime kMaxVoAgeUs = 800'000;  // frame period 0.4 s and latency 0.3 s; older: a frame is missing
 
 }  // namespace
 
-double BlindWay::add(const pose_t& pose) {
-  const double way_m = pose.travelled_m - travelled_m_;  // NaN at first
+double DeadReckonedDistance::add(const pose_t& pose) {
+  const double step_m = pose.travelled_m - travelled_m_;  // NaN for the first POSE
   travelled_m_ = pose.travelled_m;
-  const bool blind = pose.last_vo_utime < 0 || pose.header.utime - pose.last_vo_utime > kFreshVo;
-  if (blind && way_m > 0.0) way_m_ += way_m;
-  return way_m_;
+  const bool stale_vo = pose.last_vo_utime < 0 || pose.header.utime - pose.last_vo_utime > kMaxVoAgeUs;
+  if (stale_vo && step_m > 0.0) distance_m_ += step_m;
+  return distance_m_;
 }
 
-SlamNode::SlamNode(Node& node, const NodeConfig& config) : node_(node), kept_(node), slam_(config.core) {
-  node_.subscribe<supervisor_state_t>(channel::kState, [this](const supervisor_state_t& m) { take_state(m); });
-  node_.subscribe<pose_t>(channel::kPose, [this](const pose_t& m) { take_pose(m); });
-  node_.subscribe_slow<cloud_t>(channel::kCloud, config.latency_us, [this](const cloud_t& m) { take_cloud(m); });
+SlamNode::SlamNode(Node& node, const NodeConfig& config) : node_(node), checkpoint_(node), slam_(config.core) {
+  node_.subscribe<supervisor_state_t>(channel::kState, [this](const supervisor_state_t& m) { on_state(m); });
+  node_.subscribe<pose_t>(channel::kPose, [this](const pose_t& m) { on_pose(m); });
+  node_.subscribe_slow<cloud_t>(channel::kCloud, config.latency_us, [this](const cloud_t& m) { on_cloud(m); });
   node_.on_step([this](Utime) {
-    kept_.tell();
-    if (unsaved_ && kept_.due()) unsaved_ = !kept_.save(slam_.save());
+    checkpoint_.tell();
+    if (unsaved_ && checkpoint_.due()) unsaved_ = !checkpoint_.save(slam_.save());
   });
-  kept_.restore([this](const KeptState::Bytes& bytes) { return slam_.restore(bytes); });
+  checkpoint_.restore([this](const KeptState::Bytes& bytes) { return slam_.restore(bytes); });
 }
 
-void SlamNode::take_state(const supervisor_state_t& message) {
+void SlamNode::on_state(const supervisor_state_t& message) {
   const bool full = message.level == supervisor_state_t::FULL;
-  if (full != full_) node_.log("INFO", full ? "LEVEL full: mapping" : "LEVEL efficient: idle");
-  full_ = full;
+  if (full != full_level_) node_.log("INFO", full ? "LEVEL full: mapping" : "LEVEL efficient: idle");
+  full_level_ = full;
 }
 
-void SlamNode::take_pose(const pose_t& message) {
+void SlamNode::on_pose(const pose_t& message) {
   if (message.status == pose_t::UNINITIALISED) return;
   if (!usable(message)) return node_.reject(channel::kPose, "not finite");
   PoseSample sample = sample_from(message);
-  sample.odometry.blind_way_m = blind_way_.add(message);
+  sample.odometry.dead_reckoned_m = dead_reckoned_.add(message);
   poses_.add(sample);
-  if (slam_.take_pose(sample.utime, sample.T_map_odom, sample.odometry.T_odom_body))
+  if (slam_.add_pose(sample.utime, sample.T_map_odom, sample.odometry.T_odom_body))
     node_.log("INFO", "ANCHOR map was moved against odom by a correction");
 }
 
-void SlamNode::take_cloud(const cloud_t& message) {
-  if (!full_) return;
-  if (const std::string fault = fault_of(message); !fault.empty()) return refuse(fault);
-  if (message.header.utime > node_.now()) return refuse("of the future");
+void SlamNode::on_cloud(const cloud_t& message) {
+  if (!full_level_) return;
+  if (const std::string fault = fault_of(message); !fault.empty()) return reject_cloud(fault);
+  if (message.header.utime > node_.now()) return reject_cloud("of the future");
   const auto odometry = poses_.at(message.header.utime);
-  if (!odometry) return refuse("no POSE of its time");
+  if (!odometry) return reject_cloud("no POSE of its time");
   const SlamResult result = slam_.step(cloud_from(message), *odometry);
-  if (!result.refusal.empty()) return refuse(std::string(result.refusal));
+  if (!result.rejection.empty()) return reject_cloud(std::string(result.rejection));
   unsaved_ = true;
   publish(result, message.header.utime);
-  report(result.status);
+  report_status(result.status);
 }
 
-void SlamNode::refuse(const std::string& why) {
+void SlamNode::reject_cloud(const std::string& why) {
   node_.reject(channel::kCloud, why);
   node_.set_status(heartbeat_t::DEGRADED, "cloud refused: " + why);
-  last_ = Status::kLost;
+  last_status_ = Status::kLost;
 }
 
 void SlamNode::publish(const SlamResult& result, Utime utime) {
@@ -72,9 +72,9 @@ void SlamNode::publish(const SlamResult& result, Utime utime) {
   node_.publish(channel::kSlamPose, pose, utime);
 }
 
-void SlamNode::report(Status status) {
-  if (status == last_) return;
-  last_ = status;
+void SlamNode::report_status(Status status) {
+  if (status == last_status_) return;
+  last_status_ = status;
   static constexpr const char* kNames[] = {"OK", "NO_INFORMATION", "LOST"};
   const bool lost = status == Status::kLost;
   node_.set_status(lost ? heartbeat_t::DEGRADED : heartbeat_t::OK, lost ? "cloud and map do not fit" : "");

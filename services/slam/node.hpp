@@ -1,4 +1,4 @@
-// The bus side of SLAM: CLOUD and POSE in, ELEVATION and SLAM_POSE out, while the supervisor's level is FULL.
+// Bus node of SLAM: CLOUD and POSE in, ELEVATION and SLAM_POSE out. Active only at the Full level.
 #pragma once
 
 #include <memory>
@@ -14,14 +14,14 @@
 
 namespace rover::slam {
 
-// The way that POSE tells without fresh visual odometry in it.
-class BlindWay {
+// Distance driven on wheel odometry alone, from the age of the visual odometry in POSE.
+class DeadReckonedDistance {
  public:
-  // So far, this POSE included.
+  // Returns the total, this POSE included.
   double add(const pose_t& pose);
 
  private:
-  double way_m_ = 0.0;
+  double distance_m_ = 0.0;
   double travelled_m_ = kNaN;
 };
 
@@ -32,21 +32,21 @@ class SlamNode {
   SlamNode& operator=(const SlamNode&) = delete;
 
  private:
-  void take_state(const supervisor_state_t& message);
-  void take_pose(const pose_t& message);
-  void take_cloud(const cloud_t& message);
-  void refuse(const std::string& why);
+  void on_state(const supervisor_state_t& message);
+  void on_pose(const pose_t& message);
+  void on_cloud(const cloud_t& message);
+  void reject_cloud(const std::string& why);
   void publish(const SlamResult& result, Utime utime);
-  void report(Status status);
+  void report_status(Status status);
 
   Node& node_;
-  KeptState kept_;
+  KeptState checkpoint_;
   Slam slam_;
   PoseHistory poses_;
-  BlindWay blind_way_;
-  bool full_ = false;
-  bool unsaved_ = false;  // the checkpoint is older than the newest cloud
-  Status last_ = Status::kOk;
+  DeadReckonedDistance dead_reckoned_;
+  bool full_level_ = false;
+  bool unsaved_ = false;  // a cloud arrived since the last checkpoint
+  Status last_status_ = Status::kOk;
 };
 
 std::shared_ptr<SlamNode> make_slam(Node& node, const std::string& config_dir);

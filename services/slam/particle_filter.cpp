@@ -29,21 +29,21 @@ void ParticleFilter::reset(const Pose2& pose) {
 }
 
 void ParticleFilter::predict(const Pose2& motion, const MotionNoise& noise, Random& random) {
-  // In pairs of opposite noise, so that noise alone does not move the mean.
-  double along = 0.0, across = 0.0, turn = 0.0;
+  // Antithetic pairs: the noise does not move the mean.
+  double along = 0.0, across = 0.0, yaw_noise = 0.0;
   for (size_t i = 0; i < particles_.size(); ++i) {
     Particle& particle = particles_[i];
     const bool opposite = i % 2 == 1;
     along = opposite ? -along : noise.along_m * random.gauss();
     across = opposite ? -across : noise.across_m * random.gauss();
-    turn = opposite ? -turn : noise.yaw_rad * random.gauss();
-    // Half of the turn while driving: an error of yaw carries the rover aside.
-    const Pose2 bent = compose({0.0, 0.0, 0.5 * turn}, {motion.x_m + along, motion.y_m + across, motion.yaw_rad});
-    particle.pose = compose(particle.pose, {bent.x_m, bent.y_m, bent.yaw_rad + 0.5 * turn});
+    yaw_noise = opposite ? -yaw_noise : noise.yaw_rad * random.gauss();
+    // Half of the yaw noise acts before the translation, so that a yaw error also displaces the rover sideways.
+    const Pose2 noisy = compose({0.0, 0.0, 0.5 * yaw_noise}, {motion.x_m + along, motion.y_m + across, motion.yaw_rad});
+    particle.pose = compose(particle.pose, {noisy.x_m, noisy.y_m, noisy.yaw_rad + 0.5 * yaw_noise});
   }
 }
 
-void ParticleFilter::weigh(const std::function<double(const Pose2&)>& log_likelihood) {
+void ParticleFilter::update(const std::function<double(const Pose2&)>& log_likelihood) {
   for (Particle& particle : particles_) particle.log_weight += log_likelihood(particle.pose);
 }
 
@@ -57,7 +57,7 @@ std::vector<double> ParticleFilter::weights() const {
   return w;
 }
 
-double ParticleFilter::effective() const {
+double ParticleFilter::effective_particles() const {
   double squares = 0.0;
   for (const double w : weights()) squares += w * w;
   return 1.0 / squares;
@@ -89,8 +89,8 @@ Eigen::Matrix3d ParticleFilter::covariance() const {
   return cov;
 }
 
-// So many that the drawn distribution is near the weighted one, by the bins that hold most of the weight.
-int ParticleFilter::wanted_particles() const {
+// KLD sampling (Fox 2003), over the bins that hold significant weight.
+int ParticleFilter::kld_particle_count() const {
   const std::vector<double> w = weights();
   std::set<std::array<int, 3>> bins;
   for (size_t i = 0; i < w.size(); ++i) {
@@ -103,25 +103,25 @@ int ParticleFilter::wanted_particles() const {
   const auto k = static_cast<double>(bins.size()) - 1.0;
   if (k < 1.0) return config_.min_particles;
   const double share = 2.0 / (9.0 * k), root = 1.0 - share + std::sqrt(share) * kQuantile99;
-  const double wanted = k / (2.0 * config_.kld_error) * root * root * root;
-  return static_cast<int>(std::clamp(wanted, 1.0 * config_.min_particles, 1.0 * config_.max_particles));
+  const double count = k / (2.0 * config_.kld_error) * root * root * root;
+  return static_cast<int>(std::clamp(count, 1.0 * config_.min_particles, 1.0 * config_.max_particles));
 }
 
 void ParticleFilter::resample(Random& random) {
-  if (effective() >= config_.resample_share * static_cast<double>(particles_.size())) return;
+  if (effective_particles() >= config_.resample_share * static_cast<double>(particles_.size())) return;
   const std::vector<double> w = weights();
-  const int wanted = wanted_particles();
-  std::vector<Particle> drawn;
-  drawn.reserve(static_cast<size_t>(wanted));
-  const double step = 1.0 / wanted, first = step * random.unit();
-  double reached = w[0];
-  for (size_t i = 0; static_cast<int>(drawn.size()) < wanted;) {
-    if (reached >= first + static_cast<double>(drawn.size()) * step || i + 1 == w.size())
-      drawn.push_back({particles_[i].pose, 0.0});
+  const int count = kld_particle_count();
+  std::vector<Particle> resampled;
+  resampled.reserve(static_cast<size_t>(count));
+  const double step = 1.0 / count, first = step * random.unit();
+  double cumulative = w[0];
+  for (size_t i = 0; static_cast<int>(resampled.size()) < count;) {
+    if (cumulative >= first + static_cast<double>(resampled.size()) * step || i + 1 == w.size())
+      resampled.push_back({particles_[i].pose, 0.0});
     else
-      reached += w[++i];
+      cumulative += w[++i];
   }
-  particles_ = std::move(drawn);
+  particles_ = std::move(resampled);
 }
 
 }  // namespace rover::slam

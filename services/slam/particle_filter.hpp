@@ -1,5 +1,5 @@
-// Particles over x, y, yaw of the rover in the map's frame. Prediction by odometry, weights in log space, resampling by
-// the effective number of particles (systematic; Kitagawa 1996), their number by the spread (Fox 2003, KLD sampling).
+// Particle filter over x, y, yaw of the rover in the map's frame: odometry prediction, log weights, systematic
+// resampling by effective sample size (Kitagawa 1996), KLD-adaptive particle count (Fox 2003).
 #pragma once
 
 #include <Eigen/Core>
@@ -14,10 +14,10 @@ namespace rover::slam {
 struct FilterConfig {
   int min_particles = 100;
   int max_particles = 400;
-  double resample_share = 0.5;  // of the particles, effective: fewer and they are drawn anew
-  double bin_m = 0.01;          // places this near count as one when the number is chosen
+  double resample_share = 0.5;  // resample if the effective sample size is below this share
+  double bin_m = 0.01;          // histogram bins of KLD sampling
   double bin_rad = to_rad(0.1);
-  double kld_error = 0.05;  // of the distribution, with 99 % probability
+  double kld_error = 0.05;  // KLD bound, with 99 % probability
 };
 
 struct Particle {
@@ -25,7 +25,7 @@ struct Particle {
   double log_weight = 0.0;
 };
 
-// Standard deviations of one prediction, in the rover's axes.
+// Standard deviations of one prediction step, in the rover's axes.
 struct MotionNoise {
   double along_m = 0.0;
   double across_m = 0.0;
@@ -38,27 +38,27 @@ class ParticleFilter {
 
   void reset(const Pose2& pose);
   bool running() const { return !particles_.empty(); }
-  // `motion`: the rover's new pose in its old one.
+  // `motion`: the new pose relative to the previous one.
   void predict(const Pose2& motion, const MotionNoise& noise, Random& random);
-  void weigh(const std::function<double(const Pose2&)>& log_likelihood);
-  // Where the weights ask for it.
+  void update(const std::function<double(const Pose2&)>& log_likelihood);
+  // Only if the effective sample size is too small.
   void resample(Random& random);
 
   Pose2 mean() const;
   Eigen::Matrix3d covariance() const;  // x, y, yaw in the map's frame
-  double effective() const;
+  double effective_particles() const;
   const std::vector<Particle>& particles() const { return particles_; }
   void restore(std::vector<Particle> particles) { particles_ = std::move(particles); }
 
  private:
   std::vector<double> weights() const;  // sum 1
-  int wanted_particles() const;
+  int kld_particle_count() const;
 
   FilterConfig config_;
   std::vector<Particle> particles_;
 };
 
-// The pose `motion` further on, and back: compose(a, between(a, b)) is b.
+// SE(2) composition and its inverse: compose(a, between(a, b)) == b.
 Pose2 compose(const Pose2& pose, const Pose2& motion);
 Pose2 between(const Pose2& from, const Pose2& to);
 

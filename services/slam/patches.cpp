@@ -10,10 +10,10 @@ constexpr int kMinUpperPoints = 2;  // a single high point is more likely an out
 
 }  // namespace
 
-PatchGatherer::PatchGatherer(const PatchConfig& config)
+PatchBinner::PatchBinner(const PatchConfig& config)
     : config_(config), cells_(2 * static_cast<int>(std::ceil(config.reach_m / config.cell_m)) + 1) {}
 
-void PatchGatherer::Sums::add(const LevelPoint& point, float px, float py) {
+void PatchBinner::Sums::add(const AlignedPoint& point, float px, float py) {
   const float w = 1.0F / point.variance_m2;
   weight += w;
   x += w * px;
@@ -25,11 +25,11 @@ void PatchGatherer::Sums::add(const LevelPoint& point, float px, float py) {
   ++count;
 }
 
-void PatchGatherer::sort_in(const LevelCloud& cloud, const Pose2& pose) {
+void PatchBinner::assign_bins(const AlignedCloud& cloud, const Pose2& pose) {
   const auto cell = config_.cell_m;
   origin_x_ = static_cast<int>(std::floor(pose.x_m / cell)) - cells_ / 2;
   origin_y_ = static_cast<int>(std::floor(pose.y_m / cell)) - cells_ / 2;
-  // From the corner of the lattice's part about the rover: floats do for any place in the world.
+  // Relative to the window's corner, so that float precision suffices anywhere in the world.
   const auto x0 = static_cast<float>(pose.x_m - origin_x_ * cell), y0 = static_cast<float>(pose.y_m - origin_y_ * cell);
   cos_ = static_cast<float>(std::cos(pose.yaw_rad));
   sin_ = static_cast<float>(std::sin(pose.yaw_rad));
@@ -40,7 +40,7 @@ void PatchGatherer::sort_in(const LevelCloud& cloud, const Pose2& pose) {
   x_m_.resize(n);
   y_m_.resize(n);
   for (size_t i = 0; i < n; ++i) {
-    const LevelPoint& p = cloud.points[i];
+    const AlignedPoint& p = cloud.points[i];
     x_m_[i] = cos_ * p.x_m - sin_ * p.y_m;
     y_m_[i] = sin_ * p.x_m + cos_ * p.y_m;
     const int ix = static_cast<int>(std::floor((x0 + x_m_[i]) * per_cell));
@@ -55,13 +55,13 @@ void PatchGatherer::sort_in(const LevelCloud& cloud, const Pose2& pose) {
   }
 }
 
-bool PatchGatherer::is_step(const Bin& bin) const {
+bool PatchBinner::is_step(const Bin& bin) const {
   const float spread = bin.highest - bin.lowest;
   const auto noise = 16.0F * bin.variance / static_cast<float>(bin.count);  // (4 sigma)^2
   return spread > static_cast<float>(config_.step_m) && spread * spread > noise;
 }
 
-Patch PatchGatherer::patch_of(const Bin& bin, int column, int row) const {
+Patch PatchBinner::patch_of(const Bin& bin, int column, int row) const {
   const bool step = is_step(bin) && bin.upper_count >= kMinUpperPoints;
   const Sums& sums = bin.all;
   const auto n = static_cast<float>(sums.count);
@@ -79,17 +79,17 @@ Patch PatchGatherer::patch_of(const Bin& bin, int column, int row) const {
   patch.ray_y_m = (sin_ * sums.ray_x + cos_ * sums.ray_y) / n * shrink;
   patch.top_m = step ? bin.upper_z / bin.upper_weight : patch.z_m;
   patch.points = sums.count;
-  // What a step leaves open: where within the cell it stands.
+  // The position of a step inside the cell is unknown.
   if (step) patch.variance_m2 += 0.01F * (bin.highest - bin.lowest) * (bin.highest - bin.lowest);
   return patch;
 }
 
-const std::vector<Patch>& PatchGatherer::gather(const LevelCloud& cloud, const Pose2& pose) {
-  sort_in(cloud, pose);
+const std::vector<Patch>& PatchBinner::bin_cloud(const AlignedCloud& cloud, const Pose2& pose) {
+  assign_bins(cloud, pose);
   for (size_t i = 0; i < cloud.points.size(); ++i) {
     if (bin_of_[i] < 0) continue;
     Bin& bin = bins_[static_cast<size_t>(bin_of_[i])];
-    const LevelPoint& p = cloud.points[i];
+    const AlignedPoint& p = cloud.points[i];
     bin.all.add(p, x_m_[i], y_m_[i]);
     if (p.z_m <= 0.5F * (bin.lowest + bin.highest)) continue;
     bin.upper_weight += 1.0F / p.variance_m2;

@@ -5,14 +5,14 @@
 namespace rover::slam {
 namespace {
 
-constexpr Utime kRemember = 5'000'000;
+constexpr Utime kHistoryUs = 5'000'000;
 
 }  // namespace
 
 void PoseHistory::add(const PoseSample& sample) {
   if (!samples_.empty() && sample.utime <= samples_.back().utime) return;
   samples_.push_back(sample);
-  while (samples_.front().utime < sample.utime - kRemember) samples_.pop_front();
+  while (samples_.front().utime < sample.utime - kHistoryUs) samples_.pop_front();
 }
 
 std::optional<Odometry> PoseHistory::at(Utime utime) const {
@@ -21,10 +21,10 @@ std::optional<Odometry> PoseHistory::at(Utime utime) const {
   if (next == samples_.end()) return std::nullopt;
   if (next->utime == utime) return next->odometry;
   if (next == samples_.begin()) return std::nullopt;
-  const PoseSample& before = *std::prev(next);
-  const double u = static_cast<double>(utime - before.utime) / static_cast<double>(next->utime - before.utime);
+  const PoseSample& previous = *std::prev(next);
+  const double u = static_cast<double>(utime - previous.utime) / static_cast<double>(next->utime - previous.utime);
   Odometry odometry = next->odometry;
-  odometry.T_odom_body = interpolate(before.odometry.T_odom_body, next->odometry.T_odom_body, u);
+  odometry.T_odom_body = interpolate(previous.odometry.T_odom_body, next->odometry.T_odom_body, u);
   return odometry;
 }
 

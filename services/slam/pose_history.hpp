@@ -1,4 +1,4 @@
-// POSE of the last seconds, for where the rover was when a cloud was exposed.
+// Recent POSE samples, to look up the pose at a cloud's exposure.
 #pragma once
 
 #include <deque>
@@ -16,9 +16,9 @@ struct PoseSample {
 
 class PoseHistory {
  public:
-  // Samples that are not newer than the newest are left out.
+  // Ignores samples that are not newer than the newest.
   void add(const PoseSample& sample);
-  // Interpolated; nothing outside of what is remembered.
+  // Interpolated; empty outside the stored time span.
   std::optional<Odometry> at(Utime utime) const;
 
  private:

@@ -1,4 +1,4 @@
-// Gaussian numbers that are the same with every standard library: the distributions of <random> are not.
+// Gaussian random numbers that are identical for every standard library; those of <random> are not.
 #pragma once
 
 #include <cmath>

@@ -29,7 +29,7 @@ void ScanMatcher::prepare(const std::vector<Patch>& patches, const MatchSurface&
   points_.clear();
   const ToCells to(surface, reference);
   const auto model2 = static_cast<float>(config_.model_sigma_m * config_.model_sigma_m);
-  const auto blur = static_cast<float>(config_.blur_m);
+  const auto blur = static_cast<float>(config_.horizontal_sigma_m);
   const size_t stride = 1 + patches.size() / static_cast<size_t>(config_.max_patches);
   for (size_t i = 0; i < patches.size(); i += stride) {
     const Patch& patch = patches[i];
@@ -37,7 +37,7 @@ void ScanMatcher::prepare(const std::vector<Patch>& patches, const MatchSurface&
     if (std::hypot(patch.x_m, patch.y_m) > static_cast<float>(config_.max_range_m)) continue;
     const auto sample = surface.sample(to.u(point), to.v(point));
     if (!sample) continue;
-    // The slope in the rover's axes, per metre.
+    // Slope in the rover's axes.
     const auto c = static_cast<float>(std::cos(reference.yaw_rad)), s = static_cast<float>(std::sin(reference.yaw_rad));
     const float along = c * sample->slope_x + s * sample->slope_y, across = c * sample->slope_y - s * sample->slope_x;
     const float by_depth = along * patch.ray_x_m + across * patch.ray_y_m;
@@ -50,27 +50,27 @@ void ScanMatcher::prepare(const std::vector<Patch>& patches, const MatchSurface&
   start_plane_ = fit(reference, kStartIterations).plane;
   const auto kernel2 = square(static_cast<float>(config_.kernel_sigma));
   for (size_t i = 0; i < points_.size(); ++i) {
-    const float x = square(off(i, start_plane_)) * points_[i].weight;
-    points_[i].neutral = x / (kernel2 + x);
+    const float x = square(plane_residual(i, start_plane_)) * points_[i].weight;
+    points_[i].off_map_cost = x / (kernel2 + x);
   }
 }
 
-void ScanMatcher::residuals_at(const Pose2& pose) const {
+void ScanMatcher::compute_residuals(const Pose2& pose) const {
   const ToCells to(*surface_, pose);
   residual_.resize(points_.size());
   for (size_t i = 0; i < points_.size(); ++i)
     residual_[i] = points_[i].z - surface_->height(to.u(points_[i]), to.v(points_[i]));
 }
 
-// One step of reweighted least squares.
-Eigen::Vector3f ScanMatcher::fitted_plane(const Eigen::Vector3f& from) const {
+// One step of iteratively reweighted least squares.
+Eigen::Vector3f ScanMatcher::refit_plane(const Eigen::Vector3f& from) const {
   const auto kernel2 = static_cast<float>(square(static_cast<float>(config_.kernel_sigma)));
   float s1 = 0, sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0, r1 = 0, rx = 0, ry = 0;
   for (size_t i = 0; i < points_.size(); ++i) {
     if (std::isnan(residual_[i])) continue;
     const Point& p = points_[i];
-    const float share = kernel2 / (kernel2 + square(off(i, from)) * p.weight);
-    const float w = p.weight * share * share, wr = w * residual_[i];
+    const float kernel_weight = kernel2 / (kernel2 + square(plane_residual(i, from)) * p.weight);
+    const float w = p.weight * kernel_weight * kernel_weight, wr = w * residual_[i];
     s1 += w, sx += w * p.x, sy += w * p.y;
     sxx += w * p.x * p.x, sxy += w * p.x * p.y, syy += w * p.y * p.y;
     r1 += wr, rx += wr * p.x, ry += wr * p.y;
@@ -85,13 +85,13 @@ Eigen::Vector3f ScanMatcher::fitted_plane(const Eigen::Vector3f& from) const {
   return A.ldlt().solve(temper * Eigen::Vector3f(r1, rx, ry));
 }
 
-MatchFit ScanMatcher::judged(const Eigen::Vector3f& plane) const {
+MatchFit ScanMatcher::evaluate(const Eigen::Vector3f& plane) const {
   const auto kernel2 = square(static_cast<float>(config_.kernel_sigma));
   float cost = 0.0F;
   int on_map = 0, fitting = 0;
   for (size_t i = 0; i < points_.size(); ++i) {
-    const float x = square(off(i, plane)) * points_[i].weight;
-    cost += std::isnan(x) ? points_[i].neutral : x / (kernel2 + x);
+    const float x = square(plane_residual(i, plane)) * points_[i].weight;
+    cost += std::isnan(x) ? points_[i].off_map_cost : x / (kernel2 + x);
     on_map += std::isnan(x) ? 0 : 1;
     fitting += x < kernel2 ? 1 : 0;
   }
@@ -102,29 +102,30 @@ MatchFit ScanMatcher::judged(const Eigen::Vector3f& plane) const {
 }
 
 MatchFit ScanMatcher::fit(const Pose2& pose, int iterations) const {
-  residuals_at(pose);
+  compute_residuals(pose);
   Eigen::Vector3f plane = start_plane_;
-  for (int i = 0; i < iterations; ++i) plane = fitted_plane(plane);
-  return judged(plane);
+  for (int i = 0; i < iterations; ++i) plane = refit_plane(plane);
+  return evaluate(plane);
 }
 
-// By differences over a few centimetres: what noise draws into heights is without slope over that way, and does not
-// pass for information.
-Eigen::Matrix3d ScanMatcher::curvature(const Pose2& pose) const {
-  const Eigen::Vector3d step(config_.probe_m, config_.probe_m, config_.probe_m / config_.lever_m);
-  const auto at = [&](const Eigen::Vector3d& off) {
-    return fit({pose.x_m + off.x(), pose.y_m + off.y(), pose.yaw_rad + off.z()}).log_likelihood;
+// Negative log-likelihood, by finite differences over several centimetres: height noise averages out over this step
+// and is not mistaken for information.
+Eigen::Matrix3d ScanMatcher::hessian(const Pose2& pose) const {
+  const Eigen::Vector3d step(config_.hessian_step_m, config_.hessian_step_m,
+                             config_.hessian_step_m / config_.yaw_lever_m);
+  const auto at = [&](const Eigen::Vector3d& offset) {
+    return fit({pose.x_m + offset.x(), pose.y_m + offset.y(), pose.yaw_rad + offset.z()}).log_likelihood;
   };
   const double center = at(Eigen::Vector3d::Zero());
-  Eigen::Matrix3d H;  // in steps
-  const auto fall = [&](const Eigen::Vector3d& way) {
-    const Eigen::Vector3d off = step.cwiseProduct(way);
-    return 2.0 * center - at(off) - at(-off);
+  Eigen::Matrix3d H;  // in units of `step`
+  const auto second_difference = [&](const Eigen::Vector3d& direction) {
+    const Eigen::Vector3d offset = step.cwiseProduct(direction);
+    return 2.0 * center - at(offset) - at(-offset);
   };
-  for (int i = 0; i < 3; ++i) H(i, i) = fall(Eigen::Vector3d::Unit(i));
+  for (int i = 0; i < 3; ++i) H(i, i) = second_difference(Eigen::Vector3d::Unit(i));
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < i; ++j) {
-      const double both = fall((Eigen::Vector3d::Unit(i) + Eigen::Vector3d::Unit(j)) * std::sqrt(0.5));
+      const double both = second_difference((Eigen::Vector3d::Unit(i) + Eigen::Vector3d::Unit(j)) * std::sqrt(0.5));
       H(i, j) = H(j, i) = both - 0.5 * (H(i, i) + H(j, j));
     }
   const Eigen::Vector3d per_step = step.cwiseInverse();
@@ -132,21 +133,22 @@ Eigen::Matrix3d ScanMatcher::curvature(const Pose2& pose) const {
 }
 
 MatchInformation ScanMatcher::information(const Pose2& pose) const {
-  MatchInformation told;
-  if (!enough()) return told;
-  told.matrix = curvature(pose);
-  const Eigen::DiagonalMatrix<double, 3> scale(1.0, 1.0, config_.lever_m), unscale(1.0, 1.0, 1.0 / config_.lever_m);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> parts(unscale * told.matrix * unscale);
-  Eigen::Matrix3d keep = Eigen::Matrix3d::Zero();
+  MatchInformation info;
+  if (!has_enough_points()) return info;
+  info.matrix = hessian(pose);
+  const Eigen::DiagonalMatrix<double, 3> scale(1.0, 1.0, config_.yaw_lever_m),
+      unscale(1.0, 1.0, 1.0 / config_.yaw_lever_m);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(unscale * info.matrix * unscale);
+  Eigen::Matrix3d projector = Eigen::Matrix3d::Zero();
   for (int i = 0; i < 3; ++i) {
-    const double told_of = parts.eigenvalues()(i);
-    if (told_of * config_.blind_sigma_m * config_.blind_sigma_m < 1.0) continue;
-    if (told.directions == 0) told.weakest = std::sqrt(told_of);  // in growing order
-    keep += parts.eigenvectors().col(i) * parts.eigenvectors().col(i).transpose();
-    ++told.directions;
+    const double eigenvalue = eigen.eigenvalues()(i);
+    if (eigenvalue * config_.unobservable_sigma_m * config_.unobservable_sigma_m < 1.0) continue;
+    if (info.observable_directions == 0) info.weakest_information = std::sqrt(eigenvalue);  // ascending order
+    projector += eigen.eigenvectors().col(i) * eigen.eigenvectors().col(i).transpose();
+    ++info.observable_directions;
   }
-  told.informed = unscale * keep * scale;
-  return told;
+  info.observable = unscale * projector * scale;
+  return info;
 }
 
 }  // namespace rover::slam

@@ -1,9 +1,8 @@
-// Globally adaptive SLAM (Geromichalos, Azkarate et al. 2020): one cloud after the other is weighed by particles
-// against the map as it was before, and then laid into it.
+// GA SLAM (Geromichalos, Azkarate et al. 2020): a particle filter matches each cloud against the elevation map, then
+// inserts it.
 //
-// Three frames: odom drifts; `slam` is the map's own, odom's at the first cloud, in which nothing is ever moved; map is
-// the orbital one. T_slam_odom is what the matching has found of odometry's drift; T_map_slam changes only by
-// corrections from elsewhere (MapAnchor).
+// Frames: odom drifts; slam is fixed and equals odom at the first cloud; map is the orbital map's. T_slam_odom is the
+// estimated drift of odometry; T_map_slam changes only by external corrections (MapAnchor).
 #pragma once
 
 #include <optional>
@@ -19,25 +18,25 @@
 namespace rover::slam {
 
 struct MotionConfig {
-  double along_share = 0.0015;  // standard deviation by the way driven, at random
+  double along_share = 0.0015;  // standard deviation per metre driven, random part
   double across_share = 0.0015;
-  double blind_share = 0.08;  // likewise, both ways, by the way on which wheels alone told
-  double scale_share = 0.01;  // of the way, by which the told deviation may grow without being noise
+  double dead_reckoned_share = 0.08;  // same, both axes, per metre without visual odometry
+  double scale_error_share = 0.01;    // growth of POSE's deviation per metre that is scale error, not noise
   double yaw_rad_per_m = to_rad(0.002);
-  double yaw_share = 0.0001;               // of the turn
-  double slow_yaw_rad_rts = to_rad(0.01);  // by which the told deviation may grow without being noise: the gyro's bias
-  double still_m = 0.0005;                 // least, in each cloud
+  double yaw_share = 0.0001;                       // of the turn
+  double gyro_bias_rad_per_sqrt_s = to_rad(0.01);  // growth of POSE's yaw deviation that is gyro bias, not noise
+  double min_noise_m = 0.0005;                     // lower bound per cloud
   double height_share = 0.01;
 };
 
 struct JumpConfig {
-  double top_speed_mps = 0.5;  // odometry that moves faster has jumped
+  double max_speed_mps = 0.5;  // faster odometry has jumped
   double slack_m = 0.15;
-  double top_rate_radps = 1.0;
+  double max_rate_radps = 1.0;
   double slack_rad = to_rad(5.0);
 };
 
-// What one metre on adds to the error against the start: map and particles know nothing of it.
+// Growth of the error relative to the start: the particles measure it relative to the map only.
 struct DriftConfig {
   double position_share = 0.003;
   double yaw_rad_per_sqrt_m = to_rad(0.02);
@@ -52,37 +51,37 @@ struct SlamConfig {
   JumpConfig jump;
   DriftConfig drift;
   AnchorConfig anchor;
-  double min_fitting_share = 0.5;  // of the matched patches: fewer, and cloud and map are of different ground
-  int lost_clouds = 3;             // one after the other: the map is begun anew
+  double min_inlier_share = 0.5;  // of the matched patches; fewer: lost
+  int lost_clouds = 3;            // in a row: the map is restarted
   std::uint64_t seed = 1;
 };
 
 // POSE at the cloud's exposure.
 struct Odometry {
   Eigen::Isometry3d T_odom_body = nan_pose();
-  double position_sigma_m = 0.0;  // of the pose in map; only its growth counts
+  double position_sigma_m = 0.0;  // of the pose in map; only its growth is used
   double yaw_sigma_rad = 0.0;
-  double blind_way_m = 0.0;  // of the way so far, that without visual odometry
+  double dead_reckoned_m = 0.0;  // distance driven without visual odometry so far
 };
 
 enum class Status { kOk, kNoInformation, kLost };
 
 struct SlamResult {
-  std::string_view refusal;  // not empty: the cloud was not taken, and nothing else holds
+  std::string_view rejection;  // not empty: the cloud was rejected, all else is invalid
   Status status = Status::kLost;
   Pose2 T_slam_odom;
   Pose2 T_map_odom;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // of the body, x, y, yaw, since the anchor, in map's axes
-  double information = 0.0;  // 1 / standard deviation [1/m] of the weakest direction that was measured; 0: none
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // of the body's x, y, yaw since the anchor, in map
+  double information = 0.0;  // 1 / standard deviation [1/m] of the weakest observable direction; 0: none
   int particles = 0;
 };
 
-// The map as it lies in odom now, aligned with odom, the rover in its middle.
+// The map in the current odom frame, axes aligned with odom, centred on the rover.
 struct OdomElevation {
   double cell_m = 0.0;
-  CellIndex corner;             // of the lattice of odom, smallest x and y
+  CellIndex corner;             // cell with the smallest x and y, in odom's grid
   int cells = 0;                // each side
-  std::vector<float> height_m;  // rows of growing y; NaN: never seen
+  std::vector<float> height_m;  // row by row, y ascending; NaN: never seen
   std::vector<float> sigma_m;
 };
 
@@ -90,53 +89,52 @@ class Slam {
  public:
   explicit Slam(const SlamConfig& config);
 
-  // Each POSE, for how map lies to odom. True where something else than SLAM has moved map, and SLAM begins anew from
-  // it.
-  bool take_pose(Utime utime, const Eigen::Isometry3d& T_map_odom, const Eigen::Isometry3d& T_odom_body);
+  // Call for each POSE. True: an external correction changed map -> odom, and SLAM adopted it.
+  bool add_pose(Utime utime, const Eigen::Isometry3d& T_map_odom, const Eigen::Isometry3d& T_odom_body);
   SlamResult step(const Cloud& cloud, const Odometry& odometry);
   OdomElevation elevation() const;
-  // Planar, and the height that has to be added to odom's.
+  // Drift of odometry: planar, and the height to add to odom's.
   Pose2 T_slam_odom() const;
-  double height_offset_m() const { return z_m_ - last_.T_odom_body.translation().z(); }
+  double height_offset_m() const { return z_m_ - previous_.T_odom_body.translation().z(); }
   const ElevationMap& map() const { return map_; }
   bool running() const { return filter_.running(); }
-  double way_m() const { return way_m_; }
+  double travelled_m() const { return travelled_m_; }
 
   std::vector<std::uint8_t> save() const;
-  // False, and nothing changed, where the bytes are not of a slam like this one.
+  // False without any change if the bytes are invalid or of another map size.
   bool restore(const std::vector<std::uint8_t>& bytes);
 
  private:
-  struct Weighed {
+  struct MatchOutcome {
     Status status = Status::kNoInformation;
     double information = 0.0;
     Eigen::Vector3f plane = Eigen::Vector3f::Zero();
   };
   bool has_jumped(const Odometry& odometry, const Odometry& from, Utime dt) const;
-  std::string_view refusal_of(const Cloud& cloud, const Odometry& odometry);
+  std::string_view rejection_of(const Cloud& cloud, const Odometry& odometry);
   bool has_left_map(const Odometry& odometry) const;
   void start(const Odometry& odometry);
   double yaw_noise_rad(const Odometry& odometry, Utime dt) const;
   void predict(const Odometry& odometry, Utime utime, Random& random);
-  Weighed weigh(const LevelCloud& cloud, Random& random);
-  void lay(LevelCloud cloud, const Weighed& weighed);
+  MatchOutcome match_cloud(const AlignedCloud& cloud, Random& random);
+  void insert_cloud(AlignedCloud cloud, const MatchOutcome& match);
   void anchor();
   Eigen::Matrix3d covariance() const;
 
   SlamConfig config_;
   ElevationMap map_;
-  PatchGatherer gatherer_;
+  PatchBinner binner_;
   ScanMatcher matcher_;
   ParticleFilter filter_;
   MapAnchor anchor_;
-  Utime utime_ = kNever;  // of the newest cloud taken
-  Odometry last_;
-  std::optional<Odometry> suspect_;  // after a jump, until the next cloud says which of the two holds
-  Utime suspect_utime_ = kNever;
-  double z_m_ = 0.0;  // of the body in slam
-  double way_m_ = 0.0;
-  double anchor_way_m_ = 0.0;
-  int lost_ = 0;
+  Utime utime_ = kNever;  // of the newest accepted cloud
+  Odometry previous_;
+  std::optional<Odometry> jump_candidate_;  // pose after a jump, until the next cloud confirms it
+  Utime jump_utime_ = kNever;
+  double z_m_ = 0.0;  // of the body in the slam frame
+  double travelled_m_ = 0.0;
+  double anchor_travelled_m_ = 0.0;
+  int lost_count_ = 0;
 };
 
 }  // namespace rover::slam

@@ -1,4 +1,4 @@
-// What SLAM knows as bytes: particles, frames, and the map's seen cells behind a mask of one bit a cell.
+// Checkpoint of SLAM: particles, frames, and the seen map cells after a mask of one bit per cell.
 #include <cmath>
 
 #include "common/core/state_bytes.hpp"
@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::uint32_t kVersion = 1;
 
-bool sane(const Pose2& pose) {
+bool is_finite_pose(const Pose2& pose) {
   return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.yaw_rad);
 }
 
@@ -43,12 +43,12 @@ void put_map(StateWriter& out, const GridMap<ElevationCell>& grid) {
     out.put(cell.height_m);
     out.put(cell.top_m);
     out.put(cell.variance_m2);
-    out.put(cell.seen_way_m);
-    out.put(cell.contradictions);
+    out.put(cell.seen_at_m);
+    out.put(cell.outliers);
   });
 }
 
-// False where the stored map has another size.
+// False if the stored map has another size or invalid cells.
 bool get_map(StateReader& in, GridMap<ElevationCell>& grid) {
   if (in.get<int>() != grid.cells()) return false;
   const CellIndex origin = in.get<CellIndex>();
@@ -57,7 +57,7 @@ bool get_map(StateReader& in, GridMap<ElevationCell>& grid) {
   std::vector<std::uint8_t> mask((static_cast<size_t>(grid.cells()) * grid.cells() + 7) / 8);
   for (std::uint8_t& byte : mask) byte = in.get<std::uint8_t>();
   size_t k = 0;
-  bool sound = true;
+  bool valid = true;
   grid.for_each([&](CellIndex, ElevationCell& cell) {
     cell = ElevationCell{};
     const bool seen = (mask[k / 8] >> (7 - k % 8) & 1) != 0;
@@ -66,12 +66,12 @@ bool get_map(StateReader& in, GridMap<ElevationCell>& grid) {
     cell.height_m = in.get<float>();
     cell.top_m = in.get<float>();
     cell.variance_m2 = in.get<float>();
-    cell.seen_way_m = in.get<float>();
-    cell.contradictions = in.get<std::uint8_t>();
-    sound = sound && std::isfinite(cell.height_m) && std::isfinite(cell.top_m) && cell.variance_m2 >= 0.0F &&
-            std::isfinite(cell.seen_way_m);
+    cell.seen_at_m = in.get<float>();
+    cell.outliers = in.get<std::uint8_t>();
+    valid = valid && std::isfinite(cell.height_m) && std::isfinite(cell.top_m) && cell.variance_m2 >= 0.0F &&
+            std::isfinite(cell.seen_at_m);
   });
-  return sound;
+  return valid;
 }
 
 }  // namespace
@@ -80,13 +80,13 @@ std::vector<std::uint8_t> Slam::save() const {
   StateWriter out;
   out.put(kVersion);
   out.put(utime_);
-  put_pose(out, last_.T_odom_body);
-  out.put(last_.position_sigma_m);
-  out.put(last_.yaw_sigma_rad);
+  put_pose(out, previous_.T_odom_body);
+  out.put(previous_.position_sigma_m);
+  out.put(previous_.yaw_sigma_rad);
   out.put(z_m_);
-  out.put(way_m_);
-  out.put(anchor_way_m_);
-  out.put(lost_);
+  out.put(travelled_m_);
+  out.put(anchor_travelled_m_);
+  out.put(lost_count_);
   out.put(anchor_.anchored() ? anchor_.T_map_slam() : Pose2{});
   out.put(static_cast<std::uint64_t>(filter_.particles().size()));
   for (const Particle& particle : filter_.particles()) out.put(particle);
@@ -99,24 +99,24 @@ bool Slam::restore(const std::vector<std::uint8_t>& bytes) {
   if (in.get<std::uint32_t>() != kVersion) return false;
   Slam fresh(config_);
   fresh.utime_ = in.get<Utime>();
-  fresh.last_.T_odom_body = get_pose(in);
-  fresh.last_.position_sigma_m = in.get<double>();
-  fresh.last_.yaw_sigma_rad = in.get<double>();
+  fresh.previous_.T_odom_body = get_pose(in);
+  fresh.previous_.position_sigma_m = in.get<double>();
+  fresh.previous_.yaw_sigma_rad = in.get<double>();
   fresh.z_m_ = in.get<double>();
-  fresh.way_m_ = in.get<double>();
-  fresh.anchor_way_m_ = in.get<double>();
-  fresh.lost_ = in.get<int>();
+  fresh.travelled_m_ = in.get<double>();
+  fresh.anchor_travelled_m_ = in.get<double>();
+  fresh.lost_count_ = in.get<int>();
   const auto T_map_slam = in.get<Pose2>();
   fresh.anchor_.restore(T_map_slam);
   std::vector<Particle> particles(in.count(sizeof(Particle)));
-  bool sound =
-      !particles.empty() && sane(T_map_slam) && is_finite(fresh.last_.T_odom_body) && std::isfinite(fresh.z_m_);
+  bool valid = !particles.empty() && is_finite_pose(T_map_slam) && is_finite(fresh.previous_.T_odom_body) &&
+               std::isfinite(fresh.z_m_);
   for (Particle& particle : particles) {
     particle = in.get<Particle>();
-    sound = sound && sane(particle.pose) && std::isfinite(particle.log_weight);
+    valid = valid && is_finite_pose(particle.pose) && std::isfinite(particle.log_weight);
   }
   fresh.filter_.restore(std::move(particles));
-  if (!get_map(in, fresh.map_.restored_grid()) || !in.finished() || !sound) return false;
+  if (!get_map(in, fresh.map_.mutable_grid()) || !in.finished() || !valid) return false;
   *this = std::move(fresh);
   return true;
 }

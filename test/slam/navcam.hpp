@@ -1,5 +1,4 @@
-// Clouds as a stereo camera would measure them on a ground given as a function: rays to the first surface (so behind
-// rocks there are holes), noise of the disparity.
+// Simulated stereo clouds of an analytic ground: ray casting to the first surface (rocks occlude) and disparity noise.
 #pragma once
 
 #include <cmath>
@@ -15,10 +14,10 @@ struct NavcamModel {
   double focal_px = 818.0;
   double baseline_m = 0.24;
   int width_px = 640, height_px = 480;
-  int step_px = 4;  // a ray each
+  int step_px = 4;  // one ray per step
   double near_m = 1.0, far_m = 12.0;
   double disparity_sigma_px = 0.25;
-  double disparity_offset_px = 0.0;  // of a calibration that is wrong
+  double disparity_offset_px = 0.0;  // calibration error
   double pitch_down_rad = to_rad(17.0);
   double pan_rad = 0.0;  // positive to the left
   Eigen::Vector3d p_body_cam = {0.45, 0.12, 0.48};
@@ -26,7 +25,7 @@ struct NavcamModel {
   Eigen::Isometry3d T_body_cam() const { return make_pose(camera_rotation(pitch_down_rad, 0.0, pan_rad), p_body_cam); }
 };
 
-// Depth along the camera's axis of the first point on the ground; NaN: none in range.
+// Depth along the optical axis of the first ground point; NaN: none in range.
 template <class Height>
 double depth_of(const Height& height_m, const Eigen::Vector3d& from, const Eigen::Vector3d& ray, double far_m) {
   double t = 0.5, before = t;
@@ -69,7 +68,7 @@ Cloud cloud_of(const Height& height_m, const Eigen::Isometry3d& T_world_body, co
   return cloud;
 }
 
-// A featured ground: waves and half-sunk balls on a lattice, drawn from its seed. Flat where `relief` is 0.
+// Terrain with features: waves and half-sunk spheres on a grid. Planar if `relief` is 0.
 struct Ground {
   double relief = 1.0;
   double slope_x = 0.0;
@@ -93,7 +92,7 @@ struct Ground {
   }
 };
 
-// The rover stands upright, its origin so far over the ground.
+// Height of the body origin above the ground, with the rover upright.
 constexpr double kOriginHeightM = 0.62;
 inline Eigen::Isometry3d upright(const Pose2& pose, double z_m) {
   Eigen::Isometry3d T = from_planar(pose);

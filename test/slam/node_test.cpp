@@ -42,13 +42,13 @@ class SlamNodeTest : public testing::Test {
     world_.hear(channel::kServiceState, states_);
   }
 
-  void level(std::int8_t level) {
+  void set_level(std::int8_t level) {
     supervisor_state_t state{};
     state.level = level;
     world_.send(channel::kState, state, now_);
   }
-  // Drives to the place and stands there for a second of POSE.
-  void stand(const Pose2& pose, const Pose2& T_map_odom = {100, 200, 0}) {
+  // Publishes POSE at this pose for one second.
+  void drive_to_and_wait(const Pose2& pose, const Pose2& T_map_odom = {100, 200, 0}) {
     for (int i = 0; i < 50; ++i) {
       now_ += kTickUs;
       pose_t message{};
@@ -64,7 +64,7 @@ class SlamNodeTest : public testing::Test {
     Random random(seed);
     return message_of(cloud_of(Ground{}, upright(pose, kOriginHeightM), NavcamModel{.step_px = 8}, random, 0));
   }
-  void give(const cloud_t& cloud, Utime utime) {
+  void send_cloud(const cloud_t& cloud, Utime utime) {
     world_.send(channel::kCloud, cloud, utime, now_);
     for (int i = 0; i < 10; ++i) world_.tick(now_ += kTickUs);
   }
@@ -77,74 +77,74 @@ class SlamNodeTest : public testing::Test {
   Utime now_ = 0;
 };
 
-TEST_F(SlamNodeTest, EachCloudGivesAMapAndAPoseOfItsExposureReleasedAfterTheLatency) {
-  level(supervisor_state_t::FULL);
-  stand({3, 4, 0.5});
+TEST_F(SlamNodeTest, EachCloudGivesElevationAndPoseReleasedAfterLatency) {
+  set_level(supervisor_state_t::FULL);
+  drive_to_and_wait({3, 4, 0.5});
   const Utime exposed = now_ - kExposure;
-  const Utime given = now_ + kTickUs;
-  give(view({3, 4, 0.5}), exposed);
+  const Utime sent = now_ + kTickUs;
+  send_cloud(view({3, 4, 0.5}), exposed);
   ASSERT_EQ(elevations_.size(), 1u);
   ASSERT_EQ(poses_.size(), 1u);
   const elevation_t& e = elevations_[0];
   EXPECT_EQ(e.header.utime, exposed);
-  EXPECT_EQ(e.header.release_utime, given + 100'000);
+  EXPECT_EQ(e.header.release_utime, sent + 100'000);
   EXPECT_EQ(e.cells_x, 200);
   EXPECT_EQ(e.cells_y, 200);
   EXPECT_EQ(e.size, 40'000);
   EXPECT_NEAR(e.origin_x_m + 10.0, 3.0, 0.11);
   EXPECT_NEAR(e.origin_y_m + 10.0, 4.0, 0.11);
-  // Under the view: the ground's height; behind the rover: never seen.
-  int right = 0, seen = 0;
+  // In view: the true height; behind the rover: never seen.
+  int correct = 0, seen = 0;
   for (int i = 0; i < e.size; ++i) {
     const float height = e.height_m[static_cast<size_t>(i)];
     EXPECT_EQ(std::isnan(height), std::isnan(e.sigma_m[static_cast<size_t>(i)]));
     if (std::isnan(height) || e.sigma_m[static_cast<size_t>(i)] > 0.03F) continue;
     const double x = e.origin_x_m + (i % 200 + 0.5) * e.cell_m, y = e.origin_y_m + (i / 200 + 0.5) * e.cell_m;
     ++seen;
-    right += std::abs(height - Ground{}(x, y)) < 0.08 ? 1 : 0;
+    correct += std::abs(height - Ground{}(x, y)) < 0.08 ? 1 : 0;
     EXPECT_GT(between({3, 4, 0.5}, {x, y, 0}).x_m, 0.5);
   }
   EXPECT_GT(seen, 500);
-  EXPECT_GT(right, 0.9 * seen);
+  EXPECT_GT(correct, 0.9 * seen);
   EXPECT_EQ(poses_[0].status, +slam_pose_t::NO_INFORMATION);
   EXPECT_NEAR(poses_[0].x_m, 100.0, 0.01);
   EXPECT_NEAR(poses_[0].y_m, 200.0, 0.01);
 }
 
-TEST(BlindWay, IsWhatWasDrivenWithoutFreshVisualOdometry) {
-  BlindWay way;
+TEST(DeadReckonedDistance, CountsOnlyMotionWithoutFreshVisualOdometry) {
+  DeadReckonedDistance distance;
   pose_t pose{};
   const auto drive_to = [&](double travelled_m, Utime utime, Utime vo) {
     pose.travelled_m = travelled_m;
     pose.header.utime = utime;
     pose.last_vo_utime = vo;
-    return way.add(pose);
+    return distance.add(pose);
   };
   EXPECT_EQ(drive_to(5.0, 1'000'000, 500'000), 0.0);
   EXPECT_EQ(drive_to(5.1, 1'500'000, 900'000), 0.0);
   EXPECT_NEAR(drive_to(5.3, 2'500'000, 900'000), 0.2, 1e-12);
   EXPECT_NEAR(drive_to(5.4, 3'000'000, -1), 0.3, 1e-12);
   EXPECT_NEAR(drive_to(5.5, 3'100'000, 2'800'000), 0.3, 1e-12);
-  EXPECT_NEAR(drive_to(0.0, 9'000'000, -1), 0.3, 1e-12);  // localization began anew
+  EXPECT_NEAR(drive_to(0.0, 9'000'000, -1), 0.3, 1e-12);  // localization restarted
 }
 
-TEST_F(SlamNodeTest, IdlesUnlessTheLevelIsFull) {
-  stand({});
-  give(view({}), now_ - kExposure);
-  level(supervisor_state_t::EFFICIENT);
-  stand({});
-  give(view({}), now_ - kExposure);
+TEST_F(SlamNodeTest, IdlesUnlessLevelIsFull) {
+  drive_to_and_wait({});
+  send_cloud(view({}), now_ - kExposure);
+  set_level(supervisor_state_t::EFFICIENT);
+  drive_to_and_wait({});
+  send_cloud(view({}), now_ - kExposure);
   EXPECT_TRUE(elevations_.empty());
   EXPECT_TRUE(poses_.empty());
-  level(supervisor_state_t::FULL);
-  stand({});
-  give(view({}), now_ - kExposure);
+  set_level(supervisor_state_t::FULL);
+  drive_to_and_wait({});
+  send_cloud(view({}), now_ - kExposure);
   EXPECT_EQ(elevations_.size(), 1u);
 }
 
-TEST_F(SlamNodeTest, UnusableCloudsAreCountedAndTheNextGoodOneIsTaken) {
-  level(supervisor_state_t::FULL);
-  stand({});
+TEST_F(SlamNodeTest, InvalidCloudsAreCountedAndNextValidOneIsUsed) {
+  set_level(supervisor_state_t::FULL);
+  drive_to_and_wait({});
   const cloud_t good = view({});
   std::vector<cloud_t> bad(7, good);
   bad[0].x_m[5] = std::numeric_limits<float>::quiet_NaN();
@@ -154,46 +154,46 @@ TEST_F(SlamNodeTest, UnusableCloudsAreCountedAndTheNextGoodOneIsTaken) {
   bad[4].position_body_cam_m[1] = kNaN;
   bad[5] = message_of({.T_body_cam = NavcamModel{}.T_body_cam()});  // empty
   bad[6].z_m[0] = -1.0F;
-  for (const cloud_t& message : bad) give(message, now_ - kExposure);
-  stand({});
+  for (const cloud_t& message : bad) send_cloud(message, now_ - kExposure);
+  drive_to_and_wait({});
   EXPECT_TRUE(elevations_.empty());
   EXPECT_EQ(world_.malformed(channel::kCloud), 7);
-  give(good, now_ - kExposure);
+  send_cloud(good, now_ - kExposure);
   EXPECT_EQ(elevations_.size(), 1u);
 }
 
-TEST_F(SlamNodeTest, CloudsOfTheFutureAndOfForgottenTimesAreRefused) {
-  level(supervisor_state_t::FULL);
-  stand({});
-  for (int i = 0; i < 6; ++i) stand({});
-  give(view({}), now_ - 6'500'000);
-  give(view({}), now_ + 60'000'000);
-  stand({});
+TEST_F(SlamNodeTest, FutureCloudsAndCloudsOlderThanPoseHistoryAreRejected) {
+  set_level(supervisor_state_t::FULL);
+  drive_to_and_wait({});
+  for (int i = 0; i < 6; ++i) drive_to_and_wait({});
+  send_cloud(view({}), now_ - 6'500'000);
+  send_cloud(view({}), now_ + 60'000'000);
+  drive_to_and_wait({});
   EXPECT_TRUE(elevations_.empty());
   EXPECT_EQ(world_.malformed(channel::kCloud), 2);
 }
 
-TEST_F(SlamNodeTest, AJumpOfOdometryIsRefusedOnceAndTheMapHoldsWhereItWasOne) {
-  level(supervisor_state_t::FULL);
-  stand({});
-  give(view({}), now_ - kExposure);
-  stand({40, 0, 0});
-  give(view({}), now_ - kExposure);
+TEST_F(SlamNodeTest, SingleOdometryJumpIsRejectedAndMapIsKept) {
+  set_level(supervisor_state_t::FULL);
+  drive_to_and_wait({});
+  send_cloud(view({}), now_ - kExposure);
+  drive_to_and_wait({40, 0, 0});
+  send_cloud(view({}), now_ - kExposure);
   EXPECT_EQ(elevations_.size(), 1u);
-  stand({0.2, 0, 0});
-  give(view({0.2, 0, 0}), now_ - kExposure);
+  drive_to_and_wait({0.2, 0, 0});
+  send_cloud(view({0.2, 0, 0}), now_ - kExposure);
   ASSERT_EQ(elevations_.size(), 2u);
   EXPECT_EQ(world_.malformed(channel::kCloud), 1);
   EXPECT_NEAR(elevations_[1].origin_x_m, -10.0, 0.3);
   EXPECT_EQ(poses_[1].status, +slam_pose_t::OK);
 }
 
-TEST_F(SlamNodeTest, AfterACorrectionItSaysWhatPoseSays) {
-  level(supervisor_state_t::FULL);
-  stand({});
-  give(view({}), now_ - kExposure);
-  stand({0.2, 0, 0}, {101, 199, 0.02});
-  give(view({0.2, 0, 0}, 2), now_ - kExposure);
+TEST_F(SlamNodeTest, FollowsPoseAfterExternalCorrection) {
+  set_level(supervisor_state_t::FULL);
+  drive_to_and_wait({});
+  send_cloud(view({}), now_ - kExposure);
+  drive_to_and_wait({0.2, 0, 0}, {101, 199, 0.02});
+  send_cloud(view({0.2, 0, 0}, 2), now_ - kExposure);
   ASSERT_EQ(poses_.size(), 2u);
   EXPECT_NEAR(poses_[1].x_m, 101.0, 0.03);
   EXPECT_NEAR(poses_[1].y_m, 199.0, 0.03);
@@ -211,28 +211,28 @@ class SlamRestartTest : public SlamNodeTest {
   static void SetUpTestSuite() { std::filesystem::remove_all(folder()); }
 };
 
-// One after the other: the second process finds what the first has kept.
-TEST_F(SlamRestartTest, First) {
-  level(supervisor_state_t::FULL);
-  stand({});
-  give(view({}), now_ - kExposure);
-  stand({});
+// The two tests run in this order: the second reads the checkpoint of the first.
+TEST_F(SlamRestartTest, FirstProcessSavesMap) {
+  set_level(supervisor_state_t::FULL);
+  drive_to_and_wait({});
+  send_cloud(view({}), now_ - kExposure);
+  drive_to_and_wait({});
   EXPECT_TRUE(states_.empty());
 }
 
-TEST_F(SlamRestartTest, SecondComesBackWithItsMap) {
+TEST_F(SlamRestartTest, SecondProcessRestoresMap) {
   now_ = 10'000'000;
-  level(supervisor_state_t::FULL);
-  stand({0.3, 0, 0});
+  set_level(supervisor_state_t::FULL);
+  drive_to_and_wait({0.3, 0, 0});
   ASSERT_EQ(states_.size(), 1u);
   EXPECT_LT(states_[0].size, 450'000);
-  give(view({0.3, 0, 0}, 2), now_ - kExposure);
+  send_cloud(view({0.3, 0, 0}, 2), now_ - kExposure);
   ASSERT_EQ(poses_.size(), 1u);
-  // A first cloud would have nothing to be matched with.
+  // Without the restored map there would be nothing to match against.
   EXPECT_EQ(poses_[0].status, +slam_pose_t::OK);
 }
 
-TEST(SlamConfigTest, WrongKeysAndRangesStopTheStart) {
+TEST(SlamConfigTest, UnknownKeysAndBadRangesThrow) {
   const auto dir = std::filesystem::path(testing::TempDir()) / "slam_config";
   std::filesystem::create_directories(dir);
   const std::string rest = "match: {}\nmotion: {}\nattitude: {}\njump: {}\ndrift: {}\nanchor: {}\n";
@@ -247,7 +247,7 @@ TEST(SlamConfigTest, WrongKeysAndRangesStopTheStart) {
   }
 }
 
-TEST(SlamConfigTest, TheProjectsOwnFileIsRead) {
+TEST(SlamConfigTest, ShippedFileLoads) {
   const NodeConfig config = load_config(kConfig);
   EXPECT_EQ(config.core.map.cells, 200);
   EXPECT_DOUBLE_EQ(config.core.map.patches.cell_m, 0.1);

@@ -33,7 +33,8 @@ void map_update(benchmark::State& state) {
   for (auto _ : state) {
     const double x = 0.5 * static_cast<double>(i % views.size());
     map.move_to(x, 0);
-    map.insert(level(views[i % views.size()], upright({x, 0, 0}, kOriginHeightM), {}), {{x, 0, 0}, kOriginHeightM, x});
+    map.insert(align_to_gravity(views[i % views.size()], upright({x, 0, 0}, kOriginHeightM), {}),
+               {{x, 0, 0}, kOriginHeightM, x});
     ++i;
   }
   state.counters["points"] = static_cast<double>(views[0].points.size());

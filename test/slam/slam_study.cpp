@@ -1,4 +1,4 @@
-// Drift of SLAM against that of odometry on simulated drives, and registration of recorded clouds.
+// Drift of SLAM compared with odometry on simulated drives, and registration of recorded clouds.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -18,26 +18,26 @@ const std::string kDtm = kRoot + "/config/terrain/gale/gale_hirise_dtm_1m_348x33
 
 struct Drift {
   double odometry_percent = 0.0, slam_percent = 0.0;
-  int informed = 0, clouds = 0;
+  int observable = 0, clouds = 0;
 };
 
-// Horizontal error at the end, start poses laid on one another, over the way.
+// Horizontal error at the end, with aligned start poses, over the distance driven.
 double drift_percent(const std::vector<Station>& drive, const Pose2& end) {
   const Pose2 truth = between(planar(drive.front().T_map_body), planar(drive.back().T_map_body));
-  double way = 0.0;
+  double travelled_m = 0.0;
   for (size_t i = 1; i < drive.size(); ++i)
-    way += (drive[i].T_map_body.translation() - drive[i - 1].T_map_body.translation()).norm();
-  return 100.0 * std::hypot(end.x_m - truth.x_m, end.y_m - truth.y_m) / way;
+    travelled_m += (drive[i].T_map_body.translation() - drive[i - 1].T_map_body.translation()).norm();
+  return 100.0 * std::hypot(end.x_m - truth.x_m, end.y_m - truth.y_m) / travelled_m;
 }
 
-Drift judged(const std::vector<Station>& drive, const OdometryTrack& odometry, const SlamConfig& config) {
+Drift run_slam(const std::vector<Station>& drive, const OdometryTrack& odometry, const SlamConfig& config) {
   Slam slam(config);
   Drift drift;
   for (size_t i = 0; i < drive.size(); ++i) {
     const SlamResult result =
-        slam.step(drive[i].cloud, {odometry.T_odom_body[i], odometry.sigma_m[i], 0.0, odometry.blind_way_m[i]});
-    ROVER_CHECK(result.refusal.empty(), result.refusal);
-    drift.informed += result.status == Status::kOk ? 1 : 0;
+        slam.step(drive[i].cloud, {odometry.T_odom_body[i], odometry.sigma_m[i], 0.0, odometry.dead_reckoned_m[i]});
+    ROVER_CHECK(result.rejection.empty(), result.rejection);
+    drift.observable += result.status == Status::kOk ? 1 : 0;
     ++drift.clouds;
   }
   const Pose2 end = planar(odometry.T_odom_body.back());
@@ -54,7 +54,7 @@ double median(std::vector<double> values) {
 
 struct Summary {
   std::vector<double> slam, odometry;
-  int lower = 0;       // drives on which SLAM errs less
+  int lower = 0;       // drives with less drift than odometry
   double worst = 0.0;  // ratio
   void add(const Drift& d) {
     slam.push_back(d.slam_percent);
@@ -79,12 +79,12 @@ void drift_study(const DriveConfig& form, int first, int last) {
     DriveConfig drive_config = form;
     drive_config.seed = static_cast<std::uint64_t>(seed);
     const std::vector<Station> drive = simulated_drive(drive_config, kDtm);
-    const Drift a = judged(drive, simulated_odometry(drive, nominal_odometry(), drive_config.seed), config);
-    const Drift b = judged(drive, simulated_odometry(drive, degraded_odometry(), drive_config.seed), config);
+    const Drift a = run_slam(drive, simulated_odometry(drive, nominal_odometry(), drive_config.seed), config);
+    const Drift b = run_slam(drive, simulated_odometry(drive, degraded_odometry(), drive_config.seed), config);
     nominal.add(a);
     degraded.add(b);
     fmt::print("| {} | {:.2f} % | {:.2f} % | {}/{} | {:.2f} % | {:.2f} % | {}/{} |\n", seed, a.odometry_percent,
-               a.slam_percent, a.informed, a.clouds, b.odometry_percent, b.slam_percent, b.informed, b.clouds);
+               a.slam_percent, a.observable, a.clouds, b.odometry_percent, b.slam_percent, b.observable, b.clouds);
     std::fflush(stdout);
   }
   fmt::print("\n");

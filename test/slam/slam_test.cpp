@@ -1,4 +1,4 @@
-// SLAM as a whole: laws, and what the originals did wrong.
+// SLAM as a whole, against known ground and simulated odometry.
 #include "slam/slam.hpp"
 
 #include <gtest/gtest.h>
@@ -12,29 +12,31 @@ namespace {
 
 using namespace testing_support;
 
-// Drives over a ground; odometry is what the test makes of the true motion.
+// Drives over known ground with true motion and odometry given by the test.
 class Drive {
  public:
   explicit Drive(const Ground& ground, std::uint64_t seed = 1, const SlamConfig& config = {})
       : ground_(ground), random_(seed), slam_(config) {}
 
-  // One step of the true motion, and what odometry made of it; a cloud at its end.
-  // `sigma`: by how much less sure it is than before; `blind_m`: of the step, on wheels alone.
+  // One step of true and measured motion, then a cloud. `sigma_*`: growth of POSE's deviation;
+  // `dead_reckoned_m`: part of the step without visual odometry.
   SlamResult step(const Pose2& motion, const Pose2& measured, double sigma_m = 0.0, double sigma_rad = 0.0,
-                  double blind_m = 0.0) {
+                  double dead_reckoned_m = 0.0) {
     truth_ = compose(truth_, motion);
     odometry_ = compose(odometry_, measured);
     sigma_m_ += sigma_m;
     sigma_rad_ += sigma_rad;
-    blind_m_ += blind_m;
+    dead_reckoned_m_ += dead_reckoned_m;
     return look();
   }
-  SlamResult look() { return slam_.step(view(), {upright(odometry_, kOriginHeightM), sigma_m_, sigma_rad_, blind_m_}); }
+  SlamResult look() {
+    return slam_.step(view(), {upright(odometry_, kOriginHeightM), sigma_m_, sigma_rad_, dead_reckoned_m_});
+  }
   Cloud view() {
     t_ += 2'500'000;
     return cloud_of(ground_, upright(truth_, kOriginHeightM), camera_, random_, t_);
   }
-  void pass(Utime us) { t_ += us; }
+  void advance_time(Utime us) { t_ += us; }
   Pose2 error() const { return between(truth_, compose(slam_.T_slam_odom(), odometry_)); }
   double error_m() const { return std::hypot(error().x_m, error().y_m); }
   double odometry_error_m() const { return std::hypot(odometry_.x_m - truth_.x_m, odometry_.y_m - truth_.y_m); }
@@ -48,23 +50,23 @@ class Drive {
   Random random_;
   Slam slam_;
   Pose2 truth_, odometry_;
-  double sigma_m_ = 0.0, sigma_rad_ = 0.0, blind_m_ = 0.0;
+  double sigma_m_ = 0.0, sigma_rad_ = 0.0, dead_reckoned_m_ = 0.0;
   Utime t_ = 0;
 };
 
-TEST(Slam, AnOffsetOfOdometryIsFound) {
+TEST(Slam, EstimatesSuddenOdometryOffset) {
   Drive drive({});
   drive.look();
   for (int i = 0; i < 6; ++i) drive.step({0.5, 0, 0.02}, {0.5, 0, 0.02});
-  // Odometry has lost 4 cm and 0.4 deg at once, and knows that it is not sure.
+  // Odometry errs by 4 cm and 0.4 deg in one step and reports the larger uncertainty.
   const SlamResult result = drive.step({0.5, 0, 0}, {0.46, 0.03, to_rad(0.4)}, 0.03, to_rad(0.3));
-  EXPECT_TRUE(result.refusal.empty());
+  EXPECT_TRUE(result.rejection.empty());
   EXPECT_EQ(result.status, Status::kOk);
   EXPECT_GT(drive.odometry_error_m(), 0.04);
   EXPECT_LT(drive.error_m(), 0.02);
 }
 
-TEST(Slam, ADriveWithAWrongScaleDriftsLessThanOdometry) {
+TEST(Slam, ReducesDriftFromOdometryScaleError) {
   Drive drive({});
   drive.look();
   for (int i = 0; i < 30; ++i) drive.step({0.5, 0, 0.01}, {0.51, 0.0, 0.01}, 0.01);
@@ -72,51 +74,51 @@ TEST(Slam, ADriveWithAWrongScaleDriftsLessThanOdometry) {
   EXPECT_LT(drive.error_m(), 0.6 * drive.odometry_error_m());
 }
 
-// Wheels that slip while visual odometry is lost: a filter that follows them as if it were not is wrong by half of it.
-TEST(Slam, WhatWheelsAloneToldIsTrustedLess) {
+// The wheels slip by 6 % while visual odometry is lost.
+TEST(Slam, DeadReckonedMotionGetsLargerNoise) {
   double error_m[2] = {};
-  for (const bool told : {false, true}) {
+  for (const bool reported : {false, true}) {
     Drive drive({});
     drive.look();
-    for (int i = 0; i < 20; ++i) drive.step({0.5, 0, 0}, {0.53, 0.0, 0.0}, 0.0, 0.0, told ? 0.5 : 0.0);
-    error_m[told] = drive.error_m();
+    for (int i = 0; i < 20; ++i) drive.step({0.5, 0, 0}, {0.53, 0.0, 0.0}, 0.0, 0.0, reported ? 0.5 : 0.0);
+    error_m[reported] = drive.error_m();
   }
   EXPECT_GT(error_m[false], 0.2);
   EXPECT_LT(error_m[true], 0.1);
 }
 
-// Without the fibre-optic gyro the heading drifts, and POSE says so; it has not been sure of it before either.
-TEST(Slam, AHeadingWithoutGyroIsTrustedLess) {
+// Without the gyro the heading drifts, and POSE reports a growing deviation on top of the initial one.
+TEST(Slam, HeadingWithoutGyroGetsLargerNoise) {
   double error_rad[2] = {};
-  for (const bool told : {false, true}) {
+  for (const bool reported : {false, true}) {
     Drive drive({});
     double sigma_rad = to_rad(0.25);
     drive.step({}, {}, 0.0, sigma_rad);
     for (int i = 0; i < 30; ++i) {
-      const double before_rad = std::exchange(sigma_rad, std::hypot(sigma_rad, told ? 3e-4 * std::sqrt(2.5) : 0.0));
+      const double before_rad = std::exchange(sigma_rad, std::hypot(sigma_rad, reported ? 3e-4 * std::sqrt(2.5) : 0.0));
       drive.step({0.5, 0, 0}, {0.5, 0, to_rad(0.025)}, 0.0, sigma_rad - before_rad);
     }
-    error_rad[told] = std::abs(drive.error().yaw_rad);
+    error_rad[reported] = std::abs(drive.error().yaw_rad);
   }
   EXPECT_GT(error_rad[false], to_rad(0.6));
   EXPECT_LT(error_rad[true], 0.75 * error_rad[false]);
 }
 
-TEST(Slam, WithPerfectOdometryItStaysWhereItIs) {
+TEST(Slam, PerfectOdometryIsNotCorrupted) {
   Drive drive({});
   drive.look();
   for (int i = 0; i < 20; ++i) drive.step({0.5, 0, 0}, {0.5, 0, 0});
   EXPECT_LT(drive.error_m(), 0.05);
 }
 
-// A stretch at the Efficient level, without clouds: what odometry became unsure of on it is beside the new map.
-TEST(Slam, WhereTheRoverHasLeftItsMapItBeginsAnew) {
+// After 40 m without clouds (Efficient level), the uncertainty of that drive must not spread the particles.
+TEST(Slam, RestartsMapAfterRoverLeftIt) {
   Drive drive({});
   drive.look();
   for (int i = 0; i < 5; ++i) drive.step({0.5, 0, 0}, {0.5, 0, 0});
-  drive.pass(120'000'000);
+  drive.advance_time(120'000'000);
   const SlamResult first = drive.step({40.0, 0, 0}, {40.0, 0, 0}, 0.5, to_rad(0.5));
-  EXPECT_TRUE(first.refusal.empty());
+  EXPECT_TRUE(first.rejection.empty());
   EXPECT_LT(std::sqrt(first.covariance(0, 0)), 0.02);
   for (int i = 0; i < 12; ++i) {
     drive.step({0.5, 0, 0}, {0.5, 0, 0});
@@ -124,20 +126,20 @@ TEST(Slam, WhereTheRoverHasLeftItsMapItBeginsAnew) {
   }
 }
 
-TEST(Slam, FlatGroundTellsNothingAndOdometryIsFollowed) {
+TEST(Slam, FlatGroundIsUnobservableAndFollowsOdometry) {
   Drive drive(Ground{0.0, 0.0});
   drive.look();
-  int informed = 0;
+  int observable = 0;
   for (int i = 0; i < 20; ++i) {
     const SlamResult result = drive.step({0.5, 0, 0.01}, {0.5025, 0.001, 0.0101});
-    informed += result.status == Status::kOk;
+    observable += result.status == Status::kOk;
     EXPECT_EQ(result.information > 0.0, result.status == Status::kOk);
   }
-  EXPECT_EQ(informed, 0);
+  EXPECT_EQ(observable, 0);
   EXPECT_LT(drive.error_m(), 1.1 * drive.odometry_error_m() + 0.005);
 }
 
-TEST(Slam, ASlopeTellsNothingEither) {
+TEST(Slam, UniformSlopeIsUnobservable) {
   Drive drive(Ground{0.0, 0.15});
   drive.look();
   SlamResult result;
@@ -146,18 +148,18 @@ TEST(Slam, ASlopeTellsNothingEither) {
   EXPECT_EQ(result.information, 0.0);
 }
 
-// The originals' fault: with its own cloud in the map every cloud would fit best where odometry said it was.
-TEST(Slam, ACloudIsMatchedBeforeItEntersTheMap) {
+// If a cloud were inserted before matching (as in GA SLAM), it would always fit best at the odometry pose.
+TEST(Slam, CloudIsMatchedBeforeItIsInserted) {
   Drive drive({});
   const SlamResult first = drive.look();
   EXPECT_EQ(first.status, Status::kNoInformation);
   EXPECT_GT(drive.slam().map().seen_cells(), 1000);
-  // Turned away from all that is mapped: nothing to match, although the new cloud is dense.
+  // Turned away from the mapped area: nothing to match, although the cloud is dense.
   const SlamResult away = drive.step({0, 0, 1.2}, {0, 0, 1.2});
   EXPECT_EQ(away.status, Status::kNoInformation);
 }
 
-TEST(Slam, TheSameSeedGivesTheSameBytesAnotherDoesNot) {
+TEST(Slam, SameSeedGivesIdenticalStateOtherSeedDiffers) {
   const auto run = [](std::uint64_t seed) {
     SlamConfig config;
     config.seed = seed;
@@ -170,7 +172,7 @@ TEST(Slam, TheSameSeedGivesTheSameBytesAnotherDoesNot) {
   EXPECT_NE(run(1), run(2));
 }
 
-TEST(Slam, ARestoredOneGoesOnAsIfNothingHadBeen) {
+TEST(Slam, RestoredCheckpointContinuesIdentically) {
   Drive drive({});
   drive.look();
   for (int i = 0; i < 4; ++i) drive.step({0.5, 0, 0.02}, {0.505, 0, 0.02});
@@ -186,7 +188,7 @@ TEST(Slam, ARestoredOneGoesOnAsIfNothingHadBeen) {
   EXPECT_EQ(other.save(), drive.slam().save());
 }
 
-TEST(Slam, ABrokenCheckpointIsRefusedAndChangesNothing) {
+TEST(Slam, BrokenCheckpointIsRejectedWithoutSideEffects) {
   Drive drive({});
   drive.look();
   const auto bytes = drive.slam().save();
@@ -201,7 +203,7 @@ TEST(Slam, ABrokenCheckpointIsRefusedAndChangesNothing) {
   EXPECT_FALSE(smaller.restore(bytes));
 }
 
-TEST(Slam, EmptyOldAndUnplacedCloudsAreRefusedAndChangeNothing) {
+TEST(Slam, EmptyOldAndPoselessCloudsAreRejectedWithoutSideEffects) {
   Drive drive({});
   drive.look();
   drive.step({0.5, 0, 0}, {0.5, 0, 0});
@@ -210,52 +212,52 @@ TEST(Slam, EmptyOldAndUnplacedCloudsAreRefusedAndChangeNothing) {
   Cloud cloud = drive.view();
   Cloud empty = cloud;
   empty.points.clear();
-  EXPECT_EQ(drive.slam().step(empty, odometry).refusal, "empty");
+  EXPECT_EQ(drive.slam().step(empty, odometry).rejection, "empty");
   Cloud old = cloud;
   old.utime = 1;
-  EXPECT_EQ(drive.slam().step(old, odometry).refusal, "not newer than the one before");
-  EXPECT_EQ(drive.slam().step(cloud, {}).refusal, "its pose is not finite");
+  EXPECT_EQ(drive.slam().step(old, odometry).rejection, "not newer than the one before");
+  EXPECT_EQ(drive.slam().step(cloud, {}).rejection, "its pose is not finite");
   EXPECT_EQ(drive.slam().save(), before);
 }
 
-TEST(Slam, AnEmptyCloudAsTheFirstOneIsRefused) {
+TEST(Slam, EmptyFirstCloudIsRejected) {
   Slam slam({});
-  EXPECT_EQ(slam.step(Cloud{.utime = 5}, {upright({}, 0.6), 0.0, 0.0}).refusal, "empty");
+  EXPECT_EQ(slam.step(Cloud{.utime = 5}, {upright({}, 0.6), 0.0, 0.0}).rejection, "empty");
   EXPECT_FALSE(slam.running());
 }
 
-TEST(Slam, OneOddPoseIsPassedOver) {
+TEST(Slam, SinglePoseJumpIsIgnored) {
   Drive drive({});
   drive.look();
   for (int i = 0; i < 3; ++i) drive.step({0.5, 0, 0}, {0.5, 0, 0});
   const int seen = drive.slam().map().seen_cells();
   const Odometry odd{upright({50, 0, 0}, kOriginHeightM), 0.0, 0.0};
-  EXPECT_EQ(drive.slam().step(drive.view(), odd).refusal, "odometry has jumped");
+  EXPECT_EQ(drive.slam().step(drive.view(), odd).rejection, "odometry has jumped");
   EXPECT_EQ(drive.slam().map().seen_cells(), seen);
-  EXPECT_TRUE(drive.step({0.5, 0, 0}, {0.5, 0, 0}).refusal.empty());
+  EXPECT_TRUE(drive.step({0.5, 0, 0}, {0.5, 0, 0}).rejection.empty());
   EXPECT_GE(drive.slam().map().seen_cells(), seen);
   EXPECT_LT(drive.error_m(), 0.05);
 }
 
-TEST(Slam, OdometryThatStaysElsewhereBeginsTheMapAnew) {
+TEST(Slam, PersistentPoseJumpRestartsMap) {
   Drive drive({});
   drive.look();
   for (int i = 0; i < 3; ++i) drive.step({0.5, 0, 0}, {0.5, 0, 0});
   const Odometry elsewhere{upright({50, 0, 0}, kOriginHeightM), 0.0, 0.0};
-  EXPECT_FALSE(drive.slam().step(drive.view(), elsewhere).refusal.empty());
-  EXPECT_TRUE(drive.slam().step(drive.view(), elsewhere).refusal.empty());
+  EXPECT_FALSE(drive.slam().step(drive.view(), elsewhere).rejection.empty());
+  EXPECT_TRUE(drive.slam().step(drive.view(), elsewhere).rejection.empty());
   const OdomElevation elevation = drive.slam().elevation();
   EXPECT_NEAR(elevation.corner.ix * elevation.cell_m, 40.0, 0.11);
   EXPECT_NEAR(drive.slam().T_slam_odom().x_m, 0.0, 1e-3);
 }
 
-TEST(Slam, ElevationLiesAboutTheRoverInOdomWhateverOdometryHasDrifted) {
+TEST(Slam, ElevationIsCorrectInOdomDespiteDrift) {
   Drive drive({});
   drive.look();
   for (int i = 0; i < 20; ++i) drive.step({0.5, 0, 0.0}, {0.52, 0.0, 0.001});
   const OdomElevation elevation = drive.slam().elevation();
   const Pose2 odometry = drive.odometry();
-  // Ground 1 .. 5 m ahead of the rover: as in the world about the true rover.
+  // The ground 1 .. 5 m ahead must equal the true ground ahead of the true pose.
   int cells = 0;
   double mean = 0.0;
   const Ground ground;
@@ -275,11 +277,11 @@ TEST(Slam, ElevationLiesAboutTheRoverInOdomWhateverOdometryHasDrifted) {
   EXPECT_GT(drive.odometry_error_m(), 0.3);
 }
 
-TEST(Slam, AMapOfOtherGroundIsFoundOutAndBegunAnew) {
+TEST(Slam, MapOfDifferentGroundIsDetectedAndRestarted) {
   Drive drive({});
   drive.look();
   for (int i = 0; i < 4; ++i) drive.step({0.5, 0, 0}, {0.5, 0, 0});
-  // The rover was carried 30 m on, and odometry has not felt it.
+  // The rover is displaced by 30 m without odometry noticing.
   drive.step({30, 0, 0}, {0.0, 0, 0});
   std::vector<Status> seen;
   for (int i = 0; i < 4; ++i) seen.push_back(drive.look().status);
@@ -287,10 +289,10 @@ TEST(Slam, AMapOfOtherGroundIsFoundOutAndBegunAnew) {
   EXPECT_NE(seen[3], Status::kLost);
 }
 
-TEST(Slam, AfterACorrectionOfMapItSaysWhatPoseSays) {
+TEST(Slam, FollowsPoseAfterExternalCorrection) {
   Drive drive({});
   const auto pose = [&](Utime t, const Pose2& T_map_odom) {
-    return drive.slam().take_pose(t, from_planar(T_map_odom), upright(drive.odometry(), kOriginHeightM));
+    return drive.slam().add_pose(t, from_planar(T_map_odom), upright(drive.odometry(), kOriginHeightM));
   };
   pose(10, {100, 200, 0.5});
   drive.look();
@@ -305,7 +307,7 @@ TEST(Slam, AfterACorrectionOfMapItSaysWhatPoseSays) {
   EXPECT_NEAR(result.T_map_odom.yaw_rad, 0.52, 0.005);
 }
 
-TEST(Slam, TheMapFollowsTheRoverAndItsSizeDoesNotGrow) {
+TEST(Slam, MapFollowsRoverWithConstantSize) {
   Drive drive({});
   drive.look();
   for (int i = 0; i < 60; ++i) drive.step({0.5, 0, 0}, {0.5, 0, 0});

@@ -14,7 +14,7 @@ constexpr double kRasterM = 0.04;
 constexpr double kVisibleM = 14.0;
 constexpr double kFrameM = 0.08;  // between two frames of visual odometry at 0.2 m/s
 
-// The world's heights on a fine raster about the drive: asked for a thousand million times.
+// Cached heights around the drive: they are sampled about 1e9 times.
 class HeightRaster {
  public:
   HeightRaster(const World& world, Eigen::Vector2d low, Eigen::Vector2d high) : low_(low) {
@@ -39,8 +39,8 @@ class HeightRaster {
   std::vector<float> z_;
 };
 
-// Stands on the ground without rocks: a plane through what is under its wheels.
-Eigen::Isometry3d standing(const World& world, const Pose2& pose) {
+// Pose on the ground without rocks: plane through the wheel contact points.
+Eigen::Isometry3d pose_on_ground(const World& world, const Pose2& pose) {
   const double c = std::cos(pose.yaw_rad), s = std::sin(pose.yaw_rad);
   double mean = 0.0, pitch = 0.0, roll = 0.0;
   for (const double x : {-0.75, 0.0, 0.75})
@@ -54,7 +54,7 @@ Eigen::Isometry3d standing(const World& world, const Pose2& pose) {
                    {pose.x_m, pose.y_m, mean + kOriginHeightM});
 }
 
-// A winding track of which every point lies well inside the model.
+// Winding track near the DTM's centre.
 std::vector<Pose2> track_of(const DriveConfig& config, const World& world, Random& random) {
   const double heading = 2.0 * kPi * random.unit(), wave = 18.0 + 10.0 * random.unit(), swing = to_rad(35.0);
   std::vector<Pose2> track;
@@ -79,7 +79,7 @@ std::vector<Station> simulated_drive(const DriveConfig& config, const std::strin
   WorldConfig world_config;
   world_config.rocks.k = config.flat ? 0.0 : config.rock_k;
   if (config.flat) world_config.roughness.rms_m = 0.0;
-  const ElevationRaster dtm = config.flat ? plane_raster(348, 337, 1.0, 0.0, 0.0) : read_elevation(dtm_file);
+  const ElevationRaster dtm = config.flat ? plane_raster(348, 337, 1.0, 0.0, 0.0) : read_elevation_map(dtm_file).raster;
   const World world(world_config, dtm, config.seed);
   Random random(config.seed);
   const std::vector<Pose2> track = track_of(config, world, random);
@@ -93,7 +93,7 @@ std::vector<Station> simulated_drive(const DriveConfig& config, const std::strin
   camera.disparity_offset_px = config.disparity_offset_px;
   std::vector<Station> drive;
   for (const Pose2& pose : track) {
-    const Eigen::Isometry3d T = standing(world, pose);
+    const Eigen::Isometry3d T = pose_on_ground(world, pose);
     drive.push_back({T, cloud_of(heights, T, camera, random, to_utime(2.5 * static_cast<double>(drive.size() + 1)))});
   }
   return drive;
@@ -119,7 +119,7 @@ OdometryTrack simulated_odometry(const std::vector<Station>& drive, const Odomet
   T.linear() =
       rotation_from_rpy(rpy_of(drive[0].T_map_body.linear()).x(), rpy_of(drive[0].T_map_body.linear()).y(), 0.0);
   const double first_yaw = yaw_of(drive[0].T_map_body);
-  double yaw_error = 0.0, variance = 0.0, way = 0.0, blind_way = 0.0;
+  double yaw_error = 0.0, variance = 0.0, travelled_m = 0.0, dead_reckoned_m = 0.0;
   Eigen::Vector2d tilt = Eigen::Vector2d::Zero();
   OdometryTrack track;
   for (size_t i = 0; i < drive.size(); ++i) {
@@ -137,9 +137,9 @@ OdometryTrack simulated_odometry(const std::vector<Station>& drive, const Odomet
         moved += part * (scale + share + slip) + part.norm() * aside * Eigen::Vector3d::UnitY();
         const double sigma = part.norm() * (lost ? model.slip_mean + model.slip_sigma : model.step_share);
         variance += sigma * sigma;
-        blind_way += lost ? part.norm() : 0.0;
+        dead_reckoned_m += lost ? part.norm() : 0.0;
       }
-      way += length;
+      travelled_m += length;
       T.translation() += T.linear() * moved;
       yaw_error += model.yaw_rad_per_sqrt_m * std::sqrt(length) * random.gauss();
       tilt =
@@ -149,8 +149,8 @@ OdometryTrack simulated_odometry(const std::vector<Station>& drive, const Odomet
           rotation_from_rpy(rpy.x() + tilt.x(), rpy.y() + tilt.y(), wrap_angle(rpy.z() - first_yaw + yaw_error));
     }
     track.T_odom_body.push_back(T);
-    track.blind_way_m.push_back(blind_way);
-    track.sigma_m.push_back(std::sqrt(variance + 0.003 * 0.003 * way * way));
+    track.dead_reckoned_m.push_back(dead_reckoned_m);
+    track.sigma_m.push_back(std::sqrt(variance + 0.003 * 0.003 * travelled_m * travelled_m));
   }
   return track;
 }

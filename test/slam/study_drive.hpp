@@ -1,4 +1,4 @@
-// Simulated drives for the study: what the NavCam would see each half metre, and what odometry would say meanwhile.
+// Simulated drives for slam_study: a NavCam cloud every half metre, and an odometry error model.
 #pragma once
 
 #include <string>
@@ -22,24 +22,24 @@ struct Station {
   Cloud cloud;
 };
 
-// Over the DTM with rocks of the law, the seed's own place and rocks.
+// On the DTM; the seed selects start, track and rocks.
 std::vector<Station> simulated_drive(const DriveConfig& config, const std::string& dtm_file);
 
 struct OdometryModel {
   double scale_sigma = 0.003;                  // constant over a drive
-  double step_share = 0.004;                   // of each way between two frames, at random
-  double yaw_rad_per_sqrt_m = to_rad(0.005);   // fibre-optic gyro: 1e-5 rad/sqrt(s) (localization.yaml), and its bias
-  double tilt_rad = 0.001;                     // slowly wandering error of roll and pitch
-  double lost_share = 0.0;                     // of the frames: wheels bridge
-  double slip_mean = 0.05, slip_sigma = 0.06;  // of the wheels' way where they bridge
+  double step_share = 0.004;                   // of the motion between two frames, random
+  double yaw_rad_per_sqrt_m = to_rad(0.005);   // fibre-optic gyro (localization.yaml: 1e-5 rad/sqrt(s)) with bias
+  double tilt_rad = 0.001;                     // slowly varying error of roll and pitch
+  double lost_share = 0.0;                     // share of frames without visual odometry
+  double slip_mean = 0.05, slip_sigma = 0.06;  // of the wheels in those frames
 };
 OdometryModel nominal_odometry();
 OdometryModel degraded_odometry();
 
 struct OdometryTrack {
   std::vector<Eigen::Isometry3d> T_odom_body;  // at the stations
-  std::vector<double> sigma_m;                 // what its filter would say of the position
-  std::vector<double> blind_way_m;             // so far, on which wheels bridged
+  std::vector<double> sigma_m;                 // reported standard deviation of the position
+  std::vector<double> dead_reckoned_m;         // cumulative
 };
 OdometryTrack simulated_odometry(const std::vector<Station>& drive, const OdometryModel& model, std::uint64_t seed);
 

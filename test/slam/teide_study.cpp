@@ -16,17 +16,17 @@ namespace rover::slam::study {
 namespace {
 
 constexpr int kStarts = 20;
-constexpr int kTries = 4;                             // from each
-constexpr double kOffM = 1.0, kOffRad = to_rad(5.0);  // of the starts
-constexpr double kTogetherM = 0.5;
-constexpr double kReliefM = 0.10;    // rms of the heights about their plane: stated before the trial
-constexpr double kMinOverlap = 0.3;  // of a cloud's patches that its neighbour has seen
-constexpr int kNeighbours = 5;       // so far apart in the walk at most
-constexpr int kTried = 4;            // of them, with most ground in common
-constexpr double kReachM = 40.0;
-constexpr double kDepthNoise = 0.1 / (818.0 * 0.24);  // sigma over squared distance [1/m], of the filtered cloud
+constexpr int kTriesPerStart = 4;                                     // per start
+constexpr double kStartOffsetM = 1.0, kStartOffsetRad = to_rad(5.0);  // maximum offset of the starts
+constexpr double kMaxSpreadM = 0.5;
+constexpr double kMinReliefM = 0.10;    // rms about the plane; fixed before the experiment
+constexpr double kMinOverlap = 0.3;     // share of a cloud's patches seen by its neighbour
+constexpr int kNeighbourWindow = 5;     // maximum index difference
+constexpr int kMaxNeighboursTried = 4;  // those with the largest overlap
+constexpr double kMaxRangeM = 40.0;
+constexpr double kDepthSigmaPerM2 = 0.1 / (818.0 * 0.24);  // sigma / range^2 [1/m] of the filtered cloud
 
-// PCD, binary, x y z as float. Points that are not finite or behind the rover are left out.
+// Binary PCD with x, y, z as float. Skips points that are not finite or behind the rover.
 Cloud read_pcd(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
   std::string line;
@@ -41,7 +41,7 @@ Cloud read_pcd(const std::string& file) {
     const float x = values[3 * i], y = values[3 * i + 1], z = values[3 * i + 2];
     const float range = std::hypot(x, y);
     if (!(x > 0.5F) || !(range < 60.0F) || !std::isfinite(z)) continue;
-    cloud.points.push_back({{-y, -z, x}, static_cast<float>(kDepthNoise) * range * range});
+    cloud.points.push_back({{-y, -z, x}, static_cast<float>(kDepthSigmaPerM2) * range * range});
   }
   return cloud;
 }
@@ -50,20 +50,20 @@ SlamConfig coarse_config() {
   SlamConfig config;
   config.map.cells = 270;
   config.map.patches.cell_m = 0.3;
-  config.map.patches.reach_m = kReachM;
-  config.match.max_range_m = kReachM;
+  config.map.patches.reach_m = kMaxRangeM;
+  config.match.max_range_m = kMaxRangeM;
   config.match.height_sigma_m = 0.3;
   config.match.tilt_sigma_rad = to_rad(1.0);
   config.match.max_patches = 1500;
   config.match.min_patches = 100;
   config.match.temper = 3.0;
-  config.match.blur_m = 0.04;
+  config.match.horizontal_sigma_m = 0.04;
   config.match.model_sigma_m = 0.015;
   config.filter.min_particles = config.filter.max_particles = 500;
   return config;
 }
 
-// Of the heights about the plane through them.
+// Rms of the heights about their least-squares plane.
 double relief_m(const std::vector<Patch>& patches) {
   Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
   Eigen::Vector3d b = Eigen::Vector3d::Zero();
@@ -78,21 +78,21 @@ double relief_m(const std::vector<Patch>& patches) {
   return std::sqrt(squares / static_cast<double>(std::max<size_t>(1, patches.size())));
 }
 
-// A cloud laid into an empty map as if its rover stood at the origin.
-struct Local {
-  LevelCloud cloud;
+// Map of a single cloud, with the rover at the origin.
+struct LocalMap {
+  AlignedCloud cloud;
   std::vector<Patch> patches;
   ElevationMap map;
-  explicit Local(const Cloud& raw, const SlamConfig& config)
-      : cloud(level(raw, Eigen::Isometry3d::Identity(), config.attitude)),
-        patches(PatchGatherer(config.map.patches).gather(cloud, {})),
+  explicit LocalMap(const Cloud& raw, const SlamConfig& config)
+      : cloud(align_to_gravity(raw, Eigen::Isometry3d::Identity(), config.attitude)),
+        patches(PatchBinner(config.map.patches).bin_cloud(cloud, {})),
         map(config.map) {
     map.move_to(0, 0);
     map.insert(cloud, {});
   }
 };
 
-double overlap(const Local& cloud, const Local& with) {
+double overlap(const LocalMap& cloud, const LocalMap& with) {
   const MatchSurface surface(with.map, 0.0, 0.0);
   int seen = 0;
   for (const Patch& p : cloud.patches)
@@ -104,92 +104,97 @@ double overlap(const Local& cloud, const Local& with) {
   return static_cast<double>(seen) / static_cast<double>(std::max<size_t>(1, cloud.patches.size()));
 }
 
-struct End {
+struct Registration {
   Pose2 pose;
-  double score = -kInfinity;  // log-likelihood of a patch
-  double fitting = 0.0;
+  double score = -kInfinity;  // log-likelihood per patch
+  double inlier_share = 0.0;
 };
 
-// The particle filter with a noise that shrinks from round to round.
-std::optional<End> annealed(const std::vector<Patch>& patches, const MatchSurface& surface, const SlamConfig& config,
-                            const Pose2& start, Random& random) {
+// Annealed particle filter: the noise shrinks each round.
+std::optional<Registration> annealed_registration(const std::vector<Patch>& patches, const MatchSurface& surface,
+                                                  const SlamConfig& config, const Pose2& start, Random& random) {
   ScanMatcher matcher(config.match);
   ParticleFilter filter(config.filter);
   filter.reset(start);
   for (const double sigma : {1.2, 0.6, 0.3, 0.15, 0.08, 0.04}) {
     matcher.prepare(patches, surface, filter.mean());
-    if (!matcher.enough()) return std::nullopt;
+    if (!matcher.has_enough_points()) return std::nullopt;
     filter.predict({}, {sigma, sigma, sigma * to_rad(4.0)}, random);
-    filter.weigh([&](const Pose2& pose) { return matcher.fit(pose).log_likelihood; });
+    filter.update([&](const Pose2& pose) { return matcher.fit(pose).log_likelihood; });
     filter.resample(random);
   }
   matcher.prepare(patches, surface, filter.mean());
-  if (!matcher.enough()) return std::nullopt;
+  if (!matcher.has_enough_points()) return std::nullopt;
   const MatchFit fit = matcher.fit(filter.mean(), 4);
-  return End{filter.mean(), fit.log_likelihood / matcher.matched(), fit.fitting_share};
+  return Registration{filter.mean(), fit.log_likelihood / matcher.matched_points(), fit.inlier_share};
 }
 
-// The best of some tries from the same start: one alone may end in a place that fits less well.
-std::optional<End> registered(const std::vector<Patch>& patches, const MatchSurface& surface, const SlamConfig& config,
-                              const Pose2& start, Random& random) {
-  std::optional<End> best;
-  for (int i = 0; i < kTries; ++i)
-    if (const auto end = annealed(patches, surface, config, start, random); end && (!best || end->score > best->score))
+// Best of several runs from one start, as a single run may end in a local optimum.
+std::optional<Registration> best_registration(const std::vector<Patch>& patches, const MatchSurface& surface,
+                                              const SlamConfig& config, const Pose2& start, Random& random) {
+  std::optional<Registration> best;
+  for (int i = 0; i < kTriesPerStart; ++i)
+    if (const auto end = annealed_registration(patches, surface, config, start, random);
+        end && (!best || end->score > best->score))
       best = end;
   return best;
 }
 
-struct Verdict {
-  double relief_m = 0.0, overlap = 0.0, apart_m = kInfinity, fitting = 0.0;
+struct Convergence {
+  double relief_m = 0.0, overlap = 0.0, spread_m = kInfinity, inlier_share = 0.0;
   int neighbour = -1;
-  bool converged() const { return apart_m <= kTogetherM; }
+  bool converged() const { return spread_m <= kMaxSpreadM; }
 };
 
-// From all starts, to one neighbour.
-Verdict tried(const Local& cloud, const Local& with, const SlamConfig& config, std::uint64_t seed) {
-  Verdict verdict;
+// Registers to one neighbour from all starts.
+Convergence register_from_random_starts(const LocalMap& cloud, const LocalMap& with, const SlamConfig& config,
+                                        std::uint64_t seed) {
+  Convergence convergence;
   const MatchSurface surface(with.map, 0.0, 0.0);
   std::vector<Pose2> ends;
   Random random(seed);
   for (int k = 0; k < kStarts; ++k) {
-    const Pose2 start{kOffM * (2 * random.unit() - 1), kOffM * (2 * random.unit() - 1),
-                      kOffRad * (2 * random.unit() - 1)};
-    const auto end = registered(cloud.patches, surface, config, start, random);
-    if (!end) return verdict;
+    const Pose2 start{kStartOffsetM * (2 * random.unit() - 1), kStartOffsetM * (2 * random.unit() - 1),
+                      kStartOffsetRad * (2 * random.unit() - 1)};
+    const auto end = best_registration(cloud.patches, surface, config, start, random);
+    if (!end) return convergence;
     ends.push_back(end->pose);
-    verdict.fitting += end->fitting / kStarts;
+    convergence.inlier_share += end->inlier_share / kStarts;
   }
-  verdict.apart_m = 0.0;
+  convergence.spread_m = 0.0;
   for (const Pose2& a : ends)
-    for (const Pose2& b : ends) verdict.apart_m = std::max(verdict.apart_m, std::hypot(a.x_m - b.x_m, a.y_m - b.y_m));
-  return verdict;
+    for (const Pose2& b : ends)
+      convergence.spread_m = std::max(convergence.spread_m, std::hypot(a.x_m - b.x_m, a.y_m - b.y_m));
+  return convergence;
 }
 
-// The first of the neighbours with most common ground with which it converges, else the best of them.
-Verdict judged(const std::vector<Local>& clouds, int i, const SlamConfig& config) {
-  const Local& cloud = clouds[static_cast<size_t>(i)];
+// The first neighbour, by overlap, with which registration converges, else the best one.
+Convergence best_neighbour(const std::vector<LocalMap>& clouds, int i, const SlamConfig& config) {
+  const LocalMap& cloud = clouds[static_cast<size_t>(i)];
   std::vector<std::pair<double, int>> neighbours;
-  for (int j = std::max(0, i - kNeighbours); j <= std::min(static_cast<int>(clouds.size()) - 1, i + kNeighbours); ++j)
+  for (int j = std::max(0, i - kNeighbourWindow);
+       j <= std::min(static_cast<int>(clouds.size()) - 1, i + kNeighbourWindow); ++j)
     if (j != i) neighbours.emplace_back(overlap(cloud, clouds[static_cast<size_t>(j)]), j);
   std::sort(neighbours.rbegin(), neighbours.rend());
-  Verdict best;
-  for (size_t k = 0; k < std::min<size_t>(kTried, neighbours.size()); ++k) {
+  Convergence best;
+  for (size_t k = 0; k < std::min<size_t>(kMaxNeighboursTried, neighbours.size()); ++k) {
     const auto [share, j] = neighbours[k];
     if (k > 0 && share < kMinOverlap) break;
-    Verdict verdict = tried(cloud, clouds[static_cast<size_t>(j)], config, static_cast<std::uint64_t>(1000 + i));
-    verdict.overlap = share;
-    verdict.neighbour = j;
-    if (k == 0 || verdict.apart_m < best.apart_m) best = verdict;
+    Convergence convergence = register_from_random_starts(cloud, clouds[static_cast<size_t>(j)], config,
+                                                          static_cast<std::uint64_t>(1000 + i));
+    convergence.overlap = share;
+    convergence.neighbour = j;
+    if (k == 0 || convergence.spread_m < best.spread_m) best = convergence;
     if (best.converged()) break;
   }
   best.relief_m = relief_m(cloud.patches);
   return best;
 }
 
-std::string why(const Verdict& v) {
-  if (v.relief_m < kReliefM) return "no relief";
+std::string failure_reason(const Convergence& v) {
+  if (v.relief_m < kMinReliefM) return "no relief";
   if (v.overlap < kMinOverlap) return "no neighbour has seen the same ground";
-  if (v.apart_m == kInfinity) return "too few common patches";
+  if (v.spread_m == kInfinity) return "too few common patches";
   return v.converged() ? "" : "several places fit alike";
 }
 
@@ -202,12 +207,12 @@ bool teide_study(const std::string& folder) {
   }
   const SlamConfig config = coarse_config();
   Slam slam({});
-  std::vector<Local> clouds;
+  std::vector<LocalMap> clouds;
   int mapped = 0;
   for (int i = 0; std::filesystem::exists(fmt::format("{}/local_cloud_{}.pcd", folder, i)); ++i) {
     Cloud cloud = read_pcd(fmt::format("{}/local_cloud_{}.pcd", folder, i));
     cloud.utime = to_utime(10.0 * (i + 1));
-    mapped += slam.step(cloud, {Eigen::Isometry3d::Identity(), 0.0, 0.0}).refusal.empty() ? 1 : 0;
+    mapped += slam.step(cloud, {Eigen::Isometry3d::Identity(), 0.0, 0.0}).rejection.empty() ? 1 : 0;
     clouds.emplace_back(cloud, config);
   }
   fmt::print("{} of {} local clouds went through mapping.\n\n", mapped, clouds.size());
@@ -216,13 +221,14 @@ bool teide_study(const std::string& folder) {
       "|\n|---|---|---|---|---|---|---|---|\n");
   int with_relief = 0, converged = 0;
   for (int i = 0; i < static_cast<int>(clouds.size()); ++i) {
-    const Verdict v = judged(clouds, i, config);
-    const bool relief = v.relief_m >= kReliefM;
+    const Convergence v = best_neighbour(clouds, i, config);
+    const bool relief = v.relief_m >= kMinReliefM;
     with_relief += relief ? 1 : 0;
     converged += relief && v.converged() ? 1 : 0;
     fmt::print("| {} | {} | {:.2f} m | {} | {:.0f} % | {:.2f} m | {:.0f} % | {}{} |\n", i,
-               clouds[static_cast<size_t>(i)].cloud.points.size(), v.relief_m, v.neighbour, 100 * v.overlap, v.apart_m,
-               100 * v.fitting, v.converged() ? "yes" : "no", why(v).empty() ? "" : ": " + why(v));
+               clouds[static_cast<size_t>(i)].cloud.points.size(), v.relief_m, v.neighbour, 100 * v.overlap, v.spread_m,
+               100 * v.inlier_share, v.converged() ? "yes" : "no",
+               failure_reason(v).empty() ? "" : ": " + failure_reason(v));
   }
   fmt::print("\n{} of {} clouds with relief converge ({:.0f} %).\n", converged, with_relief,
              100.0 * converged / std::max(1, with_relief));
