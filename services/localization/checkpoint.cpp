@@ -56,9 +56,9 @@ class Reader {
 
 constexpr size_t kCount = 1 + 1 + 2 * kPoseSize + 1 + 3 + kErrorSize * kErrorSize + 1 + 1 + 1 + 6;
 
-bool sound(const Checkpoint& c) {
+bool is_valid(const Checkpoint& c) {
   return is_finite(c.T_odom_body) && is_finite(c.T_map_odom) && c.gyro_bias_radps.allFinite() && c.P.allFinite() &&
-         c.visual_newest <= c.utime && (c.P.diagonal().array() >= 0.0).all() && std::isfinite(c.travelled_m) &&
+         c.newest_visual_utime <= c.utime && (c.P.diagonal().array() >= 0.0).all() && std::isfinite(c.travelled_m) &&
          c.gravity_mps2 > 0.0;
 }
 
@@ -75,7 +75,7 @@ std::vector<std::uint8_t> to_bytes(const Checkpoint& c) {
   w.put_all(c.P);
   w.put(c.gravity_mps2);
   w.put(c.travelled_m);
-  w.put(static_cast<double>(c.visual_newest));
+  w.put(static_cast<double>(c.newest_visual_utime));
   for (double angle : c.drive_angle_rad) w.put(angle);
   return w.bytes();
 }
@@ -93,9 +93,9 @@ std::optional<Checkpoint> from_bytes(const std::vector<std::uint8_t>& bytes) {
   r.get_all(c.P);
   c.gravity_mps2 = r.get();
   c.travelled_m = r.get();
-  c.visual_newest = static_cast<Utime>(r.get());
+  c.newest_visual_utime = static_cast<Utime>(r.get());
   for (double& angle : c.drive_angle_rad) angle = r.get();
-  if (!sound(c)) return std::nullopt;
+  if (!is_valid(c)) return std::nullopt;
   return c;
 }
 

@@ -1,4 +1,4 @@
-// What localization needs to go on after its process died.
+// State that localization needs to continue after a restart of its process.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -20,12 +20,12 @@ struct Checkpoint {
   ErrorCov P = ErrorCov::Zero();
   double gravity_mps2 = 0.0;
   double travelled_m = 0.0;
-  Utime visual_newest = kNever;             // the newest visual motion used
-  std::array<double, 6> drive_angle_rad{};  // NaN: no encoder reading
+  Utime newest_visual_utime = kNever;       // of the newest visual motion fused
+  std::array<double, 6> drive_angle_rad{};  // NaN without an encoder reading
 };
 
 std::vector<std::uint8_t> to_bytes(const Checkpoint& checkpoint);
-// Nothing where the bytes are no checkpoint of this version, or hold what no rover can have been in.
+// Empty if the bytes are of another version or the state is invalid.
 std::optional<Checkpoint> from_bytes(const std::vector<std::uint8_t>& bytes);
 
 }  // namespace rover::loc

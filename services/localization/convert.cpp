@@ -49,7 +49,7 @@ WheelSample wheels_from(const wheel_state_t& message) {
   std::copy_n(message.drive_angle_rad, 6, s.drive_angle_rad.begin());
   std::copy_n(message.drive_rate_radps, 6, s.drive_rate_radps.begin());
   std::copy_n(message.steer_angle_rad, 4, s.steer_angle_rad.begin());
-  // COMMAND_EXPIRED only says that the wheels brake: the encoders are as good as ever.
+  // COMMAND_EXPIRED means that the wheels brake; the encoders still work.
   s.healthy = message.status != wheel_state_t::FAULT;
   return s;
 }

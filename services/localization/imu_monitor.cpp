@@ -9,16 +9,16 @@ bool same(const ImuSample& a, const ImuSample& b) {
 
 }  // namespace
 
-bool ImuMonitor::take(const ImuSample& sample) {
+bool ImuMonitor::add(const ImuSample& sample) {
   repeats_ = same(sample, last_) ? repeats_ + 1 : 0;
   last_ = sample;
   if (!sample.healthy || frozen()) return false;
-  last_good_utime_ = sample.utime;
+  last_valid_utime_ = sample.utime;
   return true;
 }
 
-bool ImuMonitor::alive(Utime now) const {
-  return last_good_utime_ != kNever && to_seconds(now - last_good_utime_) <= config_.silence_s;
+bool ImuMonitor::healthy(Utime now) const {
+  return last_valid_utime_ != kNever && to_seconds(now - last_valid_utime_) <= config_.timeout_s;
 }
 
 }  // namespace rover::loc

@@ -1,4 +1,4 @@
-// Is the inertial unit alive? Silent, faulty and frozen are all dead: a real unit's noise never repeats.
+// IMU health: silent, faulty and frozen units are unhealthy. The noise of a working unit never repeats.
 #pragma once
 
 #include "common/core/time.hpp"
@@ -7,24 +7,24 @@
 namespace rover::loc {
 
 struct ImuMonitorConfig {
-  double silence_s = 0.1;   // longer without a sound sample: dead
-  int frozen_samples = 10;  // so many equal samples in a row: dead
+  double timeout_s = 0.1;   // unhealthy after this long without a valid sample
+  int frozen_samples = 10;  // unhealthy after this many identical samples in a row
 };
 
 class ImuMonitor {
  public:
   explicit ImuMonitor(const ImuMonitorConfig& config) : config_(config) {}
 
-  // Tells whether the sample may be used.
-  bool take(const ImuSample& sample);
-  bool alive(Utime now) const;
+  // True if the sample may be used.
+  bool add(const ImuSample& sample);
+  bool healthy(Utime now) const;
   bool frozen() const { return repeats_ >= config_.frozen_samples; }
 
  private:
   ImuMonitorConfig config_;
   ImuSample last_;
   int repeats_ = 0;
-  Utime last_good_utime_ = kNever;
+  Utime last_valid_utime_ = kNever;
 };
 
 }  // namespace rover::loc

@@ -7,7 +7,7 @@
 namespace rover::loc {
 namespace {
 
-// Bounds of what this kind of vehicle can do, with much room.
+// Generous physical limits of this class of vehicle.
 constexpr double kMaxRateRadps = 5.0;
 constexpr double kMaxForceMps2 = 50.0;
 constexpr double kMaxIntervalS = 0.2;
@@ -27,7 +27,7 @@ bool is_covariance(const Matrix& cov) {
 
 }  // namespace
 
-std::string_view flaw_of(const ImuSample& s) {
+std::string_view validation_error(const ImuSample& s) {
   if (!s.delta_angle_rad.allFinite() || !s.delta_velocity_mps.allFinite()) return "not finite";
   if (!(s.dt_s > 0.0 && s.dt_s <= kMaxIntervalS)) return "interval out of range";
   if (s.delta_angle_rad.norm() > kMaxRateRadps * s.dt_s) return "rate out of range";
@@ -37,7 +37,7 @@ std::string_view flaw_of(const ImuSample& s) {
   return {};
 }
 
-std::string_view flaw_of(const WheelSample& s) {
+std::string_view validation_error(const WheelSample& s) {
   if (!finite(s.drive_angle_rad) || !finite(s.drive_rate_radps) || !finite(s.steer_angle_rad)) return "not finite";
   for (double rate : s.drive_rate_radps)
     if (std::abs(rate) > kMaxWheelRateRadps) return "wheel rate out of range";
@@ -46,14 +46,14 @@ std::string_view flaw_of(const WheelSample& s) {
   return {};
 }
 
-std::string_view flaw_of(const WheelCommand& c) {
+std::string_view validation_error(const WheelCommand& c) {
   if (!finite(c.drive_rate_radps)) return "not finite";
   for (double rate : c.drive_rate_radps)
     if (std::abs(rate) > kMaxWheelRateRadps) return "wheel rate out of range";
   return {};
 }
 
-std::string_view flaw_of(const VisualMotion& m, double max_speed_mps) {
+std::string_view validation_error(const VisualMotion& m, double max_speed_mps) {
   if (m.utime < 0 || m.previous_utime > m.utime) return "times contradict each other";
   if (m.status == VisualStatus::kLost) return {};
   if (m.previous_utime == m.utime || m.keyframe_utime > m.previous_utime) return "times contradict each other";
@@ -64,7 +64,7 @@ std::string_view flaw_of(const VisualMotion& m, double max_speed_mps) {
   return {};
 }
 
-std::string_view flaw_of(const StartPose& s) {
+std::string_view validation_error(const StartPose& s) {
   if (!s.position_map_m.allFinite() || !std::isfinite(s.yaw_rad)) return "start pose not finite";
   if (s.position_map_m.cwiseAbs().maxCoeff() > kMaxPositionM) return "start position out of range";
   if (!(s.sigma_m > 0.0 && s.sigma_m < 1000.0)) return "sigma_m out of range";
@@ -72,7 +72,7 @@ std::string_view flaw_of(const StartPose& s) {
   return {};
 }
 
-std::string_view flaw_of(const MapMeasurement& m) {
+std::string_view validation_error(const MapMeasurement& m) {
   const Pose2& T = m.T_map_odom;
   if (!std::isfinite(T.x_m) || !std::isfinite(T.y_m) || !std::isfinite(T.yaw_rad)) return "pose not finite";
   if (std::max(std::abs(T.x_m), std::abs(T.y_m)) > kMaxPositionM) return "position out of range";

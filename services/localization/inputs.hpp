@@ -1,4 +1,4 @@
-// What localization takes in, and the checks each input must pass first.
+// Inputs of localization and their validation.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -18,8 +18,8 @@ struct ImuSample {
   double dt_s = 0.0;
   Eigen::Vector3d delta_angle_rad = Eigen::Vector3d::Zero();
   Eigen::Vector3d delta_velocity_mps = Eigen::Vector3d::Zero();  // of specific force
-  double fog_delta_yaw_rad = 0.0;                                // NaN: the fibre-optic gyro is silent
-  bool healthy = true;                                           // as the unit itself says
+  double fog_delta_yaw_rad = 0.0;                                // NaN without the fibre-optic gyro
+  bool healthy = true;                                           // self-test of the unit
 };
 
 // Wheels FL FR ML MR RL RR, steering FL FR RL RR.
@@ -39,17 +39,17 @@ struct WheelCommand {
 
 enum class VisualStatus { kOk, kDegraded, kLost };
 
-// Motion of the body between two exposures.
+// Motion of the body between two exposures, by visual odometry.
 struct VisualMotion {
   Utime utime = kNever;
   Utime previous_utime = kNever;
   Utime keyframe_utime = kNever;
   Eigen::Isometry3d T_prev_cur = nan_pose();
-  Matrix6d cov = nan_cov();  // of the end's alignment with the keyframe: position, rotation; previous body's axes
+  Matrix6d cov = nan_cov();  // of the alignment with the keyframe: position, rotation; previous body axes
   VisualStatus status = VisualStatus::kLost;
 };
 
-// T_map_body on ground command; the heading is the rover's in map.
+// Pose of the body in map, commanded by the ground.
 struct StartPose {
   Eigen::Vector3d position_map_m = Eigen::Vector3d::Zero();
   double yaw_rad = 0.0;
@@ -64,12 +64,12 @@ struct MapMeasurement {
   Eigen::Matrix3d cov = Eigen::Matrix3d::Constant(kNaN);  // of the body in map: x, y, yaw
 };
 
-// Each gives an empty text where the input is sound, else what is wrong with it.
-std::string_view flaw_of(const ImuSample& sample);
-std::string_view flaw_of(const WheelSample& sample);
-std::string_view flaw_of(const WheelCommand& command);
-std::string_view flaw_of(const VisualMotion& motion, double max_speed_mps);
-std::string_view flaw_of(const StartPose& start);
-std::string_view flaw_of(const MapMeasurement& measurement);
+// Empty text if the input is valid, otherwise what is wrong with it.
+std::string_view validation_error(const ImuSample& sample);
+std::string_view validation_error(const WheelSample& sample);
+std::string_view validation_error(const WheelCommand& command);
+std::string_view validation_error(const VisualMotion& motion, double max_speed_mps);
+std::string_view validation_error(const StartPose& start);
+std::string_view validation_error(const MapMeasurement& measurement);
 
 }  // namespace rover::loc

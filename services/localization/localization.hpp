@@ -1,9 +1,8 @@
-// Where the rover is: T_odom_body from gyro, accelerometer, wheels and visual odometry, T_map_odom from the start pose
-// and corrections.
+// Fixed-lag state estimation: T_odom_body from gyro, accelerometer, wheel and visual odometry; T_map_odom from the
+// start pose, SLAM and global corrections.
 //
-// Every tick carries the pose on by gyro and wheels. A visual motion arrives some 0.2 s late; the state at its end is
-// made anew from the state at its start, and what IMU and wheels measured since is applied again (fixed lag). The pose
-// given out takes up the difference smoothly.
+// Each tick propagates the pose with gyro and wheels. A visual motion arrives about 0.2 s late: it is fused at its own
+// time, and the IMU and wheel records since then are propagated again. The published pose absorbs the step smoothly.
 #pragma once
 
 #include <deque>
@@ -15,17 +14,17 @@
 #include "localization/filter.hpp"
 #include "localization/imu_monitor.hpp"
 #include "localization/inputs.hpp"
-#include "localization/levelling.hpp"
 #include "localization/map_alignment.hpp"
 #include "localization/motion_history.hpp"
 #include "localization/slip_monitor.hpp"
+#include "localization/static_alignment.hpp"
 #include "localization/visual_chain.hpp"
 #include "localization/wheel_odometry.hpp"
 
 namespace rover::loc {
 
-// A recording of pictures without IMU and wheels. The attitude at the start, which gravity gives a rover, is told.
-struct CamerasAloneConfig {
+// For recordings without IMU and wheels: the initial attitude is configured instead of measured.
+struct CameraOnlyConfig {
   bool enabled = false;
   double roll_rad = 0.0;
   double pitch_rad = 0.0;
@@ -34,24 +33,24 @@ struct CamerasAloneConfig {
 struct LocalizationConfig {
   FilterConfig filter;
   ImuMonitorConfig imu;
-  LevellingConfig levelling;
+  StaticAlignmentConfig static_alignment;
   MapAlignmentConfig map;
   SlipConfig slip;
-  double history_s = 60.0;                    // a visual motion may reach so far back
-  double chain_s = 20.0;                      // longest run of visual motions taken as one
-  double wheel_silence_s = 0.1;               // longer: the wheels are dead
-  double visual_degraded_s = 1.5;             // without visual odometry: DEGRADED
-  double blind_distance_m = 2.0;              // so far on wheels without visual odometry: LOST
-  double imu_lost_s = 10.0;                   // without IMU: LOST
-  double nothing_lost_s = 1.0;                // without wheels and visual odometry: LOST
-  double standing_rate_radps = to_rad(0.15);  // gyro below, wheels still: the rover stands
-  double standing_s = 0.4;                    // after so long
-  double at_rest_s = 5.0;                     // after so long its body has stopped rocking
-  double rest_rate_radps = to_rad(0.015);     // and its fibre-optic gyro is below that: 7 deviations of its noise
-  double smoothing_s = 0.4;                   // time constant with which the pose takes up late corrections
-  int conflicts_until_imu_suspect = 5;        // visual motions in a row that contradict the gyro
-  double max_speed_mps = 20.0;                // a faster visual motion is nonsense
-  CamerasAloneConfig cameras_alone;
+  double history_s = 60.0;                      // maximum age of a visual motion
+  double chain_s = 20.0;                        // longest sequence of visual motions fused as one measurement
+  double wheel_timeout_s = 0.1;                 // wheel encoders count as failed after this silence
+  double visual_degraded_s = 1.5;               // without visual odometry: DEGRADED
+  double max_dead_reckoned_m = 2.0;             // distance without visual odometry: LOST
+  double imu_lost_s = 10.0;                     // without IMU: LOST
+  double no_odometry_lost_s = 1.0;              // without wheels and visual odometry: LOST
+  double stationary_rate_radps = to_rad(0.15);  // stationary: body rate below this and wheels still
+  double stationary_after_s = 0.4;              // for this long
+  double settled_after_s = 5.0;                 // the body has stopped rocking after this long
+  double settled_rate_radps = to_rad(0.015);    // with the fibre-optic gyro below this (7 sigma of its noise)
+  double smoothing_s = 0.4;                     // time constant with which the pose absorbs late updates
+  int conflicts_until_imu_suspect = 5;          // consecutive visual motions that contradict the gyro
+  double max_speed_mps = 20.0;                  // faster visual motions are rejected
+  CameraOnlyConfig camera_only;
 };
 
 enum class PoseStatus { kOk, kDegraded, kLost, kUninitialised };
@@ -66,102 +65,101 @@ struct PoseEstimate {
   Eigen::Vector3d rate_body_radps = Eigen::Vector3d::Constant(kNaN);
   double travelled_m = 0.0;
   Utime last_vo_utime = kNever;
-  std::string_view reason;  // of a status that is not kOk
+  std::string_view reason;  // why the status is not kOk
 };
 
-// Every take_... gives an empty text where the input is used, else why not.
+// Inputs return an empty text if accepted, otherwise the reason for the rejection.
 class Localization {
  public:
   Localization(const LocalizationConfig& config, const Vehicle& vehicle);
 
-  std::string_view take_imu(const ImuSample& sample);
-  std::string_view take_wheels(const WheelSample& sample);
-  std::string_view take_wheel_command(const WheelCommand& command);
-  std::string_view take_visual(const VisualMotion& motion);
-  std::string_view take_start_pose(const StartPose& start);
-  std::string_view take_slam(const MapMeasurement& measurement);
-  std::string_view take_correction(const MapMeasurement& measurement);
+  std::string_view add_imu(const ImuSample& sample);
+  std::string_view add_wheels(const WheelSample& sample);
+  std::string_view add_wheel_command(const WheelCommand& command);
+  std::string_view add_visual_motion(const VisualMotion& motion);
+  std::string_view set_start_pose(const StartPose& start);
+  std::string_view add_slam_pose(const MapMeasurement& measurement);
+  std::string_view apply_correction(const MapMeasurement& measurement);
 
-  // Carries the pose on with what came since the step before. Never waits: what is missing is bridged.
+  // Propagates the pose with the inputs since the last step. Never waits: missing inputs are bridged.
   void step(Utime now);
 
   const PoseEstimate& pose() const { return pose_; }
   Slip slip() const { return slip_.slip(history_.empty() ? 0 : history_.end()); }
-  int conflicts() const { return conflicts_; }
+  int gyro_conflicts() const { return gyro_conflicts_; }
 
-  // Nothing before the rover is level.
+  // Empty before static alignment.
   std::optional<Checkpoint> checkpoint() const;
-  // Before the first step. What the wheels rolled since the checkpoint is taken from the encoders.
+  // Call before the first step. The encoders give the wheel travel since the checkpoint.
   void restore(const Checkpoint& checkpoint);
 
  private:
-  struct Past {
+  struct StampedPose {
     Utime utime;
     Eigen::Isometry3d T_odom_body;
   };
 
   bool is_future(Utime utime) const;
   std::optional<MotionRecord> next_record(Utime now);
-  void gather_imu(MotionRecord& record);
-  void gather_wheels(MotionRecord& record);
-  void gather_command(MotionRecord& record) const;
-  void judge_standing(MotionRecord& record);
+  void integrate_imu(MotionRecord& record);
+  void integrate_wheels(MotionRecord& record);
+  void integrate_command(MotionRecord& record) const;
+  void detect_stationary(MotionRecord& record);
   void initialise(const MotionRecord& record);
-  void carry_on(const MotionRecord& record);
-  FilterState carried(FilterState state, Utime to) const;
-  // The record as the filter may use it.
-  MotionRecord usable(const MotionRecord& record) const;
-  double grip(const MotionRecord& record) const;
-  bool gyro_suspect() const { return conflicts_in_a_row_ >= config_.conflicts_until_imu_suspect; }
-  std::string_view use_visual(const VisualMotion& motion);
-  std::optional<FilterState> fuse(const VisualChain& chain);
-  void adopt(const FilterState& fused);
+  void predict(const MotionRecord& record);
+  FilterState propagate_to(FilterState state, Utime to) const;
+  MotionRecord without_suspect_gyro(const MotionRecord& record) const;
+  double traction(const MotionRecord& record) const;
+  bool gyro_suspect() const { return consecutive_conflicts_ >= config_.conflicts_until_imu_suspect; }
+  std::string_view fuse_visual_motion(const VisualMotion& motion);
+  std::optional<FilterState> fuse_chain(const VisualChain& chain);
+  void apply_fused_state(const FilterState& fused);
   Matrix6d cov_map() const;
-  void publish_pose(const MotionRecord& record);
-  void judge(Utime now);
+  void update_pose(const MotionRecord& record);
+  void update_status(Utime now);
   std::optional<Eigen::Isometry3d> pose_at(Utime utime) const;
-  void start_covariance(const StartPose& start);
+  void reset_covariance(const StartPose& start);
 
   LocalizationConfig config_;
   WheelOdometry wheels_;
   Filter filter_;
   ImuMonitor imu_monitor_;
-  Levelling levelling_;
+  StaticAlignment static_alignment_;
   MapAlignment map_;
   SlipMonitor slip_;
   MotionHistory history_;
   VisualChain chain_;
 
-  std::deque<ImuSample> imu_waiting_;
-  std::deque<WheelSample> wheels_waiting_;
+  std::deque<ImuSample> imu_queue_;
+  std::deque<WheelSample> wheel_queue_;
   std::optional<WheelSample> last_wheels_;
   bool encoders_from_checkpoint_ = false;
   std::optional<WheelCommand> command_;
-  Utime imu_newest_ = kNever;
-  Utime wheels_newest_ = kNever;
-  Utime visual_newest_ = kNever;
-  Utime stepped_ = kNever;  // newest tick
-  Utime record_end_ = kNever;
+  Utime newest_imu_utime_ = kNever;
+  Utime newest_wheels_utime_ = kNever;
+  Utime newest_visual_utime_ = kNever;
+  Utime newest_tick_utime_ = kNever;
+  Utime last_record_end_ = kNever;
   Utime initialised_utime_ = kNever;
-  Utime imu_alive_utime_ = kNever;
-  double still_s_ = 0.0;                      // how long the wheels have stood
-  double rest_s_ = 0.0;                       // of it, how long the body has not turned
-  std::array<double, 6> still_turned_rad_{};  // what they turned since
-  std::array<double, 4> still_steer_rad_{};   // how they were steered then
+  Utime imu_healthy_utime_ = kNever;
+  double stationary_s_ = 0.0;                      // time since the wheels last moved
+  double settled_s_ = 0.0;                         // time since the body last rotated
+  std::array<double, 6> turned_since_stop_rad_{};  // wheel rotation since the last movement
+  std::array<double, 4> steer_at_stop_rad_{};      // steering angles at the last movement
 
   bool initialised_ = false;
-  FilterState latest_;  // at the newest visual motion, or where the wheels took over
-  FilterState tip_;     // now
-  Eigen::Vector3d visual_velocity_mps_ = Eigen::Vector3d::Zero();  // body axes, of the newest visual motion
-  double blind_m_ = 0.0;                                           // rolled since the newest visual motion
-  int conflicts_ = 0;
-  int conflicts_in_a_row_ = 0;
+  FilterState fused_;                                              // at the end of the newest visual motion
+  FilterState predicted_;                                          // at the newest record
+  Eigen::Vector3d visual_velocity_mps_ = Eigen::Vector3d::Zero();  // of the newest visual motion, body axes
+  double dead_reckoned_m_ = 0.0;                                   // distance since the newest visual motion
+  int gyro_conflicts_ = 0;
+  int consecutive_conflicts_ = 0;
 
-  Eigen::Vector3d offset_m_ = Eigen::Vector3d::Zero();  // pose given out minus estimate
-  Eigen::Vector3d offset_rad_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d last_vertex_m_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d smoothing_offset_m_ = Eigen::Vector3d::Zero();  // published pose minus estimate
+  Eigen::Vector3d smoothing_offset_rad_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d last_chord_end_m_ = Eigen::Vector3d::Zero();
   double travelled_m_ = 0.0;
-  std::deque<Past> past_;
+  std::deque<StampedPose> poses_;
   PoseEstimate pose_;
 };
 

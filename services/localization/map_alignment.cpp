@@ -8,7 +8,7 @@
 namespace rover::loc {
 namespace {
 
-// x, y, yaw among the filter's errors.
+// Indices of x, y, yaw in the filter's error state.
 constexpr std::array<int, 3> kPlanar = {kPosition, kPosition + 1, kAttitude + 2};
 
 using PlanarRows = Eigen::Matrix<double, 3, kErrorSize>;
@@ -19,7 +19,7 @@ PlanarRows planar_rows() {
   return H;
 }
 
-// Map and odom differ by a turn about z.
+// Map and odom differ by a rotation about z.
 Eigen::Matrix3d planar_rotation(const Eigen::Isometry3d& T) {
   return rotation_from_rpy(0.0, 0.0, yaw_of(T));
 }
@@ -41,10 +41,10 @@ void MapAlignment::restore(const Eigen::Isometry3d& T_map_odom) {
 }
 
 Eigen::Vector3d MapAlignment::innovation(const MapMeasurement& m, const Eigen::Isometry3d& T_odom_body) const {
-  const Eigen::Isometry3d wanted = from_planar(m.T_map_odom) * T_odom_body;
-  const Eigen::Isometry3d now = T_map_odom_ * T_odom_body;
-  const Eigen::Vector3d apart = wanted.translation() - now.translation();
-  return {apart.x(), apart.y(), wrap_angle(m.T_map_odom.yaw_rad - yaw_of(T_map_odom_))};
+  const Eigen::Isometry3d measured = from_planar(m.T_map_odom) * T_odom_body;
+  const Eigen::Isometry3d estimated = T_map_odom_ * T_odom_body;
+  const Eigen::Vector3d residual = measured.translation() - estimated.translation();
+  return {residual.x(), residual.y(), wrap_angle(m.T_map_odom.yaw_rad - yaw_of(T_map_odom_))};
 }
 
 Eigen::Matrix3d MapAlignment::planar_cov(const ErrorCov& P) const {
@@ -53,12 +53,13 @@ Eigen::Matrix3d MapAlignment::planar_cov(const ErrorCov& P) const {
   return R * (H * P * H.transpose()) * R.transpose();
 }
 
-Eigen::Vector3d MapAlignment::gained(const Eigen::Vector3d& innovation, const ErrorCov& P, const PlanarCov& R) const {
+Eigen::Vector3d MapAlignment::correction(const Eigen::Vector3d& innovation, const ErrorCov& P,
+                                         const PlanarCov& R) const {
   const Eigen::Matrix3d C = planar_cov(P);
   return C * (C + R).inverse() * innovation;
 }
 
-ErrorCov MapAlignment::updated(const ErrorCov& P, const PlanarCov& R_map) const {
+ErrorCov MapAlignment::updated_cov(const ErrorCov& P, const PlanarCov& R_map) const {
   const Eigen::Matrix3d rotation = planar_rotation(T_map_odom_);
   const PlanarCov R = rotation.transpose() * R_map * rotation;
   const PlanarRows H = planar_rows();
@@ -75,45 +76,45 @@ void MapAlignment::shift(const Eigen::Vector3d& delta, const Eigen::Isometry3d& 
   T_map_odom_ = make_pose(R, moved - R * T_odom_body.translation());
 }
 
-bool MapAlignment::consistent(const MapMeasurement& m, const Eigen::Isometry3d& T_odom_body, const ErrorCov& P) const {
-  const Eigen::Vector3d apart = innovation(m, T_odom_body);
+bool MapAlignment::within_gate(const MapMeasurement& m, const Eigen::Isometry3d& T_odom_body, const ErrorCov& P) const {
+  const Eigen::Vector3d residual = innovation(m, T_odom_body);
   const Eigen::Matrix3d S = planar_cov(P) + m.cov;
-  return apart.dot(S.inverse() * apart) <= config_.gate_chi2;
+  return residual.dot(S.inverse() * residual) <= config_.gate_chi2;
 }
 
-ErrorCov MapAlignment::widened(ErrorCov P) const {
+ErrorCov MapAlignment::inflated(ErrorCov P) const {
   for (const int i : kPlanar) {
-    const double more = i == kAttitude + 2 ? config_.widened_rad : config_.widened_m;
-    P(i, i) += more * more;
+    const double sigma = i == kAttitude + 2 ? config_.inflation_rad : config_.inflation_m;
+    P(i, i) += sigma * sigma;
   }
   return P;
 }
 
-std::string_view MapAlignment::take_correction(const MapMeasurement& m, const Eigen::Isometry3d& T_odom_body,
-                                               const ErrorCov& P) {
+std::string_view MapAlignment::apply_correction(const MapMeasurement& m, const Eigen::Isometry3d& T_odom_body,
+                                                const ErrorCov& P) {
   if (!known_) return "no start pose yet";
-  if (m.utime <= newest_correction_) return "older than one already taken";
-  if (!consistent(m, T_odom_body, P)) return "further off than its covariance and ours allow";
-  newest_correction_ = m.utime;
+  if (m.utime <= newest_correction_utime_) return "older than one already taken";
+  if (!within_gate(m, T_odom_body, P)) return "further off than its covariance and ours allow";
+  newest_correction_utime_ = m.utime;
   pending_.setZero();
-  shift(gained(innovation(m, T_odom_body), P, m.cov), T_odom_body);
+  shift(correction(innovation(m, T_odom_body), P, m.cov), T_odom_body);
   return {};
 }
 
-std::string_view MapAlignment::take_slam(const MapMeasurement& m, const Eigen::Isometry3d& T_odom_body,
-                                         const ErrorCov& P) {
+std::string_view MapAlignment::add_slam_pose(const MapMeasurement& m, const Eigen::Isometry3d& T_odom_body,
+                                             const ErrorCov& P) {
   if (!known_) return "no start pose yet";
-  if (m.utime <= newest_correction_) return "older than a correction already taken";
-  if (!consistent(m, T_odom_body, P)) return "further off than its covariance and ours allow";
-  pending_ = gained(innovation(m, T_odom_body), P, m.cov);
+  if (m.utime <= newest_correction_utime_) return "older than a correction already taken";
+  if (!within_gate(m, T_odom_body, P)) return "further off than its covariance and ours allow";
+  pending_ = correction(innovation(m, T_odom_body), P, m.cov);
   return {};
 }
 
 void MapAlignment::step(double dt_s, const Eigen::Isometry3d& T_odom_body) {
-  const double metres = pending_.head<2>().norm();
-  const double share_m = metres > 0.0 ? std::min(1.0, config_.slam_rate_mps * dt_s / metres) : 1.0;
-  const double turn = std::abs(pending_.z());
-  const double share_rad = turn > 0.0 ? std::min(1.0, config_.slam_rate_radps * dt_s / turn) : 1.0;
+  const double distance_m = pending_.head<2>().norm();
+  const double share_m = distance_m > 0.0 ? std::min(1.0, config_.slam_rate_mps * dt_s / distance_m) : 1.0;
+  const double angle_rad = std::abs(pending_.z());
+  const double share_rad = angle_rad > 0.0 ? std::min(1.0, config_.slam_rate_radps * dt_s / angle_rad) : 1.0;
   const Eigen::Vector3d part(share_m * pending_.x(), share_m * pending_.y(), share_rad * pending_.z());
   if (part.isZero(0.0)) return;
   shift(part, T_odom_body);

@@ -1,5 +1,5 @@
-// T_map_odom: set by the start pose, moved by absolute corrections at once and by SLAM at a bounded rate. Planar: both
-// frames are level. The pose in odom never changes by it.
+// T_map_odom: set by the start pose, corrected at once by global corrections and at a bounded rate by SLAM. Planar,
+// because both frames are gravity-aligned. It never changes the pose in odom.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -13,17 +13,16 @@
 namespace rover::loc {
 
 struct MapAlignmentConfig {
-  double gate_chi2 = 16.3;  // 99.9 % of three degrees of freedom
-  // By which the pose may be further off than it believes when a correction comes: what global_localization looks for
-  // (a third of its window), so that it finds nothing that is refused here.
-  double widened_m = 4.0;
-  double widened_rad = to_rad(4.0);
-  double slam_rate_mps = 0.02;  // how fast SLAM may move map against odom
+  double gate_chi2 = 16.3;  // 99.9 % of chi-square with three degrees of freedom
+  // Sigma added to the pose's covariance if a correction fails the gate: a third of the search window of
+  // global_localization, so that every match it finds passes here.
+  double inflation_m = 4.0;
+  double inflation_rad = to_rad(4.0);
+  double slam_rate_mps = 0.02;  // limit of the motion of map against odom by SLAM
   double slam_rate_radps = to_rad(0.3);
 };
 
-// A measurement that was taken: gain and noise for the filter's covariances.
-using PlanarCov = Eigen::Matrix3d;
+using PlanarCov = Eigen::Matrix3d;  // x, y, yaw
 
 class MapAlignment {
  public:
@@ -35,34 +34,34 @@ class MapAlignment {
   void set_start(const StartPose& start, const Eigen::Isometry3d& T_odom_body);
   void restore(const Eigen::Isometry3d& T_map_odom);
 
-  // Whether the measurement lies where its covariance and that of the pose allow. `T_odom_body`: at its time; `P`: of
-  // the newest state.
-  bool consistent(const MapMeasurement& m, const Eigen::Isometry3d& T_odom_body, const ErrorCov& P) const;
-  // Of a pose that turned out to be further off than it believed.
-  ErrorCov widened(ErrorCov P) const;
-  // At once. Empty text where taken.
-  std::string_view take_correction(const MapMeasurement& m, const Eigen::Isometry3d& T_odom_body, const ErrorCov& P);
-  // By and by, in step().
-  std::string_view take_slam(const MapMeasurement& m, const Eigen::Isometry3d& T_odom_body, const ErrorCov& P);
+  // Chi-square test of the innovation. `T_odom_body`: at the measurement's time; `P`: of the newest state.
+  bool within_gate(const MapMeasurement& m, const Eigen::Isometry3d& T_odom_body, const ErrorCov& P) const;
+  // For a pose whose covariance proved too small.
+  ErrorCov inflated(ErrorCov P) const;
+  // Takes effect at once. Empty text if accepted.
+  std::string_view apply_correction(const MapMeasurement& m, const Eigen::Isometry3d& T_odom_body, const ErrorCov& P);
+  // Takes effect gradually, in step(). Empty text if accepted.
+  std::string_view add_slam_pose(const MapMeasurement& m, const Eigen::Isometry3d& T_odom_body, const ErrorCov& P);
   void step(double dt_s, const Eigen::Isometry3d& T_odom_body);
 
-  // Covariance of the pose after a measurement of x, y, yaw in map with noise `R`; the other errors are not estimated
-  // by it (Schmidt), so the pose in odom stays as it is.
-  ErrorCov updated(const ErrorCov& P, const PlanarCov& R_map) const;
+  // Covariance after a measurement of x, y, yaw in map with noise `R_map`. Other errors are consider states
+  // (Schmidt), so the pose in odom stays unchanged.
+  ErrorCov updated_cov(const ErrorCov& P, const PlanarCov& R_map) const;
 
  private:
-  // Position and yaw of the body in map, wanted minus now.
+  // Position and yaw of the body in map, measured minus estimated.
   Eigen::Vector3d innovation(const MapMeasurement& m, const Eigen::Isometry3d& T_odom_body) const;
   Eigen::Matrix3d planar_cov(const ErrorCov& P) const;
   // Moves map against odom so that the body at T_odom_body moves by (x, y, yaw) in map.
   void shift(const Eigen::Vector3d& delta, const Eigen::Isometry3d& T_odom_body);
-  Eigen::Vector3d gained(const Eigen::Vector3d& innovation, const ErrorCov& P, const PlanarCov& R) const;
+  // Kalman gain times innovation.
+  Eigen::Vector3d correction(const Eigen::Vector3d& innovation, const ErrorCov& P, const PlanarCov& R) const;
 
   MapAlignmentConfig config_;
   bool known_ = false;
   Eigen::Isometry3d T_map_odom_ = Eigen::Isometry3d::Identity();
-  Utime newest_correction_ = kNever;
-  Eigen::Vector3d pending_ = Eigen::Vector3d::Zero();  // what SLAM still has to move
+  Utime newest_correction_utime_ = kNever;
+  Eigen::Vector3d pending_ = Eigen::Vector3d::Zero();  // SLAM correction not yet applied
 };
 
 }  // namespace rover::loc

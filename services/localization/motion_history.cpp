@@ -6,7 +6,7 @@
 
 namespace rover::loc {
 
-MotionRecord MotionRecord::part(Utime from, Utime to) const {
+MotionRecord MotionRecord::clipped(Utime from, Utime to) const {
   MotionRecord cut = *this;
   cut.start = std::max(start, from);
   cut.end = std::min(end, to);
@@ -15,7 +15,7 @@ MotionRecord MotionRecord::part(Utime from, Utime to) const {
   cut.delta_velocity_mps *= share;
   cut.wheel_motion *= share;
   cut.commanded_path_m *= share;
-  for (double& turned : cut.turned_rad) turned *= share;
+  for (double& turned : cut.wheel_turn_rad) turned *= share;
   return cut;
 }
 
@@ -28,10 +28,10 @@ void MotionHistory::add(const MotionRecord& record) {
 
 std::vector<MotionRecord> MotionHistory::slice(Utime from, Utime to) const {
   std::vector<MotionRecord> out;
-  if (from >= to) return out;  // a part of a record without length has no rates
+  if (from >= to) return out;  // zero-length records would divide by zero
   auto it = std::upper_bound(records_.begin(), records_.end(), from,
                              [](Utime t, const MotionRecord& r) { return t < r.end; });
-  for (; it != records_.end() && it->start < to; ++it) out.push_back(it->part(from, to));
+  for (; it != records_.end() && it->start < to; ++it) out.push_back(it->clipped(from, to));
   return out;
 }
 

@@ -7,9 +7,9 @@
 namespace rover::loc {
 namespace {
 
-constexpr Utime kSlipPeriodUs = 5 * kTickUs;  // its window is seconds long
+constexpr Utime kSlipPeriodUs = 5 * kTickUs;  // short against the slip window of 5 s
 
-const char* text_of(PoseStatus status) {
+const char* to_string(PoseStatus status) {
   switch (status) {
     case PoseStatus::kOk:
       return "OK";
@@ -26,7 +26,7 @@ const char* text_of(PoseStatus status) {
 }  // namespace
 
 LocalizationNode::LocalizationNode(Node& node, const LocalizationConfig& config, const Vehicle& vehicle)
-    : node_(node), kept_(node), localization_(config, vehicle) {
+    : node_(node), checkpoint_(node), localization_(config, vehicle) {
   subscribe();
   restore();
   node_.on_step([this](Utime now) { on_step(now); });
@@ -34,43 +34,44 @@ LocalizationNode::LocalizationNode(Node& node, const LocalizationConfig& config,
 
 void LocalizationNode::subscribe() {
   node_.subscribe<imu_t>(channel::kImu,
-                         [this](const imu_t& m) { check(channel::kImu, localization_.take_imu(imu_from(m))); });
+                         [this](const imu_t& m) { check(channel::kImu, localization_.add_imu(imu_from(m))); });
   node_.subscribe<wheel_state_t>(channel::kWheelState, [this](const wheel_state_t& m) {
-    check(channel::kWheelState, localization_.take_wheels(wheels_from(m)));
+    check(channel::kWheelState, localization_.add_wheels(wheels_from(m)));
   });
   node_.subscribe<wheel_command_t>(channel::kWheelCommand, [this](const wheel_command_t& m) {
-    check(channel::kWheelCommand, localization_.take_wheel_command(wheel_command_from(m)));
+    check(channel::kWheelCommand, localization_.add_wheel_command(wheel_command_from(m)));
   });
-  node_.subscribe<vo_motion_t>(
-      channel::kVo, [this](const vo_motion_t& m) { check(channel::kVo, localization_.take_visual(visual_from(m))); });
+  node_.subscribe<vo_motion_t>(channel::kVo, [this](const vo_motion_t& m) {
+    check(channel::kVo, localization_.add_visual_motion(visual_from(m)));
+  });
   node_.subscribe<ground_command_t>(channel::kGroundCommand,
                                     [this](const ground_command_t& m) { on_ground_command(m); });
   node_.subscribe<slam_pose_t>(channel::kSlamPose, [this](const slam_pose_t& m) {
     if (m.status == slam_pose_t::OK && m.information > 0.0)
-      check(channel::kSlamPose, localization_.take_slam(measurement_from(m)));
+      check(channel::kSlamPose, localization_.add_slam_pose(measurement_from(m)));
   });
   node_.subscribe<correction_t>(channel::kCorrection, [this](const correction_t& m) {
-    if (m.accepted) check(channel::kCorrection, localization_.take_correction(measurement_from(m)));
+    if (m.accepted) check(channel::kCorrection, localization_.apply_correction(measurement_from(m)));
   });
 }
 
 void LocalizationNode::on_ground_command(const ground_command_t& command) {
   if (command.kind != ground_command_t::SET_START_POSE) return;
-  const std::string_view refusal = localization_.take_start_pose(start_pose_from(command));
+  const std::string_view rejection = localization_.set_start_pose(start_pose_from(command));
   command_ack_t ack{};
   ack.command_id = command.command_id;
-  ack.accepted = refusal.empty() ? 1 : 0;
-  ack.reason = std::string(refusal);
+  ack.accepted = rejection.empty() ? 1 : 0;
+  ack.reason = std::string(rejection);
   node_.publish(channel::kCommandAck, ack, node_.now());
-  node_.log(refusal.empty() ? "INFO" : "WARN",
+  node_.log(rejection.empty() ? "INFO" : "WARN",
             "START_POSE accepted=" + std::to_string(ack.accepted) + " reason=" + ack.reason);
 }
 
 void LocalizationNode::on_step(Utime now) {
-  kept_.tell();
+  checkpoint_.tell();
   localization_.step(now);
   publish();
-  tell_status();
+  report_status();
   save();
 }
 
@@ -87,18 +88,18 @@ void LocalizationNode::publish() {
   node_.publish(channel::kSlip, slip_message, utime);
 }
 
-void LocalizationNode::tell_status() {
+void LocalizationNode::report_status() {
   const PoseEstimate& pose = localization_.pose();
-  if (pose.status == told_ && pose.reason == told_reason_) return;
-  told_ = pose.status;
-  told_reason_ = std::string(pose.reason);
-  const bool ok = told_ == PoseStatus::kOk;
-  node_.set_status(ok ? heartbeat_t::OK : heartbeat_t::DEGRADED, told_reason_);
-  node_.log(ok ? "INFO" : "WARN", std::string("POSE_STATUS status=") + text_of(told_) + " reason=" + told_reason_);
+  if (pose.status == status_ && pose.reason == reason_) return;
+  status_ = pose.status;
+  reason_ = std::string(pose.reason);
+  const bool ok = status_ == PoseStatus::kOk;
+  node_.set_status(ok ? heartbeat_t::OK : heartbeat_t::DEGRADED, reason_);
+  node_.log(ok ? "INFO" : "WARN", std::string("POSE_STATUS status=") + to_string(status_) + " reason=" + reason_);
 }
 
 void LocalizationNode::restore() {
-  kept_.restore([this](const KeptState::Bytes& bytes) {
+  checkpoint_.restore([this](const KeptState::Bytes& bytes) {
     const auto checkpoint = from_bytes(bytes);
     if (checkpoint) localization_.restore(*checkpoint);
     return checkpoint.has_value();
@@ -106,12 +107,12 @@ void LocalizationNode::restore() {
 }
 
 void LocalizationNode::save() {
-  if (!kept_.due()) return;
-  if (const auto checkpoint = localization_.checkpoint()) kept_.save(to_bytes(*checkpoint));
+  if (!checkpoint_.due()) return;
+  if (const auto checkpoint = localization_.checkpoint()) checkpoint_.save(to_bytes(*checkpoint));
 }
 
-void LocalizationNode::check(const char* channel, std::string_view refusal) {
-  if (!refusal.empty()) node_.reject(channel, std::string(refusal));
+void LocalizationNode::check(const char* channel, std::string_view rejection) {
+  if (!rejection.empty()) node_.reject(channel, std::string(rejection));
 }
 
 }  // namespace rover::loc

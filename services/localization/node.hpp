@@ -21,17 +21,17 @@ class LocalizationNode {
   void on_ground_command(const ground_command_t& command);
   void on_step(Utime now);
   void publish();
-  void tell_status();
+  void report_status();
   void restore();
   void save();
-  // Counts an input that was not used.
-  void check(const char* channel, std::string_view refusal);
+  // Counts a rejected input.
+  void check(const char* channel, std::string_view rejection);
 
   Node& node_;
-  KeptState kept_;
+  KeptState checkpoint_;
   Localization localization_;
-  PoseStatus told_ = PoseStatus::kOk;
-  std::string told_reason_;
+  PoseStatus status_ = PoseStatus::kOk;
+  std::string reason_;
   Utime next_slip_ = 0;
 };
 

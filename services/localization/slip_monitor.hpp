@@ -1,8 +1,7 @@
-// Slip: what was commanded, what the wheels rolled and what the images saw, over a sliding window.
+// Wheel slip over a sliding time window: commanded, rolled and visually measured distance.
 //
-// All three are lengths of the wheels' way: the visual motion is projected onto each wheel's rolling direction, so that
-// turns, point turns included, count like straight driving. The window slides with time, not with motion: it empties at
-// standstill instead of freezing.
+// All three are distances along the wheels: the visual motion is projected onto each wheel's rolling direction, so
+// turns and point turns count like straight driving. The window slides with time, so it empties at standstill.
 #pragma once
 
 #include <deque>
@@ -16,17 +15,17 @@ namespace rover::loc {
 
 struct SlipConfig {
   double window_s = 5.0;           // HDPR
-  double grip_window_s = 2.0;      // for dead reckoning between two visual motions
-  double min_wheel_path_m = 0.05;  // in the window; less says nothing
-  double min_cover = 0.5;          // share of the wheels' way that images must have seen
-  double max_visual_age_s = 1.0;   // the window ends at the newest visual motion, or this long ago
+  double traction_window_s = 2.0;  // for dead reckoning between two visual motions
+  double min_wheel_path_m = 0.05;  // less wheel travel in the window gives no slip ratio
+  double min_coverage = 0.5;       // share of the wheel travel that visual odometry must cover
+  double max_visual_age_s = 1.0;   // the window ends at the newest visual motion, at most this long ago
 };
 
 struct Slip {
   double window_s = 0.0;
   double commanded_mps = 0.0;
   double wheel_mps = 0.0;
-  double visual_mps = kNaN;  // NaN: no visual motion in the window
+  double visual_mps = kNaN;  // NaN without a visual motion in the window
   double slip_ratio = kNaN;
   bool valid = false;
 };
@@ -40,31 +39,31 @@ class SlipMonitor {
   void add_visual(const std::vector<MotionRecord>& records, const Eigen::Vector3d& motion);
 
   Slip slip(Utime now) const;
-  // Metres gained per metre rolled, lately; 1 where unknown.
-  double grip() const { return grip_; }
-  // Metres gone to the left per metre rolled, ahead or astern, beside what the steering makes: on a side slope the
-  // rover drives askew, which wheels cannot tell. 0 where unknown.
+  // Distance gained per distance rolled (1 - slip) over traction_window_s; 1 if unknown.
+  double traction() const { return traction_; }
+  // Lateral drift to the left per distance rolled, forward or backward, beyond wheel odometry: on a side slope the
+  // rover crabs, which wheels cannot measure. 0 if unknown.
   double side_slip() const { return side_slip_; }
 
  private:
-  struct Way {
+  struct Interval {
     Utime start;
     Utime end;
     double commanded_m = 0.0;
     double wheel_m = 0.0;
     double visual_m = 0.0;
-    double rolled_m = 0.0;  // of the body's origin
-    double aside_m = 0.0;
+    double body_m = 0.0;  // of the body origin, by wheel odometry
+    double lateral_m = 0.0;
   };
-  static Way sum(const std::deque<Way>& ways, Utime from, Utime to);
-  void update_grip();
-  void update_side_slip(const Way& way);
+  static Interval sum(const std::deque<Interval>& intervals, Utime from, Utime to);
+  void update_traction();
+  void update_side_slip(const Interval& interval);
 
   SlipConfig config_;
   WheelOdometry wheels_;
-  std::deque<Way> ticks_;
-  std::deque<Way> seen_;  // intervals with a visual motion
-  double grip_ = 1.0;
+  std::deque<Interval> ticks_;
+  std::deque<Interval> visual_;  // one for each visual motion
+  double traction_ = 1.0;
   double side_slip_ = 0.0;
 };
 

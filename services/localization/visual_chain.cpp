@@ -2,7 +2,7 @@
 
 namespace rover::loc {
 
-bool VisualChain::continues(const VisualMotion& motion) const {
+bool VisualChain::is_continued_by(const VisualMotion& motion) const {
   return anchor_.utime != kNever && motion.keyframe_utime == keyframe_utime_ && motion.previous_utime == interval_.to &&
          to_seconds(motion.utime - anchor_.utime) <= max_duration_s_;
 }
@@ -10,7 +10,7 @@ bool VisualChain::continues(const VisualMotion& motion) const {
 void VisualChain::restart(const FilterState& anchor, const VisualMotion& first) {
   anchor_ = anchor;
   keyframe_utime_ = first.keyframe_utime;
-  // On the keyframe itself no alignment errs; within its life the anchor's does, about like the first motion's end.
+  // No alignment error at the keyframe itself; later, the anchor's is about that of the first motion.
   start_cov_ = first.previous_utime == first.keyframe_utime ? Matrix6d::Zero() : first.cov;
   interval_ = {anchor.utime, anchor.utime, Eigen::Isometry3d::Identity(), Matrix6d::Zero()};
 }

@@ -1,5 +1,5 @@
-// Visual motions of one keyframe, joined: their errors telescope, so the filter takes the motion since the chain's
-// start as one measurement instead of many correlated ones.
+// Composition of the visual motions of one keyframe. Their errors telescope, so the filter fuses the motion since the
+// chain's anchor as one measurement instead of many correlated ones.
 #pragma once
 
 #include "localization/filter.hpp"
@@ -9,12 +9,12 @@ namespace rover::loc {
 
 class VisualChain {
  public:
-  // Longer chains begin anew, which bounds the history that has to be kept.
+  // Longer chains restart, which bounds the history needed.
   explicit VisualChain(double max_duration_s) : max_duration_s_(max_duration_s) {}
 
-  // True where the motion goes on from the chain's end, on its keyframe.
-  bool continues(const VisualMotion& motion) const;
-  // Begins at the state of the filter at motion.previous_utime.
+  // True if the motion starts at the chain's end and has the same keyframe.
+  bool is_continued_by(const VisualMotion& motion) const;
+  // `anchor`: filter state at first.previous_utime.
   void restart(const FilterState& anchor, const VisualMotion& first);
   void extend(const VisualMotion& motion);
   void clear() { anchor_.utime = kNever; }

@@ -12,46 +12,47 @@ std::array<double, 6> all_angles(const std::array<double, 4>& steer_rad) {
   return angles;
 }
 
-// Rolling of the wheel per (dx, dy, dyaw).
-Eigen::RowVector3d along(double x, double y, double angle) {
+// Rolling distance of the wheel per (dx, dy, dyaw).
+Eigen::RowVector3d rolling_row(double x, double y, double angle) {
   const double c = std::cos(angle);
   const double s = std::sin(angle);
   return {c, s, x * s - y * c};
 }
 
-// Sliding across the wheel per (dx, dy, dyaw).
-Eigen::RowVector3d across(double x, double y, double angle) {
-  return along(x, y, angle + 0.5 * M_PI);
+// Lateral displacement of the wheel per (dx, dy, dyaw).
+Eigen::RowVector3d lateral_row(double x, double y, double angle) {
+  return rolling_row(x, y, angle + 0.5 * M_PI);
 }
 
 }  // namespace
 
-Eigen::Vector3d WheelOdometry::motion(const std::array<double, 6>& turned_rad,
-                                      const std::array<double, 4>& steer_rad) const {
+Eigen::Vector3d WheelOdometry::body_motion(const std::array<double, 6>& wheel_turn_rad,
+                                           const std::array<double, 4>& steer_rad) const {
   const std::array<double, 6> angles = all_angles(steer_rad);
   Eigen::Matrix<double, 12, 3> A;
   Eigen::Matrix<double, 12, 1> b;
   for (size_t i = 0; i < 6; ++i) {
     const auto row = static_cast<Eigen::Index>(2 * i);
-    A.row(row) = along(vehicle_.wheel_x_m[i], vehicle_.wheel_y_m[i], angles[i]);
-    A.row(row + 1) = across(vehicle_.wheel_x_m[i], vehicle_.wheel_y_m[i], angles[i]);
-    b(row) = vehicle_.wheel_radius_m * turned_rad[i];
+    A.row(row) = rolling_row(vehicle_.wheel_x_m[i], vehicle_.wheel_y_m[i], angles[i]);
+    A.row(row + 1) = lateral_row(vehicle_.wheel_x_m[i], vehicle_.wheel_y_m[i], angles[i]);
+    b(row) = vehicle_.wheel_radius_m * wheel_turn_rad[i];
     b(row + 1) = 0.0;
   }
   return A.colPivHouseholderQr().solve(b);
 }
 
-std::array<double, 6> WheelOdometry::rolled_m(const Eigen::Vector3d& motion,
-                                              const std::array<double, 4>& steer_rad) const {
+std::array<double, 6> WheelOdometry::wheel_travel_m(const Eigen::Vector3d& motion,
+                                                    const std::array<double, 4>& steer_rad) const {
   const std::array<double, 6> angles = all_angles(steer_rad);
   std::array<double, 6> rolled{};
-  for (size_t i = 0; i < 6; ++i) rolled[i] = along(vehicle_.wheel_x_m[i], vehicle_.wheel_y_m[i], angles[i]) * motion;
+  for (size_t i = 0; i < 6; ++i)
+    rolled[i] = rolling_row(vehicle_.wheel_x_m[i], vehicle_.wheel_y_m[i], angles[i]) * motion;
   return rolled;
 }
 
-double WheelOdometry::path_m(const std::array<double, 6>& turned_rad) const {
+double WheelOdometry::path_m(const std::array<double, 6>& wheel_turn_rad) const {
   double sum = 0.0;
-  for (double turned : turned_rad) sum += std::abs(vehicle_.wheel_radius_m * turned);
+  for (double turned : wheel_turn_rad) sum += std::abs(vehicle_.wheel_radius_m * turned);
   return sum / 6.0;
 }
 

@@ -1,7 +1,7 @@
-// Planar motion of the body from the turning of its wheels.
+// Planar wheel odometry.
 //
-// A wheel at p = (x, y), steered by s, that turned by a rolls r a along (cos s, sin s) and slides nothing across. Each
-// gives two equations for (dx, dy, dyaw) of the body; all twelve are solved in least squares (Muir & Neuman, 1987).
+// A wheel at p = (x, y), steered by s, that turned by a rolls r a along (cos s, sin s) without lateral slip. Each wheel
+// gives two equations for (dx, dy, dyaw) of the body; least squares solves all twelve (Muir & Neuman, 1987).
 #pragma once
 
 #include <Eigen/Core>
@@ -15,14 +15,15 @@ class WheelOdometry {
  public:
   explicit WheelOdometry(const Vehicle& vehicle) : vehicle_(vehicle) {}
 
-  // (dx, dy, dyaw) of the body for wheel turns [rad] at the steering angles.
-  Eigen::Vector3d motion(const std::array<double, 6>& turned_rad, const std::array<double, 4>& steer_rad) const;
+  // Forward kinematics: (dx, dy, dyaw) of the body.
+  Eigen::Vector3d body_motion(const std::array<double, 6>& wheel_turn_rad,
+                              const std::array<double, 4>& steer_rad) const;
 
-  // How far each wheel would roll along its own direction were the body to move by (dx, dy, dyaw) without slip.
-  std::array<double, 6> rolled_m(const Eigen::Vector3d& motion, const std::array<double, 4>& steer_rad) const;
+  // Inverse kinematics: distance each wheel rolls along its own direction for (dx, dy, dyaw) without slip.
+  std::array<double, 6> wheel_travel_m(const Eigen::Vector3d& motion, const std::array<double, 4>& steer_rad) const;
 
-  // Mean length rolled, whichever way: |r a| over the six wheels.
-  double path_m(const std::array<double, 6>& turned_rad) const;
+  // Mean of |r a| over the six wheels.
+  double path_m(const std::array<double, 6>& wheel_turn_rad) const;
 
   double wheel_radius_m() const { return vehicle_.wheel_radius_m; }
 

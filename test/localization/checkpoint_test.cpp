@@ -15,12 +15,12 @@ Checkpoint sample() {
   c.P = ErrorCov::Identity() * 0.25;
   c.gravity_mps2 = 3.71;
   c.travelled_m = 42.5;
-  c.visual_newest = 1'234'567;
+  c.newest_visual_utime = 1'234'567;
   c.drive_angle_rad = {1, 2, 3, 4, 5, 6};
   return c;
 }
 
-TEST(Checkpoint, ComesBackAsItWas) {
+TEST(Checkpoint, RoundTrip) {
   const auto back = from_bytes(to_bytes(sample()));
   ASSERT_TRUE(back.has_value());
   EXPECT_EQ(back->utime, sample().utime);
@@ -31,11 +31,11 @@ TEST(Checkpoint, ComesBackAsItWas) {
   EXPECT_EQ(back->P, sample().P);
   EXPECT_EQ(back->gravity_mps2, 3.71);
   EXPECT_EQ(back->travelled_m, 42.5);
-  EXPECT_EQ(back->visual_newest, 1'234'567);
+  EXPECT_EQ(back->newest_visual_utime, 1'234'567);
   EXPECT_EQ(back->drive_angle_rad, sample().drive_angle_rad);
 }
 
-TEST(Checkpoint, RefusesWhatItIsNot) {
+TEST(Checkpoint, RejectsInvalidBytes) {
   auto bytes = to_bytes(sample());
   bytes.pop_back();
   EXPECT_FALSE(from_bytes(bytes).has_value());
@@ -47,8 +47,8 @@ TEST(Checkpoint, RefusesWhatItIsNot) {
   bad.T_odom_body.translation().x() = kNaN;
   EXPECT_FALSE(from_bytes(to_bytes(bad)).has_value());
   Checkpoint early = sample();
-  early.visual_newest = early.utime + 1;
-  EXPECT_FALSE(from_bytes(to_bytes(early)).has_value()) << "stale odometry would look fresh";
+  early.newest_visual_utime = early.utime + 1;
+  EXPECT_FALSE(from_bytes(to_bytes(early)).has_value()) << "future odometry would look fresh";
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Monte Carlo: is the covariance honest? Normalised estimation error squared (Bar-Shalom, Li & Kirubarajan, ch. 5.4).
+// Monte Carlo consistency of the covariance: normalised estimation error squared, NEES (Bar-Shalom, Li & Kirubarajan,
+// 2001, ch. 5.4).
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
@@ -14,22 +15,22 @@ constexpr double kStartSigmaYaw = 0.01;
 
 struct Outcome {
   double planar_nees = 0.0;  // x, y, yaw in map
-  double level_nees = 0.0;   // roll, pitch
+  double tilt_nees = 0.0;    // roll, pitch
 };
 
 Outcome run_once(std::uint64_t seed) {
   DriveNoise noise;
   noise.visual_scale = LocalizationConfig{}.filter.visual_scale_sigma;
   LocalizationConfig config;
-  config.filter.visual_cov_factor = 1.0;  // visual odometry's covariance is exact here
+  config.filter.visual_cov_factor = 1.0;  // the synthetic covariance is exact
   SyntheticDrive drive(config, seed, noise);
   drive.command = [](double t) { return t < 1.5 ? Twist{} : Twist{0.2, 0.06 * std::sin(0.1 * t)}; };
   std::mt19937_64 random(seed * 7919);
   std::normal_distribution<double> normal;
   drive.run(1.5);
-  // The ground's start pose is off by what it says.
+  // The start pose errs by its stated sigma.
   const Pose2 start_error{kStartSigma * normal(random), kStartSigma * normal(random), kStartSigmaYaw * normal(random)};
-  drive.localization.take_start_pose(
+  drive.localization.set_start_pose(
       {{start_error.x_m, start_error.y_m, 0.0}, start_error.yaw_rad, kStartSigma, kStartSigmaYaw});
   drive.run(100.0);
   const PoseEstimate& pose = drive.localization.pose();
@@ -46,21 +47,21 @@ Outcome run_once(std::uint64_t seed) {
   return {planar.dot(P.inverse() * planar), turn.head<2>().dot(L.inverse() * turn.head<2>())};
 }
 
-TEST(Consistency, CovarianceIsNeitherTooSmallNorTooLarge) {
+TEST(Consistency, MeanNeesWithinBounds) {
   double planar = 0.0;
-  double level = 0.0;
+  double tilt = 0.0;
   for (int i = 0; i < kRuns; ++i) {
     const Outcome outcome = run_once(static_cast<std::uint64_t>(100 + i));
     planar += outcome.planar_nees / kRuns;
-    level += outcome.level_nees / kRuns;
+    tilt += outcome.tilt_nees / kRuns;
   }
   RecordProperty("planar_nees", std::to_string(planar));
-  std::cout << "mean NEES planar " << planar << " of 3, level " << level << " of 2\n";
-  // 99.9 % of chi-square with 120 degrees of freedom lie within 1.8 .. 4.5 times a third; the filter's noise figures
-  // have room, so the lower side is open further.
+  std::cout << "mean NEES planar " << planar << " of 3, tilt " << tilt << " of 2\n";
+  // Mean of 40 chi-square values with 3 degrees of freedom: 99.9 % within 1.8 .. 4.5. The filter's noise parameters
+  // are conservative, so the lower bound is wider.
   EXPECT_GT(planar, 1.0);
   EXPECT_LT(planar, 4.5);
-  EXPECT_LT(level, 4.0);
+  EXPECT_LT(tilt, 4.0);
 }
 
 }  // namespace

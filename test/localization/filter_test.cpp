@@ -16,7 +16,7 @@ MotionRecord record_at(Utime start, const Vector3d& rate, const Vector3d& force)
   MotionRecord r;
   r.start = start;
   r.end = start + kTickUs;
-  r.gyro = r.fog = r.force = true;
+  r.gyro_valid = r.fog_valid = r.force_valid = true;
   r.delta_angle_rad = rate * 0.02;
   r.delta_velocity_mps = force * 0.02;
   return r;
@@ -28,11 +28,11 @@ Filter make_filter() {
   return filter;
 }
 
-TEST(Filter, GravityMendsATiltAndNothingElse) {
+TEST(Filter, GravityUpdateCorrectsTiltOnly) {
   const Filter filter = make_filter();
-  FilterState state = filter.start(0, rotation_from_rpy(0.008, -0.01, 0.5), Vector3d::Zero());
+  FilterState state = filter.initial_state(0, rotation_from_rpy(0.008, -0.01, 0.5), Vector3d::Zero());
   for (int i = 0; i < 50 * 600; ++i)
-    state = filter.advance(state, record_at(state.utime, Vector3d::Zero(), {0, 0, kGravity}), 1.0);
+    state = filter.propagate(state, record_at(state.utime, Vector3d::Zero(), {0, 0, kGravity}), 1.0);
   const Vector3d rpy = rpy_of(state.T_odom_body.linear());
   EXPECT_NEAR(rpy.x(), 0.0, 1e-3);
   EXPECT_NEAR(rpy.y(), 0.0, 1e-3);
@@ -40,39 +40,39 @@ TEST(Filter, GravityMendsATiltAndNothingElse) {
   EXPECT_EQ(state.T_odom_body.translation(), Vector3d::Zero());
 }
 
-TEST(Filter, RestFindsTheGyroBias) {
+TEST(Filter, ZeroRateUpdateFindsGyroBias) {
   const Filter filter = make_filter();
-  FilterState state = filter.start(0, Matrix3d::Identity(), Vector3d::Zero());
+  FilterState state = filter.initial_state(0, Matrix3d::Identity(), Vector3d::Zero());
   const Vector3d bias(5e-5, -3e-5, 1e-5);
   for (int i = 0; i < 50 * 120; ++i) {
     MotionRecord r = record_at(state.utime, bias, {0, 0, kGravity});
-    r.standing = r.at_rest = true;
-    state = filter.advance(state, r, 1.0);
+    r.stationary = r.settled = true;
+    state = filter.propagate(state, r, 1.0);
   }
   EXPECT_LT((state.gyro_bias_radps - bias).norm(), 5e-6);
-  EXPECT_NEAR(state.gyro_bias_radps.z(), bias.z(), 6e-7) << "the fibre-optic gyro is the better one";
+  EXPECT_NEAR(state.gyro_bias_radps.z(), bias.z(), 6e-7) << "the fibre-optic gyro is more precise";
   EXPECT_LT(std::sqrt(state.P(kBias + 2, kBias + 2)), 1.5e-6);
-  EXPECT_TRUE(state.T_odom_body.linear().isIdentity(1e-12)) << "no turning while standing";
+  EXPECT_TRUE(state.T_odom_body.linear().isIdentity(1e-12)) << "no rotation while stationary";
 }
 
-TEST(Filter, WithoutTheFibreOpticGyroRestTellsNothingOfItsBias) {
+TEST(Filter, ZeroRateUpdateWithoutFibreOpticGyroKeepsItsBias) {
   const Filter filter = make_filter();
-  FilterState state = filter.start(0, Matrix3d::Identity(), Vector3d::Zero());
+  FilterState state = filter.initial_state(0, Matrix3d::Identity(), Vector3d::Zero());
   const double before = state.P(kBias + 2, kBias + 2);
   for (int i = 0; i < 50 * 60; ++i) {
     MotionRecord r = record_at(state.utime, {5e-5, 0.0, 1e-4}, {0, 0, kGravity});
-    r.standing = r.at_rest = true;
-    r.fog = false;
-    state = filter.advance(state, r, 1.0);
+    r.stationary = r.settled = true;
+    r.fog_valid = false;
+    state = filter.propagate(state, r, 1.0);
   }
   EXPECT_EQ(state.gyro_bias_radps.z(), 0.0);
   EXPECT_GE(state.P(kBias + 2, kBias + 2), before);
   EXPECT_NEAR(state.gyro_bias_radps.x(), 5e-5, 5e-6);
 }
 
-TEST(Filter, VisualMotionIsAppliedInTheAxesAtItsStart) {
+TEST(Filter, VisualMotionIsInAxesAtItsStart) {
   const Filter filter = make_filter();
-  const FilterState state = filter.start(0, rotation_from_rpy(0.0, 0.0, kPi / 2), Vector3d::Zero());
+  const FilterState state = filter.initial_state(0, rotation_from_rpy(0.0, 0.0, kPi / 2), Vector3d::Zero());
   std::vector<MotionRecord> records;
   for (Utime t = 0; t < 400'000; t += kTickUs) records.push_back(record_at(t, Vector3d::Zero(), {0, 0, kGravity}));
   VisualInterval visual{0, 400'000, make_pose(Matrix3d::Identity(), {0.08, 0.0, 0.0}), Matrix6d::Identity() * 1e-8};
@@ -83,14 +83,14 @@ TEST(Filter, VisualMotionIsAppliedInTheAxesAtItsStart) {
   EXPECT_EQ(fused->utime, 400'000);
 }
 
-// A turn that only the images saw is an error of the images, and so is the sideways motion that went with it.
-TEST(Filter, GyroMendsThePositionThroughTheCovariance) {
+// Images that err in rotation also err in lateral translation, through their covariance.
+TEST(Filter, GyroCorrectsTranslationThroughCovariance) {
   const Filter filter = make_filter();
-  const FilterState state = filter.start(0, Matrix3d::Identity(), Vector3d::Zero());
+  const FilterState state = filter.initial_state(0, Matrix3d::Identity(), Vector3d::Zero());
   std::vector<MotionRecord> records;
   for (Utime t = 0; t < 400'000; t += kTickUs) records.push_back(record_at(t, Vector3d::Zero(), {0, 0, kGravity}));
   constexpr double kYawError = 0.002;
-  constexpr double kLever = 1.5;  // m: a turn is taken for a sideways motion of points so far ahead
+  constexpr double kLever = 1.5;  // m: distance of the points, whose rotation looks like lateral motion
   Matrix6d cov = Matrix6d::Identity() * 1e-10;
   cov(5, 5) = kYawError * kYawError;
   cov(1, 1) += kLever * kLever * cov(5, 5);
@@ -102,9 +102,9 @@ TEST(Filter, GyroMendsThePositionThroughTheCovariance) {
   EXPECT_NEAR(yaw_of(fused->T_odom_body), 0.0, 1e-4);
 }
 
-TEST(Filter, GrossConflictOfRotationsIsRefused) {
+TEST(Filter, RotationConflictIsRejected) {
   const Filter filter = make_filter();
-  const FilterState state = filter.start(0, Matrix3d::Identity(), Vector3d::Zero());
+  const FilterState state = filter.initial_state(0, Matrix3d::Identity(), Vector3d::Zero());
   std::vector<MotionRecord> records;
   for (Utime t = 0; t < 400'000; t += kTickUs) records.push_back(record_at(t, Vector3d::Zero(), {0, 0, kGravity}));
   const VisualInterval visual{0, 400'000, make_pose(rotation_from_rpy(0.0, 0.0, 0.1), {0.08, 0.0, 0.0}),
@@ -114,7 +114,7 @@ TEST(Filter, GrossConflictOfRotationsIsRefused) {
 
 TEST(Filter, CovarianceStaysSymmetricAndPositive) {
   const Filter filter = make_filter();
-  FilterState state = filter.start(0, Matrix3d::Identity(), Vector3d::Zero());
+  FilterState state = filter.initial_state(0, Matrix3d::Identity(), Vector3d::Zero());
   for (int n = 0; n < 500; ++n) {
     std::vector<MotionRecord> records;
     for (int i = 0; i < 20; ++i)

@@ -26,19 +26,19 @@ VisualMotion visual() {
   return m;
 }
 
-TEST(Inputs, SoundOnesPass) {
-  EXPECT_EQ(flaw_of(imu()), "");
-  EXPECT_EQ(flaw_of(WheelSample{}), "");
-  EXPECT_EQ(flaw_of(WheelCommand{}), "");
-  EXPECT_EQ(flaw_of(visual(), 20.0), "");
-  EXPECT_EQ(flaw_of(StartPose{{1, 2, 3}, 0.5, 0.1, 0.1}), "");
+TEST(Inputs, ValidInputsPass) {
+  EXPECT_EQ(validation_error(imu()), "");
+  EXPECT_EQ(validation_error(WheelSample{}), "");
+  EXPECT_EQ(validation_error(WheelCommand{}), "");
+  EXPECT_EQ(validation_error(visual(), 20.0), "");
+  EXPECT_EQ(validation_error(StartPose{{1, 2, 3}, 0.5, 0.1, 0.1}), "");
   ImuSample no_fog = imu();
   no_fog.fog_delta_yaw_rad = kNaN;
-  EXPECT_EQ(flaw_of(no_fog), "");
+  EXPECT_EQ(validation_error(no_fog), "");
 }
 
-TEST(Inputs, FlawsOfImuAreFound) {
-  const std::vector<std::function<void(ImuSample&)>> flaws = {
+TEST(Inputs, InvalidImuIsRejected) {
+  const std::vector<std::function<void(ImuSample&)>> mutations = {
       [](ImuSample& s) { s.dt_s = 0.0; },
       [](ImuSample& s) { s.dt_s = kNaN; },
       [](ImuSample& s) { s.dt_s = 5.0; },
@@ -48,15 +48,15 @@ TEST(Inputs, FlawsOfImuAreFound) {
       [](ImuSample& s) { s.delta_velocity_mps.x() = 10.0; },
       [](ImuSample& s) { s.fog_delta_yaw_rad = 1.0; },
   };
-  for (size_t i = 0; i < flaws.size(); ++i) {
+  for (size_t i = 0; i < mutations.size(); ++i) {
     ImuSample s = imu();
-    flaws[i](s);
-    EXPECT_NE(flaw_of(s), "") << i;
+    mutations[i](s);
+    EXPECT_NE(validation_error(s), "") << i;
   }
 }
 
-TEST(Inputs, FlawsOfVisualMotionAreFound) {
-  const std::vector<std::function<void(VisualMotion&)>> flaws = {
+TEST(Inputs, InvalidVisualMotionIsRejected) {
+  const std::vector<std::function<void(VisualMotion&)>> mutations = {
       [](VisualMotion& m) { m.previous_utime = m.utime; },
       [](VisualMotion& m) { m.previous_utime = m.utime + 1; },
       [](VisualMotion& m) { m.keyframe_utime = m.utime; },
@@ -67,28 +67,28 @@ TEST(Inputs, FlawsOfVisualMotionAreFound) {
       [](VisualMotion& m) { m.cov.setZero(); },
       [](VisualMotion& m) { m.cov(0, 1) = 1.0; },
   };
-  for (size_t i = 0; i < flaws.size(); ++i) {
+  for (size_t i = 0; i < mutations.size(); ++i) {
     VisualMotion m = visual();
-    flaws[i](m);
-    EXPECT_NE(flaw_of(m, 20.0), "") << i;
+    mutations[i](m);
+    EXPECT_NE(validation_error(m, 20.0), "") << i;
   }
   VisualMotion lost;
   lost.utime = 1;
   lost.previous_utime = 0;
-  EXPECT_EQ(flaw_of(lost, 20.0), "") << "a lost frame says so and has no numbers";
+  EXPECT_EQ(validation_error(lost, 20.0), "") << "a lost frame has no motion";
 }
 
-TEST(Inputs, FlawsOfStartPoseAndMeasurementAreFound) {
-  EXPECT_NE(flaw_of(StartPose{{1, 2, kNaN}, 0.5, 0.1, 0.1}), "");
-  EXPECT_NE(flaw_of(StartPose{{1, 2, 3}, 0.5, 0.0, 0.1}), "");
-  EXPECT_NE(flaw_of(StartPose{{1, 2, 3}, 0.5, 0.1, -0.1}), "");
-  EXPECT_NE(flaw_of(StartPose{{1, 2e9, 3}, 0.5, 0.1, 0.1}), "");
+TEST(Inputs, InvalidStartPoseAndMeasurementAreRejected) {
+  EXPECT_NE(validation_error(StartPose{{1, 2, kNaN}, 0.5, 0.1, 0.1}), "");
+  EXPECT_NE(validation_error(StartPose{{1, 2, 3}, 0.5, 0.0, 0.1}), "");
+  EXPECT_NE(validation_error(StartPose{{1, 2, 3}, 0.5, 0.1, -0.1}), "");
+  EXPECT_NE(validation_error(StartPose{{1, 2e9, 3}, 0.5, 0.1, 0.1}), "");
   MapMeasurement m;
-  EXPECT_NE(flaw_of(m), "") << "no covariance";
+  EXPECT_NE(validation_error(m), "") << "no covariance";
   m.cov = Eigen::Matrix3d::Identity();
-  EXPECT_EQ(flaw_of(m), "");
+  EXPECT_EQ(validation_error(m), "");
   m.T_map_odom.yaw_rad = kNaN;
-  EXPECT_NE(flaw_of(m), "");
+  EXPECT_NE(validation_error(m), "");
 }
 
 }  // namespace

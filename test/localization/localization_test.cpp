@@ -1,4 +1,4 @@
-// Behaviour of localization on synthetic drives: what is late, silent, frozen, wrong or standing.
+// Behaviour of localization on synthetic drives with late, missing, frozen and wrong inputs.
 #include "localization/localization.hpp"
 
 #include <gtest/gtest.h>
@@ -28,16 +28,16 @@ double attitude_error(const SyntheticDrive& drive) {
   return log_so3(drive.localization.pose().T_odom_body.linear().transpose() * drive.truth_odom().linear()).norm();
 }
 
-TEST(Localization, StaysUninitialisedUntilLevelAndPlaced) {
+TEST(Localization, UninitialisedUntilStaticAlignmentAndStartPose) {
   SyntheticDrive drive({}, 1);
   drive.run(0.5);
   EXPECT_EQ(drive.localization.pose().status, PoseStatus::kUninitialised);
   EXPECT_FALSE(is_finite(drive.localization.pose().T_odom_body));
-  EXPECT_NE(drive.localization.take_start_pose({Vector3d::Zero(), 0.0, 0.1, 0.1}), "");
+  EXPECT_NE(drive.localization.set_start_pose({Vector3d::Zero(), 0.0, 0.1, 0.1}), "");
   drive.run(1.5);
   EXPECT_EQ(drive.localization.pose().status, PoseStatus::kUninitialised);
   EXPECT_TRUE(is_finite(drive.localization.pose().T_odom_body));
-  EXPECT_EQ(drive.localization.take_start_pose({Vector3d(5.0, 6.0, 7.0), 1.0, 0.1, 0.1}), "");
+  EXPECT_EQ(drive.localization.set_start_pose({Vector3d(5.0, 6.0, 7.0), 1.0, 0.1, 0.1}), "");
   drive.run(0.1);
   EXPECT_EQ(drive.localization.pose().status, PoseStatus::kOk);
   const Eigen::Isometry3d T_map_body = drive.localization.pose().T_map_odom * drive.localization.pose().T_odom_body;
@@ -45,7 +45,7 @@ TEST(Localization, StaysUninitialisedUntilLevelAndPlaced) {
   EXPECT_NEAR(yaw_of(T_map_body), 1.0, 1e-3);
 }
 
-TEST(Localization, IsNotLevelledWhileMoving) {
+TEST(Localization, NoStaticAlignmentWhileMoving) {
   SyntheticDrive drive({}, 1);
   drive.command = [](double) { return Twist{0.1, 0.0}; };
   drive.run(5.0);
@@ -53,48 +53,48 @@ TEST(Localization, IsNotLevelledWhileMoving) {
   EXPECT_FALSE(is_finite(drive.localization.pose().T_odom_body));
 }
 
-// A car on a road, seen by cameras alone: 12 m/s from the first picture on.
-TEST(Localization, FollowsCamerasAloneAtTheSpeedOfACar) {
+// A car at 12 m/s from the first image on, without IMU and wheels.
+TEST(Localization, CameraOnlyModeTracksCarAt12MetresPerSecond) {
   LocalizationConfig config;
-  config.cameras_alone = {true, 0.02, -0.03};
-  config.filter.blind_rate_radps = 10.0;
-  config.blind_distance_m = 50.0;
+  config.camera_only = {true, 0.02, -0.03};
+  config.filter.no_gyro_noise_rad_rts = 10.0;
+  config.max_dead_reckoned_m = 50.0;
   SyntheticDrive drive(config, 2);
   drive.imu_on = drive.wheels_on = drive.rolling_ground = false;
   drive.command = [](double t) { return Twist{12.0, 0.1 * std::sin(0.5 * t)}; };
   drive.run(0.2);
-  EXPECT_EQ(drive.localization.take_start_pose({Vector3d(3.0, 4.0, 0.0), 0.0, 0.1, 0.01}), "");
+  EXPECT_EQ(drive.localization.set_start_pose({Vector3d(3.0, 4.0, 0.0), 0.0, 0.1, 0.01}), "");
   drive.run(10.0);
   EXPECT_EQ(drive.localization.pose().status, PoseStatus::kOk);
   const Vector3d rpy = rpy_of(drive.localization.pose().T_odom_body.linear());
-  EXPECT_NEAR(rpy.x(), 0.02, 0.01) << "the attitude that was told";
+  EXPECT_NEAR(rpy.x(), 0.02, 0.01) << "configured attitude";
   EXPECT_NEAR(rpy.y(), -0.03, 0.01);
-  EXPECT_NEAR(drive.localization.pose().travelled_m, drive.driven_m(), 8.0) << "pictures come each 0.4 s";
+  EXPECT_NEAR(drive.localization.pose().travelled_m, drive.driven_m(), 8.0) << "an image every 0.4 s";
   drive.visual_on = false;
   drive.run(3.0);
   EXPECT_EQ(drive.localization.pose().status, PoseStatus::kLost);
 }
 
-TEST(Localization, RefusesVisualMotionsBeyondItsTopSpeed) {
+TEST(Localization, RejectsVisualMotionAboveMaxSpeed) {
   LocalizationConfig config;
   config.max_speed_mps = 0.1;
   SyntheticDrive drive(config, 2);
-  drive.begin();
+  drive.align_and_start();
   drive.command = [](double) { return Twist{0.2, 0.0}; };
   drive.run(6.0);
-  EXPECT_EQ(drive.localization.pose().status, PoseStatus::kDegraded) << "no visual odometry is left";
+  EXPECT_EQ(drive.localization.pose().status, PoseStatus::kDegraded) << "all visual motions are rejected";
 }
 
-TEST(Localization, LevelsToGravity) {
+TEST(Localization, StaticAlignmentFindsRollAndPitch) {
   SyntheticDrive drive({}, 3);
   drive.run(2.0);
   EXPECT_LT(attitude_error(drive), 0.003);
 }
 
-TEST(Localization, FollowsADriveOverRollingGround) {
+TEST(Localization, DriftBelowHalfPercentOverRollingGround) {
   SyntheticDrive drive({}, 1);
   drive.command = arc;
-  drive.begin();
+  drive.align_and_start();
   drive.run(300.0);
   EXPECT_GT(drive.driven_m(), 55.0);
   EXPECT_LT(position_error(drive), 0.005 * drive.driven_m());
@@ -103,11 +103,11 @@ TEST(Localization, FollowsADriveOverRollingGround) {
   EXPECT_EQ(drive.localization.pose().status, PoseStatus::kOk);
 }
 
-// Samples are measured against the tick's time: against the pose's own they would come from the future for ever.
-TEST(Localization, RecoversFromAStepOfTheClock) {
+// Sample times are compared with the tick: compared with the pose, they would stay in the future after the step.
+TEST(Localization, RecoversFromClockStep) {
   SyntheticDrive drive({}, 1);
   drive.command = arc;
-  drive.begin();
+  drive.align_and_start();
   drive.run(10.0);
   drive.step_clock(2.0);
   drive.run(3.0);
@@ -115,11 +115,11 @@ TEST(Localization, RecoversFromAStepOfTheClock) {
   EXPECT_LT(position_error(drive), 0.1);
 }
 
-TEST(Localization, VisualMotionReplacesSlippingWheels) {
+TEST(Localization, VisualOdometryCorrectsWheelSlip) {
   SyntheticDrive drive({}, 1);
   drive.command = arc;
   drive.slip = [](double) { return 0.4; };
-  drive.begin();
+  drive.align_and_start();
   drive.run(120.0);
   EXPECT_LT(position_error(drive), 0.01 * drive.driven_m());
 }
@@ -127,23 +127,23 @@ TEST(Localization, VisualMotionReplacesSlippingWheels) {
 TEST(Localization, NoDriftAtStandstill) {
   SyntheticDrive drive({}, 2);
   drive.command = [](double t) { return t < 1.5 || t > 11.5 ? Twist{} : Twist{0.2, 0.05}; };
-  drive.begin();
+  drive.align_and_start();
   drive.run(12.0);
   const Eigen::Isometry3d stopped = drive.localization.pose().T_odom_body;
   const double travelled = drive.localization.pose().travelled_m;
   drive.run(600.0);
   const Eigen::Isometry3d later = drive.localization.pose().T_odom_body;
-  // Within the noise of one alignment, however long it stands.
+  // Within the noise of one keyframe alignment, independent of the time.
   EXPECT_LT((later.translation() - stopped.translation()).norm(), 0.004);
   EXPECT_LT(std::abs(wrap_angle(yaw_of(later) - yaw_of(stopped))), 0.0005);
   EXPECT_NEAR(drive.localization.pose().travelled_m, travelled, 0.01);
 }
 
-// After each halt the body rocks, below the standstill's threshold.
-TEST(Localization, TheGyroBiasIsLearntWhenTheBodyRocksNoMore) {
+// After each stop the body rocks, below the rate threshold of standstill detection.
+TEST(Localization, GyroBiasUpdateStartsOnlyWhenBodyHasSettled) {
   SyntheticDrive drive({}, 2);
   drive.command = [](double t) { return t < 1.5 || t > 11.5 ? Twist{} : Twist{0.2, 0.0}; };
-  drive.begin();
+  drive.align_and_start();
   const auto fog_variance = [&] { return drive.localization.checkpoint()->P(kBias + 2, kBias + 2); };
   drive.run(10.0);
   const double driving = fog_variance();
@@ -153,15 +153,14 @@ TEST(Localization, TheGyroBiasIsLearntWhenTheBodyRocksNoMore) {
   EXPECT_LT(fog_variance(), 0.1 * driving);
 }
 
-// A rover that is about to go turns for some ticks before its wheels have moved far enough to tell. Taken for rest they
-// taught the gyro 2 deg/h.
-TEST(Localization, TheOnsetOfAMotionIsNoRest) {
+// The body rotates some ticks before the wheels move measurably: a bias update from them erred by 2 deg/h.
+TEST(Localization, OnsetOfMotionDoesNotBiasGyro) {
   SyntheticDrive drive({}, 2);
   const auto onset = [](double t) { return t > 30.0 && t < 30.2 ? 2e-3 : 0.0; };
-  drive.spoil_imu = [&](ImuSample& sample) {
+  drive.corrupt_imu = [&](ImuSample& sample) {
     sample.fog_delta_yaw_rad += onset(to_seconds(sample.utime)) * sample.dt_s;
   };
-  drive.begin();
+  drive.align_and_start();
   const auto fog_bias_radps = [&] { return drive.localization.checkpoint()->gyro_bias_radps.z(); };
   drive.run(28.0);
   const double before = fog_bias_radps();
@@ -169,13 +168,13 @@ TEST(Localization, TheOnsetOfAMotionIsNoRest) {
   EXPECT_NEAR(fog_bias_radps(), before, 1e-6);
 }
 
-// Slow rotation below the standstill's threshold once taught the gyro a wrong bias, and the bias moved the resting
-// rover by metres through what it is correlated with.
-TEST(Localization, WheelsThatSteerOnTheSpotAreNoStandstill) {
+// Rotation below the rate threshold must not change the gyro bias, whose correlation with position would move the
+// rover.
+TEST(Localization, SteeringOnTheSpotIsNotStandstill) {
   SyntheticDrive drive({}, 7);
   drive.command = [](double t) { return t < 1.5 || t > 501.5 ? Twist{} : Twist{0.2, 0.02 * std::sin(0.05 * t)}; };
   drive.scrub = [](double t) { return t > 505.0 && t < 510.0 ? to_rad(0.12) : 0.0; };
-  drive.begin();
+  drive.align_and_start();
   drive.run(502.0);
   const Eigen::Isometry3d before = drive.localization.pose().T_odom_body;
   const double yaw_truth = yaw_of(drive.truth_odom());
@@ -187,22 +186,22 @@ TEST(Localization, WheelsThatSteerOnTheSpotAreNoStandstill) {
   EXPECT_LT((after.translation() - before.translation()).norm(), 0.01);
 }
 
-TEST(Localization, PointTurnTurnsOnTheSpot) {
+TEST(Localization, PointTurnKeepsPosition) {
   SyntheticDrive drive({}, 4);
   drive.rolling_ground = false;
   drive.command = point_turn;
-  drive.begin();
+  drive.align_and_start();
   drive.run(31.4);
   EXPECT_LT(position_error(drive), 0.01);
   EXPECT_LT(attitude_error(drive), 0.005);
   EXPECT_LT(drive.localization.pose().travelled_m, 0.1);
 }
 
-TEST(Localization, PoseNeverJumps) {
+TEST(Localization, PublishedPoseNeverJumps) {
   SyntheticDrive drive({}, 5);
   drive.command = arc;
   drive.slip = [](double t) { return 0.2 + 0.2 * std::sin(0.5 * t); };
-  drive.begin();
+  drive.align_and_start();
   Vector3d last = drive.localization.pose().T_odom_body.translation();
   double largest = 0.0;
   drive.run(120.0, [&] {
@@ -210,15 +209,14 @@ TEST(Localization, PoseNeverJumps) {
     largest = std::max(largest, (p - last).norm());
     last = p;
   });
-  // 0.2 m/s make 4 mm a tick.
+  // 0.2 m/s are 4 mm per tick.
   EXPECT_LT(largest, 0.007);
 }
 
-// The original lost the motion of a failed frame silently.
-TEST(Localization, FailedFramesAreBridged) {
+TEST(Localization, WheelOdometryBridgesLostFrames) {
   SyntheticDrive drive({}, 6);
   drive.command = arc;
-  drive.begin();
+  drive.align_and_start();
   drive.run(20.0);
   for (int i = 0; i < 10; ++i) {
     drive.visual_lost = true;
@@ -229,23 +227,23 @@ TEST(Localization, FailedFramesAreBridged) {
   EXPECT_LT(position_error(drive), 0.01 * drive.driven_m());
 }
 
-TEST(Localization, MotionBetweenTwoKeyframesIsBridgedByWheels) {
+TEST(Localization, WheelOdometryBridgesGapBetweenKeyframes) {
   SyntheticDrive drive({}, 6);
   drive.command = arc;
-  drive.begin();
+  drive.align_and_start();
   drive.run(20.0);
-  // Visual odometry began anew after a gap: nothing spans 20.4 .. 22.4 s.
-  drive.spoil_visual = [&](VisualMotion& m) {
+  // Visual odometry restarts after a gap: no motion spans 20.4 .. 22.4 s.
+  drive.corrupt_visual = [&](VisualMotion& m) {
     if (m.previous_utime < 22'400'000 && m.utime > 20'400'000) m.status = VisualStatus::kLost;
   };
   drive.run(30.0);
   EXPECT_LT(position_error(drive), 0.015 * drive.driven_m());
 }
 
-TEST(Localization, WithoutVisualOdometryDegradesThenGetsLost) {
+TEST(Localization, MissingVisualOdometryDegradesThenLost) {
   SyntheticDrive drive({}, 7);
   drive.command = arc;
-  drive.begin();
+  drive.align_and_start();
   drive.run(10.0);
   const double sigma_before = std::sqrt(drive.localization.pose().cov(0, 0));
   drive.visual_on = false;
@@ -257,87 +255,86 @@ TEST(Localization, WithoutVisualOdometryDegradesThenGetsLost) {
   drive.visual_on = true;
   drive.run(1.5);
   EXPECT_EQ(drive.localization.pose().status, PoseStatus::kOk);
-  // The wheels were true, so the pose is still good, and it says how good.
+  // The wheels did not slip, so the pose is still good.
   EXPECT_LT(position_error(drive), 0.2);
 }
 
-// The original hung on a dead inertial unit.
-struct DeadImu {
+struct ImuFailure {
   const char* name;
-  std::function<void(SyntheticDrive&)> kill;
+  std::function<void(SyntheticDrive&)> inject;
 };
 
-TEST(Localization, DeadImuDegradesAndNeverHangs) {
-  const std::vector<DeadImu> deaths = {
+TEST(Localization, ImuFailureDegradesWithoutBlocking) {
+  const std::vector<ImuFailure> failures = {
       {"silent", [](SyntheticDrive& d) { d.imu_on = false; }},
       {"frozen",
        [](SyntheticDrive& d) {
-         d.spoil_imu = [](ImuSample& s) {
+         d.corrupt_imu = [](ImuSample& s) {
            s.delta_angle_rad = Vector3d(0.001, 0.0, 0.002);
            s.delta_velocity_mps = Vector3d(0.0, 0.0, 0.0742);
          };
        }},
-      {"nan", [](SyntheticDrive& d) { d.spoil_imu = [](ImuSample& s) { s.delta_angle_rad.x() = kNaN; }; }},
-      {"fault", [](SyntheticDrive& d) { d.spoil_imu = [](ImuSample& s) { s.healthy = false; }; }},
+      {"nan", [](SyntheticDrive& d) { d.corrupt_imu = [](ImuSample& s) { s.delta_angle_rad.x() = kNaN; }; }},
+      {"fault", [](SyntheticDrive& d) { d.corrupt_imu = [](ImuSample& s) { s.healthy = false; }; }},
   };
-  for (const DeadImu& death : deaths) {
+  for (const ImuFailure& failure : failures) {
     SyntheticDrive drive({}, 8);
     drive.command = arc;
-    drive.begin();
+    drive.align_and_start();
     drive.run(20.0);
-    death.kill(drive);
+    failure.inject(drive);
     drive.run(5.0);
     const PoseEstimate& pose = drive.localization.pose();
-    EXPECT_EQ(pose.status, PoseStatus::kDegraded) << death.name;
-    EXPECT_EQ(pose.utime, drive.now()) << death.name;
-    EXPECT_LT(position_error(drive), 0.1) << death.name;
-    EXPECT_LT(attitude_error(drive), 0.03) << death.name;
+    EXPECT_EQ(pose.status, PoseStatus::kDegraded) << failure.name;
+    EXPECT_EQ(pose.utime, drive.now()) << failure.name;
+    EXPECT_LT(position_error(drive), 0.1) << failure.name;
+    EXPECT_LT(attitude_error(drive), 0.03) << failure.name;
     drive.run(6.0);
-    EXPECT_EQ(pose.status, PoseStatus::kLost) << death.name;
+    EXPECT_EQ(pose.status, PoseStatus::kLost) << failure.name;
     drive.imu_on = true;
-    drive.spoil_imu = [](ImuSample&) {};
+    drive.corrupt_imu = [](ImuSample&) {};
     drive.run(1.0);
-    EXPECT_EQ(pose.status, PoseStatus::kOk) << death.name;
+    EXPECT_EQ(pose.status, PoseStatus::kOk) << failure.name;
   }
 }
 
-TEST(Localization, LyingGyroIsFoundOutByImages) {
+TEST(Localization, WrongGyroIsDetectedByVisualOdometry) {
   SyntheticDrive drive({}, 9);
   drive.command = arc;
-  drive.begin();
+  drive.align_and_start();
   drive.run(20.0);
-  drive.spoil_imu = [](ImuSample& s) { s.fog_delta_yaw_rad += 0.1 * s.dt_s; };
+  drive.corrupt_imu = [](ImuSample& s) { s.fog_delta_yaw_rad += 0.1 * s.dt_s; };
   drive.run(8.0);
   EXPECT_EQ(drive.localization.pose().status, PoseStatus::kDegraded);
   drive.run(20.0);
-  // Five conflicts of 0.4 s at 0.1 rad/s went by before.
+  // Detection takes five conflicts of 0.4 s at 0.1 rad/s.
   EXPECT_LT(attitude_error(drive), 0.35);
-  const double lost_by_then = attitude_error(drive);
+  const double error_at_detection = attitude_error(drive);
   drive.run(20.0);
-  EXPECT_NEAR(attitude_error(drive), lost_by_then, 0.05);
+  EXPECT_NEAR(attitude_error(drive), error_at_detection, 0.05);
 }
 
-TEST(Localization, OneOddVisualMotionIsRefused) {
+TEST(Localization, SingleVisualOutlierIsRejected) {
   SyntheticDrive drive({}, 10);
   drive.command = arc;
-  drive.begin();
+  drive.align_and_start();
   drive.run(20.0);
   bool once = true;
-  drive.spoil_visual = [&](VisualMotion& m) {
+  drive.corrupt_visual = [&](VisualMotion& m) {
     if (!once) return;
     once = false;
     m.T_prev_cur.linear() = m.T_prev_cur.linear() * exp_so3(Vector3d(0.0, 0.0, 0.2));
   };
   drive.run(5.0);
-  EXPECT_EQ(drive.localization.conflicts(), 1);
+  EXPECT_EQ(drive.localization.gyro_conflicts(), 1);
   EXPECT_LT(position_error(drive), 0.05);
   EXPECT_LT(attitude_error(drive), 0.01);
 }
 
-TEST(Localization, WithoutWheelsLivesOnImages) {
+TEST(Localization, VisualOdometryBridgesMissingWheels) {
   SyntheticDrive drive({}, 11);
   drive.command = arc;
-  drive.begin();
+  drive.align_and_start();
   drive.run(20.0);
   drive.wheels_on = false;
   drive.run(20.0);
@@ -348,58 +345,58 @@ TEST(Localization, WithoutWheelsLivesOnImages) {
   EXPECT_EQ(drive.localization.pose().status, PoseStatus::kLost);
 }
 
-TEST(Localization, UnusableInputIsRefusedAndChangesNothing) {
+TEST(Localization, InvalidInputIsRejectedAndChangesNothing) {
   SyntheticDrive clean({}, 12);
   SyntheticDrive dirty({}, 12);
   for (SyntheticDrive* drive : {&clean, &dirty}) {
     drive->command = arc;
-    drive->begin();
+    drive->align_and_start();
     drive->run(5.0);
   }
   dirty.run(5.0, [&] {
     ImuSample imu;
     imu.utime = dirty.now() + 1;
     imu.dt_s = kNaN;
-    EXPECT_NE(dirty.localization.take_imu(imu), "");
+    EXPECT_NE(dirty.localization.add_imu(imu), "");
     imu.dt_s = 0.02;
     imu.utime = dirty.now();
-    EXPECT_NE(dirty.localization.take_imu(imu), "");  // not newer
+    EXPECT_NE(dirty.localization.add_imu(imu), "");  // not newer
     imu.utime = dirty.now() + 3'600'000'000;
-    EXPECT_NE(dirty.localization.take_imu(imu), "");  // from the future
+    EXPECT_NE(dirty.localization.add_imu(imu), "");  // from the future
     WheelSample wheels;
     wheels.utime = dirty.now() + 1;
     wheels.drive_angle_rad[3] = kInfinity;
-    EXPECT_NE(dirty.localization.take_wheels(wheels), "");
+    EXPECT_NE(dirty.localization.add_wheels(wheels), "");
     VisualMotion visual;
     visual.utime = dirty.now();
     visual.previous_utime = dirty.now() - 400'000;
     visual.keyframe_utime = visual.previous_utime;
     visual.status = VisualStatus::kOk;
-    EXPECT_NE(dirty.localization.take_visual(visual), "");  // NaN motion
-    EXPECT_NE(dirty.localization.take_start_pose({Vector3d(kNaN, 0.0, 0.0), 0.0, 0.1, 0.1}), "");
+    EXPECT_NE(dirty.localization.add_visual_motion(visual), "");  // NaN motion
+    EXPECT_NE(dirty.localization.set_start_pose({Vector3d(kNaN, 0.0, 0.0), 0.0, 0.1, 0.1}), "");
   });
   clean.run(5.0);
   EXPECT_EQ(clean.localization.pose().T_odom_body.matrix(), dirty.localization.pose().T_odom_body.matrix());
 }
 
-TEST(Localization, LateVisualMotionGivesWhatAPromptOneGives) {
-  // The estimate long after a stop does not depend on how late the motions came.
+TEST(Localization, VisualLatencyDoesNotChangeEstimate) {
+  // Checked long after a stop, when all motions have arrived.
   SyntheticDrive drive({}, 13);
   drive.command = [](double t) { return t < 1.5 || t > 21.5 ? Twist{} : Twist{0.2, 0.1}; };
   drive.slip = [](double) { return 0.3; };
-  drive.begin();
+  drive.align_and_start();
   drive.run(24.0);
   EXPECT_LT(position_error(drive), 0.02);
 }
 
-TEST(Localization, SlipIsSeenInStraightDriveTurnAndStop) {
+TEST(Localization, SlipRatioInDriveAndStop) {
   SyntheticDrive drive({}, 14);
   drive.command = [](double t) {
     if (t < 1.5 || (t > 20.0 && t < 30.0)) return Twist{};
     return Twist{0.2, 0.05};
   };
   drive.slip = [](double) { return 0.3; };
-  drive.begin();
+  drive.align_and_start();
   drive.run(15.0);
   const Slip driving = drive.localization.slip();
   EXPECT_TRUE(driving.valid);
@@ -407,30 +404,30 @@ TEST(Localization, SlipIsSeenInStraightDriveTurnAndStop) {
   EXPECT_NEAR(driving.wheel_mps, 0.2, 0.01);
   EXPECT_NEAR(driving.visual_mps, 0.14, 0.01);
   EXPECT_NEAR(driving.commanded_mps, 0.2, 0.01);
-  drive.run(11.0);  // stands for 7.5 s: the window holds no motion
-  const Slip standing = drive.localization.slip();
-  EXPECT_FALSE(standing.valid);
-  EXPECT_TRUE(std::isnan(standing.slip_ratio));
-  EXPECT_NEAR(standing.wheel_mps, 0.0, 1e-3);
+  drive.run(11.0);  // stationary for 7.5 s: no motion in the window
+  const Slip stationary = drive.localization.slip();
+  EXPECT_FALSE(stationary.valid);
+  EXPECT_TRUE(std::isnan(stationary.slip_ratio));
+  EXPECT_NEAR(stationary.wheel_mps, 0.0, 1e-3);
   drive.run(5.0);
   EXPECT_TRUE(drive.localization.slip().valid);
   EXPECT_NEAR(drive.localization.slip().slip_ratio, 0.3, 0.05);
 }
 
-TEST(Localization, SlipIsValidInAPointTurn) {
+TEST(Localization, SlipIsValidInPointTurn) {
   SyntheticDrive drive({}, 15);
   drive.rolling_ground = false;
   drive.command = point_turn;
-  drive.begin();
+  drive.align_and_start();
   drive.run(10.0);
   EXPECT_TRUE(drive.localization.slip().valid);
   EXPECT_NEAR(drive.localization.slip().slip_ratio, 0.0, 0.05);
 }
 
-TEST(Localization, SlipBecomesInvalidWithoutVisualOdometry) {
+TEST(Localization, SlipIsInvalidWithoutVisualOdometry) {
   SyntheticDrive drive({}, 16);
   drive.command = arc;
-  drive.begin();
+  drive.align_and_start();
   drive.run(10.0);
   EXPECT_TRUE(drive.localization.slip().valid);
   drive.visual_on = false;
@@ -439,8 +436,8 @@ TEST(Localization, SlipBecomesInvalidWithoutVisualOdometry) {
   EXPECT_TRUE(std::isnan(drive.localization.slip().slip_ratio));
 }
 
-// 0.4 s before the pose; yaw to 0.01 rad.
-MapMeasurement measured_off(const PoseEstimate& pose, double x_m, double yaw_rad, double sigma_m) {
+// Measured 0.4 s before the pose, with a yaw sigma of 0.01 rad.
+MapMeasurement offset_measurement(const PoseEstimate& pose, double x_m, double yaw_rad, double sigma_m) {
   MapMeasurement m;
   m.utime = pose.utime - 400'000;
   m.T_map_odom = planar(pose.T_map_odom);
@@ -453,31 +450,31 @@ MapMeasurement measured_off(const PoseEstimate& pose, double x_m, double yaw_rad
 TEST(Localization, CorrectionMovesMapAgainstOdom) {
   SyntheticDrive drive({}, 17);
   drive.command = arc;
-  drive.begin(0.5, 0.05);
+  drive.align_and_start(0.5, 0.05);
   drive.run(20.0);
   const PoseEstimate before = drive.localization.pose();
-  MapMeasurement m = measured_off(before, 0.4, 0.02, 0.1);
-  EXPECT_EQ(drive.localization.take_correction(m), "");
+  MapMeasurement m = offset_measurement(before, 0.4, 0.02, 0.1);
+  EXPECT_EQ(drive.localization.apply_correction(m), "");
   drive.run(0.02);
   const PoseEstimate after = drive.localization.pose();
   EXPECT_LT((after.T_odom_body.translation() - before.T_odom_body.translation()).norm(), 0.006);
   EXPECT_GT((after.T_map_odom.translation() - before.T_map_odom.translation()).norm(), 0.2);
   EXPECT_LT(after.cov(0, 0), before.cov(0, 0));
-  EXPECT_NE(drive.localization.take_correction(m), "") << "the same again";
+  EXPECT_NE(drive.localization.apply_correction(m), "") << "repeated";
   m.utime += 200'000;
   m.T_map_odom.x_m += 30.0;
-  EXPECT_NE(drive.localization.take_correction(m), "") << "beyond the gate";
+  EXPECT_NE(drive.localization.apply_correction(m), "") << "outside the gate";
 }
 
-// global_localization looks 12 m far whatever the pose believes; what it finds is taken, and the covariance owns up.
-TEST(Localization, ACorrectionBeyondThePosesCovarianceIsTakenAsFarAsTheWindowGoes) {
+// The search window of global_localization is 12 m, independent of the pose's covariance, which must then grow.
+TEST(Localization, CorrectionOutsideGateIsAcceptedWithInflatedCovariance) {
   SyntheticDrive drive({}, 17);
   drive.command = arc;
-  drive.begin(0.1, 0.005);
+  drive.align_and_start(0.1, 0.005);
   drive.run(20.0);
   const PoseEstimate before = drive.localization.pose();
   ASSERT_LT(std::sqrt(before.cov(0, 0)), 0.5);
-  EXPECT_EQ(drive.localization.take_correction(measured_off(before, 6.0, 0.0, 0.3)), "");
+  EXPECT_EQ(drive.localization.apply_correction(offset_measurement(before, 6.0, 0.0, 0.3)), "");
   drive.run(0.02);
   const PoseEstimate after = drive.localization.pose();
   EXPECT_NEAR(after.T_map_odom.translation().x(), before.T_map_odom.translation().x() + 6.0, 0.2);
@@ -485,11 +482,11 @@ TEST(Localization, ACorrectionBeyondThePosesCovarianceIsTakenAsFarAsTheWindowGoe
   EXPECT_LT(std::sqrt(after.cov(0, 0)), 0.4);
 }
 
-TEST(Localization, SlamMovesTheMapSlowly) {
+TEST(Localization, SlamMovesMapAtBoundedRate) {
   LocalizationConfig config;
   SyntheticDrive drive(config, 18);
   drive.command = arc;
-  drive.begin(0.5, 0.05);
+  drive.align_and_start(0.5, 0.05);
   drive.run(20.0);
   const PoseEstimate before = drive.localization.pose();
   MapMeasurement m;
@@ -497,7 +494,7 @@ TEST(Localization, SlamMovesTheMapSlowly) {
   m.T_map_odom = planar(before.T_map_odom);
   m.T_map_odom.x_m += 0.3;
   m.cov = Vector3d(1e-6, 1e-6, 1e-8).asDiagonal();
-  ASSERT_EQ(drive.localization.take_slam(m), "");
+  ASSERT_EQ(drive.localization.add_slam_pose(m), "");
   Eigen::Isometry3d last = before.T_map_odom * before.T_odom_body;
   drive.run(20.0, [&] {
     const PoseEstimate& pose = drive.localization.pose();
@@ -509,20 +506,21 @@ TEST(Localization, SlamMovesTheMapSlowly) {
   EXPECT_NEAR(moved.x(), 0.3, 0.02);
 }
 
-TEST(Localization, GoesOnFromItsCheckpoint) {
+TEST(Localization, ContinuesFromCheckpoint) {
   SyntheticDrive drive({}, 19);
   drive.command = [](double t) { return t < 1.5 || t > 21.5 ? Twist{} : Twist{0.2, 0.05}; };
-  drive.begin();
+  drive.align_and_start();
   drive.run(10.0);
   const auto bytes = to_bytes(*drive.localization.checkpoint());
   const PoseEstimate before = drive.localization.pose();
-  drive.run(1.0, [&] {});  // the process is dead
+  drive.run(1.0, [&] {});  // the process is down
   const auto checkpoint = from_bytes(bytes);
   ASSERT_TRUE(checkpoint.has_value());
   drive.localization = Localization(LocalizationConfig{}, test_vehicle());
   drive.localization.restore(*checkpoint);
   drive.run(0.1);
-  EXPECT_GE(drive.localization.pose().last_vo_utime, before.last_vo_utime) << "else vo_age stops the rover";
+  EXPECT_GE(drive.localization.pose().last_vo_utime, before.last_vo_utime)
+      << "otherwise the vo_age fault stops the rover";
   drive.run(4.9);
   const PoseEstimate after = drive.localization.pose();
   EXPECT_EQ(after.status, PoseStatus::kOk);
@@ -531,12 +529,12 @@ TEST(Localization, GoesOnFromItsCheckpoint) {
   EXPECT_LT(position_error(drive), 0.05);
 }
 
-TEST(Localization, SameInputsSameBytes) {
+TEST(Localization, SameInputsGiveSameBytes) {
   SyntheticDrive a({}, 20);
   SyntheticDrive b({}, 20);
   for (SyntheticDrive* drive : {&a, &b}) {
     drive->command = arc;
-    drive->begin();
+    drive->align_and_start();
     drive->run(20.0);
   }
   EXPECT_EQ(to_bytes(*a.localization.checkpoint()), to_bytes(*b.localization.checkpoint()));

@@ -7,14 +7,14 @@ namespace {
 
 using Eigen::Vector3d;
 
-ErrorCov wide() {
+ErrorCov wide_cov() {
   ErrorCov P = ErrorCov::Identity() * 1e-4;
   P(kPosition, kPosition) = P(kPosition + 1, kPosition + 1) = 1.0;
   P(kAttitude + 2, kAttitude + 2) = 0.01;
   return P;
 }
 
-TEST(MapAlignment, StartPosePutsTheBodyWhereTheGroundSays) {
+TEST(MapAlignment, StartPosePlacesBodyInMap) {
   MapAlignment map({});
   const Eigen::Isometry3d T_odom_body = make_pose(rotation_from_rpy(0.1, 0.2, 0.7), {1.0, 2.0, 3.0});
   map.set_start({{100.0, 50.0, 10.0}, -2.0, 0.1, 0.1}, T_odom_body);
@@ -26,8 +26,8 @@ TEST(MapAlignment, StartPosePutsTheBodyWhereTheGroundSays) {
   EXPECT_NEAR(rpy.y(), 0.2, 1e-12);
 }
 
-// The original turned a correction in map by the rover's heading, and moved a perfect rover by 14 m.
-TEST(MapAlignment, CorrectionIsNotTurnedByTheHeading) {
+// A correction is in map axes, independent of the rover's heading.
+TEST(MapAlignment, CorrectionIsIndependentOfHeading) {
   for (double yaw : {0.0, 1.0, -2.5, 3.1}) {
     MapAlignment map({});
     const Eigen::Isometry3d T_odom_body = make_pose(rotation_from_rpy(0.0, 0.0, yaw), {20.0, -5.0, 0.0});
@@ -36,19 +36,19 @@ TEST(MapAlignment, CorrectionIsNotTurnedByTheHeading) {
     m.utime = 1;
     m.T_map_odom = planar(map.T_map_odom());
     m.cov = Vector3d(1e-9, 1e-9, 1e-11).asDiagonal();
-    ASSERT_EQ(map.take_correction(m, T_odom_body, wide()), "");
+    ASSERT_EQ(map.apply_correction(m, T_odom_body, wide_cov()), "");
     EXPECT_LT(((map.T_map_odom() * T_odom_body).translation() - Vector3d(100.0, 50.0, 0.0)).norm(), 1e-9)
         << "nothing to correct";
     m.utime = 2;
     m.T_map_odom.x_m += 1.0;
     m.T_map_odom.y_m -= 0.5;
-    ASSERT_EQ(map.take_correction(m, T_odom_body, wide()), "");
+    ASSERT_EQ(map.apply_correction(m, T_odom_body, wide_cov()), "");
     const Vector3d p = (map.T_map_odom() * T_odom_body).translation();
     EXPECT_LT((p - Vector3d(101.0, 49.5, 0.0)).norm(), 1e-6);
   }
 }
 
-TEST(MapAlignment, TakesAsMuchAsTheCovariancesSay) {
+TEST(MapAlignment, KalmanGainFollowsCovariances) {
   MapAlignment map({});
   const Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
   map.set_start({{0.0, 0.0, 0.0}, 0.0, 0.1, 0.1}, T);
@@ -56,32 +56,32 @@ TEST(MapAlignment, TakesAsMuchAsTheCovariancesSay) {
   m.utime = 1;
   m.T_map_odom.x_m = 1.0;
   m.cov = Vector3d(1.0, 1.0, 0.01).asDiagonal();
-  ASSERT_EQ(map.take_correction(m, T, wide()), "");
+  ASSERT_EQ(map.apply_correction(m, T, wide_cov()), "");
   EXPECT_NEAR(map.T_map_odom().translation().x(), 0.5, 1e-9);
-  const ErrorCov P = map.updated(wide(), m.cov);
+  const ErrorCov P = map.updated_cov(wide_cov(), m.cov);
   EXPECT_NEAR(P(kPosition, kPosition), 0.5, 1e-9);
   EXPECT_NEAR(P(kBias, kBias), 1e-4, 1e-12);
 }
 
-TEST(MapAlignment, RefusesOutliersAndOldOnes) {
+TEST(MapAlignment, RejectsOutliersAndOldMeasurements) {
   MapAlignment map({});
   const Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
   MapMeasurement m;
   m.utime = 10;
   m.cov = Vector3d(1e-4, 1e-4, 1e-4).asDiagonal();
-  EXPECT_NE(map.take_correction(m, T, wide()), "") << "no start pose";
+  EXPECT_NE(map.apply_correction(m, T, wide_cov()), "") << "no start pose";
   map.set_start({{0.0, 0.0, 0.0}, 0.0, 0.1, 0.1}, T);
   m.T_map_odom.x_m = 10.0;
-  EXPECT_NE(map.take_correction(m, T, wide()), "") << "ten sigma";
+  EXPECT_NE(map.apply_correction(m, T, wide_cov()), "") << "ten sigma";
   EXPECT_EQ(map.T_map_odom().translation().x(), 0.0);
   m.T_map_odom.x_m = 0.1;
-  EXPECT_EQ(map.take_correction(m, T, wide()), "");
+  EXPECT_EQ(map.apply_correction(m, T, wide_cov()), "");
   m.utime = 5;
-  EXPECT_NE(map.take_correction(m, T, wide()), "") << "older";
-  EXPECT_NE(map.take_slam(m, T, wide()), "") << "older than the correction";
+  EXPECT_NE(map.apply_correction(m, T, wide_cov()), "") << "older";
+  EXPECT_NE(map.add_slam_pose(m, T, wide_cov()), "") << "older than the correction";
 }
 
-TEST(MapAlignment, SlamMovesAtItsRate) {
+TEST(MapAlignment, SlamMovesMapAtBoundedRate) {
   MapAlignment map({});
   const Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
   map.set_start({{0.0, 0.0, 0.0}, 0.0, 0.1, 0.1}, T);
@@ -89,7 +89,7 @@ TEST(MapAlignment, SlamMovesAtItsRate) {
   m.utime = 1;
   m.T_map_odom.x_m = 0.1;
   m.cov = Vector3d(1e-9, 1e-9, 1e-9).asDiagonal();
-  ASSERT_EQ(map.take_slam(m, T, wide()), "");
+  ASSERT_EQ(map.add_slam_pose(m, T, wide_cov()), "");
   EXPECT_EQ(map.T_map_odom().translation().x(), 0.0);
   map.step(1.0, T);
   EXPECT_NEAR(map.T_map_odom().translation().x(), 0.02, 1e-9);

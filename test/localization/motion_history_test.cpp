@@ -15,7 +15,7 @@ MotionRecord record(Utime start, Utime end) {
   return r;
 }
 
-TEST(MotionHistory, CutsTheFirstAndTheLastRecordToFit) {
+TEST(MotionHistory, SliceClipsFirstAndLastRecord) {
   MotionHistory history(60'000'000);
   history.add(record(0, 20'000));
   history.add(record(20'000, 440'000));
@@ -28,22 +28,22 @@ TEST(MotionHistory, CutsTheFirstAndTheLastRecordToFit) {
   EXPECT_DOUBLE_EQ(parts[1].wheel_motion.x(), 0.01);
 }
 
-TEST(MotionHistory, NothingIsBetweenATimeAndItself) {
+TEST(MotionHistory, EmptyIntervalGivesEmptySlice) {
   MotionHistory history(60'000'000);
   history.add(record(0, 400'000));
   EXPECT_TRUE(history.slice(200'000, 200'000).empty());
   EXPECT_TRUE(history.slice(400'000, 400'000).empty());
 }
 
-// A process that was stopped for a while makes one record of all that came meanwhile; pictures begin and end within it.
-TEST(MotionHistory, APoseOutlivesStalls) {
+// After a stall of the process one record spans all missed ticks, and visual motions start and end within it.
+TEST(MotionHistory, PoseStaysFiniteAfterStalls) {
   SyntheticDrive drive(LocalizationConfig{}, 1);
   drive.command = [](double t) { return t < 2.0 ? Twist{} : Twist{0.2, 0.0}; };
-  drive.begin();
+  drive.align_and_start();
   for (int i = 0; i < 30; ++i) {
-    drive.stalled = true;
+    drive.process_stalled = true;
     drive.run(0.42);
-    drive.stalled = false;
+    drive.process_stalled = false;
     drive.run(0.6);
     ASSERT_TRUE(is_finite(drive.localization.pose().T_odom_body)) << i;
   }

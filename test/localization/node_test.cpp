@@ -23,15 +23,15 @@ namespace {
 
 const std::string kConfig = std::string(ROVER_SOURCE_DIR) + "/config";
 
-LocalizationConfig soon_level() {
+LocalizationConfig short_alignment() {
   LocalizationConfig config = load_config(kConfig);
-  config.levelling.duration_s = 1.0;
+  config.static_alignment.duration_s = 1.0;
   return config;
 }
 
 class LocalizationNodeTest : public testing::Test {
  protected:
-  LocalizationNodeTest() : world_("localization"), node_(world_.node(), soon_level(), load_vehicle(kConfig)) {
+  LocalizationNodeTest() : world_("localization"), node_(world_.node(), short_alignment(), load_vehicle(kConfig)) {
     world_.hear(channel::kPose, poses_);
     world_.hear(channel::kSlip, slips_);
     world_.hear(channel::kCommandAck, acks_);
@@ -91,7 +91,7 @@ TEST_F(LocalizationNodeTest, PublishesPoseEachTickAndSlipTenTimesASecond) {
   EXPECT_GT(poses_.back().covariance[0], 0.0);
 }
 
-TEST_F(LocalizationNodeTest, RefusedStartPoseSaysWhy) {
+TEST_F(LocalizationNodeTest, RejectedStartPoseHasReason) {
   start_pose();
   run(0.1);
   ASSERT_EQ(acks_.size(), 1U);
@@ -104,7 +104,7 @@ TEST_F(LocalizationNodeTest, RefusedStartPoseSaysWhy) {
   EXPECT_EQ(acks_[1].accepted, 0);
 }
 
-TEST_F(LocalizationNodeTest, ASilentImuStopsNothing) {
+TEST_F(LocalizationNodeTest, MissingImuDegradesButPoseContinues) {
   run(2.0);
   start_pose();
   imu_on_ = false;
@@ -115,7 +115,7 @@ TEST_F(LocalizationNodeTest, ASilentImuStopsNothing) {
   EXPECT_NEAR(poses_.back().position_odom_body_m[0], 0.1, 0.01);
 }
 
-TEST_F(LocalizationNodeTest, UnusableInputIsCounted) {
+TEST_F(LocalizationNodeTest, InvalidInputIsCounted) {
   run(2.0);
   imu_t imu{};
   imu.dt_s = kNaN;
@@ -128,7 +128,7 @@ TEST_F(LocalizationNodeTest, UnusableInputIsCounted) {
   EXPECT_EQ(world_.malformed(channel::kVo), 1);
 }
 
-// A process of the service on a bus of its own, with a run folder.
+// The service on its own bus, with a run folder.
 class Process {
  public:
   Process(const std::string& folder, std::int64_t boot_id, Utime now, double angle)
@@ -139,7 +139,7 @@ class Process {
         node_({.name = "localization", .boot_id = boot_id, .run_dir = folder}, bus_) {
     hear(channel::kPose, poses);
     hear(channel::kServiceState, states);
-    service_ = std::make_unique<LocalizationNode>(node_, soon_level(), load_vehicle(kConfig));
+    service_ = std::make_unique<LocalizationNode>(node_, short_alignment(), load_vehicle(kConfig));
   }
 
   void run(double seconds, double speed_mps = 0.0) {
@@ -197,7 +197,7 @@ class Process {
   std::normal_distribution<double> normal_;
 };
 
-TEST(LocalizationCheckpoint, ANewProcessGoesOnWhereTheOldOneStopped) {
+TEST(LocalizationCheckpoint, NewProcessContinuesFromCheckpoint) {
   const std::string folder = testing::TempDir() + "/localization_checkpoint";
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
@@ -211,7 +211,7 @@ TEST(LocalizationCheckpoint, ANewProcessGoesOnWhereTheOldOneStopped) {
   first.send(channel::kGroundCommand, command);
   first.run(5.0, 0.2);
   ASSERT_TRUE(first.states.empty());
-  // Dead for a second, in which the rover rolls on for 0.1 m.
+  // Down for 1 s, during which the rover rolls 0.1 m.
   Process second(folder, 2, first.now() + 1'000'000, first.angle() + 0.1 / 0.125);
   second.run(1.0);
   ASSERT_EQ(second.states.size(), 1U);
@@ -221,16 +221,16 @@ TEST(LocalizationCheckpoint, ANewProcessGoesOnWhereTheOldOneStopped) {
   EXPECT_NEAR(second.poses.back().position_odom_body_m[0], first.poses.back().position_odom_body_m[0] + 0.1, 0.01);
 }
 
-TEST(LocalizationConfigFile, HasTheStructsDefaults) {
+TEST(LocalizationConfigFile, MatchesDefaults) {
   const LocalizationConfig file = load_config(kConfig);
   const LocalizationConfig defaults;
   EXPECT_EQ(file.filter.visual_scale_sigma, defaults.filter.visual_scale_sigma);
   EXPECT_EQ(file.filter.visual_cov_factor, defaults.filter.visual_cov_factor);
   EXPECT_EQ(file.filter.fog_bias_sigma_radps, defaults.filter.fog_bias_sigma_radps);
-  EXPECT_EQ(file.levelling.duration_s, defaults.levelling.duration_s);
-  EXPECT_EQ(file.standing_rate_radps, defaults.standing_rate_radps);
+  EXPECT_EQ(file.static_alignment.duration_s, defaults.static_alignment.duration_s);
+  EXPECT_EQ(file.stationary_rate_radps, defaults.stationary_rate_radps);
   EXPECT_EQ(file.slip.window_s, defaults.slip.window_s);
-  EXPECT_EQ(file.blind_distance_m, defaults.blind_distance_m);
+  EXPECT_EQ(file.max_dead_reckoned_m, defaults.max_dead_reckoned_m);
 }
 
 }  // namespace

@@ -13,13 +13,13 @@ MotionRecord tick(Utime end, double speed_mps) {
   MotionRecord r;
   r.start = end - kTickUs;
   r.end = end;
-  r.wheels = true;
-  r.turned_rad.fill(speed_mps * 0.02 / 0.125);
+  r.wheels_valid = true;
+  r.wheel_turn_rad.fill(speed_mps * 0.02 / 0.125);
   r.commanded_path_m = speed_mps * 0.02;
   return r;
 }
 
-// Drives at a wheel speed and a visual speed from `from` on.
+// Drives with constant wheel and visual speed, starting at `from`.
 void drive(SlipMonitor& monitor, Utime from, double seconds, double wheel_mps, double visual_mps) {
   std::vector<MotionRecord> interval;
   for (Utime t = from + kTickUs; t <= from + to_utime(seconds); t += kTickUs) {
@@ -31,29 +31,29 @@ void drive(SlipMonitor& monitor, Utime from, double seconds, double wheel_mps, d
   }
 }
 
-TEST(SlipMonitor, RatioOfTheWindow) {
+TEST(SlipMonitor, SlipRatioOfWindow) {
   SlipMonitor monitor({}, WheelOdometry(test_vehicle()));
   drive(monitor, 0, 10.0, 0.2, 0.05);
   const Slip slip = monitor.slip(10'000'000);
   EXPECT_TRUE(slip.valid);
   EXPECT_NEAR(slip.slip_ratio, 0.75, 1e-9);
   EXPECT_NEAR(slip.window_s, 5.0, 1e-9);
-  EXPECT_NEAR(monitor.grip(), 0.25, 1e-9);
+  EXPECT_NEAR(monitor.traction(), 0.25, 1e-9);
 }
 
-TEST(SlipMonitor, SlidingDownhillOnTurningWheelsIsNegative) {
+TEST(SlipMonitor, SlidingDownhillGivesNegativeSlip) {
   SlipMonitor monitor({}, WheelOdometry(test_vehicle()));
   drive(monitor, 0, 10.0, 0.1, 0.15);
   EXPECT_NEAR(monitor.slip(10'000'000).slip_ratio, -0.5, 1e-9);
 }
 
-TEST(SlipMonitor, StuckWheelsShowAsFullSlip) {
+TEST(SlipMonitor, StuckRoverGivesFullSlip) {
   SlipMonitor monitor({}, WheelOdometry(test_vehicle()));
   drive(monitor, 0, 10.0, 0.2, 0.0);
   EXPECT_NEAR(monitor.slip(10'000'000).slip_ratio, 1.0, 1e-9);
 }
 
-// The original's buffer froze at standstill, and its slip stop never cleared.
+// Otherwise a slip stop would never clear.
 TEST(SlipMonitor, WindowEmptiesAtStandstill) {
   SlipMonitor monitor({}, WheelOdometry(test_vehicle()));
   drive(monitor, 0, 10.0, 0.2, 0.0);
@@ -66,8 +66,9 @@ TEST(SlipMonitor, WindowEmptiesAtStandstill) {
   EXPECT_EQ(slip.commanded_mps, 0.0);
 }
 
-// Over an arc, as wheels and images see it, with a drift to the left for each metre rolled.
-double side_slip_on_arc(double speed_mps, double yaw_rate_radps, double aside_per_m, double wheels_aside_per_m = 0.0) {
+// On an arc with a lateral drift to the left for each metre rolled.
+double side_slip_on_arc(double speed_mps, double yaw_rate_radps, double lateral_per_m,
+                        double wheel_lateral_per_m = 0.0) {
   SlipMonitor monitor({}, WheelOdometry(test_vehicle()));
   constexpr double kIntervalS = 0.4;
   Utime t = 0;
@@ -75,28 +76,28 @@ double side_slip_on_arc(double speed_mps, double yaw_rate_radps, double aside_pe
     std::vector<MotionRecord> interval;
     for (int k = 0; k < 20; ++k) {
       interval.push_back(tick(t += kTickUs, speed_mps));
-      interval.back().wheel_motion = {speed_mps * 0.02, wheels_aside_per_m * std::abs(speed_mps) * 0.02,
+      interval.back().wheel_motion = {speed_mps * 0.02, wheel_lateral_per_m * std::abs(speed_mps) * 0.02,
                                       yaw_rate_radps * 0.02};
       monitor.add(interval.back());
     }
     const double half = 0.5 * yaw_rate_radps * kIntervalS;
     const double chord = speed_mps * kIntervalS * std::sin(half) / half;
-    const double aside = aside_per_m * std::abs(speed_mps) * kIntervalS;
-    monitor.add_visual(interval, {chord * std::cos(half) - aside * std::sin(half),
-                                  chord * std::sin(half) + aside * std::cos(half), 2.0 * half});
+    const double lateral = lateral_per_m * std::abs(speed_mps) * kIntervalS;
+    monitor.add_visual(interval, {chord * std::cos(half) - lateral * std::sin(half),
+                                  chord * std::sin(half) + lateral * std::cos(half), 2.0 * half});
   }
   return monitor.side_slip();
 }
 
-TEST(SlipMonitor, SideSlipIsWhatWheelsAndBendDoNotExplain) {
+TEST(SlipMonitor, SideSlipExcludesWheelOdometryAndCurvature) {
   EXPECT_NEAR(side_slip_on_arc(0.2, 0.15, 0.0), 0.0, 1e-9);
   EXPECT_NEAR(side_slip_on_arc(0.2, -0.15, 0.09), 0.09, 1e-9);
-  EXPECT_NEAR(side_slip_on_arc(-0.2, 0.15, 0.09), 0.09, 1e-9) << "downhill, whichever way it rolls";
-  EXPECT_NEAR(side_slip_on_arc(0.2, 0.15, 0.09, 0.03), 0.06, 1e-4) << "what the wheels tell is no slip";
-  EXPECT_NEAR(side_slip_on_arc(0.02, 0.15, 0.09), 0.09 * 0.04 / 0.15, 1e-4) << "little way is little told";
+  EXPECT_NEAR(side_slip_on_arc(-0.2, 0.15, 0.09), 0.09, 1e-9) << "same sign forward and backward";
+  EXPECT_NEAR(side_slip_on_arc(0.2, 0.15, 0.09, 0.03), 0.06, 1e-4) << "lateral wheel odometry is not slip";
+  EXPECT_NEAR(side_slip_on_arc(0.02, 0.15, 0.09), 0.09 * 0.04 / 0.15, 1e-4) << "small over a short distance";
 }
 
-TEST(SlipMonitor, NothingKnownIsNotZeroSlip) {
+TEST(SlipMonitor, UnknownSlipIsNotZero) {
   const SlipMonitor monitor({}, WheelOdometry(test_vehicle()));
   EXPECT_FALSE(monitor.slip(0).valid);
   EXPECT_TRUE(std::isnan(monitor.slip(0).slip_ratio));

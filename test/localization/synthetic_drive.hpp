@@ -1,4 +1,4 @@
-// A rover that drives over rolling ground, with IMU, wheels and visual odometry made from its exact motion. Seeded.
+// Synthetic drive over rolling ground: seeded noisy IMU, wheel and visual odometry from the exact motion.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -32,15 +32,15 @@ struct DriveNoise {
   double encoder_rad = 1e-4;
 };
 
-// What the driver wants at a time: forward speed [m/s] and turn rate [rad/s].
+// Commanded forward speed and yaw rate.
 struct Twist {
   double speed_mps = 0.0;
   double rate_radps = 0.0;
 };
 
-// A second of standing, and what is known of the gyros after that.
-inline LocalizationConfig soon_level(LocalizationConfig config) {
-  config.levelling.duration_s = 1.0;
+// Static alignment of 1 s, with the gyro bias sigmas that it gives.
+inline LocalizationConfig short_alignment(LocalizationConfig config) {
+  config.static_alignment.duration_s = 1.0;
   config.filter.gyro_bias_sigma_radps = 8e-5;
   config.filter.fog_bias_sigma_radps = 1.5e-5;
   return config;
@@ -50,20 +50,20 @@ class SyntheticDrive {
  public:
   std::function<Twist(double)> command = [](double) { return Twist{}; };
   std::function<double(double)> slip = [](double) { return 0.0; };   // of all wheels
-  std::function<double(double)> scrub = [](double) { return 0.0; };  // turn rate while the wheels steer on the spot
+  std::function<double(double)> scrub = [](double) { return 0.0; };  // yaw rate while the wheels steer on the spot
   bool rolling_ground = true;
 
-  // What reaches localization.
+  // Inputs of localization.
   bool imu_on = true;
   bool wheels_on = true;
   bool visual_on = true;
-  bool visual_lost = false;  // pairs come, but none can be aligned
-  bool stalled = false;      // localization takes all of it later
-  std::function<void(ImuSample&)> spoil_imu = [](ImuSample&) {};
-  std::function<void(VisualMotion&)> spoil_visual = [](VisualMotion&) {};
+  bool visual_lost = false;      // every frame is lost
+  bool process_stalled = false;  // localization does not step
+  std::function<void(ImuSample&)> corrupt_imu = [](ImuSample&) {};
+  std::function<void(VisualMotion&)> corrupt_visual = [](VisualMotion&) {};
 
   SyntheticDrive(const LocalizationConfig& config, std::uint64_t seed, const DriveNoise& noise = {})
-      : localization(soon_level(config), test_vehicle()), noise_(noise), wheels_(test_vehicle()), random_(seed) {
+      : localization(short_alignment(config), test_vehicle()), noise_(noise), wheels_(test_vehicle()), random_(seed) {
     gyro_bias_ = noise.gyro_bias * normal3();
     gyro_bias_z_fog_ = noise.fog_bias * normal_(random_);
     scale_ = noise.visual_scale * normal_(random_);
@@ -71,21 +71,21 @@ class SyntheticDrive {
 
   Localization localization;
   Utime now() const { return now_; }
-  // The clock jumps ahead between two ticks; nothing moves meanwhile.
+  // The clock jumps between two ticks without motion.
   void step_clock(double seconds) { now_ += to_utime(seconds) / kTickUs * kTickUs; }
-  const Eigen::Isometry3d& truth() const { return T_; }
+  const Eigen::Isometry3d& truth() const { return T_world_body_; }
   double driven_m() const { return driven_m_; }
 
-  // Truth in odom: odom is level at the start, with the rover's heading along x.
+  // Ground truth in odom, whose z is up and whose x is the initial heading.
   Eigen::Isometry3d truth_odom() const {
     const Eigen::Isometry3d T_world_odom = make_pose(rotation_from_rpy(0.0, 0.0, yaw_of(start_)), start_.translation());
-    return T_world_odom.inverse() * T_;
+    return T_world_odom.inverse() * T_world_body_;
   }
 
-  // Stands for 1.5 s, is levelled, and gets its start pose.
-  void begin(double sigma_m = 0.1, double sigma_yaw = 0.01) {
+  // Static alignment at standstill for 1.5 s, then the start pose.
+  void align_and_start(double sigma_m = 0.1, double sigma_yaw = 0.01) {
     run(1.5);
-    localization.take_start_pose({Eigen::Vector3d(100.0, 50.0, 3.0), 0.5, sigma_m, sigma_yaw});
+    localization.set_start_pose({Eigen::Vector3d(100.0, 50.0, 3.0), 0.5, sigma_m, sigma_yaw});
   }
 
   void run(
@@ -98,7 +98,7 @@ class SyntheticDrive {
   }
 
  private:
-  struct Late {
+  struct PendingMotion {
     Utime release;
     VisualMotion motion;
   };
@@ -119,49 +119,50 @@ class SyntheticDrive {
   }
 
   void place() {
-    start_ = key_pose_ = previous_pose_ = T_ = surface_pose(0.0, 0.0, 0.0);
+    start_ = key_pose_ = previous_pose_ = T_world_body_ = surface_pose(0.0, 0.0, 0.0);
     placed_ = true;
   }
 
   void tick() {
     if (!placed_) place();
     constexpr double dt = 0.02;
-    const Eigen::Isometry3d before = T_;
+    const Eigen::Isometry3d before = T_world_body_;
     const Twist twist = command(to_seconds(now_));
-    const double gained = twist.speed_mps * (1.0 - slip(to_seconds(now_)));
-    const double scrubbed = scrub(to_seconds(now_));
-    yaw_ += (twist.rate_radps + scrubbed) * dt;
-    if (scrubbed != 0.0) scrub_steer_rad_ += 0.2 * dt;
-    const Eigen::Vector3d forward = T_.linear().col(0) * gained * dt;
-    T_ = surface_pose(T_.translation().x() + forward.x(), T_.translation().y() + forward.y(), yaw_);
-    driven_m_ += (T_.translation() - before.translation()).norm();
+    const double ground_speed_mps = twist.speed_mps * (1.0 - slip(to_seconds(now_)));
+    const double scrub_radps = scrub(to_seconds(now_));
+    yaw_ += (twist.rate_radps + scrub_radps) * dt;
+    if (scrub_radps != 0.0) scrub_steer_rad_ += 0.2 * dt;
+    const Eigen::Vector3d forward = T_world_body_.linear().col(0) * ground_speed_mps * dt;
+    T_world_body_ = surface_pose(T_world_body_.translation().x() + forward.x(),
+                                 T_world_body_.translation().y() + forward.y(), yaw_);
+    driven_m_ += (T_world_body_.translation() - before.translation()).norm();
     now_ += kTickUs;
     make_imu(before, dt);
     make_wheels(twist, dt);
     if (now_ % 400'000 == 0) make_visual();
-    while (!late_.empty() && late_.front().release <= now_) {
-      localization.take_visual(late_.front().motion);
-      late_.pop_front();
+    while (!pending_.empty() && pending_.front().release <= now_) {
+      localization.add_visual_motion(pending_.front().motion);
+      pending_.pop_front();
     }
-    if (!stalled) localization.step(now_);
+    if (!process_stalled) localization.step(now_);
   }
 
   void make_imu(const Eigen::Isometry3d& before, double dt) {
     ImuSample s;
     s.utime = now_;
     s.dt_s = dt;
-    const Eigen::Vector3d turned = log_so3(before.linear().transpose() * T_.linear());
-    s.delta_angle_rad = turned + gyro_bias_ * dt + noise_.gyro * std::sqrt(dt) * normal3();
-    s.fog_delta_yaw_rad = turned.z() + gyro_bias_z_fog_ * dt + noise_.fog * std::sqrt(dt) * normal();
-    const Eigen::Vector3d velocity = (T_.translation() - before.translation()) / dt;
+    const Eigen::Vector3d rotation = log_so3(before.linear().transpose() * T_world_body_.linear());
+    s.delta_angle_rad = rotation + gyro_bias_ * dt + noise_.gyro * std::sqrt(dt) * normal3();
+    s.fog_delta_yaw_rad = rotation.z() + gyro_bias_z_fog_ * dt + noise_.fog * std::sqrt(dt) * normal();
+    const Eigen::Vector3d velocity = (T_world_body_.translation() - before.translation()) / dt;
     const Eigen::Vector3d force = (velocity - velocity_) + Eigen::Vector3d(0.0, 0.0, 3.71 * dt);
     velocity_ = velocity;
     s.delta_velocity_mps = before.linear().transpose() * force + noise_.force * std::sqrt(dt) * normal3();
-    spoil_imu(s);
-    if (imu_on) localization.take_imu(s);
+    corrupt_imu(s);
+    if (imu_on) localization.add_imu(s);
   }
 
-  // Steering such that all wheels roll for the commanded twist.
+  // Steering angles at which no wheel slips laterally.
   void make_wheels(const Twist& twist, double dt) {
     const Vehicle v = test_vehicle();
     WheelSample s;
@@ -181,25 +182,25 @@ class SyntheticDrive {
       s.drive_rate_radps[i] = speed / v.wheel_radius_m;
       if (steered) s.steer_angle_rad[i < 2 ? i : i - 2] = angle + scrub_steer_rad_;
     }
-    if (wheels_on) localization.take_wheels(s);
+    if (wheels_on) localization.add_wheels(s);
     WheelCommand c{now_, now_ + 100'000, s.drive_rate_radps};
-    localization.take_wheel_command(c);
+    localization.add_wheel_command(c);
   }
 
-  bool key_left_behind() const {
+  bool keyframe_out_of_view() const {
     const Eigen::Isometry3d moved = key_pose_.inverse() * previous_pose_;
     return moved.translation().norm() > 0.35 || log_so3(moved.linear()).norm() > 0.3;
   }
 
-  // As visual odometry makes it: the errors of a keyframe telescope.
+  // Like visual odometry: the errors of one keyframe telescope.
   void make_visual() {
-    if (key_utime_ == kNever || key_left_behind()) {
+    if (key_utime_ == kNever || keyframe_out_of_view()) {
       key_utime_ = previous_utime_ == kNever ? now_ : previous_utime_;
       key_pose_ = previous_pose_;
       key_error_ = previous_error_ = Eigen::Isometry3d::Identity();
       if (previous_utime_ == kNever) {
         previous_utime_ = now_;
-        key_pose_ = previous_pose_ = T_;
+        key_pose_ = previous_pose_ = T_world_body_;
         return;
       }
     }
@@ -211,7 +212,7 @@ class SyntheticDrive {
     if (!visual_lost) {
       const Eigen::Isometry3d error = make_pose(exp_so3(noise_.visual_rad * normal3()), noise_.visual_m * normal3());
       const Eigen::Isometry3d T_key_prev = key_pose_.inverse() * previous_pose_ * previous_error_;
-      Eigen::Isometry3d T_key_cur = key_pose_.inverse() * T_ * error;
+      Eigen::Isometry3d T_key_cur = key_pose_.inverse() * T_world_body_ * error;
       m.T_prev_cur = T_key_prev.inverse() * T_key_cur;
       m.T_prev_cur.translation() *= 1.0 + scale_;
       m.cov.setZero();
@@ -219,11 +220,11 @@ class SyntheticDrive {
       m.cov.diagonal().tail<3>().setConstant(noise_.visual_rad * noise_.visual_rad);
       m.status = VisualStatus::kOk;
       previous_error_ = error;
-      previous_pose_ = T_;
+      previous_pose_ = T_world_body_;
       previous_utime_ = now_;
     }
-    spoil_visual(m);
-    late_.push_back({now_ + 240'000, m});
+    corrupt_visual(m);
+    pending_.push_back({now_ + 240'000, m});
   }
 
   DriveNoise noise_;
@@ -238,7 +239,7 @@ class SyntheticDrive {
   double scrub_steer_rad_ = 0.0;
   bool placed_ = false;
   double driven_m_ = 0.0;
-  Eigen::Isometry3d T_;
+  Eigen::Isometry3d T_world_body_;
   Eigen::Isometry3d start_;
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
   std::array<double, 6> drive_angle_{};
@@ -248,7 +249,7 @@ class SyntheticDrive {
   Eigen::Isometry3d previous_pose_;
   Eigen::Isometry3d key_error_ = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d previous_error_ = Eigen::Isometry3d::Identity();
-  std::deque<Late> late_;
+  std::deque<PendingMotion> pending_;
 };
 
 }  // namespace rover::loc

@@ -11,17 +11,17 @@ namespace {
 
 constexpr std::array<double, 4> kStraight = {0.0, 0.0, 0.0, 0.0};
 
-TEST(WheelOdometry, StraightDriveRollsAlike) {
+TEST(WheelOdometry, StraightDrive) {
   const WheelOdometry wheels(test_vehicle());
-  const Eigen::Vector3d motion = wheels.motion({2, 2, 2, 2, 2, 2}, kStraight);
+  const Eigen::Vector3d motion = wheels.body_motion({2, 2, 2, 2, 2, 2}, kStraight);
   EXPECT_NEAR(motion.x(), 0.25, 1e-12);
   EXPECT_NEAR(motion.y(), 0.0, 1e-12);
   EXPECT_NEAR(motion.z(), 0.0, 1e-12);
   EXPECT_NEAR(wheels.path_m({2, -2, 2, -2, 2, -2}), 0.25, 1e-12);
 }
 
-// What a motion makes the wheels roll gives the motion back, if the wheels are steered for it.
-TEST(WheelOdometry, RolledAndMotionAgree) {
+// With wheels steered for the motion.
+TEST(WheelOdometry, ForwardInvertsInverseKinematics) {
   const Vehicle v = test_vehicle();
   const WheelOdometry wheels(v);
   for (const Eigen::Vector3d& motion : {Eigen::Vector3d(0.1, 0.0, 0.05), Eigen::Vector3d(-0.1, 0.0, 0.03),
@@ -31,9 +31,9 @@ TEST(WheelOdometry, RolledAndMotionAgree) {
       const auto w = static_cast<size_t>(kSteeredWheels[i]);
       steer[i] = std::atan2(motion.z() * v.wheel_x_m[w], motion.x() - motion.z() * v.wheel_y_m[w]);
     }
-    std::array<double, 6> turned = wheels.rolled_m(motion, steer);
+    std::array<double, 6> turned = wheels.wheel_travel_m(motion, steer);
     for (double& t : turned) t /= v.wheel_radius_m;
-    EXPECT_LT((wheels.motion(turned, steer) - motion).norm(), 1e-12) << motion.transpose();
+    EXPECT_LT((wheels.body_motion(turned, steer) - motion).norm(), 1e-12) << motion.transpose();
   }
 }
 

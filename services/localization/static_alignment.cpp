@@ -1,4 +1,4 @@
-#include "localization/levelling.hpp"
+#include "localization/static_alignment.hpp"
 
 #include <cmath>
 
@@ -6,9 +6,9 @@
 
 namespace rover::loc {
 
-std::optional<Level> Levelling::add(const MotionRecord& record) {
-  if (!record.standing || !record.force || !record.gyro) {
-    *this = Levelling(config_);
+std::optional<StaticAlignmentResult> StaticAlignment::add(const MotionRecord& record) {
+  if (!record.stationary || !record.force_valid || !record.gyro_valid) {
+    *this = StaticAlignment(config_);
     return std::nullopt;
   }
   time_s_ += record.dt_s();
@@ -17,12 +17,12 @@ std::optional<Level> Levelling::add(const MotionRecord& record) {
   if (time_s_ < config_.duration_s) return std::nullopt;
   const Eigen::Vector3d force = velocity_sum_ / time_s_;
   const Eigen::Vector3d bias = angle_sum_ / time_s_;
-  *this = Levelling(config_);
+  *this = StaticAlignment(config_);
   const double gravity = force.norm();
   if (gravity < config_.min_gravity_mps2 || gravity > config_.max_gravity_mps2) return std::nullopt;
   const double roll = std::atan2(force.y(), force.z());
   const double pitch = std::atan2(-force.x(), std::hypot(force.y(), force.z()));
-  return Level{rotation_from_rpy(roll, pitch, 0.0), bias, gravity};
+  return StaticAlignmentResult{rotation_from_rpy(roll, pitch, 0.0), bias, gravity};
 }
 
 }  // namespace rover::loc
