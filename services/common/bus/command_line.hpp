@@ -2,7 +2,6 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdio>
 #include <string>
 
@@ -81,9 +80,8 @@ inline int end_of_parse(const CLI::App& app, const CLI::ParseError& error) {
   if (error.get_exit_code() == 0) return app.exit(error);
   std::string command = app.get_name();
   for (const CLI::App* sub : app.get_subcommands()) command += " " + sub->get_name();
-  std::string said = error.what();
-  std::replace(said.begin(), said.end(), '\n', ' ');
-  std::fprintf(stderr, "%s: %s; %s --help tells more\n", command.c_str(), said.c_str(), command.c_str());
+  std::fprintf(stderr, "%s: %s; %s --help tells more\n", command.c_str(), one_line(error.what()).c_str(),
+               command.c_str());
   return 2;
 }
 

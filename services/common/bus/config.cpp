@@ -32,12 +32,6 @@ const YAML::Node& checked_map(const YAML::Node& node, const std::string& file) {
   return node;
 }
 
-std::string one_line(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, ' ');
-  return text;
-}
-
 // As it is written, short enough for a line.
 std::string shown(const YAML::Node& node) {
   constexpr size_t kMost = 60;
@@ -51,6 +45,14 @@ std::string shown(const YAML::Node& node) {
 
 Config::Config(YAML::Node node, std::string file, std::string prefix)
     : node_(std::move(node)), file_(std::move(file)), prefix_(std::move(prefix)), seen_(std::make_shared<Seen>()) {}
+
+std::string one_line(std::string text) {
+  constexpr size_t kBegin = 1000, kEnd = 300;  // what is wrong, and what to do
+  if (text.size() > 2 * kBegin) text.replace(kBegin, text.size() - kBegin - kEnd, " ... ");
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, ' ');
+  return text;
+}
 
 ConfigError::ConfigError(const std::string& what) : std::runtime_error(one_line(what)) {}
 

@@ -13,6 +13,9 @@
 
 namespace rover {
 
+// Without control characters, and shortened in the middle where it is longer than 2000 bytes.
+std::string one_line(std::string text);
+
 // One line of printable text, whatever of the user's it quotes.
 class ConfigError : public std::runtime_error {
  public:
