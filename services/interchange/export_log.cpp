@@ -13,14 +13,17 @@
 #include "common/bus/channels.hpp"
 #include "common/bus/config.hpp"
 #include "common/bus/convert.hpp"
-#include "common/bus/event_log.hpp"
+#include "common/bus/interrupt.hpp"
+#include "common/bus/log_runs.hpp"
 #include "common/bus/streams.hpp"
+#include "common/bus/user_files.hpp"
 #include "interchange/csv_table.hpp"
 #include "interchange/foxglove.hpp"
 #include "interchange/mcap_writer.hpp"
 #include "interchange/message_json.hpp"
 #include "interchange/tracks.hpp"
 #include "orbital_planner/map_file.hpp"
+#include "status/text_line.hpp"
 
 namespace rover::interchange {
 namespace {
@@ -29,15 +32,19 @@ namespace fs = std::filesystem;
 
 constexpr double kTrackStepM = 0.05;
 
+void demand_written(const std::ofstream& file, const fs::path& path) {
+  if (!file) throw ConfigError(path.string() + ": cannot be written; is the disk full?");
+}
+
 std::ofstream open_file(const fs::path& path) {
   std::ofstream file(path, std::ios::binary);
-  if (!file) throw ConfigError(path.string() + ": cannot be written");
+  demand_written(file, path);
   return file;
 }
 
 void close_file(std::ofstream& file, const fs::path& path) {
   file.close();
-  if (!file) throw ConfigError(path.string() + ": cannot be written");
+  demand_written(file, path);
 }
 
 template <class Message>
@@ -55,13 +62,14 @@ class CsvExport {
     Table& table = tables_[event.channel];
     if (table.columns.empty()) {
       table.columns = csv_columns(find_channel_type(event.channel)->name);
-      table.file = open_file(dir_ / (event.channel + ".csv"));
+      table.file = open_file(file_of(event.channel));
       write_csv_header(table.file, table.columns);
     }
     write_csv_row(table.file, table.columns, fields);
+    demand_written(table.file, file_of(event.channel));
   }
   void finish() {
-    for (auto& [channel, table] : tables_) close_file(table.file, dir_ / (channel + ".csv"));
+    for (auto& [channel, table] : tables_) close_file(table.file, file_of(channel));
   }
 
  private:
@@ -69,6 +77,9 @@ class CsvExport {
     std::vector<std::string> columns;
     std::ofstream file;
   };
+  // Of a channel that the project knows: no other has fields, so no name in a log leads out of the folder.
+  fs::path file_of(const std::string& channel) const { return dir_ / (channel + ".csv"); }
+
   fs::path dir_;
   std::map<std::string, Table> tables_;
 };
@@ -161,6 +172,12 @@ ToLonLat planet_of(const fs::path& log) {
   }
 }
 
+size_t time_falls(const Trajectory& trajectory) {
+  size_t falls = 0;
+  for (size_t i = 1; i < trajectory.size(); ++i) falls += trajectory[i].utime < trajectory[i - 1].utime ? 1 : 0;
+  return falls;
+}
+
 void write_trajectories(const fs::path& dir, const Tracks& tracks, std::vector<std::string>& lines) {
   fs::create_directory(dir);
   for (const auto& [name, trajectory] : {std::pair{"truth", &tracks.truth}, std::pair{"estimate", &tracks.estimate},
@@ -169,59 +186,99 @@ void write_trajectories(const fs::path& dir, const Tracks& tracks, std::vector<s
       lines.push_back(std::string("tum/") + name + ".txt: the log has no such poses; not written");
       continue;
     }
-    std::ofstream file = open_file(dir / (std::string(name) + ".txt"));
+    const fs::path path = dir / (std::string(name) + ".txt");
+    std::ofstream file = open_file(path);
     write_tum(file, *trajectory);
-    close_file(file, dir / name);
+    close_file(file, path);
+    if (const size_t falls = time_falls(*trajectory); falls > 0)
+      lines.push_back(std::string("tum/") + name + ".txt: time falls at " + std::to_string(falls) +
+                      " of its lines; without TICK the log tells of no runs");
   }
 }
 
-fs::path log_file_of(const std::string& given) {
-  const fs::path path = fs::is_directory(given) ? fs::path(given) / "traverse.lcm" : fs::path(given);
-  if (!fs::is_regular_file(path)) throw ConfigError(path.string() + ": no such log");
-  return fs::absolute(path);
-}
+// Messages that are not exported, by channel.
+class LeftOut {
+ public:
+  void add(const std::string& channel) { ++(find_channel_type(channel) == nullptr ? foreign_ : damaged_)[channel]; }
+  std::vector<std::string> lines() const {
+    std::vector<std::string> lines;
+    for (const auto& [channel, count] : damaged_)
+      lines.push_back(channel + ": " + std::to_string(count) + " messages do not decode; left out");
+    if (!foreign_.empty()) lines.push_back(foreign_line());
+    return lines;
+  }
 
-std::vector<std::string> write_all(const ExportOptions& options, const fs::path& log, const fs::path& dir) {
-  const auto wants = [&](const char* format) { return options.formats.contains(format); };
+ private:
+  std::string foreign_line() const {
+    constexpr size_t kMost = 5;
+    std::int64_t count = 0;
+    std::string names;
+    size_t named = 0;
+    for (const auto& [channel, messages] : foreign_) {
+      count += messages;
+      if (++named <= kMost) names += (named == 1 ? "" : ", ") + status::printable(channel);
+    }
+    return std::to_string(count) + " messages on channels that are not the project's; left out: " + names +
+           (foreign_.size() > kMost ? " ..." : "");
+  }
+
+  std::map<std::string, std::int64_t> damaged_;
+  std::map<std::string, std::int64_t> foreign_;
+};
+
+// What is exported as the log is read.
+struct Exports {
   std::optional<CsvExport> csv;
-  if (wants("csv")) csv.emplace(dir / "csv");
   std::optional<McapExport> mcap;
-  if (wants("mcap")) mcap.emplace(dir / "traverse.mcap");
   TrackExport tracks;
-  std::map<std::string, std::int64_t> damaged;
+  LeftOut left_out;
   std::int64_t taken = 0;
-  const LogLength length = for_each_event(log.string(), [&](const LogEvent& event) {
-    if (!options.channels.empty() && !options.channels.contains(event.channel)) return;
+
+  void add(const LogEvent& event) {
     header_t header{};
     const auto fields = decode_fields(event.channel, event.data, event.size);
-    if (!fields || !peek_header(event.data, event.size, header)) {
-      ++damaged[event.channel];
-      return;
-    }
+    if (!fields || !peek_header(event.data, event.size, header)) return left_out.add(event.channel);
     ++taken;
     if (csv) csv->add(event, *fields);
     if (mcap) mcap->add(event, header, *fields);
     tracks.add(event);
+  }
+  void finish() {
+    if (csv) csv->finish();
+    if (mcap) mcap->finish();
+  }
+};
+
+std::vector<std::string> write_all(const ExportOptions& options, const LogRun& run, const fs::path& dir) {
+  const auto wants = [&](const char* format) { return options.formats.contains(format); };
+  Exports exports;
+  if (wants("csv")) exports.csv.emplace(dir / "csv");
+  if (wants("mcap")) exports.mcap.emplace(dir / "traverse.mcap");
+  for_each_event(run, [&](const LogEvent& event) {
+    if (!going()) throw ConfigError("./rover export: interrupted; nothing is kept");
+    if (options.channels.empty() || options.channels.contains(event.channel)) exports.add(event);
   });
-  if (taken == 0)
-    throw ConfigError(log.string() + ": holds no messages of a rover" +
+  if (exports.taken == 0)
+    throw ConfigError(run.log + ": holds no messages of a rover" +
                       (options.channels.empty() ? "" : " on the channels asked for"));
-  if (csv) csv->finish();
-  if (mcap) mcap->finish();
-  std::vector<std::string> lines;
-  if (wants("tum")) write_trajectories(dir / "tum", tracks.tracks(), lines);
+  exports.finish();
+  std::vector<std::string> lines = remarks(run);
+  if (wants("tum")) write_trajectories(dir / "tum", exports.tracks.tracks(), lines);
   if (wants("geojson")) {
     std::ofstream file = open_file(dir / "tracks.geojson");
-    file << geojson(tracks.tracks(), planet_of(log), kTrackStepM);
+    file << geojson(exports.tracks.tracks(), planet_of(run.log), kTrackStepM);
     close_file(file, dir / "tracks.geojson");
   }
-  for (const auto& [channel, count] : damaged)
-    lines.push_back(channel + ": " + std::to_string(count) + " messages do not decode; left out");
-  if (length.left_bytes > 0)
-    lines.push_back(log.string() + ": cut short or damaged; " + std::to_string(length.left_bytes) +
-                    " bytes are left out");
-  lines.push_back(std::to_string(taken) + " messages");
+  for (std::string& line : exports.left_out.lines()) lines.push_back(std::move(line));
+  lines.push_back(std::to_string(exports.taken) + " messages");
   return lines;
+}
+
+// Beside the log where none is named.
+fs::path target_of(const ExportOptions& options, const fs::path& log) {
+  if (!options.out.empty()) return options.out;
+  const fs::path dir = log.parent_path();
+  return fs::is_directory(options.log) ? dir / "export" : dir / (log.stem().string() + "_export");
 }
 
 }  // namespace
@@ -232,21 +289,17 @@ std::vector<std::string> export_log(const ExportOptions& options) {
       throw ConfigError("--format: no format '" + format + "'; there are: csv, geojson, mcap, tum");
   for (const std::string& channel : options.channels)
     if (find_channel_type(channel) == nullptr) throw ConfigError("--channels: no channel '" + channel + "'");
-  const fs::path log = log_file_of(options.log);
-  const fs::path out = fs::absolute(options.out);
-  if (fs::exists(out)) throw ConfigError(out.string() + ": exists already; name another folder by --out");
-  // Whole or not at all.
-  const fs::path unfinished = out.string() + ".unfinished";
-  std::error_code error;
-  if (fs::exists(unfinished) || !fs::create_directories(unfinished, error))
-    throw ConfigError(unfinished.string() + ": cannot be made" + (error ? ": " + error.message() : ""));
+  const LogRun run = choose_run(options.log, options.log_run);
+  const fs::path target = target_of(options, run.log);
+  NewFolder out(target.string());
   try {
-    std::vector<std::string> lines = write_all(options, log, unfinished);
-    fs::rename(unfinished, out);
-    lines.push_back("exported: " + out.string());
+    std::vector<std::string> lines = write_all(options, run, out.dir());
+    out.keep();
+    lines.push_back("exported: " + target.string());
     return lines;
-  } catch (const std::exception& failure) {
-    fs::remove_all(unfinished, error);
+  } catch (const ConfigError&) {
+    throw;
+  } catch (const std::exception& failure) {  // the file system's
     throw ConfigError(failure.what());
   }
 }

@@ -1,9 +1,9 @@
 // rover_export LOG: a log in the formats of other tools.
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <filesystem>
 
 #include "common/bus/command_line.hpp"
+#include "common/bus/interrupt.hpp"
 #include "interchange/export_log.hpp"
 
 int main(int argc, char** argv) {
@@ -13,10 +13,14 @@ int main(int argc, char** argv) {
       "./rover export: a log as CSV tables, TUM trajectories, GeoJSON tracks and MCAP. Example:\n"
       "./rover export logs/RUN --format tum,mcap");
   app.name("./rover export");
-  app.add_option("log", options.log, "an LCM log, or the folder of a run")->required();
-  app.add_option("--out", options.out, "folder, new; default: export beside the log");
-  app.add_option("--format", formats, "of csv, tum, geojson, mcap; default: all")->delimiter(',');
-  app.add_option("--channels", channels, "these alone; default: all")->delimiter(',');
+  app.add_option("log", options.log, "an LCM log, or the folder of a run")
+      ->required()
+      ->transform(rover::is_user_path());
+  rover::add_log_run(app, options.log_run);
+  app.add_option("--out", options.out, "folder, new or empty; default: export beside the log")
+      ->transform(rover::is_user_path());
+  rover::repeatable(app.add_option("--format", formats, "of csv, tum, geojson, mcap; default: all"))->delimiter(',');
+  rover::repeatable(app.add_option("--channels", channels, "these alone; default: all"))->delimiter(',');
   try {
     rover::parse_arguments(app, argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -24,10 +28,7 @@ int main(int argc, char** argv) {
   }
   if (!formats.empty()) options.formats = {formats.begin(), formats.end()};
   options.channels = {channels.begin(), channels.end()};
-  const std::filesystem::path log(options.log);
-  const bool is_folder = std::filesystem::is_directory(log);
-  if (options.out.empty())
-    options.out = is_folder ? log / "export" : log.parent_path() / (log.stem().string() + "_export");
+  rover::catch_interrupts();
   try {
     for (const std::string& line : rover::interchange::export_log(options)) std::printf("%s\n", line.c_str());
   } catch (const std::exception& error) {

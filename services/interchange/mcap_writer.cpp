@@ -59,7 +59,7 @@ McapWriter::McapWriter(const std::string& path) : path_(path), file_(path, std::
 
 void McapWriter::put(std::string_view bytes) {
   file_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  if (!file_) throw std::runtime_error(path_ + ": cannot be written");
+  if (!file_) throw std::runtime_error(path_ + ": cannot be written; is the disk full?");
   size_ += bytes.size();
 }
 
@@ -213,7 +213,7 @@ void McapWriter::finish() {
   put(footer.bytes());
   put(kMagic);
   file_.close();
-  if (!file_) throw std::runtime_error(path_ + ": cannot be written");
+  if (!file_) throw std::runtime_error(path_ + ": cannot be written; is the disk full?");
 }
 
 }  // namespace rover::interchange

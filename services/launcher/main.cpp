@@ -54,6 +54,7 @@ CLI::App* add_replay_command(CLI::App& app, rover::ReplayArguments& replay) {
   command->add_option("log", replay.log, "an LCM log, or the folder of a run")
       ->required()
       ->transform(rover::is_user_path());
+  rover::add_log_run(*command, replay.log_run);
   rover::repeatable(command->add_option("--services", replay.services,
                                         "run live; what they said in the log is muted; all: every one"))
       ->delimiter(',');

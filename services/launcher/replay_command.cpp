@@ -42,10 +42,6 @@ struct Plan {
   replay::PlayerOptions player;
 };
 
-std::string log_file_of(const std::string& given) {
-  return fs::is_directory(given) ? (fs::path(given) / "traverse.lcm").string() : given;
-}
-
 std::string config_from(const ReplayArguments& arguments, const std::string& log_dir) {
   const std::string own = log_dir + "/config";
   std::string dir = arguments.config_dir;
@@ -125,7 +121,8 @@ void demand_whole_streams(const std::string& file, const RecordedLog& log) {
   }
 }
 
-Plan make_plan(const ReplayArguments& arguments, const RecordedLog& log, const std::string& log_file) {
+Plan make_plan(const ReplayArguments& arguments, const RecordedLog& log) {
+  const std::string& log_file = log.run().log;
   Plan plan;
   plan.log_file = log_file;
   plan.log_dir = fs::absolute(log_file).parent_path();
@@ -304,15 +301,17 @@ int play_log_alone(const Plan& plan, RecordedLog& log, const replay::Keyboard& k
 }  // namespace
 
 int replay_log(const ReplayArguments& arguments) {
-  const std::string log_file = log_file_of(arguments.log);
-  RecordedLog log(log_file);
-  if (log.left_bytes() > 0)
-    std::fprintf(stderr, "%s: cut short or damaged; the last %lld bytes are left out\n", log_file.c_str(),
-                 static_cast<long long>(log.left_bytes()));
-  const Plan plan = make_plan(arguments, log, log_file);
+  RecordedLog log(arguments.log, arguments.log_run);
+  print_remarks(log.run());
+  if (log.left_messages() > 0)
+    std::fprintf(
+        stderr,
+        "%s: %lld messages are not played: behind the last TICK, or on channels with longer names than LCM sends\n",
+        log.run().log.c_str(), static_cast<long long>(log.left_messages()));
+  const Plan plan = make_plan(arguments, log);
   if (arguments.check && log.by_the_clock())
     std::fprintf(stderr, "%s: this run followed the clock; in lockstep its services may say other things\n",
-                 log_file.c_str());
+                 plan.log_file.c_str());
   demand_programs(plan.live, arguments.run.bin_dir);
   const BusLock lock(plan.bus_url);
   demand_bus(plan.bus_url, lock);

@@ -11,6 +11,7 @@ namespace rover {
 struct ReplayArguments {
   RunArguments run;                   // folder, bus, settings
   std::string log;                    // file, or a run's folder
+  int log_run = 0;                    // of a log that holds several; 0: the only one
   std::string config_dir;             // empty: that of the log's folder, else the project's
   std::vector<std::string> services;  // live; "all": those that speak in the log, but the recorder and the page's
   bool check = false;

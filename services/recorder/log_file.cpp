@@ -23,6 +23,7 @@ struct Whole {
 Whole whole_part(const std::string& path) {
   Whole whole;
   EventLogReader reader(path);
+  if (!reader.begins_as_log()) throw ConfigError(path + ": is no log; it is not written over, move it away");
   for (LogEvent event; reader.next(event);) whole = {whole.events + 1, event.end, event.time};
   return whole;
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -10,6 +11,9 @@
 
 #include "common/bus/config.hpp"
 #include "common/bus/event_log.hpp"
+#include "common/bus/interrupt.hpp"
+#include "common/bus/log_runs.hpp"
+#include "common/bus/user_files.hpp"
 #include "recorder/log_file.hpp"
 #include "status/running_run.hpp"
 
@@ -56,6 +60,7 @@ void copy_piece(std::ifstream& in, std::ofstream& out, const Piece& piece) {
   std::array<char, 1 << 16> buffer{};
   in.seekg(piece.begin);
   for (std::int64_t left = piece.end - piece.begin; left > 0 && in && out;) {
+    if (!going()) throw ConfigError("./rover repair: interrupted; nothing is kept");
     const auto chunk = std::min<std::int64_t>(left, static_cast<std::int64_t>(buffer.size()));
     in.read(buffer.data(), chunk);
     out.write(buffer.data(), in.gcount());
@@ -68,10 +73,8 @@ void copy_pieces(const Scan& damaged, const std::string& to) {
   std::ofstream out(to, std::ios::binary);
   for (const Piece& piece : damaged.pieces) copy_piece(in, out, piece);
   out.close();
-  if (in && out) return;
-  std::error_code error;
-  fs::remove(to, error);
-  throw ConfigError(to + ": cannot be written");
+  if (!in) throw ConfigError(damaged.path + ": cannot be read");
+  if (!out) throw ConfigError(fs::path(to).parent_path().string() + ": cannot be written; is the disk full?");
 }
 
 void check_target(const Scan& damaged, const std::string& to) {
@@ -87,15 +90,16 @@ void check_target(const Scan& damaged, const std::string& to) {
 
 // Where the whole log is written to; in place it takes the damaged one's name afterwards.
 std::string target_of(const Scan& part, const RepairArguments& arguments) {
-  if (arguments.in_place) return part.path + ".new";
+  if (arguments.in_place) return fs::canonical(part.path).string() + ".new";  // behind a symbolic link
   return arguments.out.empty() ? repaired_name(part.path) : arguments.out;
 }
 
 void check(const std::vector<Scan>& scans, const RepairArguments& arguments) {
-  for (const Scan& part : scans) {
-    if (part.pieces.empty()) throw ConfigError(part.path + ": holds no whole record; is it an LCM log?");
-    if (!part.whole()) check_target(part, target_of(part, arguments));
-  }
+  const auto has_none = [](const Scan& part) { return part.pieces.empty(); };
+  if (std::all_of(scans.begin(), scans.end(), has_none))
+    throw ConfigError(scans.front().path + ": holds no whole record; is it an LCM log?");
+  for (const Scan& part : scans)
+    if (!part.whole() && !has_none(part)) check_target(part, target_of(part, arguments));
   if (!arguments.out.empty() && scans.size() > 1)
     throw ConfigError(arguments.out + ": the log has " + std::to_string(scans.size()) +
                       " parts; without --out each is written beside the damaged one");
@@ -106,11 +110,16 @@ void check(const std::vector<Scan>& scans, const RepairArguments& arguments) {
 
 std::string repair_part(const Scan& part, const RepairArguments& arguments) {
   if (part.whole()) return fmt::format("{}: whole, {} messages; nothing to do", part.path, part.length.records);
+  if (part.pieces.empty()) return fmt::format("{}: holds no whole message; left as it is", part.path);
   std::string to = target_of(part, arguments);
-  copy_pieces(part, to);
+  NewFile whole(to);
+  copy_pieces(part, whole.path());
   if (arguments.in_place) {
-    fs::rename(to, part.path);
+    fs::permissions(whole.path(), fs::status(part.path).permissions());
+    fs::rename(whole.path(), fs::canonical(part.path));
     to = part.path;
+  } else {
+    whole.keep();
   }
   return fmt::format("{}: {} messages kept, {} bytes at {} place{} left out", to, part.length.records,
                      part.length.left_bytes, part.length.damages, part.length.damages == 1 ? "" : "s");
@@ -119,11 +128,14 @@ std::string repair_part(const Scan& part, const RepairArguments& arguments) {
 }  // namespace
 
 void repair(const RepairArguments& arguments) {
-  const std::string log = fs::is_directory(arguments.log) ? arguments.log + "/traverse.lcm" : arguments.log;
+  const std::string log = log_file(arguments.log);
   std::vector<Scan> scans;
   for (const std::string& part : log_parts(log)) scans.push_back(scan(part));
   check(scans, arguments);
   for (const Scan& part : scans) std::printf("%s\n", repair_part(part, arguments).c_str());
+  if (const size_t runs = log_runs(log).size(); runs > 1)
+    std::printf("%s: holds %zu runs; replay, export, report and spy take one of them by --log-run N\n", log.c_str(),
+                runs);
 }
 
 }  // namespace rover::recorder

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "common/bus/command_line.hpp"
+#include "common/bus/interrupt.hpp"
 #include "recorder/repair.hpp"
 
 int main(int argc, char** argv) {
@@ -13,14 +14,16 @@ int main(int argc, char** argv) {
       "is unless --in-place is given.\n"
       "Example: ./rover repair logs/RUN/traverse.lcm");
   app.name("./rover repair");
-  app.add_option("log", repair.log, "a log, or a run's folder")->required();
-  CLI::Option* out = app.add_option("--out", repair.out, "the whole log; default: NAME.repaired.lcm beside it");
+  app.add_option("log", repair.log, "a log, or a run's folder")->required()->transform(rover::is_user_path());
+  CLI::Option* out = app.add_option("--out", repair.out, "the whole log; default: NAME.repaired.lcm beside it")
+                         ->transform(rover::is_user_path());
   app.add_flag("--in-place", repair.in_place, "replace the damaged log")->excludes(out);
   try {
     rover::parse_arguments(app, argc, argv);
   } catch (const CLI::ParseError& error) {
     return rover::end_of_parse(app, error);
   }
+  rover::catch_interrupts();
   try {
     rover::recorder::repair(repair);
   } catch (const std::exception& error) {  // ConfigError, the file system's

@@ -47,6 +47,7 @@ Played Player::play(const PlayerHooks& hooks) {
   std::optional<TickGroup> group = log_.next();
   if (group) pacer_.go_from(group->tick, wall_s());
   for (; group && group->tick <= options_.until && hooks.running(); group = log_.next()) {
+    if (played.last != kNever && group->tick - played.last > kLongestPause) go_on_from(group->tick, hooks);
     if (!wait_until_due(group->tick, hooks)) break;
     if (wanted_) {
       seek(*wanted_, hooks);
@@ -123,15 +124,20 @@ void Player::obey(Key key, Utime t) {
   }
 }
 
+// In one step, for which nobody waits.
+void Player::go_on_from(Utime t, const PlayerHooks& hooks) {
+  ticks_.wait_until_idle(hooks.running);
+  ticks_.jump(t);
+  pacer_.go_from(t, wall_s());
+}
+
 void Player::seek(Utime t, const PlayerHooks& hooks) {
   wanted_.reset();
-  ticks_.wait_until_idle(hooks.running);
   const auto& all = log_.ticks();
   const Utime last = std::min(options_.until, all.back());
   const Utime to = *std::lower_bound(all.begin(), all.end(), std::clamp(t, options_.from, last));
-  ticks_.jump(to);
+  go_on_from(to, hooks);
   log_.seek(to);
-  pacer_.go_from(to, wall_s());
 }
 
 void Player::hear() {

@@ -53,6 +53,7 @@ class Player {
   void publish(const LogMessage& message);
   bool wait_until_due(Utime t, const PlayerHooks& hooks);
   void obey(Key key, Utime t);
+  void go_on_from(Utime t, const PlayerHooks& hooks);
   void seek(Utime t, const PlayerHooks& hooks);
   void hear();
   void finish(const PlayerHooks& hooks);

@@ -1,30 +1,32 @@
 #include "replay/recorded_log.hpp"
 
+#include <lcm/lcm.h>
+
 #include <algorithm>
-#include <filesystem>
 #include <rover/tick_t.hpp>
 #include <tuple>
 
+#include "common/bus/channel_types.hpp"
 #include "common/bus/channels.hpp"
 #include "common/bus/config.hpp"
-#include "common/bus/event_log.hpp"
 #include "common/bus/streams.hpp"
 
 namespace rover::replay {
 namespace {
 
-using EventPtr = std::unique_ptr<lcm_eventlog_event_t, void (*)(lcm_eventlog_event_t*)>;
-
-EventPtr read_event(lcm_eventlog_t* log) {
-  return {lcm_eventlog_read_next_event(log), [](lcm_eventlog_event_t* event) { lcm_eventlog_free_event(event); }};
-}
-
 // Empty where the message is no tick.
 std::optional<tick_t> tick_of(const LogMessage& message) {
   tick_t tick{};
-  if (message.channel != channel::kTick) return std::nullopt;
-  if (!decode_message(message.bytes.data(), static_cast<int>(message.bytes.size()), tick)) return std::nullopt;
+  if (message.channel != channel::kTick || !message.header) return std::nullopt;
+  const int size = static_cast<int>(message.bytes.size());
+  if (!find_channel_type(channel::kTick)->decodes(message.bytes.data(), size)) return std::nullopt;
+  if (!decode_message(message.bytes.data(), size, tick)) return std::nullopt;
   return tick;
+}
+
+bool can_be_sent(const LogMessage& message) {
+  const std::string& name = message.channel;
+  return name.size() <= LCM_MAX_CHANNEL_NAME_LENGTH && name.find('\0') == std::string::npos;
 }
 
 using StreamKey = std::tuple<std::string, std::string, std::int64_t>;
@@ -41,66 +43,63 @@ void note(std::map<StreamKey, RecordedStream>& streams, const LogMessage& messag
 
 }  // namespace
 
-RecordedLog::RecordedLog(const std::string& path)
-    : file_(nullptr, [](lcm_eventlog_t* log) { lcm_eventlog_destroy(log); }) {
-  if (!std::filesystem::is_regular_file(path)) throw ConfigError(path + ": no such log");
-  parts_ = log_parts(path);
+RecordedLog::RecordedLog(const std::string& log_or_run, int log_run)
+    : run_(choose_run(log_or_run, log_run)), parts_(log_parts(run_.log)) {
+  if (run_.last_tick == kNever)
+    throw ConfigError(run_.log + ": no log of a rover: it holds no TICK" +
+                      (run_.bad_ticks > 0 ? " of this version's type" : ""));
   look_through();
-  if (ticks_.empty()) throw ConfigError(path + ": no log of a rover: it holds no TICK");
   seek(ticks_.front());
 }
 
-void RecordedLog::open_part(size_t part, std::int64_t offset) {
-  if (!file_ || part != part_) {
-    file_.reset(lcm_eventlog_create(parts_[part].c_str(), "r"));
-    if (!file_) throw ConfigError(parts_[part] + ": cannot be read");
-    part_ = part;
-  }
-  fseeko(file_->f, offset, SEEK_SET);
+void RecordedLog::open(const LogPlace& place) {
+  if (!reader_ || place.part != place_.part) reader_ = std::make_unique<EventLogReader>(parts_[place.part]);
+  reader_->seek(place.offset);
+  place_ = place;
 }
 
 std::optional<LogMessage> RecordedLog::next_message() {
-  EventPtr event = read_event(file_.get());
-  while (!event && part_ + 1 < parts_.size()) {
-    open_part(part_ + 1, 0);
-    event = read_event(file_.get());
+  LogEvent event;
+  while (!reader_->next(event)) {
+    if (place_.part >= run_.end.part) return std::nullopt;
+    open({place_.part + 1, 0});
   }
-  if (!event) return std::nullopt;
-  LogMessage message;
-  message.channel.assign(event->channel, static_cast<size_t>(event->channellen));
-  const auto* begin = static_cast<const std::uint8_t*>(event->data);
-  message.bytes.assign(begin, begin + event->datalen);
+  if (LogPlace{place_.part, event.begin} >= run_.end) return std::nullopt;
+  place_.offset = event.end;
+  LogMessage message{event.channel, std::nullopt, {event.data, event.data + event.size}};
   header_t header{};
-  if (peek_header(message.bytes.data(), event->datalen, header)) message.header = std::move(header);
+  if (peek_header(event.data, event.size, header)) message.header = std::move(header);
   return message;
 }
 
 void RecordedLog::look_through() {
   std::map<StreamKey, RecordedStream> streams;
-  open_part(0, 0);
-  Place group{0, 0};
-  Place end{0, 0};
-  const auto left_in_part = [this](const Place& place) {
-    return static_cast<std::int64_t>(std::filesystem::file_size(parts_[place.part])) - place.offset;
-  };
+  LogPlace group = run_.begin;
+  std::int64_t since_tick = 0;
+  open(run_.begin);
   while (const auto message = next_message()) {
-    if (part_ != end.part) left_bytes_ += left_in_part(end);
-    end = {part_, ftello(file_->f)};
+    if (!can_be_sent(*message)) {
+      ++left_messages_;
+      continue;
+    }
     note(streams, *message);
+    ++since_tick;
     const auto tick = tick_of(*message);
     if (!tick || (!ticks_.empty() && tick->header.utime <= ticks_.back())) continue;  // given again to a late node
     by_the_clock_ = by_the_clock_ || tick->mode == tick_t::REALTIME;
     ticks_.push_back(tick->header.utime);
     places_.push_back(group);
-    group = end;
+    group = place_;
+    since_tick = 0;
   }
-  left_bytes_ += left_in_part(end);
+  left_messages_ += since_tick;
   for (auto& [key, stream] : streams) streams_.push_back(std::move(stream));
 }
 
 std::optional<TickGroup> RecordedLog::next() {
   TickGroup group;
   while (auto message = next_message()) {
+    if (!can_be_sent(*message)) continue;
     if (message->channel != channel::kTick) {
       group.messages.push_back(std::move(*message));
       continue;
@@ -117,7 +116,7 @@ std::optional<TickGroup> RecordedLog::next() {
 void RecordedLog::seek(Utime t) {
   const auto it = std::lower_bound(ticks_.begin(), ticks_.end(), t);
   const size_t index = std::min(static_cast<size_t>(it - ticks_.begin()), ticks_.size() - 1);
-  open_part(places_[index].part, places_[index].offset);
+  open(places_[index]);
   given_ = index == 0 ? kNever : ticks_[index - 1];
 }
 

@@ -1,8 +1,6 @@
 // A log as replay takes it: tick by tick, each with the messages that belong before it.
 #pragma once
 
-#include <lcm/eventlog.h>
-
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -11,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "common/core/time.hpp"
+#include "common/bus/log_runs.hpp"
 
 namespace rover::replay {
 
@@ -40,16 +38,17 @@ struct RecordedStream {
 
 class RecordedLog {
  public:
-  // Looks through the whole log, all parts of it (event_log.hpp). Throws ConfigError with one line where it holds no
-  // ticks.
-  explicit RecordedLog(const std::string& path);
+  // Looks through the whole log, all parts of it (event_log.hpp); of one that holds several runs, `log_run` names one
+  // (log_runs.hpp). Throws ConfigError with one line where there is no such run or it holds no ticks.
+  explicit RecordedLog(const std::string& log_or_run, int log_run = 0);
 
+  const LogRun& run() const { return run_; }
   const std::vector<Utime>& ticks() const { return ticks_; }
   const std::vector<RecordedStream>& streams() const { return streams_; }
   // Whether the ticks followed the clock: such a run is not repeated exactly.
   bool by_the_clock() const { return by_the_clock_; }
-  // Bytes behind the last whole record of each part.
-  std::int64_t left_bytes() const { return left_bytes_; }
+  // Messages that no group holds: behind the last tick, or on channels with names that LCM does not send.
+  std::int64_t left_messages() const { return left_messages_; }
 
   // The group of the next tick; nothing at the end.
   std::optional<TickGroup> next();
@@ -57,23 +56,20 @@ class RecordedLog {
   void seek(Utime t);
 
  private:
-  struct Place {
-    size_t part;
-    std::int64_t offset;
-  };
-  // Of one file, from its current place on; empty at its end.
+  // From the current place on; empty at the end of the run.
   std::optional<LogMessage> next_message();
-  void open_part(size_t part, std::int64_t offset);
+  void open(const LogPlace& place);
   void look_through();
 
+  LogRun run_;
   std::vector<std::string> parts_;
-  std::unique_ptr<lcm_eventlog_t, void (*)(lcm_eventlog_t*)> file_;
-  size_t part_ = 0;  // that is open
+  std::unique_ptr<EventLogReader> reader_;
+  LogPlace place_;  // behind the last message
   std::vector<Utime> ticks_;
-  std::vector<Place> places_;  // of the first record after the tick before
+  std::vector<LogPlace> places_;  // of the first record after the tick before
   std::vector<RecordedStream> streams_;
   bool by_the_clock_ = false;
-  std::int64_t left_bytes_ = 0;
+  std::int64_t left_messages_ = 0;
   Utime given_ = kNever;  // newest tick
 };
 

@@ -5,9 +5,9 @@
 #include <rover/disparity_t.hpp>
 #include <rover/image_t.hpp>
 
+#include "common/bus/channel_types.hpp"
 #include "common/bus/channels.hpp"
 #include "common/bus/convert.hpp"
-#include "common/bus/event_log.hpp"
 #include "common/bus/streams.hpp"
 
 namespace rover::report {
@@ -21,6 +21,7 @@ struct Wanted {
 
 bool take_image(const LogEvent& event, Wanted& wanted) {
   image_t image;
+  if (!find_channel_type(event.channel)->decodes(event.data, event.size)) return false;
   if (!decode_message(event.data, event.size, image) || image.encoding != image_t::MONO8) return false;
   if (image.width <= 0 || image.height <= 0 || image.size != image.width * image.height) return false;
   wanted.picture.t_s = to_seconds(image.header.utime);
@@ -37,7 +38,8 @@ void take(const LogEvent& event, Wanted& wanted) {
     take_image(event, wanted);
   } else if (event.channel == channel::kDisparity) {
     disparity_t disparity;
-    if (decode_message(event.data, event.size, disparity))
+    if (find_channel_type(event.channel)->decodes(event.data, event.size) &&
+        decode_message(event.data, event.size, disparity))
       wanted.view = {disparity.focal_px, disparity.cx_px, disparity.cy_px,
                      rover::pose_from(disparity.position_body_cam_m, disparity.quat_body_cam_wxyz)};
   }
@@ -45,13 +47,13 @@ void take(const LogEvent& event, Wanted& wanted) {
 
 }  // namespace
 
-std::vector<std::optional<CameraPicture>> read_camera_pictures(const std::string& log,
+std::vector<std::optional<CameraPicture>> read_camera_pictures(const LogRun& run,
                                                                const std::vector<double>& exposures_s) {
   std::map<Utime, Wanted> wanted;
   for (const double t_s : exposures_s)
     if (std::isfinite(t_s)) wanted[to_utime(t_s)];
   if (!wanted.empty())
-    for_each_event(log, [&](const LogEvent& event) {
+    for_each_event(run, [&](const LogEvent& event) {
       header_t header{};
       if (!event.channel.starts_with("LOCCAM") && event.channel != channel::kDisparity) return;
       if (!peek_header(event.data, event.size, header)) return;

@@ -2,16 +2,16 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
+#include "common/bus/log_runs.hpp"
 #include "report/camera_picture.hpp"
 
 namespace rover::report {
 
 // One for each exposure, in their order: the rectified left image, else the raw one; empty where the log holds none of
 // it, as a reduced one may.
-std::vector<std::optional<CameraPicture>> read_camera_pictures(const std::string& log,
+std::vector<std::optional<CameraPicture>> read_camera_pictures(const LogRun& run,
                                                                const std::vector<double>& exposures_s);
 
 }  // namespace rover::report

@@ -29,14 +29,14 @@ ComparedRun compared(const std::string& name, const Study& study) {
 
 }  // namespace
 
-std::string compare_runs(const std::string& dir_a, const std::string& dir_b, const std::string& default_config_dir,
+std::string compare_runs(const RunToCompare& run_a, const RunToCompare& run_b, const std::string& default_config_dir,
                          const std::string& out) {
-  const std::string name_a = name_of(dir_a);
-  const std::string name_b = name_of(dir_b);
+  const std::string name_a = name_of(run_a.dir);
+  const std::string name_b = name_of(run_b.dir);
   const std::string file = out.empty() ? "compare-" + name_a + "-" + name_b + ".html" : out;
   check_target(file);
-  const Study a = study_run(dir_a, default_config_dir);
-  const Study b = study_run(dir_b, default_config_dir);
+  const Study a = study_run(run_a.dir, default_config_dir, run_a.log_run);
+  const Study b = study_run(run_b.dir, default_config_dir, run_b.log_run);
   const auto differences = config_differences(configuration_texts(a.folder), configuration_texts(b.folder));
   write_file(file, compare_html(compared(name_a, a), compared(name_b, b), differences));
   return file + ": " + name_a + " beside " + name_b;

@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <rover/elevation_t.hpp>
 #include <tuple>
 
+#include "common/bus/channel_types.hpp"
 #include "common/bus/channels.hpp"
-#include "common/bus/config.hpp"
-#include "common/bus/event_log.hpp"
 #include "common/bus/streams.hpp"
 #include "report/convert.hpp"
 
@@ -86,7 +84,9 @@ class Reader {
     }
     counter_.add(event, header);
     const auto handler = handlers_.find(event.channel);
-    if (handler != handlers_.end() && !handler->second(event)) ++run_.bus.damaged_events;
+    if (handler == handlers_.end()) return;
+    const bool whole = find_channel_type(event.channel)->decodes(event.data, event.size);
+    if (!whole || !handler->second(event)) ++run_.bus.damaged_events;
   }
 
   void count_damaged() { ++run_.bus.damaged_events; }
@@ -147,15 +147,10 @@ class Reader {
 
 }  // namespace
 
-RunRecord read_log(const std::string& path, std::optional<double> run_s) {
+RunRecord read_log(const LogRun& run, std::optional<double> run_s) {
   Reader reader(run_s ? to_utime(*run_s - kUncountedS) : std::numeric_limits<Utime>::max());
-  const LogLength length = for_each_event(path, [&](const LogEvent& event) { reader.add(event); });
-  if (length.records == 0) throw ConfigError(path + ": holds no messages");
-  if (length.left_bytes > 0) {
-    std::fprintf(stderr, "%s: cut short or damaged: %lld messages are whole, %lld bytes are left out\n", path.c_str(),
-                 static_cast<long long>(length.records), static_cast<long long>(length.left_bytes));
-    reader.count_damaged();
-  }
+  for_each_event(run, [&](const LogEvent& event) { reader.add(event); });
+  if (run.left_bytes > 0) reader.count_damaged();
   return reader.finish();
 }
 

@@ -9,6 +9,7 @@
 
 int main(int argc, char** argv) {
   std::vector<std::string> run_dirs;
+  std::vector<int> log_runs;
   std::string config_dir = rover::project_dir() + "/config";
   std::string out;
   CLI::App app(
@@ -20,6 +21,9 @@ int main(int argc, char** argv) {
       ->required()
       ->expected(1, 2)
       ->transform(rover::is_user_path());
+  rover::repeatable(app.add_option("--log-run", log_runs,
+                                   "of a log that holds several runs: the first is 1; of two folders one for each"))
+      ->check(CLI::Range(1, 1'000'000));
   app.add_option("--out", out, "of a comparison; default: compare-A-B.html in the current folder")
       ->transform(rover::is_user_path());
   app.add_option("--config", config_dir, "vehicle of a run whose folder holds no configuration")
@@ -34,11 +38,13 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "rover_report: --out is for a comparison; the report of one run goes into its folder\n");
     return 2;
   }
+  log_runs.resize(run_dirs.size());
   cv::setNumThreads(1);
   try {
-    const std::string said = run_dirs.size() == 1
-                                 ? rover::report::make_report(run_dirs[0], config_dir)
-                                 : rover::report::compare_runs(run_dirs[0], run_dirs[1], config_dir, out);
+    using namespace rover::report;
+    const std::string said =
+        run_dirs.size() == 1 ? make_report(run_dirs[0], config_dir, log_runs[0])
+                             : compare_runs({run_dirs[0], log_runs[0]}, {run_dirs[1], log_runs[1]}, config_dir, out);
     std::printf("%s\n", said.c_str());
   } catch (const std::exception& error) {
     std::fprintf(stderr, "rover_report: %s\n", error.what());

@@ -46,8 +46,8 @@ std::string write_report(const Study& study) {
                      has_truth(m) ? fmt::format("{} collisions", m.collisions) : "no truth");
 }
 
-std::string make_report(const std::string& run_dir, const std::string& default_config_dir) {
-  return write_report(study_run(run_dir, default_config_dir));
+std::string make_report(const std::string& run_dir, const std::string& default_config_dir, int log_run) {
+  return write_report(study_run(run_dir, default_config_dir, log_run));
 }
 
 }  // namespace rover::report

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "common/bus/config.hpp"
+#include "common/bus/event_log.hpp"
 #include "common/bus/vehicle_config.hpp"
 
 namespace rover::report {
@@ -72,11 +73,11 @@ Footprint footprint_of(const std::string& config_dir) {
 }  // namespace
 
 RunFolder open_run_folder(const std::string& dir, const std::string& default_config_dir) {
+  if (fs::is_regular_file(dir)) throw ConfigError(dir + ": is a file; the report is of a run's folder");
   if (!fs::is_directory(dir)) throw ConfigError(dir + ": no such folder");
   RunFolder folder;
   folder.dir = dir;
-  folder.log = dir + "/traverse.lcm";
-  if (!fs::is_regular_file(folder.log)) throw ConfigError(folder.log + ": missing");
+  folder.log = log_file(dir);
   folder.info = read_info(dir);
   folder.scenario = first_existing(dir, {"config/scenario.yaml", "scenario.yaml"});
   folder.orbital_map = first_existing(dir, {"orbital_map.tif", "config/orbital_map.tif"});

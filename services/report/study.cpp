@@ -31,17 +31,19 @@ std::vector<std::string> draw_cameras(const Study& study) {
   for (const Incident& incident : study.judgement.incidents)
     exposures_s.push_back(exposure_behind(study.run, incident.t_s));
   std::vector<std::string> out;
-  for (const auto& picture : read_camera_pictures(study.folder.log, exposures_s))
+  for (const auto& picture : read_camera_pictures(study.log, exposures_s))
     out.push_back(picture ? draw_camera(*picture, study.run, study.folder.footprint.origin_height_m) : "");
   return out;
 }
 
 }  // namespace
 
-Study study_run(const std::string& run_dir, const std::string& default_config_dir) {
+Study study_run(const std::string& run_dir, const std::string& default_config_dir, int log_run) {
   Study study;
   study.folder = open_run_folder(run_dir, default_config_dir);
-  study.run = read_log(study.folder.log, study.folder.info.sim_s);
+  study.log = choose_run(study.folder.log, log_run);
+  print_remarks(study.log);
+  study.run = read_log(study.log, study.folder.info.sim_s);
   study.world = load_true_world(study.folder, surroundings(study.run));
   study.orbital = load_orbital_map(study.folder);
   const bool true_run = !study.run.truth.empty();

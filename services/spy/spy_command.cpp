@@ -2,19 +2,19 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <limits>
 
 #include "common/bus/channel_types.hpp"
 #include "common/bus/config.hpp"
-#include "common/bus/event_log.hpp"
 #include "common/bus/interrupt.hpp"
+#include "common/bus/log_runs.hpp"
 #include "common/bus/wall_clock.hpp"
 #include "spy/bus_ear.hpp"
 #include "spy/figures_json.hpp"
 #include "spy/table.hpp"
 #include "status/running_run.hpp"
 #include "status/terminal.hpp"
+#include "status/text_line.hpp"
 
 namespace rover::spy {
 namespace {
@@ -29,8 +29,12 @@ status::ScreenOptions everything() {
 }
 
 std::string names_of(const Figures& figures) {
+  constexpr size_t kMost = 40;
   std::string names;
-  for (const auto& [name, channel] : figures.channels) names += " " + name;
+  size_t count = 0;
+  for (const auto& [name, channel] : figures.channels)
+    if (count++ < kMost) names += " " + status::printable(name);
+  if (count > kMost) names += " ...";
   return names.empty() ? " none" : names;
 }
 
@@ -44,7 +48,7 @@ int find_fault(const Figures& figures, const std::string& source, const std::set
     if (figures.channels.contains(channel)) continue;
     const bool known = find_channel_type(channel) != nullptr;
     std::fprintf(stderr, "%s: %s %s; heard:%s\n", source.c_str(), known ? "no message on" : "there is no channel",
-                 channel.c_str(), names_of(figures).c_str());
+                 status::printable(channel).c_str(), names_of(figures).c_str());
     return known ? 1 : 2;
   }
   return 0;
@@ -62,19 +66,15 @@ int show_once(const Figures& figures, const std::string& source, const SpyArgume
 }
 
 int spy_on_log(const SpyArguments& arguments) {
-  const bool folder = std::filesystem::is_directory(arguments.log);
-  const std::string log = folder ? arguments.log + "/traverse.lcm" : arguments.log;
+  const LogRun run = choose_run(arguments.log, arguments.log_run);
   Traffic traffic(Traffic::Rates::kWhole);
-  Utime last = 0;
-  const LogLength length = for_each_event(log, [&](const LogEvent& event) {
-    traffic.hear(event.channel, event.data, event.size, to_seconds(event.time));
-    last = event.time;
+  Utime last = std::numeric_limits<Utime>::min();
+  for_each_event(run, [&](const LogEvent& event) {
+    last = std::max(last, event.time);  // records of a clock that was set back
+    traffic.hear(event.channel, event.data, event.size, to_seconds(last));
   });
-  if (length.records == 0) throw ConfigError(log + ": holds no messages; is it an LCM log?");
-  const int status = show_once(traffic.figures(to_seconds(last)), log, arguments);
-  if (length.left_bytes > 0)
-    std::fprintf(stderr, "%s: damaged, %lld bytes are left out; ./rover repair %s makes it whole\n", log.c_str(),
-                 static_cast<long long>(length.left_bytes), log.c_str());
+  const int status = show_once(traffic.figures(to_seconds(last)), run.log, arguments);
+  print_remarks(run);
   return status;
 }
 

@@ -10,6 +10,7 @@ namespace rover::spy {
 
 struct SpyArguments {
   std::string log;  // a log or a run's folder; empty: the bus
+  int log_run = 0;  // of a log that holds several; 0: the only one
   status::TargetArguments target;
   std::set<std::string> channels;  // empty: all, a row each
   double for_s = 0.0;              // 0: until Ctrl-C

@@ -33,6 +33,7 @@ struct Figures {
   std::map<std::string, ChannelFigures> channels;
 };
 
+// Of the newest run: it begins where TICK falls.
 class Traffic {
  public:
   // kRecent: rates over the last 5 s of message time. kWhole: over everything heard.
@@ -52,16 +53,20 @@ class Traffic {
     Utime newest_utime = kNever;
     std::vector<std::uint8_t> newest;
   };
+  // What was heard of one run; another one begins with accounts of its own.
+  struct Run {
+    status::MessageClock clock;
+    bool has_ticks = false;
+    double first_wall_s = kNaN;
+    std::map<std::string, Channel> channels;
+  };
   void tick(Utime utime, double wall_s);
   void tick_without_ticks(double wall_s);
   void forget_before(Utime utime);
   ChannelFigures figures_of(const std::string& name, const Channel& channel, double wall_s) const;
 
   Rates rates_;
-  status::MessageClock clock_;
-  bool ticks_heard_ = false;
-  double first_wall_s_ = kNaN;
-  std::map<std::string, Channel> channels_;
+  Run run_;
 };
 
 }  // namespace rover::spy

@@ -8,7 +8,7 @@ constexpr Utime kWindow = 5'000'000;
 }  // namespace
 
 void MessageClock::tick(Utime utime, double wall_s) {
-  if (!ticks_.empty() && utime <= ticks_.back().utime) return;  // said again: a node was not heard
+  if (utime == kNever || utime <= now()) return;  // said again: a node was not heard
   ticks_.push_back({utime, wall_s});
   while (ticks_.front().utime < utime - kWindow) ticks_.pop_front();
 }

@@ -118,6 +118,24 @@ TEST_F(EventLog, ForeignBytesBehindAMessageThatDecodesTakeNothingFromIt) {
   EXPECT_EQ(r.length.left_bytes, 15);
 }
 
+// A damaged length may claim what the file holds, and more than LCM ever sends.
+TEST_F(EventLog, WhatAClaimedLengthWouldTakeIsNotRead) {
+  const auto record = static_cast<std::int64_t>(28 + 4 + slip_bytes().size());
+  for (const std::string length : {"\x7f\xff\xff\xff", "\x0f\xff\xff\xff"}) {
+    write_log(path_, 3, "SLIP", slip_bytes());
+    overwrite(path_, record + 24, length);
+    fs::resize_file(path_, 300'000'000);  // with a hole, which takes no place on the disk
+    EventLogReader reader(path_);
+    LogEvent event;
+    EXPECT_TRUE(reader.next(event));
+    EXPECT_TRUE(reader.next(event));
+    EXPECT_EQ(event.time, 2000);
+  }
+  write_log(path_, 1, "SLIP", slip_bytes());
+  overwrite(path_, 12, "\x80");  // its time
+  EXPECT_EQ(read(path_).times.back(), -(Utime{1} << 53));
+}
+
 TEST_F(EventLog, PartsAreOneLog) {
   write(3);
   write_log(folder_.file("log-002.lcm"), 2, "DATA", Bytes(10, 1));
@@ -133,7 +151,7 @@ TEST_F(EventLog, WhatIsNoLogIsNamed) {
     for_each_event(folder_.path().string(), [](const LogEvent&) {});
     FAIL();
   } catch (const ConfigError& error) {
-    EXPECT_EQ(std::string(error.what()), folder_.path().string() + ": no such log");
+    EXPECT_EQ(std::string(error.what()), folder_.path().string() + ": is no file; a log is read from a file");
   }
   std::ofstream(path_) << "no log at all";
   EXPECT_EQ(read(path_).length.records, 0);

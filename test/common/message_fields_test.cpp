@@ -1,6 +1,7 @@
 #include "common/bus/message_fields.hpp"
 
 #include <gmock/gmock.h>
+#include <sys/resource.h>
 
 #include <cmath>
 #include <fstream>
@@ -141,6 +142,42 @@ TEST(MessageFields, ADamagedLengthIsNoMessage) {
     std::vector<std::uint8_t> bytes = encoded(message);
     bytes[bytes.size() - 7] = damage;
     EXPECT_FALSE(decoded(channel::kLocCamLeft, bytes));
+  }
+}
+
+std::uintmax_t peak_memory_kb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uintmax_t>(usage.ru_maxrss);
+}
+
+// lcm-gen's own decoders take the memory for a length before they look whether the bytes are there.
+TEST(MessageFields, ALengthThatIsClaimedTakesNoMemory) {
+  image_t image{};
+  image.header = some_header();
+  image.size = 1;
+  image.data = {7};
+  auto bytes = encoded(image);
+  const ChannelType& type = *find_channel_type(channel::kLocCamLeft);
+  ASSERT_TRUE(type.decodes(bytes.data(), static_cast<int>(bytes.size())));
+  std::copy_n(std::initializer_list<std::uint8_t>{0x7f, 0xff, 0xff, 0xff}.begin(), 4, bytes.end() - 5);
+  const auto before = peak_memory_kb();
+  EXPECT_FALSE(type.decodes(bytes.data(), static_cast<int>(bytes.size())));
+  EXPECT_FALSE(decoded(channel::kLocCamLeft, bytes));
+  EXPECT_LT(peak_memory_kb(), before + 100'000);
+}
+
+TEST(MessageFields, WholeIsWhatTheGeneratedDecoderTakes) {
+  const auto bytes = encoded(some_heartbeat());
+  const ChannelType& type = *find_channel_type(channel::kHeartbeat);
+  for (size_t i = 0; i <= bytes.size(); ++i) {
+    heartbeat_t message;
+    EXPECT_EQ(type.decodes(bytes.data(), static_cast<int>(i)),
+              decode_message(bytes.data(), static_cast<int>(i), message));
+    auto longer = bytes;
+    longer.insert(longer.begin() + static_cast<long>(i), 0);
+    const int size = static_cast<int>(longer.size());
+    EXPECT_EQ(type.decodes(longer.data(), size), decode_message(longer.data(), size, message)) << i;
   }
 }
 

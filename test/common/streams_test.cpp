@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <rover/slip_t.hpp>
+
 namespace rover {
 namespace {
 
@@ -63,6 +66,24 @@ TEST(Peek, ShortBytesHaveNoHeader) {
   const std::uint8_t bytes[12] = {};
   EXPECT_FALSE(peek_header(bytes, 8, header));
   EXPECT_FALSE(peek_header(bytes, 12, header));
+}
+
+// Of damaged bytes; whoever takes differences of such times overflows.
+TEST(Peek, TimesAndNumbersBeyondAllAreNoHeader) {
+  const auto readable = [](auto change) {
+    slip_t message{};
+    change(message.header);
+    const auto bytes = encoded(message);
+    header_t header;
+    return peek_header(bytes.data(), static_cast<int>(bytes.size()), header);
+  };
+  constexpr std::int64_t kLeast = std::numeric_limits<std::int64_t>::min();
+  EXPECT_TRUE(readable([](header_t& h) { h.utime = 1'700'000'000'000'000; }));  // since 1970
+  EXPECT_TRUE(readable([](header_t& h) { h.utime = h.release_utime = kNever; }));
+  EXPECT_FALSE(readable([](header_t& h) { h.utime = 4'213'092'985'657'280'000; }));
+  EXPECT_FALSE(readable([](header_t& h) { h.release_utime = kLeast; }));
+  EXPECT_FALSE(readable([](header_t& h) { h.seq = kLeast; }));
+  EXPECT_FALSE(readable([](header_t& h) { h.boot_id = kLeast; }));
 }
 
 }  // namespace

@@ -19,6 +19,12 @@ class TempFolder {
 
   const std::filesystem::path& path() const { return path_; }
   std::string file(const std::string& name) const { return (path_ / name).string(); }
+  // The text with the names of the folder's files as they are in it.
+  std::string short_names(std::string text) const {
+    const std::string prefix = path_.string() + "/";
+    for (size_t at = text.find(prefix); at != std::string::npos; at = text.find(prefix)) text.erase(at, prefix.size());
+    return text;
+  }
 
  private:
   std::filesystem::path path_;

@@ -1,16 +1,17 @@
 #include "recorder/log_file.hpp"
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
-#include <csignal>
 #include <filesystem>
+#include <fstream>
 #include <numeric>
 
+#include "../common/small_disk.hpp"
 #include "../common/temp_folder.hpp"
 #include "common/bus/config.hpp"
 #include "common/bus/event_log.hpp"
 #include "read_back.hpp"
+#include "wild.hpp"
 
 namespace rover::recorder {
 namespace {
@@ -75,27 +76,12 @@ TEST_F(LogFileTest, AFullDiskIsReportedNotFatal) {
   EXPECT_FALSE(log.flush());
 }
 
-// Files that may not grow stand in for a disk that is full.
-class SmallDisk {
- public:
-  explicit SmallDisk(rlim_t bytes) {
-    std::signal(SIGXFSZ, SIG_IGN);
-    getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit limit{bytes, before_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~SmallDisk() { setrlimit(RLIMIT_FSIZE, &before_); }
-
- private:
-  rlimit before_{};
-};
-
 TEST(LogFileOnAFullDisk, EndsWithItsLastWholeRecord) {
   const testing_support::TempFolder folder;
   const std::string path = folder.file("log.lcm");
   int taken = 0;
   {
-    const SmallDisk disk(10'050);  // 76 records of 132 bytes, and a part of one
+    const testing_support::SmallDisk disk(10'050);  // 76 records of 132 bytes, and a part of one
     LogFile log(path);
     while (log.write(event(taken, "DATA", std::vector<std::uint8_t>(100, 7))) && log.flush()) ++taken;
     EXPECT_EQ(taken, 76);
@@ -149,6 +135,20 @@ TEST_F(LogFileParts, AMessageLargerThanAPartHasOneOfItsOwn) {
   EXPECT_TRUE(log.close());
   EXPECT_EQ(times(), (std::vector<Utime>{0, 1}));
   EXPECT_EQ(log_parts(path_).size(), 2U);
+}
+
+TEST_F(LogFileTest, AFileThatIsNoLogIsNotWrittenOver) {
+  std::ofstream(path_) << "notes of somebody";
+  std::string said;
+  try {
+    LogFile log(path_);
+  } catch (const ConfigError& error) {
+    said = error.what();
+  }
+  EXPECT_EQ(said, path_ + ": is no log; it is not written over, move it away");
+  EXPECT_EQ(std::filesystem::file_size(path_), 17U);
+  wild_row("Outputs", "a recorder whose traverse.lcm is a file of the user's", "cut to nothing",
+           "log_file_test.lcm" + said.substr(path_.size()));
 }
 
 TEST_F(LogFileTest, APlaceThatCannotBeWrittenIsNamed) {

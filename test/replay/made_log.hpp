@@ -19,16 +19,19 @@ class MadeLog {
  public:
   static Utime tick_time(int k) { return 1'000'000 + (k - 1) * kTickUs; }
 
-  MadeLog(const std::string& path, int count) : path_(path), log_(path, "w"), world_("world", 1), echo_("echo", 1) {
+  // mode "a": behind what the file holds already, as `cat` puts logs together. From tick `jump_at` on the clock is set
+  // by `jump`.
+  MadeLog(const std::string& path, int count, const char* mode = "w", int jump_at = 0, Utime jump = 0)
+      : path_(path), log_(path, mode), world_("world", 1), echo_("echo", 1) {
     for (int k = 1; k <= count; ++k) {
-      const Utime t = tick_time(k);
+      const Utime t = tick_time(k) + (jump_at > 0 && k >= jump_at ? jump : 0);
       imu_t imu{};
       imu.header = world_.next(channel::kImu, t, t);
       imu.dt_s = k;
       write(channel::kImu, encoded(imu), t);
       if (k > 1) {
         slip_t slip{};
-        slip.header = echo_.next(channel::kSlip, tick_time(k - 1), t);
+        slip.header = echo_.next(channel::kSlip, t - kTickUs, t);
         slip.slip_ratio = k - 1;
         write(channel::kSlip, encoded(slip), t);
       }

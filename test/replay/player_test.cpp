@@ -117,6 +117,20 @@ TEST_F(PlayerTest, plays_from_and_until) {
   EXPECT_EQ(heard.ticks.front(), MadeLog::tick_time(50));
 }
 
+// At the speed of the clock: the test would last for days.
+TEST_F(PlayerTest, a_gap_of_days_is_passed_in_one_step) {
+  { const MadeLog jumps(path_, 10, "w", 6, 3 * Utime{86'400'000'000}); }
+  RecordedLog log(path_);
+  EXPECT_EQ(play_alone(log, {.speed = 1.0}).ticks, log.ticks());
+  const Echo echo;
+  lcm::LCM bus(kBus), reports(reports_url(kBus));
+  Comparison judge;
+  Player player({.live = {"echo"}, .speed = 1.0}, log, bus, reports, &judge);
+  const Played played = player.play({});
+  EXPECT_EQ(played.last, log.ticks().back());
+  EXPECT_FALSE(played.quit);
+}
+
 TEST_F(PlayerTest, keys_seek_both_ways_and_end) {
   { const MadeLog longer(path_, 2000); }
   RecordedLog log(path_);

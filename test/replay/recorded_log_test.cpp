@@ -9,6 +9,7 @@
 #include "common/bus/config.hpp"
 #include "common/bus/event_log.hpp"
 #include "made_log.hpp"
+#include "wild.hpp"
 
 namespace rover::replay {
 namespace {
@@ -21,6 +22,14 @@ class RecordedLogTest : public testing::Test {
     const std::string path = folder_.file("made.lcm");
     const MadeLog log(path, count);
     return path;
+  }
+  std::string refusal(const std::string& path) {
+    try {
+      RecordedLog log(path);
+    } catch (const ConfigError& error) {
+      return folder_.short_names(error.what());
+    }
+    return "not refused";
   }
   TempFolder folder_;
 };
@@ -67,7 +76,8 @@ TEST_F(RecordedLogTest, a_cut_log_ends_with_its_last_whole_tick) {
   std::filesystem::resize_file(path, std::filesystem::file_size(path) - 10);
   const RecordedLog log(path);
   EXPECT_EQ(log.ticks().size(), 4U);
-  EXPECT_GT(log.left_bytes(), 0);
+  EXPECT_GT(log.run().left_bytes, 0);
+  EXPECT_EQ(log.left_messages(), 2) << "behind the last whole tick";
 }
 
 TEST_F(RecordedLogTest, goes_on_in_the_next_part) {
@@ -92,12 +102,60 @@ TEST_F(RecordedLogTest, goes_on_in_the_next_part) {
   }
   RecordedLog log(path);
   EXPECT_EQ(log.ticks().size(), 6U);
-  EXPECT_EQ(log.left_bytes(), 0);
+  EXPECT_EQ(log.run().left_bytes, 0);
   for (int k = 1; k <= 6; ++k) EXPECT_EQ(log.next()->tick, MadeLog::tick_time(k));
   log.seek(MadeLog::tick_time(5));
   EXPECT_EQ(log.next()->messages.size(), 2U);
   log.seek(MadeLog::tick_time(2));
   EXPECT_EQ(log.next()->tick, MadeLog::tick_time(2));
+}
+
+TEST_F(RecordedLogTest, a_log_of_several_runs_is_played_run_by_run) {
+  const std::string path = made(5);
+  { const MadeLog second(path, 3, "a"); }
+  EXPECT_EQ(refusal(path),
+            "made.lcm: holds 2 runs, of the message time 1: 1.00 - 1.08 s, 2: 1.00 - 1.04 s; choose one "
+            "by --log-run N");
+  wild_row("Logs", "replay of two runs in one file", "the second is left out without a word", refusal(path));
+  RecordedLog log(path, 2);
+  EXPECT_EQ(log.ticks().size(), 3U);
+  EXPECT_EQ(log.streams()[0].count, 3);
+  for (int k = 1; k <= 3; ++k) EXPECT_EQ(log.next()->tick, MadeLog::tick_time(k));
+  EXPECT_FALSE(log.next());
+  log.seek(0);
+  EXPECT_EQ(log.next()->messages.size(), 1U) << "nothing of the run before";
+  EXPECT_EQ(RecordedLog(path, 1).ticks().size(), 5U);
+}
+
+TEST_F(RecordedLogTest, goes_on_behind_a_damaged_record) {
+  const std::string path = made(5);
+  std::int64_t begin = 0;
+  for_each_event(path,
+                 [&](const LogEvent& event) { begin = event.time == MadeLog::tick_time(3) ? event.begin : begin; });
+  std::fstream(path, std::ios::binary | std::ios::in | std::ios::out).seekp(begin + 24) << "\x7f\xff\xff\xff";
+  RecordedLog log(path);
+  EXPECT_EQ(log.ticks().size(), 4U);
+  EXPECT_EQ(log.ticks().back(), MadeLog::tick_time(5));
+  wild_row("Logs", "replay of a log with a damaged record in the middle, which claims 2 GB", "ends there",
+           "goes on behind it; remarks: " + folder_.short_names(remarks(log.run()).front()));
+}
+
+TEST_F(RecordedLogTest, counts_what_cannot_be_sent) {
+  const std::string path = made(3);
+  {
+    lcm::LogFile file(path, "a");
+    std::uint8_t byte = 7;
+    lcm::LogEvent event{0, MadeLog::tick_time(3), std::string(64, 'x'), 1, &byte};
+    file.writeEvent(&event);
+    event.channel = "/foreign";
+    file.writeEvent(&event);
+  }
+  { const MadeLog later(path, 4, "a", 1, 3 * kTickUs); }
+  RecordedLog log(path);
+  EXPECT_EQ(log.ticks().size(), 7U);
+  EXPECT_EQ(log.left_messages(), 1);
+  log.seek(MadeLog::tick_time(4));
+  EXPECT_EQ(log.next()->messages.front().channel, "/foreign");
 }
 
 TEST_F(RecordedLogTest, refuses_what_is_no_log) {

@@ -79,7 +79,7 @@ class CameraReader : public testing::Test {
 };
 
 TEST_F(CameraReader, TakesTheRectifiedImageWhereThereIsOne) {
-  const auto pictures = read_camera_pictures(path_, {0.8, 0.4, 1.2, kNaN});
+  const auto pictures = read_camera_pictures(choose_run(path_), {0.8, 0.4, 1.2, kNaN});
   ASSERT_EQ(pictures.size(), 4U);
   ASSERT_TRUE(pictures[0] && pictures[1]);
   EXPECT_EQ(pictures[0]->grey.front(), 200);

@@ -109,21 +109,21 @@ TEST_F(CompareRuns, OnePageOfBoth) {
   const std::string a = write_run("slow", 0.1);
   const std::string b = write_run("fast", 0.18);
   const std::string file = folder_.file("both.html");
-  compare_runs(a, b + "/", kConfig, file);
+  compare_runs({a}, {b + "/"}, kConfig, file);
   const std::string html = read_file(file);
   EXPECT_THAT(html, HasSubstr("<title>Compared: slow, fast</title>"));
   EXPECT_THAT(html, ContainsRegex("Duration of the drive</td><td class=\"n\">60 s</td><td class=\"n better\">33 s"));
   for (const MapLayerInfo& layer : kMapLayers)
     EXPECT_THAT(html, HasSubstr("id=\"show-" + std::string(layer.id) + "\"")) << "one switch for both maps";
   EXPECT_FALSE(fs::exists(a + "/report.html")) << "the runs' own reports stay as they are";
-  compare_runs(a, b, kConfig, file);  // made again
+  compare_runs({a}, {b}, kConfig, file);  // made again
   EXPECT_EQ(read_file(file), html);
 }
 
 TEST_F(CompareRuns, OverwritesNothingElse) {
   const std::string a = write_run("a", 0.1);
   std::ofstream(folder_.file("notes.html")) << "mine";
-  EXPECT_THROW(compare_runs(a, a, kConfig, folder_.file("notes.html")), ConfigError);
+  EXPECT_THROW(compare_runs({a}, {a}, kConfig, folder_.file("notes.html")), ConfigError);
   EXPECT_EQ(read_file(folder_.file("notes.html")), "mine");
 }
 

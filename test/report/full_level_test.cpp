@@ -187,7 +187,7 @@ class FullLogTest : public testing::Test {
 };
 
 TEST_F(FullLogTest, FiguresFromTheLog) {
-  const RunRecord run = read_log(log_file_);
+  const RunRecord run = read_log(choose_run(log_file_));
   EXPECT_NEAR(run.elevation.at(18.0, -3.0), 1.8, 0.02);
   EXPECT_TRUE(std::isnan(run.elevation.at(18.0, 3.0)));
   const Judgement judgement = judge(run, RunInfo{}, Footprint{}, std::nullopt);
@@ -212,7 +212,7 @@ TEST_F(FullLogTest, FiguresFromTheLog) {
 }
 
 TEST_F(FullLogTest, PicturesShowMapTracksAndReasons) {
-  const RunRecord run = read_log(log_file_);
+  const RunRecord run = read_log(choose_run(log_file_));
   const Footprint footprint;
   const std::optional<TrueWorld> world;
   const HeightRaster orbital;

@@ -10,8 +10,10 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <rover/slip_t.hpp>
+#include <rover/tick_t.hpp>
 #include <rover/truth_t.hpp>
 
+#include "../common/temp_folder.hpp"
 #include "common/bus/channels.hpp"
 #include "common/bus/config.hpp"
 #include "message_log.hpp"
@@ -20,6 +22,7 @@
 #include "report/map_picture.hpp"
 #include "report/metrics_json.hpp"
 #include "synthetic_run.hpp"
+#include "wild.hpp"
 
 namespace rover::report {
 namespace {
@@ -54,7 +57,8 @@ class ReportTest : public testing::Test {
   static Study study() {
     Study study;
     study.folder = open_run_folder(dir_, kConfig);
-    study.run = read_log(study.folder.log);
+    study.log = choose_run(study.folder.log);
+    study.run = read_log(study.log);
     study.world = world_of(short_run());
     study.judgement = judge(study.run, study.folder.info, study.folder.footprint, study.world);
     return study;
@@ -221,12 +225,14 @@ TEST_F(ReportTest, WithoutTruthTheReportSaysSoAndTellsWhatTheEstimateCan) {
 
 TEST_F(ReportTest, ACutLogLosesItsEndOnly) {
   const std::string cut = testing::TempDir() + "/cut.lcm";
-  const auto whole = read_log(dir_ + "/traverse.lcm");
+  const auto whole = read_log(choose_run(dir_ + "/traverse.lcm"));
   for (const std::uintmax_t missing : {1u, 7u, 30u, 333u, 100'000u}) {
     fs::copy_file(dir_ + "/traverse.lcm", cut, fs::copy_options::overwrite_existing);
     fs::resize_file(cut, fs::file_size(cut) - missing);
     testing::internal::CaptureStderr();
-    const RunRecord run = read_log(cut);
+    const LogRun log = choose_run(cut);
+    print_remarks(log);
+    const RunRecord run = read_log(log);
     const std::string said = testing::internal::GetCapturedStderr();
     EXPECT_EQ(said.rfind(cut + ": cut short", 0), 0u) << said;
     EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
@@ -235,6 +241,32 @@ TEST_F(ReportTest, ACutLogLosesItsEndOnly) {
     EXPECT_EQ(run.bus.damaged_events, 1);
   }
   EXPECT_EQ(whole.bus.damaged_events, 0);
+}
+
+TEST_F(ReportTest, JudgesOneRunOfALogAndSaysWhich) {
+  const testing_support::TempFolder folder;
+  const std::string other = folder.file("two");
+  fs::create_directories(other);
+  // Each run with a TICK behind it.
+  std::ofstream both(other + "/traverse.lcm", std::ios::binary);
+  for (const Utime end : {Utime{600'000'000}, Utime{599'980'000}}) {
+    const std::string ticks = folder.file("ticks.lcm");
+    { MessageLog(ticks).put(channel::kTick, tick_t{}, end, "rover_simulator"); }
+    both << read_file(dir_ + "/traverse.lcm") << read_file(ticks);
+  }
+  both.close();
+  std::string said;
+  try {
+    make_report(other, kConfig);
+  } catch (const ConfigError& error) {
+    said = folder.short_names(error.what());
+  }
+  EXPECT_THAT(said, testing::HasSubstr("two/traverse.lcm: holds 2 runs, of the message time 1: "));
+  wild_row("Logs", "report of two runs in one file", "one drive of both, whose times fall", said);
+  testing::internal::CaptureStderr();
+  make_report(other, kConfig, 2);
+  EXPECT_THAT(testing::internal::GetCapturedStderr(), testing::HasSubstr("run 2 of 2"));
+  EXPECT_EQ(nlohmann::json::parse(read_file(other + "/metrics.json"))["driven_length_m"], metrics()["driven_length_m"]);
 }
 
 TEST_F(ReportTest, DamagedRecordsAreCountedAndSkipped) {
@@ -247,7 +279,7 @@ TEST_F(ReportTest, DamagedRecordsAreCountedAndSkipped) {
     log.put_bytes("SOMETHING_ELSE", std::vector<std::uint8_t>(200, 0xff), 50'000);
     log.put(channel::kTruth, truth_t{}, 60'000, "rover_simulator");
   }
-  const RunRecord run = read_log(file);
+  const RunRecord run = read_log(choose_run(file));
   EXPECT_EQ(run.truth.size(), 2u);
   EXPECT_GE(run.bus.damaged_events, 2);
 }
@@ -260,7 +292,7 @@ TEST_F(ReportTest, MessagesLeftOutOfAReducedLogStillCount) {
     log.put("SLIP", slip_t{}, 180'000, "localization");
     log.put("POSE", slip_t{}, 180'000, "localization");
   }
-  const BusRecord bus = read_log(file).bus;
+  const BusRecord bus = read_log(choose_run(file)).bus;
   EXPECT_EQ(bus.messages, 11);
   slip_t message{};
   message.header.publisher = "localization";
@@ -280,9 +312,9 @@ TEST(RunFolder, EachFaultIsOneLineThatNamesTheFile) {
   const std::string dir = testing::TempDir() + "/faulty_run";
   fs::remove_all(dir);
   fs::create_directories(dir);
-  EXPECT_EQ(message(dir), dir + "/traverse.lcm: missing");
+  EXPECT_EQ(message(dir), dir + "/traverse.lcm: no such log");
   std::ofstream(dir + "/traverse.lcm") << "";
-  EXPECT_EQ(message(dir), dir + "/traverse.lcm: holds no messages");
+  EXPECT_EQ(message(dir), dir + "/traverse.lcm: is empty");
   std::ofstream(dir + "/run.json") << "{\"seed\": ";
   EXPECT_EQ(message(dir).rfind(dir + "/run.json: ", 0), 0u);
   std::ofstream(dir + "/run.json") << "{\"seed\": \"three\"}";

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <rover/slip_t.hpp>
 #include <rover/tick_t.hpp>
@@ -12,18 +13,25 @@
 #include "common/bus/config.hpp"
 #include "messages.hpp"
 #include "spy/spy_command.hpp"
+#include "wild.hpp"
 
 namespace rover::spy {
 namespace {
 
 class SpyOnLog : public testing::Test {
  protected:
-  SpyOnLog() {
-    lcm_eventlog_t* log = lcm_eventlog_create(log_.c_str(), "w");
-    for (std::int64_t i = 0; i < 100; ++i) {
+  SpyOnLog() { add_run(100); }
+  void add_run(std::int64_t ticks) {
+    lcm_eventlog_t* log = lcm_eventlog_create(log_.c_str(), "a");
+    for (std::int64_t i = 0; i < ticks; ++i) {
       write(log, "TICK", i * kTickUs, encoded(made<tick_t>(i * kTickUs, i + 1, "world")));
       if (i % 5 == 0) write(log, "SLIP", i * kTickUs, encoded(made<slip_t>(i * kTickUs, i / 5 + 1, "localization")));
     }
+    lcm_eventlog_destroy(log);
+  }
+  void add(const std::string& channel, const std::vector<std::uint8_t>& bytes, Utime time) {
+    lcm_eventlog_t* log = lcm_eventlog_create(log_.c_str(), "a");
+    write(log, channel, time, bytes);
     lcm_eventlog_destroy(log);
   }
   static void write(lcm_eventlog_t* log, std::string channel, Utime time, std::vector<std::uint8_t> bytes) {
@@ -77,6 +85,50 @@ TEST_F(SpyOnLog, ADamagedLogIsShownAndSaidToBe) {
   ASSERT_EQ(spy_with({.log = log_, .json = true}), 0);
   EXPECT_EQ(nlohmann::json::parse(out_)["channels"]["TICK"]["messages"], 99);
   EXPECT_THAT(said_, testing::HasSubstr("./rover repair"));
+}
+
+TEST_F(SpyOnLog, OfSeveralRunsOneIsShown) {
+  add_run(30);
+  EXPECT_EQ(spy_with({.log = log_}), 2);
+  EXPECT_EQ(
+      folder_.short_names(said_),
+      "traverse.lcm: holds 2 runs, of the message time 1: 0.00 - 1.98 s, 2: 0.00 - 0.58 s; choose one by --log-run "
+      "N\n");
+  wild_row("Logs", "spy on logs put together with cat", "dies of heap corruption", folder_.short_names(said_));
+  ASSERT_EQ(spy_with({.log = log_, .log_run = 2, .json = true}), 0);
+  const auto json = nlohmann::json::parse(out_);
+  EXPECT_EQ(json["channels"]["TICK"]["messages"], 30);
+  EXPECT_EQ(json["channels"]["SLIP"]["messages"], 6);
+  EXPECT_EQ(json["channels"]["SLIP"]["gaps"], 0);
+  EXPECT_EQ(folder_.short_names(said_), "traverse.lcm: run 2 of 2, message time 0.00 - 0.58 s\n");
+}
+
+TEST_F(SpyOnLog, ChannelsOfOthersAreShownAsTheyCanBe) {
+  const std::string latin = "caf\xe9";
+  for (const std::string& name : {std::string("../../etc/passwd"), std::string("/camera/left"), latin})
+    add(name, {1}, 0);
+  ASSERT_EQ(spy_with({.log = log_, .json = true}), 0);
+  const auto json = nlohmann::json::parse(out_);
+  EXPECT_EQ(json["channels"].size(), 5U);
+  EXPECT_EQ(json["channels"]["/camera/left"]["messages"], 1);
+  ASSERT_EQ(spy_with({.log = log_}), 0);
+  EXPECT_THAT(out_, testing::HasSubstr("caf? "));
+  EXPECT_EQ(spy_with({.log = log_, .channels = {"\033[2J"}}), 2);
+  EXPECT_THAT(said_, testing::HasSubstr("caf?"));
+  EXPECT_THAT(said_, testing::Not(testing::HasSubstr("\033")));
+  wild_row("Logs", "spy: a channel whose name is Latin-1, or has slashes", "in a refusal its bytes as they are on the terminal",
+           "caf? in the table, U+FFFD in JSON");
+}
+
+// The records of a logger whose clock was set, and of one that has none.
+TEST_F(SpyOnLog, TimesOfRecordsMayBeAnything) {
+  for (const Utime time : {Utime{0}, std::numeric_limits<Utime>::max(), std::numeric_limits<Utime>::min(), Utime{-1}})
+    add("FOREIGN", {1, 2}, time);
+  add("TICK", encoded(made<tick_t>(std::numeric_limits<Utime>::min(), 101, "world")), 0);
+  ASSERT_EQ(spy_with({.log = log_, .json = true}), 0);
+  const auto json = nlohmann::json::parse(out_);
+  EXPECT_EQ(json["channels"]["FOREIGN"]["messages"], 4);
+  EXPECT_EQ(json["channels"]["TICK"]["malformed"], 1);
 }
 
 TEST_F(SpyOnLog, BadInputIsOneLineAndTwo) {

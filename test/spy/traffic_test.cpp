@@ -6,6 +6,7 @@
 #include <rover/tick_t.hpp>
 
 #include "messages.hpp"
+#include "wild.hpp"
 
 namespace rover::spy {
 namespace {
@@ -104,6 +105,35 @@ TEST_F(TrafficTest, AnotherWorldBeginsAnew) {
   EXPECT_EQ(figures.now, 0);
   EXPECT_EQ(figures.channels.at("SLIP").messages, 1);
   EXPECT_EQ(figures.channels.at("SLIP").gaps, 0);
+}
+
+// The TICK that begins a run is itself the first message of the new accounts.
+TEST_F(TrafficTest, TheTickThatBeginsARunIsCountedInIt) {
+  Traffic traffic(Traffic::Rates::kRecent);
+  run(traffic, 3.0);
+  for (const double wall_s : {now_ + 1.0, now_ + 2.0}) {  // the second run is ended by a third
+    hear(traffic, "TICK", encoded(made<tick_t>(0, 1, "world")), wall_s);
+    EXPECT_EQ(traffic.figures(wall_s).channels.size(), 1U);
+    EXPECT_EQ(traffic.figures(wall_s).channels.at("TICK").messages, 1);
+    hear(traffic, "TICK", encoded(made<tick_t>(kTickUs, 2, "world")), wall_s);
+    EXPECT_EQ(traffic.figures(wall_s).channels.at("TICK").messages, 2);
+    EXPECT_EQ(traffic.figures(wall_s).channels.at("TICK").gaps, 0);
+  }
+  wild_row("Logs", "a new run begins under a running spy", "heap corruption",
+           std::to_string(traffic.figures(now_ + 2.0).channels.at("TICK").messages) + " TICKs of the new run counted");
+}
+
+TEST_F(TrafficTest, AJumpOfDaysLeavesTheRatesThatFollow) {
+  Traffic traffic(Traffic::Rates::kRecent);
+  run(traffic, 3.0);
+  constexpr Utime kDays = 200'000'000'000;
+  for (Utime t = kDays; t < kDays + 2'000'000; t += kTickUs)
+    hear(traffic, "TICK", encoded(made<tick_t>(t, ++ticks_, "world")), now_ += 0.01);
+  const Figures figures = traffic.figures(now_);
+  EXPECT_EQ(figures.now, kDays + 1'980'000);
+  EXPECT_NEAR(figures.channels.at("TICK").hz, 50.0, 0.6);
+  EXPECT_EQ(figures.channels.at("TICK").gaps, 0);
+  EXPECT_NEAR(figures.realtime_factor, 2.0, 0.1);
 }
 
 }  // namespace

@@ -35,14 +35,20 @@ class World {
     ++boot_[publisher];
     seq_[channel + publisher] = 0;
   }
+  // The clock is set; wall time knows nothing of it.
+  void jump(Utime by) {
+    now_ += by;
+    jumped_ += by;
+  }
   Snapshot look() const { return account.snapshot({}, wall_s()); }
   Utime now() const { return now_; }
-  double wall_s() const { return 1000.0 + to_seconds(now_) / kFactor; }
+  double wall_s() const { return 1000.0 + to_seconds(now_ - jumped_) / kFactor; }
 
   Account account;
 
  private:
   Utime now_ = 60'000'000;
+  Utime jumped_ = 0;
   std::map<std::string, std::int64_t> seq_;
   std::map<std::string, std::int64_t> boot_;
 };
@@ -171,6 +177,16 @@ TEST(Account, AnotherWorldBeginsAnew) {
   const Snapshot s = world.look();
   EXPECT_EQ(s.now, 0);
   EXPECT_TRUE(s.channels.empty());
+}
+
+TEST(Account, AJumpOfDaysLeavesTheRatesThatFollow) {
+  World world;
+  world.run(10.0);
+  world.jump(3 * Utime{86'400'000'000});
+  EXPECT_EQ(world.look().channels.at("TICK").gaps, 0);
+  world.run(5.0);
+  EXPECT_NEAR(world.look().channels.at("TICK").hz, 50.0, 0.5);
+  EXPECT_NEAR(world.look().realtime_factor, World::kFactor, 0.1);
 }
 
 TEST(Account, SilentChannelsAreKnownFromThoseWhoTakeThem) {

@@ -34,6 +34,7 @@
 #include <rover/wheel_state_t.hpp>
 
 #include "common/bus/channels.hpp"
+#include "common/bus/message_fields.hpp"
 #include "common/bus/streams.hpp"
 
 namespace rover {
@@ -42,8 +43,8 @@ namespace {
 template <class Message>
 ChannelType carries() {
   return {Message::getTypeName(), Message::getHash(), [](const void* data, int size) {
-            Message message;
-            return decode_message(data, size, message);
+            return peek_fingerprint(data, size) == Message::getHash() &&
+                   is_whole_message(Message::getTypeName(), data, size);
           }};
 }
 

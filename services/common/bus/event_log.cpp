@@ -2,10 +2,11 @@
 // channel, message; all big-endian.
 #include "common/bus/event_log.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <utility>
 
 #include "common/bus/channel_types.hpp"
 #include "common/bus/config.hpp"
@@ -16,7 +17,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array<std::uint8_t, 4> kSync = {0xED, 0xA1, 0xDA, 0x01};
-constexpr int kLongestChannel = 999;  // LCM's reader takes no longer ones
+constexpr int kLongestChannel = 999;               // LCM's reader takes no longer ones
+constexpr std::int64_t kLongestMessage = 1 << 28;  // LCM sends no longer ones
+constexpr Utime kLatest = Utime{1} << 53;
 
 std::int64_t big_endian(const std::uint8_t* bytes, int count) {
   std::uint64_t value = 0;
@@ -24,20 +27,40 @@ std::int64_t big_endian(const std::uint8_t* bytes, int count) {
   return count == 4 ? static_cast<std::int32_t>(value) : static_cast<std::int64_t>(value);
 }
 
-// At the end of a cut file a part of the word is all there is.
 bool begins_with_sync(const std::vector<std::uint8_t>& bytes) {
   const size_t count = std::min(bytes.size(), kSync.size());
   return std::equal(bytes.begin(), bytes.begin() + static_cast<long>(count), kSync.begin());
 }
 
+void demand_file(const std::string& path) {
+  std::error_code error;
+  if (!fs::exists(path, error)) throw ConfigError(path + ": no such log");
+  if (!fs::is_regular_file(path, error)) throw ConfigError(path + ": is no file; a log is read from a file");
+}
+
 }  // namespace
 
 EventLogReader::EventLogReader(const std::string& path) : file_(nullptr, &fclose) {
-  if (!fs::is_regular_file(path)) throw ConfigError(path + ": no such log");
+  demand_file(path);
   file_.reset(fopen(path.c_str(), "rb"));
   if (!file_) throw ConfigError(path + ": cannot be read");
   size_ = static_cast<std::int64_t>(fs::file_size(path));
-  read_head();
+  seek(0);
+}
+
+void EventLogReader::seek(std::int64_t offset) {
+  fseeko(file_.get(), offset, SEEK_SET);
+  read_head(offset);
+}
+
+void EventLogReader::read_head(std::int64_t offset) {
+  at_ = offset;
+  head_.resize(kHeadBytes);
+  head_.resize(fread(head_.data(), 1, kHeadBytes, file_.get()));
+}
+
+bool EventLogReader::begins_as_log() const {
+  return begins_with_sync(head_);
 }
 
 bool EventLogReader::next(LogEvent& event) {
@@ -54,44 +77,41 @@ bool EventLogReader::next(LogEvent& event) {
   return false;
 }
 
+// Its lengths are right where the next record begins at its end, or where its message decodes.
 bool EventLogReader::read_record(LogEvent& event) {
   if (head_.size() < kHeadBytes || !begins_with_sync(head_)) return false;
   const std::int64_t channel_size = big_endian(&head_[20], 4);
   const std::int64_t data_size = big_endian(&head_[24], 4);
-  if (channel_size < 1 || channel_size > kLongestChannel || data_size < 0) return false;
+  if (channel_size < 1 || channel_size > kLongestChannel || data_size < 0 || data_size > kLongestMessage) return false;
   const std::int64_t end = at_ + static_cast<std::int64_t>(kHeadBytes) + channel_size + data_size;
   if (end > size_) return false;
-  body_.resize(static_cast<size_t>(channel_size + data_size));
+  const bool followed = record_begins_at(end);
+  body_.resize(static_cast<size_t>(channel_size));
   if (fread(body_.data(), 1, body_.size(), file_.get()) != body_.size()) return false;
-  event.channel.assign(body_.begin(), body_.begin() + channel_size);
-  event.data = body_.data() + channel_size;
+  event.channel.assign(body_.begin(), body_.end());
+  const ChannelType* type = followed ? nullptr : find_channel_type(event.channel);
+  if (!followed && type == nullptr) return false;
+  body_.resize(static_cast<size_t>(data_size));
+  if (fread(body_.data(), 1, body_.size(), file_.get()) != body_.size()) return false;
+  event.data = body_.data();
   event.size = static_cast<int>(data_size);
-  event.time = big_endian(&head_[12], 8);
+  if (!followed && !type->decodes(event.data, event.size)) return false;
+  event.time = std::clamp(big_endian(&head_[12], 8), -kLatest, kLatest);
   event.begin = at_;
   event.end = end;
-  const std::int64_t begin = std::exchange(at_, end);
-  const std::vector<std::uint8_t> head = head_;
-  read_head();
-  if (is_whole(event)) return true;
-  at_ = begin;
-  head_ = head;
-  return false;
+  read_head(end);
+  return true;
 }
 
-// Its lengths are right where the next record begins at its end, or where its message decodes.
-bool EventLogReader::is_whole(const LogEvent& event) const {
-  if (begins_with_sync(head_)) return true;
-  const ChannelType* type = find_channel_type(event.channel);
-  return type != nullptr && type->decodes(event.data, event.size);
-}
-
-void EventLogReader::read_head() {
-  head_.resize(kHeadBytes);
-  head_.resize(fread(head_.data(), 1, kHeadBytes, file_.get()));
+// At the end of a cut file a part of the word is all there is.
+bool EventLogReader::record_begins_at(std::int64_t offset) const {
+  std::vector<std::uint8_t> word(kSync.size());
+  word.resize(static_cast<size_t>(std::max<ssize_t>(0, pread(fileno(file_.get()), word.data(), word.size(), offset))));
+  return begins_with_sync(word);
 }
 
 bool EventLogReader::find_next_head() {
-  constexpr size_t kChunk = 65536;
+  constexpr size_t kChunk = 4096;
   std::vector<std::uint8_t> chunk(kChunk);
   for (std::int64_t from = at_ + 1; from < size_; from += kChunk - (kSync.size() - 1)) {
     fseeko(file_.get(), from, SEEK_SET);
@@ -101,14 +121,20 @@ bool EventLogReader::find_next_head() {
     if (found == end) continue;
     const std::int64_t next = from + (found - chunk.begin());
     length_.left_bytes += next - at_;
-    at_ = next;
-    fseeko(file_.get(), at_, SEEK_SET);
-    read_head();
+    seek(next);
     return true;
   }
   length_.left_bytes += size_ - at_;
   at_ = size_;
   return false;
+}
+
+std::string log_file(const std::string& log_or_run) {
+  std::error_code error;  // a folder above that cannot be entered: the file is not there then
+  const bool is_folder = fs::is_directory(log_or_run, error);
+  const std::string file = is_folder ? (fs::path(log_or_run) / "traverse.lcm").string() : log_or_run;
+  demand_file(file);
+  return file;
 }
 
 std::string log_part(const std::string& path, int number) {

@@ -16,7 +16,7 @@ struct LogEvent {
   std::string channel;
   const std::uint8_t* data = nullptr;  // until the next event is read
   int size = 0;
-  Utime time = 0;
+  Utime time = 0;          // of the record; damaged ones are kept within +-2^53
   std::int64_t begin = 0;  // of its record in the file [bytes]
   std::int64_t end = 0;
 };
@@ -34,13 +34,18 @@ class EventLogReader {
   explicit EventLogReader(const std::string& path);
   // False at the end of the file.
   bool next(LogEvent& event);
+  // Before the first record is read: whether the file is empty or begins with a record, whole or cut.
+  bool begins_as_log() const;
+  // Goes on at this byte.
+  void seek(std::int64_t offset);
   const LogLength& length() const { return length_; }
+  std::int64_t size() const { return size_; }  // of the file [bytes]
 
  private:
   static constexpr size_t kHeadBytes = 28;
   bool read_record(LogEvent& event);
-  bool is_whole(const LogEvent& event) const;
-  void read_head();
+  void read_head(std::int64_t offset);
+  bool record_begins_at(std::int64_t offset) const;
   bool find_next_head();
 
   std::unique_ptr<FILE, int (*)(FILE*)> file_;
@@ -55,6 +60,9 @@ class EventLogReader {
 // The file, and "NAME-002.lcm", "NAME-003.lcm" ... beside "NAME.lcm" as far as they go.
 std::vector<std::string> log_parts(const std::string& path);
 std::string log_part(const std::string& path, int number);  // from 1
+
+// The file that is meant by a log or by the folder of a run. Throws ConfigError with one line where there is none.
+std::string log_file(const std::string& log_or_run);
 
 // Calls `take` for each whole record of all parts. Throws ConfigError where there is no log.
 LogLength for_each_event(const std::string& path, const std::function<void(const LogEvent&)>& take);

@@ -1,5 +1,6 @@
 #include "common/bus/message_fields.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <charconv>
@@ -29,18 +30,30 @@ class Reader {
   }
   // Its length counts the zero at its end.
   std::string text() {
-    const auto length = integer<std::int32_t>();
-    if (length < 1 || !take(static_cast<size_t>(length))) return fail();
-    return {reinterpret_cast<const char*>(taken_), static_cast<size_t>(length - 1)};
+    const size_t length = pass_text();
+    if (length == 0) return {};
+    return {reinterpret_cast<const char*>(taken_), length - 1};
   }
+  size_t pass_text() {
+    const auto length = integer<std::int32_t>();
+    if (length >= 1 && take(static_cast<size_t>(length))) return static_cast<size_t>(length);
+    fail();
+    return 0;
+  }
+  // An integer of so many bytes.
+  std::int64_t number(size_t bytes) {
+    std::uint64_t value = 0;
+    if (!take(bytes)) return 0;
+    for (size_t i = 0; i < bytes; ++i) value = (value << 8U) | taken_[i];
+    const size_t unused_bits = 64 - 8 * bytes;
+    return static_cast<std::int64_t>(value << unused_bits) >> unused_bits;
+  }
+  void pass(size_t count) { take(count); }
   Field::Bytes bytes(size_t count) {
     if (!take(count)) return {};
     return {taken_, taken_ + count};
   }
-  std::string fail() {
-    good_ = false;
-    return {};
-  }
+  void fail() { good_ = false; }
   bool good() const { return good_; }
   size_t left() const { return left_; }
 
@@ -66,6 +79,22 @@ std::vector<Value> read_all(Reader& reader, size_t count, Read read) {
   // A damaged length ends with the bytes, before it costs memory.
   for (size_t i = 0; i < count && reader.good(); ++i) values.push_back(read());
   return values;
+}
+
+using Lengths = std::map<std::string, std::int64_t>;  // by the names of the fields that hold them
+
+// Of an array; negative lengths are damage.
+size_t length_of(const FieldSchema::Dimension& dimension, Lengths& lengths, Reader& reader) {
+  constexpr std::int64_t kMost = std::int64_t{1} << 31;
+  const std::int64_t length = dimension.length_field.empty() ? dimension.length : lengths[dimension.length_field];
+  if (length < 0) reader.fail();
+  return static_cast<size_t>(std::clamp<std::int64_t>(length, 0, kMost));
+}
+
+// More values than any message has bytes are as good as endless; so the product of the lengths does not overflow.
+size_t product(size_t count, size_t length) {
+  constexpr size_t kMost = size_t{1} << 32;
+  return std::min(count * length, kMost);
 }
 
 Fields read_message(Reader& reader, const MessageSchema& schema);
@@ -98,16 +127,15 @@ void read_values(Reader& reader, size_t count, Field& field) {
 
 Fields read_message(Reader& reader, const MessageSchema& schema) {
   Fields fields;
-  std::map<std::string, std::int64_t> lengths;
+  Lengths lengths;
   for (const FieldSchema& described : schema.fields) {
     Field field{described.name, described.type, {}, {}};
     size_t count = 1;
     for (const FieldSchema::Dimension& dimension : described.dimensions) {
-      const std::int64_t length = dimension.length_field.empty() ? dimension.length : lengths[dimension.length_field];
-      if (length < 0) reader.fail();
+      const size_t length = length_of(dimension, lengths, reader);
       if (!reader.good()) return fields;
       field.shape.push_back(static_cast<int>(length));
-      count *= static_cast<size_t>(length);
+      count = product(count, length);
     }
     read_values(reader, count, field);
     const auto* integers = std::get_if<Field::Integers>(&field.values);
@@ -115,6 +143,40 @@ Fields read_message(Reader& reader, const MessageSchema& schema) {
     fields.push_back(std::move(field));
   }
   return fields;
+}
+
+// Of a plain value; 0: a text, or a message of another type.
+size_t bytes_of(const std::string& type) {
+  if (type == "int8_t" || type == "boolean" || type == "byte") return 1;
+  if (type == "int16_t") return 2;
+  if (type == "int32_t" || type == "float") return 4;
+  return type == "int64_t" || type == "double" ? 8 : 0;
+}
+
+// Goes over a message without building it.
+void pass_message(Reader& reader, const MessageSchema& schema) {
+  Lengths lengths;
+  for (const FieldSchema& field : schema.fields) {
+    size_t count = 1;
+    for (const FieldSchema::Dimension& dimension : field.dimensions)
+      count = product(count, length_of(dimension, lengths, reader));
+    const size_t bytes = bytes_of(field.type);
+    if (bytes > 0 && field.dimensions.empty()) {
+      lengths[field.name] = reader.number(bytes);
+    } else if (bytes > 0) {
+      reader.pass(count * bytes);
+    } else {
+      const MessageSchema* inner = find_schema(field.type);
+      for (size_t i = 0; i < count && reader.good(); ++i) {
+        if (inner == nullptr) {
+          reader.pass_text();
+        } else {
+          pass_message(reader, *inner);
+        }
+      }
+    }
+    if (!reader.good()) return;
+  }
 }
 
 template <class Number>
@@ -165,6 +227,15 @@ std::optional<Fields> decode_fields(const std::string& channel, const void* data
   Fields fields = read_message(reader, *schema);
   if (!reader.good() || reader.left() > 0) return std::nullopt;
   return fields;
+}
+
+bool is_whole_message(const std::string& type, const void* data, int size) {
+  const MessageSchema* schema = find_schema(type);
+  ROVER_CHECK(schema != nullptr, type);
+  Reader reader(data, static_cast<size_t>(size));
+  reader.integer<std::int64_t>();
+  pass_message(reader, *schema);
+  return reader.good() && reader.left() == 0;
 }
 
 std::string text_of(const Field& field, size_t index) {

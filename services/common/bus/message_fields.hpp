@@ -33,6 +33,10 @@ struct Field {
 // Empty where the bytes are not one whole message of the type that the channel carries, and for unknown channels.
 std::optional<Fields> decode_fields(const std::string& channel, const void* data, int size);
 
+// Whether the bytes are one whole message of the type ("pose_t"), its fingerprint aside. Unlike lcm-gen's decoders it
+// takes no memory for lengths that damaged bytes claim.
+bool is_whole_message(const std::string& type, const void* data, int size);
+
 // Integers and texts as they are, reals with the fewest digits that read back as the same number. Not for messages.
 std::string text_of(const Field& field, size_t index);
 

@@ -1,6 +1,15 @@
 #include "common/bus/streams.hpp"
 
 namespace rover {
+namespace {
+
+// Differences of what is in range do not overflow, and doubles hold it exactly.
+bool in_range(std::int64_t value) {
+  constexpr std::int64_t kMost = std::int64_t{1} << 53;
+  return value >= -kMost && value <= kMost;
+}
+
+}  // namespace
 
 StreamCounter::StreamCounter(std::string publisher, std::int64_t boot_id)
     : publisher_(std::move(publisher)), boot_id_(boot_id) {}
@@ -68,7 +77,8 @@ void ArrivalLedger::give_up(const stream_seq_t& stream) {
 bool peek_header(const void* data, int size, header_t& header) {
   if (size <= kFingerprintBytes) return false;
   try {
-    return header._decodeNoHash(data, kFingerprintBytes, size - kFingerprintBytes) > 0;
+    return header._decodeNoHash(data, kFingerprintBytes, size - kFingerprintBytes) > 0 && in_range(header.utime) &&
+           in_range(header.release_utime) && in_range(header.seq) && in_range(header.boot_id);
   } catch (const std::exception&) {  // lcm-gen's decoders believe the lengths they read
     return false;
   }

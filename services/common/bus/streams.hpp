@@ -56,7 +56,8 @@ class ArrivalLedger {
 // In front of every message.
 inline constexpr int kFingerprintBytes = 8;
 
-// Reads the header of any message without knowing its type. False where the bytes are too short for one.
+// Reads the header of any message without knowing its type. False where the bytes are too short for one, or where its
+// times and numbers are beyond 2^53 (285 years in microseconds): those of damaged bytes.
 bool peek_header(const void* data, int size, header_t& header);
 template <class Message>
 std::vector<std::uint8_t> encoded(const Message& message) {
