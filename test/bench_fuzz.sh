@@ -11,10 +11,10 @@ fi
 [[ $SECONDS_EACH =~ ^[1-9][0-9]{0,5}$ ]] || { echo "bench fuzz: --seconds: '$SECONDS_EACH' is not a whole number from 1 to 999999" >&2; exit 2; }
 [ $# -eq 0 ] || { echo "bench fuzz: '$1' is not understood; ./rover bench --help tells more" >&2; exit 2; }
 
-cmake -S . -B build-sanitize -G Ninja -DROVER_SANITIZE=ON >/dev/null
-ninja -C build-sanitize --quiet fuzz_parsers
-PROGRAM=$PWD/build-sanitize/test/fuzz/fuzz_parsers
-FINDINGS=$PWD/build-sanitize/fuzz_findings
+cmake -S . -B build-address -G Ninja -DROVER_SANITIZE=address >/dev/null
+ninja -C build-address --quiet fuzz_parsers
+PROGRAM=$PWD/build-address/test/fuzz/fuzz_parsers
+FINDINGS=$PWD/build-address/fuzz_findings
 ROWS=$(mktemp -d)
 trap 'rm -rf "$ROWS"' EXIT
 OUT=test/results/fuzz.md
