@@ -1,8 +1,8 @@
 #include "calibration/tool_file.hpp"
 
 #include <cmath>
-#include <opencv2/core.hpp>
 
+#include "calibration/opencv_xml.hpp"
 #include "common/bus/config.hpp"
 #include "common/bus/text_file.hpp"
 #include "common/bus/yaml_file.hpp"
@@ -12,30 +12,6 @@ namespace rover::calibration {
 namespace {
 
 constexpr size_t kMostTextBytes = 1 << 20;
-
-// OpenCV's tree as YAML's.
-YAML::Node tree_of(const cv::FileNode& from) {
-  YAML::Node to;
-  if (from.isMap())
-    for (const cv::FileNode item : from) to.force_insert(item.name(), tree_of(item));
-  else if (from.isSeq())
-    for (const cv::FileNode item : from) to.push_back(tree_of(item));
-  else if (from.isInt() || from.isReal())
-    to = static_cast<double>(from);
-  else
-    to = static_cast<std::string>(from);
-  return to;
-}
-
-YAML::Node parse_xml(const std::string& text, const std::string& name) {
-  try {
-    const cv::FileStorage storage(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
-    if (storage.isOpened()) return tree_of(storage.root());
-  } catch (const cv::Exception& error) {
-    throw ConfigError(name + ": not valid XML: " + error.err);
-  }
-  throw ConfigError(name + ": not XML as OpenCV writes it");
-}
 
 void blank(std::string& text, const std::string& part) {
   for (size_t at = 0; (at = text.find(part, at)) != std::string::npos;) text.replace(at, part.size(), part.size(), ' ');
@@ -68,7 +44,7 @@ ToolFile ToolFile::load(const std::string& file) {
   const std::string text = read_text(file, kMostTextBytes);
   const size_t begin = text.find_first_not_of(" \t\r\n");
   const bool xml = begin != std::string::npos && text[begin] == '<';
-  ToolFile root(xml ? parse_xml(text, file) : parse_foreign_yaml(text, file), file, "");
+  ToolFile root(xml ? parse_opencv_xml(text, file) : parse_foreign_yaml(text, file), file, "");
   if (!root.node_.IsMap()) throw ConfigError(file + ": no calibration: keys with values are expected");
   return root;
 }

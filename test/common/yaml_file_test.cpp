@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 
 #include "common/bus/config.hpp"
@@ -118,6 +119,20 @@ TEST(StrictYaml, ByteOrderMarkAndWindowsLinesAreFine) {
   EXPECT_TRUE(config.section("b").boolean("c"));
   config.finish();
   wild_row("Configuration", "a byte order mark and lines that end as on Windows", "taken", "taken");
+}
+
+TEST(StrictYaml, EveryShippedFileIsReadAndStaysTheSameWhenWritten) {
+  const testing_support::TempFolder folder;
+  size_t files = 0;
+  for (const char* dir : {"/config", "/config/scenarios", "/examples/driver"})
+    for (const auto& entry : std::filesystem::directory_iterator(ROVER_SOURCE_DIR + std::string(dir))) {
+      if (entry.path().extension() != ".yaml") continue;
+      ++files;
+      const YAML::Node node = load_yaml(entry.path());
+      write_yaml(folder.file("copy.yaml"), node);
+      EXPECT_EQ(YAML::Dump(load_yaml(folder.file("copy.yaml"))), YAML::Dump(node)) << entry.path();
+    }
+  EXPECT_GT(files, 20U);
 }
 
 TEST(StrictYaml, FilesThatNoSettingsAreAreRefused) {

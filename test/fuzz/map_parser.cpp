@@ -1,4 +1,5 @@
 #include "common/geo/elevation_map.hpp"
+#include "common/geo/geography.hpp"
 #include "common/geo/geotiff_writer.hpp"
 #include "corpus.hpp"
 #include "parsers.hpp"
@@ -20,7 +21,9 @@ std::string plain_geotiff() {
 
 void run_map(const std::vector<Input>& corpus, const Input& input, Scratch& scratch) {
   lay_out(corpus, input, scratch);
-  read_elevation_map(scratch.dir() + "/" + input.name);
+  const ElevationMap map = read_elevation_map(scratch.dir() + "/" + input.name);
+  const Geography geography(map.raster);
+  geography.to_map(geography.to_lon_lat({1.0, 1.0}));
 }
 
 }  // namespace
