@@ -14,18 +14,18 @@ void read_plane(const Config& yaml, PlaneConfig& plane) {
 
 void read_step(const Config& yaml, StepConfig& step) {
   yaml.read("reach_m", step.reach_m, {0.05, 1.0});
-  yaml.read("shown_share", step.shown_share, {0.3, 1.0});
-  yaml.read("foot_m", step.foot_m, {0.01, 0.5});
+  yaml.read("shown_share", step.mean_height_ratio, {0.3, 1.0});
+  yaml.read("foot_m", step.region_growing_m, {0.01, 0.5});
   yaml.read("significance", step.significance, {0.0, 10.0});
   yaml.read("max_sigma_m", step.max_sigma_m, {0.005, 1.0});
 }
 
 void read_cost(const Config& yaml, CostConfig& cost) {
   yaml.read_deg("max_slope_deg", cost.max_slope_rad, {1.0, 45.0});
-  yaml.read("rough_m", cost.rough_m, {0.005, 1.0});
+  yaml.read("rough_m", cost.roughness_m, {0.005, 1.0});
   yaml.read("slope_exponent", cost.slope_exponent, {0.5, 4.0});
   yaml.read("step_exponent", cost.step_exponent, {0.5, 4.0});
-  yaml.read("rough_exponent", cost.rough_exponent, {0.5, 4.0});
+  yaml.read("rough_exponent", cost.roughness_exponent, {0.5, 4.0});
 }
 
 void read_ahead(const Config& yaml, AheadConfig& ahead) {
@@ -41,7 +41,7 @@ void read_ahead(const Config& yaml, AheadConfig& ahead) {
 
 NodeConfig load_config(const std::string& config_dir) {
   NodeConfig config;
-  take_limits(load_vehicle(config_dir), config.core);
+  apply_vehicle_limits(load_vehicle(config_dir), config.core);
   const Config yaml = Config::load(config_dir + "/traversability.yaml");
   double latency_s = to_seconds(config.latency_us);
   yaml.read("latency_s", latency_s, {0.02, 5.0});

@@ -1,4 +1,4 @@
-// config/traversability.yaml and vehicle.yaml into what the core needs.
+// Reads config/traversability.yaml and the limits in vehicle.yaml.
 #pragma once
 
 #include <string>
@@ -11,8 +11,8 @@ namespace rover::trav {
 struct NodeConfig {
   TraversabilityConfig core;
   Utime latency_us = 100'000;
-  double max_map_age_s = 2.0;   // of an elevation map, to be judged
-  double max_pose_age_s = 0.5;  // for a judgement of the ground ahead
+  double max_map_age_s = 2.0;   // of an elevation map; older ones are rejected
+  double max_pose_age_s = 0.5;  // older: difficulty is NaN
 };
 
 NodeConfig load_config(const std::string& config_dir);

@@ -1,4 +1,4 @@
-// Between the messages and the core.
+// Conversion between messages and core types.
 #pragma once
 
 #include <rover/elevation_t.hpp>
@@ -12,7 +12,7 @@ namespace rover::trav {
 
 TerrainGrid grid_from(const elevation_t& message);
 
-// The rover in odom; NaN where the message is of no use.
+// Pose of the rover in odom; NaN if the message is invalid or lost.
 Pose2 body_from(const pose_t& message);
 
 void traversability_to(const TraversabilityMap& map, double difficulty, traversability_t& message);

@@ -11,18 +11,18 @@ namespace {
 struct Sums {
   int known = 0;
   int blocked = 0;
-  double cost = 0.0;  // share of the dearest
+  double cost = 0.0;  // relative to the maximum
 };
 
-class Ahead {
+class AheadRegion {
  public:
-  Ahead(const Pose2& body, const AheadConfig& config)
+  AheadRegion(const Pose2& body, const AheadConfig& config)
       : body_(body), config_(config), cos_(std::cos(body.yaw_rad)), sin_(std::sin(body.yaw_rad)) {}
 
   bool contains(double x_m, double y_m) const {
     const double dx = x_m - body_.x_m, dy = y_m - body_.y_m;
-    const double ahead = cos_ * dx + sin_ * dy, aside = cos_ * dy - sin_ * dx;
-    return ahead >= config_.near_m && ahead <= config_.far_m && std::abs(aside) <= config_.half_width_m;
+    const double ahead = cos_ * dx + sin_ * dy, lateral = cos_ * dy - sin_ * dx;
+    return ahead >= config_.near_m && ahead <= config_.far_m && std::abs(lateral) <= config_.half_width_m;
   }
   double area_m2() const { return (config_.far_m - config_.near_m) * 2.0 * config_.half_width_m; }
 
@@ -36,7 +36,7 @@ class Ahead {
 
 double difficulty_ahead(const TraversabilityMap& map, const Pose2& body, const AheadConfig& config) {
   const GridShape& shape = map.shape;
-  const Ahead ahead(body, config);
+  const AheadRegion ahead(body, config);
   const std::vector<double> clearance_m = distance_field(map.obstacle, shape.cells_x, shape.cells_y, shape.cell_m);
   Sums sums;
   for (int iy = 0; iy < shape.cells_y; ++iy)

@@ -1,5 +1,4 @@
-// How hard the ground ahead of the rover is, as one number: the supervisor goes down to the Efficient level where it
-// stays low.
+// Difficulty of the terrain ahead as one number. The supervisor selects the Efficient level while it stays low.
 #pragma once
 
 #include "common/core/frames.hpp"
@@ -7,8 +6,8 @@
 
 namespace rover::trav {
 
-// 0 easy .. 1 hard: the larger of the mean cost and the share of the ground that lies too near to an obstacle for the
-// rover. NaN where too little of the ground ahead is known. `body`: the rover in the grid's frame.
+// 0 easy .. 1 hard: the larger of the mean cost and the share of cells within `clearance_m` of an obstacle. NaN if too
+// few cells ahead are known. `body`: pose of the rover in the grid's frame.
 double difficulty_ahead(const TraversabilityMap& map, const Pose2& body, const AheadConfig& config);
 
 }  // namespace rover::trav

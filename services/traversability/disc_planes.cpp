@@ -9,7 +9,7 @@ namespace {
 
 enum Sum { kOne, kX, kXX, kZ, kXZ, kZZ, kY, kYY, kXY, kYZ };
 
-constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 }  // namespace
 
@@ -21,7 +21,7 @@ DiscPlanes::DiscPlanes(const GridShape& shape, const PlaneConfig& config)
     half_.push_back(static_cast<int>(std::floor(std::sqrt(r * r - dy * dy))));
     cells += 2 * half_.back() + 1;
   }
-  least_ = std::max(3, static_cast<int>(std::ceil(config.min_share * cells)));
+  min_cells_ = std::max(3, static_cast<int>(std::ceil(config.min_share * cells)));
   stride_ = static_cast<std::size_t>(shape.cells_x + 2 * reach_ + 1);
   rows_.resize(static_cast<std::size_t>(shape.cells_y) * kMoments * stride_);
   sums_.resize(static_cast<std::size_t>(shape.cells_x) * kSums);
@@ -33,24 +33,24 @@ const double* DiscPlanes::row(int iy, int moment) const {
   return rows_.data() + (static_cast<std::size_t>(iy) * kMoments + static_cast<std::size_t>(moment)) * stride_;
 }
 
-void DiscPlanes::fit(const std::vector<float>& height_m, const std::vector<std::uint8_t>& counts) {
-  std::fill(planes_.begin(), planes_.end(), DiscPlane{kNone, kNone, kNone, kNone});
-  fit_again(height_m, counts);
+void DiscPlanes::fit(const std::vector<float>& height_m, const std::vector<std::uint8_t>& mask) {
+  std::fill(planes_.begin(), planes_.end(), DiscPlane{kNan, kNan, kNan, kNan});
+  refit(height_m, mask);
 }
 
-void DiscPlanes::fit_again(const std::vector<float>& height_m, const std::vector<std::uint8_t>& counts) {
-  const auto first = std::find(counts.begin(), counts.end(), 1);
-  // Heights count from one of them: their squares stay small however high the ground lies.
-  const double datum_m = first == counts.end() ? 0.0 : height_m[static_cast<std::size_t>(first - counts.begin())];
-  sum_rows(height_m, counts, datum_m);
+void DiscPlanes::refit(const std::vector<float>& height_m, const std::vector<std::uint8_t>& mask) {
+  const auto first = std::find(mask.begin(), mask.end(), 1);
+  // Relative to one of the heights, to keep the squares small.
+  const double datum_m = first == mask.end() ? 0.0 : height_m[static_cast<std::size_t>(first - mask.begin())];
+  sum_rows(height_m, mask, datum_m);
   for (int iy = 0; iy < shape_.cells_y; ++iy) {
     sum_discs(iy);
     solve(iy, datum_m);
   }
 }
 
-// Entry j of a row: the sum over the cells before column j - reach.
-void DiscPlanes::sum_rows(const std::vector<float>& height_m, const std::vector<std::uint8_t>& counts, double datum_m) {
+// Entry j of a row: sum over the cells before column j - reach_.
+void DiscPlanes::sum_rows(const std::vector<float>& height_m, const std::vector<std::uint8_t>& mask, double datum_m) {
   for (int iy = 0; iy < shape_.cells_y; ++iy) {
     double sum[kMoments] = {};
     double* out = rows_.data() + static_cast<std::size_t>(iy) * kMoments * stride_;
@@ -58,7 +58,7 @@ void DiscPlanes::sum_rows(const std::vector<float>& height_m, const std::vector<
       for (int k = 0; k < kMoments; ++k)
         out[static_cast<std::size_t>(k) * stride_ + static_cast<std::size_t>(j)] = sum[k];
       const int ix = j - reach_;
-      if (ix < 0 || ix >= shape_.cells_x || !counts[shape_.at(ix, iy)]) continue;
+      if (ix < 0 || ix >= shape_.cells_x || !mask[shape_.at(ix, iy)]) continue;
       const double x = ix, z = height_m[shape_.at(ix, iy)] - datum_m;
       const double moment[kMoments] = {1.0, x, x * x, z, x * z, z * z};
       for (int k = 0; k < kMoments; ++k) sum[k] += moment[k];
@@ -85,20 +85,20 @@ void DiscPlanes::add_row(int iy, int moment, int sum, double factor, int dy) {
   for (int ix = 0; ix < shape_.cells_x; ++ix) out[ix] += factor * (high[ix] - low[ix]);
 }
 
-// In units of cells, y about the cell itself; slopes come out per metre.
+// In cells, y relative to the cell itself; the resulting slopes are per metre.
 void DiscPlanes::solve(int iy, double datum_m) {
   const std::size_t n_x = static_cast<std::size_t>(shape_.cells_x);
-  const double least_variance = std::pow(config_.min_spread_m / shape_.cell_m, 2);
+  const double min_variance = std::pow(config_.min_spread_m / shape_.cell_m, 2);
   for (int ix = 0; ix < shape_.cells_x; ++ix) {
     const auto sum = [&](int k) { return sums_[static_cast<std::size_t>(k) * n_x + static_cast<std::size_t>(ix)]; };
     const double n = sum(kOne);
     DiscPlane& plane = planes_[shape_.at(ix, iy)];
     count_[shape_.at(ix, iy)] = static_cast<int>(n);
-    if (n < least_) continue;
+    if (n < min_cells_) continue;
     const double x = sum(kX) / n, y = sum(kY) / n, z = sum(kZ) / n;
     const double xx = sum(kXX) / n - x * x, yy = sum(kYY) / n - y * y, xy = sum(kXY) / n - x * y;
-    const double least = 0.5 * (xx + yy) - std::sqrt(0.25 * (xx - yy) * (xx - yy) + xy * xy);
-    if (least < least_variance) continue;
+    const double min_eigenvalue = 0.5 * (xx + yy) - std::sqrt(0.25 * (xx - yy) * (xx - yy) + xy * xy);
+    if (min_eigenvalue < min_variance) continue;
     const double xz = sum(kXZ) / n - x * z, yz = sum(kYZ) / n - y * z, zz = sum(kZZ) / n - z * z;
     const double determinant = xx * yy - xy * xy;
     const double a = (yy * xz - xy * yz) / determinant, b = (xx * yz - xy * xz) / determinant;

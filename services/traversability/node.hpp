@@ -1,5 +1,4 @@
-// The bus side of the traversability map: a TRAVERSABILITY for each ELEVATION. Without elevation maps, as in the
-// Efficient level, it rests.
+// Bus node: one TRAVERSABILITY per ELEVATION. Idle without elevation maps, as at the Efficient level.
 #pragma once
 
 #include <memory>
@@ -19,16 +18,16 @@ class TraversabilityNode {
   TraversabilityNode& operator=(const TraversabilityNode&) = delete;
 
  private:
-  void take(const elevation_t& message);
-  std::string refusal_of(const elevation_t& message) const;
-  Pose2 body() const;
-  void report(double difficulty);
+  void on_elevation(const elevation_t& message);
+  std::string rejection_of(const elevation_t& message) const;
+  Pose2 fresh_pose() const;
+  void report_status(double difficulty);
 
   Node& node_;
   NodeConfig config_;
-  Utime last_map_ = kNever;
+  Utime last_map_utime_ = kNever;
   pose_t pose_{};
-  bool judged_ = true;  // the ground ahead, in the newest map
+  bool difficulty_known_ = true;  // in the newest map
 };
 
 std::shared_ptr<TraversabilityNode> make_traversability(Node& node, const std::string& config_dir);

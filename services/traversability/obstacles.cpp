@@ -5,51 +5,53 @@
 namespace rover::trav {
 namespace {
 
-struct Place {
+struct Cell {
   int ix, iy;
 };
 
 template <class F>
-void for_neighbours(const GridShape& shape, Place p, F&& f) {
+void for_each_neighbour(const GridShape& shape, Cell p, F&& f) {
   for (int y = p.iy - 1; y <= p.iy + 1; ++y)
     for (int x = p.ix - 1; x <= p.ix + 1; ++x)
-      if ((x != p.ix || y != p.iy) && shape.contains(x, y)) f(Place{x, y});
+      if ((x != p.ix || y != p.iy) && shape.contains(x, y)) f(Cell{x, y});
 }
 
 template <class F>
-void for_cells(const GridShape& shape, F&& f) {
+void for_each_cell(const GridShape& shape, F&& f) {
   for (int iy = 0; iy < shape.cells_y; ++iy)
-    for (int ix = 0; ix < shape.cells_x; ++ix) f(Place{ix, iy});
+    for (int ix = 0; ix < shape.cells_x; ++ix) f(Cell{ix, iy});
 }
 
-// One piece of ground that is neither unseen nor obstacle, found by flooding.
-class Island {
+// Connected component of seen, obstacle-free cells, found by flood fill.
+class ConnectedRegion {
  public:
-  Island(const TerrainGrid& grid, const std::vector<std::uint8_t>& obstacle, std::vector<std::uint8_t>& visited)
+  ConnectedRegion(const TerrainGrid& grid, const std::vector<std::uint8_t>& obstacle,
+                  std::vector<std::uint8_t>& visited)
       : grid_(grid), obstacle_(obstacle), visited_(visited) {}
 
-  void flood(Place start) {
+  void flood(Cell start) {
     visit(start);
     for (std::size_t k = 0; k < cells_.size(); ++k) {
-      const Place p = cells_[k];
+      const Cell p = cells_[k];
       const GridShape& shape = grid_.shape;
-      open_ = open_ || p.ix == 0 || p.iy == 0 || p.ix == shape.cells_x - 1 || p.iy == shape.cells_y - 1;
-      for_neighbours(shape, p, [&](Place q) {
-        open_ = open_ || std::isnan(grid_.height_m[shape.at(q.ix, q.iy)]);
-        if (ground(q)) visit(q);
+      touches_unknown_ =
+          touches_unknown_ || p.ix == 0 || p.iy == 0 || p.ix == shape.cells_x - 1 || p.iy == shape.cells_y - 1;
+      for_each_neighbour(shape, p, [&](Cell q) {
+        touches_unknown_ = touches_unknown_ || std::isnan(grid_.height_m[shape.at(q.ix, q.iy)]);
+        if (is_ground(q)) visit(q);
       });
     }
   }
 
-  bool ground(Place p) const {
+  bool is_ground(Cell p) const {
     const std::size_t i = grid_.shape.at(p.ix, p.iy);
     return !visited_[i] && !obstacle_[i] && !std::isnan(grid_.height_m[i]);
   }
-  bool enclosed() const { return !open_; }
-  const std::vector<Place>& cells() const { return cells_; }
+  bool enclosed() const { return !touches_unknown_; }
+  const std::vector<Cell>& cells() const { return cells_; }
 
  private:
-  void visit(Place p) {
+  void visit(Cell p) {
     visited_[grid_.shape.at(p.ix, p.iy)] = 1;
     cells_.push_back(p);
   }
@@ -57,8 +59,8 @@ class Island {
   const TerrainGrid& grid_;
   const std::vector<std::uint8_t>& obstacle_;
   std::vector<std::uint8_t>& visited_;
-  std::vector<Place> cells_;
-  bool open_ = false;  // touches the unseen or the map's border
+  std::vector<Cell> cells_;
+  bool touches_unknown_ = false;  // or the map's border
 };
 
 }  // namespace
@@ -66,43 +68,43 @@ class Island {
 std::vector<std::uint8_t> find_obstacles(const TerrainGrid& grid, const DiscPlanes& planes, const Steps& steps,
                                          const TraversabilityConfig& config) {
   const GridShape& shape = grid.shape;
-  const double limit_m = config.step_limit_m(), foot_m = config.step.foot_m;
+  const double limit_m = config.step_limit_m(), region_growing_m = config.step.region_growing_m;
   std::vector<std::uint8_t> obstacle(shape.size(), 0);
-  std::vector<Place> front;
-  const auto mark = [&](Place p) {
+  std::vector<Cell> queue;
+  const auto mark = [&](Cell p) {
     obstacle[shape.at(p.ix, p.iy)] = 1;
-    front.push_back(p);
+    queue.push_back(p);
   };
-  for_cells(shape, [&](Place p) {
+  for_each_cell(shape, [&](Cell p) {
     const std::size_t i = shape.at(p.ix, p.iy);
     if (steps.rise_m[i] >= limit_m || steps.drop_m[i] >= limit_m) mark(p);
   });
-  // Beside an obstacle less is enough: foot and flanks, and tops whose far side was not seen. Not beyond one cell where
-  // the rise may be noise.
-  for (std::size_t k = 0; k < front.size(); ++k)
-    for_neighbours(shape, front[k], [&](Place q) {
+  // Region growing with a lower threshold adds foot, sides and tops whose far side is unseen. Rises that may be noise
+  // grow by one cell only.
+  for (std::size_t k = 0; k < queue.size(); ++k)
+    for_each_neighbour(shape, queue[k], [&](Cell q) {
       const std::size_t i = shape.at(q.ix, q.iy);
-      const bool raised = steps.rise_m[i] >= foot_m || grid.height_m[i] - planes.at(i).height_m >= limit_m;
+      const bool raised = steps.rise_m[i] >= region_growing_m || grid.height_m[i] - planes.at(i).height_m >= limit_m;
       if (!obstacle[i] && raised) mark(q);
     });
-  for (const Place& p : front)
-    for_neighbours(shape, p, [&](Place q) {
+  for (const Cell& p : queue)
+    for_each_neighbour(shape, p, [&](Cell q) {
       const std::size_t i = shape.at(q.ix, q.iy);
-      if (steps.uncertain_rise_m[i] >= foot_m) obstacle[i] = 1;
+      if (steps.raw_rise_m[i] >= region_growing_m) obstacle[i] = 1;
     });
   return obstacle;
 }
 
-void close_islands(const TerrainGrid& grid, double footprint_m2, std::vector<std::uint8_t>& obstacle) {
+void fill_enclosed_regions(const TerrainGrid& grid, double footprint_m2, std::vector<std::uint8_t>& obstacle) {
   const GridShape& shape = grid.shape;
   const double max_cells = footprint_m2 / (shape.cell_m * shape.cell_m);
   std::vector<std::uint8_t> visited(shape.size(), 0);
-  for_cells(shape, [&](Place p) {
-    Island island(grid, obstacle, visited);
-    if (!island.ground(p)) return;
-    island.flood(p);
-    if (!island.enclosed() || static_cast<double>(island.cells().size()) > max_cells) return;
-    for (const Place& q : island.cells()) obstacle[shape.at(q.ix, q.iy)] = 1;
+  for_each_cell(shape, [&](Cell p) {
+    ConnectedRegion region(grid, obstacle, visited);
+    if (!region.is_ground(p)) return;
+    region.flood(p);
+    if (!region.enclosed() || static_cast<double>(region.cells().size()) > max_cells) return;
+    for (const Cell& q : region.cells()) obstacle[shape.at(q.ix, q.iy)] = 1;
   });
 }
 

@@ -1,4 +1,4 @@
-// Which cells belong to a rock, a step or a hole: its raised cells, its foot, and ground that it closes in.
+// Segments obstacles (rocks, steps, holes): their raised cells, their foot, and ground that they enclose.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,11 @@
 
 namespace rover::trav {
 
-// 1 for each cell of an obstacle. The rover's size is not in it: the planner tests the exact footprint.
+// 1 for obstacle cells, without inflation: the planner checks the exact footprint.
 std::vector<std::uint8_t> find_obstacles(const TerrainGrid& grid, const DiscPlanes& planes, const Steps& steps,
                                          const TraversabilityConfig& config);
 
-// Seen ground in pieces that obstacles alone enclose and that are too small for the rover becomes obstacle.
-void close_islands(const TerrainGrid& grid, double footprint_m2, std::vector<std::uint8_t>& obstacle);
+// Marks regions of seen ground as obstacle if obstacles enclose them and they are smaller than the footprint.
+void fill_enclosed_regions(const TerrainGrid& grid, double footprint_m2, std::vector<std::uint8_t>& obstacle);
 
 }  // namespace rover::trav

@@ -7,7 +7,7 @@
 namespace rover::trav {
 namespace {
 
-// Grids with a margin of cells never seen, so that neighbours need no test for the border.
+// Grids padded with unseen cells, so that neighbour access needs no border check.
 struct Padded {
   int reach;
   std::size_t stride;
@@ -31,7 +31,7 @@ struct Padded {
 struct Slopes {
   std::vector<float> x, y;
 
-  // Where too little is known of the ground around, heights count as they are.
+  // Zero without a plane.
   Slopes(const DiscPlanes& planes, std::size_t size) : x(size), y(size) {
     for (std::size_t i = 0; i < size; ++i) {
       const DiscPlane& plane = planes.at(i);
@@ -50,7 +50,7 @@ class StepFinder {
         factor_(static_cast<float>(config.significance * config.significance)),
         reach_cells_(config.reach_m / grid.shape.cell_m) {
     steps_.rise_m.assign(shape_.size(), 0.0F);
-    steps_.drop_m = steps_.uncertain_rise_m = steps_.rise_m;
+    steps_.drop_m = steps_.raw_rise_m = steps_.rise_m;
   }
 
   Steps find() {
@@ -66,7 +66,7 @@ class StepFinder {
   }
 
  private:
-  // Comparisons with a NaN are false: cells that were not seen take no part.
+  // Comparisons with NaN are false, so unseen cells are ignored.
   void compare_row(int iy, int dx, int dy, bool direct) {
     const std::size_t own = static_cast<std::size_t>(iy + padded_.reach) * padded_.stride + padded_.reach;
     const std::size_t other = static_cast<std::size_t>(iy + padded_.reach + dy) * padded_.stride + padded_.reach + dx;
@@ -78,17 +78,17 @@ class StepFinder {
     const float* slope_x = slopes_.x.data() + first;
     const float* slope_y = slopes_.y.data() + first;
     float* rise = steps_.rise_m.data() + first;
-    float* uncertain = steps_.uncertain_rise_m.data() + first;
+    float* raw = steps_.raw_rise_m.data() + first;
     float* drop = steps_.drop_m.data() + first;
-    const float way_x = static_cast<float>(dx * shape_.cell_m), way_y = static_cast<float>(dy * shape_.cell_m);
+    const float offset_x = static_cast<float>(dx * shape_.cell_m), offset_y = static_cast<float>(dy * shape_.cell_m);
     const float direct_factor = direct ? 1.0F : 0.0F;
     for (int ix = 0; ix < shape_.cells_x; ++ix) {
-      const float d = z[ix] - z_other[ix] + slope_x[ix] * way_x + slope_y[ix] * way_y;
-      const float sure = d * d >= factor_ * (variance[ix] + variance_other[ix]) ? d : 0.0F;
-      rise[ix] = sure > rise[ix] ? sure : rise[ix];
-      uncertain[ix] = d > uncertain[ix] ? d : uncertain[ix];
-      const float fall = -sure * direct_factor;
-      drop[ix] = fall > drop[ix] ? fall : drop[ix];
+      const float d = z[ix] - z_other[ix] + slope_x[ix] * offset_x + slope_y[ix] * offset_y;
+      const float significant = d * d >= factor_ * (variance[ix] + variance_other[ix]) ? d : 0.0F;
+      rise[ix] = significant > rise[ix] ? significant : rise[ix];
+      raw[ix] = d > raw[ix] ? d : raw[ix];
+      const float drop_here = -significant * direct_factor;
+      drop[ix] = drop_here > drop[ix] ? drop_here : drop[ix];
     }
   }
 

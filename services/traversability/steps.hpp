@@ -1,5 +1,5 @@
-// Steps of the ground: how far a cell rises over the lowest one within a wheel's reach, and falls below its direct
-// neighbours. Both are counted from the slope around, and only where they stand out of the noise of the two heights.
+// Steps: rise of a cell above the lowest one within a wheel diameter, and drop below a direct neighbour. Both are
+// relative to the local slope and must be significant compared with the noise of the two heights.
 #pragma once
 
 #include <vector>
@@ -10,12 +10,12 @@
 namespace rover::trav {
 
 struct Steps {
-  std::vector<float> rise_m;            // significant; 0: none
-  std::vector<float> drop_m;            // significant, to a direct neighbour
-  std::vector<float> uncertain_rise_m;  // whatever the noise
+  std::vector<float> rise_m;      // significant; 0: none
+  std::vector<float> drop_m;      // significant, to a direct neighbour
+  std::vector<float> raw_rise_m;  // without the significance test
 };
 
-// Heights are NaN where nothing was seen; such cells take no part. `planes` give the slope around each cell.
+// Cells with a NaN height are ignored. `planes` give the local slope.
 Steps find_steps(const TerrainGrid& grid, const DiscPlanes& planes, const StepConfig& config);
 
 }  // namespace rover::trav

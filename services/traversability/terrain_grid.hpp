@@ -1,4 +1,4 @@
-// Square cells over the ground, index iy * cells_x + ix; aligned with odom.
+// Grid of square cells aligned with odom, index iy * cells_x + ix.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,7 @@ struct GridShape {
   double y_m(int iy) const { return origin_y_m + (iy + 0.5) * cell_m; }
 };
 
-// Heights over odom's origin; NaN in either: not seen.
+// Heights relative to odom's origin; NaN: not seen.
 struct TerrainGrid {
   GridShape shape;
   std::vector<float> height_m;

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "traversability/hole_filling.hpp"
 #include "traversability/obstacles.hpp"
-#include "traversability/small_holes.hpp"
 
 namespace rover::trav {
 namespace {
 
-constexpr double kDearest = 253.0;
+constexpr double kMaxCost = 253.0;
 
 std::vector<std::uint8_t> seen_cells(const TerrainGrid& grid) {
   std::vector<std::uint8_t> seen(grid.shape.size());
@@ -17,69 +17,69 @@ std::vector<std::uint8_t> seen_cells(const TerrainGrid& grid) {
   return seen;
 }
 
-// Of one cell that was seen and is no obstacle.
-class CellJudge {
+// Cost of a seen, obstacle-free cell.
+class CellCost {
  public:
-  explicit CellJudge(const TraversabilityConfig& config) : config_(config) {}
+  explicit CellCost(const TraversabilityConfig& config) : config_(config) {}
 
   std::uint8_t cost(const DiscPlane& plane, float height_m, float sigma_m, float rise_m) const {
     if (std::isnan(plane.slope_x)) return kUnknown;
     const double slope_rad = std::atan(std::hypot(plane.slope_x, plane.slope_y));
     if (slope_rad > config_.cost.max_slope_rad) return kImpassable;
     if (height_m - plane.height_m >= config_.belly_limit_m()) return kImpassable;
-    const double rough_m = std::sqrt(std::max(0.0F, plane.rms_m * plane.rms_m - sigma_m * sigma_m));
+    const double roughness_m = std::sqrt(std::max(0.0F, plane.rms_m * plane.rms_m - sigma_m * sigma_m));
     const CostConfig& c = config_.cost;
     const double share = std::pow(slope_rad / c.max_slope_rad, c.slope_exponent) +
                          std::pow(rise_m / config_.step_limit_m(), c.step_exponent) +
-                         std::pow(rough_m / c.rough_m, c.rough_exponent);
-    return static_cast<std::uint8_t>(std::lround(kDearest * std::min(share, 1.0)));
+                         std::pow(roughness_m / c.roughness_m, c.roughness_exponent);
+    return static_cast<std::uint8_t>(std::lround(kMaxCost * std::min(share, 1.0)));
   }
 
  private:
   const TraversabilityConfig& config_;
 };
 
-// What a grid shows beside each other: the obstacles, and the ground between them.
-struct Ground {
+// Obstacles, and planes and steps of the ground between them.
+struct TerrainAnalysis {
   std::vector<std::uint8_t> seen;
   std::vector<std::uint8_t> obstacle;
   Steps steps;
   DiscPlanes planes;
 
-  Ground(const TerrainGrid& grid, const TraversabilityConfig& config)
+  TerrainAnalysis(const TerrainGrid& grid, const TraversabilityConfig& config)
       : seen(seen_cells(grid)), planes(grid.shape, config.plane) {
     planes.fit(grid.height_m, seen);
-    find(grid, config);
-    // Again, with slopes that large rocks do not tilt.
-    std::vector<std::uint8_t> between(seen);
-    for (std::size_t i = 0; i < between.size(); ++i) between[i] = seen[i] && !obstacle[i];
-    planes.fit_again(grid.height_m, between);
-    find(grid, config);
+    detect(grid, config);
+    // Second pass without the obstacles, which tilt the planes beside them.
+    std::vector<std::uint8_t> without_obstacles(seen);
+    for (std::size_t i = 0; i < without_obstacles.size(); ++i) without_obstacles[i] = seen[i] && !obstacle[i];
+    planes.refit(grid.height_m, without_obstacles);
+    detect(grid, config);
   }
 
  private:
-  void find(const TerrainGrid& grid, const TraversabilityConfig& config) {
+  void detect(const TerrainGrid& grid, const TraversabilityConfig& config) {
     steps = find_steps(grid, planes, config.step);
     obstacle = find_obstacles(grid, planes, steps, config);
-    close_islands(grid, config.footprint_m2, obstacle);
+    fill_enclosed_regions(grid, config.footprint_m2, obstacle);
   }
 };
 
 }  // namespace
 
-TraversabilityMap judge_terrain(TerrainGrid grid, const TraversabilityConfig& config) {
-  close_small_holes(grid, config.step.max_sigma_m, config.step.foot_m);
-  Ground ground(grid, config);
+TraversabilityMap compute_traversability(TerrainGrid grid, const TraversabilityConfig& config) {
+  fill_small_holes(grid, config.step.max_sigma_m, config.step.region_growing_m);
+  TerrainAnalysis analysis(grid, config);
   TraversabilityMap map{grid.shape, std::vector<std::uint8_t>(grid.shape.size(), kUnknown), {}};
-  const CellJudge judge(config);
+  const CellCost cell_cost(config);
   for (std::size_t i = 0; i < map.cells.size(); ++i) {
-    if (!ground.seen[i]) continue;
-    if (ground.obstacle[i])
+    if (!analysis.seen[i]) continue;
+    if (analysis.obstacle[i])
       map.cells[i] = kImpassable;
-    else if (ground.steps.uncertain_rise_m[i] < config.step_limit_m())
-      map.cells[i] = judge.cost(ground.planes.at(i), grid.height_m[i], grid.sigma_m[i], ground.steps.rise_m[i]);
+    else if (analysis.steps.raw_rise_m[i] < config.step_limit_m())
+      map.cells[i] = cell_cost.cost(analysis.planes.at(i), grid.height_m[i], grid.sigma_m[i], analysis.steps.rise_m[i]);
   }
-  map.obstacle = std::move(ground.obstacle);
+  map.obstacle = std::move(analysis.obstacle);
   return map;
 }
 

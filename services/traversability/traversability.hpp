@@ -1,8 +1,6 @@
-// Traversability of the ground: what the rover's wheels and body make of an elevation map.
-//
-// Slope and roughness come from a plane over a disc of the rover's size, steps from height differences within a wheel's
-// reach (as in GESTALT: Goldberg, Maimone and Matthies, IEEE Aerospace 2002), weighed against the heights' own sigma.
-// What was not seen, or not well enough, is a class of its own.
+// Traversability costs from an elevation map. Slope and roughness come from a plane over a disc of the rover's size,
+// steps from height differences within a wheel diameter (as in GESTALT: Goldberg, Maimone and Matthies, IEEE Aerospace
+// 2002), tested against the heights' sigma. Cells not seen well enough are a class of their own.
 #pragma once
 
 #include <cstdint>
@@ -20,10 +18,10 @@ inline constexpr std::uint8_t kUnknown = 255;
 
 struct TraversabilityMap {
   GridShape shape;
-  std::vector<std::uint8_t> cells;     // 0 free .. 253 dear, kImpassable, kUnknown
-  std::vector<std::uint8_t> obstacle;  // 1: a rock, a step or a hole (slope is none)
+  std::vector<std::uint8_t> cells;     // cost 0 .. 253, kImpassable or kUnknown
+  std::vector<std::uint8_t> obstacle;  // 1: rock, step or hole; steep slopes are not included
 };
 
-TraversabilityMap judge_terrain(TerrainGrid grid, const TraversabilityConfig& config);
+TraversabilityMap compute_traversability(TerrainGrid grid, const TraversabilityConfig& config);
 
 }  // namespace rover::trav

@@ -214,7 +214,7 @@ void MadeUpDrive::say_terrain(Utime now) {
   const elevation_t map = elevation();
   publish(channel::kElevation, map, now);
   const trav::TraversabilityConfig config;
-  const trav::TraversabilityMap costs = trav::judge_terrain(trav::grid_from(map), config);
+  const trav::TraversabilityMap costs = trav::compute_traversability(trav::grid_from(map), config);
   traversability_t terrain{};
   trav::traversability_to(costs, trav::difficulty_ahead(costs, in_odom(place(way_now_m_)), config.ahead), terrain);
   publish(channel::kTraversability, terrain, now);

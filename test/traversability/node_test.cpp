@@ -8,7 +8,7 @@
 
 #include "common/core/frames.hpp"
 #include "test/stereo/one_node_world.hpp"
-#include "test/traversability/made_terrain.hpp"
+#include "test/traversability/synthetic_terrain.hpp"
 
 namespace rover::trav {
 namespace {
@@ -29,8 +29,8 @@ elevation_t message_of(const TerrainGrid& grid) {
 }
 
 // Flat ground with a rock of 0.3 m at (3.05, 1.05).
-elevation_t rock_map() {
-  return message_of(testing_support::make_terrain(
+elevation_t map_with_rock() {
+  return message_of(testing_support::synthetic_terrain(
       [](double x, double y) { return testing_support::block_m(x - 3.05, y - 1.05, 0.3, 0.25); }));
 }
 
@@ -47,23 +47,23 @@ pose_t pose_at(double x_m, double y_m, double yaw_rad) {
 class TraversabilityNodeTest : public testing::Test {
  protected:
   TraversabilityNodeTest() : world_("traversability"), service_(make_traversability(world_.node(), kConfig)) {
-    world_.hear(channel::kTraversability, maps_);
+    world_.hear(channel::kTraversability, outputs_);
     world_.tick(now_);
   }
 
-  // The map is as old as given when it arrives.
-  void give(elevation_t map, double age_s = 0.1) {
+  // `age_s`: age of the map on arrival.
+  void send(elevation_t map, double age_s = 0.1) {
     now_ += 1'000'000;
     map.header = slam_.next(channel::kElevation, now_ - to_utime(age_s), now_);
     world_.bus().publish(channel::kElevation, &map);
     world_.tick(now_);
     world_.tick(now_ + 200'000);
   }
-  // A pose 0.1 s before the map.
-  void give(const pose_t& pose, const elevation_t& map) {
+  // With a pose 0.1 s before the map.
+  void send(const pose_t& pose, const elevation_t& map) {
     world_.send(channel::kPose, pose, now_ + 900'000);
     world_.tick(now_ + 900'000);
-    give(map);
+    send(map);
   }
   static std::uint8_t cell(const traversability_t& map, double x_m, double y_m) {
     const int ix = static_cast<int>((x_m - map.origin_x_m) / map.cell_m);
@@ -75,14 +75,14 @@ class TraversabilityNodeTest : public testing::Test {
   test::OneNodeWorld world_;
   StreamCounter slam_{"slam", 1};
   std::shared_ptr<TraversabilityNode> service_;
-  std::vector<traversability_t> maps_;
+  std::vector<traversability_t> outputs_;
 };
 
-TEST_F(TraversabilityNodeTest, EachElevationMapGivesCostsOfTheSameCells) {
-  const elevation_t map = rock_map();
-  give(map);
-  ASSERT_EQ(maps_.size(), 1u);
-  const traversability_t& out = maps_[0];
+TEST_F(TraversabilityNodeTest, EachElevationMapGivesCostsOnSameGrid) {
+  const elevation_t map = map_with_rock();
+  send(map);
+  ASSERT_EQ(outputs_.size(), 1u);
+  const traversability_t& out = outputs_[0];
   EXPECT_EQ(out.header.utime, 10'900'000);
   EXPECT_EQ(out.header.release_utime, 11'100'000);
   EXPECT_EQ(out.cell_m, map.cell_m);
@@ -96,30 +96,30 @@ TEST_F(TraversabilityNodeTest, EachElevationMapGivesCostsOfTheSameCells) {
 }
 
 TEST_F(TraversabilityNodeTest, DifficultyNeedsAFreshPose) {
-  give(rock_map());
-  give(pose_at(0.0, 1.0, 0.0), rock_map());
-  give(pose_at(0.0, 1.0, kPi), rock_map());
-  give(rock_map());
-  ASSERT_EQ(maps_.size(), 4u);
-  EXPECT_TRUE(std::isnan(maps_[0].difficulty)) << "no pose";
-  EXPECT_GT(maps_[1].difficulty, 0.05) << "the rock ahead";
-  EXPECT_LT(maps_[2].difficulty, 0.02) << "the rock behind";
-  EXPECT_TRUE(std::isnan(maps_[3].difficulty)) << "an old pose";
+  send(map_with_rock());
+  send(pose_at(0.0, 1.0, 0.0), map_with_rock());
+  send(pose_at(0.0, 1.0, kPi), map_with_rock());
+  send(map_with_rock());
+  ASSERT_EQ(outputs_.size(), 4u);
+  EXPECT_TRUE(std::isnan(outputs_[0].difficulty)) << "no pose";
+  EXPECT_GT(outputs_[1].difficulty, 0.05) << "the rock ahead";
+  EXPECT_LT(outputs_[2].difficulty, 0.02) << "the rock behind";
+  EXPECT_TRUE(std::isnan(outputs_[3].difficulty)) << "an old pose";
 }
 
-TEST_F(TraversabilityNodeTest, AnUnusablePoseGivesNoDifficulty) {
+TEST_F(TraversabilityNodeTest, InvalidPoseGivesNanDifficulty) {
   pose_t lost = pose_at(0.0, 0.0, 0.0);
   lost.status = pose_t::LOST;
   pose_t broken = pose_at(kNaN, 0.0, 0.0);
   for (const pose_t& pose : {lost, broken}) {
-    give(pose, rock_map());
-    ASSERT_FALSE(maps_.empty());
-    EXPECT_TRUE(std::isnan(maps_.back().difficulty));
+    send(pose, map_with_rock());
+    ASSERT_FALSE(outputs_.empty());
+    EXPECT_TRUE(std::isnan(outputs_.back().difficulty));
   }
 }
 
-TEST_F(TraversabilityNodeTest, OddMapsAreCountedAndGiveNothing) {
-  std::vector<elevation_t> bad(8, rock_map());
+TEST_F(TraversabilityNodeTest, InvalidMapsAreCountedAndIgnored) {
+  std::vector<elevation_t> bad(8, map_with_rock());
   bad[0].cells_x = 199;
   bad[1].cell_m = 0.0;
   bad[2].cell_m = kNaN;
@@ -132,40 +132,40 @@ TEST_F(TraversabilityNodeTest, OddMapsAreCountedAndGiveNothing) {
   bad[6].sigma_m.clear();
   bad[7].cells_x = 2;
   bad[7].cells_y = 20000;
-  for (const elevation_t& map : bad) give(map);
-  EXPECT_TRUE(maps_.empty());
+  for (const elevation_t& map : bad) send(map);
+  EXPECT_TRUE(outputs_.empty());
   EXPECT_EQ(world_.malformed(channel::kElevation), 8);
-  give(rock_map());
-  EXPECT_EQ(maps_.size(), 1u);
+  send(map_with_rock());
+  EXPECT_EQ(outputs_.size(), 1u);
 }
 
-TEST_F(TraversabilityNodeTest, MapsOfAnotherTimeAreRefused) {
-  give(rock_map(), 2.5);
-  give(rock_map(), -0.3);
-  EXPECT_TRUE(maps_.empty());
-  give(rock_map(), 0.1);
-  give(rock_map(), 1.1);  // of the same time as the one before
-  EXPECT_EQ(maps_.size(), 1u);
+TEST_F(TraversabilityNodeTest, StaleFutureAndRepeatedMapsAreRejected) {
+  send(map_with_rock(), 2.5);
+  send(map_with_rock(), -0.3);
+  EXPECT_TRUE(outputs_.empty());
+  send(map_with_rock(), 0.1);
+  send(map_with_rock(), 1.1);  // same utime as the previous one
+  EXPECT_EQ(outputs_.size(), 1u);
   world_.tick(now_ + 1'000'000);
   EXPECT_EQ(world_.malformed(channel::kElevation), 3);
 }
 
-TEST_F(TraversabilityNodeTest, ACloudlessMapIsUnknownAndNotEasy) {
-  elevation_t map = rock_map();
+TEST_F(TraversabilityNodeTest, EmptyMapIsUnknownNotEasy) {
+  elevation_t map = map_with_rock();
   std::fill(map.height_m.begin(), map.height_m.end(), static_cast<float>(kNaN));
-  give(pose_at(0.0, 0.0, 0.0), map);
-  ASSERT_EQ(maps_.size(), 1u);
-  EXPECT_TRUE(std::all_of(maps_[0].cells.begin(), maps_[0].cells.end(),
+  send(pose_at(0.0, 0.0, 0.0), map);
+  ASSERT_EQ(outputs_.size(), 1u);
+  EXPECT_TRUE(std::all_of(outputs_[0].cells.begin(), outputs_[0].cells.end(),
                           [](int cost) { return cost == traversability_t::UNKNOWN; }));
-  EXPECT_TRUE(std::isnan(maps_[0].difficulty));
+  EXPECT_TRUE(std::isnan(outputs_[0].difficulty));
 }
 
-TEST_F(TraversabilityNodeTest, WithoutMapsItOnlyListens) {
+TEST_F(TraversabilityNodeTest, PublishesNothingWithoutMaps) {
   for (int k = 1; k <= 20; ++k) {
     world_.send(channel::kPose, pose_at(0.1 * k, 0.0, 0.0), now_ + k * kTickUs);
     world_.tick(now_ + k * kTickUs);
   }
-  EXPECT_TRUE(maps_.empty());
+  EXPECT_TRUE(outputs_.empty());
 }
 
 class TraversabilityConfigTest : public testing::Test {
@@ -181,19 +181,19 @@ class TraversabilityConfigTest : public testing::Test {
   std::filesystem::path dir_;
 };
 
-TEST_F(TraversabilityConfigTest, TheFileHoldsTheDefaultsAndTheVehicleItsLimits) {
-  const TraversabilityConfig file = load_config(dir_.string()).core, made;
+TEST_F(TraversabilityConfigTest, ShippedFileEqualsDefaultsAndVehicleSetsLimits) {
+  const TraversabilityConfig file = load_config(dir_.string()).core, defaults;
   EXPECT_EQ(file.hazard_height_m, 0.15);
   EXPECT_EQ(file.belly_clearance_m, 0.30);
-  EXPECT_NEAR(file.footprint_m2, made.footprint_m2, 1e-9);
-  EXPECT_NEAR(file.cost.max_slope_rad, made.cost.max_slope_rad, 1e-4);
-  EXPECT_EQ(file.step.max_sigma_m, made.step.max_sigma_m);
-  EXPECT_EQ(file.step.shown_share, made.step.shown_share);
-  EXPECT_EQ(file.plane.radius_m, made.plane.radius_m);
-  EXPECT_EQ(file.ahead.clearance_m, made.ahead.clearance_m);
+  EXPECT_NEAR(file.footprint_m2, defaults.footprint_m2, 1e-9);
+  EXPECT_NEAR(file.cost.max_slope_rad, defaults.cost.max_slope_rad, 1e-4);
+  EXPECT_EQ(file.step.max_sigma_m, defaults.step.max_sigma_m);
+  EXPECT_EQ(file.step.mean_height_ratio, defaults.step.mean_height_ratio);
+  EXPECT_EQ(file.plane.radius_m, defaults.plane.radius_m);
+  EXPECT_EQ(file.ahead.clearance_m, defaults.ahead.clearance_m);
 }
 
-TEST_F(TraversabilityConfigTest, WrongKeysAndRangesStopTheStart) {
+TEST_F(TraversabilityConfigTest, UnknownKeysAndBadRangesThrow) {
   const std::string sections = "plane: {}\nstep: {}\ncost: {}\n";
   write(sections + "ahead: {}\n");
   EXPECT_NO_THROW(load_config(dir_.string()));

@@ -1,4 +1,4 @@
-// What traversability makes of the maps that SLAM builds on simulated drives, against the true ground:
+// Compares traversability of SLAM maps from simulated drives with the true terrain:
 //   traversability_study [K [SEEDS [LENGTH_M [SHOWN_SHARE]]]]
 #include <fmt/format.h>
 
@@ -16,16 +16,16 @@ namespace {
 
 const std::string kDtm = std::string(ROVER_SOURCE_DIR) + "/config/terrain/gale/gale_hirise_dtm_1m_348x337.tif";
 constexpr double kRockM = 0.20;
-constexpr double kBesideM = 0.25;  // of an obstacle: its blurred rim
+constexpr double kRimM = 0.25;  // blurred rim of an obstacle
 
 struct Tally {
   long maps = 0, seen = 0, unknown = 0, uncertain = 0, impassable = 0;
-  long rock_cells = 0, rock_passable = 0;  // higher than kRockM over the ground under the cell's centre
-  long rocks = 0, rocks_passed = 0;        // of kRockM and more, at least half seen: all of that passable
-  long low_rocks = 0, low_rocks_hit = 0;   // of 0.08 - 0.12 m; an impassable cell on them
+  long rock_cells = 0, rock_passable = 0;  // cells higher than kRockM above the ground
+  long rocks = 0, rocks_missed = 0;        // from kRockM, at least half seen; missed: all seen cells passable
+  long low_rocks = 0, low_rocks_hit = 0;   // 0.08 - 0.12 m; hit: with an impassable cell
   long plain_cells = 0, plain_impassable = 0;
   double sigma_m = 0.0, worst_sigma_m = 0.0, difficulty = 0.0, cost = 0.0;
-  long judged = 0, easy = 0, passable = 0;
+  long difficulty_known = 0, easy = 0, passable = 0;
 };
 
 TerrainGrid grid_of(const slam::OdomElevation& map) {
@@ -38,7 +38,7 @@ double rise_m(const World& world, double x, double y) {
   return world.height_m(x, y) - world.ground_height_m(x, y);
 }
 
-// The highest rock within so far.
+// Highest rock within `reach_m`.
 double highest_m(const World& world, double x, double y, double reach_m) {
   double high = 0.0;
   for (double dy = -reach_m; dy <= reach_m; dy += 0.05)
@@ -47,9 +47,9 @@ double highest_m(const World& world, double x, double y, double reach_m) {
   return high;
 }
 
-// Without the cells that were not seen.
+// Calls f for each seen cell within `reach_m`.
 template <class F>
-void for_seen(const TerrainGrid& grid, double x_m, double y_m, double reach_m, F&& f) {
+void for_each_seen(const TerrainGrid& grid, double x_m, double y_m, double reach_m, F&& f) {
   const int reach = static_cast<int>(reach_m / grid.shape.cell_m) + 1;
   const int cx = static_cast<int>((x_m - grid.shape.origin_x_m) / grid.shape.cell_m);
   const int cy = static_cast<int>((y_m - grid.shape.origin_y_m) / grid.shape.cell_m);
@@ -66,7 +66,7 @@ void compare_rocks(const World& world, const TerrainGrid& grid, const Traversabi
     const bool low = rock.height_m >= 0.08 && rock.height_m <= 0.12;
     if (rock.height_m < kRockM && !low) continue;
     int cells = 0, passable = 0, impassable = 0;
-    for_seen(grid, rock.x_m, rock.y_m, 0.4 * rock.diameter_m, [&](std::size_t i) {
+    for_each_seen(grid, rock.x_m, rock.y_m, 0.4 * rock.diameter_m, [&](std::size_t i) {
       ++cells;
       passable += map.cells[i] < kImpassable;
       impassable += map.cells[i] == kImpassable;
@@ -77,7 +77,7 @@ void compare_rocks(const World& world, const TerrainGrid& grid, const Traversabi
     if (low)
       tally.low_rocks_hit += impassable > 0;
     else
-      tally.rocks_passed += passable == cells;
+      tally.rocks_missed += passable == cells;
   }
 }
 
@@ -98,14 +98,14 @@ void compare(const World& world, const TerrainGrid& grid, const TraversabilityMa
       if (rise_m(world, x, y) >= kRockM) {
         ++tally.rock_cells;
         tally.rock_passable += cost < kImpassable;
-      } else if (highest_m(world, x, y, kBesideM) < 0.08) {
+      } else if (highest_m(world, x, y, kRimM) < 0.08) {
         ++tally.plain_cells;
         tally.plain_impassable += cost == kImpassable;
       }
     }
 }
 
-// Odometry without errors: odom is the world's own frame.
+// Perfect odometry: odom equals the world frame.
 void drive(double k, std::uint64_t seed, double length_m, const TraversabilityConfig& config, Tally& tally) {
   const auto stations = slam::study::simulated_drive({.length_m = length_m, .rock_k = k, .seed = seed}, kDtm);
   WorldConfig world_config;
@@ -116,11 +116,11 @@ void drive(double k, std::uint64_t seed, double length_m, const TraversabilityCo
     slam.step(stations[i].cloud, {stations[i].T_map_body, 0.0, 0.0});
     if (i < 16) continue;  // until the map has filled
     const TerrainGrid grid = grid_of(slam.elevation());
-    const TraversabilityMap map = judge_terrain(grid, config);
+    const TraversabilityMap map = compute_traversability(grid, config);
     const double difficulty = difficulty_ahead(map, planar(stations[i].T_map_body), config.ahead);
     ++tally.maps;
     if (!std::isnan(difficulty)) {
-      ++tally.judged;
+      ++tally.difficulty_known;
       tally.difficulty += difficulty;
       tally.easy += difficulty < 0.25;
     }
@@ -148,9 +148,10 @@ void print(double k, const Tally& t) {
       t.plain_cells, share(double(t.plain_impassable), t.plain_cells));
   fmt::print(
       "  {} of {} rocks of that height passable in all that was seen of them; {} of {} of 0.08 - 0.12 m impassable\n",
-      t.rocks_passed, t.rocks, t.low_rocks_hit, t.low_rocks);
+      t.rocks_missed, t.rocks, t.low_rocks_hit, t.low_rocks);
   fmt::print("  difficulty ahead {:.3f} on average, easy in {:.0f} % of {} maps, not judged in {}\n",
-             t.difficulty / double(t.judged), share(double(t.easy), t.judged), t.judged, t.maps - t.judged);
+             t.difficulty / double(t.difficulty_known), share(double(t.easy), t.difficulty_known), t.difficulty_known,
+             t.maps - t.difficulty_known);
 }
 
 }  // namespace
@@ -161,7 +162,7 @@ int main(int argc, char** argv) {
   const int seeds = argc > 2 ? std::atoi(argv[2]) : 2;
   const double length_m = argc > 3 ? std::atof(argv[3]) : 40.0;
   rover::trav::TraversabilityConfig config;
-  if (argc > 4) config.step.shown_share = std::atof(argv[4]);
+  if (argc > 4) config.step.mean_height_ratio = std::atof(argv[4]);
   rover::trav::study::Tally tally;
   for (int seed = 1; seed <= seeds; ++seed)
     rover::trav::study::drive(k, static_cast<std::uint64_t>(seed), length_m, config, tally);

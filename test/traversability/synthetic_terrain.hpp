@@ -1,4 +1,4 @@
-// Elevation maps of known ground: the mean height of each cell, with noise as large as the sigma says.
+// Elevation maps of analytic ground: mean height per cell plus Gaussian noise.
 #pragma once
 
 #include <cmath>
@@ -16,38 +16,38 @@ inline double gaussian(std::mt19937_64& random) {
   return std::sqrt(-2.0 * std::log(u)) * std::cos(2.0 * std::numbers::pi * v);
 }
 
-struct MadeMap {
+struct SyntheticMap {
   int cells = 200;
   double cell_m = 0.1;
   double center_x_m = 0.0;
   double center_y_m = 0.0;
   double noise_m = 0.0;
   double sigma_m = 0.01;
-  int samples = 4;  // along a cell's side
+  int samples = 4;  // per cell side
 };
 
 // `height(x, y)` in metres.
 template <class Height>
-TerrainGrid make_terrain(Height&& height, const MadeMap& made = {}, std::uint64_t seed = 1) {
+TerrainGrid synthetic_terrain(Height&& height, const SyntheticMap& spec = {}, std::uint64_t seed = 1) {
   TerrainGrid grid;
-  const double half_m = 0.5 * made.cells * made.cell_m;
-  grid.shape = {made.cells, made.cells, made.cell_m, made.center_x_m - half_m, made.center_y_m - half_m};
-  grid.sigma_m.assign(grid.shape.size(), static_cast<float>(made.sigma_m));
+  const double half_m = 0.5 * spec.cells * spec.cell_m;
+  grid.shape = {spec.cells, spec.cells, spec.cell_m, spec.center_x_m - half_m, spec.center_y_m - half_m};
+  grid.sigma_m.assign(grid.shape.size(), static_cast<float>(spec.sigma_m));
   std::mt19937_64 random(seed);
-  for (int iy = 0; iy < made.cells; ++iy)
-    for (int ix = 0; ix < made.cells; ++ix) {
+  for (int iy = 0; iy < spec.cells; ++iy)
+    for (int ix = 0; ix < spec.cells; ++ix) {
       double sum = 0.0;
-      for (int j = 0; j < made.samples; ++j)
-        for (int i = 0; i < made.samples; ++i)
-          sum += height(grid.shape.x_m(ix) + ((i + 0.5) / made.samples - 0.5) * made.cell_m,
-                        grid.shape.y_m(iy) + ((j + 0.5) / made.samples - 0.5) * made.cell_m);
+      for (int j = 0; j < spec.samples; ++j)
+        for (int i = 0; i < spec.samples; ++i)
+          sum += height(grid.shape.x_m(ix) + ((i + 0.5) / spec.samples - 0.5) * spec.cell_m,
+                        grid.shape.y_m(iy) + ((j + 0.5) / spec.samples - 0.5) * spec.cell_m);
       grid.height_m.push_back(
-          static_cast<float>(sum / (made.samples * made.samples) + made.noise_m * gaussian(random)));
+          static_cast<float>(sum / (spec.samples * spec.samples) + spec.noise_m * gaussian(random)));
     }
   return grid;
 }
 
-// Height of an upright block with a round outline over flat ground.
+// Height of an upright cylinder on flat ground.
 inline double block_m(double x, double y, double height_m, double radius_m) {
   return std::hypot(x, y) <= radius_m ? height_m : 0.0;
 }
@@ -56,7 +56,7 @@ struct Count {
   int passable = 0, impassable = 0, unknown = 0;
 };
 
-// Classes of the cells whose centre lies where `in(x, y)` says.
+// Counts the classes of cells whose centre satisfies `in(x, y)`.
 template <class In>
 Count count(const TraversabilityMap& map, In&& in) {
   Count out;
