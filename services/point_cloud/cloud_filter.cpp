@@ -10,7 +10,7 @@
 namespace rover::cloud {
 namespace {
 
-// The intensity carries the sigma, so that the filters keep it with the point.
+// The intensity field carries sigma through the filters.
 using PclCloud = pcl::PointCloud<pcl::PointXYZI>;
 
 PclCloud::Ptr to_pcl(const Cloud& cloud) {
@@ -27,7 +27,7 @@ Cloud from_pcl(const PclCloud& cloud) {
   return out;
 }
 
-PclCloud::Ptr one_a_voxel(const PclCloud::Ptr& cloud, double voxel_m) {
+PclCloud::Ptr downsample_voxels(const PclCloud::Ptr& cloud, double voxel_m) {
   pcl::VoxelGrid<pcl::PointXYZI> grid;
   const auto leaf = static_cast<float>(voxel_m);
   grid.setLeafSize(leaf, leaf, leaf);
@@ -37,7 +37,7 @@ PclCloud::Ptr one_a_voxel(const PclCloud::Ptr& cloud, double voxel_m) {
   return out;
 }
 
-PclCloud without_outliers(const PclCloud::Ptr& cloud, const FilterConfig& config) {
+PclCloud remove_outliers(const PclCloud::Ptr& cloud, const FilterConfig& config) {
   pcl::RadiusOutlierRemoval<pcl::PointXYZI> removal;
   removal.setRadiusSearch(config.outlier_radius_m);
   removal.setMinNeighborsInRadius(config.outlier_neighbours);
@@ -47,8 +47,8 @@ PclCloud without_outliers(const PclCloud::Ptr& cloud, const FilterConfig& config
   return out;
 }
 
-// Nearest first, where there are too many.
-void leave_out_farthest(Cloud& cloud, size_t max_points) {
+// Sorts by depth only if points must be dropped.
+void keep_nearest(Cloud& cloud, size_t max_points) {
   if (cloud.size() <= max_points) return;
   std::stable_sort(cloud.begin(), cloud.end(), [](const Point& a, const Point& b) { return a.z_m < b.z_m; });
   cloud.resize(max_points);
@@ -56,10 +56,10 @@ void leave_out_farthest(Cloud& cloud, size_t max_points) {
 
 }  // namespace
 
-Cloud filtered(const Cloud& cloud, const FilterConfig& config) {
-  if (cloud.empty()) return {};  // PCL's search trees do not take an empty cloud
-  Cloud out = from_pcl(without_outliers(one_a_voxel(to_pcl(cloud), config.voxel_m), config));
-  leave_out_farthest(out, static_cast<size_t>(config.max_points));
+Cloud filter_cloud(const Cloud& cloud, const FilterConfig& config) {
+  if (cloud.empty()) return {};  // PCL's search trees reject an empty cloud
+  Cloud out = from_pcl(remove_outliers(downsample_voxels(to_pcl(cloud), config.voxel_m), config));
+  keep_nearest(out, static_cast<size_t>(config.max_points));
   return out;
 }
 

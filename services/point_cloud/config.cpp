@@ -14,10 +14,10 @@ void read_filter(const Config& yaml, FilterConfig& filter) {
   yaml.read("max_points", filter.max_points, {100, 25000});  // CLOUD stays below 0.5 MB
 }
 
-void read_rims(const Config& yaml, RimConfig& rims) {
-  yaml.read("jump_px", rims.jump_px, {0.1, 50.0});
-  yaml.read("steep_px_per_px", rims.steep_px_per_px, {0.0, 5.0});
-  yaml.read("width_px", rims.width_px, {0, 50});
+void read_fattening(const Config& yaml, FatteningConfig& fattening) {
+  yaml.read("jump_px", fattening.min_jump_px, {0.1, 50.0});
+  yaml.read("steep_px_per_px", fattening.slope_px_per_px, {0.0, 5.0});
+  yaml.read("width_px", fattening.width_px, {0, 50});
 }
 
 }  // namespace
@@ -40,9 +40,9 @@ NodeConfig load_config(const std::string& config_dir) {
   if (core.max_depth_m <= core.min_depth_m) yaml.fail("max_depth_m", "must be beyond min_depth_m");
   yaml.read("sigma_disparity_px", core.sigma_disparity_px, {0.01, 5.0});
   yaml.read("sigma_floor_m", core.sigma_floor_m, {0.0, 0.5});
-  yaml.read("sample_m", core.sample_m, {0.001, 0.5});
+  yaml.read("sample_m", core.point_spacing_m, {0.001, 0.5});
   stereo::read_matcher(yaml.section("matcher"), core.matcher);
-  read_rims(yaml.section("rims"), core.rims);
+  read_fattening(yaml.section("rims"), core.fattening);
   read_filter(yaml.section("filter"), core.filter);
   yaml.finish();
   return config;

@@ -1,4 +1,4 @@
-// config/point_cloud.yaml, with the NavCam of cameras.yaml and the pan-tilt unit of vehicle.yaml.
+// Reads config/point_cloud.yaml, the NavCam in cameras.yaml and the pan-tilt unit in vehicle.yaml.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ struct NodeConfig {
   PointCloudConfig core;
   StereoRig rig;
   PanTiltUnit unit;
-  double ground_below_m = 0.0;  // of the body origin
+  double ground_below_m = 0.0;  // below the body origin
   Utime latency_us = 200'000;
 };
 

@@ -7,11 +7,11 @@
 namespace rover::cloud {
 
 std::string fault_of(const ptu_state_t& message, const PanTiltUnit& unit) {
-  constexpr double kSlack = to_rad(2.0);  // of the unit's own zero
+  constexpr double kSlack = to_rad(2.0);  // zero offset of the unit
   if (!std::isfinite(message.pan_rad) || !std::isfinite(message.tilt_rad)) return "not finite";
-  const double pan_beyond = message.pan_rad - unit.clamp_pan(message.pan_rad);
-  const double tilt_beyond = message.tilt_rad - unit.clamp_tilt(message.tilt_rad);
-  return std::max(std::abs(pan_beyond), std::abs(tilt_beyond)) > kSlack ? "beyond the unit's limits" : "";
+  const double pan_excess = message.pan_rad - unit.clamp_pan(message.pan_rad);
+  const double tilt_excess = message.tilt_rad - unit.clamp_tilt(message.tilt_rad);
+  return std::max(std::abs(pan_excess), std::abs(tilt_excess)) > kSlack ? "beyond the unit's limits" : "";
 }
 
 void cloud_to(const CloudResult& result, cloud_t& message) {

@@ -1,4 +1,4 @@
-// Between the messages and the core.
+// Conversion between messages and core types.
 #pragma once
 
 #include <rover/cloud_t.hpp>
@@ -9,7 +9,7 @@
 
 namespace rover::cloud {
 
-// What is wrong with the message; empty: nothing.
+// Description of the first invalid field; empty if the message is valid.
 std::string fault_of(const ptu_state_t& message, const PanTiltUnit& unit);
 
 void cloud_to(const CloudResult& result, cloud_t& message);

@@ -9,8 +9,8 @@
 namespace rover::cloud {
 namespace {
 
-constexpr Utime kKeep = 2'000'000;       // pictures come well within it
-constexpr double kBlindFraction = 0.02;  // less stereo than this is worth a word in the heartbeat
+constexpr Utime kStateHistoryUs = 2'000'000;  // image latency is well below this
+constexpr double kMinValidFraction = 0.02;    // of pixels with a disparity; less: DEGRADED
 
 }  // namespace
 
@@ -20,29 +20,29 @@ PointCloudNode::PointCloudNode(Node& node, const NodeConfig& config)
       core_(config.core, config.rig, config.unit, config.ground_below_m),
       pairs_(node,
              {channel::kNavCamLeft, channel::kNavCamRight, config.rig.width, config.rig.height, config.latency_us},
-             [this](const ImagePair& pair) { take(pair); }) {
+             [this](const ImagePair& pair) { on_pair(pair); }) {
   cv::setNumThreads(1);
-  node_.subscribe<ptu_state_t>(channel::kPtuState, [this](const ptu_state_t& state) { take(state); });
+  node_.subscribe<ptu_state_t>(channel::kPtuState, [this](const ptu_state_t& state) { on_ptu_state(state); });
 }
 
-void PointCloudNode::take(const ptu_state_t& state) {
+void PointCloudNode::on_ptu_state(const ptu_state_t& state) {
   if (const std::string fault = fault_of(state, unit_); !fault.empty()) return node_.reject(channel::kPtuState, fault);
   states_.push_back(state);
-  while (states_.front().header.utime < state.header.utime - kKeep) states_.pop_front();
+  while (states_.front().header.utime < state.header.utime - kStateHistoryUs) states_.pop_front();
 }
 
-void PointCloudNode::take(const ImagePair& pair) {
+void PointCloudNode::on_pair(const ImagePair& pair) {
   const ptu_state_t* state = state_at(pair.utime);
-  if (const std::string why = refusal(pair, state); !why.empty()) {
-    node_.reject(channel::kNavCamLeft, why);
-    return report(why);
+  if (const std::string reason = rejection(pair, state); !reason.empty()) {
+    node_.reject(channel::kNavCamLeft, reason);
+    return report_status(reason);
   }
   const auto result = core_.step(pair.left, pair.right, state->pan_rad, state->tilt_rad);
   if (!result) return;
   cloud_t cloud{};
   cloud_to(*result, cloud);
   node_.publish(channel::kCloud, cloud, pair.utime);
-  report(result->valid_fraction < kBlindFraction ? "no stereo" : "");
+  report_status(result->valid_fraction < kMinValidFraction ? "no stereo" : "");
 }
 
 const ptu_state_t* PointCloudNode::state_at(Utime utime) const {
@@ -53,17 +53,17 @@ const ptu_state_t* PointCloudNode::state_at(Utime utime) const {
   return nearest;
 }
 
-std::string PointCloudNode::refusal(const ImagePair& pair, const ptu_state_t* state) const {
+std::string PointCloudNode::rejection(const ImagePair& pair, const ptu_state_t* state) const {
   if (pair.frozen) return "camera frozen";
   if (state == nullptr) return "no PTU_STATE of the exposure";
   return state->moving != 0 ? "exposed while the unit moved" : "";
 }
 
-void PointCloudNode::report(const std::string& trouble) {
-  if (trouble == trouble_) return;
-  trouble_ = trouble;
-  node_.set_status(trouble.empty() ? heartbeat_t::OK : heartbeat_t::DEGRADED, trouble);
-  node_.log(trouble.empty() ? "INFO" : "WARN", trouble.empty() ? "CLOUD_BACK" : "NO_CLOUD why=" + trouble);
+void PointCloudNode::report_status(const std::string& problem) {
+  if (problem == problem_) return;
+  problem_ = problem;
+  node_.set_status(problem.empty() ? heartbeat_t::OK : heartbeat_t::DEGRADED, problem);
+  node_.log(problem.empty() ? "INFO" : "WARN", problem.empty() ? "CLOUD_BACK" : "NO_CLOUD why=" + problem);
 }
 
 std::shared_ptr<PointCloudNode> make_point_cloud(Node& node, const std::string& config_dir) {

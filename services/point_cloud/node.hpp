@@ -1,4 +1,4 @@
-// The bus side of the point cloud: a CLOUD for each NavCam pair that was exposed while the pan-tilt unit stood.
+// Bus node: one CLOUD per NavCam pair that was exposed while the pan-tilt unit was stationary.
 #pragma once
 
 #include <deque>
@@ -18,19 +18,19 @@ class PointCloudNode {
   PointCloudNode& operator=(const PointCloudNode&) = delete;
 
  private:
-  void take(const ptu_state_t& state);
-  void take(const ImagePair& pair);
-  // Null where there is none near the time.
+  void on_ptu_state(const ptu_state_t& state);
+  void on_pair(const ImagePair& pair);
+  // Nearest state; null if none is within a tick.
   const ptu_state_t* state_at(Utime utime) const;
-  std::string refusal(const ImagePair& pair, const ptu_state_t* state) const;
-  void report(const std::string& trouble);
+  std::string rejection(const ImagePair& pair, const ptu_state_t* state) const;
+  void report_status(const std::string& problem);
 
   Node& node_;
   PanTiltUnit unit_;
   PointCloud core_;
   ImagePairs pairs_;
   std::deque<ptu_state_t> states_;  // of the last seconds
-  std::string trouble_;             // empty: none
+  std::string problem_;             // empty: none
 };
 
 std::shared_ptr<PointCloudNode> make_point_cloud(Node& node, const std::string& config_dir);

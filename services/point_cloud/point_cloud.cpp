@@ -9,8 +9,8 @@
 namespace rover::cloud {
 namespace {
 
-// Largest power of two that is not above the number, 1 to 8.
-int stride_of(double pixels) {
+// Largest power of two up to `pixels`, 1 to 8.
+int pixel_stride(double pixels) {
   return static_cast<int>(std::bit_floor(static_cast<unsigned>(std::clamp(pixels, 1.0, 8.0))));
 }
 
@@ -28,14 +28,14 @@ PointCloud::PointCloud(const PointCloudConfig& config, const StereoRig& rig, con
 std::optional<CloudResult> PointCloud::step(const GrayImage& left, const GrayImage& right, double pan_rad,
                                             double tilt_rad) {
   ROVER_CHECK(std::isfinite(pan_rad) && std::isfinite(tilt_rad), pan_rad, tilt_rad);
-  View& view = view_at(tilt_rad);
-  auto seen = view.stereo.step(left, right);
-  if (!seen) return std::nullopt;
+  TiltedStereo& tilted = stereo_at_tilt(tilt_rad);
+  auto stereo = tilted.stereo.step(left, right);
+  if (!stereo) return std::nullopt;
   CloudResult result;
-  result.valid_fraction = valid_fraction(seen->disparity);
-  take_rims(seen->disparity, config_.rims);
-  result.cloud = filtered(points_of(seen->disparity, view.stereo.camera()), config_.filter);
-  result.T_body_cam = T_body_navcam(unit_, rig_.T_body_left, pan_rad, tilt_rad) * view.T_left_rectified;
+  result.valid_fraction = valid_fraction(stereo->disparity);
+  remove_foreground_fattening(stereo->disparity, config_.fattening);
+  result.cloud = filter_cloud(triangulate(stereo->disparity, tilted.stereo.camera()), config_.filter);
+  result.T_body_cam = T_body_navcam(unit_, rig_.T_body_left, pan_rad, tilt_rad) * tilted.T_left_rectified;
   return result;
 }
 
@@ -43,28 +43,28 @@ double PointCloud::sigma_m(double depth_m, const StereoCamera& camera) const {
   return config_.sigma_floor_m + depth_m * depth_m / (camera.focal_px * camera.baseline_m) * config_.sigma_disparity_px;
 }
 
-// Pan does not matter: flat ground looks the same from there.
-PointCloud::View& PointCloud::view_at(double tilt_rad) {
+// Independent of pan: flat ground looks the same.
+PointCloud::TiltedStereo& PointCloud::stereo_at_tilt(double tilt_rad) {
   const int step = static_cast<int>(std::lround(unit_.clamp_tilt(tilt_rad) / config_.tilt_step_rad));
-  const auto found = views_.find(step);
-  if (found != views_.end()) return found->second;
+  const auto found = stereo_by_tilt_.find(step);
+  if (found != stereo_by_tilt_.end()) return found->second;
   StereoRig tilted = rig_;
   tilted.T_body_left = T_body_navcam(unit_, rig_.T_body_left, 0.0, step * config_.tilt_step_rad);
   stereo::Stereo stereo({.matcher = config_.matcher}, tilted, ground_below_m_);
   const Eigen::Isometry3d T_left_rectified = tilted.T_body_left.inverse() * stereo.camera().T_body_cam;
-  return views_.emplace(step, View{std::move(stereo), T_left_rectified}).first->second;
+  return stereo_by_tilt_.emplace(step, TiltedStereo{std::move(stereo), T_left_rectified}).first->second;
 }
 
-// Of a pixel's neighbours on a surface across the view none is nearer than sample_m; along the view, where ground is
-// seen at a grazing angle, rows are four times as dense.
-Cloud PointCloud::points_of(const Disparity& disparity, const StereoCamera& camera) const {
+// Subsamples pixels to `point_spacing_m` on a fronto-parallel surface; rows are four times as dense, as ground is seen
+// at a grazing angle.
+Cloud PointCloud::triangulate(const Disparity& disparity, const StereoCamera& camera) const {
   Cloud cloud;
   for (int v = 0; v < disparity.height; ++v)
     for (int u = 0; u < disparity.width; ++u) {
       if (!disparity.valid(u, v)) continue;
       const double z = camera.depth_m(disparity.px(u, v));
       if (z < config_.min_depth_m || z > config_.max_depth_m) continue;
-      const int stride = stride_of(config_.sample_m * camera.focal_px / z);
+      const int stride = pixel_stride(config_.point_spacing_m * camera.focal_px / z);
       if (u % stride != 0 || v % std::max(1, stride / 4) != 0) continue;
       const Eigen::Vector3f p = camera.point(u, v, disparity.px(u, v)).cast<float>();
       cloud.push_back({p.x(), p.y(), p.z(), static_cast<float>(sigma_m(z, camera))});

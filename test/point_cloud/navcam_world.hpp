@@ -1,4 +1,4 @@
-// The shipped NavCam and its unit over known worlds.
+// The shipped NavCam and pan-tilt unit in synthetic worlds.
 #pragma once
 
 #include "point_cloud/point_cloud.hpp"
@@ -6,7 +6,7 @@
 
 namespace rover::cloud {
 
-// config/cameras.yaml, config/vehicle.yaml.
+// As in config/cameras.yaml and config/vehicle.yaml.
 inline StereoRig navcam_rig() {
   StereoRig rig;
   rig.width = 640;
@@ -28,9 +28,9 @@ inline PanTiltUnit navcam_unit() {
 
 constexpr double kGroundBelow = 0.62;
 
-// What the NavCam sees of the world, given in body axes, from these angles.
-inline synthetic::RawPair look(const synthetic::World& world, double pan_rad, double tilt_rad,
-                               double sigma_grey = 1.0) {
+// Renders the NavCam pair of a world given in body axes.
+inline synthetic::RawPair render_pair(const synthetic::World& world, double pan_rad, double tilt_rad,
+                                      double sigma_grey = 1.0) {
   StereoRig rig = navcam_rig();
   rig.T_body_left = T_body_navcam(navcam_unit(), rig.T_body_left, pan_rad, tilt_rad);
   return synthetic::render(world, rig, sigma_grey, 7);

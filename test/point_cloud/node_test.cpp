@@ -15,9 +15,9 @@ namespace {
 
 const std::string kConfig = std::string(ROVER_SOURCE_DIR) + "/config";
 
-// One pair for all tests: it takes long to draw.
-const synthetic::RawPair& pictures() {
-  static const synthetic::RawPair kPair = look({}, to_rad(30.0), to_rad(10.0));
+// Shared by all tests, as rendering is slow.
+const synthetic::RawPair& image_pair() {
+  static const synthetic::RawPair kPair = render_pair({}, to_rad(30.0), to_rad(10.0));
   return kPair;
 }
 
@@ -32,8 +32,8 @@ class PointCloudNodeTest : public testing::Test {
   PointCloudNodeTest()
       : world_("point_cloud"),
         service_(make_point_cloud(world_.node(), kConfig)),
-        left_(message_of(pictures().left)),
-        right_(message_of(pictures().right)) {
+        left_(message_of(image_pair().left)),
+        right_(message_of(image_pair().right)) {
     world_.hear(channel::kCloud, clouds_);
   }
 
@@ -48,12 +48,12 @@ class PointCloudNodeTest : public testing::Test {
     world_.send(channel::kNavCamLeft, left_, utime);
     world_.send(channel::kNavCamRight, right_, utime);
   }
-  // Another picture, as noise makes it.
-  void change_pictures() {
+  // A single bit makes the pair differ from a frozen one.
+  void change_images() {
     left_.data[0] ^= 1;
     right_.data[0] ^= 1;
   }
-  std::int64_t refused() { return world_.malformed(channel::kNavCamLeft); }
+  std::int64_t rejected() { return world_.malformed(channel::kNavCamLeft); }
 
   test::OneNodeWorld world_;
   std::shared_ptr<PointCloudNode> service_;
@@ -61,7 +61,7 @@ class PointCloudNodeTest : public testing::Test {
   std::vector<cloud_t> clouds_;
 };
 
-TEST_F(PointCloudNodeTest, APairWithTheUnitsStateBecomesACloudOfItsExposure) {
+TEST_F(PointCloudNodeTest, PairWithUnitStateBecomesCloudOfItsExposure) {
   send_state(100'000);
   world_.tick(100'000);
   send_pair(100'000);
@@ -81,24 +81,24 @@ TEST_F(PointCloudNodeTest, APairWithTheUnitsStateBecomesACloudOfItsExposure) {
   EXPECT_LT(std::sqrt(squares / cloud.point_count), 0.02);
 }
 
-TEST_F(PointCloudNodeTest, WithoutTheUnitsStateOrWhileItMovesNothingIsMade) {
+TEST_F(PointCloudNodeTest, NoCloudWithoutUnitStateOrWhileUnitMoves) {
   send_pair(100'000);
   world_.tick(160'000);
   send_state(200'000);
   send_state(500'000, true);
   world_.tick(500'000);
-  change_pictures();
+  change_images();
   send_pair(500'000);
   world_.tick(600'000);
-  change_pictures();
+  change_images();
   send_pair(900'000);
   world_.tick(1'000'000);
   world_.tick(1'300'000);
   EXPECT_TRUE(clouds_.empty());
-  EXPECT_EQ(refused(), 3);
+  EXPECT_EQ(rejected(), 3);
 }
 
-TEST_F(PointCloudNodeTest, AFrozenPictureAndAnUnpairedOneAreRefused) {
+TEST_F(PointCloudNodeTest, FrozenAndUnpairedImagesAreRejected) {
   for (Utime t : {100'000, 600'000}) {
     send_state(t);
     world_.tick(t);
@@ -107,17 +107,17 @@ TEST_F(PointCloudNodeTest, AFrozenPictureAndAnUnpairedOneAreRefused) {
   }
   world_.tick(1'000'000);
   EXPECT_EQ(clouds_.size(), 1u);
-  EXPECT_EQ(refused(), 1);
+  EXPECT_EQ(rejected(), 1);
   world_.send(channel::kNavCamLeft, left_, 1'100'000);
   world_.tick(1'100'000);
   world_.send(channel::kNavCamRight, right_, 1'200'000);
   world_.tick(1'300'000);
   world_.tick(1'600'000);
   EXPECT_EQ(clouds_.size(), 1u);
-  EXPECT_EQ(refused(), 2);
+  EXPECT_EQ(rejected(), 2);
 }
 
-TEST_F(PointCloudNodeTest, UnusableStatesAreCounted) {
+TEST_F(PointCloudNodeTest, InvalidUnitStatesAreCounted) {
   send_state(100'000, false, kNaN);
   send_state(120'000, false, 3.0);
   world_.tick(120'000);
@@ -128,7 +128,7 @@ TEST_F(PointCloudNodeTest, UnusableStatesAreCounted) {
   EXPECT_TRUE(clouds_.empty());
 }
 
-TEST_F(PointCloudNodeTest, PicturesWithoutTextureGiveAnEmptyCloud) {
+TEST_F(PointCloudNodeTest, TexturelessImagesGiveEmptyCloud) {
   std::fill(left_.data.begin(), left_.data.end(), std::uint8_t{90});
   right_ = left_;
   send_state(100'000);
@@ -140,14 +140,14 @@ TEST_F(PointCloudNodeTest, PicturesWithoutTextureGiveAnEmptyCloud) {
   EXPECT_EQ(clouds_[0].point_count, 0);
 }
 
-TEST(PointCloudConfigTest, TheShippedNavCamIsTheTests) {
+TEST(PointCloudConfigTest, TestNavCamEqualsShippedConfig) {
   const NodeConfig config = load_config(kConfig);
   EXPECT_TRUE(config.rig.T_body_left.isApprox(navcam_rig().T_body_left, 1e-12));
   EXPECT_TRUE(config.unit.p_body_axes.isApprox(navcam_unit().p_body_axes, 1e-12));
   EXPECT_EQ(config.core.matcher.residual_min_px, PointCloudConfig{}.matcher.residual_min_px);
 }
 
-TEST(PointCloudConfigTest, WrongKeysRangesAndAVehicleWithoutUnitStopTheStart) {
+TEST(PointCloudConfigTest, UnknownKeysBadRangesAndVehicleWithoutUnitThrow) {
   const auto dir = std::filesystem::path(testing::TempDir()) / "point_cloud_config";
   std::filesystem::remove_all(dir);
   std::filesystem::create_directories(dir);

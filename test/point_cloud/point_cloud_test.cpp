@@ -12,12 +12,12 @@ PointCloud make_cloud() {
 }
 
 CloudResult cloud_of(const synthetic::World& world, double pan_rad, double tilt_rad) {
-  const synthetic::RawPair pair = look(world, pan_rad, tilt_rad);
+  const synthetic::RawPair pair = render_pair(world, pan_rad, tilt_rad);
   PointCloud core = make_cloud();
   return *core.step(pair.left, pair.right, pan_rad, tilt_rad);
 }
 
-// Root mean square height over the plane, in body axes, of the points within the depth.
+// Rms height error of the points up to `max_depth_m`.
 double ground_error_m(const CloudResult& result, const synthetic::World& world, double max_depth_m) {
   double squares = 0.0;
   int count = 0;
@@ -30,14 +30,14 @@ double ground_error_m(const CloudResult& result, const synthetic::World& world, 
   return std::sqrt(squares / count);
 }
 
-TEST(PointCloud, FlatGroundIsWhereItIsFromEveryPanAndTilt) {
+TEST(PointCloud, FlatGroundIsAccurateFromEveryPanAndTilt) {
   struct Case {
     double pan_deg, tilt_deg;
-    size_t least_points;
+    size_t min_points;
   };
-  for (const auto& [pan_deg, tilt_deg, least_points] : {Case{0, 0, 12000}, {50, 8, 5000}, {-60, 25, 900}}) {
+  for (const auto& [pan_deg, tilt_deg, min_points] : {Case{0, 0, 12000}, {50, 8, 5000}, {-60, 25, 900}}) {
     const CloudResult result = cloud_of({}, to_rad(pan_deg), to_rad(tilt_deg));
-    EXPECT_GT(result.cloud.size(), least_points) << pan_deg;
+    EXPECT_GT(result.cloud.size(), min_points) << pan_deg;
     EXPECT_LE(result.cloud.size(), 20000u) << pan_deg;
     EXPECT_LT(ground_error_m(result, {}, 6.0), 0.01) << pan_deg;
     EXPECT_LT(ground_error_m(result, {}, 12.0), 0.02) << pan_deg;
@@ -47,7 +47,7 @@ TEST(PointCloud, FlatGroundIsWhereItIsFromEveryPanAndTilt) {
   }
 }
 
-TEST(PointCloud, CoversTheGroundFromNearToFar) {
+TEST(PointCloud, CoversGroundFromNearToFar) {
   const CloudResult ahead = cloud_of({}, 0.0, 0.0);
   std::array<int, 12> per_metre{};
   for (const Point& point : ahead.cloud)
@@ -59,7 +59,7 @@ TEST(PointCloud, CoversTheGroundFromNearToFar) {
   EXPECT_LT(nearest_m, 1.3);
 }
 
-TEST(PointCloud, RocksAndSlopesStandInIt) {
+TEST(PointCloud, MeasuresRocksAndSlopes) {
   synthetic::World world;
   world.slope_x = 0.2;
   world.z0_m -= 0.2 * 1.5;
@@ -76,17 +76,17 @@ TEST(PointCloud, RocksAndSlopesStandInIt) {
   EXPECT_LT(ground_error_m(cloud_of(world, 0.0, 0.0), world, 8.0), 0.02);
 }
 
-// How far behind the middle of a rock something stands in the clouds.
+// Largest distance behind a rock's centre at which points are above the ground.
 double farthest_behind_m(int rim_px) {
   constexpr double kFarM = 8.0;
   PointCloudConfig config;
-  config.rims.width_px = rim_px;
+  config.fattening.width_px = rim_px;
   double farthest_m = 0.0;
   for (const auto& [height_m, box] : {std::pair{0.3, true}, {0.5, false}}) {
     synthetic::World world;
     world.rocks = {{kFarM, 0.0, 0.25, height_m, box}};
     PointCloud core(config, navcam_rig(), navcam_unit(), kGroundBelow);
-    const synthetic::RawPair pair = look(world, 0.0, 0.0);
+    const synthetic::RawPair pair = render_pair(world, 0.0, 0.0);
     const CloudResult result = *core.step(pair.left, pair.right, 0.0, 0.0);
     for (const Point& point : result.cloud) {
       const Eigen::Vector3d p = in_body(result, point);
@@ -97,37 +97,37 @@ double farthest_behind_m(int rim_px) {
   return farthest_m;
 }
 
-TEST(PointCloud, NothingStandsInTheAirBehindARock) {
-  EXPECT_GT(farthest_behind_m(0), 0.4);  // else the test shows nothing
-  EXPECT_LT(farthest_behind_m(RimConfig{}.width_px), 0.25);
+TEST(PointCloud, NoPointsInTheAirBehindARock) {
+  EXPECT_GT(farthest_behind_m(0), 0.4);  // without removal the defect is visible
+  EXPECT_LT(farthest_behind_m(FatteningConfig{}.width_px), 0.25);
 }
 
-TEST(Rims, OnlyTheNearSideOfAJumpIsTaken) {
-  const RimConfig config{.jump_px = 1.5, .steep_px_per_px = 0.4, .width_px = 2};
-  Disparity picture(3, 8, 160);
-  for (int v = 4; v < 8; ++v) picture.at(0, v) = 320;                                     // a rock
-  for (int v = 0; v < 8; ++v) picture.at(1, v) = static_cast<std::int16_t>(160 + 6 * v);  // steep ground
-  for (int v = 4; v < 8; ++v) picture.at(2, v) = 320;  // a rock of which the rim was not matched
-  picture.at(2, 3) = Disparity::kInvalid;
-  take_rims(picture, config);
+TEST(ForegroundFattening, RemovesOnlyTheNearSideOfAJump) {
+  const FatteningConfig config{.min_jump_px = 1.5, .slope_px_per_px = 0.4, .width_px = 2};
+  Disparity disparity(3, 8, 160);
+  for (int v = 4; v < 8; ++v) disparity.at(0, v) = 320;                                     // a rock
+  for (int v = 0; v < 8; ++v) disparity.at(1, v) = static_cast<std::int16_t>(160 + 6 * v);  // steep ground
+  for (int v = 4; v < 8; ++v) disparity.at(2, v) = 320;  // a rock with an unmatched edge
+  disparity.at(2, 3) = Disparity::kInvalid;
+  remove_foreground_fattening(disparity, config);
   for (const int u : {0, 2}) {
-    EXPECT_TRUE(picture.valid(u, 2)) << u;
-    EXPECT_FALSE(picture.valid(u, 4)) << u;
-    EXPECT_FALSE(picture.valid(u, 5)) << u;
-    EXPECT_TRUE(picture.valid(u, 6)) << u;
+    EXPECT_TRUE(disparity.valid(u, 2)) << u;
+    EXPECT_FALSE(disparity.valid(u, 4)) << u;
+    EXPECT_FALSE(disparity.valid(u, 5)) << u;
+    EXPECT_TRUE(disparity.valid(u, 6)) << u;
   }
-  for (int v = 0; v < 8; ++v) EXPECT_TRUE(picture.valid(1, v)) << v;
+  for (int v = 0; v < 8; ++v) EXPECT_TRUE(disparity.valid(1, v)) << v;
 }
 
-// The fault of the original: sigma from the distance to the world's origin makes every map worse along the way.
-TEST(PointCloud, SigmaIsTheDepthsFromTheCameraWhereverTheRoverStands) {
+// GA SLAM's code derives sigma from the distance to the world's origin.
+TEST(PointCloud, SigmaDependsOnlyOnDepthFromCamera) {
   const CloudResult result = cloud_of({}, 0.0, 0.0);
   const double per_m2 = 0.25 / (818.0 * 0.24);
   for (const Point& point : result.cloud)
     EXPECT_NEAR(point.depth_sigma_m, 0.005 + per_m2 * point.z_m * point.z_m, 0.05 * point.depth_sigma_m + 2e-4);
-  // A rover that stands 500 m from the origin sees the same pictures, and its map's points have the same sigmas.
+  // 500 m from the origin the images and sigmas are the same.
   PointCloud core = make_cloud();
-  const synthetic::RawPair pair = look({}, 0.0, 0.0);
+  const synthetic::RawPair pair = render_pair({}, 0.0, 0.0);
   const CloudResult here = *core.step(pair.left, pair.right, 0.0, 0.0);
   const Eigen::Isometry3d T_odom_body = make_pose(rotation_from_rpy(0.0, 0.0, 0.7), {400.0, -300.0, 5.0});
   ASSERT_EQ(here.cloud.size(), result.cloud.size());
@@ -137,7 +137,7 @@ TEST(PointCloud, SigmaIsTheDepthsFromTheCameraWhereverTheRoverStands) {
   }
 }
 
-TEST(PointCloud, WithoutTextureTheCloudIsEmpty) {
+TEST(PointCloud, TexturelessImagesGiveEmptyCloud) {
   PointCloud core = make_cloud();
   const GrayImage grey(640, 480, 90);
   const auto result = core.step(grey, grey, 0.0, 0.0);
@@ -147,7 +147,7 @@ TEST(PointCloud, WithoutTextureTheCloudIsEmpty) {
   EXPECT_TRUE(is_finite(result->T_body_cam));
 }
 
-TEST(PointCloud, AnImageOfAnotherSizeIsRefused) {
+TEST(PointCloud, ImageOfWrongSizeIsRejected) {
   PointCloud core = make_cloud();
   EXPECT_FALSE(core.step(GrayImage(640, 480), GrayImage(640, 479), 0.0, 0.0));
 }
