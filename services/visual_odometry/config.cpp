@@ -45,18 +45,18 @@ void read_motion(const Config& c, MotionConfig& motion) {
 void read_offset(const Config& c, DisparityOffsetConfig& offset) {
   c.read("prior_sigma_px", offset.prior_sigma_px, {1e-3, 10});
   c.read("max_px", offset.max_px, {0, 10});
-  c.read("believed_share", offset.believed_share, {0, 1});
+  c.read("believed_share", offset.information_factor, {0, 1});
 }
 
 void read_odometry(const Config& c, OdometryConfig& o) {
   c.read("pyramid_levels", o.pyramid_levels, {1, 8});
   c.read("min_inliers", o.min_inliers, {6, 1000});
   c.read("ok_inliers", o.ok_inliers, {6, 1000});
-  c.read("ok_share", o.ok_share, {0, 1});
-  c.read("keep_share", o.keep_share, {0, 1});
-  c.read("keep_inliers", o.keep_inliers, {6, 1000});
+  c.read("ok_share", o.ok_inlier_ratio, {0, 1});
+  c.read("keep_share", o.keyframe_inlier_ratio, {0, 1});
+  c.read("keep_inliers", o.keyframe_inliers, {6, 1000});
   c.read("min_keyframe_points", o.min_keyframe_points, {6, 1000});
-  c.read("lost_until_restart", o.lost_until_restart, {1, 100});
+  c.read("lost_until_restart", o.lost_until_new_keyframe, {1, 100});
   c.read("max_position_sigma_m", o.max_position_sigma_m, {1e-4, 10});
   c.read_deg("gyro_tolerance_deg", o.gyro_tolerance_rad, {0.01, 180});
 }

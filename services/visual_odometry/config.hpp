@@ -9,7 +9,7 @@ namespace rover::vo {
 
 struct NodeConfig {
   OdometryConfig odometry;
-  double latency_s = 0.12;  // modelled time from the disparity to the motion
+  double latency_s = 0.12;  // modelled processing time, from the disparity to the motion
   double gyro_history_s = 30.0;
 };
 

@@ -23,14 +23,14 @@ GyroIncrement gyro_from(const imu_t& message) {
   return increment;
 }
 
-bool sound(const StereoCamera& camera) {
+bool is_valid(const StereoCamera& camera) {
   const double numbers = camera.focal_px + camera.cx_px + camera.cy_px + camera.baseline_m;
   const Eigen::Matrix3d R = camera.T_body_cam.linear();
   return std::isfinite(numbers) && is_finite(camera.T_body_cam) && camera.focal_px > 1.0 && camera.baseline_m > 1e-3 &&
          (R * R.transpose()).isIdentity(1e-6);
 }
 
-bool consistent(const StereoFrame& frame) {
+bool sizes_match(const StereoFrame& frame) {
   const int w = frame.left.width;
   const int h = frame.left.height;
   return w >= 32 && h >= 32 && frame.right.width == w && frame.right.height == h && frame.camera.width == w &&

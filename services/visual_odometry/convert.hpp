@@ -9,12 +9,12 @@
 
 namespace rover::vo {
 
-// About the body's z axis the fibre-optic gyro, where it gives a number.
+// z from the fibre-optic gyro if it is finite.
 GyroIncrement gyro_from(const imu_t& message);
-// Usable for geometry: finite, and with numbers a camera can have.
-bool sound(const StereoCamera& camera);
-// Images, disparity and camera are of one size.
-bool consistent(const StereoFrame& frame);
+// Finite and physically plausible.
+bool is_valid(const StereoCamera& camera);
+// Images, disparity and camera have the same size.
+bool sizes_match(const StereoFrame& frame);
 void motion_to(const OdometryResult& result, vo_motion_t& message);
 
 }  // namespace rover::vo

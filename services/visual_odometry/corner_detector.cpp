@@ -12,7 +12,7 @@ struct Candidate {
   int y;
 };
 
-bool stronger(const Candidate& a, const Candidate& b) {
+bool is_stronger(const Candidate& a, const Candidate& b) {
   if (a.strength != b.strength) return a.strength > b.strength;
   return a.y != b.y ? a.y < b.y : a.x < b.x;
 }
@@ -36,11 +36,11 @@ std::vector<Candidate> candidates_in(const cv::Mat& strength, const cv::Rect& bu
     for (int x = bucket.x; x < bucket.x + bucket.width; ++x)
       if (row[x] > min_strength && is_local_maximum(strength, x, y)) found.push_back({row[x], x, y});
   }
-  std::sort(found.begin(), found.end(), stronger);
+  std::sort(found.begin(), found.end(), is_stronger);
   return found;
 }
 
-bool far_from_all(const std::vector<Eigen::Vector2f>& corners, const Eigen::Vector2f& p, float distance) {
+bool is_far_from_all(const std::vector<Eigen::Vector2f>& corners, const Eigen::Vector2f& p, float distance) {
   return std::none_of(corners.begin(), corners.end(),
                       [&](const Eigen::Vector2f& q) { return (p - q).squaredNorm() < distance * distance; });
 }
@@ -62,7 +62,7 @@ std::vector<Eigen::Vector2f> detect_corners(const cv::Mat& image, const CornerCo
       int taken = 0;
       for (const Candidate& c : candidates_in(strength, {x0, y0, x1 - x0, y1 - y0}, config.min_eigenvalue)) {
         const Eigen::Vector2f p(static_cast<float>(c.x), static_cast<float>(c.y));
-        if (!far_from_all(corners, p, static_cast<float>(config.min_distance_px))) continue;
+        if (!is_far_from_all(corners, p, static_cast<float>(config.min_distance_px))) continue;
         corners.push_back(p);
         if (++taken == config.per_bucket) break;
       }

@@ -12,11 +12,11 @@ double DisparityOffset::sigma_px() const {
   return 1.0 / std::sqrt(information_);
 }
 
-void DisparityOffset::add(const OffsetEvidence& evidence, double used_px) {
-  if (!std::isfinite(evidence.gradient) || !(evidence.information > 0.0)) return;
-  information_ += config_.believed_share * evidence.information;
-  const double gradient = evidence.gradient + evidence.information * (used_px - px_);
-  px_ += config_.believed_share * gradient / information_;
+void DisparityOffset::add(const OffsetMeasurement& measurement, double used_px) {
+  if (!std::isfinite(measurement.gradient) || !(measurement.information > 0.0)) return;
+  information_ += config_.information_factor * measurement.information;
+  const double gradient = measurement.gradient + measurement.information * (used_px - px_);
+  px_ += config_.information_factor * gradient / information_;
   px_ = std::clamp(px_, -config_.max_px, config_.max_px);
 }
 

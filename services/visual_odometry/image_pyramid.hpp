@@ -1,4 +1,4 @@
-// Image pyramid: level 0 is the image itself, each further level half of the one before.
+// Image pyramid: level 0 is the image, each further level has half the size.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -15,7 +15,7 @@ struct ImagePyramid {
   int count() const { return static_cast<int>(levels.size()); }
 };
 
-// Copies the image; stops before a level whose shorter side would be below 24 px.
+// Copies the image. No level has a side below 24 px.
 ImagePyramid build_pyramid(const GrayImage& image, int levels);
 
 }  // namespace rover::vo

@@ -1,5 +1,4 @@
-// The frame against which the following ones are tracked: its left image and the corners whose place in space the
-// pair gave.
+// Reference frame for tracking: left image and corners triangulated from the stereo pair.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,7 +13,7 @@ namespace rover::vo {
 
 struct KeyPoint {
   Eigen::Vector2f pixel;
-  double disparity_px;  // calibration's offset removed
+  double disparity_px;  // with the estimated offset added
   Eigen::Vector2d disparity_gradient;
   Eigen::Vector3d p_key;  // in the keyframe's camera axes
 };
@@ -25,7 +24,7 @@ struct Keyframe {
   std::vector<KeyPoint> points;
 };
 
-// `seed` may be null: the dense disparity of the pair. `offset_px` is added to what is measured.
+// `seed`: dense disparity of the pair, may be null. `offset_px` is added to each measured disparity.
 Keyframe make_keyframe(const ImagePyramid& left, const ImagePyramid& right, const Disparity* seed,
                        const StereoCamera& camera, const CornerConfig& corners, const StereoMatchConfig& stereo,
                        double offset_px);

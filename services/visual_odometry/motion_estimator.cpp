@@ -17,10 +17,10 @@ using Matrix36d = Eigen::Matrix<double, 3, 6>;
 
 constexpr int kMinimalIterations = 6;
 constexpr int kRefineIterations = 15;
-constexpr double kSettled = 1e-9;
+constexpr double kConvergedStep = 1e-9;
 
-// [translation, rotation], applied on the left.
-Eigen::Isometry3d moved(const Vector6d& step, const Eigen::Isometry3d& T) {
+// Left perturbation (translation, rotation).
+Eigen::Isometry3d left_update(const Vector6d& step, const Eigen::Isometry3d& T) {
   const Eigen::Matrix3d R = exp_so3(step.tail<3>());
   return make_pose(R * T.linear(), R * T.translation() + step.head<3>());
 }
@@ -38,7 +38,7 @@ double left_error_px(const Observation& o, const StereoCamera& camera, const Eig
   return (project(camera, p) - o.z).head<2>().norm();
 }
 
-// Three points, six equations, six unknowns: Newton from the start. False where it does not settle.
+// Newton on three points: six equations, six unknowns. False if it does not converge.
 bool solve_minimal(const std::array<const Observation*, 3>& points, const StereoCamera& camera, Eigen::Isometry3d& T) {
   for (int i = 0; i < kMinimalIterations; ++i) {
     Matrix6d J;
@@ -51,7 +51,7 @@ bool solve_minimal(const std::array<const Observation*, 3>& points, const Stereo
     }
     const Vector6d step = J.partialPivLu().solve(r);
     if (!step.allFinite() || step.norm() > 10.0) return false;
-    T = moved(step, T);
+    T = left_update(step, T);
     if (step.norm() < 1e-7) return true;
   }
   return false;
@@ -63,8 +63,8 @@ int count_inliers(const std::vector<Observation>& observations, const StereoCame
                                         [&](const Observation& o) { return left_error_px(o, camera, T) < gate_px; }));
 }
 
-// Three different observations, by plain remainders: the same on every library.
-std::array<const Observation*, 3> draw(const std::vector<Observation>& observations, std::mt19937_64& random) {
+// Three different observations, without std::uniform_int_distribution, which differs between libraries.
+std::array<const Observation*, 3> draw_three(const std::vector<Observation>& observations, std::mt19937_64& random) {
   std::array<size_t, 3> pick{};
   const size_t n = observations.size();
   pick[0] = random() % n;
@@ -75,19 +75,19 @@ std::array<const Observation*, 3> draw(const std::vector<Observation>& observati
   return {&observations[pick[0]], &observations[pick[1]], &observations[pick[2]]};
 }
 
-// Draws needed to meet three good points once with the confidence, given the share of good points.
-double draws_needed(double share, double confidence) {
-  const double all_good = share * share * share;
-  if (all_good >= 1.0) return 0.0;
-  return std::log(1.0 - confidence) / std::log(1.0 - all_good);
+// RANSAC iterations for one all-inlier sample with the given confidence.
+double required_iterations(double inlier_ratio, double confidence) {
+  const double all_inliers = inlier_ratio * inlier_ratio * inlier_ratio;
+  if (all_inliers >= 1.0) return 0.0;
+  return std::log(1.0 - confidence) / std::log(1.0 - all_inliers);
 }
 
-// Residual of one observation, whitened later by `weight` = inverse covariance of the residual.
+// Linearised residual of one observation.
 struct Linearised {
   Eigen::Vector3d r;
   Matrix36d J;
-  Eigen::Matrix3d weight;
-  Eigen::Vector3d by_offset;  // derivative of the prediction by an offset of all disparities
+  Eigen::Matrix3d weight;    // inverse covariance of the residual
+  Eigen::Vector3d J_offset;  // derivative of the prediction by the disparity offset
   double chi2;
   int size;
 };
@@ -98,11 +98,11 @@ bool linearise(const Observation& o, const StereoCamera& camera, const Eigen::Is
   if (p.z() < kMinDepthM) return false;
   out.r = o.z - project(camera, p);
   out.J = jacobian(camera, p);
-  // p_key = ray * f b / d, so the keyframe's disparity noise moves the point by -p_key / d.
+  // p_key = ray * f b / d, so disparity noise of the keyframe moves the point by -p_key / d.
   const Eigen::Vector3d ray = T.linear() * o.p_key / o.disparity_px * config.disparity_sigma_px;
   const Eigen::Vector3d a = project_jacobian(camera, p) * ray;
   const double variance = config.pixel_sigma_px * config.pixel_sigma_px;
-  out.by_offset = -project_jacobian(camera, p) * (T.linear() * o.p_key / o.disparity_px) + Eigen::Vector3d::UnitZ();
+  out.J_offset = -project_jacobian(camera, p) * (T.linear() * o.p_key / o.disparity_px) + Eigen::Vector3d::UnitZ();
   out.size = o.has_right ? 3 : 2;
   out.weight.setZero();
   if (o.has_right) {
@@ -112,32 +112,32 @@ bool linearise(const Observation& o, const StereoCamera& camera, const Eigen::Is
     out.weight.topLeftCorner<2, 2>() = (variance * Eigen::Matrix2d::Identity() + b * b.transpose()).inverse();
     out.r.z() = 0.0;
     out.J.row(2).setZero();
-    out.by_offset.z() = 0.0;
+    out.J_offset.z() = 0.0;
   }
   out.chi2 = out.r.dot(out.weight * out.r);
   return true;
 }
 
-// Cauchy's weight: points far out lose their pull, without a hard edge between two iterations.
+// Cauchy weight.
 double robust_weight(double chi2, double gate_sigma) {
   return 1.0 / (1.0 + chi2 / (gate_sigma * gate_sigma));
 }
 
-// What the observations say of the disparity's offset once the motion, with Hessian H, is free to follow it.
-OffsetEvidence offset_evidence(const std::vector<Observation>& observations, const StereoCamera& camera,
-                               const Eigen::Isometry3d& T, const MotionConfig& config, const Matrix6d& H) {
-  OffsetEvidence evidence;
+// Gradient and information of the disparity offset, with the motion (Hessian H) marginalised (Schur complement).
+OffsetMeasurement measure_offset(const std::vector<Observation>& observations, const StereoCamera& camera,
+                                 const Eigen::Isometry3d& T, const MotionConfig& config, const Matrix6d& H) {
+  OffsetMeasurement measurement;
   Vector6d coupling = Vector6d::Zero();
   Linearised l;
   for (const Observation& o : observations) {
     if (!linearise(o, camera, T, config, l)) continue;
-    const Eigen::Vector3d weighted = robust_weight(l.chi2, config.gate_sigma) * (l.weight * l.by_offset);
-    evidence.gradient += weighted.dot(l.r);
-    evidence.information += weighted.dot(l.by_offset);
+    const Eigen::Vector3d weighted = robust_weight(l.chi2, config.gate_sigma) * (l.weight * l.J_offset);
+    measurement.gradient += weighted.dot(l.r);
+    measurement.information += weighted.dot(l.J_offset);
     coupling.noalias() += l.J.transpose() * weighted;
   }
-  evidence.information -= coupling.dot(H.ldlt().solve(coupling));
-  return evidence;
+  measurement.information -= coupling.dot(H.ldlt().solve(coupling));
+  return measurement;
 }
 
 }  // namespace
@@ -151,11 +151,11 @@ RansacResult ransac(const std::vector<Observation>& observations, const StereoCa
   double needed = config.ransac_iterations;
   for (int i = 0; i < config.ransac_iterations && i < needed; ++i) {
     RansacResult hypothesis{T_guess, 0};
-    if (!solve_minimal(draw(observations, random), camera, hypothesis.T_cur_key)) continue;
+    if (!solve_minimal(draw_three(observations, random), camera, hypothesis.T_cur_key)) continue;
     hypothesis.inliers = count_inliers(observations, camera, hypothesis.T_cur_key, config.coarse_gate_px);
     if (hypothesis.inliers <= best.inliers) continue;
     best = hypothesis;
-    needed = draws_needed(best.inliers / total, config.confidence);
+    needed = required_iterations(best.inliers / total, config.confidence);
   }
   return best;
 }
@@ -177,12 +177,12 @@ MotionEstimate refine(const std::vector<Observation>& observations, const Stereo
     }
     const Vector6d step = H.ldlt().solve(g);
     if (!step.allFinite()) return estimate;
-    T = moved(step, T);
-    if (step.squaredNorm() < kSettled * kSettled) break;
+    T = left_update(step, T);
+    if (step.squaredNorm() < kConvergedStep * kConvergedStep) break;
   }
   double chi2 = 0.0;
   double square_px = 0.0;
-  int coordinates = 0;
+  int residual_count = 0;
   estimate.inlier.assign(observations.size(), 0);
   for (size_t i = 0; i < observations.size(); ++i) {
     if (!linearise(observations[i], camera, T, config, l)) continue;
@@ -191,14 +191,14 @@ MotionEstimate refine(const std::vector<Observation>& observations, const Stereo
     ++estimate.inliers;
     chi2 += l.chi2;
     square_px += l.r.squaredNorm();
-    coordinates += l.size;
+    residual_count += l.size;
   }
-  if (coordinates <= 6) return estimate;
+  if (residual_count <= 6) return estimate;
   estimate.T_cur_key = T;
-  // The spread that was met, where it is larger than the noise that was assumed.
-  estimate.cov = Matrix6d(H.inverse()) * std::max(1.0, chi2 / (coordinates - 6));
-  estimate.offset = offset_evidence(observations, camera, T, config, H);
-  estimate.rms_px = std::sqrt(square_px / coordinates);
+  // Scaled by the observed residual variance if it exceeds the assumed noise.
+  estimate.cov = Matrix6d(H.inverse()) * std::max(1.0, chi2 / (residual_count - 6));
+  estimate.offset = measure_offset(observations, camera, T, config, H);
+  estimate.rms_px = std::sqrt(square_px / residual_count);
   return estimate;
 }
 

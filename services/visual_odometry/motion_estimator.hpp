@@ -1,8 +1,8 @@
-// Motion of the camera from points known in the keyframe and seen in the current pair.
-//   ransac  seeded: hypotheses from three points each by Gauss-Newton on the left image (as libviso2's idea, Geiger et
-//           al., IV 2011, with the predicted motion as start), scored by the number of points they explain
-//   refine  robust Gauss-Newton on (u_left, v, u_right); each residual is weighted by the image noise and by the depth
-//           noise of the keyframe's point, which acts along its ray (Matthies & Shafer, 1987)
+// Camera motion from 3-D points of the keyframe and their pixels in the current pair.
+//   ransac  minimal sets of three points, solved by Newton on the left image from the predicted motion, as in libviso2
+//           (Geiger et al., IV 2011)
+//   refine  robust Gauss-Newton on (u_left, v, u_right), weighted by pixel noise and by the depth noise of the
+//           keyframe's point along its ray (Matthies & Shafer, 1987)
 #pragma once
 
 #include <Eigen/Geometry>
@@ -17,11 +17,11 @@ namespace rover::vo {
 
 struct MotionConfig {
   int ransac_iterations = 200;
-  double coarse_gate_px = 3.0;       // of the coarse tracks
-  double confidence = 0.9999;        // ends the search early
-  double pixel_sigma_px = 0.20;      // of a tracked position
+  double coarse_gate_px = 3.0;       // inlier gate of RANSAC on coarse tracks
+  double confidence = 0.9999;        // RANSAC stops early at this confidence
+  double pixel_sigma_px = 0.20;      // of a tracked pixel
   double disparity_sigma_px = 0.15;  // of the keyframe's disparity
-  double gate_sigma = 3.5;           // fine residuals further out are no inliers
+  double gate_sigma = 3.5;           // inlier gate of the refinement
 };
 
 struct Observation {
@@ -38,10 +38,10 @@ struct RansacResult {
 
 struct MotionEstimate {
   Eigen::Isometry3d T_cur_key = nan_pose();
-  Matrix6d cov = nan_cov();  // of a small motion (translation, rotation) applied on the left of T_cur_key
-  std::vector<char> inlier;  // one for each observation
+  Matrix6d cov = nan_cov();  // (translation, rotation), left perturbation of T_cur_key
+  std::vector<char> inlier;  // for each observation
   int inliers = 0;
-  OffsetEvidence offset;
+  OffsetMeasurement offset;
   double rms_px = kNaN;  // reprojection error of the inliers, per coordinate
 };
 

@@ -10,7 +10,7 @@
 namespace rover::vo {
 namespace {
 
-const char* text_of(Status status) {
+const char* to_string(Status status) {
   if (status == Status::kOk) return "OK";
   return status == Status::kDegraded ? "DEGRADED" : "LOST";
 }
@@ -30,7 +30,7 @@ OdometryNode::OdometryNode(Node& node, const NodeConfig& config)
 }
 
 void OdometryNode::on_imu(const imu_t& message) {
-  // A faulty or silent IMU leaves a hole in the gyro's history: then the images do without its prediction.
+  // A faulty or missing IMU leaves a gap in the gyro buffer: the motion is then predicted without gyro.
   if (message.status != imu_t::OK) return;
   if (!gyro_.add(gyro_from(message))) node_.reject(channel::kImu, "increment not finite, out of range or out of order");
 }
@@ -46,7 +46,7 @@ void OdometryNode::on_disparity(const disparity_t& message) {
   Disparity disparity = disparity_from(message);
   if (disparity.px16.empty()) return node_.reject(channel::kDisparity, "size contradicts itself");
   const StereoCamera camera = camera_from(message);
-  if (!sound(camera)) return node_.reject(channel::kDisparity, "camera not finite or out of range");
+  if (!is_valid(camera)) return node_.reject(channel::kDisparity, "camera not finite or out of range");
   disparity_ = {message.header.utime, {std::move(disparity), camera}};
   step_if_complete();
 }
@@ -65,21 +65,21 @@ void OdometryNode::step_if_complete() {
   right_.reset();
   disparity_.reset();
   if (utime <= newest_utime_) return node_.reject(channel::kDisparity, "older than a pair already used");
-  if (!consistent(frame)) return node_.reject(channel::kDisparity, "not of the size of the images");
+  if (!sizes_match(frame)) return node_.reject(channel::kDisparity, "not of the size of the images");
   newest_utime_ = utime;
   if (odometry_.previous_utime() != kNever) frame.R_prev_cur = gyro_.rotation(odometry_.previous_utime(), utime);
-  if (const auto result = odometry_.step(frame)) report(*result);
+  if (const auto result = odometry_.step(frame)) publish(*result);
 }
 
-void OdometryNode::report(const OdometryResult& result) {
+void OdometryNode::publish(const OdometryResult& result) {
   vo_motion_t message{};
   motion_to(result, message);
   node_.publish(channel::kVo, message, result.utime);
   if (result.status == status_) return;
   status_ = result.status;
   node_.set_status(status_ == Status::kOk ? heartbeat_t::OK : heartbeat_t::DEGRADED,
-                   status_ == Status::kOk ? "" : std::string("odometry ") + text_of(status_));
-  node_.log(status_ == Status::kOk ? "INFO" : "WARN", std::string("VO_STATUS status=") + text_of(status_) +
+                   status_ == Status::kOk ? "" : std::string("odometry ") + to_string(status_));
+  node_.log(status_ == Status::kOk ? "INFO" : "WARN", std::string("VO_STATUS status=") + to_string(status_) +
                                                           " inliers=" + std::to_string(result.inliers) +
                                                           " features=" + std::to_string(result.features));
 }

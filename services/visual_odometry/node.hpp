@@ -32,7 +32,7 @@ class OdometryNode {
   void on_image(const char* channel, const image_t& message, std::optional<Stamped<GrayImage>>& slot);
   void on_disparity(const disparity_t& message);
   void step_if_complete();
-  void report(const OdometryResult& result);
+  void publish(const OdometryResult& result);
 
   Node& node_;
   Odometry odometry_;

@@ -1,8 +1,8 @@
 // Stereo visual odometry against keyframes.
 //
-// Each pair is aligned with the keyframe, not with the pair before, as long as enough of the keyframe's points are
-// seen. What is reported between two pairs is T_prev_cur = T_key_prev^-1 T_key_cur: the chain telescopes, so a rover
-// that stands still does not drift, and one that drives makes an error once a keyframe instead of once a pair.
+// Each pair is registered with the keyframe, not with the previous pair, while enough keyframe points are visible. The
+// output is T_prev_cur = T_key_prev^-1 T_key_cur: its errors telescope, so drift grows with each keyframe instead of
+// each pair, and is zero at standstill.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -23,13 +23,13 @@ struct OdometryConfig {
   int pyramid_levels = 4;
   int min_inliers = 15;                     // fewer: kLost
   int ok_inliers = 40;                      // fewer: kDegraded
-  double ok_share = 0.35;                   // inliers of the points tracked; less: kDegraded
-  double keep_share = 0.50;                 // of the keyframe's points; fewer inliers: the next keyframe is due
-  int keep_inliers = 60;                    // likewise, as a count
-  int min_keyframe_points = 40;             // a pair with fewer makes no keyframe
-  int lost_until_restart = 2;               // pairs in a row that do not fit the keyframe until a new one is made
-  double max_position_sigma_m = 0.05;       // a motion less certain than this is none
-  double gyro_tolerance_rad = to_rad(1.7);  // more between gyro and images: kDegraded
+  double ok_inlier_ratio = 0.35;            // inliers / tracked points; less: kDegraded
+  double keyframe_inlier_ratio = 0.50;      // inliers / keyframe points; less: new keyframe
+  int keyframe_inliers = 60;                // fewer: new keyframe
+  int min_keyframe_points = 40;             // a pair with fewer cannot become keyframe
+  int lost_until_new_keyframe = 2;          // consecutive lost pairs before a new keyframe
+  double max_position_sigma_m = 0.05;       // more: kLost
+  double gyro_tolerance_rad = to_rad(1.7);  // rotation difference of gyro and images; more: kDegraded
   std::uint64_t seed = 1;
   CornerConfig corners;
   StereoMatchConfig stereo;
@@ -42,9 +42,9 @@ struct StereoFrame {
   Utime utime = kNever;  // of the exposure
   GrayImage left;
   GrayImage right;
-  std::optional<Disparity> disparity;  // dense, of the left image: a start for the sub-pixel matches
+  std::optional<Disparity> disparity;  // dense, left image: seeds the sub-pixel matches
   StereoCamera camera;
-  // Rotation of the body from the last anchored exposure (Odometry::previous_utime) to this one, by gyro.
+  // Gyro rotation of the body from Odometry::previous_utime to this exposure.
   std::optional<Eigen::Matrix3d> R_prev_cur;
 };
 
@@ -54,11 +54,10 @@ struct OdometryResult {
   Status status = Status::kLost;
   Utime previous_utime = kNever;  // the motion spans previous_utime .. utime
   Utime utime = kNever;
-  Utime keyframe_utime = kNever;              // both ends were aligned with this exposure
+  Utime keyframe_utime = kNever;              // exposure with which both ends were registered
   Eigen::Isometry3d T_prev_cur = nan_pose();  // current body in the previous body
-  // Of (position, rotation) of the alignment with the keyframe, in previous body axes. Errors of one keyframe's motions
-  // telescope: this is the covariance of their sum. A motion that begins at the keyframe has just this covariance, one
-  // within its life the sum of this and that of the motion before.
+  // Of (position, rotation) of the registration with the keyframe, previous body axes. A motion that starts at the
+  // keyframe has this covariance; a later one has the sum of this and the previous motion's.
   Matrix6d cov = nan_cov();
   int features = 0;  // tracked
   int inliers = 0;
@@ -69,36 +68,36 @@ class Odometry {
  public:
   explicit Odometry(const OdometryConfig& config);
 
-  // Nothing for the first pair that can serve as keyframe: no motion ends there. Pairs must come in order of time.
+  // Empty if the pair became the first keyframe. Pairs must be in time order.
   std::optional<OdometryResult> step(const StereoFrame& frame);
 
-  // Exposure from which the next motion starts; kNever before the first keyframe.
+  // Start of the next motion; kNever before the first keyframe.
   Utime previous_utime() const { return previous_utime_; }
   // Estimated calibration error of the disparity.
   const DisparityOffset& offset() const { return offset_; }
 
  private:
-  struct Pair;
+  struct StereoPyramid;
   struct Registration;
-  bool start_from(const StereoFrame& frame, const Pair& pair);
-  Registration register_pair(const StereoFrame& frame, const Pair& pair) const;
-  Registration attempt(const StereoFrame& frame, const Pair& pair, const Eigen::Isometry3d& T_prev_cur_body,
-                       bool search) const;
-  bool trustworthy(const Registration& registration) const;
+  bool start_keyframe(const StereoFrame& frame, const StereoPyramid& pyramids);
+  Registration register_with_keyframe(const StereoFrame& frame, const StereoPyramid& pyramids) const;
+  Registration register_from_guess(const StereoFrame& frame, const StereoPyramid& pyramids,
+                                   const Eigen::Isometry3d& T_prev_cur_body, bool search) const;
+  bool is_valid(const Registration& registration) const;
   OdometryResult accept(const StereoFrame& frame, const Registration& registration);
-  Status judge(const StereoFrame& frame, const OdometryResult& result) const;
+  Status classify(const StereoFrame& frame, const OdometryResult& result) const;
   OdometryResult lost(const StereoFrame& frame, const Registration& registration) const;
 
   OdometryConfig config_;
   DisparityOffset offset_;
-  double key_offset_px_ = 0.0;  // the offset in use: changes with the keyframe only, so that its motions telescope
-  std::optional<Keyframe> key_;
-  Utime key_utime_ = kNever;
+  double keyframe_offset_px_ = 0.0;  // constant for a keyframe, so that its motions telescope
+  std::optional<Keyframe> keyframe_;
+  Utime keyframe_utime_ = kNever;
   Eigen::Isometry3d T_key_prev_ = Eigen::Isometry3d::Identity();  // camera axes
   Utime previous_utime_ = kNever;
   Utime newest_utime_ = kNever;
-  int lost_in_a_row_ = 0;
-  Eigen::Isometry3d last_motion_ = Eigen::Isometry3d::Identity();  // of the body
+  int consecutive_lost_ = 0;
+  Eigen::Isometry3d last_motion_ = Eigen::Isometry3d::Identity();  // body axes
   double last_motion_s_ = 0.0;
 };
 

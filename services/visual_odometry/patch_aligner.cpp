@@ -7,10 +7,10 @@ namespace rover::vo {
 namespace {
 
 constexpr int kMaxIterations = 12;
-constexpr float kSettledPx = 0.01F;
-// Standard deviation of the grey values below which a window says nothing above the camera's noise.
+constexpr float kConvergedPx = 0.01F;
+// Standard deviation of grey values below which the camera noise dominates.
 constexpr float kMinContrast = 1.5F;
-constexpr int kBorderSide = kPatchSide + 2;  // one more pixel around, for central differences
+constexpr int kBorderSide = kPatchSide + 2;  // with a border of one pixel for central differences
 
 using Window = std::array<float, kPatchArea>;
 
@@ -30,8 +30,8 @@ float bilinear(const cv::Mat& image, float x, float y) {
          b * ((1 - a) * static_cast<float>(r1[0]) + a * static_cast<float>(r1[1]));
 }
 
-// Upright window: one fraction for all pixels, so the loop runs in vector registers.
-void sample_upright(const cv::Mat& image, const Eigen::Vector2f& center, Window& out) {
+// Axis-aligned window: all pixels share the bilinear weights, so the loop vectorises.
+void sample_axis_aligned(const cv::Mat& image, const Eigen::Vector2f& center, Window& out) {
   const float x = center.x() - kPatchRadius;
   const float y = center.y() - kPatchRadius;
   const int ix = static_cast<int>(x);
@@ -62,7 +62,7 @@ float mean(const Window& a) {
   return Eigen::Map<const Eigen::Array<float, kPatchArea, 1>>(a.data()).mean();
 }
 
-// Zero mean and unit norm; returns the norm before, 0 for a flat window.
+// To zero mean and unit norm; returns the original norm, 0 for a flat window.
 float normalise(Window& w) {
   Eigen::Map<Eigen::Array<float, kPatchArea, 1>> v(w.data());
   v -= v.mean();
@@ -72,7 +72,7 @@ float normalise(Window& w) {
   return norm;
 }
 
-// Derivative of the normalised window: the gradient over the norm, without its parts along 1 and along the window.
+// Derivative of the normalised window: gradient / norm, minus its projections on the constant and on the window.
 void project(Window& gradient, const Window& value, float norm) {
   Eigen::Map<Eigen::Array<float, kPatchArea, 1>> g(gradient.data());
   g /= norm;
@@ -126,14 +126,14 @@ Alignment align(const Patch& patch, const cv::Mat& image, const Eigen::Vector2f&
   Window window;
   for (int i = 0; i < kMaxIterations; ++i) {
     if (!inside(image, p, kPatchRadius) || (p - guess).norm() > max_shift_px) return result;
-    sample_upright(image, p, window);
+    sample_axis_aligned(image, p, window);
     if (normalise(window) <= 0.0F) return result;
     result.score = dot(window, patch.value);
     Eigen::Map<Eigen::Array<float, kPatchArea, 1>>(window.data()) -=
         Eigen::Map<const Eigen::Array<float, kPatchArea, 1>>(patch.value.data());
     const Eigen::Vector2f step = patch.H_inv * Eigen::Vector2f(dot(patch.gx, window), dot(patch.gy, window));
     p -= step;
-    if (step.norm() > kSettledPx) continue;
+    if (step.norm() > kConvergedPx) continue;
     result.ok = inside(image, p, kPatchRadius);
     result.position = p;
     return result;
@@ -144,7 +144,7 @@ Alignment align(const Patch& patch, const cv::Mat& image, const Eigen::Vector2f&
 float correlation(const Patch& patch, const cv::Mat& image, const Eigen::Vector2f& position) {
   if (!inside(image, position, kPatchRadius)) return -1.0F;
   Window window;
-  sample_upright(image, position, window);
+  sample_axis_aligned(image, position, window);
   if (normalise(window) <= 0.0F) return -1.0F;
   return dot(window, patch.value);
 }

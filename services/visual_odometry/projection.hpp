@@ -1,4 +1,4 @@
-// Projection into a rectified stereo pair: a point in camera axes gives (u, v) in the left and u in the right image.
+// Projection of a point in camera axes into a rectified stereo pair.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,7 +13,7 @@ Eigen::Vector3d project(const StereoCamera& camera, const Eigen::Vector3d& p_cam
 // Derivative of project() by the point.
 Eigen::Matrix3d project_jacobian(const StereoCamera& camera, const Eigen::Vector3d& p_cam);
 
-// Points nearer than this are not looked at: [m].
+// Nearer points are ignored.
 constexpr double kMinDepthM = 0.05;
 
 }  // namespace rover::vo

@@ -8,14 +8,14 @@
 namespace rover::vo {
 namespace {
 
-constexpr double kMaxRate = 5.0;  // rad/s, far above what a rover can turn
-constexpr double kMaxInterval = 0.2;
-// Share of the interval that the increments must cover.
-constexpr double kMinCover = 0.999;
+constexpr double kMaxRateRadps = 5.0;  // far above the turn rate of a rover
+constexpr double kMaxIntervalS = 0.2;
+// Minimum fraction of the interval covered by increments.
+constexpr double kMinCoverage = 0.999;
 
-bool sound(const GyroIncrement& i) {
-  return i.delta_angle_rad.allFinite() && std::isfinite(i.dt_s) && i.dt_s > 0.0 && i.dt_s <= kMaxInterval &&
-         i.delta_angle_rad.norm() <= kMaxRate * i.dt_s;
+bool is_valid(const GyroIncrement& i) {
+  return i.delta_angle_rad.allFinite() && std::isfinite(i.dt_s) && i.dt_s > 0.0 && i.dt_s <= kMaxIntervalS &&
+         i.delta_angle_rad.norm() <= kMaxRateRadps * i.dt_s;
 }
 
 }  // namespace
@@ -23,7 +23,7 @@ bool sound(const GyroIncrement& i) {
 RotationBuffer::RotationBuffer(Utime span_us) : span_us_(span_us) {}
 
 bool RotationBuffer::add(const GyroIncrement& increment) {
-  if (!sound(increment)) return false;
+  if (!is_valid(increment)) return false;
   if (!increments_.empty() && increment.utime <= increments_.back().utime) return false;
   increments_.push_back(increment);
   while (increments_.front().utime < increment.utime - span_us_) increments_.pop_front();
@@ -41,7 +41,7 @@ std::optional<Eigen::Matrix3d> RotationBuffer::rotation(Utime from, Utime to) co
     R = R * exp_so3(i.delta_angle_rad * std::min(1.0, used / i.dt_s));
     covered_s += used;
   }
-  if (covered_s < kMinCover * to_seconds(to - from)) return std::nullopt;
+  if (covered_s < kMinCoverage * to_seconds(to - from)) return std::nullopt;
   return R;
 }
 

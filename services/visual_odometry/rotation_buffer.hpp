@@ -1,4 +1,4 @@
-// Rotation of the body between two times, from gyro increments.
+// Buffer of gyro increments, integrated to the body's rotation between two times.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,13 +17,12 @@ struct GyroIncrement {
 
 class RotationBuffer {
  public:
-  // Keeps increments this long.
   explicit RotationBuffer(Utime span_us);
 
-  // False, and nothing stored, where the increment is not finite, too large for a rover or not newer than the last.
+  // False, without storing it, if the increment is not finite, implausibly large or not newer than the last.
   bool add(const GyroIncrement& increment);
 
-  // R_from_to; nothing where the increments leave a hole in the interval.
+  // R_from_to; empty if increments are missing in the interval.
   std::optional<Eigen::Matrix3d> rotation(Utime from, Utime to) const;
 
  private:

@@ -10,8 +10,8 @@ namespace rover::vo {
 namespace {
 
 constexpr int kSearchLevel = 2;
-constexpr int kSlopeReachPx = 8;
-// Steeper than this is an edge between two surfaces, not a slope of one.
+constexpr int kGradientReachPx = 8;
+// Steeper gradients are edges between two surfaces.
 constexpr double kMaxGradient = 0.5;
 
 std::optional<double> disparity_at(const Disparity& seed, int x, int y) {
@@ -19,28 +19,29 @@ std::optional<double> disparity_at(const Disparity& seed, int x, int y) {
   return seed.px(x, y);
 }
 
-// Central difference over `dx`, `dy`; 0 where a side is missing or the surface breaks.
-double slope(const Disparity& seed, int x, int y, int dx, int dy) {
+// Central difference over `dx`, `dy`; 0 if a side is missing or at a depth discontinuity.
+double disparity_gradient(const Disparity& seed, int x, int y, int dx, int dy) {
   const auto a = disparity_at(seed, x - dx, y - dy);
   const auto b = disparity_at(seed, x + dx, y + dy);
   const auto m = disparity_at(seed, x, y);
   if (!a || !b || !m) return 0.0;
   const double gradient = (*b - *a) / (2.0 * (dx + dy));
-  const double bend = std::abs(0.5 * (*a + *b) - *m);
-  return std::abs(gradient) < kMaxGradient && bend < 1.0 ? gradient : 0.0;
+  const double curvature = std::abs(0.5 * (*a + *b) - *m);
+  return std::abs(gradient) < kMaxGradient && curvature < 1.0 ? gradient : 0.0;
 }
 
-std::optional<StereoMatch> seeded(const Disparity& seed, const Eigen::Vector2f& corner) {
+std::optional<StereoMatch> from_seed(const Disparity& seed, const Eigen::Vector2f& corner) {
   const int x = static_cast<int>(std::lround(corner.x()));
   const int y = static_cast<int>(std::lround(corner.y()));
   const auto d = disparity_at(seed, x, y);
   if (!d) return std::nullopt;
-  return StereoMatch{*d, {slope(seed, x, y, kSlopeReachPx, 0), slope(seed, x, y, 0, kSlopeReachPx)}};
+  return StereoMatch{
+      *d, {disparity_gradient(seed, x, y, kGradientReachPx, 0), disparity_gradient(seed, x, y, 0, kGradientReachPx)}};
 }
 
-// Best place on the row of the small image, in full pixels of disparity.
-std::optional<double> search_small(const Patch& patch, const cv::Mat& right, const Eigen::Vector2f& p, float scale,
-                                   const StereoMatchConfig& config) {
+// Disparity of best correlation along the row of a small image, in full-resolution pixels.
+std::optional<double> search_coarse_row(const Patch& patch, const cv::Mat& right, const Eigen::Vector2f& p, float scale,
+                                        const StereoMatchConfig& config) {
   const int first = static_cast<int>(std::floor(config.min_disparity_px / scale));
   const int last = static_cast<int>(std::ceil(config.max_disparity_px / scale));
   double best_score = config.min_score - 0.1;
@@ -54,8 +55,8 @@ std::optional<double> search_small(const Patch& patch, const cv::Mat& right, con
   return best;
 }
 
-std::optional<StereoMatch> searched_along_row(const ImagePyramid& left, const ImagePyramid& right,
-                                              const Eigen::Vector2f& corner, const StereoMatchConfig& config) {
+std::optional<StereoMatch> search_row(const ImagePyramid& left, const ImagePyramid& right,
+                                      const Eigen::Vector2f& corner, const StereoMatchConfig& config) {
   const int top = std::min(kSearchLevel, left.count() - 1);
   Patch patch;
   Eigen::Vector2f shift = Eigen::Vector2f::Zero();
@@ -64,7 +65,7 @@ std::optional<StereoMatch> searched_along_row(const ImagePyramid& left, const Im
     const Eigen::Vector2f p = corner / scale;
     if (!make_patch(left.levels[level], p, Eigen::Matrix2f::Identity(), patch)) return std::nullopt;
     if (level == top) {
-      const auto d = search_small(patch, right.levels[level], p, scale, config);
+      const auto d = search_coarse_row(patch, right.levels[level], p, scale, config);
       if (!d) return std::nullopt;
       shift.x() = static_cast<float>(-*d);
     }
@@ -80,8 +81,8 @@ std::optional<StereoMatch> searched_along_row(const ImagePyramid& left, const Im
 std::optional<StereoMatch> match_corner(const ImagePyramid& left, const ImagePyramid& right, const Disparity* seed,
                                         const Eigen::Vector2f& corner, const StereoMatchConfig& config) {
   std::optional<StereoMatch> match;
-  if (seed) match = seeded(*seed, corner);
-  if (!match && config.search_without_seed) match = searched_along_row(left, right, corner, config);
+  if (seed) match = from_seed(*seed, corner);
+  if (!match && config.search_without_seed) match = search_row(left, right, corner, config);
   if (!match) return std::nullopt;
   Eigen::Matrix2f A_right_left;
   A_right_left << static_cast<float>(1.0 - match->gradient.x()), static_cast<float>(-match->gradient.y()), 0.0F, 1.0F;

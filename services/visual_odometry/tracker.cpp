@@ -10,7 +10,7 @@
 namespace rover::vo {
 namespace {
 
-// Where a point of the keyframe should be seen, and how its surroundings are stretched there.
+// Predicted pixel of a keyframe point and the affine warp of its patch there.
 struct Prediction {
   Eigen::Vector3d z;
   Eigen::Matrix2f A_key_left;
@@ -18,11 +18,11 @@ struct Prediction {
 };
 
 constexpr double kStencilPx = 4.0;
-// A patch stretched further than this has no likeness left.
+// Patches stretched further do not correlate.
 constexpr float kMaxStretch = 4.0F;
 
-std::optional<Eigen::Vector3d> seen_at(const Keyframe& key, const KeyPoint& point, const Eigen::Vector2d& offset,
-                                       const Eigen::Isometry3d& T_cur_key) {
+std::optional<Eigen::Vector3d> predict_pixel(const Keyframe& key, const KeyPoint& point, const Eigen::Vector2d& offset,
+                                             const Eigen::Isometry3d& T_cur_key) {
   const double d = point.disparity_px + point.disparity_gradient.dot(offset);
   if (d <= 0.0) return std::nullopt;
   const Eigen::Vector3d p = T_cur_key * key.camera.point(point.pixel.x() + offset.x(), point.pixel.y() + offset.y(), d);
@@ -30,28 +30,28 @@ std::optional<Eigen::Vector3d> seen_at(const Keyframe& key, const KeyPoint& poin
   return project(key.camera, p);
 }
 
-bool usable(const Eigen::Matrix2f& A) {
+bool is_usable(const Eigen::Matrix2f& A) {
   const float det = A.determinant();
   return det > 1.0F / (kMaxStretch * kMaxStretch) && A.norm() < 2.0F * kMaxStretch && det < kMaxStretch * kMaxStretch;
 }
 
 std::optional<Prediction> predict(const Keyframe& key, const KeyPoint& point, const Eigen::Isometry3d& T_cur_key) {
-  const auto z = seen_at(key, point, {0.0, 0.0}, T_cur_key);
-  const auto zx = seen_at(key, point, {kStencilPx, 0.0}, T_cur_key);
-  const auto zy = seen_at(key, point, {0.0, kStencilPx}, T_cur_key);
+  const auto z = predict_pixel(key, point, {0.0, 0.0}, T_cur_key);
+  const auto zx = predict_pixel(key, point, {kStencilPx, 0.0}, T_cur_key);
+  const auto zy = predict_pixel(key, point, {0.0, kStencilPx}, T_cur_key);
   if (!z || !zx || !zy) return std::nullopt;
   Eigen::Matrix<double, 3, 2> A;
   A << (*zx - *z) / kStencilPx, (*zy - *z) / kStencilPx;
   const Eigen::Matrix2f A_left_key = A.topRows<2>().cast<float>();
   Eigen::Matrix2f A_right_key;
   A_right_key << A.row(2).cast<float>(), A.row(1).cast<float>();
-  if (!usable(A_left_key) || !usable(A_right_key)) return std::nullopt;
+  if (!is_usable(A_left_key) || !is_usable(A_right_key)) return std::nullopt;
   return Prediction{*z, A_left_key.inverse(), A_right_key.inverse()};
 }
 
-// The best place in the window, or the guess where none is good.
-Eigen::Vector2f searched_about(const Patch& patch, const cv::Mat& image, const Eigen::Vector2f& guess,
-                               const TrackerConfig& config) {
+// The pixel of best correlation in the window, or the guess if none exceeds the minimum.
+Eigen::Vector2f search_window(const Patch& patch, const cv::Mat& image, const Eigen::Vector2f& guess,
+                              const TrackerConfig& config) {
   auto best_score = static_cast<float>(config.min_score_coarse);
   Eigen::Vector2f best = guess;
   for (int dy = -config.search_px; dy <= config.search_px; ++dy)
@@ -73,9 +73,9 @@ Track coarse(const Keyframe& key, const KeyPoint& point, const ImagePyramid& lef
   const int last = std::min(1, left.count() - 1);
   for (int level = left.count() - 1; level >= last; --level) {
     const auto scale = static_cast<float>(1 << level);
-    // A window that leaves a small image is not lost on the larger ones.
+    // A patch that leaves a small image may fit in the larger ones.
     if (!make_patch(key.left.levels[level], point.pixel / scale, prediction.A_key_left, patch)) continue;
-    if (search && level == left.count() - 1) p = searched_about(patch, left.levels[level], p / scale, config) * scale;
+    if (search && level == left.count() - 1) p = search_window(patch, left.levels[level], p / scale, config) * scale;
     const Alignment a = align(patch, left.levels[level], p / scale, static_cast<float>(config.max_shift_coarse_px));
     if (a.ok) p = a.position * scale;
     if (level == last) track.left = a.ok && a.score > config.min_score_coarse;

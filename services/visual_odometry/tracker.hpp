@@ -1,6 +1,5 @@
-// Finds the keyframe's points in a later pair. First coarsely in the left image, over the pyramid, from a predicted
-// motion; then, once the motion is known well, at full resolution in both images, with the patch warped to how the
-// ground looks from there.
+// Tracks the keyframe's points in a later pair: coarse in the left image, over the pyramid, from a predicted motion;
+// then fine at full resolution in both images, with patches warped by the coarse motion and the ground's slope.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -14,11 +13,11 @@ namespace rover::vo {
 struct TrackerConfig {
   double min_score_coarse = 0.60;
   double min_score_fine = 0.75;
-  double max_shift_coarse_px = 5.0;  // on each level of the pyramid
-  int search_px = 8;                 // half side of the window searched in the smallest image
+  double max_shift_coarse_px = 5.0;  // on each pyramid level
+  int search_px = 8;                 // half side of the search window in the smallest image
   int search_points = 100;
-  double max_shift_fine_px = 3.0;  // from the place that the coarse motion gives
-  double max_row_offset_px = 1.5;  // between left and right
+  double max_shift_fine_px = 3.0;  // from the prediction by the coarse motion
+  double max_row_offset_px = 1.5;  // vertical, between left and right
 };
 
 struct Track {
@@ -27,8 +26,8 @@ struct Track {
   Eigen::Vector3d z = Eigen::Vector3d::Zero();  // u, v in the left image, u in the right
 };
 
-// One for each point of the keyframe. `search`: for a motion that nothing predicts, the points are first looked for all
-// over a wide window of the smallest image; of many points only some, as it takes long.
+// One track for each keyframe point. `search`: without a motion prediction, a subset of the points is first searched
+// in a wide window of the smallest image.
 std::vector<Track> track_coarse(const Keyframe& key, const ImagePyramid& left, const Eigen::Isometry3d& T_cur_key,
                                 const TrackerConfig& config, bool search);
 std::vector<Track> track_fine(const Keyframe& key, const ImagePyramid& left, const ImagePyramid& right,

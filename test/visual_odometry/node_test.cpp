@@ -58,7 +58,7 @@ class OdometryNodeTest : public testing::Test {
   bool imu_on_ = true;
 };
 
-TEST_F(OdometryNodeTest, PublishesTheMotionBetweenTwoExposuresAfterItsLatency) {
+TEST_F(OdometryNodeTest, PublishesMotionAfterLatency) {
   const Isometry3d a = SyntheticGround::over_ground(0.0, 0.0, 0.0);
   const Isometry3d b = SyntheticGround::over_ground(0.05, 0.0, 0.1);
   drive_to(a, 0.0);
@@ -75,7 +75,7 @@ TEST_F(OdometryNodeTest, PublishesTheMotionBetweenTwoExposuresAfterItsLatency) {
   EXPECT_GT(m.covariance[0], 0.0);
 }
 
-TEST_F(OdometryNodeTest, ADeadImuDoesNotStopIt) {
+TEST_F(OdometryNodeTest, WorksWithoutImu) {
   imu_on_ = false;
   drive_to(SyntheticGround::over_ground(0.0, 0.0, 0.0), 0.0);
   drive_to(SyntheticGround::over_ground(0.05, 0.0, 0.02), 0.0);
@@ -83,7 +83,7 @@ TEST_F(OdometryNodeTest, ADeadImuDoesNotStopIt) {
   EXPECT_EQ(motions_[0].status, int{vo_motion_t::OK});
 }
 
-TEST_F(OdometryNodeTest, ABlindFrameIsPublishedAsLost) {
+TEST_F(OdometryNodeTest, TexturelessFrameIsPublishedAsLost) {
   drive_to(SyntheticGround::over_ground(0.0, 0.0, 0.0), 0.0);
   ground_.textureless = true;
   drive_to(SyntheticGround::over_ground(0.08, 0.0, 0.0), 0.0);
@@ -92,7 +92,7 @@ TEST_F(OdometryNodeTest, ABlindFrameIsPublishedAsLost) {
   EXPECT_TRUE(std::isnan(motions_[0].covariance[0]));
 }
 
-TEST_F(OdometryNodeTest, UnusableInputsAreCountedAndChangeNothing) {
+TEST_F(OdometryNodeTest, InvalidInputsAreCountedAndIgnored) {
   const Isometry3d a = SyntheticGround::over_ground(0.0, 0.0, 0.0);
   drive_to(a, 0.0);
   disparity_t nan_camera = disparity_message(a);
@@ -114,11 +114,11 @@ TEST_F(OdometryNodeTest, UnusableInputsAreCountedAndChangeNothing) {
   EXPECT_EQ(motions_[0].status, int{vo_motion_t::OK});
 }
 
-TEST(OdometryConfigFile, HasTheStructsDefaults) {
+TEST(OdometryConfigFile, MatchesDefaults) {
   const NodeConfig file = load_config(kConfig);
   const NodeConfig defaults;
   EXPECT_EQ(file.odometry.min_inliers, defaults.odometry.min_inliers);
-  EXPECT_EQ(file.odometry.offset.believed_share, defaults.odometry.offset.believed_share);
+  EXPECT_EQ(file.odometry.offset.information_factor, defaults.odometry.offset.information_factor);
   EXPECT_EQ(file.odometry.motion.pixel_sigma_px, defaults.odometry.motion.pixel_sigma_px);
   EXPECT_EQ(file.latency_s, defaults.latency_s);
 }

@@ -1,4 +1,4 @@
-// The parts of visual odometry, each against what it must obey.
+// Unit tests of the components of visual odometry.
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
@@ -20,7 +20,7 @@ using Eigen::Isometry3d;
 using Eigen::Vector2f;
 using Eigen::Vector3d;
 
-TEST(Projection, InvertsTheStereoCamera) {
+TEST(Projection, InvertsTriangulation) {
   const StereoCamera camera = loccam();
   const Vector3d p = camera.point(100.0, 300.0, 25.0);
   const Vector3d z = project(camera, p);
@@ -41,7 +41,7 @@ TEST(Projection, JacobianEqualsCentralDifference) {
   }
 }
 
-// A smooth random texture that can be sampled anywhere.
+// A smooth texture that can be sampled anywhere.
 double wave(double x, double y) {
   return 110.0 + 25.0 * std::sin(0.7 * x + 0.2 * y) + 20.0 * std::sin(0.31 * x - 0.53 * y + 1.0) +
          15.0 * std::cos(0.11 * x + 0.83 * y);
@@ -55,7 +55,7 @@ cv::Mat wave_image(double dx, double dy, double gain = 1.0, double offset = 0.0)
   return image;
 }
 
-TEST(PatchAligner, FindsSubPixelShiftsUnderAnyExposure) {
+TEST(PatchAligner, SubPixelShiftIndependentOfExposure) {
   Patch patch;
   ASSERT_TRUE(make_patch(wave_image(0, 0), {50, 40}, Eigen::Matrix2f::Identity(), patch));
   for (const Vector2f& shift : {Vector2f(0.3F, -0.6F), Vector2f(1.25F, 0.5F), Vector2f(-0.8F, 1.9F)}) {
@@ -66,8 +66,8 @@ TEST(PatchAligner, FindsSubPixelShiftsUnderAnyExposure) {
   }
 }
 
-TEST(PatchAligner, WarpedPatchMeetsAStretchedImage) {
-  // The target is the source stretched by 1.3 about (50, 40).
+TEST(PatchAligner, WarpedPatchAlignsWithScaledImage) {
+  // The target is the source scaled by 1.3 about (50, 40).
   cv::Mat target(80, 100, CV_8UC1);
   for (int y = 0; y < 80; ++y)
     for (int x = 0; x < 100; ++x)
@@ -80,20 +80,20 @@ TEST(PatchAligner, WarpedPatchMeetsAStretchedImage) {
   EXPECT_GT(a.score, 0.99F);
 }
 
-TEST(PatchAligner, RefusesFlatPatchesEdgesAndBorders) {
+TEST(PatchAligner, RejectsFlatPatchesEdgesAndBorders) {
   Patch patch;
   const cv::Mat flat(80, 100, CV_8UC1, cv::Scalar(90));
   EXPECT_FALSE(make_patch(flat, {50, 40}, Eigen::Matrix2f::Identity(), patch));
   cv::Mat edge(80, 100, CV_8UC1, cv::Scalar(50));
   edge.colRange(50, 100).setTo(150);
-  EXPECT_FALSE(make_patch(edge, {50, 40}, Eigen::Matrix2f::Identity(), patch)) << "slides along the edge";
+  EXPECT_FALSE(make_patch(edge, {50, 40}, Eigen::Matrix2f::Identity(), patch)) << "unobservable along the edge";
   EXPECT_FALSE(make_patch(wave_image(0, 0), {3, 40}, Eigen::Matrix2f::Identity(), patch));
   ASSERT_TRUE(make_patch(wave_image(0, 0), {50, 40}, Eigen::Matrix2f::Identity(), patch));
   EXPECT_FALSE(align(patch, flat, {50, 40}, 4.0F).ok);
   EXPECT_FALSE(align(patch, wave_image(0, 0), {2, 40}, 4.0F).ok);
 }
 
-TEST(CornerDetector, SpreadsOverTheImageAndSkipsFlatParts) {
+TEST(CornerDetector, KeepsMinimumDistanceAndSkipsFlatRegions) {
   SyntheticGround ground(1, false);
   StereoFrame frame = ground.frame(1, SyntheticGround::over_ground(0, 0, 0));
   cv::Mat image(frame.left.height, frame.left.width, CV_8UC1, frame.left.data.data());
@@ -108,7 +108,7 @@ TEST(CornerDetector, SpreadsOverTheImageAndSkipsFlatParts) {
   }
 }
 
-TEST(StereoMatcher, GroundDisparityIsMetWithAndWithoutSeed) {
+TEST(StereoMatcher, MatchesGroundDisparityWithAndWithoutSeed) {
   SyntheticGround ground(2, false);
   const Isometry3d pose = SyntheticGround::over_ground(0, 0, 0);
   const StereoFrame frame = ground.frame(1, pose);
@@ -120,7 +120,7 @@ TEST(StereoMatcher, GroundDisparityIsMetWithAndWithoutSeed) {
     int found = 0;
     const auto corners = detect_corners(left.base(), {});
     for (const Vector2f& corner : corners) {
-      if (corner.x() < 90.0F) continue;  // not seen by the right camera
+      if (corner.x() < 90.0F) continue;  // outside the right image
       const auto match = match_corner(left, right, with_seed ? &seed : nullptr, corner, {});
       if (!match) continue;
       const double given = seed.px(static_cast<int>(corner.x()), static_cast<int>(corner.y()));
@@ -133,7 +133,7 @@ TEST(StereoMatcher, GroundDisparityIsMetWithAndWithoutSeed) {
   }
 }
 
-TEST(StereoMatcher, TexturelessGroundHasNoDisparity) {
+TEST(StereoMatcher, TexturelessImageHasNoMatch) {
   const GrayImage flat(512, 384, 100);
   const ImagePyramid left = build_pyramid(flat, 4);
   EXPECT_FALSE(match_corner(left, left, nullptr, {200, 200}, {}).has_value());
@@ -164,7 +164,7 @@ Scene scene(std::uint64_t seed, int good, int bad, double noise_px) {
   return s;
 }
 
-TEST(MotionEstimator, RansacFindsTheMotionAmongOutliers) {
+TEST(MotionEstimator, RansacFindsMotionWithHalfOutliers) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const Scene s = scene(seed, 60, 60, 0.3);
     const RansacResult result = ransac(s.observations, loccam(), Isometry3d::Identity(), {}, seed);
@@ -172,21 +172,21 @@ TEST(MotionEstimator, RansacFindsTheMotionAmongOutliers) {
   }
 }
 
-TEST(MotionEstimator, RefineMeetsTheExactMotion) {
+TEST(MotionEstimator, RefineConvergesToExactMotion) {
   Scene s = scene(3, 80, 0, 0.0);
   const MotionEstimate e = refine(s.observations, loccam(), Isometry3d::Identity(), {});
   EXPECT_LT((e.T_cur_key.matrix() - s.T_cur_key.matrix()).norm(), 1e-8);
   EXPECT_EQ(e.inliers, 80);
 }
 
-TEST(MotionEstimator, OutliersHaveNoPull) {
+TEST(MotionEstimator, RefineIgnoresOutliers) {
   const Scene s = scene(4, 100, 30, 0.0);
   const MotionEstimate e = refine(s.observations, loccam(), s.T_cur_key, {});
   EXPECT_EQ(e.inliers, 100);
   EXPECT_LT((e.T_cur_key.translation() - s.T_cur_key.translation()).norm(), 1e-3);
 }
 
-TEST(MotionEstimator, CovarianceMatchesTheSpread) {
+TEST(MotionEstimator, CovarianceMatchesMonteCarlo) {
   MotionConfig config;
   config.disparity_sigma_px = 1e-6;  // the points are exact here
   double nees = 0.0;
@@ -202,13 +202,13 @@ TEST(MotionEstimator, CovarianceMatchesTheSpread) {
   EXPECT_NEAR(nees, 6.0, 1.5);
 }
 
-// Points and pictures made with an offset: the evidence leads to it, and back to none from there.
-TEST(MotionEstimator, EvidenceLeadsToTheOffset) {
+// One Gauss-Newton step from data with a known offset.
+TEST(MotionEstimator, OffsetMeasurementFindsOffset) {
   constexpr double kOffset = 0.2;
   Scene s = scene(6, 200, 0, 0.0);
   for (Observation& o : s.observations) {
     o.has_right = true;
-    o.p_key *= o.disparity_px / (o.disparity_px - kOffset);  // measured too small by the offset
+    o.p_key *= o.disparity_px / (o.disparity_px - kOffset);  // measured disparity is too small by the offset
     o.disparity_px -= kOffset;
     o.z.z() += kOffset;
   }
@@ -217,11 +217,11 @@ TEST(MotionEstimator, EvidenceLeadsToTheOffset) {
   EXPECT_NEAR(e.offset.gradient / e.offset.information, kOffset, 0.03);
 }
 
-TEST(DisparityOffset, WeighsEvidenceAgainstThePriorAndIsBounded) {
+TEST(DisparityOffset, CombinesMeasurementWithPriorAndIsBounded) {
   DisparityOffsetConfig config;
-  config.believed_share = 1.0;
+  config.information_factor = 1.0;
   DisparityOffset offset(config);
-  offset.add({25.0 * 0.2, 25.0}, 0.0);  // says 0.2 px, as firmly as the prior says 0
+  offset.add({25.0 * 0.2, 25.0}, 0.0);  // 0.2 px, with the same information as the prior
   EXPECT_NEAR(offset.px(), 0.1, 1e-12);
   offset.add({kNaN, 1e9}, 0.0);
   offset.add({1.0, -5.0}, 0.0);
@@ -230,7 +230,7 @@ TEST(DisparityOffset, WeighsEvidenceAgainstThePriorAndIsBounded) {
   EXPECT_EQ(offset.px(), config.max_px);
 }
 
-TEST(MotionEstimator, TooFewPointsGiveNoNumbers) {
+TEST(MotionEstimator, TooFewPointsGiveNaN) {
   Scene s = scene(5, 2, 0, 0.0);
   const MotionEstimate e = refine(s.observations, loccam(), Isometry3d::Identity(), {});
   EXPECT_FALSE(is_finite(e.T_cur_key));
@@ -241,7 +241,7 @@ GyroIncrement increment(Utime utime, const Vector3d& rate) {
   return {utime, 0.02, rate * 0.02};
 }
 
-TEST(RotationBuffer, JoinsIncrementsAndCutsTheEnds) {
+TEST(RotationBuffer, IntegratesIncrementsAndClipsEnds) {
   RotationBuffer buffer(10'000'000);
   for (Utime t = 20'000; t <= 1'000'000; t += 20'000) ASSERT_TRUE(buffer.add(increment(t, {0.0, 0.0, 0.25})));
   const auto R = buffer.rotation(210'000, 610'000);
@@ -249,14 +249,14 @@ TEST(RotationBuffer, JoinsIncrementsAndCutsTheEnds) {
   EXPECT_NEAR(log_so3(*R).z(), 0.1, 1e-9);
 }
 
-TEST(RotationBuffer, HolesAndNonsenseGiveNothing) {
+TEST(RotationBuffer, GapsAndInvalidIncrementsGiveNoRotation) {
   RotationBuffer buffer(10'000'000);
   for (Utime t = 20'000; t <= 1'000'000; t += 20'000)
     if (t != 500'000) buffer.add(increment(t, {0.0, 0.0, 0.25}));
   EXPECT_FALSE(buffer.rotation(200'000, 600'000).has_value());
   EXPECT_TRUE(buffer.rotation(520'000, 900'000).has_value());
-  EXPECT_FALSE(buffer.rotation(900'000, 1'100'000).has_value()) << "not there yet";
-  EXPECT_FALSE(buffer.add(increment(900'000, {0.0, 0.0, 0.0}))) << "back in time";
+  EXPECT_FALSE(buffer.rotation(900'000, 1'100'000).has_value()) << "increments are missing at the end";
+  EXPECT_FALSE(buffer.add(increment(900'000, {0.0, 0.0, 0.0}))) << "not in time order";
   EXPECT_FALSE(buffer.add(increment(1'020'000, {0.0, kNaN, 0.0})));
   EXPECT_FALSE(buffer.add(increment(1'020'000, {0.0, 0.0, 100.0})));
 }

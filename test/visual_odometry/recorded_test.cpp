@@ -1,4 +1,4 @@
-// Visual odometry on recorded images: the Minnie rover in the desert (shipped) and a road drive (evaluation only).
+// Visual odometry on recorded images: the Minnie rover (shipped) and KITTI (evaluation only, not shipped).
 #include "recorded.hpp"
 
 #include <cmath>
@@ -14,7 +14,7 @@
 namespace rover::vo {
 namespace {
 
-// KITTI odometry benchmark, sequence 06, frames 0-50 (not shipped): where it lies on this machine.
+// Folder of KITTI odometry sequence 06, frames 0-50.
 std::string kitti_folder() {
   const char* given = std::getenv("ROVER_SHARED_DATA");
   const std::string root = given ? given : ROVER_SOURCE_DIR "/../shared/data";
@@ -41,7 +41,7 @@ std::vector<Eigen::Isometry3d> read_poses(const std::string& file) {
   return poses;
 }
 
-TEST(Recorded, KittiRoadDriveEndsWithinOnePercent) {
+TEST(Recorded, KittiDriftBelowOnePercent) {
   const std::string folder = kitti_folder();
   if (!std::filesystem::exists(folder + "/poses.txt")) GTEST_SKIP() << "no recorded drive at " << folder;
   const std::vector<Eigen::Isometry3d> truth = read_poses(folder + "/poses.txt");
@@ -71,7 +71,7 @@ TEST(Recorded, KittiRoadDriveEndsWithinOnePercent) {
   EXPECT_LE(error / length, 0.010);
 }
 
-TEST(Recorded, MinnieMotionIsWithinFiveMillimetres) {
+TEST(Recorded, MinnieMotionWithinFiveMillimetres) {
   const std::string base = ROVER_SOURCE_DIR "/test/data/minnie/MinnieRectDeg3";
   const StereoCamera camera{
       640, 400, 1018.6 / 3.0, 956.501 / 3.0, 617.314 / 3.0, 0.2675, Eigen::Isometry3d::Identity()};
@@ -85,7 +85,7 @@ TEST(Recorded, MinnieMotionIsWithinFiveMillimetres) {
   const auto result = odometry.step(frame);
   ASSERT_TRUE(result.has_value());
   EXPECT_EQ(result->status, Status::kOk);
-  const double given = 0.159;  // between the poses of the data set's left camera
+  const double given = 0.159;  // from the left camera's poses in the data set
   EXPECT_NEAR(result->T_prev_cur.translation().norm(), given, 0.005);
   std::cout << "moved " << result->T_prev_cur.translation().transpose() << " norm "
             << result->T_prev_cur.translation().norm() << " given " << given << " inliers " << result->inliers << " of "

@@ -1,4 +1,4 @@
-// Stereo pictures of a textured ground with blocks on it, from any pose of the body: seeded noise, warped by the
+// Synthetic stereo images of textured ground with blocks, from any body pose: seeded noise textures, warped by the
 // homography of each plane.
 #pragma once
 
@@ -25,13 +25,13 @@ inline StereoCamera loccam() {
   return camera;
 }
 
-// A level square with a texture. The first one is the ground, z = 0: it goes on for ever by repetition.
-struct Slab {
+// Horizontal textured square. The first one is the ground, z = 0, whose texture repeats without end.
+struct Plane {
   double z_m = 0.0;
   double x_m = 0.0;  // smallest corner
   double y_m = 0.0;
   double size_m = 0.0;
-  cv::Mat texture;  // square, over the whole slab
+  cv::Mat texture;  // square, over the whole plane
 };
 
 class SyntheticGround {
@@ -40,18 +40,18 @@ class SyntheticGround {
   double gain = 1.0;        // exposure
   double blur_px = 0.0;
   bool textureless = false;
-  double right_shift_px = 0.0;  // calibration error: the right picture lies this much further right than believed
+  double right_shift_px = 0.0;  // calibration error: horizontal offset of the right image
   StereoCamera camera = loccam();
 
   explicit SyntheticGround(std::uint64_t seed, bool rocks = true) : random_(seed), rng_(seed + 1) {
-    slabs_.push_back(make_slab(0.0, 0.0, 0.0, 4.0, 800));
+    planes_.push_back(make_plane(0.0, 0.0, 0.0, 4.0, 800));
     if (!rocks) return;
     std::uniform_real_distribution<double> place(-7.0, 7.0);
     for (int i = 0; i < 60; ++i)
-      slabs_.push_back(make_slab(0.05 + 0.1 * (i % 3), 4.0 + place(random_), place(random_), 0.25, 50));
+      planes_.push_back(make_plane(0.05 + 0.1 * (i % 3), 4.0 + place(random_), place(random_), 0.25, 50));
   }
 
-  // Body poses are over the ground: the origin 0.62 m up on level ground.
+  // Body pose with the origin 0.62 m above the ground.
   static Eigen::Isometry3d over_ground(double x, double y, double yaw, double roll = 0.0, double pitch = 0.0) {
     return make_pose(rotation_from_rpy(roll, pitch, yaw), {x, y, 0.62});
   }
@@ -63,9 +63,9 @@ class SyntheticGround {
     const Eigen::Isometry3d T_world_left = T_world_body * camera.T_body_cam;
     Eigen::Isometry3d T_world_right = T_world_left;
     T_world_right.translation() += T_world_left.linear().col(0) * camera.baseline_m;
-    f.left = picture(T_world_left);
+    f.left = render(T_world_left);
     camera.cx_px += right_shift_px;
-    f.right = picture(T_world_right);
+    f.right = render(T_world_right);
     camera.cx_px -= right_shift_px;
     return f;
   }
@@ -86,7 +86,7 @@ class SyntheticGround {
   }
 
  private:
-  Slab make_slab(double z, double x, double y, double size, int texels) {
+  Plane make_plane(double z, double x, double y, double size, int texels) {
     cv::Mat texture(texels, texels, CV_8UC1, cv::Scalar(0));
     cv::Mat sum(texels, texels, CV_32FC1, cv::Scalar(110.0));
     for (int step = 1; step <= 16 && step < texels / 2; step *= 2) {
@@ -100,13 +100,13 @@ class SyntheticGround {
     return {z, x, y, size, texture};
   }
 
-  // Takes texture pixels of the slab into the picture.
-  cv::Matx33d homography(const Slab& slab, const Eigen::Isometry3d& T_world_cam) const {
+  // From texture pixels of the plane to image pixels.
+  cv::Matx33d homography(const Plane& plane, const Eigen::Isometry3d& T_world_cam) const {
     const Eigen::Isometry3d T_cam_world = T_world_cam.inverse();
-    const double metre = slab.size_m / slab.texture.cols;
-    Eigen::Matrix3d plane;
-    plane << metre, 0, slab.x_m, 0, metre, slab.y_m, 0, 0, slab.z_m;
-    Eigen::Matrix3d P = T_cam_world.linear() * plane;
+    const double metre = plane.size_m / plane.texture.cols;
+    Eigen::Matrix3d world_from_texture;
+    world_from_texture << metre, 0, plane.x_m, 0, metre, plane.y_m, 0, 0, plane.z_m;
+    Eigen::Matrix3d P = T_cam_world.linear() * world_from_texture;
     P.col(2) += T_cam_world.translation();
     Eigen::Matrix3d K;
     K << camera.focal_px, 0, camera.cx_px, 0, camera.focal_px, camera.cy_px, 0, 0, 1;
@@ -114,11 +114,11 @@ class SyntheticGround {
     return {H(0, 0), H(0, 1), H(0, 2), H(1, 0), H(1, 1), H(1, 2), H(2, 0), H(2, 1), H(2, 2)};
   }
 
-  void draw_block(const Slab& slab, const Eigen::Isometry3d& T_world_cam, cv::Mat& view) const {
+  void draw_block(const Plane& plane, const Eigen::Isometry3d& T_world_cam, cv::Mat& view) const {
     std::vector<cv::Point2f> corners;
     for (const auto& [dx, dy] : {std::pair{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}, {1.0, 1.0}}) {
-      const Eigen::Vector3d p =
-          T_world_cam.inverse() * Eigen::Vector3d(slab.x_m + dx * slab.size_m, slab.y_m + dy * slab.size_m, slab.z_m);
+      const Eigen::Vector3d p = T_world_cam.inverse() * Eigen::Vector3d(plane.x_m + dx * plane.size_m,
+                                                                        plane.y_m + dy * plane.size_m, plane.z_m);
       if (p.z() < 0.2) return;
       corners.emplace_back(static_cast<float>(camera.cx_px + camera.focal_px * p.x() / p.z()),
                            static_cast<float>(camera.cy_px + camera.focal_px * p.y() / p.z()));
@@ -127,16 +127,16 @@ class SyntheticGround {
     if (box.empty()) return;
     const cv::Matx33d shift(1, 0, -box.x, 0, 1, -box.y, 0, 0, 1);
     cv::Mat part = view(box);
-    cv::warpPerspective(slab.texture, part, shift * homography(slab, T_world_cam), box.size(), cv::INTER_LINEAR,
+    cv::warpPerspective(plane.texture, part, shift * homography(plane, T_world_cam), box.size(), cv::INTER_LINEAR,
                         cv::BORDER_TRANSPARENT);
   }
 
-  GrayImage picture(const Eigen::Isometry3d& T_world_cam) {
+  GrayImage render(const Eigen::Isometry3d& T_world_cam) {
     cv::Mat view(camera.height, camera.width, CV_8UC1, cv::Scalar(110));
     if (!textureless) {
-      cv::warpPerspective(slabs_[0].texture, view, homography(slabs_[0], T_world_cam), view.size(), cv::INTER_LINEAR,
+      cv::warpPerspective(planes_[0].texture, view, homography(planes_[0], T_world_cam), view.size(), cv::INTER_LINEAR,
                           cv::BORDER_WRAP);
-      for (size_t i = 1; i < slabs_.size(); ++i) draw_block(slabs_[i], T_world_cam, view);
+      for (size_t i = 1; i < planes_.size(); ++i) draw_block(planes_[i], T_world_cam, view);
     }
     cv::Mat value;
     view.convertTo(value, CV_32FC1, gain);
@@ -154,7 +154,7 @@ class SyntheticGround {
 
   std::mt19937_64 random_;
   cv::RNG rng_;
-  std::vector<Slab> slabs_;
+  std::vector<Plane> planes_;
 };
 
 }  // namespace rover::vo

@@ -1,5 +1,5 @@
-// Time of one 512 x 384 pair on one core (gate 25 ms): within a keyframe's life, at the change of the keyframe, and
-// averaged over a drive.
+// Time per 512 x 384 pair on one core (limit 25 ms): without a new keyframe, with a new keyframe, and averaged over a
+// drive.
 #include <benchmark/benchmark.h>
 
 #include <opencv2/core.hpp>
@@ -39,10 +39,10 @@ void DrivePerPair(benchmark::State& state) {
 }
 BENCHMARK(DrivePerPair)->Unit(benchmark::kMillisecond);
 
-// The first pair becomes a keyframe, the second is aligned with it; `replace` makes the second one the next keyframe.
+// Registers the second pair with the first; with `replace` the second then becomes the new keyframe.
 void second_pair(benchmark::State& state, bool replace) {
   OdometryConfig config;
-  if (replace) config.keep_inliers = 100'000;
+  if (replace) config.keyframe_inliers = 100'000;
   for (auto _ : state) {
     state.PauseTiming();
     Odometry odometry(config);
