@@ -1,6 +1,8 @@
 // ROS: sensor_msgs/CameraInfo of two cameras, as camera_calibration stores it (camera_matrix with data ...) or as
 // `rostopic echo` and `ros2 topic echo` show it (K or k ...). P = [f 0 cx -f baseline; ...] of the right camera,
 // x_rectified = R x_camera.
+#include <cmath>
+
 #include "calibration/read.hpp"
 
 namespace rover::calibration {
@@ -47,9 +49,9 @@ StereoCalibration read_camera_info(const ToolFile& left, const ToolFile& right) 
     right.fail("image_width", "the size of the pictures differs from that of " + left.file());
   const double left_m = offset_m(left);
   const double baseline_m = offset_m(right) - left_m;
-  if (left_m != 0.0 && baseline_m == 0.0)
-    left.fail(left.name_of(kP), "is the right camera's: its fourth number has to be 0");
-  if (baseline_m == 0.0)
+  const bool apart = std::abs(baseline_m) > 1e-4;
+  if (left_m != 0.0 && !apart) left.fail(left.name_of(kP), "is the right camera's: its fourth number has to be 0");
+  if (!apart)
     right.fail(right.name_of(kP), "the fourth number, -f * baseline, is 0: calibrate the cameras as a stereo pair");
   const Eigen::Matrix3d R_rect_left = rectification(left);
   const Eigen::Matrix3d R_rect_right = rectification(right);

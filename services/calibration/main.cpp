@@ -109,14 +109,15 @@ int main(int argc, char** argv) {
   app.add_option("--config", arguments.config_dir, "folder of the configuration that it is based on")
       ->transform(is_user_path())
       ->capture_default_str();
-  app.add_option("--size", arguments.size, "width and height of the pictures [px], where the file has none")
+  repeatable(app.add_option("--size", arguments.size, "width and height of the pictures [px], where the file has none"))
       ->expected(2);
   CLI::Option* mount =
-      app.add_option("--mount", arguments.mount,
-                     "left camera in body: x y z [m], pitch down, roll, yaw [deg]; default: as in the configuration")
+      repeatable(app.add_option(
+                     "--mount", arguments.mount,
+                     "left camera in body: x y z [m], pitch down, roll, yaw [deg]; default: as in the configuration"))
           ->expected(6);
-  app.add_option("--imu-rpy", arguments.imu_rpy,
-                 "mount by the IMU: its roll, pitch, yaw in body [deg]; its position is vehicle.yaml's")
+  repeatable(app.add_option("--imu-rpy", arguments.imu_rpy,
+                            "mount by the IMU: its roll, pitch, yaw in body [deg]; its position is vehicle.yaml's"))
       ->expected(3)
       ->excludes(mount);
   app.add_option("--out", arguments.out, "new file; default: the terminal")->transform(is_user_path());

@@ -199,7 +199,8 @@ StereoDataSet read_euroc(const std::string& dir) {
   set.name = fs::absolute(dir).lexically_normal().filename().string();
   read_cameras(root, set);
   std::vector<std::int64_t> times_ns;
-  pair_up(read_pictures(root / "cam0"), read_pictures(root / "cam1"), set, times_ns);
+  const PictureList lefts = read_pictures(root / "cam0");
+  pair_up(lefts, read_pictures(root / "cam1"), set, times_ns);
   add_truth(root / "state_groundtruth_estimate0", times_ns, set);
   set.rig.T_body_left = T_body_left_camera();
   return set;

@@ -45,7 +45,7 @@ bool TextRows::next() {
 
 bool TextRows::is_head(std::string_view row) const {
   return row.front() == '#' ||
-         (separator_ == ',' && !in_rows_ && std::isalpha(static_cast<unsigned char>(row.front())));
+         (separator_ == ',' && !in_rows_ && head_.empty() && std::isalpha(static_cast<unsigned char>(row.front())));
 }
 
 void TextRows::split(std::string_view row) {

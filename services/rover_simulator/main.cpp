@@ -44,13 +44,20 @@ void write_summary(const std::string& run_dir, const rover::SimulationSummary& s
   std::filesystem::rename(run_dir + "/simulation.json.new", run_dir + "/simulation.json");
 }
 
+rover::StereoRig load_rig(const std::string& config_dir, const std::string& camera) {
+  const rover::StereoRig rig = rover::load_stereo_rig(config_dir, camera);
+  const std::string problem = rover::problem_of_rendering(rig);
+  if (!problem.empty()) throw rover::ConfigError(config_dir + "/cameras.yaml: " + camera + ": " + problem);
+  return rig;
+}
+
 int simulate(Arguments& arguments) {
   const rover::Scenario scenario = rover::load_scenario(arguments.scenario);
   const rover::Vehicle vehicle = rover::load_vehicle(arguments.config_dir);
-  const rover::StereoRig loccam = rover::load_stereo_rig(arguments.config_dir, "loccam");
+  const rover::StereoRig loccam = load_rig(arguments.config_dir, "loccam");
   auto world = std::make_unique<rover::World>(scenario.world, scenario.dtm, arguments.seed);
   rover::SimulatedRoverConfig config = rover_config(scenario, arguments.seed);
-  if (vehicle.pan_tilt) config.navcam = rover::load_stereo_rig(arguments.config_dir, "navcam");
+  if (vehicle.pan_tilt) config.navcam = load_rig(arguments.config_dir, "navcam");
   rover::SimulatedRover rover_and_world(config, vehicle, loccam, std::move(world), scenario.start_pose(),
                                         arguments.seed);
   lcm::LCM lcm(arguments.bus);

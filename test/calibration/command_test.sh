@@ -45,11 +45,20 @@ grep -q "position_m: \[0.4330, 0.0000, -0.1500\], pitch_down_deg: 30.0000" "$WOR
   fail "by the IMU: $(grep left_in_body "$WORK/by_imu.yaml")"
 
 cp "$WORK/cameras.yaml" "$WORK/before.yaml"
-refused "a file that exists" "exists already; it is not overwritten" "$WORK/camchain.yaml" --out "$WORK/cameras.yaml"
+refused "a file that exists" "exists already; it is not replaced" "$WORK/camchain.yaml" --out "$WORK/cameras.yaml"
 cmp "$WORK/cameras.yaml" "$WORK/before.yaml" || fail "a file was overwritten"
-refused "no file" "none.yaml: cannot be read" "$WORK/none.yaml"
+refused "no file" "none.yaml: no such file" "$WORK/none.yaml"
 sed '/T_cam_imu/d' "$WORK/camchain.yaml" >"$WORK/no_imu.yaml"
 refused "no IMU" "no T_cam_imu" "$WORK/no_imu.yaml" --imu-rpy 0 0 0
 sed 's/417.5, 417.5/4175000, 417.5/' "$WORK/camchain.yaml" >"$WORK/far.yaml"
-refused "out of range" "the result is out of range: .*fx_px" "$WORK/far.yaml"
+refused "out of range" "left camera: focal lengths of 4175000" "$WORK/far.yaml"
+sed 's/-0.08, 0.04/-80, 0.04/' "$WORK/camchain.yaml" >"$WORK/bent.yaml"
+refused "out of range" "the result is out of range: cameras.yaml.*distortion" "$WORK/bent.yaml"
+# Options before and after the file, from another folder, by relative names.
+mkdir "$WORK/elsewhere"
+(cd "$WORK/elsewhere" && calibration --size 512 384 ../camchain.yaml --out mine.yaml) || fail "--size swallowed the file"
+[ -s "$WORK/elsewhere/mine.yaml" ] || fail "a relative --out is elsewhere"
+refused "a folder that is not there" "no such folder" "$WORK/camchain.yaml" --out "$WORK/nowhere/cameras.yaml"
+sed 's/radtan/equidistant/' "$WORK/camchain.yaml" >"$WORK/fisheye.yaml"
+calibration "$WORK/fisheye.yaml" | grep -q "distortion_model: equidistant" || fail "equidistant is not taken over"
 echo "calibrations become cameras.yaml"

@@ -1,5 +1,5 @@
-// Not a test: make_euroc_data_set DIR PAIRS: a drive over rendered ground in EuRoC's layout, with raw, distorted
-// pictures.
+// Not a test: make_euroc_data_set DIR PAIRS [equidistant]: a drive over rendered ground in EuRoC's layout, with raw,
+// distorted pictures.
 //
 // The sensors' frame is not the rover's body: it is turned and moved against it, as in the real data sets.
 #include <cmath>
@@ -39,9 +39,20 @@ void write_sensor(const fs::path& file, const rover::StereoRig& rig, const rover
   for (int i = 0; i < 16; ++i) out << (i > 0 ? ", " : "") << T_sensors_camera.matrix()(i / 4, i % 4);
   out << "]\n\nrate_hz: 10\nresolution: [" << rig.width << ", " << rig.height
       << "]\ncamera_model: pinhole\nintrinsics: [" << camera.fx_px << ", " << camera.fy_px << ", " << camera.cx_px
-      << ", " << camera.cy_px << "] #fu, fv, cu, cv\ndistortion_model: radial-tangential\ndistortion_coefficients: ["
-      << camera.distortion[0] << ", " << camera.distortion[1] << ", " << camera.distortion[2] << ", "
-      << camera.distortion[3] << "]\n";
+      << ", " << camera.cy_px << "] #fu, fv, cu, cv\ndistortion_model: "
+      << (camera.model == rover::DistortionModel::kRadTan ? "radial-tangential" : "equidistant")
+      << "\ndistortion_coefficients: [" << camera.distortion[0] << ", " << camera.distortion[1] << ", "
+      << camera.distortion[2] << ", " << camera.distortion[3] << "]\n";
+}
+
+// 100 deg from corner to corner.
+rover::StereoRig with_fisheyes(rover::StereoRig rig) {
+  for (rover::PinholeCamera* camera : {&rig.left, &rig.right}) {
+    camera->model = rover::DistortionModel::kEquidistant;
+    camera->distortion = {-0.012, 0.018, -0.009, 0.0015, 0.0};
+    camera->fx_px = camera->fy_px = 370.0;
+  }
+  return rig;
 }
 
 void write_picture(const fs::path& file, const rover::GrayImage& image) {
@@ -52,8 +63,8 @@ void write_picture(const fs::path& file, const rover::GrayImage& image) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 3) {
-    std::fprintf(stderr, "make_euroc_data_set DIR PAIRS\n");
+  if (argc < 3) {
+    std::fprintf(stderr, "make_euroc_data_set DIR PAIRS [equidistant]\n");
     return 2;
   }
   const fs::path root = fs::path(argv[1]) / "mav0";
@@ -62,7 +73,8 @@ int main(int argc, char** argv) {
   rover::CameraSimConfig config;
   config.calibration_error_px = 0.0;
   config.scene = rover::test::small_scene();
-  rover::StereoCameraSim camera(rover::test::loccam_rig(), config, surface, 1);
+  rover::StereoCameraSim camera(argc > 3 ? with_fisheyes(rover::test::loccam_rig()) : rover::test::loccam_rig(), config,
+                                surface, 1);
   const rover::StereoRig rig = camera.true_rig();
   for (const char* dir : {"cam0/data", "cam1/data", "state_groundtruth_estimate0"}) fs::create_directories(root / dir);
   const Eigen::Isometry3d T_sensors_left = T_body_sensors().inverse() * rig.T_body_left;
