@@ -7,7 +7,7 @@
 #include "common/bus/elevation_message.hpp"
 #include "global_localization/convert.hpp"
 #include "global_localization/orbital_map_file.hpp"
-#include "rover_simulator/world/dtm_reader.hpp"
+#include "common/geo/elevation_map.hpp"
 
 namespace rover::global {
 

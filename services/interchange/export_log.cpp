@@ -17,12 +17,13 @@
 #include "common/bus/log_runs.hpp"
 #include "common/bus/streams.hpp"
 #include "common/bus/user_files.hpp"
+#include "common/geo/elevation_map.hpp"
+#include "common/geo/geography.hpp"
 #include "interchange/csv_table.hpp"
 #include "interchange/foxglove.hpp"
 #include "interchange/mcap_writer.hpp"
 #include "interchange/message_json.hpp"
 #include "interchange/tracks.hpp"
-#include "orbital_planner/map_file.hpp"
 #include "status/text_line.hpp"
 
 namespace rover::interchange {
@@ -164,8 +165,8 @@ ToLonLat planet_of(const fs::path& log) {
   const fs::path map = log.parent_path() / "orbital_map.tif";
   if (!fs::exists(map)) return {};
   try {
-    const auto geography =
-        std::make_shared<orbital::Geography>(orbital::read_map(map.string(), "/vsimem/orbital_map.tif").raster);
+    const auto geography = std::make_shared<Geography>(read_elevation_map(map.string()).raster);
+    if (!geography->is_known()) return {};
     return [geography](const Eigen::Vector2d& p) { return geography->to_lon_lat(p); };
   } catch (const std::exception&) {  // a map without projection: metres then
     return {};

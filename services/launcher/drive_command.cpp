@@ -119,6 +119,7 @@ int drive_in(const DriveArguments& arguments, const RunFolder& folder) {
   catch_interrupts();
   std::printf("run: %s\n", folder.dir.c_str());
   if (const std::string line = page_line(folder.config_dir); !line.empty()) std::printf("%s\n", line.c_str());
+  for (const std::string& note : folder.map_notes) std::printf("%s\n", note.c_str());
   std::fflush(stdout);
   write_json(folder.dir + "/launch.json", {{"bus", folder.bus_url}, {"allow_injection", false}});
   write_s6_tree(folder.dir, service_commands(arguments), false);

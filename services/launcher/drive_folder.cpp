@@ -3,7 +3,8 @@
 #include <filesystem>
 
 #include "common/bus/config.hpp"
-#include "rover_simulator/world/dtm_reader.hpp"
+#include "common/geo/elevation_map.hpp"
+#include "common/geo/geotiff_writer.hpp"
 
 namespace rover {
 namespace fs = std::filesystem;
@@ -25,19 +26,28 @@ void check_inputs(const DriveArguments& arguments) {
     throw ConfigError(ground +
                       ": no such file. It says where the rover stands and where it shall go; begin with a copy of " +
                       "examples/driver/ground.yaml, and name it by --ground");
-  if (arguments.map.empty()) return;
-  try {
-    read_elevation(arguments.map);
-  } catch (const DtmError& error) {
-    throw ConfigError("--map " + std::string(error.what()));
-  }
+}
+
+ElevationMap read_map(const std::string& file) try {
+  ElevationMap map = read_elevation_map(file);
+  demand_no_voids(map.raster, file);
+  return map;
+} catch (const DtmError& error) {
+  throw ConfigError("--map " + std::string(error.what()));
+}
+
+// In metres, whatever the user's file has: all who read it in the run's folder see the same.
+void write_map(const std::string& file, RunFolder& folder) {
+  ElevationMap map = read_map(file);
+  write_geotiff(folder.dir + "/orbital_map.tif", map.raster);
+  folder.map_notes = std::move(map.notes);
 }
 
 void fill(const DriveArguments& arguments, RunFolder& folder) {
   copy_configuration(config_dir_of(arguments), folder.config_dir);
   fs::copy_file(ground_of(arguments), fs::path(folder.config_dir) / "ground.yaml",
                 fs::copy_options::overwrite_existing);
-  if (!arguments.map.empty()) fs::copy_file(arguments.map, folder.dir + "/orbital_map.tif");
+  if (!arguments.map.empty()) write_map(arguments.map, folder);
   if (arguments.headless) apply_setting("mission_control.page=false", folder.config_dir);
   if (!arguments.record.empty()) apply_setting("recorder.record=" + arguments.record, folder.config_dir);
   for (const std::string& setting : arguments.set) apply_setting(setting, folder.config_dir);

@@ -132,6 +132,7 @@ RunResult run(const RunArguments& given) {
   if (!arguments.quiet) std::printf("run: %s\n", folder.dir.c_str());
   if (const std::string line = page_line(folder.config_dir); !arguments.quiet && !line.empty())
     std::printf("%s\n", line.c_str());
+  for (const std::string& note : folder.map_notes) std::printf("%s\n", note.c_str());
   write_launch_json(arguments, folder);
   write_s6_tree(folder.dir, service_commands(arguments, folder), allows_injection(arguments, folder));
   End end = End::kFailed;

@@ -11,8 +11,8 @@
 
 #include "common/bus/config.hpp"
 #include "common/bus/yaml_file.hpp"
-#include "rover_simulator/world/dtm_reader.hpp"
-#include "rover_simulator/world/geotiff_writer.hpp"
+#include "common/geo/elevation_map.hpp"
+#include "common/geo/geotiff_writer.hpp"
 #include "rover_simulator/world/scenario.hpp"
 
 namespace rover {
@@ -96,6 +96,7 @@ void fill_run_folder(const RunArguments& arguments, const std::string& dtm_file,
 
   const Scenario scenario = load_scenario(folder.scenario);
   folder.has_faults = !scenario.faults.empty();
+  folder.map_notes = scenario.dtm_notes;
   folder.level = arguments.level.empty() ? scenario.level : arguments.level;
   folder.seed = arguments.seed >= 0 ? arguments.seed : static_cast<std::int64_t>(scenario.seed);
   const World world(scenario.world, scenario.dtm, static_cast<std::uint64_t>(folder.seed));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "launcher/arguments.hpp"
 
@@ -14,9 +15,10 @@ struct RunFolder {
   std::string scenario;    // dir/config/scenario.yaml
   std::string bus_url;
   std::int64_t seed = 0;
-  bool has_faults = false;          // the scenario injects some
-  bool is_new = true;               // false: an empty folder was there already
-  std::string level = "efficient";  // auto, full: with the services of the Full level
+  bool has_faults = false;             // the scenario injects some
+  bool is_new = true;                  // false: an empty folder was there already
+  std::string level = "efficient";     // auto, full: with the services of the Full level
+  std::vector<std::string> map_notes;  // for the user: what of the elevation model was converted or taken for void
 };
 
 // Throws ConfigError with one line where the scenario, a key or a value is not right, or the folder is not writable;

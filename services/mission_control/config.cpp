@@ -6,6 +6,7 @@
 
 #include "common/bus/config.hpp"
 #include "common/bus/vehicle_config.hpp"
+#include "common/core/path_limits.hpp"
 
 namespace rover {
 namespace {
@@ -28,6 +29,8 @@ GlobalPath read_path(const Config& config) {
   GlobalPath path;
   path.x_m = config.numbers("x_m", kMap, 0);
   path.y_m = config.numbers("y_m", kMap, path.x_m.size());
+  if (const std::string problem = path_length_problem(path_length_m(path.x_m, path.y_m)); !problem.empty())
+    config.fail("x_m", problem);
   for (double level : config.numbers("level", {0, 1}, path.x_m.size()))
     path.level.push_back(static_cast<std::int8_t>(level));
   config.read("corridor_half_width_m", path.corridor_half_width_m, {0.1, 50});

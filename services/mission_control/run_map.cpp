@@ -1,6 +1,6 @@
 #include "mission_control/run_map.hpp"
 
-#include "rover_simulator/world/dtm_reader.hpp"
+#include "common/geo/elevation_map.hpp"
 
 namespace rover::mission {
 
@@ -27,7 +27,9 @@ RunMap::Bytes RunMap::picture(const std::string& name) {
 void RunMap::read() {
   if (run_dir_.empty()) return;
   try {
-    ElevationRaster raster = read_elevation(run_dir_ + "/orbital_map.tif");
+    const std::string file = run_dir_ + "/orbital_map.tif";
+    ElevationRaster raster = read_elevation_map(file).raster;
+    demand_no_voids(raster, file);
     map_ = std::make_unique<GroundMap>(
         GroundHeights{raster.width, raster.height, raster.resolution_m, std::move(raster.z_m)}, limits_,
         rover_length_m_);

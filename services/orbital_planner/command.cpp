@@ -4,12 +4,14 @@
 
 #include <charconv>
 #include <cmath>
+#include <ctime>
 #include <filesystem>
 
 #include "common/bus/config.hpp"
+#include "common/bus/user_files.hpp"
+#include "common/core/path_limits.hpp"
 #include "orbital_planner/config.hpp"
 #include "orbital_planner/files.hpp"
-#include "orbital_planner/map_file.hpp"
 
 namespace rover::orbital {
 namespace {
@@ -39,7 +41,19 @@ Line on_map(const std::vector<Place>& places, const Geography& geography, bool l
   return line;
 }
 
-std::string what_is_wrong(const Plan& plan, const OrbitalMap& map, const Line& waypoints, const PlannerConfig& config) {
+// A rover that is there already does not drive.
+void check_distances(const std::vector<Place>& places, const Line& waypoints, double goal_tolerance_m) {
+  for (size_t i = 1; i < waypoints.size(); ++i)
+    if (const double distance_m = (waypoints[i] - waypoints[i - 1]).norm(); distance_m <= goal_tolerance_m)
+      throw ConfigError(
+          fmt::format("{} {},{}: lies {:.2f} m from {} before it; more than {} m are needed "
+                      "(path.goal_tolerance_m)",
+                      places[i].option, places[i].given.x(), places[i].given.y(), distance_m, places[i - 1].option,
+                      goal_tolerance_m));
+}
+
+std::string what_is_wrong(const Plan& plan, const ElevationMap& map, const Line& waypoints,
+                          const PlannerConfig& config) {
   switch (plan.status) {
     case PlanStatus::kPlanned:
       return "";
@@ -58,7 +72,7 @@ std::string what_is_wrong(const Plan& plan, const OrbitalMap& map, const Line& w
   return "";
 }
 
-void check(const Plan& plan, const std::vector<Place>& places, const OrbitalMap& map, const Line& waypoints,
+void check(const Plan& plan, const std::vector<Place>& places, const ElevationMap& map, const Line& waypoints,
            const PlannerConfig& config) {
   if (plan.status == PlanStatus::kPlanned) return;
   const Place& place = places[plan.waypoint];
@@ -66,15 +80,10 @@ void check(const Plan& plan, const std::vector<Place>& places, const OrbitalMap&
                                 what_is_wrong(plan, map, waypoints, config)));
 }
 
-void make_folder(const std::string& dir) {
-  std::error_code error;
-  fs::create_directories(dir, error);
-  if (error || !fs::is_directory(dir)) throw ConfigError(dir + ": cannot be made a folder");
-}
-
-std::string summary(const Plan& plan, const Line& waypoints, const OrbitalMap& map, const std::string& out) {
+std::string summary(const Plan& plan, const Line& waypoints, const ElevationMap& map, const std::string& out) {
   std::string text;
-  if (map.reprojected) text += fmt::format("map: reprojected to metres: {}/map.tif is the rover's orbital map\n", out);
+  for (const std::string& note : map.notes) text += note + "\n";
+  if (map.converted) text += fmt::format("{}/map.tif is the orbital map in whose frame the path is\n", out);
   text += "terrain:";
   const auto shares = class_shares(plan.terrain);
   for (size_t i = 0; i < shares.size(); ++i)
@@ -103,20 +112,30 @@ Eigen::Vector2d parse_place(const std::string& text, const std::string& option) 
 }
 
 std::string default_folder(const std::string& map) {
-  return "logs/plan-" + fs::path(map).stem().string();
+  const std::time_t now = std::time(nullptr);
+  char time[32];
+  std::strftime(time, sizeof time, "%Y%m%d-%H%M%S", std::localtime(&now));
+  return project_dir() + "/logs/" + time + "-plan-" + fs::path(map).stem().string();
 }
 
 std::string run(const Arguments& arguments) {
   const std::vector<Place> places = places_of(arguments);
   const ToolConfig config = load_config(arguments.config_dir);
-  make_folder(arguments.out);
-  const OrbitalMap map = read_map(arguments.map, arguments.out + "/map.tif");
+  const ElevationMap map = read_elevation_map(arguments.map);
   const Geography geography(map.raster);
+  if (arguments.lon_lat && !geography.is_known())
+    throw ConfigError("--lonlat: " + arguments.map +
+                      " lies on no planet; give X,Y in metres from its lower left corner");
   const Line waypoints = on_map(places, geography, arguments.lon_lat);
+  check_distances(places, waypoints, config.terms.goal_tolerance_m);
   const Plan result = plan(map.raster, waypoints, config.planner);
   check(result, places, map, waypoints, config.planner);
-  write_files(arguments.out, map, geography, result, waypoints, config.terms);
-  return summary(result, waypoints, map, arguments.out);
+  if (const std::string problem = path_length_problem(result.length_m); !problem.empty()) throw ConfigError(problem);
+  const std::string target = arguments.out.empty() ? default_folder(arguments.map) : arguments.out;
+  NewFolder out(target);
+  write_files(out.dir(), map, geography, result, waypoints, config.terms);
+  out.keep();
+  return summary(result, waypoints, map, target);
 }
 
 }  // namespace rover::orbital

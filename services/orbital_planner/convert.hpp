@@ -20,7 +20,7 @@ path_t message_from(const Plan& plan, const PathTerms& terms);
 // The section `path:` of a scenario.
 std::string yaml_from(const Plan& plan, const PathTerms& terms);
 
-// RFC 7946, but on the map's own planet: a line for each stretch with its level and figures, a point for each
+// RFC 7946, but on the map's own planet, or in whatever coordinates `to_lon_lat` gives: a line for each stretch with its level and figures, a point for each
 // way-point.
 using ToLonLat = std::function<Eigen::Vector2d(const Eigen::Vector2d& map_m)>;
 std::string geojson_from(const Plan& plan, const Line& waypoints, const ToLonLat& to_lon_lat);

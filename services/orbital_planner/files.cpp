@@ -8,6 +8,7 @@
 #include "common/bus/config.hpp"
 #include "common/bus/streams.hpp"
 #include "common/core/frames.hpp"
+#include "common/geo/geotiff_writer.hpp"
 #include "orbital_planner/convert.hpp"
 #include "orbital_planner/layers_file.hpp"
 #include "orbital_planner/picture.hpp"
@@ -46,10 +47,11 @@ void write_picture(const std::string& file, const cv::Mat& picture) {
 
 }  // namespace
 
-void write_files(const std::string& dir, const OrbitalMap& map, const Geography& geography, const Plan& plan,
+void write_files(const std::string& dir, const ElevationMap& map, const Geography& geography, const Plan& plan,
                  const Line& waypoints, const PathTerms& terms) {
-  write_text(dir + "/path.geojson",
-             geojson_from(plan, waypoints, [&](const Eigen::Vector2d& p) { return geography.to_lon_lat(p); }));
+  if (map.converted) write_geotiff(dir + "/map.tif", map.raster);
+  const auto place = [&](const Eigen::Vector2d& p) { return geography.is_known() ? geography.to_lon_lat(p) : p; };
+  write_text(dir + "/path.geojson", geojson_from(plan, waypoints, place));
   write_text(dir + "/path.yaml", yaml_from(plan, terms));
   write_log(dir + "/path.lcm", message_from(plan, terms));
   write_picture(dir + "/path.png", draw(map.raster, plan, waypoints));

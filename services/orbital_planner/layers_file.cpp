@@ -5,8 +5,8 @@
 #include <memory>
 #include <utility>
 
-#include "rover_simulator/world/dtm_reader.hpp"
-#include "rover_simulator/world/gdal_session.hpp"
+#include "common/geo/elevation_map.hpp"
+#include "common/geo/gdal_session.hpp"
 
 namespace rover::orbital {
 namespace {

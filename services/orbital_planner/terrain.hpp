@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/core/frames.hpp"
-#include "rover_simulator/world/elevation_raster.hpp"
+#include "common/geo/elevation_raster.hpp"
 
 namespace rover::orbital {
 

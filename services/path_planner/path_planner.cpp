@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "common/core/path_limits.hpp"
+
 namespace rover::planning {
 namespace {
 
@@ -11,8 +13,6 @@ constexpr double kKeepBehindM = 0.3;
 constexpr double kStandingMps = 0.02;
 constexpr double kTurnCreepMps = 0.05;  // of the body origin while the rover turns on the spot
 constexpr double kStandingRadps = 0.02;
-constexpr double kLeastPathM = 0.1;
-constexpr double kLongestPathM = 1e5;
 constexpr double kMaxCurvatureNow = 1.0;
 constexpr double kCorridorReserveM = 0.05;
 constexpr double kCellHalfM = 0.05;
@@ -54,8 +54,7 @@ std::string GlobalPath::fault() const {
       return "point " + std::to_string(i) + " of the path is not finite";
     if (i > 0) length += distance(points[i - 1].p, points[i].p);
   }
-  if (length < kLeastPathM) return "path is shorter than 0.1 m";
-  if (length > kLongestPathM) return "path is longer than 100 km";
+  if (const std::string problem = path_length_problem(length); !problem.empty()) return problem;
   if (goal_tolerance_m < 0.0 || std::isinf(goal_tolerance_m)) return "goal tolerance is out of range";
   if (corridor_half_width_m < 0.0 || std::isinf(corridor_half_width_m)) return "corridor is out of range";
   return "";

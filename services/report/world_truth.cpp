@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "rover_simulator/world/dtm_reader.hpp"
+#include "common/geo/elevation_map.hpp"
 #include "rover_simulator/world/scenario.hpp"
 
 namespace rover::report {
@@ -38,7 +38,8 @@ std::optional<TrueWorld> load_true_world(const RunFolder& folder, const Box& aro
 HeightRaster load_orbital_map(const RunFolder& folder) {
   if (folder.orbital_map.empty()) return {};
   try {
-    ElevationRaster raster = read_elevation(folder.orbital_map);
+    ElevationRaster raster = read_elevation_map(folder.orbital_map).raster;
+    demand_no_voids(raster, folder.orbital_map);
     return {raster.width, raster.height, raster.resolution_m, std::move(raster.z_m)};
   } catch (const DtmError& error) {
     std::fprintf(stderr, "%s: the map has no relief\n", error.what());

@@ -16,7 +16,7 @@
 #include "common/core/frames.hpp"
 #include "global_localization/config.hpp"
 #include "global_localization/global_localization.hpp"
-#include "rover_simulator/world/dtm_reader.hpp"
+#include "common/geo/elevation_map.hpp"
 #include "rover_simulator/world/noise.hpp"
 #include "test/global_localization/bench_world.hpp"
 #include "test/global_localization/mapped_drive.hpp"
@@ -228,7 +228,7 @@ void print(const Row& row) {
 
 int main() {
   const std::string root = ROVER_SOURCE_DIR;
-  const ElevationRaster dtm = read_elevation(root + "/config/terrain/gale/gale_hirise_dtm_1m_348x337.tif");
+  const ElevationRaster dtm = read_elevation_map(root + "/config/terrain/gale/gale_hirise_dtm_1m_348x337.tif").raster;
   Bench bench{load_config(root + "/config").core, {}};
   bench.rows.reserve(20);  // rows are pointed to
   const std::vector<Line> lines = drivable_lines(World(WorldConfig{}, dtm, kWorldSeed), kDriveM, kDrives, kLineSeed);

@@ -8,8 +8,8 @@
 
 #include "common/bus/convert.hpp"
 #include "global_localization/orbital_map_file.hpp"
-#include "rover_simulator/world/dtm_reader.hpp"
-#include "rover_simulator/world/geotiff_writer.hpp"
+#include "common/geo/elevation_map.hpp"
+#include "common/geo/geotiff_writer.hpp"
 #include "test/global_localization/made_ground.hpp"
 #include "test/stereo/one_node_world.hpp"
 
@@ -24,7 +24,7 @@ const Pose2 kTruth{95.0, 60.0, 2.1};
 
 ElevationRaster raster_of(const Height& height, double cell_m) {
   const HeightGrid grid = orbital_of(height, cell_m);
-  ElevationRaster raster = read_elevation(kGale);  // for its projection
+  ElevationRaster raster = read_elevation_map(kGale).raster;  // for its projection
   raster.width = grid.lattice.columns;
   raster.height = grid.lattice.rows;
   raster.resolution_m = cell_m;
@@ -276,7 +276,7 @@ TEST_F(GlobalLocalizationConfigTest, WrongKeysAndRangesStopTheStart) {
 
 // On measured terrain: the rover stands on it, the orbital map is coarser and noisy.
 TEST(GlobalLocalizationOnGale, FindsTheRoverOnFeaturedGround) {
-  const ElevationRaster gale = read_elevation(kGale);
+  const ElevationRaster gale = read_elevation_map(kGale).raster;
   const auto height = [&](double x, double y) {
     const double u = x - 0.5, v = y - 0.5;
     const int i = static_cast<int>(u), j = static_cast<int>(v);

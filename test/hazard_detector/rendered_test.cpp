@@ -7,7 +7,7 @@
 #include "common/core/frames.hpp"
 #include "hazard_detector/hazard_detector.hpp"
 #include "rover_simulator/camera/stereo_camera_sim.hpp"
-#include "rover_simulator/world/dtm_reader.hpp"
+#include "common/geo/elevation_map.hpp"
 #include "rover_simulator/world/world.hpp"
 #include "stereo/stereo.hpp"
 #include "test/hazard_detector/scene.hpp"
@@ -25,7 +25,7 @@ class RenderedTest : public testing::Test {
   static World make_world(double k) {
     WorldConfig config;
     config.rocks.k = k;
-    return World(config, read_elevation(ROVER_SOURCE_DIR "/config/terrain/gale/gale_hirise_dtm_1m_348x337.tif"), 5);
+    return World(config, read_elevation_map(ROVER_SOURCE_DIR "/config/terrain/gale/gale_hirise_dtm_1m_348x337.tif").raster, 5);
   }
 
   // The six wheels on the ground (not on rocks), in the least-squares sense.

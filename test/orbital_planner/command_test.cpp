@@ -1,25 +1,31 @@
 // ./rover plan as a whole: what it writes, what it says to bad input, and the scenario that was made with it.
 #include "orbital_planner/command.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <lcm/lcm-cpp.hpp>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <optional>
+#include <random>
 #include <sstream>
 
 #include "common/bus/channels.hpp"
 #include "common/bus/config.hpp"
-#include "orbital_planner/map_file.hpp"
+#include "common/geo/elevation_map.hpp"
+#include "common/geo/geography.hpp"
+#include "common/geo/geotiff_writer.hpp"
 #include "orbital_planner/picture.hpp"
 #include "path_planner/convert.hpp"
-#include "rover_simulator/world/dtm_reader.hpp"
-#include "rover_simulator/world/geotiff_writer.hpp"
 #include "rover_simulator/world/scenario.hpp"
 #include "test/common/temp_folder.hpp"
+#include "test/geo/map_files.hpp"
+#include "wild.hpp"
 
 namespace rover::orbital {
 namespace {
@@ -55,18 +61,28 @@ class PlanCommand : public testing::Test {
   }
 
   // The written section, as a scenario reads it.
-  PlannedPath written_path() const {
-    std::ofstream(folder_.file("scenario.yaml")) << "world: {dtm: " << kGale << "}\n"
-                                                 << text_of(folder_.file("out/path.yaml"));
+  PlannedPath written_path(const std::string& out = "out", const std::string& map = kGale) const {
+    std::ofstream(folder_.file("scenario.yaml")) << "world: {dtm: '" << map << "'}\n"
+                                                 << text_of(folder_.file(out + "/path.yaml"));
     return load_scenario(folder_.file("scenario.yaml")).path;
   }
 
-  // Status and stderr of the program.
-  std::pair<int, std::string> execute(const std::string& words) const {
-    const std::string command = "cd " + kSource + " && " + kProgram + " " + words + " --out " + folder_.file("out") +
-                                " >" + folder_.file("stdout") + " 2>" + folder_.file("stderr");
+  // Status and stderr of the program, called from the test's own folder.
+  std::pair<int, std::string> execute(const std::string& words, const std::string& out = "out") const {
+    const std::string command =
+        "cd " + folder_.path().string() + " && " + kProgram + " " + words + " --out " + out + " >stdout 2>stderr";
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(folder_.file("stderr"))};
+  }
+
+  // Ends with status 2 and one line that says so; nothing is left of the folder.
+  std::string refusal(const std::string& words, const std::string& says, const std::string& out = "out") const {
+    const auto [status, line] = execute(words, out);
+    EXPECT_EQ(status, 2) << words;
+    EXPECT_NE(line.find(says), std::string::npos) << line;
+    EXPECT_EQ(std::count(line.begin(), line.end(), '\n'), 1) << line;
+    EXPECT_FALSE(std::filesystem::exists(folder_.file("out"))) << words;
+    return folder_.short_names(line.substr(0, line.size() - 1));
   }
 };
 
@@ -95,7 +111,7 @@ TEST_F(PlanCommand, GeojsonMessageAndScenarioSayTheSame) {
   const nlohmann::json geojson = nlohmann::json::parse(text_of(folder_.file("out/path.geojson")));
   EXPECT_EQ(geojson["type"], "FeatureCollection");
   const PlannedPath planned = written_path();
-  const Geography geography(read_elevation(kGale));
+  const Geography geography(read_elevation_map(kGale).raster);
   size_t at = 0, points = 0;
   for (const nlohmann::json& feature : geojson["features"]) {
     if (feature["geometry"]["type"] == "Point") {
@@ -121,7 +137,7 @@ TEST_F(PlanCommand, GeojsonMessageAndScenarioSayTheSame) {
 TEST_F(PlanCommand, LongitudeAndLatitudeGiveTheSamePlan) {
   run(arguments());
   const PlannedPath by_metres = written_path();
-  const Geography geography(read_elevation(kGale));
+  const Geography geography(read_elevation_map(kGale).raster);
   const auto place = [&](double x, double y) {
     const Eigen::Vector2d p = geography.to_lon_lat({x, y});
     std::ostringstream text;
@@ -131,8 +147,9 @@ TEST_F(PlanCommand, LongitudeAndLatitudeGiveTheSamePlan) {
   };
   Arguments by_degrees = arguments(place(60.5, 270.5), place(120.5, 60.5));
   by_degrees.lon_lat = true;
+  by_degrees.out = folder_.file("again");
   run(by_degrees);
-  const PlannedPath same = written_path();
+  const PlannedPath same = written_path("again");
   ASSERT_EQ(same.x_m.size(), by_metres.x_m.size());
   EXPECT_EQ(same.level, by_metres.level);
   for (size_t i = 0; i < same.x_m.size(); ++i) {
@@ -154,15 +171,14 @@ TEST_F(PlanCommand, ThePictureShowsBothLevels) {
 }
 
 TEST_F(PlanCommand, TheSameCommandWritesTheSameBytes) {
+  Arguments again = arguments();
+  again.out = folder_.file("again");
   run(arguments());
-  std::vector<std::string> first;
-  for (const char* name : {"path.geojson", "path.yaml", "path.lcm", "path.png", "terrain.tif"})
-    first.push_back(text_of(folder_.file(std::string("out/") + name)));
-  run(arguments());
-  size_t i = 0;
+  run(again);
   for (const char* name : {"path.geojson", "path.yaml", "path.lcm", "path.png", "terrain.tif"}) {
-    EXPECT_FALSE(first[i].empty());
-    EXPECT_EQ(text_of(folder_.file(std::string("out/") + name)), first[i++]) << name;
+    EXPECT_FALSE(text_of(folder_.file(std::string("out/") + name)).empty());
+    EXPECT_EQ(text_of(folder_.file(std::string("out/") + name)), text_of(folder_.file(std::string("again/") + name)))
+        << name;
   }
 }
 
@@ -189,16 +205,16 @@ TEST_F(PlanCommand, TheScenarioCombined500IsWhatThePlannerGives) {
 }
 
 TEST_F(PlanCommand, BadInputEndsWithStatus2AndOneLine) {
-  ElevationRaster raster = read_elevation(kGale);
+  ElevationRaster raster = read_elevation_map(kGale).raster;
   for (int y = 0; y < raster.height; ++y) raster.at(100, y) = std::numeric_limits<float>::quiet_NaN();
   write_geotiff(folder_.file("split.tif"), raster);
   raster.projection_wkt.clear();
   write_geotiff(folder_.file("nowhere.tif"), raster);
   std::ofstream(folder_.file("cut.tif"), std::ios::binary) << text_of(kGale).substr(0, 90000);
   const std::pair<std::string, std::string> cases[] = {
-      {folder_.file("none.tif") + " --start 60,270 --goal 120,60", "none.tif: orbital map not found"},
+      {folder_.file("none.tif") + " --start 60,270 --goal 120,60", "none.tif: not found"},
       {folder_.file("cut.tif") + " --start 60,270 --goal 120,60", "cut.tif: "},
-      {folder_.file("nowhere.tif") + " --start 60,270 --goal 120,60", "nowhere.tif: orbital map has no georeference"},
+      {folder_.file("nowhere.tif") + " --start 60,270 --goal 120,60", "nowhere.tif: has no georeference"},
       {kGale + " --start -3,270 --goal 120,60", "--start -3,270: lies outside of the map"},
       {kGale + " --start 60,270 --goal 400,60", "--goal 400,60: lies outside of the map"},
       {folder_.file("split.tif") + " --start 100.5,270 --goal 120,60",
@@ -210,16 +226,134 @@ TEST_F(PlanCommand, BadInputEndsWithStatus2AndOneLine) {
       {kGale + " --start 137.4,-4.6 --goal 120,600 --lonlat", "--goal 120,600: no longitude and latitude"},
       {kGale + " --start 60,270 --goal 120,60 --config " + folder_.file("none"), "none/orbital_planner.yaml"},
   };
-  for (const auto& [words, expected] : cases) {
-    const auto [status, line] = execute(words);
-    EXPECT_EQ(status, 2) << words;
-    EXPECT_NE(line.find(expected), std::string::npos) << line;
-    EXPECT_EQ(std::count(line.begin(), line.end(), '\n'), 1) << line;
-  }
+  for (const auto& [words, expected] : cases) refusal(words, expected);
   EXPECT_EQ(execute(kGale).first, 2);
   const auto [status, errors] = execute(kGale + " --start 60,270 --goal 120,60");
   EXPECT_EQ(status, 0) << errors;
   EXPECT_EQ(errors, "");
+}
+
+// A map of hills whose western 50 m are void, as each of the files has them.
+struct VoidCase {
+  const char* name;
+  GDALDataType type;
+  double scale;
+  double value;  // of the void, in the file
+  std::optional<double> no_data;
+};
+
+TEST_F(PlanCommand, APathOverVoidGroundIsNeverPlanned) {
+  const VoidCase cases[] = {
+      {"no-data as float64, voids as float32", GDT_Float32, 1.0, -3.4028234663852886e38, -3.4028234663852886e38},
+      {"no-data -3.4e38 in decimal", GDT_Float32, 1.0, -3.4028234663852886e38, -3.4e38},
+      {"no-data -32768 beside voids that a scale of 0.1 made -3276.8", GDT_Float32, 1.0, -3276.8, -32768.0},
+      {"the float maximum of ENVI, undeclared", GDT_Float32, 1.0, std::numeric_limits<float>::max(), std::nullopt},
+      {"integers with a scale, -32768 undeclared", GDT_Int16, 0.1, -32768.0, std::nullopt},
+      {"-32768, undeclared", GDT_Float32, 1.0, -32768.0, std::nullopt},
+      {"-9999, undeclared", GDT_Float32, 1.0, -9999.0, std::nullopt},
+      {"0 beside thousands of metres, undeclared (as mosaics are filled, dea-intertidal#159)", GDT_Float32, 1.0, 0.0,
+       std::nullopt}};
+  for (const VoidCase& c : cases) {
+    testing_support::MapFile map;
+    map.reference = testing_support::mars_plane();
+    map.transform = {1000.0, 1.0, 0.0, 5000.0, 0.0, -1.0};
+    map.width = 200, map.height = 100;
+    map.type = c.type, map.scale = c.scale, map.no_data = c.no_data;
+    testing_support::write(folder_.file("west.tif"), map, [&](int x, int y) {
+      return x < 50 ? c.value : (2000.0 + 0.03 * x + 2.0 * std::sin(y / 20.0)) / c.scale;
+    });
+    const std::string line =
+        refusal("west.tif --start 20,50 --goal 170,50", "--start 20,50: lies where the map has no data");
+    EXPECT_EQ(execute("west.tif --start 70,50 --goal 170,50").first, 0) << c.name;
+    std::filesystem::remove_all(folder_.file("out"));
+    wild_row("voids", c.name, "`plan` gave a 150 m EFFICIENT path over nothing, exit status 0", line);
+  }
+}
+
+TEST_F(PlanCommand, APlanHasSomewhereToGo) {
+  const std::pair<std::string, std::string> cases[] = {
+      {"--start 60,270 --goal 60,270", "start = goal"},
+      {"--start 60,270 --goal 60.3,270.2", "goal within its tolerance of the start"},
+      {"--start 60,270 --via 60,270 --goal 120,60", "two equal neighbours"},
+      {"--start 60,270 --via 90,200 --via 90.1,200 --goal 120,60", "two via places side by side"}};
+  for (const auto& [words, name] : cases)
+    wild_row("goal", "plan: " + name, "a path of 0.0 m and exit status 0, which `run` refused",
+             refusal(kGale + " " + words, "m from --"));
+  // There and back is a drive.
+  EXPECT_EQ(execute(kGale + " --start 60,270 --via 90,268 --goal 60,270").first, 0);
+}
+
+TEST_F(PlanCommand, WhatIsPlannedIsAcceptedByRun) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> x(5.0, 340.0), y(5.0, 330.0);
+  int planned = 0;
+  for (int i = 0; i < 25; ++i) {
+    Arguments made = arguments(fmt::format("{:.2f},{:.2f}", x(random), y(random)),
+                               fmt::format("{:.2f},{:.2f}", x(random), y(random)));
+    made.out = folder_.file(std::to_string(i));
+    try {
+      run(made);
+    } catch (const ConfigError&) {  // not clear, or not to be reached
+      continue;
+    }
+    ++planned;
+    EXPECT_GE(written_path(std::to_string(i)).x_m.size(), 2u);
+  }
+  EXPECT_GT(planned, 5);
+}
+
+TEST_F(PlanCommand, ResultsNeverReplaceAnything) {
+  std::filesystem::create_directory(folder_.file("X"));
+  const std::string before = "overwrote its own input";
+  for (const char* name : {"terrain.tif", "map.tif"}) {
+    const std::string input = folder_.file(std::string("X/") + name);
+    std::filesystem::copy_file(kGale, input);
+    std::filesystem::create_directory_symlink("X", folder_.file("link"));
+    for (const char* out : {"X", "X/", "./X/../X", "link"}) {
+      const std::string line = refusal("X/" + std::string(name) + " --start 60,270 --goal 120,60", "not empty", out);
+      EXPECT_EQ(text_of(input), text_of(kGale));
+      wild_row("output", "plan X/" + std::string(name) + " --out " + out, before, line);
+    }
+    std::filesystem::remove(input);
+    std::filesystem::remove(folder_.file("link"));
+  }
+}
+
+TEST_F(PlanCommand, PathsAreTheUsersAndViaLeavesTheMapAlone) {
+  std::filesystem::copy_file(kGale, folder_.file("g.tif"));
+  const std::string line =
+      execute("--start 60,270 --goal 120,60 --via 96,262 --via 118,255 g.tif --config " + kSource + "/config/").second;
+  EXPECT_EQ(line, "");
+  EXPECT_TRUE(std::filesystem::exists(folder_.file("out/path.yaml")));
+  wild_row("paths", "plan --via 96,262 g.tif --out out, from the user's folder",
+           "g.tif: not found; results in the checkout", "planned; the results are in the user's folder");
+}
+
+TEST_F(PlanCommand, AMapOnNoPlanetIsPlannedInMetres) {
+  write_geotiff(folder_.file("plane.tif"), plane_raster(60.0, 40.0, 1.0, 0.05, 0.0));
+  refusal("plane.tif --lonlat --start 1,1 --goal 2,2", "plane.tif lies on no planet");
+  ASSERT_EQ(execute("plane.tif --start 10,20 --goal 50,20").first, 0);
+  const nlohmann::json geojson = nlohmann::json::parse(text_of(folder_.file("out/path.geojson")));
+  const auto& coordinates = geojson["features"][0]["geometry"]["coordinates"];
+  EXPECT_EQ(coordinates[0][0], 10.0);
+  EXPECT_EQ(coordinates[0][1], 20.0);
+}
+
+TEST_F(PlanCommand, AReprojectedMapIsGivenToTheRoverWithThePath) {
+  const double degree = 180.0 / (3.141592653589793 * testing_support::kMarsRadiusM);
+  testing_support::MapFile map;
+  map.reference = testing_support::kMars;
+  map.transform = {137.0, 2.0 * degree, 0.0, 30.0, 0.0, -2.0 * degree};
+  map.width = 100, map.height = 80;
+  testing_support::write(folder_.file("degrees.tif"), map, [](int x, int y) { return 0.05 * x + std::sin(y / 9.0); });
+  ASSERT_EQ(execute("degrees.tif --start 20,40 --goal 130,100").first, 0);
+  EXPECT_NE(text_of(folder_.file("stdout")).find("degrees.tif: reprojected to metres"), std::string::npos);
+  const ElevationMap given = read_elevation_map(folder_.file("out/map.tif"));
+  EXPECT_FALSE(given.converted);
+  EXPECT_EQ(given.raster.z_m, read_elevation_map(folder_.file("degrees.tif")).raster.z_m);
+  // `run` takes either, in the same frame.
+  const PlannedPath path = written_path("out", folder_.file("out/map.tif"));
+  EXPECT_EQ(written_path("out", folder_.file("degrees.tif")).x_m, path.x_m);
 }
 
 TEST_F(PlanCommand, AWrongConfigurationIsNamed) {
@@ -231,6 +365,7 @@ TEST_F(PlanCommand, AWrongConfigurationIsNamed) {
     std::ofstream(folder_.file("orbital_planner.yaml")) << text.replace(at, from.size(), to);
     Arguments wrong = arguments();
     wrong.config_dir = folder_.path();
+    wrong.out = folder_.file(std::to_string(std::hash<std::string>{}(to)));
     try {
       run(wrong);
     } catch (const ConfigError& error) {

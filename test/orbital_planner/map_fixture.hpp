@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "rover_simulator/world/elevation_raster.hpp"
+#include "common/geo/elevation_raster.hpp"
 
 namespace rover::orbital {
 

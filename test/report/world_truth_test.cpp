@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "rover_simulator/world/geotiff_writer.hpp"
+#include "common/geo/geotiff_writer.hpp"
 
 namespace rover::report {
 namespace {

@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "common/bus/config.hpp"
-#include "rover_simulator/world/dtm_reader.hpp"
+#include "common/geo/elevation_map.hpp"
 #include "rover_simulator/world/scenario.hpp"
 
 namespace rover {

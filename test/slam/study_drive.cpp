@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "rover_simulator/world/dtm_reader.hpp"
+#include "common/geo/elevation_map.hpp"
 #include "rover_simulator/world/world.hpp"
 
 namespace rover::slam::study {
@@ -79,7 +79,7 @@ std::vector<Station> simulated_drive(const DriveConfig& config, const std::strin
   WorldConfig world_config;
   world_config.rocks.k = config.flat ? 0.0 : config.rock_k;
   if (config.flat) world_config.roughness.rms_m = 0.0;
-  const ElevationRaster dtm = config.flat ? plane_raster(348, 337, 1.0, 0.0, 0.0) : read_elevation(dtm_file);
+  const ElevationRaster dtm = config.flat ? plane_raster(348, 337, 1.0, 0.0, 0.0) : read_elevation_map(dtm_file).raster;
   const World world(world_config, dtm, config.seed);
   Random random(config.seed);
   const std::vector<Pose2> track = track_of(config, world, random);

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "rover_simulator/world/dtm_reader.hpp"
+#include "common/geo/elevation_map.hpp"
 #include "rover_simulator/world/world.hpp"
 #include "slam/slam.hpp"
 #include "test/slam/study_drive.hpp"
@@ -110,7 +110,7 @@ void drive(double k, std::uint64_t seed, double length_m, const TraversabilityCo
   const auto stations = slam::study::simulated_drive({.length_m = length_m, .rock_k = k, .seed = seed}, kDtm);
   WorldConfig world_config;
   world_config.rocks.k = k;
-  const World world(world_config, read_elevation(kDtm), seed);
+  const World world(world_config, read_elevation_map(kDtm).raster, seed);
   slam::Slam slam{slam::SlamConfig{}};
   for (std::size_t i = 0; i < stations.size(); ++i) {
     slam.step(stations[i].cloud, {stations[i].T_map_body, 0.0, 0.0});

@@ -5,14 +5,15 @@
 #include <filesystem>
 
 #include "common/bus/config.hpp"
-#include "rover_simulator/world/dtm_reader.hpp"
+#include "common/core/path_limits.hpp"
+#include "common/geo/elevation_map.hpp"
 
 namespace rover {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr Range kMap{-1e5, 1e5};
+constexpr Range kMap{-1e7, 1e7};
 constexpr double kSamePointM = 1e-3;
 constexpr double kGoalClearRadiusM = 1.0;
 constexpr double kClearHeightM = 0.12;  // a little less than a hazard: what may stand in a certified circle
@@ -70,7 +71,10 @@ void read_world(const Config& world, const std::string& file, Scenario& scenario
     scenario.dtm = read_plane(world.section("plane"));
   } else {
     scenario.dtm_file = find_dtm(world, file);
-    scenario.dtm = read_elevation(scenario.dtm_file);
+    ElevationMap map = read_elevation_map(scenario.dtm_file);
+    demand_no_voids(map.raster, scenario.dtm_file);
+    scenario.dtm = std::move(map.raster);
+    scenario.dtm_notes = std::move(map.notes);
   }
   world.read("rock_area_k", scenario.world.rocks.k, {0, 0.4});
   if (world.has("rock_zones")) scenario.world.rocks.zones = read_rock_zones(world);
@@ -103,6 +107,8 @@ PlannedPath read_path(const Config& config, const ElevationRaster& dtm) {
     if (i > 0 && std::hypot(path.x_m[i] - path.x_m[i - 1], path.y_m[i] - path.y_m[i - 1]) < kSamePointM)
       config.fail("x_m", "points " + std::to_string(i) + " and " + std::to_string(i + 1) + " are the same");
   }
+  if (const std::string problem = path_length_problem(path_length_m(path.x_m, path.y_m)); !problem.empty())
+    config.fail("x_m", problem);
   config.read("corridor_half_width_m", path.corridor_half_width_m, {0.5, 20});
   config.read("goal_tolerance_m", path.goal_tolerance_m, {0.05, 5});
   return path;
@@ -136,10 +142,7 @@ Pose2 Scenario::start_pose() const {
 }
 
 double Scenario::path_length_m() const {
-  double length = 0.0;
-  for (size_t i = 1; i < path.x_m.size(); ++i)
-    length += std::hypot(path.x_m[i] - path.x_m[i - 1], path.y_m[i] - path.y_m[i - 1]);
-  return length;
+  return rover::path_length_m(path.x_m, path.y_m);
 }
 
 Scenario load_scenario(const std::string& file) {

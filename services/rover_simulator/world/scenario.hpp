@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/core/frames.hpp"
-#include "rover_simulator/world/elevation_raster.hpp"
+#include "common/geo/elevation_raster.hpp"
 #include "rover_simulator/world/scenario_faults.hpp"
 #include "rover_simulator/world/world.hpp"
 
@@ -33,6 +33,7 @@ struct Scenario {
   std::string name;      // of the file, without folder and ending
   std::string dtm_file;  // as found; empty: a synthetic plane
   ElevationRaster dtm;
+  std::vector<std::string> dtm_notes;  // for the user: what was converted, what was taken for void
   std::uint64_t seed = 1;  // of everything random in the run, unless the command gives another
   WorldConfig world;       // keep-clear circles of start and goal included
   double orbital_resolution_m = 1.0;

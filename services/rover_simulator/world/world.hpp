@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "rover_simulator/world/elevation_raster.hpp"
+#include "common/geo/elevation_raster.hpp"
 #include "rover_simulator/world/rocks.hpp"
 #include "rover_simulator/world/soil.hpp"
 #include "rover_simulator/world/surface.hpp"

@@ -1,4 +1,4 @@
-#include "rover_simulator/world/elevation_raster.hpp"
+#include "common/geo/elevation_raster.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,11 +3,11 @@
 
 #include <string>
 
-#include "rover_simulator/world/elevation_raster.hpp"
+#include "common/geo/elevation_raster.hpp"
 
 namespace rover {
 
-// Throws DtmError (dtm_reader.hpp) where the file cannot be written.
+// NaN is its no-data value. Throws DtmError (elevation_map.hpp) where the file cannot be written.
 void write_geotiff(const std::string& file, const ElevationRaster& raster);
 
 }  // namespace rover

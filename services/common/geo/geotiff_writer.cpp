@@ -1,9 +1,10 @@
-#include "rover_simulator/world/geotiff_writer.hpp"
+#include "common/geo/geotiff_writer.hpp"
 
+#include <limits>
 #include <memory>
 
-#include "rover_simulator/world/dtm_reader.hpp"
-#include "rover_simulator/world/gdal_session.hpp"
+#include "common/geo/elevation_map.hpp"
+#include "common/geo/gdal_session.hpp"
 
 namespace rover {
 
@@ -18,6 +19,7 @@ void write_geotiff(const std::string& file, const ElevationRaster& raster) {
                          0.0,           -raster.resolution_m};
   dataset->SetGeoTransform(transform);
   dataset->SetProjection(raster.projection_wkt.c_str());
+  dataset->GetRasterBand(1)->SetNoDataValue(std::numeric_limits<double>::quiet_NaN());
   // GDAL's lines run from the north. It does not write through the pointer.
   auto* last_row = const_cast<float*>(raster.z_m.data()) + static_cast<size_t>(raster.height - 1) * raster.width;
   const CPLErr error = dataset->GetRasterBand(1)->RasterIO(

@@ -1,0 +1,161 @@
+#include "common/geo/elevation_map.hpp"
+
+#include <fmt/format.h>
+#include <gdal_utils.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include "common/geo/gdal_session.hpp"
+#include "common/geo/height_band.hpp"
+#include "common/geo/placement.hpp"
+#include "common/geo/undeclared_voids.hpp"
+
+namespace rover {
+namespace {
+
+using Dataset = std::unique_ptr<GDALDataset>;
+
+constexpr std::int64_t kMostPixels = 40'000'000;  // planning takes about 60 bytes for each
+
+Dataset open_map(const std::string& file, const GdalSession& gdal) {
+  if (!std::filesystem::is_regular_file(file)) throw DtmError(file + ": not found");
+  Dataset dataset(GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
+  if (!dataset) throw DtmError(file + ": not a readable map" + gdal.last_error());
+  if (dataset->GetRasterCount() < 1)
+    throw DtmError(file + ": holds no map, or several; gdalinfo names them, gdal_translate takes one out");
+  return dataset;
+}
+
+void check_size(std::int64_t width, std::int64_t height, const std::string& size, const std::string& file) {
+  if (width * height > kMostPixels)
+    throw DtmError(
+        fmt::format("{}: too large ({}); cut out a part of up to {} million pixels (gdal_translate -projwin)", file,
+                    size, kMostPixels / 1'000'000));
+}
+
+void remove_voids(const Placement& placement, const std::string& file, ElevationMap& map) {
+  const UndeclaredVoids found = remove_undeclared_voids(map.raster, placement.pixel_m());
+  if (!found.problem.empty()) throw DtmError(file + ": " + found.problem);
+  for (const auto& plateau : found.plateaus)
+    map.notes.push_back(
+        fmt::format("{}: {} pixels of exactly {} m are taken as no data (undeclared; say so by "
+                    "gdal_edit.py -a_nodata)",
+                    file, plateau.pixels, plateau.height_m));
+  if (found.rests > 0)
+    map.notes.push_back(
+        fmt::format("{}: {} pixels behind steps that no terrain has are taken as no data", file, found.rests));
+  if (std::none_of(map.raster.z_m.begin(), map.raster.z_m.end(), [](float z) { return std::isfinite(z); }))
+    throw DtmError(file + ": has no heights, all of its pixels are no data");
+}
+
+void place(const TargetGrid& grid, ElevationRaster& raster) {
+  raster.west_m = grid.west_m;
+  raster.south_m = grid.south_m;
+  raster.resolution_m = grid.resolution_m;
+  raster.projection_wkt = grid.wkt;
+}
+
+// GDAL's view of the heights. Rows run from the last line, so lines are counted from there.
+Dataset in_memory(GDALDataset& file, ElevationRaster& raster) {
+  Dataset dataset(
+      GetGDALDriverManager()->GetDriverByName("MEM")->Create("", raster.width, raster.height, 0, GDT_Float32, nullptr));
+  char pointer[64] = {};
+  CPLPrintPointer(pointer, raster.z_m.data(), sizeof pointer - 1);
+  CPLStringList options;
+  options.SetNameValue("DATAPOINTER", pointer);
+  double t[6] = {};
+  file.GetGeoTransform(t);
+  double turned[6] = {t[0] + t[2] * raster.height, t[1], -t[2], t[3] + t[5] * raster.height, t[4], -t[5]};
+  if (!dataset || dataset->AddBand(GDT_Float32, options.List()) != CE_None) return nullptr;
+  dataset->SetGeoTransform(turned);
+  OGRSpatialReference flat = *file.GetSpatialRef();
+  flat.StripVertical();
+  dataset->SetSpatialRef(&flat);
+  dataset->GetRasterBand(1)->SetNoDataValue(std::numeric_limits<double>::quiet_NaN());
+  return dataset;
+}
+
+Dataset warped(GDALDataset& source, const TargetGrid& grid) {
+  const auto text = [](double value) { return fmt::format("{}", value); };
+  const double east_m = grid.west_m + grid.resolution_m * static_cast<double>(grid.width);
+  const double north_m = grid.south_m + grid.resolution_m * static_cast<double>(grid.height);
+  const std::vector<std::string> words = {
+      "-of", "MEM", "-t_srs", grid.wkt, "-r", "bilinear", "-ot", "Float32", "-dstnodata", "nan",
+      // Places to a hundredth of a pixel; one thread, for the same bytes each time.
+      "-et", "0.01", "-wo", "NUM_THREADS=1", "-te", text(grid.west_m), text(grid.south_m), text(east_m), text(north_m),
+      "-ts", std::to_string(grid.width), std::to_string(grid.height)};
+  CPLStringList list;
+  for (const std::string& word : words) list.AddString(word.c_str());
+  GDALWarpAppOptions* options = GDALWarpAppOptionsNew(list.List(), nullptr);
+  GDALDatasetH sources[1] = {&source};
+  int misused = 0;
+  Dataset result(static_cast<GDALDataset*>(GDALWarp("", nullptr, 1, sources, options, &misused)));
+  GDALWarpAppOptionsFree(options);
+  return result;
+}
+
+ElevationRaster reprojected(GDALDataset& file, ElevationRaster raster, const TargetGrid& grid,
+                            const std::string& name) {
+  const GdalSession gdal;
+  const Dataset source = in_memory(file, raster);
+  const Dataset target = source ? warped(*source, grid) : nullptr;
+  if (!target || gdal.failed()) throw DtmError(name + ": cannot be reprojected to metres" + gdal.last_error());
+  ElevationRaster result = HeightBand(*target, name).read();
+  place(grid, result);
+  return result;
+}
+
+ElevationMap read(const std::string& file) {
+  const GdalSession gdal;
+  const Dataset dataset = open_map(file, gdal);
+  const Placement placement(*dataset, file);
+  const HeightBand band(*dataset, file);
+  const bool metric = placement.is_metric();
+  check_size(dataset->GetRasterXSize(), dataset->GetRasterYSize(), placement.size(), file);
+  const TargetGrid grid = metric ? placement.own_grid() : placement.plane_grid();
+  check_size(grid.width, grid.height,
+             placement.size() + ", reprojected " + std::to_string(grid.width) + " x " + std::to_string(grid.height),
+             file);
+  ElevationMap map;
+  map.raster = band.read();
+  remove_voids(placement, file, map);
+  map.converted = !metric || !band.is_metres();
+  if (metric)
+    place(grid, map.raster);
+  else
+    map.raster = reprojected(*dataset, std::move(map.raster), grid, file);
+  if (!metric)
+    map.notes.push_back(fmt::format("{}: reprojected to metres, north up, {:.4g} m a pixel", file, grid.resolution_m));
+  return map;
+}
+
+}  // namespace
+
+ElevationMap read_elevation_map(const std::string& file) {
+  try {
+    return read(file);
+  } catch (const std::bad_alloc&) {
+    throw DtmError(file + ": too large for the memory; cut out a part (gdal_translate -projwin)");
+  }
+}
+
+void demand_no_voids(const ElevationRaster& raster, const std::string& file) {
+  std::int64_t voids = 0;
+  size_t first = 0;
+  for (size_t i = 0; i < raster.z_m.size(); ++i)
+    if (!std::isfinite(raster.z_m[i]) && voids++ == 0) first = i;
+  if (voids == 0) return;
+  const auto width = static_cast<size_t>(raster.width);
+  const auto centre = [&](size_t cell) { return (static_cast<double>(cell) + 0.5) * raster.resolution_m; };
+  throw DtmError(
+      fmt::format("{}: {} of its {} heights are no data, the first at x {:.1f}, y {:.1f} m; cut out a part "
+                  "without (gdal_translate -projwin) or fill them (gdal_fillnodata.py)",
+                  file, voids, raster.z_m.size(), centre(first % width), centre(first / width)));
+}
+
+}  // namespace rover
