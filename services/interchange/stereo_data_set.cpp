@@ -49,18 +49,22 @@ std::string counts(const StereoDataSet& set) {
   return text;
 }
 
+StereoDataSet read_layout(const fs::path& root, const std::string& poses, double rate_hz) {
+  try {
+    if (fs::exists(root / "calib.txt")) return read_kitti(root.string(), poses, rate_hz);
+    if (fs::exists(root / "mav0") || fs::exists(root / "cam0")) return read_euroc(root.string());
+  } catch (const fs::filesystem_error& failure) {  // a name that is too long, a folder that may not be read
+    throw ConfigError(failure.path1().string() + ": " + failure.code().message());
+  }
+  fail_unknown(root);
+}
+
 }  // namespace
 
 StereoDataSet read_stereo_data_set(const std::string& dir, const std::string& poses, double rate_hz) {
   const fs::path root(dir);
   if (!fs::is_directory(root)) throw ConfigError(dir + ": no such folder");
-  StereoDataSet set;
-  if (fs::exists(root / "calib.txt"))
-    set = read_kitti(dir, poses, rate_hz);
-  else if (fs::exists(root / "mav0") || fs::exists(root / "cam0"))
-    set = read_euroc(dir);
-  else
-    fail_unknown(root);
+  StereoDataSet set = read_layout(root, poses, rate_hz);
   begin_at_truth(set);
   if (set.pairs.size() < 2)
     throw ConfigError(dir + ": no sequence of stereo pairs: " + std::to_string(set.pairs.size()) +
