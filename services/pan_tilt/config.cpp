@@ -42,12 +42,12 @@ NodeConfig load_config(const std::string& config_dir) {
   const Config yaml = Config::load(config_dir + "/pan_tilt.yaml");
   yaml.read("max_state_age_s", config.max_state_age_s, {0.2, 10.0});
   yaml.read("max_pose_age_s", config.core.max_pose_age_s, {0.05, 10.0});
-  yaml.read("image_way_m", config.core.image_way_m, {0.05, 10.0});
+  yaml.read("image_way_m", config.core.image_distance_m, {0.05, 10.0});
   yaml.read_deg("image_turn_deg", config.core.image_turn_rad, {1.0, 180.0});
   yaml.read_deg("glance_deg", config.core.glance_rad, {0.0, 120.0});
   yaml.read("stuck_s", config.core.stuck_s, {0.0, 100.0});
   yaml.read("dwell_s", config.core.dwell_s, {0.02, 5.0});
-  yaml.read("arrival_slack_s", config.core.arrival_slack_s, {0.1, 60.0});
+  yaml.read("arrival_slack_s", config.core.arrival_margin_s, {0.1, 60.0});
   yaml.read_deg("arrival_deg", config.core.arrival_rad, {0.01, 10.0});
   read_ahead(yaml.section("ahead"), config.core.ahead);
   read_sweep(yaml.section("sweep"), config.core.sweep);

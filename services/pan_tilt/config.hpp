@@ -1,4 +1,4 @@
-// config/pan_tilt.yaml, with the unit of vehicle.yaml and the NavCam of cameras.yaml.
+// Reads config/pan_tilt.yaml, the unit in vehicle.yaml and the NavCam in cameras.yaml.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ struct NodeConfig {
   PanTiltConfig core;
   PanTiltUnit unit;
   CameraMount mount;
-  double max_state_age_s = 1.0;  // of the supervisor's
+  double max_state_age_s = 1.0;  // of the supervisor's STATE; older: idle
 };
 
 NodeConfig load_config(const std::string& config_dir);

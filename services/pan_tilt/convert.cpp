@@ -8,7 +8,7 @@ namespace rover::gaze {
 
 std::optional<Path> path_from(const path_t& message) {
   if (message.frame != path_t::ODOM || message.point_count < 2) return std::nullopt;
-  // On the way back there is nothing to look for ahead of the retreat: the camera does not turn so far.
+  // Backing up runs over known ground, and the camera cannot turn that far.
   if (message.kind == path_t::RETREAT) return Path{};
   Path path;
   for (size_t i = 0; i < message.x_m.size(); ++i) {

@@ -1,4 +1,4 @@
-// Between the messages and the core.
+// Conversion between messages and core types.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace rover::gaze {
 
-// Empty where the message is of no use.
+// Empty if the message is invalid.
 std::optional<Path> path_from(const path_t& message);
 std::optional<RoverPose> pose_from(const pose_t& message);
 std::optional<UnitState> unit_from(const ptu_state_t& message);

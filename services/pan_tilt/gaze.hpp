@@ -1,4 +1,4 @@
-// Where the NavCam looks.
+// Viewing direction of the NavCam.
 #pragma once
 
 #include <Eigen/Dense>
@@ -6,7 +6,7 @@
 
 namespace rover::gaze {
 
-// Angles of the unit: pan positive to the left, tilt positive down.
+// Pan-tilt angles: pan positive to the left, tilt positive down.
 struct Gaze {
   double pan_rad = 0.0;
   double tilt_rad = 0.0;

@@ -1,4 +1,4 @@
-// The bus side of the pan-tilt unit: PTU_COMMAND with a picture, whenever one is due at the Full level.
+// Bus node: PTU_COMMAND with an image request whenever a view is due at the Full level.
 #pragma once
 
 #include <memory>
@@ -17,14 +17,14 @@ class PanTiltNode {
 
  private:
   void step(Utime now);
-  void report();
+  void report_status();
 
   Node& node_;
   NodeConfig config_;
   PanTilt core_;
   Task task_ = Task::kIdle;
-  Task reported_ = Task::kIdle;
-  bool unit_fails_ = false;
+  Task reported_task_ = Task::kIdle;
+  bool unit_timed_out_ = false;
 };
 
 std::shared_ptr<PanTiltNode> make_pan_tilt(Node& node, const std::string& config_dir);

@@ -1,4 +1,4 @@
-// Directs the NavCam: along the path while the rover drives, all round while it sweeps. Of the Full level alone.
+// Gaze control of the NavCam at the Full level: along the path while driving, all round in a sweep.
 #pragma once
 
 #include <optional>
@@ -13,21 +13,21 @@ namespace rover::gaze {
 struct PanTiltConfig {
   LookAheadConfig ahead;
   SweepConfig sweep;
-  double image_way_m = 0.5;              // an image each so much of way,
-  double image_turn_rad = to_rad(12.0);  // or of turn of the rover, or of the view
-  double glance_rad = to_rad(40.0);      // of every second image along the way, to either side in turns; 0: none
-  double stuck_s = 3.0;                  // without a way on for so long: one sweep
-  double dwell_s = 0.2;                  // from standing there to the picture's end
-  double arrival_slack_s = 2.0;          // beyond the time that the way takes: the unit does not come
+  double image_distance_m = 0.5;         // distance between images ahead,
+  double image_turn_rad = to_rad(12.0);  // or turn of the rover or of the view
+  double glance_rad = to_rad(40.0);      // of every second image ahead, alternating sides; 0: none
+  double stuck_s = 3.0;                  // stuck for so long: one sweep
+  double dwell_s = 0.2;                  // from arrival to the end of the exposure
+  double arrival_margin_s = 2.0;         // beyond the longest move: unit timed out
   double arrival_rad = to_rad(1.0);
   double max_pose_age_s = 0.3;
 };
 
 enum class Task {
-  kIdle,   // not the Full level
-  kAhead,  // looks where the rover goes
-  kSweep,  // again and again
-  kStuck   // stands before hazards: ahead, after a while one sweep, then ahead again
+  kIdle,   // Efficient level
+  kAhead,  // looks along the path
+  kSweep,  // repeated sweeps
+  kStuck   // stopped by hazards: as kAhead, with one sweep after stuck_s
 };
 
 struct RoverPose {
@@ -46,15 +46,15 @@ class PanTilt {
  public:
   PanTilt(const PanTiltConfig& config, const PanTiltUnit& unit, const CameraMount& mount);
 
-  void take_path(Path path) { path_ = std::move(path); }  // empty: none to look along
-  void take_pose(const RoverPose& pose) { pose_ = pose; }
-  void take_unit(const UnitState& unit) { unit_state_ = unit; }
+  void set_path(Path path) { path_ = std::move(path); }  // empty: looks straight ahead
+  void set_pose(const RoverPose& pose) { pose_ = pose; }
+  void set_unit_state(const UnitState& unit) { unit_state_ = unit; }
 
-  // Where to look and make a picture next, when it is time.
+  // The next view to take an image of, if one is due.
   std::optional<Gaze> step(Utime now, Task task);
 
-  // The unit did not come where it was last told.
-  bool unit_fails() const { return unit_fails_; }
+  // The unit did not reach its last target in time.
+  bool unit_timed_out() const { return unit_timed_out_; }
 
  private:
   struct Pending {
@@ -62,14 +62,14 @@ class PanTilt {
     Utime since;
     Utime arrived = kNever;
   };
-  void begin(Utime now, Task task);
-  bool picture_pending(Utime now);
+  void start_task(Utime now, Task task);
+  bool image_pending(Utime now);
   double longest_move_s() const;
   std::optional<Gaze> next_view(Utime now);
-  std::optional<Gaze> sweep_on();
-  std::optional<Gaze> ahead(Utime now);
-  bool went_on() const;
-  bool turned_on(double heading_rad) const;
+  std::optional<Gaze> next_sweep_view();
+  std::optional<Gaze> look_ahead_view(Utime now);
+  bool moved_enough() const;
+  bool turned_enough(double heading_rad) const;
   double glance_rad() const;
 
   PanTiltConfig config_;
@@ -83,10 +83,10 @@ class PanTilt {
   Utime task_since_ = kNever;
   size_t sweep_next_ = 0;
   std::optional<Pending> pending_;
-  std::optional<RoverPose> last_image_;  // where the last one along the way was made
-  double last_heading_rad_ = 0.0;        // of its view, in odom
-  int images_of_way_ = 0;                // since the last one that a turn asked for
-  bool unit_fails_ = false;
+  std::optional<RoverPose> last_image_;  // pose of the last image ahead
+  double last_view_heading_rad_ = 0.0;   // heading of its view in odom
+  int images_since_turn_ = 0;            // images ahead since the last one due to a turn
+  bool unit_timed_out_ = false;
 };
 
 }  // namespace rover::gaze

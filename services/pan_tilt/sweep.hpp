@@ -1,4 +1,4 @@
-// The views of a sweep, in an order that shows what is ahead first and turns little.
+// Views of a sweep, ordered to start ahead and to keep moves short.
 #pragma once
 
 #include "common/core/frames.hpp"
@@ -12,8 +12,7 @@ struct SweepConfig {
   std::vector<double> tilts_rad = {0.0, to_rad(24.0)};
 };
 
-// Ahead, then step by step to the right, back over the middle, and to the left; each with every tilt, in turns from the
-// first and from the last.
+// Pan 0, then in steps to the right, then to the left; all tilts at each pan, in alternating order.
 std::vector<Gaze> sweep_views(const SweepConfig& config);
 
 }  // namespace rover::gaze

@@ -1,4 +1,4 @@
-// pan_tilt, the simulator's NavCam and point_cloud together on a bus in memory, in lockstep: a sweep, then a drive.
+// pan_tilt, the simulator's NavCam and point_cloud on an in-memory bus, in lockstep: a sweep, then a drive.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -21,14 +21,13 @@ const std::string kConfig = std::string(ROVER_SOURCE_DIR) + "/config";
 constexpr double kSweepS = 17.0;
 constexpr double kDriveS = 6.0;
 
-// Stands in for supervisor, localization, planner and locomotion: sweeps, then drives straight ahead. It knows the
-// truth.
+// Replaces supervisor, localization (true pose), planner and locomotion: sweeps, then drives straight ahead.
 class Driver {
  public:
   explicit Driver(lcm::LCM& bus) : bus_(bus) {
     bus_.subscribe(channel::kTruth, &Driver::on_truth, this);
     bus_.subscribe(channel::kTick, &Driver::on_tick, this);
-    say_done(kNever);
+    send_done(kNever);
   }
   const std::map<Utime, Eigen::Isometry3d>& poses() const { return poses_; }
 
@@ -54,14 +53,14 @@ class Driver {
     command.valid_until_utime = t + 10 * kTickUs;
     for (double& rate : command.drive_rate_radps) rate = sweeps ? 0.0 : 1.6;
     send(channel::kWheelCommand, command, t);
-    say_done(t);
+    send_done(t);
   }
   template <class Message>
   void send(const char* channel, Message& message, Utime t) {
     message.header = streams_.next(channel, t, t + kTickUs);
     bus_.publish(channel, &message);
   }
-  void say_done(Utime t) {
+  void send_done(Utime t) {
     done_t done{};
     done.tick_utime = t;
     done.promise_utime = kNever;
@@ -99,14 +98,14 @@ struct Recording {
   std::vector<std::string> heartbeat_texts;
 };
 
-WorldConfig rocky() {
+WorldConfig rocky_world_config() {
   WorldConfig config;
   config.rocks.k = 0.1;
   return config;
 }
 
 std::unique_ptr<World> make_world() {
-  return std::make_unique<World>(rocky(), plane_raster(60.0, 60.0, 1.0, to_rad(5.0), 0.0), 1);
+  return std::make_unique<World>(rocky_world_config(), plane_raster(60.0, 60.0, 1.0, to_rad(5.0), 0.0), 1);
 }
 
 Recording drive() {
@@ -159,10 +158,10 @@ class Chain : public testing::Test {
   }
 };
 
-TEST_F(Chain, EachPictureOfASweepAndOfADriveBecomesACloud) {
+TEST_F(Chain, EachImageOfSweepAndDriveBecomesACloud) {
   EXPECT_TRUE(recording().summary.deterministic);
   EXPECT_GE(recording().left.size(), 12u);
-  ASSERT_GE(recording().clouds.size() + 1, recording().left.size());  // the last one may still be in the making
+  ASSERT_GE(recording().clouds.size() + 1, recording().left.size());  // the last one may still be in processing
   for (size_t i = 0; i < recording().clouds.size(); ++i) {
     EXPECT_EQ(recording().clouds[i].header.utime, recording().left[i].header.utime);
     EXPECT_GT(recording().clouds[i].point_count, 500) << i;
@@ -170,11 +169,11 @@ TEST_F(Chain, EachPictureOfASweepAndOfADriveBecomesACloud) {
   for (const std::string& text : recording().heartbeat_texts) EXPECT_EQ(text, "");
 }
 
-TEST_F(Chain, PointsLieOnTheGroundThatTheWorldHas) {
+TEST_F(Chain, PointsMatchTheTrueGround) {
   const auto world = make_world();
   for (const cloud_t& cloud : recording().clouds) {
     const std::vector<Eigen::Vector3d> points = in_map(cloud);
-    std::vector<double> near, far;  // behind edges of rocks some stand beside the ground: hence quantiles
+    std::vector<double> near, far;  // quantiles: some points at rock edges are off the ground
     for (size_t i = 0; i < points.size(); ++i)
       (cloud.z_m[i] < 6.0F ? near : far)
           .push_back(std::abs(points[i].z() - world->height_m(points[i].x(), points[i].y())));
@@ -185,7 +184,7 @@ TEST_F(Chain, PointsLieOnTheGroundThatTheWorldHas) {
   }
 }
 
-TEST_F(Chain, TheSweepShowsTheGroundFromTheWheelsOn) {
+TEST_F(Chain, SweepCoversTheGroundFromTheWheels) {
   const Eigen::Isometry3d T_body_map = recording().poses.begin()->second.inverse();
   std::map<std::pair<int, int>, int> seen;  // by azimuth [10 deg] and distance [0.5 m]
   for (const cloud_t& cloud : recording().clouds) {

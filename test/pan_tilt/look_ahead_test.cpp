@@ -7,22 +7,22 @@
 namespace rover::gaze {
 namespace {
 
-const CameraMount kMount{.height_m = 1.1, .pitch_down_rad = to_rad(17.0), .axes_x_m = 0.4};
+const CameraMount kMount{.height_m = 1.1, .pitch_down_rad = to_rad(17.0), .pan_axis_x_m = 0.4};
 
-TEST(PointAhead, LiesAlongThePathFromItsNearestPoint) {
+TEST(PointAhead, IsMeasuredAlongThePathFromTheNearestPoint) {
   const Path corner = {{0.0, 0.0}, {4.0, 0.0}, {4.0, 10.0}};
-  EXPECT_TRUE(point_ahead(corner, {1.0, 0.3}, 2.0).isApprox(Eigen::Vector2d(3.0, 0.0)));
-  EXPECT_TRUE(point_ahead(corner, {2.0, -0.5}, 4.0).isApprox(Eigen::Vector2d(4.0, 2.0)));
-  EXPECT_TRUE(point_ahead(corner, {3.9, 9.0}, 4.0).isApprox(Eigen::Vector2d(4.0, 10.0)));
+  EXPECT_TRUE(lookahead_point(corner, {1.0, 0.3}, 2.0).isApprox(Eigen::Vector2d(3.0, 0.0)));
+  EXPECT_TRUE(lookahead_point(corner, {2.0, -0.5}, 4.0).isApprox(Eigen::Vector2d(4.0, 2.0)));
+  EXPECT_TRUE(lookahead_point(corner, {3.9, 9.0}, 4.0).isApprox(Eigen::Vector2d(4.0, 10.0)));
   const Path twice = {{1.0, 1.0}, {1.0, 1.0}};
-  EXPECT_TRUE(point_ahead(twice, {0.0, 0.0}, 4.0).isApprox(Eigen::Vector2d(1.0, 1.0)));
+  EXPECT_TRUE(lookahead_point(twice, {0.0, 0.0}, 4.0).isApprox(Eigen::Vector2d(1.0, 1.0)));
 }
 
-TEST(LookAhead, PansIntoTheBendAndNoFartherThanItMay) {
+TEST(LookAhead, PansIntoTheBendUpToThePanLimit) {
   const Path left = {{0.0, 0.0}, {2.0, 0.0}, {2.0, 10.0}};
   const Gaze gaze = look_ahead(left, {0.0, 0.0, 0.0}, kMount, {});
   EXPECT_NEAR(gaze.pan_rad, std::atan2(2.0, 1.6), 1e-9);
-  // The same from a rover that is turned and elsewhere.
+  // Invariant to the rover's pose.
   const Pose2 body{5.0, -3.0, 2.5};
   Path moved;
   for (const Eigen::Vector2d& p : left)
@@ -32,7 +32,7 @@ TEST(LookAhead, PansIntoTheBendAndNoFartherThanItMay) {
   EXPECT_DOUBLE_EQ(look_ahead(back, {0.0, 0.0, 0.0}, kMount, {}).pan_rad, -to_rad(60.0));
 }
 
-TEST(LookAhead, TheGroundToBeSeenLiesInThePicture) {
+TEST(LookAhead, TiltKeepsNearAndFarGroundInTheImage) {
   const Gaze gaze = look_ahead({}, {}, kMount, {});
   EXPECT_EQ(gaze.pan_rad, 0.0);
   constexpr double kHalfView = to_rad(16.3);
@@ -41,11 +41,11 @@ TEST(LookAhead, TheGroundToBeSeenLiesInThePicture) {
   EXPECT_GT(std::atan2(1.1, 8.0), centre - kHalfView);
 }
 
-TEST(Sweep, ShowsTheGroundAllRoundFromNearToFar) {
+TEST(Sweep, CoversAllAzimuthsFromNearToFar) {
   const std::vector<Gaze> views = sweep_views({});
   ASSERT_EQ(views.size(), 10u);
   EXPECT_EQ(views.front().pan_rad, 0.0);
-  // Of the NavCam: half of 43 and 33 deg, 3 deg less where the other camera does not look.
+  // Half of the NavCam's 43 x 33 deg; 3 deg less pan where the views of both cameras do not overlap.
   const auto seen = [&](double azimuth_deg, double distance_m) {
     return std::any_of(views.begin(), views.end(), [&](const Gaze& view) {
       const double down = std::atan2(1.1, distance_m) - kMount.pitch_down_rad - view.tilt_rad;

@@ -73,7 +73,7 @@ class PanTiltNodeTest : public testing::Test {
   double travelled_m_ = 0.0;
 };
 
-TEST_F(PanTiltNodeTest, IsSilentAtTheEfficientLevelAndAsksForImagesAtTheFullOne) {
+TEST_F(PanTiltNodeTest, RequestsImagesOnlyAtTheFullLevel) {
   drive(10.0, supervisor_state_t::EFFICIENT);
   EXPECT_TRUE(commands_.empty());
   drive(10.1, supervisor_state_t::FULL);
@@ -84,7 +84,7 @@ TEST_F(PanTiltNodeTest, IsSilentAtTheEfficientLevelAndAsksForImagesAtTheFullOne)
   EXPECT_EQ(commands_.size(), before);
 }
 
-TEST_F(PanTiltNodeTest, LooksIntoThePathsBendButNotBackwards) {
+TEST_F(PanTiltNodeTest, LooksIntoBendButStraightAheadWhileBackingUp) {
   send_path({0.0, 2.0, 2.0}, {0.0, 0.0, 10.0});
   drive(0.2, supervisor_state_t::FULL);
   ASSERT_EQ(commands_.size(), 1u);
@@ -95,9 +95,9 @@ TEST_F(PanTiltNodeTest, LooksIntoThePathsBendButNotBackwards) {
   EXPECT_EQ(commands_[1].pan_rad, 0.0);
 }
 
-TEST_F(PanTiltNodeTest, SweepsInSweepingAndOnceBeforeHazards) {
+TEST_F(PanTiltNodeTest, SweepsInSweepingAndOnceWhenStoppedByHazards) {
   drive(6.0, supervisor_state_t::FULL, supervisor_state_t::SWEEPING);
-  EXPECT_GE(commands_.size(), 10u);  // this unit is there at once
+  EXPECT_GE(commands_.size(), 10u);  // this unit arrives at once
   drive(1.0, supervisor_state_t::FULL);
   commands_.clear();
   drive(2.4, supervisor_state_t::FULL, supervisor_state_t::HAZARD_STOP);
@@ -106,7 +106,7 @@ TEST_F(PanTiltNodeTest, SweepsInSweepingAndOnceBeforeHazards) {
   EXPECT_GE(commands_.size(), 10u);
 }
 
-TEST_F(PanTiltNodeTest, WithoutTheSupervisorItIdles) {
+TEST_F(PanTiltNodeTest, IdlesWithoutSupervisorState) {
   drive(1.0, supervisor_state_t::FULL);
   commands_.clear();
   for (int i = 0; i < 500; ++i) {
@@ -114,10 +114,10 @@ TEST_F(PanTiltNodeTest, WithoutTheSupervisorItIdles) {
     send_pose();
     tick();
   }
-  EXPECT_LE(commands_.size(), 2u);  // in the first second
+  EXPECT_LE(commands_.size(), 2u);  // before STATE is stale
 }
 
-TEST_F(PanTiltNodeTest, UnusableMessagesAreCountedAndChangeNothing) {
+TEST_F(PanTiltNodeTest, InvalidMessagesAreCountedAndIgnored) {
   send_path({0.0, kNaN}, {0.0, 10.0});
   send_path({0.0}, {0.0});
   ptu_state_t unit{};
@@ -144,7 +144,7 @@ TEST_F(PanTiltNodeTest, UnusableMessagesAreCountedAndChangeNothing) {
   EXPECT_EQ(commands_.size(), 1u);
 }
 
-TEST(PanTiltConfigTest, WrongKeysAndRangesStopTheStart) {
+TEST(PanTiltConfigTest, UnknownKeysAndBadRangesThrow) {
   const auto dir = std::filesystem::path(testing::TempDir()) / "pan_tilt_config";
   std::filesystem::remove_all(dir);
   std::filesystem::create_directories(dir);
