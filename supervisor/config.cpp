@@ -85,21 +85,21 @@ std::vector<FdirLine> read_lines(const std::string& config_dir, const Vehicle& v
 }
 
 // Inputs required for a permit must not be older than the stopping rows allow; without such a row the default applies.
-void tighten_max_age(const std::vector<FdirLine>& lines, const std::string& quantity, double& max_age_s) {
-  double min_age_s = kInfinity;
+void apply_row_age(const std::vector<FdirLine>& lines, const std::string& quantity, double& max_age_s) {
+  double smallest_s = kInfinity;
   for (const FdirLine& line : lines)
     if (line.quantity == quantity && line.row.response >= Response::kStop)
-      min_age_s = std::min(min_age_s, line.row.limit + line.row.persistence_s);
-  if (std::isfinite(min_age_s)) max_age_s = min_age_s;
+      smallest_s = std::min(smallest_s, line.row.limit + line.row.persistence_s);
+  if (std::isfinite(smallest_s)) max_age_s = smallest_s;
 }
 
 void apply_row_ages(SupervisorConfig& out) {
-  tighten_max_age(out.fdir.lines, "pose_age_s", out.pose_max_age_s);
-  tighten_max_age(out.fdir.lines, "planner_age_s", out.planner_max_age_s);
-  tighten_max_age(out.fdir.lines, "control_age_s", out.control_max_age_s);
-  tighten_max_age(out.fdir.lines, "wheel_state_age_s", out.wheels_max_age_s);
-  tighten_max_age(out.fdir.lines, "hazards_age_s", out.hazards_max_age_s);
-  tighten_max_age(out.fdir.lines, "heartbeat_age_s", out.heartbeat_max_age_s);
+  apply_row_age(out.fdir.lines, "pose_age_s", out.pose_max_age_s);
+  apply_row_age(out.fdir.lines, "planner_age_s", out.planner_max_age_s);
+  apply_row_age(out.fdir.lines, "control_age_s", out.control_max_age_s);
+  apply_row_age(out.fdir.lines, "wheel_state_age_s", out.wheels_max_age_s);
+  apply_row_age(out.fdir.lines, "hazards_age_s", out.hazards_max_age_s);
+  apply_row_age(out.fdir.lines, "heartbeat_age_s", out.heartbeat_max_age_s);
 }
 
 // Applies whatever the response of the row is: without a recent map the rover stops to sweep.
@@ -136,9 +136,9 @@ void read_hazard_stop(const Config& c, SupervisorConfig& out) {
 
 void apply_vehicle(const Vehicle& vehicle, SupervisorConfig& out) {
   out.max_speed_mps = vehicle.top_speed_mps;
-  out.derive.drive_nominal_a = vehicle.drive_current_nominal_a;
-  out.derive.steer_nominal_a = vehicle.steer_current_nominal_a;
-  out.derive.wheel_radius_m = vehicle.wheel_radius_m;
+  out.derived.drive_nominal_a = vehicle.drive_current_nominal_a;
+  out.derived.steer_nominal_a = vehicle.steer_current_nominal_a;
+  out.derived.wheel_radius_m = vehicle.wheel_radius_m;
 }
 
 }  // namespace
@@ -165,8 +165,8 @@ SupervisorConfig load_config(const std::string& config_dir) {
   const Config restarts = config.section("restarts");
   restarts.read("patience_s", out.restarter.retry_interval_s, {1.0, 60.0});
   restarts.read("window_s", out.restarter.window_s, {1.0, 3600.0});
-  out.derive.start_window_s = out.restarter.window_s;
-  config.section("motors").read("thermal_time_s", out.derive.thermal_time_s, {1.0, 3600.0});
+  out.derived.start_window_s = out.restarter.window_s;
+  config.section("motors").read("thermal_time_s", out.derived.thermal_time_s, {1.0, 3600.0});
   config.finish();
   return out;
 }

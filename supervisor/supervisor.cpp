@@ -43,7 +43,7 @@ Evidence evidence_of(const Monitor& m) {
 
 Supervisor::Supervisor(const SupervisorConfig& config)
     : config_(config),
-      derive_(config.derive),
+      derived_(config.derived),
       fdir_(config.fdir),
       restarter_(config.restarter),
       level_selector_(config.level) {}
@@ -51,7 +51,7 @@ Supervisor::Supervisor(const SupervisorConfig& config)
 void Supervisor::on_service(const std::string& name, const ServiceReport& report) {
   ServiceReport& newest = inputs_.services[name];
   if (report.utime < newest.utime || report.boot_id < newest.boot_id) return;
-  derive_.on_service(name, newest, report);
+  derived_.on_service(name, newest, report);
   newest = report;
 }
 
@@ -68,7 +68,7 @@ void Supervisor::on_path(PathLevels path) {
 
 void Supervisor::on_wheels(const WheelReport& wheels) {
   inputs_.wheels = wheels;
-  derive_.on_wheels(wheels);
+  derived_.on_wheels(wheels);
 }
 
 void Supervisor::on_terrain(const TerrainReport& terrain) {
@@ -79,7 +79,7 @@ void Supervisor::on_terrain(const TerrainReport& terrain) {
 SupervisorOutput Supervisor::step(Utime now) {
   if (since_ == kNever) begin(now);
   SupervisorOutput out;
-  derive_.step(now, inputs_, permitted_);
+  derived_.step(now, inputs_, permitted_);
   run_monitors(now, out);
   run_level(now, out);
   FactSet current = facts(now);
@@ -104,12 +104,12 @@ void Supervisor::begin(Utime now) {
 MonitorContext Supervisor::monitor_context(Utime now) const {
   const bool waiting = state_ == kHazardStop || state_ == kRepairing;
   const bool backtracking = backtracking_ && path_.path_id == inputs_.planner.path_id && state_ != kTeleop;
-  return {inputs_,        derive_.values(),  now,          stationary(), waiting,
+  return {inputs_,        derived_.values(), now,          stationary(), waiting,
           blocked_in_m(), stop_distance_m(), sweep_s(now), backtracking};
 }
 
 void Supervisor::run_monitors(Utime now, SupervisorOutput& out) {
-  derive_.set_restart_attempts(restarter_.restart_attempts(now));
+  derived_.set_restart_attempts(restarter_.restart_attempts(now));
   out.faults = fdir_.step(monitor_context(now), state_, level_);
   out.restarts = restarter_.step(now, fdir_.services_to_restart());
 }
@@ -160,7 +160,7 @@ void Supervisor::full_failing_fact(LevelFactSet& facts, Utime now) {
 double Supervisor::failing_starts() const {
   int max_count = 0;
   for (const std::string& service : config_.fdir.full_services)
-    for (const auto* counts : {&derive_.values().starts, &derive_.values().restart_attempts})
+    for (const auto* counts : {&derived_.values().starts, &derived_.values().restart_attempts})
       if (const auto it = counts->find(service); it != counts->end()) max_count = std::max(max_count, it->second);
   return max_count;
 }
@@ -316,9 +316,9 @@ CommandAnswer Supervisor::force_level(const GroundCommand& command, Utime now) {
 
 CommandAnswer Supervisor::clear_fault(const GroundCommand& command, FactSet& facts, Utime now, SupervisorOutput& out) {
   // CLEAR_FAULT also resets all counters.
-  derive_.reset_counters(inputs_);
+  derived_.reset_counters(inputs_);
   restarter_.reset();
-  derive_.set_restart_attempts(restarter_.restart_attempts(now));
+  derived_.set_restart_attempts(restarter_.restart_attempts(now));
   Fdir::Cleared cleared = fdir_.clear(command.target, monitor_context(now));
   if (!cleared.refusal_reason.empty()) return {command.id, false, cleared.refusal_reason};
   out.faults.insert(out.faults.end(), cleared.change.begin(), cleared.change.end());
@@ -332,7 +332,7 @@ void Supervisor::fire(const Transition& row, Utime now, SupervisorOutput& out) {
   if (row.required.has(Fact::kSafeFault)) change.cause = safe_fault_;
   if (state_ == kDriving && row.to == kHazardStop) ++hazard_stops_;
   if (row.to == kHazardStop) blocked_path_id_ = inputs_.planner.path_id;
-  if (row.to == kFaultStop) derive_.on_fault_stop(inputs_.pose.travelled_m);
+  if (row.to == kFaultStop) derived_.on_fault_stop(inputs_.pose.travelled_m);
   if (state_ == kStandby) level_selector_.reset();
   state_ = row.to;
   since_ = now;

@@ -19,7 +19,7 @@ namespace rover::supervisor {
 
 struct SupervisorConfig {
   FdirConfig fdir;
-  DerivedValueConfig derive;
+  DerivedValueConfig derived;
   LevelConfig level;
   ServiceRestarterConfig restarter;
   double max_speed_mps = 0.2;
@@ -193,7 +193,7 @@ class Supervisor {
   bool correction_wanted_ = false;
   std::vector<GroundCommand> commands_;
 
-  DerivedValueTracker derive_;
+  DerivedValueTracker derived_;
   Fdir fdir_;
   ServiceRestarter restarter_;
   LevelSelector level_selector_;

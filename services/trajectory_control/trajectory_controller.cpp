@@ -6,16 +6,16 @@
 namespace rover::control {
 namespace {
 
-constexpr double kMaxStepS = 0.1;
-constexpr double kSearchBackM = 0.3;
+constexpr double kMaxStepS = 0.1;     // limits the time step after a gap in the ticks
+constexpr double kSearchBackM = 0.3;  // search window for the closest point
 constexpr double kSearchAheadM = 0.5;
 constexpr double kPredictionStepM = 0.1;
 constexpr double kMinSlipSpeedMps = 0.03;  // below it the direction of motion is noise
 constexpr double kMaxSideSlipRad = 0.35;
 constexpr double kStationaryMps = 0.02;
-constexpr double kSlowMps = 0.1;  // stops within 0.05 m
-constexpr double kStationaryShare = 0.8;
-constexpr double kMinTurnRad = 0.175;  // 10 deg: smaller heading errors do not cause a corridor violation
+constexpr double kSlowMps = 0.1;          // stops within 0.05 m
+constexpr double kStationaryShare = 0.8;  // of the corridor half width
+constexpr double kMinTurnRad = 0.175;     // 10 deg: smaller heading errors do not cause a corridor violation
 
 Pose2 propagate(const Pose2& pose, double distance_m, double curvature_per_m, double side_slip_rad) {
   const double mid_yaw_rad = pose.yaw_rad + 0.5 * distance_m * curvature_per_m;
@@ -173,8 +173,8 @@ void TrajectoryController::follow_arc(const PoseInput& pose, const Projection& p
 }
 
 // Limits the distance travelled (steering_distance_m) while the slow steering reaches the commanded curvature.
-double TrajectoryController::speed_while_steering(double curvature_per_m, double wanted_per_m) const {
-  const double steering_time_s = std::abs(wanted_per_m - curvature_per_m) / config_.path.max_curvature_rate;
+double TrajectoryController::speed_while_steering(double curvature_per_m, double commanded_per_m) const {
+  const double steering_time_s = std::abs(commanded_per_m - curvature_per_m) / config_.path.max_curvature_rate;
   return std::max(config_.steering_distance_m / std::max(steering_time_s, 1e-3), config_.creep_speed_mps);
 }
 
@@ -209,10 +209,10 @@ double TrajectoryController::predict_corridor_error(const Pose2& pose, const Pro
   if (turning_ || std::abs(wrap_angle(pose.yaw_rad - projection.yaw_rad)) > config_.turn_start_rad) return largest_m;
   for (double distance_m = 0.0; distance_m < config_.look_ahead_m && foot_point.beyond_m <= 0.0;
        distance_m += kPredictionStepM) {
-    const double wanted = curvature_command(p, foot_point);
+    const double commanded = curvature_command(p, foot_point);
     const double profile = std::max(segment().at(foot_point.s_m).speed_mps, config_.creep_speed_mps);
-    const double speed_mps = std::min(profile, speed_while_steering(curvature, wanted));
-    curvature = move_towards(curvature, wanted, config_.path.max_curvature_rate * kPredictionStepM / speed_mps);
+    const double speed_mps = std::min(profile, speed_while_steering(curvature, commanded));
+    curvature = move_towards(curvature, commanded, config_.path.max_curvature_rate * kPredictionStepM / speed_mps);
     p = propagate(p, kPredictionStepM, curvature, side_slip_rad_);
     foot_point =
         segment().project(point_of(p), foot_point.s_m - kPredictionStepM, foot_point.s_m + 3.0 * kPredictionStepM);

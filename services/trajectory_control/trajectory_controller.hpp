@@ -85,7 +85,7 @@ class TrajectoryController {
   bool update_point_turn(const ControlOutput& out, double forward_mps);
   void follow_arc(const PoseInput& pose, const Projection& projection, double dt_s, double max_speed_mps,
                   MotionCommand& command);
-  double speed_while_steering(double curvature_per_m, double wanted_per_m) const;
+  double speed_while_steering(double curvature_per_m, double commanded_per_m) const;
   void integrate(double cross_track_m, double distance_m);
   void point_turn(double heading_error_rad, MotionCommand& command) const;
   void update_side_slip(const PoseInput& pose, double dt_s);
