@@ -95,8 +95,8 @@ TEST(Filter, GyroCorrectsTranslationThroughCovariance) {
   cov(5, 5) = kYawError * kYawError;
   cov(1, 1) += kLever * kLever * cov(5, 5);
   cov(1, 5) = cov(5, 1) = -kLever * cov(5, 5);
-  const Eigen::Isometry3d seen = make_pose(rotation_from_rpy(0.0, 0.0, kYawError), {0.08, -kLever * kYawError, 0.0});
-  const auto fused = filter.fuse_visual(state, records, {0, 400'000, seen, cov});
+  const Eigen::Isometry3d visual = make_pose(rotation_from_rpy(0.0, 0.0, kYawError), {0.08, -kLever * kYawError, 0.0});
+  const auto fused = filter.fuse_visual(state, records, {0, 400'000, visual, cov});
   ASSERT_TRUE(fused.has_value());
   EXPECT_NEAR(fused->T_odom_body.translation().y(), 0.0, 2e-4);
   EXPECT_NEAR(yaw_of(fused->T_odom_body), 0.0, 1e-4);
