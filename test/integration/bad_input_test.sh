@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Bad input gives one clear line that names the file and the key, exit status 2, and leaves nothing behind.
 . "$(dirname "$0")/lib.sh"
+. "$SOURCE/test/wild.sh"
 
 # one_line NAME STATUS PATTERN FILE: the file holds one line, which matches.
 one_line() {
@@ -44,7 +45,7 @@ for bytes in 0 100 20000 200000; do
 done
 { printf 'P5 400 400 255\n'; head -c 160000 /dev/zero; } >"$WORK/plain.pgm"
 scenario "s#dtm: .*#dtm: $WORK/plain.pgm#"
-refused "DTM without georeference" "plain.pgm: elevation model has no georeference" "$WORK/s.yaml"
+refused "DTM without georeference" "plain.pgm: has no georeference" "$WORK/s.yaml"
 path "100, 400" "100, 100"
 refused "DTM smaller than the path" "s.yaml:[0-9]+: path.x_m: point 2 lies outside of the elevation model" "$WORK/s.yaml"
 
@@ -53,9 +54,9 @@ refused "path of one point" "s.yaml:[0-9]+: path.x_m: a path needs two points" "
 path "" ""
 refused "path without points" "s.yaml:[0-9]+: path.x_m: a path needs two points" "$WORK/s.yaml"
 path "96.0, .nan" "262.0, 262.0"
-refused "NaN in the path" "s.yaml:[0-9]+: path.x_m: out of range" "$WORK/s.yaml"
+refused "NaN in the path" "s.yaml:[0-9]+: path.x_m: not a number" "$WORK/s.yaml"
 path "96.0, 99.0" "262.0, .inf"
-refused "infinity in the path" "s.yaml:[0-9]+: path.y_m: out of range" "$WORK/s.yaml"
+refused "infinity in the path" "s.yaml:[0-9]+: path.y_m: not a number" "$WORK/s.yaml"
 path "-5.0, 99.0" "262.0, 262.0"
 refused "path outside of the map" "s.yaml:[0-9]+: path.x_m: point 1 lies outside" "$WORK/s.yaml"
 
@@ -81,6 +82,15 @@ refused "wrong unit of one service" "path_planner: .*config/path_planner.yaml:[0
   config/scenarios/flat.yaml --set path_planner.margin_cm=20
 refused "unit in a value of one service" "supervisor: .*config/supervisor.yaml:[0-9]+: permit_validity_s: not a number" \
   config/scenarios/flat.yaml --set "supervisor.permit_validity_s=200 ms"
+
+# A goal within its tolerance of the start, or inside of the circle around the start, is reached.
+for x in 10.3 10.6; do
+  sed "s/^  x_m: .*/  x_m: [10.0, $x]/; s/^  y_m: .*/  y_m: [20.0, 20.0]/; /^ \{8\}/d" config/scenarios/flat.yaml >"$WORK/near.yaml"
+  drive "$WORK/near" "$WORK/near.yaml" --headless >"$WORK/out.txt" 2>"$WORK/said" || fail "goal at $x m: $(cat "$WORK/said")"
+  [ "$(metric "$WORK/near" outcome)" = goal_reached ] || fail "goal at $x m: $(metric "$WORK/near" outcome)"
+  wild_row "Goals" "run: start at 10 m, goal at $x m, tolerance 0.5 m" "reached" "$(metric "$WORK/near" outcome)"
+  rm -r "$WORK/near"
+done
 
 mkdir "$WORK/out"
 echo mine >"$WORK/out/notes.txt"
