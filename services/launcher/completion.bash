@@ -17,7 +17,7 @@ _rover_values() {
     run) compgen -f -X '!*.yaml' -- "$word"; compgen -d -- "$word"; compgen -f -X '!*.yaml' -- "${word:-$scenarios/}" ;;
     report | spy | repair) compgen -f -- "$word"; compgen -W "${runs[*]%/}" -- "$word" ;;
     plan) compgen -f -- "$word" ;;
-    bench) [ "$before" != bench ] || compgen -W "seed full slam correction speed micro faults restarts page data wild" -- "$word" ;;
+    bench) [ "$before" != bench ] || compgen -W "seed full slam correction speed micro faults restarts page data wild fuzz" -- "$word" ;;
     test) compgen -W "unit sanitize" -- "$word" ;;
     inject)
       [ "$before" != inject ] ||
