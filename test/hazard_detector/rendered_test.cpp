@@ -1,4 +1,4 @@
-// Stereo and hazard detection on rendered pairs of refined Martian terrain: calibration error, sensor noise, shadows.
+// Stereo and hazard detection on rendered Martian terrain, with calibration error, sensor noise and shadows.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -28,8 +28,8 @@ class RenderedTest : public testing::Test {
     return World(config, read_elevation_map(ROVER_SOURCE_DIR "/config/terrain/gale/gale_hirise_dtm_1m_348x337.tif").raster, 5);
   }
 
-  // The six wheels on the ground (not on rocks), in the least-squares sense.
-  Eigen::Isometry3d stand(const Pose2& at) const {
+  // Least-squares body pose with the six wheels on the ground (rocks ignored).
+  Eigen::Isometry3d place_on_ground(const Pose2& at) const {
     Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
     Eigen::Vector3d b = Eigen::Vector3d::Zero();
     const double c = std::cos(at.yaw_rad), s = std::sin(at.yaw_rad);
@@ -48,7 +48,7 @@ class RenderedTest : public testing::Test {
     return make_pose(R, Eigen::Vector3d(at.x_m, at.y_m, plane[0]) + 0.62 * R.col(2));
   }
 
-  HazardResult see(const Eigen::Isometry3d& T_map_body) {
+  HazardResult detect(const Eigen::Isometry3d& T_map_body) {
     const StereoCameraSim::Pair pair = cameras_.render(T_map_body, ++frame_);
     return detector_.step(stereo_.step(pair.left, pair.right)->disparity, stereo_.camera());
   }
@@ -64,12 +64,12 @@ class RenderedTest : public testing::Test {
 
 class RocklessTest : public RenderedTest {};
 
-TEST_F(RocklessTest, RoughGroundWithoutRocksIsClearAndFreeAhead) {
+TEST_F(RocklessTest, RoughGroundWithoutRocksIsClear) {
   for (const Pose2& start : {Pose2{60, 170, 0.5}, Pose2{120, 230, 2.4}, Pose2{90, 270, -1.2}, Pose2{200, 160, 3.0}})
     for (int i = 0; i < 8; ++i) {
       const double s = 0.5 * i;
-      const HazardResult result =
-          see(stand({start.x_m + s * std::cos(start.yaw_rad), start.y_m + s * std::sin(start.yaw_rad), start.yaw_rad}));
+      const HazardResult result = detect(place_on_ground(
+          {start.x_m + s * std::cos(start.yaw_rad), start.y_m + s * std::sin(start.yaw_rad), start.yaw_rad}));
       EXPECT_EQ(result.status, Status::kClear) << start.x_m << " " << i;
       EXPECT_GT(result.coverage, 0.7) << start.x_m << " " << i;
     }
@@ -80,7 +80,7 @@ class RockFieldTest : public RenderedTest {
   RockFieldTest() : RenderedTest(0.08) {}
 };
 
-TEST_F(RockFieldTest, RocksOfTwentyCentimetresAreReportedFarBeforeContact) {
+TEST_F(RockFieldTest, DetectsTwentyCentimetreRocksBeforeContact) {
   int rocks = 0, frames = 0, hits = 0;
   for (const Rock& rock : world_.rocks_in(100, 200, 140, 240)) {
     if (rock.height_m < 0.20 || rock.height_m > 0.32) continue;
@@ -89,7 +89,7 @@ TEST_F(RockFieldTest, RocksOfTwentyCentimetresAreReportedFarBeforeContact) {
     for (double ahead : {2.2, 1.9, 1.6, 1.4}) {
       const double x = rock.x_m - ahead * std::cos(yaw) + offset * std::sin(yaw);
       const double y = rock.y_m - ahead * std::sin(yaw) - offset * std::cos(yaw);
-      const HazardResult result = see(stand({x, y, yaw}));
+      const HazardResult result = detect(place_on_ground({x, y, yaw}));
       const bool hit = map(result).count_near(Cell::kObstacle, ahead, offset, 0.5 * rock.diameter_m + 0.15) > 0;
       seen = seen || hit;
       hits += hit;
