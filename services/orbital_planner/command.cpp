@@ -46,8 +46,7 @@ void check_distances(const std::vector<Place>& places, const Line& waypoints, do
   for (size_t i = 1; i < waypoints.size(); ++i)
     if (const double distance_m = (waypoints[i] - waypoints[i - 1]).norm(); distance_m <= goal_tolerance_m)
       throw ConfigError(
-          fmt::format("{} {},{}: lies {:.2f} m from {} before it; more than {} m are needed "
-                      "(path.goal_tolerance_m)",
+          fmt::format("{} {},{}: lies {:.2f} m from {} before it; more than {} m are needed (path.goal_tolerance_m)",
                       places[i].option, places[i].given.x(), places[i].given.y(), distance_m, places[i - 1].option,
                       goal_tolerance_m));
 }
@@ -121,6 +120,8 @@ std::string default_folder(const std::string& map) {
 std::string run(const Arguments& arguments) {
   const std::vector<Place> places = places_of(arguments);
   const ToolConfig config = load_config(arguments.config_dir);
+  const std::string target = arguments.out.empty() ? default_folder(arguments.map) : arguments.out;
+  NewFolder out(target);
   const ElevationMap map = read_elevation_map(arguments.map);
   const Geography geography(map.raster);
   if (arguments.lon_lat && !geography.is_known())
@@ -131,8 +132,6 @@ std::string run(const Arguments& arguments) {
   const Plan result = plan(map.raster, waypoints, config.planner);
   check(result, places, map, waypoints, config.planner);
   if (const std::string problem = path_length_problem(result.length_m); !problem.empty()) throw ConfigError(problem);
-  const std::string target = arguments.out.empty() ? default_folder(arguments.map) : arguments.out;
-  NewFolder out(target);
   write_files(out.dir(), map, geography, result, waypoints, config.terms);
   out.keep();
   return summary(result, waypoints, map, target);

@@ -113,7 +113,7 @@ class MapFileTest : public testing::Test {
     const ElevationMap map = read_elevation_map(write_sample(s));
     EXPECT_EQ(map.converted, converted) << s.name;
     const double most_m = expect_true(map, s.truth, s.name, whole);
-    wild_row("map", s.name, s.before,
+    wild_row("Maps: projections and units", s.name, s.before,
              fmt::format("read as {} x {} pixels of {:.3f} m; 95 % of the heights within {:.2f} m of the truth",
                          map.raster.width, map.raster.height, map.raster.resolution_m, most_m));
     return map;
@@ -139,7 +139,7 @@ class MapFileTest : public testing::Test {
     const std::string line = refusal(file);
     EXPECT_NE(line.find(says), std::string::npos) << line;
     EXPECT_NE(line.find("; "), std::string::npos) << "what to do? " << line;
-    wild_row("map", what, before, line);
+    wild_row("Maps: projections and units", what, before, line);
   }
 };
 
@@ -221,8 +221,8 @@ TEST_F(MapFileTest, LatitudeFirstIsNotTakenForLongitude) {
       s.map.width, s.map.height, t[3], t[5], t[0], t[1]);
   const ElevationMap map = read_elevation_map(folder_.file("first.vrt"));
   const double most_m = expect_true(map, s.truth, "latitude first");
-  wild_row("map", "coordinates with latitude first (a VRT's axis mapping)", "right in `plan` alone",
-           fmt::format("right: 95 % of the heights within {:.2f} m of the truth", most_m));
+  wild_row("Maps: projections and units", "coordinates with latitude first (a VRT's axis mapping)",
+           "right in `plan` alone", fmt::format("right: 95 % of the heights within {:.2f} m of the truth", most_m));
 }
 
 TEST_F(MapFileTest, HeightsAreInMetresWhateverTheirUnit) {
@@ -269,7 +269,7 @@ TEST_F(MapFileTest, ScaleAndOffsetOfIntegersCount) {
     const ElevationMap map = read_elevation_map(file);
     EXPECT_TRUE(map.converted);
     for (size_t i = 0; i < truth.z_m.size(); ++i) EXPECT_NEAR(map.raster.z_m[i], truth.z_m[i], 0.026);
-    wild_row("map", s.name, s.before, "heights within half a step of the integers");
+    wild_row("Maps: projections and units", s.name, s.before, "heights within half a step of the integers");
   }
 }
 
@@ -323,7 +323,7 @@ TEST_F(MapFileTest, DeclaredVoidsAreVoidInAnyForm) {
         std::count_if(read.raster.z_m.begin(), read.raster.z_m.end(), [](float z) { return std::isnan(z); });
     EXPECT_EQ(voids, 20 * 50) << c.name;
     EXPECT_TRUE(read.notes.empty()) << c.name << read.notes.front();
-    wild_row("voids", c.name, "a void that did not equal its tag bit for bit was ground",
+    wild_row("Maps: voids", c.name, "a void that did not equal its tag bit for bit was ground",
              std::to_string(voids) + " of 1000 void pixels are void");
   }
 }
@@ -342,7 +342,7 @@ TEST_F(MapFileTest, IntegersAtTheLimitOfTheirTypeAreVoid) {
     const auto voids =
         std::count_if(read.raster.z_m.begin(), read.raster.z_m.end(), [](float z) { return std::isnan(z); });
     EXPECT_EQ(voids, 20 * 50) << value;
-    wild_row("voids", fmt::format("undeclared {} in {}, scaled", value, GDALGetDataTypeName(type)), "ground",
+    wild_row("Maps: voids", fmt::format("undeclared {} in {}, scaled", value, GDALGetDataTypeName(type)), "ground",
              std::to_string(voids) + " of 1000 void pixels are void");
   }
 }
@@ -376,7 +376,7 @@ TEST_F(MapFileTest, MasksAndAlphaBandsAreVoids) {
     const ElevationMap map = read_elevation_map(folder_.file(name));
     EXPECT_TRUE(std::isnan(map.raster.at(19, 10))) << name;
     EXPECT_EQ(map.raster.at(20, 10), 300.0F) << name;
-    wild_row("voids", name, "the mask was not looked at: ground", "void where the mask says so");
+    wild_row("Maps: voids", name, "the mask was not looked at: ground", "void where the mask says so");
   }
 }
 
@@ -387,7 +387,7 @@ TEST_F(MapFileTest, WhatIsGuessedToBeVoidIsSaid) {
   const ElevationMap read = read_elevation_map(folder_.file("guess.tif"));
   ASSERT_EQ(read.notes.size(), 1u);
   EXPECT_NE(read.notes[0].find("1000 pixels of exactly -9999 m"), std::string::npos) << read.notes[0];
-  wild_row("voids", "undeclared -9999", "ground", folder_.short_names(read.notes[0]));
+  wild_row("Maps: voids", "undeclared -9999", "ground", folder_.short_names(read.notes[0]));
   try {
     demand_no_voids(read.raster, "guess.tif");
     ADD_FAILURE();
@@ -438,6 +438,7 @@ TEST_F(MapFileTest, APlaceIsDemanded) {
                  "refused, without what to do");
   MapFile points;
   points.reference = "";
+  points.transform = {};
   points.change = [](GDALDataset& dataset) {
     GDAL_GCP gcps[3] = {};
     for (int i = 0; i < 3; ++i) {

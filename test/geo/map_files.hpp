@@ -28,6 +28,7 @@ inline std::string mars_plane(int true_at_deg = 0, const char* unit = "UNIT[\"me
 }
 
 struct MapFile {
+  // All zero: none.
   std::array<double, 6> transform{1000.0, 2.0, 0.0, 5000.0, 0.0, -2.0};
   std::string reference = mars_plane();  // as OGR takes it from the user
   int width = 60;
@@ -56,7 +57,7 @@ void write(const std::string& file, const MapFile& map, F&& value) {
     reference.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
     dataset->SetSpatialRef(&reference);
   }
-  dataset->SetGeoTransform(transform.data());
+  if (transform != std::array<double, 6>{}) dataset->SetGeoTransform(transform.data());
   if (map.pixel_is_point) dataset->SetMetadataItem("AREA_OR_POINT", "Point");
   GDALRasterBand& band = *dataset->GetRasterBand(1);
   if (map.scale != 1.0) band.SetScale(map.scale);

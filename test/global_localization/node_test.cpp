@@ -246,7 +246,7 @@ TEST_F(GlobalLocalizationNodeTest, OrbitalMapsOfNoUseAreNamed) {
   raster = raster_of(hills, 0.5);
   raster.resolution_m = 1e-5;  // degrees
   write_geotiff(file, raster);
-  EXPECT_NE(refusal().find("metres"), std::string::npos);
+  EXPECT_NE(refusal().find("0.1 to 5 m"), std::string::npos);
   raster = raster_of(hills, 0.5);
   raster.z_m.assign(raster.z_m.size(), static_cast<float>(kNaN));
   write_geotiff(file, raster);

@@ -18,4 +18,12 @@ for service in stereo visual_odometry localization hazard_detector path_planner 
   # The page of mission_control shows the true world to who asks for it; its node never hears of it (ear_test).
   [ "$service" = mission_control ] || ! grep -qx TRUTH "$WORK/strings" || fail "$service names the channel TRUTH"
 done
+# Maps are read by common/geo, which knows no simulator.
+for program in rover_orbital_planner rover_export; do
+  nm -C "$BUILD/bin/$program" >"$WORK/symbols"
+  ! grep -qE 'rover::(World|RockField)::' "$WORK/symbols" || fail "$program links the simulated world"
+done
+bad=$(cd "$SOURCE" && grep -rl '#include "rover_simulator/' services supervisor |
+  grep -vE '^services/(rover_simulator|launcher|report)/' || true)
+[ -z "$bad" ] || fail "these reach into the simulator: $bad"
 echo "cores and services keep to themselves"

@@ -40,6 +40,22 @@ TEST_F(PageConfigTest, TheProjectsOwnIsLoopbackWithoutToken) {
   EXPECT_TRUE(config.guard.token.empty());
 }
 
+TEST_F(PageConfigTest, AMissionPathOfNoLengthIsRefused) {
+  const auto refusal = [&](const std::string& x_m) {
+    std::ofstream(folder_.file("ground.yaml")) << "start: {x_m: 10, y_m: 20, z_m: 0, yaw_deg: 0}\n"
+                                               << "path: {x_m: [" << x_m << "], y_m: [20, 20], level: [0, 0]}\n";
+    try {
+      load_mission_plan(folder_.path());
+    } catch (const ConfigError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(refusal("10, 10").find("path is shorter than 0.1 m"), std::string::npos);
+  EXPECT_NE(refusal("10, 10.05").find("path.x_m"), std::string::npos);
+  EXPECT_EQ(refusal("10, 10.3"), "");
+}
+
 TEST_F(PageConfigTest, AnotherAddressNeedsAToken) {
   EXPECT_NO_THROW(load("127.0.0.1", ""));
   EXPECT_THROW(load("0.0.0.0", ""), ConfigError);

@@ -266,7 +266,7 @@ TEST_F(PlanCommand, APathOverVoidGroundIsNeverPlanned) {
         refusal("west.tif --start 20,50 --goal 170,50", "--start 20,50: lies where the map has no data");
     EXPECT_EQ(execute("west.tif --start 70,50 --goal 170,50").first, 0) << c.name;
     std::filesystem::remove_all(folder_.file("out"));
-    wild_row("voids", c.name, "`plan` gave a 150 m EFFICIENT path over nothing, exit status 0", line);
+    wild_row("Maps: voids", c.name, "`plan` gave a 150 m EFFICIENT path over nothing, exit status 0", line);
   }
 }
 
@@ -277,7 +277,7 @@ TEST_F(PlanCommand, APlanHasSomewhereToGo) {
       {"--start 60,270 --via 60,270 --goal 120,60", "two equal neighbours"},
       {"--start 60,270 --via 90,200 --via 90.1,200 --goal 120,60", "two via places side by side"}};
   for (const auto& [words, name] : cases)
-    wild_row("goal", "plan: " + name, "a path of 0.0 m and exit status 0, which `run` refused",
+    wild_row("Goals", "plan: " + name, "a path of 0.0 m and exit status 0, which `run` refused",
              refusal(kGale + " " + words, "m from --"));
   // There and back is a drive.
   EXPECT_EQ(execute(kGale + " --start 60,270 --via 90,268 --goal 60,270").first, 0);
@@ -312,7 +312,7 @@ TEST_F(PlanCommand, ResultsNeverReplaceAnything) {
     for (const char* out : {"X", "X/", "./X/../X", "link"}) {
       const std::string line = refusal("X/" + std::string(name) + " --start 60,270 --goal 120,60", "not empty", out);
       EXPECT_EQ(text_of(input), text_of(kGale));
-      wild_row("output", "plan X/" + std::string(name) + " --out " + out, before, line);
+      wild_row("Outputs", "plan X/" + std::string(name) + " --out " + out, before, line);
     }
     std::filesystem::remove(input);
     std::filesystem::remove(folder_.file("link"));
@@ -325,7 +325,7 @@ TEST_F(PlanCommand, PathsAreTheUsersAndViaLeavesTheMapAlone) {
       execute("--start 60,270 --goal 120,60 --via 96,262 --via 118,255 g.tif --config " + kSource + "/config/").second;
   EXPECT_EQ(line, "");
   EXPECT_TRUE(std::filesystem::exists(folder_.file("out/path.yaml")));
-  wild_row("paths", "plan --via 96,262 g.tif --out out, from the user's folder",
+  wild_row("Paths", "plan --via 96,262 g.tif --out out, from the user's folder",
            "g.tif: not found; results in the checkout", "planned; the results are in the user's folder");
 }
 
@@ -347,7 +347,7 @@ TEST_F(PlanCommand, AReprojectedMapIsGivenToTheRoverWithThePath) {
   map.width = 100, map.height = 80;
   testing_support::write(folder_.file("degrees.tif"), map, [](int x, int y) { return 0.05 * x + std::sin(y / 9.0); });
   ASSERT_EQ(execute("degrees.tif --start 20,40 --goal 130,100").first, 0);
-  EXPECT_NE(text_of(folder_.file("stdout")).find("degrees.tif: reprojected to metres"), std::string::npos);
+  EXPECT_NE(text_of(folder_.file("stdout")).find("degrees.tif: converted to metres"), std::string::npos);
   const ElevationMap given = read_elevation_map(folder_.file("out/map.tif"));
   EXPECT_FALSE(given.converted);
   EXPECT_EQ(given.raster.z_m, read_elevation_map(folder_.file("degrees.tif")).raster.z_m);

@@ -23,7 +23,8 @@ using Dataset = std::unique_ptr<GDALDataset>;
 constexpr std::int64_t kMostPixels = 40'000'000;  // planning takes about 60 bytes for each
 
 Dataset open_map(const std::string& file, const GdalSession& gdal) {
-  if (!std::filesystem::is_regular_file(file)) throw DtmError(file + ": not found");
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) throw DtmError(file + ": not found");
   Dataset dataset(GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
   if (!dataset) throw DtmError(file + ": not a readable map" + gdal.last_error());
   if (dataset->GetRasterCount() < 1)
@@ -31,11 +32,12 @@ Dataset open_map(const std::string& file, const GdalSession& gdal) {
   return dataset;
 }
 
-void check_size(std::int64_t width, std::int64_t height, const std::string& size, const std::string& file) {
-  if (width * height > kMostPixels)
+void check_size(const Placement& placement, const TargetGrid& grid, GDALDataset& dataset, const std::string& file) {
+  const std::int64_t given = static_cast<std::int64_t>(dataset.GetRasterXSize()) * dataset.GetRasterYSize();
+  if (std::max(given, grid.width * grid.height) > kMostPixels)
     throw DtmError(
         fmt::format("{}: too large ({}); cut out a part of up to {} million pixels (gdal_translate -projwin)", file,
-                    size, kMostPixels / 1'000'000));
+                    placement.size(), kMostPixels / 1'000'000));
 }
 
 void remove_voids(const Placement& placement, const std::string& file, ElevationMap& map) {
@@ -116,11 +118,8 @@ ElevationMap read(const std::string& file) {
   const Placement placement(*dataset, file);
   const HeightBand band(*dataset, file);
   const bool metric = placement.is_metric();
-  check_size(dataset->GetRasterXSize(), dataset->GetRasterYSize(), placement.size(), file);
   const TargetGrid grid = metric ? placement.own_grid() : placement.plane_grid();
-  check_size(grid.width, grid.height,
-             placement.size() + ", reprojected " + std::to_string(grid.width) + " x " + std::to_string(grid.height),
-             file);
+  check_size(placement, grid, *dataset, file);
   ElevationMap map;
   map.raster = band.read();
   remove_voids(placement, file, map);
@@ -129,8 +128,8 @@ ElevationMap read(const std::string& file) {
     place(grid, map.raster);
   else
     map.raster = reprojected(*dataset, std::move(map.raster), grid, file);
-  if (!metric)
-    map.notes.push_back(fmt::format("{}: reprojected to metres, north up, {:.4g} m a pixel", file, grid.resolution_m));
+  if (map.converted)
+    map.notes.push_back(fmt::format("{}: converted to metres, north up, {:.4g} m a pixel", file, grid.resolution_m));
   return map;
 }
 
@@ -139,8 +138,12 @@ ElevationMap read(const std::string& file) {
 ElevationMap read_elevation_map(const std::string& file) {
   try {
     return read(file);
+  } catch (const DtmError&) {
+    throw;
   } catch (const std::bad_alloc&) {
     throw DtmError(file + ": too large for the memory; cut out a part (gdal_translate -projwin)");
+  } catch (const std::exception& error) {  // a format driver's
+    throw DtmError(file + ": not a readable map (" + error.what() + ")");
   }
 }
 

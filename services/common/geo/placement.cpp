@@ -18,6 +18,7 @@ using Eigen::Vector2d;
 constexpr double kScaleError = 0.01;  // of the projection's metres against those on the ground
 constexpr double kNearlyAll = 0.9;
 constexpr int kPointsPerSide = 33;
+constexpr double kMostCells = 1e9;  // along a side; far more than any map that is read
 // So far out a stereographic projection is wrong by 1 % (its scale is 1 + d^2 / 4 R^2).
 constexpr double kFarthestRadii = 0.2;
 
@@ -57,7 +58,9 @@ Rectangle inside(const std::vector<Side>& sides, const Rectangle& outer) {
 Placement::Placement(GDALDataset& dataset, const std::string& file)
     : file_(file), width_(dataset.GetRasterXSize()), height_(dataset.GetRasterYSize()) {
   const OGRSpatialReference* reference = dataset.GetSpatialRef();
-  const bool placed = dataset.GetGeoTransform(transform_.data()) == CE_None;
+  const auto finite = [](double value) { return std::isfinite(value); };
+  const bool placed = dataset.GetGeoTransform(transform_.data()) == CE_None &&
+                      std::all_of(transform_.begin(), transform_.end(), finite);
   if (!placed && dataset.GetGCPCount() > 0)
     throw DtmError(file + ": has ground control points instead of a georeference; make a map of it by gdalwarp first");
   if (!placed || reference == nullptr)
@@ -71,7 +74,7 @@ Placement::Placement(GDALDataset& dataset, const std::string& file)
   if (is_local() && !is_metric()) throw DtmError(file + ": is not north-up with square pixels; gdalwarp makes it so");
   if (is_local()) return;
   if (const auto geographic = geographic_of(reference_)) to_lon_lat_ = change(reference_, *geographic);
-  if (!lon_lat_at(0.5 * width_, 0.5 * height_).allFinite())
+  if (const double area = std::abs(middle_pixel().determinant()); !(area > 0.0 && std::isfinite(area)))
     throw DtmError(file + ": its projection does not lead to longitude and latitude; reproject it by gdalwarp -t_srs");
 }
 
@@ -101,11 +104,12 @@ bool Placement::is_true_at(double column, double line) const {
   const Eigen::Matrix2d scale = pixel_at(column, line) / transform_[1];
   const Eigen::Matrix2d error = scale.transpose() * scale - Eigen::Matrix2d::Identity();
   // Not mirrored: columns to the east where lines go to the north.
-  return error.cwiseAbs().maxCoeff() < 2.0 * kScaleError && scale.determinant() > 0.0;
+  return (error.cwiseAbs().array() < 2.0 * kScaleError).all() && scale.determinant() > 0.0;
 }
 
 bool Placement::is_metric() const {
   const auto& t = transform_;
+  if (is_local() && !(reference_.GetLinearUnits() > 0.0)) return false;
   if (t[2] != 0.0 || t[4] != 0.0 || t[1] <= 0.0 || std::abs(t[1] + t[5]) > 1e-6 * t[1]) return false;
   if (is_local()) return true;
   const double last_column = width_ - 0.5, last_line = height_ - 0.5;
@@ -115,13 +119,13 @@ bool Placement::is_metric() const {
 
 double Placement::pixel_m() const {
   if (is_local()) return transform_[1] * reference_.GetLinearUnits();
-  return pixel_at(0.5 * width_, 0.5 * height_).colwise().norm().maxCoeff();
+  return middle_pixel().colwise().norm().maxCoeff();
 }
 
 std::string Placement::size() const {
   std::string text = fmt::format("{} x {} pixels", width_, height_);
   if (is_local()) return text;
-  const Eigen::RowVector2d pixel_m = pixel_at(0.5 * width_, 0.5 * height_).colwise().norm();
+  const Eigen::RowVector2d pixel_m = middle_pixel().colwise().norm();
   return text + fmt::format(", {:.3g} x {:.3g} km", 1e-3 * width_ * pixel_m.x(), 1e-3 * height_ * pixel_m.y());
 }
 
@@ -169,10 +173,10 @@ TargetGrid Placement::plane_grid() const {
   const Rectangle outer = around(sides), inner = inside(sides, outer);
   const bool is_inside = inner.area() > kNearlyAll * outer.area();
   const Rectangle& chosen = is_inside ? inner : outer;
-  const double resolution_m = std::sqrt(std::abs(pixel_at(middle.x(), middle.y()).determinant()));
+  const double resolution_m = std::sqrt(std::abs(middle_pixel().determinant()));
   const auto whole = [&](double m) {
     const double cells = m / resolution_m;
-    return std::max(1.0, is_inside ? std::floor(cells) : std::ceil(cells));
+    return std::clamp(is_inside ? std::floor(cells) : std::ceil(cells), 1.0, kMostCells);
   };
   const Vector2d cells((chosen.high - chosen.low).unaryExpr(whole));
   const Vector2d corner = 0.5 * (chosen.low + chosen.high - resolution_m * cells);

@@ -46,6 +46,7 @@ class Placement {
   Eigen::Vector2d lon_lat_at(double column, double line) const;
   // On the ground, for a step of a pixel eastwards and of a pixel northwards on the map.
   Eigen::Matrix2d pixel_at(double column, double line) const;
+  Eigen::Matrix2d middle_pixel() const { return pixel_at(0.5 * width_, 0.5 * height_); }
   bool is_true_at(double column, double line) const;
   // Points along the four sides of the map in the plane.
   std::vector<std::vector<Eigen::Vector2d>> sides_in(OGRCoordinateTransformation& to_plane) const;

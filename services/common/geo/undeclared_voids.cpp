@@ -104,8 +104,8 @@ class Search {
     }
   };
   struct Region {
-    size_t first = 0;
-    std::int64_t pixels = 0;
+    std::uint32_t first = 0;
+    std::uint32_t pixels = 0;
     float low = 0.0F, high = 0.0F;
     bool at_wall = false, is_rest = false;
     float distance_m(const Region& other) const { return std::max(low - other.high, other.low - high); }
@@ -142,13 +142,13 @@ class Search {
   // The region of each pixel that possible steps join; -1 where it is void.
   std::vector<int> label() {
     std::vector<int> region(z_.size(), -1);
-    std::vector<size_t> open;
+    std::vector<std::uint32_t> open;
     for (size_t i = 0; i < z_.size(); ++i) {
       if (region[i] >= 0 || std::isnan(z_[i])) continue;
       const int number = static_cast<int>(regions_.size());
-      regions_.push_back({i, 0, z_[i], z_[i]});
+      regions_.push_back({static_cast<std::uint32_t>(i), 0, z_[i], z_[i]});
       region[i] = number;
-      open.push_back(i);
+      open.push_back(static_cast<std::uint32_t>(i));
       while (!open.empty()) {
         const size_t at = open.back();
         open.pop_back();
@@ -157,7 +157,7 @@ class Search {
         for_neighbours_of(raster_, at, [&](size_t n) {
           if (region[n] >= 0 || std::isnan(z_[n]) || is_wall(at, n)) return;
           region[n] = number;
-          open.push_back(n);
+          open.push_back(static_cast<std::uint32_t>(n));
         });
       }
     }

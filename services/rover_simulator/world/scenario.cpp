@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "common/bus/config.hpp"
+#include "common/bus/user_files.hpp"
 #include "common/core/path_limits.hpp"
 #include "common/geo/elevation_map.hpp"
 
@@ -20,10 +21,9 @@ constexpr double kClearHeightM = 0.12;  // a little less than a hazard: what may
 
 std::string find_dtm(const Config& world, const std::string& file) {
   const std::string name = world.text("dtm");
-  const fs::path found = fs::path(file).parent_path() / name;
-  if (!fs::is_regular_file(found))
-    world.fail("dtm", "elevation model " + found.lexically_normal().string() + " not found");
-  return found.lexically_normal().string();
+  const std::string found = user_path(name.starts_with("~") ? fs::path(name) : fs::path(file).parent_path() / name);
+  if (!fs::is_regular_file(found)) world.fail("dtm", "elevation model " + found + " not found");
+  return found;
 }
 
 ElevationRaster read_plane(const Config& plane) {
