@@ -32,7 +32,6 @@ std::string write_report(const Study& study) {
   constexpr double kPngScale = 1.0;
   const RunFolder& folder = study.folder;
   const Metrics& m = study.judgement.metrics;
-  check_targets(folder.dir);
   write_file(folder.dir + "/metrics.json",
              metrics_json(m).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
   const Pictures pictures = draw_pictures(study);
@@ -47,6 +46,7 @@ std::string write_report(const Study& study) {
 }
 
 std::string make_report(const std::string& run_dir, const std::string& default_config_dir, int log_run) {
+  check_targets(run_dir);
   return write_report(study_run(run_dir, default_config_dir, log_run));
 }
 
