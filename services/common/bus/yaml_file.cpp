@@ -60,6 +60,7 @@ class StrictReader : public YAML::EventHandler {
     if (at_key()) fail(mark, "a key has no name");
     const bool of_key = !levels_.empty() && levels_.back().is_map;  // the parser names the line after it
     fail(of_key ? levels_.back().key_mark : mark, "no value; 'key: value' is expected, with a blank after the colon");
+    finish_value();
   }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override { fail(mark, "aliases (*) are not read"); }
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
@@ -82,7 +83,11 @@ class StrictReader : public YAML::EventHandler {
   }
   void OnMapEnd() override { close(); }
 
-  bool has_document() const { return documents_ > 0; }
+  // Throws ConfigError with the first thing that is not right.
+  void finish() const {
+    if (documents_ == 0) throw ConfigError(name_ + ": empty");
+    if (!refusal_.empty()) throw ConfigError(refusal_);
+  }
 
  private:
   struct Level {
@@ -105,12 +110,14 @@ class StrictReader : public YAML::EventHandler {
     return path;
   }
 
-  [[noreturn]] void fail(const YAML::Mark& mark, const std::string& what) const {
+  // Not thrown yet: what the parser itself finds wrong further on (a bracket that is left open) comes first.
+  void fail(const YAML::Mark& mark, const std::string& what) {
+    if (!refusal_.empty()) return;
     const std::string at = path();
-    throw ConfigError(name_ + ":" + std::to_string(mark.line + 1) + ": " + at + (at.empty() ? "" : ": ") + what);
+    refusal_ = name_ + ":" + std::to_string(mark.line + 1) + ": " + at + (at.empty() ? "" : ": ") + what;
   }
 
-  void check_properties(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor) const {
+  void check_properties(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor) {
     if (anchor != 0) fail(mark, "anchors (&) are not read; write the value in each place");
     // "?" and "!" are plain and quoted.
     if (!tag.empty() && tag != "?" && tag != "!") fail(mark, "tags (!) are not read");
@@ -146,6 +153,7 @@ class StrictReader : public YAML::EventHandler {
 
   const std::string& name_;
   int documents_ = 0;
+  std::string refusal_;
   std::vector<Level> levels_;
 };
 
@@ -159,7 +167,7 @@ YAML::Node parse_yaml(const std::string& text, const std::string& name) {
     StrictReader reader(name);
     while (parser.HandleNextDocument(reader)) {
     }
-    if (!reader.has_document()) throw ConfigError(name + ": empty");
+    reader.finish();
     return YAML::Load(text);
   } catch (const YAML::Exception& error) {
     throw ConfigError(name + ":" + std::to_string(error.mark.line + 1) + ": not valid YAML: " + error.msg);
