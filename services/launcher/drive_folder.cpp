@@ -30,7 +30,7 @@ void check_inputs(const DriveArguments& arguments) {
 
 ElevationMap read_map(const std::string& file) try {
   ElevationMap map = read_elevation_map(file);
-  demand_no_voids(map.raster, file);
+  demand_no_voids(map, file);
   return map;
 } catch (const DtmError& error) {
   throw ConfigError("--map " + std::string(error.what()));

@@ -28,8 +28,9 @@ void RunMap::read() {
   if (run_dir_.empty()) return;
   try {
     const std::string file = run_dir_ + "/orbital_map.tif";
-    ElevationRaster raster = read_elevation_map(file).raster;
-    demand_no_voids(raster, file);
+    ElevationMap map = read_elevation_map(file);
+    demand_no_voids(map, file);
+    ElevationRaster& raster = map.raster;
     map_ = std::make_unique<GroundMap>(
         GroundHeights{raster.width, raster.height, raster.resolution_m, std::move(raster.z_m)}, limits_,
         rover_length_m_);

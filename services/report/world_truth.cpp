@@ -38,8 +38,9 @@ std::optional<TrueWorld> load_true_world(const RunFolder& folder, const Box& aro
 HeightRaster load_orbital_map(const RunFolder& folder) {
   if (folder.orbital_map.empty()) return {};
   try {
-    ElevationRaster raster = read_elevation_map(folder.orbital_map).raster;
-    demand_no_voids(raster, folder.orbital_map);
+    ElevationMap map = read_elevation_map(folder.orbital_map);
+    demand_no_voids(map, folder.orbital_map);
+    ElevationRaster& raster = map.raster;
     return {raster.width, raster.height, raster.resolution_m, std::move(raster.z_m)};
   } catch (const DtmError& error) {
     std::fprintf(stderr, "%s: the map has no relief\n", error.what());

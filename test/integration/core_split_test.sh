@@ -23,7 +23,7 @@ for program in rover_orbital_planner rover_export; do
   nm -C "$BUILD/bin/$program" >"$WORK/symbols"
   ! grep -qE 'rover::(World|RockField)::' "$WORK/symbols" || fail "$program links the simulated world"
 done
-bad=$(cd "$SOURCE" && grep -rl '#include "rover_simulator/' services supervisor |
+bad=$(cd "$SOURCE" && grep -rl '#include "rover_simulator/world/' services supervisor |
   grep -vE '^services/(rover_simulator|launcher|report)/' || true)
-[ -z "$bad" ] || fail "these reach into the simulator: $bad"
+[ -z "$bad" ] || fail "these reach into the simulated world: $bad"
 echo "cores and services keep to themselves"

@@ -277,7 +277,7 @@ TEST_F(PlanCommand, APlanHasSomewhereToGo) {
       {"--start 60,270 --via 60,270 --goal 120,60", "two equal neighbours"},
       {"--start 60,270 --via 90,200 --via 90.1,200 --goal 120,60", "two via places side by side"}};
   for (const auto& [words, name] : cases)
-    wild_row("Goals", "plan: " + name, "a path of 0.0 m and exit status 0, which `run` refused",
+    wild_row("Goals", "plan: " + name, "planned, exit status 0 (0.0 m from a point to itself, which `run` refused)",
              refusal(kGale + " " + words, "m from --"));
   // There and back is a drive.
   EXPECT_EQ(execute(kGale + " --start 60,270 --via 90,268 --goal 60,270").first, 0);

@@ -48,6 +48,8 @@ void remove_voids(const Placement& placement, const std::string& file, Elevation
         fmt::format("{}: {} pixels of exactly {} m are taken as no data (undeclared; say so by "
                     "gdal_edit.py -a_nodata)",
                     file, plateau.pixels, plateau.height_m));
+  map.undeclared_voids = found.rests;
+  for (const auto& plateau : found.plateaus) map.undeclared_voids += plateau.pixels;
   if (found.rests > 0)
     map.notes.push_back(
         fmt::format("{}: {} pixels behind steps that no terrain has are taken as no data", file, found.rests));
@@ -147,7 +149,8 @@ ElevationMap read_elevation_map(const std::string& file) {
   }
 }
 
-void demand_no_voids(const ElevationRaster& raster, const std::string& file) {
+void demand_no_voids(const ElevationMap& map, const std::string& file) {
+  const ElevationRaster& raster = map.raster;
   std::int64_t voids = 0;
   size_t first = 0;
   for (size_t i = 0; i < raster.z_m.size(); ++i)
@@ -155,10 +158,12 @@ void demand_no_voids(const ElevationRaster& raster, const std::string& file) {
   if (voids == 0) return;
   const auto width = static_cast<size_t>(raster.width);
   const auto centre = [&](size_t cell) { return (static_cast<double>(cell) + 0.5) * raster.resolution_m; };
+  const std::string undeclared =
+      map.undeclared_voids == 0 ? "" : fmt::format(" ({} undeclared in the file)", map.undeclared_voids);
   throw DtmError(
-      fmt::format("{}: {} of its {} heights are no data, the first at x {:.1f}, y {:.1f} m; cut out a part "
+      fmt::format("{}: {} of its {} heights are no data{}, the first at x {:.1f}, y {:.1f} m; cut out a part "
                   "without (gdal_translate -projwin) or fill them (gdal_fillnodata.py)",
-                  file, voids, raster.z_m.size(), centre(first % width), centre(first / width)));
+                  file, voids, raster.z_m.size(), undeclared, centre(first % width), centre(first / width)));
 }
 
 }  // namespace rover

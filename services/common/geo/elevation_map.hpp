@@ -1,6 +1,7 @@
 // The one reader of orbital maps and elevation models (DTMs): whatever a user's file is, what comes out is in metres.
 #pragma once
 
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -16,8 +17,9 @@ class DtmError : public std::runtime_error {
 };
 
 struct ElevationMap {
-  ElevationRaster raster;          // metres along the ground and upwards; NaN: void
-  bool converted = false;          // the file itself has other units, another projection or other directions
+  ElevationRaster raster;             // metres along the ground and upwards; NaN: void
+  std::int64_t undeclared_voids = 0;  // pixels of the file that were taken for void though it does not say so
+  bool converted = false;             // the file itself has other units, another projection or other directions
   std::vector<std::string> notes;  // for the user's terminal, a line each: what was converted, what was taken for void
 };
 
@@ -28,6 +30,6 @@ struct ElevationMap {
 ElevationMap read_elevation_map(const std::string& file);
 
 // For users that need ground everywhere. Throws DtmError, which says how many heights are missing and where.
-void demand_no_voids(const ElevationRaster& raster, const std::string& file);
+void demand_no_voids(const ElevationMap& map, const std::string& file);
 
 }  // namespace rover

@@ -72,7 +72,7 @@ void read_world(const Config& world, const std::string& file, Scenario& scenario
   } else {
     scenario.dtm_file = find_dtm(world, file);
     ElevationMap map = read_elevation_map(scenario.dtm_file);
-    demand_no_voids(map.raster, scenario.dtm_file);
+    demand_no_voids(map, scenario.dtm_file);
     scenario.dtm = std::move(map.raster);
     scenario.dtm_notes = std::move(map.notes);
   }
