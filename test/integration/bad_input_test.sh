@@ -108,9 +108,9 @@ report_refused() {
 run=$WORK/run
 mkdir "$run"
 report_refused "report on nothing" "$WORK/none" "$WORK/none: no such folder"
-report_refused "report without log" "$run" "$run/traverse.lcm: missing"
+report_refused "report without log" "$run" "$run/traverse.lcm: no such log"
 : >"$run/traverse.lcm"
-report_refused "report on an empty log" "$run" "$run/traverse.lcm: holds no messages"
+report_refused "report on an empty log" "$run" "$run/traverse.lcm: is empty"
 printf 'no log at all\n' >"$run/traverse.lcm"
 report_refused "report on a foreign file" "$run" "$run/traverse.lcm: holds no messages"
 
