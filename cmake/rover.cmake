@@ -32,7 +32,7 @@ target_compile_options(rover_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wno-restrict
   -Wno-missing-field-initializers -Werror
   -march=x86-64-v2 -ffp-contract=off)
-if(ROVER_SANITIZE)
+if(ROVER_SANITIZE STREQUAL address)
   # UBSan without the checks that ASan's own cover (null, object-size) or that x86 has no need of: 30 % of the build time.
   # Under the sanitizers GCC 12 takes parts of std::regex for uninitialized (PR 105562).
   target_compile_options(rover_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all
@@ -40,6 +40,11 @@ if(ROVER_SANITIZE)
   target_link_options(rover_flags INTERFACE -fsanitize=address,undefined)
   # Under the sanitizer Eigen would pad what it allocates, and PCL's library, which is not sanitized, would free it without.
   target_compile_definitions(rover_flags INTERFACE EIGEN_INITIALIZE_MATRICES_BY_NAN EIGEN_MALLOC_ALREADY_ALIGNED=1)
+elseif(ROVER_SANITIZE STREQUAL thread)
+  target_compile_options(rover_flags INTERFACE -fsanitize=thread -Wno-maybe-uninitialized)
+  target_link_options(rover_flags INTERFACE -fsanitize=thread)
+elseif(ROVER_SANITIZE)
+  message(FATAL_ERROR "ROVER_SANITIZE=${ROVER_SANITIZE}: address or thread")
 endif()
 
 # What most files read, compiled once: a quarter less to build. Targets take it with rover_precompiled; those with flags
@@ -61,16 +66,15 @@ target_include_directories(rover_opencv SYSTEM INTERFACE ${OpenCV_INCLUDE_DIRS})
 target_link_libraries(rover_opencv INTERFACE ${OpenCV_LIBS})
 
 # runtime: what ./rover run needs. full: that, and the services of the Full level. tools: runtime, and what the other
-# commands use. unit_tests: the programs of the unit
-# tests. core_tests: those of them that also run under the sanitizers in each ./rover test. benchmarks: those of ./rover
-# bench micro.
+# commands use. unit_tests: the programs of the unit tests. thread_tests: those of them that start threads. benchmarks:
+# those of ./rover bench micro.
 add_custom_target(runtime)
 add_custom_target(full)
 add_dependencies(full runtime)
 add_custom_target(tools)
 add_dependencies(tools runtime)
 add_custom_target(unit_tests)
-add_custom_target(core_tests)
+add_custom_target(thread_tests)
 add_custom_target(benchmarks)
 
 # rover_core(NAME [HOT] SOURCES ... LINK ...): a library without middleware: it links neither LCM nor YAML nor the bus.
@@ -131,10 +135,10 @@ function(rover_benchmark name)
   add_dependencies(benchmarks ${name})
 endfunction()
 
-# rover_test(NAME [CORE] SOURCES ... LINK ... [LABEL unit|integration]): builds and registers a GoogleTest program.
-# CORE: of a service's core. WILD: it has rows of test/results/wild.md.
+# rover_test(NAME [THREADS] [WILD] SOURCES ... LINK ... [LABEL unit|integration]): builds and registers a GoogleTest
+# program. THREADS: it starts some, and also runs under ThreadSanitizer. WILD: it has rows of test/results/wild.md.
 function(rover_test name)
-  cmake_parse_arguments(ARG "CORE;WILD" "LABEL;TIMEOUT" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "THREADS;WILD" "LABEL;TIMEOUT" "SOURCES;LINK" ${ARGN})
   if(NOT ARG_LABEL)
     set(ARG_LABEL unit)
   endif()
@@ -150,13 +154,14 @@ function(rover_test name)
     ROVER_SOURCE_DIR="${CMAKE_SOURCE_DIR}" ROVER_BINARY_DIR="${CMAKE_BINARY_DIR}")
   rover_precompiled(${name})
   add_test(NAME ${name} COMMAND ${name})
-  set_tests_properties(${name} PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT})
+  set_tests_properties(${name} PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT} ENVIRONMENT
+    "LSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/test/lsan.supp;TSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/test/tsan.supp")
   if(ARG_LABEL STREQUAL unit)
     add_dependencies(unit_tests ${name})
   endif()
-  if(ARG_CORE)
-    add_dependencies(core_tests ${name})
-    set_property(TEST ${name} APPEND PROPERTY LABELS core)
+  if(ARG_THREADS)
+    add_dependencies(thread_tests ${name})
+    set_property(TEST ${name} APPEND PROPERTY LABELS threads)
   endif()
   if(ARG_WILD)
     target_link_libraries(${name} PRIVATE wild_rows)

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Builds and runs every test, those of the cores also under AddressSanitizer and UndefinedBehaviorSanitizer. `unit`: only
-# the unit tests; `sanitize`: all unit tests under the sanitizers, in a build of their own. Called by ./rover test.
+# Builds and runs every test; the unit tests also under AddressSanitizer and UndefinedBehaviorSanitizer, and those of them
+# that start threads under ThreadSanitizer, in builds of their own; and the parsers of users' files on wrong ones. `unit`:
+# only the unit tests; `sanitize`: only what runs under the sanitizers. Called by ./rover test.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
 
@@ -12,20 +13,25 @@ configure_and_build() {
   ninja -C "$1" --quiet "$2"
 }
 
-sanitized() {  # TARGET LABEL
-  configure_and_build build-sanitize "$1" -DROVER_SANITIZE=ON
-  run_ctest build-sanitize -L "$2"
+sanitized() {  # SANITIZER TARGET LABEL
+  configure_and_build "build-$1" "$2" -DROVER_SANITIZE="$1"
+  run_ctest "build-$1" -L "$3"
+}
+all_sanitized() {
+  sanitized address unit_tests unit
+  sanitized address fuzz_parsers fuzz
+  sanitized thread thread_tests threads
 }
 
 case "${1:-all}" in
-  sanitize) sanitized unit_tests unit ;;
+  sanitize) all_sanitized ;;
   unit)
     configure_and_build build unit_tests
     run_ctest build -L unit
     ;;
   all)
     configure_and_build build all
-    sanitized core_tests core
+    all_sanitized
     run_ctest build
     ;;
   *)

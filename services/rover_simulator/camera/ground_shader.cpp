@@ -3,6 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+// Under ThreadSanitizer there is none: it would be called when clones are resolved, before it is loaded.
+#ifdef __SANITIZE_THREAD__
+#define ROVER_AVX2_CLONE
+#else
+#define ROVER_AVX2_CLONE [[gnu::target_clones("avx2", "default")]]
+#endif
+
 namespace rover {
 namespace {
 
@@ -141,8 +148,7 @@ void GroundShader::add_layer(int index, const Points& points, State& at) const {
 }
 
 // Eight lanes fill a register of AVX2. No operation is fused or reordered in either clone: both give the same bytes.
-[[gnu::target_clones("avx2", "default")]] Lanes<float> GroundShader::radiance(const RayPacket& rays,
-                                                                              const Points& points) const {
+ROVER_AVX2_CLONE Lanes<float> GroundShader::radiance(const RayPacket& rays, const Points& points) const {
   State at{};
   for (int k = 0; k < kPacket; ++k)
     if (points.tile[k] != nullptr) interpolate(*points.tile[k], points.x[k], points.y[k], k, at);
