@@ -32,7 +32,8 @@ void add_status_options(CLI::App& command, rover::status::StatusArguments& statu
   command.add_flag("--watch", status.watch, "again each second, until Ctrl-C")->excludes(json);
   command.add_option("--run", status.target.run, "folder of the run; default: the newest in logs/ that runs")
       ->transform(rover::is_user_path());
-  command.add_option("--bus", status.target.bus, "LCM URL; default: the run's. Without a run: the bus alone");
+  command.add_option("--bus", status.target.bus, "LCM URL; default: the run's. Without a run: the bus alone")
+      ->check(rover::is_bus_url());
 }
 
 CLI::App* add_inject_command(CLI::App& app, rover::InjectArguments& inject) {
@@ -72,7 +73,7 @@ CLI::App* add_replay_command(CLI::App& app, rover::ReplayArguments& replay) {
       command->add_option("--set", replay.run.set, "set a value of the configuration: file.key=value, repeatable"));
   command->add_option("--out", replay.run.out, "folder of the replay; default: logs/<time>-replay-<log>")
       ->transform(rover::is_user_path());
-  command->add_option("--bus", replay.run.bus, "LCM URL; default: of the configuration");
+  command->add_option("--bus", replay.run.bus, "LCM URL; default: of the configuration")->check(rover::is_bus_url());
   return command;
 }
 
@@ -85,7 +86,7 @@ CLI::App* add_drive_command(CLI::App& app, rover::DriveArguments& drive) {
       ->transform(rover::is_user_path());
   command->add_option("--map", drive.map, "orbital map (GeoTIFF) for the page and the report")
       ->transform(rover::is_user_path());
-  command->add_option("--bus", drive.bus, "LCM URL; default: of bus.yaml");
+  command->add_option("--bus", drive.bus, "LCM URL; default: of bus.yaml")->check(rover::is_bus_url());
   command->add_option("--out", drive.out, "folder of the run; default: logs/<time>-drive")
       ->transform(rover::is_user_path());
   command->add_option("--record", drive.record, "full or reduced")->check(CLI::IsMember({"full", "reduced"}));
@@ -121,7 +122,7 @@ int main(int argc, char** argv) {
       ->check(rover::not_negative());
   run_command->add_option("--out", run.out, "folder of the run; default: logs/<time>-<scenario>")
       ->transform(rover::is_user_path());
-  run_command->add_option("--bus", run.bus, "LCM URL; default: of config/bus.yaml");
+  run_command->add_option("--bus", run.bus, "LCM URL; default: of config/bus.yaml")->check(rover::is_bus_url());
   run_command->add_option("--record", run.record, "full or reduced")->check(CLI::IsMember({"full", "reduced"}));
   run_command->add_flag("--headless", run.headless, "no page");
   run_command->add_flag("--allow-injection", run.allow_injection, "let ./rover inject do faults to this run");

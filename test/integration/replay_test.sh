@@ -68,7 +68,7 @@ cmp -s "$WORK/run/traverse.lcm" "$WORK/live/traverse.lcm" && fail "the setting c
 echo "-- bad input"
 refused "no log" "none.lcm: no such log" "$WORK/none.lcm"
 echo "text" >"$WORK/text.lcm"
-refused "no log inside" "holds no TICK" "$WORK/text.lcm"
+refused "no log inside" "holds no messages" "$WORK/text.lcm"
 refused "a service that is none" "no service 'sterio'; there are: " "$WORK/run" --services sterio
 refused "behind the end" "from: behind the end" "$WORK/run" --from 1000
 refused "a speed that is none" "speed fast" "$WORK/run" --speed fast
