@@ -150,7 +150,8 @@ void Gatherer::take(const hazards_t& m) {
 void Gatherer::take(const traversability_t& m) {
   if (!sane(m.cells_x, m.cells_y, m.cells.size(), m.cell_m)) return;
   place("traversability", m.header, {}, m.cell_m, m.origin_x_m, m.origin_y_m, m.cells_x, m.cells_y).cells = m.cells;
-  const auto unknown = std::count(m.cells.begin(), m.cells.end(), traversability_t::UNKNOWN);
+  constexpr auto kUnknown = traversability_t::UNKNOWN;  // LCM's constants have no address
+  const auto unknown = std::count(m.cells.begin(), m.cells.end(), kUnknown);
   view_.terrain = {m.header.utime, m.difficulty,
                    1.0 - static_cast<double>(unknown) / static_cast<double>(m.cells.size())};
 }
