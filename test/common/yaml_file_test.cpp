@@ -48,6 +48,8 @@ TEST(StrictYaml, WhatAParserWouldDropOrGuessIsRefused) {
   expect_refused(
       {{"a scenario with a second document (---)", "a: 1\n---\na: 2\n", half, "s.yaml:2: a second document"},
        {"text after the end of the document (...)", "a: 1\n...\nseed\n", half, "s.yaml:3: a second document"},
+       {"a list between two documents (found by the fuzzer)", "a: 1\n---\n    [m], drawn\n  b: [1, 2]\n", half,
+        "s.yaml:2: a second document"},
        {"an anchor and its alias", "a: &x 1\nb: *x\n", "taken", "s.yaml:1: a: anchors"},
        {"an unknown anchor", "a: *x\n", "refused", "s.yaml:1: not valid YAML"},
        {"a merge key (<<)", "a: 1\n<<: {b: 2}\n", "taken where keys are not named", "s.yaml:2: <<: merge keys"},

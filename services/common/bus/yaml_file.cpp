@@ -165,8 +165,8 @@ YAML::Node parse_yaml(const std::string& text, const std::string& name) {
     std::istringstream stream(text);
     YAML::Parser parser(stream);
     StrictReader reader(name);
-    while (parser.HandleNextDocument(reader)) {
-    }
+    // No further than a second one: the parser gives what it cannot place as documents without end.
+    if (parser.HandleNextDocument(reader)) parser.HandleNextDocument(reader);
     reader.finish();
     return YAML::Load(text);
   } catch (const YAML::Exception& error) {
