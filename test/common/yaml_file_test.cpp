@@ -149,8 +149,8 @@ TEST(StrictYaml, FilesThatNoSettingsAreAreRefused) {
   EXPECT_EQ(error_with("x: 1\na: [1, 2\nb: 3\n"), "s.yaml:3: not valid YAML: end of sequence flow not found");
   const std::string nested = error_with("a: " + std::string(40, '[') + "1" + std::string(40, ']'));
   EXPECT_NE(nested.find(": more than 32 levels deep"), std::string::npos) << nested;
-  const std::string large = error_with("a: 1 #" + std::string(1 << 20, '-'));
-  EXPECT_EQ(large, "s.yaml: larger than 1 MB, which no file of settings is");
+  const std::string large = error_with("a: 1 #" + std::string(2 << 20, '-'));
+  EXPECT_EQ(large, "s.yaml: 2 MB; at most 1 MB are expected here");
   const std::string utf16("a\0:\0 \0001\0\n\0", 10);
   const std::string wide = error_with("\xff\xfe" + utf16);
   EXPECT_EQ(wide, "s.yaml:1: not a text in UTF-8; save it as UTF-8");

@@ -46,6 +46,9 @@ struct Case {
 
 TEST_F(SettingTest, WhatIsNoSettingIsRefusedInOneLine) {
   const std::string before = limit();
+  std::string long_file(300, 'v'), long_list(100'000, '1');
+  long_file += ".key=1";
+  long_list.insert(0, "vehicle.limits.top_speed_mps=[");
   const std::vector<Case> cases = {
       {"", "refused", "file.key=value is expected"},
       {"vehicle", "refused", "file.key=value is expected"},
@@ -63,7 +66,8 @@ TEST_F(SettingTest, WhatIsNoSettingIsRefusedInOneLine) {
       {"vehicle.limits.top_speed_mps=!!float 1", "taken", "tags"},
       {"vehicle.limits.top_speed_mps=1\n--- 2", "refused", "a second document"},
       {"vehicle.limits={top_speed_mps: 1, top_speed_mps: 2}", "taken, the first ignored", "given twice"},
-      {"vehicle.limits.top_speed_mps=[" + std::string(100'000, '1'), "a crash: the stack was full", "not valid YAML"}};
+      {long_file, "an exception of the file system's", "there is no config/vvv"},
+      {long_list, "a crash: the stack was full", "not valid YAML"}};
   for (const Case& c : cases) {
     const std::string line = refusal(c.typed);
     EXPECT_NE(line.find(c.now), std::string::npos) << c.typed.substr(0, 80) << " -> " << line;
@@ -71,8 +75,9 @@ TEST_F(SettingTest, WhatIsNoSettingIsRefusedInOneLine) {
     EXPECT_LE(line.size(), 2000U);
     EXPECT_EQ(limit(), before);
     const bool is_long = c.typed.size() > 100;
-    wild_row("Configuration", "--set " + (is_long ? "of 100,000 characters" : "'" + c.typed + "'"), c.before,
-             is_long ? line.substr(0, 60) + "..." : line);
+    wild_row("Configuration",
+             "--set " + (is_long ? "of " + std::to_string(c.typed.size()) + " characters" : "'" + c.typed + "'"),
+             c.before, is_long ? line.substr(0, 60) + "..." : line);
   }
 }
 

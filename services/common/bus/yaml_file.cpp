@@ -3,14 +3,13 @@
 #include <yaml-cpp/eventhandler.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <set>
 #include <sstream>
 #include <vector>
 
 #include "common/bus/config.hpp"
+#include "common/bus/text_file.hpp"
 
 namespace rover {
 namespace {
@@ -38,7 +37,6 @@ bool is_control(char c) {
 }
 
 void check_characters(const std::string& text, const std::string& name) {
-  if (text.size() > kMostBytes) throw ConfigError(name + ": larger than 1 MB, which no file of settings is");
   for (size_t at = 0, length = 0; at < text.size(); at += length) {
     length = utf8_length(text, at);
     if (length != 0 && !is_control(text[at])) continue;
@@ -175,14 +173,7 @@ YAML::Node parse_yaml(const std::string& text, const std::string& name) {
 }
 
 YAML::Node load_yaml(const std::string& file) {
-  if (!std::filesystem::exists(file)) throw ConfigError(file + ": no such file");
-  if (!std::filesystem::is_regular_file(file)) throw ConfigError(file + ": not a file");
-  std::ifstream stream(file, std::ios::binary);
-  std::string text(kMostBytes + 1, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (stream.bad() || !stream.is_open()) throw ConfigError(file + ": cannot be read");
-  text.resize(static_cast<size_t>(stream.gcount()));
-  return parse_yaml(text, file);
+  return parse_yaml(read_text(file, kMostBytes), file);
 }
 
 void write_yaml(const std::string& file, const YAML::Node& node) {
