@@ -200,7 +200,12 @@ TEST(Fuzz, NoRequestDoesHarm) {
   // Connections that were left end when their thread has seen it.
   for (int i = 0; i < 400 && open_files() > files; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(50));
   EXPECT_LE(open_files(), files + 2);
-  EXPECT_LT(resident_mb(), memory_mb + 40.0);
+#ifdef __SANITIZE_ADDRESS__
+  constexpr double kMostMoreMb = 340.0;  // it keeps 256 MB of what was freed
+#else
+  constexpr double kMostMoreMb = 40.0;
+#endif
+  EXPECT_LT(resident_mb(), memory_mb + kMostMoreMb);
 }
 
 }  // namespace
