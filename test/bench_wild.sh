@@ -7,7 +7,7 @@ BUILD=$1
 OUT=test/results/wild.md
 ROWS=$BUILD/wild_rows.tsv
 rm -f "$ROWS"
-ROVER_WILD_ROWS=$ROWS ctest --test-dir "$BUILD" -L wild -j 2 --output-on-failure
+ROVER_WILD_ROWS=$ROWS ctest --test-dir "$BUILD" -L wild -j "$(nproc)" --output-on-failure
 {
   printf '# Files and requests from the wild\n\n'
   printf '`./rover bench wild`, commit %s. Each row is a test that has passed; "before" is commit 7fdcfb3, where it was\n' \
