@@ -20,6 +20,12 @@ TEST(BusUrl, ItsPartsAreRead) {
     EXPECT_FALSE(parse_udpm(other)) << other;
 }
 
+TEST(BusUrl, OneWithoutEndIsNone) {
+  std::string url = "udpm://239.255.76.67:7667?ttl=0";
+  for (int i = 0; i < 100'000; ++i) url += "&ttl=0";
+  EXPECT_FALSE(parse_udpm(url));
+}
+
 TEST(BusUrl, ReportsHaveAPortOfTheirOwn) {
   EXPECT_EQ(reports_url("udpm://239.255.76.67:7667?ttl=0"), "udpm://239.255.76.67:17667?ttl=0");
   EXPECT_EQ(reports_url("udpm://239.255.76.67:55535"), "udpm://239.255.76.67:65535");

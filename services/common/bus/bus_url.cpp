@@ -9,6 +9,7 @@ namespace {
 
 constexpr int kReportsAbove = 10000;
 constexpr int kLastPort = 65535;
+constexpr size_t kLongestUrl = 256;  // std::regex needs stack for each character
 
 }  // namespace
 
@@ -17,7 +18,7 @@ std::optional<BusAddress> parse_udpm(const std::string& url) {
       R"(udpm://((?:22[4-9]|23[0-9])(?:\.[0-9]{1,3}){3}):([0-9]{1,5})(?:\?(?:(?:ttl|recv_buf_size)=[0-9]{1,10}(?:&|$))*)?)");
   static const std::regex buffer(R"(recv_buf_size=([0-9]{1,10}))");
   std::smatch match;
-  if (!std::regex_match(url, match, form)) return std::nullopt;
+  if (url.size() > kLongestUrl || !std::regex_match(url, match, form)) return std::nullopt;
   BusAddress address;
   address.group = match[1];
   address.port = std::stoi(match[2]);
