@@ -5,9 +5,9 @@
 #include <rover/correction_t.hpp>
 
 #include "common/bus/elevation_message.hpp"
+#include "common/geo/elevation_map.hpp"
 #include "global_localization/convert.hpp"
 #include "global_localization/orbital_map_file.hpp"
-#include "common/geo/elevation_map.hpp"
 
 namespace rover::global {
 

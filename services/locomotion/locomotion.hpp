@@ -8,9 +8,9 @@
 #include <array>
 #include <cstdint>
 
+#include "common/core/lease.hpp"
 #include "common/core/vehicle.hpp"
-#include "locomotion/kinematics.hpp"
-#include "locomotion/lease.hpp"
+#include "common/core/wheel_kinematics.hpp"
 #include "locomotion/stall_recovery.hpp"
 
 namespace rover::locomotion {

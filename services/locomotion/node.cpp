@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "common/bus/convert.hpp"
 #include "locomotion/convert.hpp"
 
 namespace rover::locomotion {

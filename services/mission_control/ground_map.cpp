@@ -5,7 +5,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "report/relief.hpp"
+#include "common/geo/shaded_relief.hpp"
 
 namespace rover::mission {
 namespace {
@@ -84,10 +84,10 @@ void GroundMap::measure_slopes(double rover_length_m) {
 }
 
 std::vector<std::uint8_t> GroundMap::relief_jpeg() const {
-  const report::HeightRaster raster{heights_.columns, heights_.rows, heights_.resolution_m, heights_.z_m};
+  const HeightRaster raster{heights_.columns, heights_.rows, heights_.resolution_m, heights_.z_m};
   const double px_per_m = kPictureEdgePx / std::max(width_m(), height_m());
-  return report::relief_jpeg(raster, {0.0, 0.0, width_m(), height_m()}, static_cast<int>(width_m() * px_per_m),
-                             static_cast<int>(height_m() * px_per_m), report::ReliefStyle{});
+  return rover::relief_jpeg(raster, {0.0, 0.0, width_m(), height_m()}, static_cast<int>(width_m() * px_per_m),
+                            static_cast<int>(height_m() * px_per_m), ReliefStyle{});
 }
 
 std::vector<std::uint8_t> GroundMap::slope_png() const {

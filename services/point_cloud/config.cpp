@@ -2,7 +2,7 @@
 
 #include "common/bus/config.hpp"
 #include "common/bus/vehicle_config.hpp"
-#include "stereo/matcher_config.hpp"
+#include "common/stereo/matcher_config.hpp"
 
 namespace rover::cloud {
 namespace {

@@ -9,9 +9,9 @@
 
 #include "common/core/frames.hpp"
 #include "common/core/pan_tilt.hpp"
+#include "common/stereo/stereo.hpp"
 #include "point_cloud/cloud_filter.hpp"
 #include "point_cloud/foreground_fattening.hpp"
-#include "stereo/stereo.hpp"
 
 namespace rover::cloud {
 

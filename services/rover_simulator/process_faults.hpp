@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "common/bus/faults.hpp"
-#include "rover_simulator/barrier.hpp"
+#include "common/core/barrier.hpp"
 
 namespace rover {
 

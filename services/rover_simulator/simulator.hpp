@@ -17,7 +17,7 @@
 
 #include "common/bus/streams.hpp"
 #include "common/bus/tap.hpp"
-#include "rover_simulator/barrier.hpp"
+#include "common/core/barrier.hpp"
 #include "rover_simulator/command_inbox.hpp"
 #include "rover_simulator/fault_script.hpp"
 #include "rover_simulator/process_faults.hpp"

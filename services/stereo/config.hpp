@@ -4,7 +4,7 @@
 #include <string>
 
 #include "common/core/time.hpp"
-#include "stereo/stereo.hpp"
+#include "common/stereo/stereo.hpp"
 
 namespace rover::stereo {
 

@@ -4,7 +4,7 @@
 
 #include "common/bus/config.hpp"
 #include "common/bus/vehicle_config.hpp"
-#include "locomotion/kinematics.hpp"
+#include "common/core/wheel_kinematics.hpp"
 
 namespace rover::control {
 namespace {
@@ -27,8 +27,8 @@ void read_path(const Config& c, const Vehicle& vehicle, TrackedPathConfig& out) 
   c.read("smoothing_distance_m", out.smoother.max_distance_m, {0.0, 0.5});
   c.read_deg("kink_deg", out.corner_rad, {5.0, 180.0});
   c.read("kink_chord_m", out.corner_chord_m, {0.05, 2.0});
-  out.max_curvature_rate = rate_share * vehicle.steer_rate_radps /
-                           locomotion::max_steering_gradient(vehicle, 1.0 / vehicle.min_turn_radius_m);
+  out.max_curvature_rate =
+      rate_share * vehicle.steer_rate_radps / max_steering_gradient(vehicle, 1.0 / vehicle.min_turn_radius_m);
 }
 
 void read_steering(const Config& c, SteeringLawConfig& out) {

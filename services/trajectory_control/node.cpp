@@ -3,7 +3,7 @@
 #include <rover/supervisor_state_t.hpp>
 #include <string>
 
-#include "locomotion/convert.hpp"
+#include "common/bus/convert.hpp"
 #include "trajectory_control/convert.hpp"
 
 namespace rover::control {
@@ -35,8 +35,7 @@ TrajectoryControlNode::TrajectoryControlNode(Node& node, const TrajectoryControl
     : node_(node), config_(config), controller_(config) {
   node_.subscribe<path_t>(channel::kPath, [this](const path_t& m) { on_path(m); });
   node_.subscribe<pose_t>(channel::kPose, [this](const pose_t& m) { pose_ = pose_from(m); });
-  node_.subscribe<drive_permit_t>(channel::kDrivePermit,
-                                  [this](const drive_permit_t& m) { permit_ = locomotion::permit_from(m); });
+  node_.subscribe<drive_permit_t>(channel::kDrivePermit, [this](const drive_permit_t& m) { permit_ = permit_from(m); });
   node_.subscribe<ground_command_t>(channel::kGroundCommand,
                                     [this](const ground_command_t& m) { on_ground_command(m); });
   node_.subscribe<supervisor_state_t>(

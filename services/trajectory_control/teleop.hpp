@@ -1,8 +1,8 @@
 // Converts operator commands into motion within the vehicle limits: arcs down to the minimum radius, else point turns.
 #pragma once
 
+#include "common/core/lease.hpp"
 #include "common/core/time.hpp"
-#include "locomotion/lease.hpp"
 #include "trajectory_control/trajectory_controller.hpp"
 
 namespace rover::control {

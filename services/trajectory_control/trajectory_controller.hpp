@@ -6,16 +6,12 @@
 #include <optional>
 
 #include "common/core/frames.hpp"
+#include "common/core/lease.hpp"
 #include "common/core/time.hpp"
-#include "locomotion/lease.hpp"
 #include "trajectory_control/steering_law.hpp"
 #include "trajectory_control/tracked_path.hpp"
 
 namespace rover::control {
-
-using locomotion::DrivePermit;
-using locomotion::MotionCommand;
-using locomotion::MotionMode;
 
 struct TrajectoryControlConfig {
   TrackedPathConfig path;

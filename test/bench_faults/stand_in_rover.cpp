@@ -27,8 +27,8 @@ double StandInRover::noise(double sigma) {
   return sigma * planning::testing_support::gauss(random_);
 }
 
-locomotion::WheelSetpoints StandInRover::obeyed() const {
-  locomotion::WheelSetpoints out;
+WheelSetpoints StandInRover::obeyed() const {
+  WheelSetpoints out;
   std::copy_n(command_.steer_angle_rad, 4, out.steer_angle_rad.begin());
   if (command_.valid_until_utime >= now_) std::copy_n(command_.drive_rate_radps, 6, out.drive_rate_radps.begin());
   if (broken.runaway_mps != 0.0) out.drive_rate_radps.fill(broken.runaway_mps / vehicle_.wheel_radius_m);
@@ -82,7 +82,7 @@ imu_t StandInRover::imu() {
 
 wheel_state_t StandInRover::wheels() const {
   wheel_state_t out{};
-  const locomotion::WheelSetpoints& wheels = rover_.wheels();
+  const WheelSetpoints& wheels = rover_.wheels();
   for (size_t i = 0; i < 6; ++i) {
     const double rate = wheels.drive_rate_radps[i];
     out.drive_angle_rad[i] = drive_angle_rad_[i];

@@ -48,7 +48,7 @@ class StandInRover {
   Broken broken;
 
  private:
-  locomotion::WheelSetpoints obeyed() const;
+  WheelSetpoints obeyed() const;
   void tilt(double dt_s);
   double noise(double sigma);
 

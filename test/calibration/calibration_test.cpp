@@ -8,12 +8,12 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core.hpp>
 
-#include "calibration/cameras_yaml.hpp"
-#include "calibration/read.hpp"
 #include "common/bus/config.hpp"
 #include "common/bus/vehicle_config.hpp"
 #include "common/core/frames.hpp"
 #include "test/wild.hpp"
+#include "tools/calibration/cameras_yaml.hpp"
+#include "tools/calibration/read.hpp"
 
 namespace rover::calibration {
 namespace {

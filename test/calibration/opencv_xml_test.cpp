@@ -1,4 +1,4 @@
-#include "calibration/opencv_xml.hpp"
+#include "tools/calibration/opencv_xml.hpp"
 
 #include <gtest/gtest.h>
 

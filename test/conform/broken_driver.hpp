@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "common/bus/channels.hpp"
-#include "conform/duties.hpp"
-#include "conform/listener.hpp"
-#include "conform/speaker.hpp"
 #include "driver/driver.hpp"
+#include "tools/conform/duties.hpp"
+#include "tools/conform/listener.hpp"
+#include "tools/conform/speaker.hpp"
 
 namespace rover::conform {
 

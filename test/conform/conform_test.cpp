@@ -5,8 +5,8 @@
 
 #include "broken_driver.hpp"
 #include "common/bus/convert.hpp"
-#include "conform/image_shift.hpp"
-#include "conform/table.hpp"
+#include "tools/conform/image_shift.hpp"
+#include "tools/conform/table.hpp"
 
 namespace rover::conform {
 namespace {

@@ -1,10 +1,10 @@
 #include <opencv2/imgcodecs.hpp>
 
-#include "calibration/read.hpp"
 #include "corpus.hpp"
-#include "interchange/import_data_set.hpp"
-#include "interchange/stereo_data_set.hpp"
 #include "parsers.hpp"
+#include "tools/calibration/read.hpp"
+#include "tools/interchange/import_data_set.hpp"
+#include "tools/interchange/stereo_data_set.hpp"
 
 namespace rover::fuzz {
 namespace {

@@ -11,12 +11,12 @@
 #include "common/bus/event_log.hpp"
 #include "common/bus/streams.hpp"
 #include "corpus.hpp"
-#include "interchange/export_log.hpp"
 #include "parsers.hpp"
-#include "recorder/repair.hpp"
-#include "replay/recorded_log.hpp"
-#include "report/log_reader.hpp"
-#include "spy/traffic.hpp"
+#include "tools/interchange/export_log.hpp"
+#include "tools/repair/repair.hpp"
+#include "tools/replay/recorded_log.hpp"
+#include "tools/report/log_reader.hpp"
+#include "tools/spy/traffic.hpp"
 
 namespace rover::fuzz {
 namespace {

@@ -4,14 +4,14 @@
 #include "common/bus/vehicle_config.hpp"
 #include "common/bus/yaml_file.hpp"
 #include "corpus.hpp"
-#include "launcher/arguments.hpp"
-#include "launcher/run_folder.hpp"
 #include "mission_control/config.hpp"
-#include "orbital_planner/command.hpp"
 #include "parsers.hpp"
-#include "report/config_difference.hpp"
 #include "rover_simulator/world/scenario.hpp"
 #include "supervisor/config.hpp"
+#include "tools/launcher/arguments.hpp"
+#include "tools/launcher/run_folder.hpp"
+#include "tools/orbital_planner/command.hpp"
+#include "tools/report/config_difference.hpp"
 
 namespace rover::fuzz {
 namespace {

@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "common/core/frames.hpp"
+#include "common/geo/elevation_map.hpp"
 #include "global_localization/config.hpp"
 #include "global_localization/global_localization.hpp"
-#include "common/geo/elevation_map.hpp"
 #include "rover_simulator/world/noise.hpp"
 #include "test/global_localization/bench_world.hpp"
 #include "test/global_localization/mapped_drive.hpp"

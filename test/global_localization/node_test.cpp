@@ -7,9 +7,9 @@
 #include <rover/correction_t.hpp>
 
 #include "common/bus/convert.hpp"
-#include "global_localization/orbital_map_file.hpp"
 #include "common/geo/elevation_map.hpp"
 #include "common/geo/geotiff_writer.hpp"
+#include "global_localization/orbital_map_file.hpp"
 #include "test/global_localization/made_ground.hpp"
 #include "test/stereo/one_node_world.hpp"
 

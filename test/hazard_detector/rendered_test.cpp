@@ -5,11 +5,11 @@
 #include <opencv2/core.hpp>
 
 #include "common/core/frames.hpp"
+#include "common/geo/elevation_map.hpp"
+#include "common/stereo/stereo.hpp"
 #include "hazard_detector/hazard_detector.hpp"
 #include "rover_simulator/camera/stereo_camera_sim.hpp"
-#include "common/geo/elevation_map.hpp"
 #include "rover_simulator/world/world.hpp"
-#include "stereo/stereo.hpp"
 #include "test/hazard_detector/scene.hpp"
 
 namespace rover::hazard {
@@ -25,7 +25,8 @@ class RenderedTest : public testing::Test {
   static World make_world(double k) {
     WorldConfig config;
     config.rocks.k = k;
-    return World(config, read_elevation_map(ROVER_SOURCE_DIR "/config/terrain/gale/gale_hirise_dtm_1m_348x337.tif").raster, 5);
+    return World(config,
+                 read_elevation_map(ROVER_SOURCE_DIR "/config/terrain/gale/gale_hirise_dtm_1m_348x337.tif").raster, 5);
   }
 
   // Least-squares body pose with the six wheels on the ground (rocks ignored).

@@ -1,4 +1,4 @@
-#include "interchange/csv_table.hpp"
+#include "tools/interchange/csv_table.hpp"
 
 #include <gtest/gtest.h>
 

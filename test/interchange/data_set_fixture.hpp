@@ -10,8 +10,8 @@
 
 #include "../common/temp_folder.hpp"
 #include "common/bus/config.hpp"
-#include "interchange/import_data_set.hpp"
-#include "interchange/stereo_data_set.hpp"
+#include "tools/interchange/import_data_set.hpp"
+#include "tools/interchange/stereo_data_set.hpp"
 
 namespace rover::interchange {
 

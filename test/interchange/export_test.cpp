@@ -14,7 +14,7 @@
 #include "common/bus/config.hpp"
 #include "common/bus/interrupt.hpp"
 #include "common/bus/user_files.hpp"
-#include "interchange/export_log.hpp"
+#include "tools/interchange/export_log.hpp"
 #include "wild.hpp"
 
 namespace rover::interchange {

@@ -6,7 +6,7 @@
 
 #include "../common/temp_folder.hpp"
 #include "common/bus/config.hpp"
-#include "interchange/stereo_data_set.hpp"
+#include "tools/interchange/stereo_data_set.hpp"
 #include "wild.hpp"
 
 namespace rover::interchange {

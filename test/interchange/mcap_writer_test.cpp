@@ -1,5 +1,5 @@
 // The file's structure, record by record. A published reader reads it in test/integration/export_test.sh.
-#include "interchange/mcap_writer.hpp"
+#include "tools/interchange/mcap_writer.hpp"
 
 #include <gtest/gtest.h>
 #include <zlib.h>

@@ -1,4 +1,4 @@
-#include "interchange/message_json.hpp"
+#include "tools/interchange/message_json.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include "common/bus/channels.hpp"
 #include "common/bus/streams.hpp"
 #include "common/core/frames.hpp"
-#include "interchange/foxglove.hpp"
+#include "tools/interchange/foxglove.hpp"
 
 namespace rover::interchange {
 namespace {

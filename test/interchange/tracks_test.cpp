@@ -1,4 +1,4 @@
-#include "interchange/tracks.hpp"
+#include "tools/interchange/tracks.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // What ./rover drive makes of what it hears: a driver's silent channels and clocks, the goal, the order to stop.
-#include "launcher/drive_watch.hpp"
+#include "tools/launcher/drive_watch.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,10 +9,10 @@
 
 #include "common/bus/config.hpp"
 #include "common/geo/elevation_map.hpp"
-#include "launcher/drive_folder.hpp"
-#include "launcher/run_folder.hpp"
 #include "test/common/temp_folder.hpp"
 #include "test/geo/map_files.hpp"
+#include "tools/launcher/drive_folder.hpp"
+#include "tools/launcher/run_folder.hpp"
 #include "wild.hpp"
 
 namespace rover {

@@ -6,8 +6,8 @@
 #include "../common/temp_folder.hpp"
 #include "common/bus/config.hpp"
 #include "common/bus/yaml_file.hpp"
-#include "launcher/arguments.hpp"
-#include "launcher/run_folder.hpp"
+#include "tools/launcher/arguments.hpp"
+#include "tools/launcher/run_folder.hpp"
 #include "wild.hpp"
 
 namespace rover {

@@ -1,10 +1,9 @@
-#include "locomotion/kinematics.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "common/bus/vehicle_config.hpp"
+#include "common/core/wheel_kinematics.hpp"
 #include "test/trajectory_control/kinematic_rover.hpp"
 
 namespace rover::locomotion {

@@ -1,4 +1,4 @@
-#include "locomotion/lease.hpp"
+#include "common/core/lease.hpp"
 
 #include <gtest/gtest.h>
 

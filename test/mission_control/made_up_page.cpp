@@ -9,8 +9,8 @@
 
 #include "common/bus/service_names.hpp"
 #include "common/bus/vehicle_config.hpp"
-#include "mission_control/page_server.hpp"
 #include "common/geo/geotiff_writer.hpp"
+#include "mission_control/page_server.hpp"
 #include "test/common/temp_folder.hpp"
 #include "test/mission_control/made_up_drive.hpp"
 

@@ -1,5 +1,5 @@
 // ./rover plan as a whole: what it writes, what it says to bad input, and the scenario that was made with it.
-#include "orbital_planner/command.hpp"
+#include "tools/orbital_planner/command.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -20,11 +20,11 @@
 #include "common/geo/elevation_map.hpp"
 #include "common/geo/geography.hpp"
 #include "common/geo/geotiff_writer.hpp"
-#include "orbital_planner/picture.hpp"
 #include "path_planner/convert.hpp"
 #include "rover_simulator/world/scenario.hpp"
 #include "test/common/temp_folder.hpp"
 #include "test/geo/map_files.hpp"
+#include "tools/orbital_planner/picture.hpp"
 #include "wild.hpp"
 
 namespace rover::orbital {

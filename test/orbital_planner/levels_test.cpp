@@ -1,5 +1,5 @@
 // The level along a straight line whose difficulty is known.
-#include "orbital_planner/levels.hpp"
+#include "tools/orbital_planner/levels.hpp"
 
 #include <gtest/gtest.h>
 

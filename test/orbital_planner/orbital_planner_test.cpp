@@ -1,5 +1,5 @@
 // Plans on maps whose answer is plain.
-#include "orbital_planner/orbital_planner.hpp"
+#include "tools/orbital_planner/orbital_planner.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Ways over cost maps whose best way is known.
-#include "orbital_planner/route.hpp"
+#include "tools/orbital_planner/route.hpp"
 
 #include <gtest/gtest.h>
 

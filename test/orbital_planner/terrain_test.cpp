@@ -1,11 +1,11 @@
 // Slope, roughness, steps and classes against maps of known shape.
-#include "orbital_planner/terrain.hpp"
+#include "tools/orbital_planner/terrain.hpp"
 
 #include <gtest/gtest.h>
 
 #include "map_fixture.hpp"
-#include "orbital_planner/travel_cost.hpp"
 #include "test/common/randoms.hpp"
+#include "tools/orbital_planner/travel_cost.hpp"
 
 namespace rover::orbital {
 namespace {

@@ -1,8 +1,8 @@
-#include "replay/comparison.hpp"
+#include "tools/replay/comparison.hpp"
 
 #include <gtest/gtest.h>
 
-#include "replay/verdict_text.hpp"
+#include "tools/replay/verdict_text.hpp"
 
 namespace rover::replay {
 namespace {

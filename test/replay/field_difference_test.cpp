@@ -1,4 +1,4 @@
-#include "replay/field_difference.hpp"
+#include "tools/replay/field_difference.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "replay/pacer.hpp"
+#include "tools/replay/pacer.hpp"
 
 #include <gtest/gtest.h>
 

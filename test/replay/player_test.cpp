@@ -1,4 +1,4 @@
-#include "replay/player.hpp"
+#include "tools/replay/player.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "replay/recorded_log.hpp"
+#include "tools/replay/recorded_log.hpp"
 
 #include <gtest/gtest.h>
 

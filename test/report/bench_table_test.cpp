@@ -1,9 +1,9 @@
-#include "report/bench_table.hpp"
+#include "tools/report/bench_table.hpp"
 
 #include <gtest/gtest.h>
 
 #include "common/bus/config.hpp"
-#include "report/bench_rows.hpp"
+#include "tools/report/bench_rows.hpp"
 
 namespace rover::report {
 namespace {

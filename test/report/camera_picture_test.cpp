@@ -1,4 +1,4 @@
-#include "report/camera_picture.hpp"
+#include "tools/report/camera_picture.hpp"
 
 #include <gmock/gmock.h>
 
@@ -9,7 +9,7 @@
 #include "../common/temp_folder.hpp"
 #include "common/bus/channels.hpp"
 #include "message_log.hpp"
-#include "report/camera_reader.hpp"
+#include "tools/report/camera_reader.hpp"
 
 namespace rover::report {
 namespace {

@@ -6,13 +6,13 @@
 
 #include "../common/temp_folder.hpp"
 #include "common/bus/config.hpp"
-#include "report/compare_html.hpp"
-#include "report/compare_runs.hpp"
-#include "report/html_parts.hpp"
-#include "report/map_picture.hpp"
-#include "report/run_folder.hpp"
-#include "report/slope_map.hpp"
 #include "synthetic_run.hpp"
+#include "tools/report/compare_html.hpp"
+#include "tools/report/compare_runs.hpp"
+#include "tools/report/html_parts.hpp"
+#include "tools/report/map_picture.hpp"
+#include "tools/report/run_folder.hpp"
+#include "tools/report/slope_map.hpp"
 
 namespace rover::report {
 namespace {

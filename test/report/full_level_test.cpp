@@ -16,11 +16,11 @@
 #include "common/bus/convert.hpp"
 #include "known_run.hpp"
 #include "message_log.hpp"
-#include "report/elevation_picture.hpp"
-#include "report/level_picture.hpp"
-#include "report/log_reader.hpp"
-#include "report/metrics_json.hpp"
-#include "report/rasterise.hpp"
+#include "tools/report/elevation_picture.hpp"
+#include "tools/report/level_picture.hpp"
+#include "tools/report/log_reader.hpp"
+#include "tools/report/metrics_json.hpp"
+#include "tools/report/rasterise.hpp"
 
 namespace rover::report {
 namespace {

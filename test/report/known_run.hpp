@@ -1,7 +1,7 @@
 // Runs whose figures can be worked out by hand.
 #pragma once
 
-#include "report/metrics.hpp"
+#include "tools/report/metrics.hpp"
 
 namespace rover::report {
 

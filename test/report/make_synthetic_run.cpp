@@ -2,10 +2,10 @@
 #include <cmath>
 #include <filesystem>
 
-#include "report/log_reader.hpp"
-#include "report/make_report.hpp"
 #include "rover_simulator/world/world.hpp"
 #include "synthetic_run.hpp"
+#include "tools/report/log_reader.hpp"
+#include "tools/report/make_report.hpp"
 
 using namespace rover::report;
 

@@ -1,4 +1,4 @@
-#include "report/metrics.hpp"
+#include "tools/report/metrics.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,9 +5,9 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "common/core/frames.hpp"
-#include "report/map_layers.hpp"
-#include "report/plot.hpp"
-#include "report/svg.hpp"
+#include "tools/report/map_layers.hpp"
+#include "tools/report/plot.hpp"
+#include "tools/report/svg.hpp"
 
 namespace rover::report {
 namespace {

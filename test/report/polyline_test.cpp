@@ -1,4 +1,4 @@
-#include "report/polyline.hpp"
+#include "tools/report/polyline.hpp"
 
 #include <gtest/gtest.h>
 

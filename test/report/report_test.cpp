@@ -17,11 +17,11 @@
 #include "common/bus/channels.hpp"
 #include "common/bus/config.hpp"
 #include "message_log.hpp"
-#include "report/log_reader.hpp"
-#include "report/make_report.hpp"
-#include "report/map_picture.hpp"
-#include "report/metrics_json.hpp"
 #include "synthetic_run.hpp"
+#include "tools/report/log_reader.hpp"
+#include "tools/report/make_report.hpp"
+#include "tools/report/map_picture.hpp"
+#include "tools/report/metrics_json.hpp"
 #include "wild.hpp"
 
 namespace rover::report {

@@ -1,4 +1,4 @@
-#include "report/rock_judge.hpp"
+#include "tools/report/rock_judge.hpp"
 
 #include <gtest/gtest.h>
 

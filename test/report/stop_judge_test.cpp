@@ -1,4 +1,4 @@
-#include "report/stop_judge.hpp"
+#include "tools/report/stop_judge.hpp"
 
 #include <gtest/gtest.h>
 

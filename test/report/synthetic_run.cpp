@@ -19,8 +19,8 @@
 #include "common/bus/channels.hpp"
 #include "common/bus/convert.hpp"
 #include "message_log.hpp"
-#include "report/polyline.hpp"
-#include "report/track.hpp"
+#include "tools/report/polyline.hpp"
+#include "tools/report/track.hpp"
 
 namespace rover::report {
 namespace {

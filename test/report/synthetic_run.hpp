@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "report/run_record.hpp"
+#include "tools/report/run_record.hpp"
 
 namespace rover::report {
 

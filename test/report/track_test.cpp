@@ -1,4 +1,4 @@
-#include "report/track.hpp"
+#include "tools/report/track.hpp"
 
 #include <gtest/gtest.h>
 

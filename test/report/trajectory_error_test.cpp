@@ -1,4 +1,4 @@
-#include "report/trajectory_error.hpp"
+#include "tools/report/trajectory_error.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "report/world_truth.hpp"
+#include "tools/report/world_truth.hpp"
 
 #include <gtest/gtest.h>
 

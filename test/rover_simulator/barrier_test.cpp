@@ -1,4 +1,4 @@
-#include "rover_simulator/barrier.hpp"
+#include "common/core/barrier.hpp"
 
 #include <gtest/gtest.h>
 

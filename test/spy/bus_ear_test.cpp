@@ -1,5 +1,5 @@
 // The spy on a bus of its own.
-#include "spy/bus_ear.hpp"
+#include "tools/spy/bus_ear.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

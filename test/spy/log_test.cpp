@@ -12,7 +12,7 @@
 #include "../common/temp_folder.hpp"
 #include "common/bus/config.hpp"
 #include "messages.hpp"
-#include "spy/spy_command.hpp"
+#include "tools/spy/spy_command.hpp"
 #include "wild.hpp"
 
 namespace rover::spy {
@@ -116,8 +116,8 @@ TEST_F(SpyOnLog, ChannelsOfOthersAreShownAsTheyCanBe) {
   EXPECT_EQ(spy_with({.log = log_, .channels = {"\033[2J"}}), 2);
   EXPECT_THAT(said_, testing::HasSubstr("caf?"));
   EXPECT_THAT(said_, testing::Not(testing::HasSubstr("\033")));
-  wild_row("Logs", "spy: a channel whose name is Latin-1, or has slashes", "in a refusal its bytes as they are on the terminal",
-           "caf? in the table, U+FFFD in JSON");
+  wild_row("Logs", "spy: a channel whose name is Latin-1, or has slashes",
+           "in a refusal its bytes as they are on the terminal", "caf? in the table, U+FFFD in JSON");
 }
 
 // The records of a logger whose clock was set, and of one that has none.

@@ -8,9 +8,9 @@
 #include <sstream>
 
 #include "messages.hpp"
-#include "spy/field_lines.hpp"
-#include "spy/figures_json.hpp"
-#include "spy/table.hpp"
+#include "tools/spy/field_lines.hpp"
+#include "tools/spy/figures_json.hpp"
+#include "tools/spy/table.hpp"
 
 namespace rover::spy {
 namespace {

@@ -1,4 +1,4 @@
-#include "spy/traffic.hpp"
+#include "tools/spy/traffic.hpp"
 
 #include <gmock/gmock.h>
 

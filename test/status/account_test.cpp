@@ -1,4 +1,4 @@
-#include "status/account.hpp"
+#include "tools/status/account.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "made_up.hpp"
-#include "status/snapshot_json.hpp"
+#include "tools/status/snapshot_json.hpp"
 
 namespace rover::status {
 namespace {

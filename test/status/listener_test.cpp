@@ -1,4 +1,4 @@
-#include "status/listener.hpp"
+#include "tools/status/listener.hpp"
 
 #include <gtest/gtest.h>
 

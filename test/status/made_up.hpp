@@ -1,7 +1,7 @@
 // A status with something of everything to show.
 #pragma once
 
-#include "status/snapshot.hpp"
+#include "tools/status/snapshot.hpp"
 
 namespace rover::status {
 

@@ -1,4 +1,4 @@
-#include "status/processes.hpp"
+#include "tools/status/processes.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "status/running_run.hpp"
 #include "test/common/temp_folder.hpp"
+#include "tools/status/running_run.hpp"
 
 namespace rover::status {
 namespace {

@@ -1,4 +1,4 @@
-#include "status/screen.hpp"
+#include "tools/status/screen.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // The block matcher against OpenCV's StereoBM, which does the same tests on the same costs. Known differences: StereoBM
 // rounds the sub-pixel value up to 1/16 px, not to the nearest; its left-right check lets pass what agrees with either
 // right pixel beside the match; and the speckle filter sees what these two leave.
-#include "stereo/block_matcher.hpp"
+#include "common/stereo/block_matcher.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <random>
 #include <string>
 
-#include "stereo/rectifier.hpp"
+#include "common/stereo/rectifier.hpp"
 #include "test/stereo/synthetic_world.hpp"
 
 namespace rover::stereo {

@@ -6,7 +6,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "stereo/stereo.hpp"
+#include "common/stereo/stereo.hpp"
 
 namespace rover::stereo {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "stereo/stereo.hpp"
+#include "common/stereo/stereo.hpp"
 #include "test/stereo/synthetic_world.hpp"
 
 namespace {

@@ -1,4 +1,4 @@
-#include "stereo/stereo.hpp"
+#include "common/stereo/stereo.hpp"
 
 #include <gtest/gtest.h>
 

@@ -116,15 +116,15 @@ class DriveLoop {
   std::function<void(control::PoseInput&)> modify_pose;
 
  private:
-  static locomotion::WheelSetpoints stopped(locomotion::WheelSetpoints wheels) {
+  static WheelSetpoints stopped(WheelSetpoints wheels) {
     wheels.drive_rate_radps.fill(0.0);
     return wheels;
   }
 
-  locomotion::WheelSetpoints applied_;
-  locomotion::MotionCommand command_;
-  locomotion::MotionCommand last_command_;
-  locomotion::DrivePermit permit_;
+  WheelSetpoints applied_;
+  MotionCommand command_;
+  MotionCommand last_command_;
+  DrivePermit permit_;
   control::PoseInput pose_;
 };
 

@@ -9,7 +9,7 @@
 
 #include "common/core/frames.hpp"
 #include "common/core/vehicle.hpp"
-#include "locomotion/kinematics.hpp"
+#include "common/core/wheel_kinematics.hpp"
 
 namespace rover::test {
 
@@ -21,7 +21,7 @@ struct Twist {
 };
 
 // Forward kinematics by least squares over the six wheels.
-inline Twist forward_kinematics(const Vehicle& v, const locomotion::WheelSetpoints& wheels) {
+inline Twist forward_kinematics(const Vehicle& v, const WheelSetpoints& wheels) {
   Eigen::Matrix<double, 12, 3> A = Eigen::Matrix<double, 12, 3>::Zero();
   Eigen::Matrix<double, 12, 1> b;
   std::array<double, 6> angle{};
@@ -44,7 +44,7 @@ class KinematicRover {
  public:
   explicit KinematicRover(const Vehicle& vehicle) : vehicle_(vehicle) {}
 
-  void step(const locomotion::WheelSetpoints& command, double dt_s) {
+  void step(const WheelSetpoints& command, double dt_s) {
     constexpr double kSteeringLagS = 0.15;
     constexpr double kDriveLagS = 0.10;
     const double max_step_rad = vehicle_.steer_rate_radps * dt_s;
@@ -70,7 +70,7 @@ class KinematicRover {
   void put(const Pose2& pose) { pose_ = pose; }
   const Pose2& pose() const { return pose_; }
   const Twist& twist() const { return twist_; }
-  const locomotion::WheelSetpoints& wheels() const { return wheels_; }
+  const WheelSetpoints& wheels() const { return wheels_; }
   double fastest_wheel_mps() const {
     double fastest = 0.0;
     for (const double rate : wheels_.drive_rate_radps) fastest = std::max(fastest, std::abs(rate));
@@ -85,7 +85,7 @@ class KinematicRover {
   Vehicle vehicle_;
   Pose2 pose_;
   Twist twist_;
-  locomotion::WheelSetpoints wheels_;
+  WheelSetpoints wheels_;
 };
 
 }  // namespace rover::test

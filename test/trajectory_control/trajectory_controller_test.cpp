@@ -19,7 +19,7 @@ class ControllerTest : public testing::Test {
     EXPECT_EQ(out.state, state);
     EXPECT_EQ(out.command.mode, MotionMode::kStop);
     EXPECT_EQ(out.command.speed_mps, 0.0);
-    EXPECT_FALSE(locomotion::command_valid(out.command, kNow, 200'000));
+    EXPECT_FALSE(command_valid(out.command, kNow, 200'000));
   }
 
   // Prediction on the same path from the current position after 3 s at that velocity.

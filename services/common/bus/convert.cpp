@@ -82,4 +82,20 @@ void disparity_to(const Disparity& disparity, const StereoCamera& camera, dispar
   message.disparity_px16 = disparity.px16;
 }
 
+MotionCommand command_from(const motion_command_t& message) {
+  MotionCommand out;
+  out.utime = message.header.utime;
+  out.valid_until = message.valid_until_utime;
+  if (message.mode == motion_command_t::ARC) out.mode = MotionMode::kArc;
+  if (message.mode == motion_command_t::POINT_TURN) out.mode = MotionMode::kPointTurn;
+  out.speed_mps = message.speed_mps;
+  out.curvature_per_m = message.curvature_per_m;
+  out.turn_rate_radps = message.turn_rate_radps;
+  return out;
+}
+
+DrivePermit permit_from(const drive_permit_t& message) {
+  return {message.header.utime, message.valid_until_utime, message.granted == 1, message.max_speed_mps};
+}
+
 }  // namespace rover

@@ -3,10 +3,13 @@
 
 #include <Eigen/Geometry>
 #include <rover/disparity_t.hpp>
+#include <rover/drive_permit_t.hpp>
 #include <rover/image_t.hpp>
+#include <rover/motion_command_t.hpp>
 
 #include "common/core/frames.hpp"
 #include "common/core/image.hpp"
+#include "common/core/lease.hpp"
 
 namespace rover {
 
@@ -23,5 +26,8 @@ void image_to(const GrayImage& image, image_t& message);
 Disparity disparity_from(const disparity_t& message);
 StereoCamera camera_from(const disparity_t& message);
 void disparity_to(const Disparity& disparity, const StereoCamera& camera, disparity_t& message);
+
+MotionCommand command_from(const motion_command_t& message);
+DrivePermit permit_from(const drive_permit_t& message);
 
 }  // namespace rover

@@ -5,6 +5,7 @@
 #include <gdal_priv.h>
 
 #include <algorithm>
+#include <cctype>
 #include <string>
 
 namespace rover {
@@ -24,7 +25,8 @@ class GdalSession {
   // On one line in brackets; empty where there was none.
   std::string last_error() const {
     std::string text = CPLGetLastErrorMsg();
-    std::replace(text.begin(), text.end(), '\n', ' ');
+    std::replace_if(
+        text.begin(), text.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
     return text.empty() ? "" : " (" + text + ")";
   }
 };

@@ -34,8 +34,8 @@ struct Scenario {
   std::string dtm_file;  // as found; empty: a synthetic plane
   ElevationRaster dtm;
   std::vector<std::string> dtm_notes;  // for the user: what was converted, what was taken for void
-  std::uint64_t seed = 1;  // of everything random in the run, unless the command gives another
-  WorldConfig world;       // keep-clear circles of start and goal included
+  std::uint64_t seed = 1;              // of everything random in the run, unless the command gives another
+  WorldConfig world;                   // keep-clear circles of start and goal included
   double orbital_resolution_m = 1.0;
   double gravity_mps2 = 3.71;
   double sun_elevation_rad = to_rad(40.0);

@@ -1,0 +1,196 @@
+#include "common/stereo/block_matcher.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <opencv2/calib3d.hpp>
+
+#include "common/core/check.hpp"
+
+namespace rover::stereo {
+namespace {
+
+// The search range is indexed from its far end: index k is the residual max - k, so that the right pixels of one left
+// pixel lie in memory in the order of their indices.
+//
+// A match is cost << 16 | index: of two matches the lesser number is the better one.
+constexpr std::uint32_t kNoMatch = UINT32_MAX;
+constexpr int cost_of(std::uint32_t match) {
+  return static_cast<int>(match >> 16);
+}
+constexpr int index_of(std::uint32_t match) {
+  return static_cast<int>(match & 0xFFFF);
+}
+
+int residual_max_px(const MatcherConfig& config) {
+  return config.residual_min_px + config.residual_count_px - 1;
+}
+
+// Horizontal Sobel gradient of one row, clipped. The first and the last pixel have none.
+void x_sobel(const std::uint8_t* above, const std::uint8_t* row, const std::uint8_t* below, int width, int cap,
+             std::int8_t* __restrict gradient) {
+  for (int x = 1; x < width - 1; ++x) {
+    const int sum = (above[x + 1] - above[x - 1]) + 2 * (row[x + 1] - row[x - 1]) + (below[x + 1] - below[x - 1]);
+    gradient[x] = static_cast<std::int8_t>(std::clamp(sum, -cap, cap));
+  }
+}
+
+// Rows of the gradient images that enter and leave the block, from the first column of the first block on; of the right
+// image from the first pixel of that column's search range on.
+struct BlockRows {
+  const std::int8_t* left_in;
+  const std::int8_t* left_out;
+  const std::int8_t* right_in;
+  const std::int8_t* right_out;
+};
+
+// Costs of the columns of the block, [column][index].
+void move_down(const BlockRows& rows, int columns, int count, std::uint16_t* __restrict cost) {
+  for (int x = 0; x < columns; ++x) {
+    const int in = rows.left_in[x], out = rows.left_out[x];
+    for (int k = 0; k < count; ++k)
+      cost[k] = static_cast<std::uint16_t>(cost[k] + std::abs(in - rows.right_in[x + k]) -
+                                           std::abs(out - rows.right_out[x + k]));
+    cost += count;
+  }
+}
+
+void move_down(const BlockRows& rows, int columns, std::uint16_t* __restrict texture) {
+  for (int x = 0; x < columns; ++x)
+    texture[x] = static_cast<std::uint16_t>(texture[x] + std::abs(rows.left_in[x]) - std::abs(rows.left_out[x]));
+}
+
+void move_right(const std::uint16_t* column_in, const std::uint16_t* column_out, int count,
+                std::uint16_t* __restrict cost) {
+  for (int k = 0; k < count; ++k) cost[k] = static_cast<std::uint16_t>(cost[k] + column_in[k] - column_out[k]);
+}
+
+std::uint32_t best_match(const std::uint16_t* cost, int count) {
+  std::uint32_t best = kNoMatch;
+  for (int k = 0; k < count; ++k) best = std::min(best, static_cast<std::uint32_t>(cost[k]) << 16 | k);
+  return best;
+}
+
+// The best match, if no index beside it and its neighbours costs less than the margin more.
+std::uint32_t unique_match(const std::uint16_t* cost, int count, int margin_percent) {
+  const std::uint32_t best = best_match(cost, count);
+  const int k = index_of(best);
+  const auto limit = static_cast<std::uint16_t>(std::min(cost_of(best) * (100 + margin_percent) / 100, UINT16_MAX));
+  std::uint16_t within = 0;
+  for (int i = 0; i < count; ++i) within = static_cast<std::uint16_t>(within + (cost[i] <= limit));
+  for (int i = std::max(k - 1, 0); i <= std::min(k + 1, count - 1); ++i)
+    within = static_cast<std::uint16_t>(within - (cost[i] <= limit));
+  return within == 0 ? best : kNoMatch;
+}
+
+// Fraction [1/16 px] by which the residual exceeds that of the index: the costs about the minimum of absolute
+// differences are two lines of opposite slope. None at the ends of the range.
+int fraction_px16(const std::uint16_t* cost, int count, int best) {
+  if (best == 0 || best == count - 1) return 0;
+  const int nearer = cost[best - 1], farther = cost[best + 1];
+  const int rise = std::max(nearer, farther) - cost[best];
+  if (rise == 0) return 0;
+  return (16 * (farther - nearer) + 17 * rise) / (2 * rise) - 8;  // 8 (farther - nearer) / rise, rounded
+}
+
+// Of the left pixels that match one right pixel the best has it; the others must agree with that one's residual.
+void check_left_right(const std::uint32_t* left_match, const std::uint32_t* right_match, const std::uint8_t* right_seen,
+                      int width, int max_px, std::int16_t* residual) {
+  for (int x = 0; x < width; ++x) {
+    if (left_match[x] == kNoMatch) continue;
+    const int k = index_of(left_match[x]);
+    const bool agrees = std::abs(index_of(right_match[x + k]) - k) <= max_px;
+    if (!agrees || right_seen[x + k] == 0) residual[x] = BlockMatcher::kInvalid;
+  }
+}
+
+}  // namespace
+
+BlockMatcher::BlockMatcher(const MatcherConfig& config, bool avx2) : config_(config), pad_(pad(config)), avx2_(avx2) {
+  ROVER_CHECK(config.block_px * config.block_px * 2 * config.prefilter_cap <= UINT16_MAX, config.block_px,
+              config.prefilter_cap);
+}
+
+MatchPad BlockMatcher::pad(const MatcherConfig& config) {
+  const int block = config.block_px / 2;
+  return {std::max(residual_max_px(config), 0) + block, std::max(-config.residual_min_px, 0) + block, block};
+}
+
+const cv::Mat& BlockMatcher::match(const cv::Mat& left, const cv::Mat& right, const cv::Mat& right_seen) {
+  if (avx2_)
+    match_avx2(left, right, right_seen);
+  else
+    match_baseline(left, right, right_seen);
+  cv::filterSpeckles(residual_, kInvalid, config_.speckle_px, config_.speckle_step_px16, speckle_buffer_);
+  return residual_;
+}
+
+// Flattened: all that is called in the loops is compiled for this function's processor. (Function clones would choose
+// by an ifunc, which runs before AddressSanitizer is ready.)
+[[gnu::target("avx2"), gnu::flatten]] void BlockMatcher::match_avx2(const cv::Mat& left, const cv::Mat& right,
+                                                                    const cv::Mat& right_seen) {
+  match_rows(left, right, right_seen);
+}
+
+[[gnu::flatten]] void BlockMatcher::match_baseline(const cv::Mat& left, const cv::Mat& right,
+                                                   const cv::Mat& right_seen) {
+  match_rows(left, right, right_seen);
+}
+
+// A box sum from running sums (down the columns, then along the row): what enters the block is added, what leaves it is
+// subtracted. Above the gradients lie block_px rows of zeros and left of the column sums as many columns, so that the
+// first blocks need no other code.
+void BlockMatcher::match_rows(const cv::Mat& left, const cv::Mat& right, const cv::Mat& right_seen) {
+  const int block = config_.block_px, count = config_.residual_count_px;
+  const int columns = left.cols - pad_.left - pad_.right + block - 1;
+  prefilter(left, left_gradient_);
+  prefilter(right, right_gradient_);
+  residual_.create(left.rows - block + 1, columns - block + 1, CV_16S);
+  column_cost_.assign(static_cast<size_t>(block + columns) * count, 0);
+  column_texture_.assign(static_cast<size_t>(block + columns), 0);
+  for (int y = 0; y < left.rows; ++y) {
+    const int left_from = pad_.left - pad_.rows, right_from = left_from - residual_max_px(config_);
+    const BlockRows rows{
+        left_gradient_.ptr<std::int8_t>(y + block) + left_from, left_gradient_.ptr<std::int8_t>(y) + left_from,
+        right_gradient_.ptr<std::int8_t>(y + block) + right_from, right_gradient_.ptr<std::int8_t>(y) + right_from};
+    move_down(rows, columns, count, column_cost_.data() + block * count);
+    move_down(rows, columns, column_texture_.data() + block);
+    if (y < block - 1) continue;
+    const std::uint8_t* seen = right_seen.ptr(y - pad_.rows) + right_from + pad_.rows;
+    match_row(seen, residual_.ptr<std::int16_t>(y - block + 1));
+  }
+}
+
+void BlockMatcher::match_row(const std::uint8_t* right_seen, std::int16_t* residual) {
+  const int block = config_.block_px, count = config_.residual_count_px, width = residual_.cols;
+  left_match_.resize(static_cast<size_t>(width));
+  right_match_.assign(static_cast<size_t>(width + count), kNoMatch);
+  block_cost_.assign(static_cast<size_t>(count), 0);
+  std::uint16_t* cost = block_cost_.data();
+  int texture = 0;
+  for (int x = 1 - block; x < width; ++x) {
+    const int out = x + block - 1, in = out + block;
+    move_right(&column_cost_[in * count], &column_cost_[out * count], count, cost);
+    texture += column_texture_[in] - column_texture_[out];
+    if (x < 0) continue;
+    const bool textured = texture >= config_.texture_threshold;
+    const std::uint32_t match = textured ? unique_match(cost, count, config_.uniqueness_percent) : kNoMatch;
+    left_match_[x] = match;
+    residual[x] = kInvalid;
+    if (match == kNoMatch) continue;
+    const int k = index_of(match);
+    right_match_[x + k] = std::min(right_match_[x + k], match);
+    residual[x] = static_cast<std::int16_t>(16 * (residual_max_px(config_) - k) + fraction_px16(cost, count, k));
+  }
+  check_left_right(left_match_.data(), right_match_.data(), right_seen, width, config_.left_right_max_px, residual);
+}
+
+void BlockMatcher::prefilter(const cv::Mat& image, cv::Mat& gradient) const {
+  const int block = config_.block_px, last = image.rows - 1;
+  gradient.create(image.rows + block, image.cols, CV_8S);
+  gradient = cv::Scalar(0);
+  for (int y = 0; y <= last; ++y)
+    x_sobel(image.ptr(y > 0 ? y - 1 : 1), image.ptr(y), image.ptr(y < last ? y + 1 : last - 1), image.cols,
+            config_.prefilter_cap, gradient.ptr<std::int8_t>(y + block));
+}
+
+}  // namespace rover::stereo

@@ -1,0 +1,207 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include "tools/conform/duties.hpp"
+
+namespace rover::conform {
+namespace {
+
+constexpr double kMostSkipped = 0.01;  // of the ticks
+constexpr double kPaceTolerance = 0.02;
+constexpr double kMostJitterS = 0.020;
+constexpr double kMostReleaseS = 0.30;
+constexpr size_t kFewestTicks = 50;
+
+using Stamps = std::vector<const Stamp*>;
+
+template <class Message>
+Stamps stamps_of(const std::vector<Message>& messages) {
+  Stamps out;
+  for (const Message& message : messages) out.push_back(&message.stamp);
+  return out;
+}
+
+struct Channel {
+  const char* name;
+  Stamps stamps;
+};
+
+std::vector<Channel> channels_of(const Heard& heard) {
+  return {{"TICK", stamps_of(heard.ticks)},
+          {"IMU", stamps_of(heard.imu)},
+          {"WHEEL_STATE", stamps_of(heard.wheels)},
+          {"LOCCAM_LEFT", stamps_of(heard.left)},
+          {"LOCCAM_RIGHT", stamps_of(heard.right)}};
+}
+
+double quantile(std::vector<double> values, double share) {
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+Line tick_line(const Heard& heard) {
+  const std::string demand = "REALTIME, on multiples of 20 ms, none left out";
+  int by_the_clock = 0;
+  int on_grid = 0;
+  int steps = 0;
+  for (size_t i = 0; i < heard.ticks.size(); ++i) {
+    const Utime t = heard.ticks[i].stamp.utime;
+    by_the_clock += heard.ticks[i].by_the_clock ? 1 : 0;
+    on_grid += t % kTickUs == 0 ? 1 : 0;
+    steps += i > 0 && t - heard.ticks[i - 1].stamp.utime == kTickUs ? 1 : 0;
+  }
+  const auto n = static_cast<int>(heard.ticks.size());
+  const bool whole = steps >= (1.0 - kMostSkipped) * (n - 1);
+  return line("ticks", by_the_clock == n && on_grid == n && whole,
+              fmt::format("{} ticks, {} REALTIME, {} on the grid, {} steps of 20 ms", n, by_the_clock, on_grid, steps),
+              demand);
+}
+
+// Message time against this machine's clock: least squares, and what is left of it.
+std::vector<Line> clock_lines(const Heard& heard) {
+  const auto n = static_cast<double>(heard.ticks.size());
+  double mean_t = 0.0;
+  double mean_s = 0.0;
+  const Utime first = heard.ticks.front().stamp.utime;
+  const auto t_of = [first](const TickHeard& tick) { return to_seconds(tick.stamp.utime - first); };
+  for (const TickHeard& tick : heard.ticks) {
+    mean_t += t_of(tick) / n;
+    mean_s += tick.stamp.arrival_s / n;
+  }
+  double ts = 0.0;
+  double ss = 0.0;
+  for (const TickHeard& tick : heard.ticks) {
+    const double s = tick.stamp.arrival_s - mean_s;
+    ts += (t_of(tick) - mean_t) * s;
+    ss += s * s;
+  }
+  const double pace = ss > 0.0 ? ts / ss : 0.0;
+  std::vector<double> late;
+  for (const TickHeard& tick : heard.ticks)
+    late.push_back(std::abs((tick.stamp.arrival_s - mean_s) - (t_of(tick) - mean_t) / std::max(pace, 1e-3)));
+  const double jitter = quantile(late, 0.99);
+  return {line("pace", std::abs(pace - 1.0) <= kPaceTolerance, fmt::format("{:.4f} s of message time a second", pace),
+               fmt::format("1 +- {}", kPaceTolerance)),
+          line("jitter", jitter <= kMostJitterS, fmt::format("99 % of ticks within {:.1f} ms", 1e3 * jitter),
+               fmt::format("{:.0f} ms", 1e3 * kMostJitterS))};
+}
+
+Line rate_line(const std::string& channel, size_t count, double seconds, double least_hz, double most_hz) {
+  const double hz = static_cast<double>(count) / seconds;
+  return line("rate of " + channel, hz >= least_hz && hz <= most_hz, fmt::format("{:.2f} Hz", hz),
+              fmt::format("{} to {} Hz", least_hz, most_hz));
+}
+
+// By message time, so that a busy machine does not count.
+std::vector<Line> rate_lines(const Heard& heard) {
+  const double seconds = to_seconds(heard.ticks.back().stamp.utime - heard.ticks.front().stamp.utime);
+  return {rate_line("IMU", heard.imu.size(), seconds, 49.0, 51.0),
+          rate_line("WHEEL_STATE", heard.wheels.size(), seconds, 49.0, 51.0),
+          rate_line("LOCCAM_LEFT", heard.left.size(), seconds, 2.0, 5.0),
+          rate_line("LOCCAM_RIGHT", heard.right.size(), seconds, 2.0, 5.0)};
+}
+
+// The first channel that breaks a law between one message and the next.
+std::string first_breach(const std::vector<Channel>& channels,
+                         const std::function<bool(const Stamp& before, const Stamp& now)>& broken) {
+  for (const Channel& channel : channels)
+    for (size_t i = 1; i < channel.stamps.size(); ++i)
+      if (broken(*channel.stamps[i - 1], *channel.stamps[i]))
+        return fmt::format("{}: seq {} after seq {}", channel.name, channel.stamps[i]->seq, channel.stamps[i - 1]->seq);
+  return "";
+}
+
+std::vector<Line> order_lines(const std::vector<Channel>& channels) {
+  const auto in_order = [](const std::string& breach) { return breach.empty() ? "on every channel" : breach; };
+  const auto same_boot = [](const Stamp& a, const Stamp& b) {
+    return a.publisher == b.publisher && a.boot_id == b.boot_id;
+  };
+  const std::string later = first_breach(channels, [](const Stamp& a, const Stamp& b) { return b.utime <= a.utime; });
+  const std::string counted =
+      first_breach(channels, [&](const Stamp& a, const Stamp& b) { return same_boot(a, b) && b.seq != a.seq + 1; });
+  const std::string booted = first_breach(channels, [&](const Stamp& a, const Stamp& b) { return !same_boot(a, b); });
+  const bool numbered = std::all_of(channels.begin(), channels.end(), [](const Channel& channel) {
+    return std::all_of(channel.stamps.begin(), channel.stamps.end(),
+                       [](const Stamp* s) { return s->boot_id > 0 && !s->publisher.empty(); });
+  });
+  return {line("utime", later.empty(), in_order(later), "each later than the one before"),
+          line("seq", counted.empty(), in_order(counted), "counts up by one"),
+          line("boot", booted.empty() && numbered, !numbered ? "no publisher, or a boot_id below 1" : in_order(booted),
+               "one publisher and one boot_id a channel")};
+}
+
+Line release_line(const std::vector<Channel>& channels) {
+  double least = kMostReleaseS;
+  double most = 0.0;
+  for (const Channel& channel : channels)
+    for (const Stamp* stamp : channel.stamps) {
+      least = std::min(least, to_seconds(stamp->release - stamp->utime));
+      most = std::max(most, to_seconds(stamp->release - stamp->utime));
+    }
+  return line("release", least >= 0.0 && most <= kMostReleaseS,
+              fmt::format("{:.0f} to {:.0f} ms after utime", 1e3 * least, 1e3 * most),
+              fmt::format("0 to {:.0f} ms", 1e3 * kMostReleaseS));
+}
+
+Line clock_line(const Heard& heard) {
+  std::string measured;
+  bool within = true;
+  for (const Lag& lag : clock_lags(heard)) {
+    measured += fmt::format("{}{} {:+.0f} ms", measured.empty() ? "" : ", ", lag.channel, 1e3 * lag.median_s);
+    within = within && lag.median_s >= kLeastLagS && lag.median_s <= kMostLagS;
+  }
+  return line("clock", within, measured,
+              fmt::format("{:.0f} to {:.0f} ms against TICK", 1e3 * kLeastLagS, 1e3 * kMostLagS));
+}
+
+Line decodes_line(const Heard& heard) {
+  std::string measured;
+  for (const auto& [channel, count] : heard.malformed)
+    measured += fmt::format("{}{}: {} do not decode", measured.empty() ? "" : ", ", channel, count);
+  return line("types", measured.empty(), measured.empty() ? "all messages decode" : measured,
+              "types of lcmtypes/ on every channel");
+}
+
+}  // namespace
+
+Line line(std::string duty, bool pass, std::string measured, std::string demand) {
+  return {std::move(duty), pass ? Verdict::kPass : Verdict::kFail, std::move(measured), std::move(demand)};
+}
+
+Line skipped(std::string duty, std::string why, std::string demand) {
+  return {std::move(duty), Verdict::kSkipped, std::move(why), std::move(demand)};
+}
+
+std::vector<Lag> clock_lags(const Heard& heard) {
+  std::vector<Lag> lags;
+  for (const Channel& channel : channels_of(heard)) {
+    std::vector<double> lag_s;
+    for (const Stamp* stamp : channel.stamps)
+      if (stamp->tick != kNever) lag_s.push_back(to_seconds(stamp->tick - stamp->release));
+    if (channel.name != std::string("TICK") && !lag_s.empty()) lags.push_back({channel.name, quantile(lag_s, 0.5)});
+  }
+  return lags;
+}
+
+std::vector<Line> judge_time(const Heard& heard) {
+  if (heard.ticks.size() < kFewestTicks)
+    return {line("ticks", false, fmt::format("{} ticks", heard.ticks.size()), "50 a second"), decodes_line(heard)};
+  const std::vector<Channel> channels = channels_of(heard);
+  std::vector<Line> lines{decodes_line(heard), tick_line(heard)};
+  const auto add = [&lines](std::vector<Line> more) { lines.insert(lines.end(), more.begin(), more.end()); };
+  add(clock_lines(heard));
+  add(rate_lines(heard));
+  add(order_lines(channels));
+  lines.push_back(release_line(channels));
+  lines.push_back(clock_line(heard));
+  return lines;
+}
+
+}  // namespace rover::conform

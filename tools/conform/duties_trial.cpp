@@ -1,0 +1,154 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/core/frames.hpp"
+#include "tools/conform/duties.hpp"
+
+namespace rover::conform {
+namespace {
+
+constexpr double kAtRest = 0.02;    // [rad/s]
+constexpr double kStopS = 0.5;      // from the end of validity to rest
+constexpr double kSettleS = 1.0;    // until wheels have reached a rate
+constexpr double kRateShare = 0.3;  // that a wheel may differ from its command
+constexpr double kEncoderShare = 0.2;
+constexpr double kLeastTurnRad = 0.01;
+
+// The part of what was heard that lies in a phase, by utime.
+template <class Message>
+std::vector<const Message*> during(const std::vector<Message>& messages, const Trial& trial, double from_s,
+                                   double until_s) {
+  std::vector<const Message*> out;
+  for (const Message& message : messages) {
+    const double s = trial.seconds(message.stamp.utime);
+    if (s >= from_s && s < until_s) out.push_back(&message);
+  }
+  return out;
+}
+
+double fastest(const std::vector<const WheelsHeard*>& wheels) {
+  double rate = 0.0;
+  for (const WheelsHeard* sample : wheels)
+    for (double value : sample->rate_radps) rate = std::fmax(rate, std::abs(value));
+  return rate;
+}
+
+double most_backwards(const std::vector<const WheelsHeard*>& wheels) {
+  double rate = 0.0;
+  for (const WheelsHeard* sample : wheels)
+    for (double value : sample->rate_radps) rate = std::fmin(rate, value);
+  return rate;
+}
+
+bool all_finite(const std::vector<const WheelsHeard*>& wheels) {
+  return std::all_of(wheels.begin(), wheels.end(), [](const WheelsHeard* sample) { return sample->finite; });
+}
+
+Line damaged_line(const Heard& heard, const Trial& trial) {
+  const std::string demand = "dropped: wheels stay at rest, WHEEL_STATE goes on";
+  const auto wheels = during(heard.wheels, trial, kDamagedPhase.from_s, kDamagedPhase.until_s);
+  const auto expected = static_cast<size_t>((kDamagedPhase.until_s - kDamagedPhase.from_s) / to_seconds(kTickUs));
+  const double rate = fastest(wheels);
+  return line("damaged commands", rate <= kAtRest && wheels.size() > expected / 2,
+              fmt::format("fastest wheel {:.3f} rad/s, {} of {} WHEEL_STATE", rate, wheels.size(), expected), demand);
+}
+
+Line follow_line(const Heard& heard, const Trial& trial) {
+  const double wanted = trial.config().rate_radps;
+  const std::string demand = fmt::format("{:.2f} rad/s, positive forward, encoders turn with it", wanted);
+  const auto wheels = during(heard.wheels, trial, kForwardPhase.from_s + kSettleS, kForwardPhase.until_s);
+  if (wheels.size() < 2) return skipped("follows", "no WHEEL_STATE", demand);
+  double slowest = kInfinity;
+  double worst_encoder = 0.0;
+  const double covered_s = to_seconds(wheels.back()->stamp.utime - wheels.front()->stamp.utime);
+  for (size_t i = 0; i < 6; ++i) {
+    double mean = 0.0;
+    for (const WheelsHeard* sample : wheels) mean += sample->rate_radps[i] / static_cast<double>(wheels.size());
+    const double turned = (wheels.back()->angle_rad[i] - wheels.front()->angle_rad[i]) / covered_s;
+    if (std::abs(mean - wanted) > std::abs(slowest - wanted) || slowest == kInfinity) slowest = mean;
+    worst_encoder = std::max(worst_encoder, std::abs(turned - mean));
+  }
+  return line("follows", std::abs(slowest - wanted) <= kRateShare * wanted && worst_encoder <= kEncoderShare * wanted,
+              fmt::format("worst wheel {:.2f} rad/s, encoder {:.3f} rad/s off", slowest, worst_encoder), demand);
+}
+
+Line watchdog_line(const Heard& heard, const Trial& trial) {
+  const double due_s = kSilentPhase.from_s + trial.config().validity_s + kStopS;
+  const std::string demand = fmt::format("at rest {:.1f} s after valid_until_utime", kStopS);
+  const auto wheels = during(heard.wheels, trial, due_s, kSilentPhase.until_s);
+  if (wheels.empty()) return skipped("watchdog", "no WHEEL_STATE", demand);
+  double moved_until_s = 0.0;
+  for (const WheelsHeard* sample : during(heard.wheels, trial, kSilentPhase.from_s, kSilentPhase.until_s))
+    if (fastest({sample}) > kAtRest) moved_until_s = trial.seconds(sample->stamp.utime) - kSilentPhase.from_s;
+  return line("watchdog", fastest(wheels) <= kAtRest,
+              fmt::format("last motion {:.2f} s after the last command", moved_until_s), demand);
+}
+
+Line status_line(const Heard& heard, const Trial& trial) {
+  const std::string demand = "WHEEL_STATE says COMMAND_EXPIRED";
+  const double from_s = kSilentPhase.from_s + trial.config().validity_s + 0.2;
+  const auto wheels = during(heard.wheels, trial, from_s, kSilentPhase.until_s);
+  if (wheels.empty()) return skipped("status when expired", "no WHEEL_STATE", demand);
+  const auto told = std::count_if(wheels.begin(), wheels.end(), [](const auto* w) { return w->command_expired; });
+  return line("status when expired", told == static_cast<std::ptrdiff_t>(wheels.size()),
+              fmt::format("in {} of {}", told, wheels.size()), demand);
+}
+
+Line refused_line(const std::string& duty, const Heard& heard, const Trial& trial, const Phase& phase) {
+  const std::string demand = "not obeyed";
+  // What the phase before has set in motion may come to rest first.
+  const auto wheels = during(heard.wheels, trial, phase.from_s + kStopS, phase.until_s);
+  if (wheels.empty()) return skipped(duty, "no WHEEL_STATE", demand);
+  const double rate = most_backwards(wheels);
+  return line(duty, rate >= -kAtRest && all_finite(wheels), fmt::format("{:.3f} rad/s backwards", std::abs(rate)),
+              demand);
+}
+
+Line steering_line(const Heard& heard, const Trial& trial) {
+  const double wanted = trial.config().steer_rad;
+  const std::string demand = fmt::format("front wheels to {:+.2f} rad (left), rear ones to {:+.2f}", wanted, -wanted);
+  const auto wheels = during(heard.wheels, trial, kSteerPhase.until_s - 0.2, kSteerPhase.until_s);
+  if (wheels.empty()) return skipped("steering", "no WHEEL_STATE", demand);
+  const std::array<double, 4>& s = wheels.back()->steer_rad;
+  const auto near = [&](double angle, double goal) { return std::abs(angle - goal) <= 0.5 * wanted; };
+  return line("steering", near(s[0], wanted) && near(s[1], wanted) && near(s[2], -wanted) && near(s[3], -wanted),
+              fmt::format("{:+.2f} {:+.2f} {:+.2f} {:+.2f} rad", s[0], s[1], s[2], s[3]), demand);
+}
+
+Line turn_line(const Heard& heard, const Trial& trial) {
+  const std::string demand = "positive to the left, both gyros";
+  const auto imu = during(heard.imu, trial, kTurnPhase.from_s, kTurnPhase.until_s);
+  if (imu.empty()) return skipped("sense of turn", "no IMU", demand);
+  double gyro = 0.0;
+  double fog = 0.0;
+  for (const ImuHeard* sample : imu) {
+    gyro += sample->delta_angle_rad.z();
+    fog += sample->fog_delta_yaw_rad;
+  }
+  return line("sense of turn", gyro >= kLeastTurnRad && fog >= kLeastTurnRad,
+              fmt::format("gyro {:+.3f} rad, fibre-optic gyro {:+.3f} rad", gyro, fog), demand);
+}
+
+}  // namespace
+
+std::vector<Line> judge_trial(const Heard& heard, const Trial& trial) {
+  std::vector<Line> lines{damaged_line(heard, trial)};
+  if (!trial.config().move) {
+    for (const char* duty : {"follows", "watchdog", "status when expired", "expired commands", "commands with NaN",
+                             "steering", "sense of turn"})
+      lines.push_back(skipped(duty, "needs --move: the rover rolls", ""));
+    return lines;
+  }
+  lines.push_back(follow_line(heard, trial));
+  lines.push_back(watchdog_line(heard, trial));
+  lines.push_back(status_line(heard, trial));
+  lines.push_back(refused_line("expired commands", heard, trial, kExpiredPhase));
+  lines.push_back(refused_line("commands with NaN", heard, trial, kNanPhase));
+  lines.push_back(steering_line(heard, trial));
+  lines.push_back(turn_line(heard, trial));
+  return lines;
+}
+
+}  // namespace rover::conform

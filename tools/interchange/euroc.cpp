@@ -1,0 +1,209 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "common/bus/config.hpp"
+#include "common/bus/vehicle_config.hpp"
+#include "common/core/decimal.hpp"
+#include "common/core/frames.hpp"
+#include "tools/calibration/lens_model.hpp"
+#include "tools/interchange/stamps.hpp"
+#include "tools/interchange/stereo_data_set.hpp"
+#include "tools/interchange/text_rows.hpp"
+
+namespace rover::interchange {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::int64_t kMaxGapNs = 100'000'000;  // between two ground-truth poses that a picture may lie between
+
+struct Listed {
+  std::int64_t time_ns = 0;
+  fs::path picture;
+};
+
+std::int64_t time_of(const TextRows& rows) {
+  const std::string_view time = rows.cells().front();
+  const auto ns = parse_whole_number(time);
+  if (!ns || *ns < 0) rows.fail("'" + std::string(time.substr(0, 40)) + "' is no time in nanoseconds");
+  return *ns;
+}
+
+struct PictureList {
+  std::vector<Listed> pictures;
+  std::int64_t interval_ns = 0;
+};
+
+// data.csv of a camera: nanoseconds and the picture's name.
+PictureList read_pictures(const fs::path& camera) {
+  const std::string file = (camera / "data.csv").string();
+  TextRows rows(file, ',');
+  PictureList list;
+  Stamps stamps;
+  while (rows.next()) {
+    if (rows.cells().size() < 2 || rows.cells()[1].empty()) rows.fail("no name of a picture after the time");
+    stamps.add(time_of(rows), [&](const std::string& what) { rows.fail(what); });
+    list.pictures.push_back({stamps.all_ns().back(), camera / "data" / rows.cells()[1]});
+  }
+  list.interval_ns = stamps.interval_ns(file);
+  return list;
+}
+
+Eigen::Isometry3d read_T_BS(const Config& sensor) {
+  const Config T_BS = sensor.section("T_BS");
+  const std::vector<double> values = T_BS.numbers("data", {-1e3, 1e3}, 16);
+  Eigen::Isometry3d T;
+  for (int i = 0; i < 16; ++i) T.matrix()(i / 4, i % 4) = values[static_cast<size_t>(i)];
+  if (!(T.linear() * T.linear().transpose()).isIdentity(1e-3) || T.linear().determinant() < 0.0)
+    T_BS.fail("data", "is no rigid motion");
+  T.linear() = Eigen::Quaterniond(T.linear()).normalized().toRotationMatrix();
+  return T;
+}
+
+struct Camera {
+  PinholeCamera pinhole;
+  Eigen::Isometry3d T_body_camera;
+};
+
+Camera read_camera(const fs::path& file, StereoRig& rig) {
+  const Config sensor = Config::load(file.string());
+  sensor.one_of("camera_model", {"pinhole"});
+  const auto f = sensor.numbers("intrinsics", {0, 1e5}, 4);
+  Camera camera{{f[0], f[1], f[2], f[3], {}}, read_T_BS(sensor)};
+  const std::string problem = calibration::set_lens(camera.pinhole, sensor.text("distortion_model"),
+                                                    sensor.numbers("distortion_coefficients", {-10, 10}, 0));
+  if (!problem.empty()) sensor.fail("distortion_model", problem);
+  if (sensor.has("resolution")) {
+    const auto size = sensor.numbers("resolution", {16, 8192}, 2);
+    rig.width = static_cast<int>(size[0]);
+    rig.height = static_cast<int>(size[1]);
+  }
+  return camera;
+}
+
+void read_cameras(const fs::path& root, StereoDataSet& set) {
+  const fs::path right_file = root / "cam1" / "sensor.yaml";
+  const Camera left = read_camera(root / "cam0" / "sensor.yaml", set.rig);
+  const Camera right = read_camera(right_file, set.rig);
+  set.rig.left = left.pinhole;
+  set.rig.right = right.pinhole;
+  if (left.pinhole.model != right.pinhole.model)
+    throw ConfigError(right_file.string() + ": distortion_model: another one than that of cam0");
+  set.rig.T_left_right = left.T_body_camera.inverse() * right.T_body_camera;
+  set.rig.T_body_left = left.T_body_camera;
+  const std::string problem = problem_of_pair(set.rig.T_left_right);
+  if (!problem.empty()) throw ConfigError(right_file.string() + ": T_BS: " + problem);
+}
+
+struct TruthRow {
+  std::int64_t time_ns;
+  Eigen::Isometry3d T_world_body;
+};
+
+// Columns are known by their order; a head that tells of another one is believed.
+void check_head(const TextRows& rows) {
+  const auto& names = rows.head();
+  if (names.size() >= 8 && names[4].find('w') == std::string_view::npos)
+    rows.fail("the columns time, x, y, z, qw, qx, qy, qz are expected, in this order");
+}
+
+std::vector<TruthRow> read_truth(const fs::path& dir, std::map<std::string, int>& left_out) {
+  std::vector<TruthRow> truth;
+  if (!fs::exists(dir / "data.csv")) return truth;
+  TextRows rows((dir / "data.csv").string(), ',');
+  while (rows.next()) {
+    check_head(rows);
+    if (rows.cells().size() < 8) rows.fail("too few columns; time, x, y, z, qw, qx, qy, qz are expected");
+    const std::int64_t time_ns = time_of(rows);
+    if (!truth.empty() && time_ns <= truth.back().time_ns) rows.fail("times do not rise");
+    Eigen::Matrix<double, 7, 1> v;
+    for (int i = 0; i < 7; ++i) v[i] = rows.number(static_cast<size_t>(i) + 1);
+    if (!v.allFinite()) {
+      ++left_out[kNoNumbers];
+      continue;
+    }
+    const Eigen::Quaterniond q(v[3], v[4], v[5], v[6]);
+    if (std::abs(q.norm() - 1.0) > 1e-2) rows.fail("qw, qx, qy, qz are no unit quaternion");
+    truth.push_back({time_ns, make_pose(q.normalized().toRotationMatrix(), v.head<3>())});
+  }
+  return truth;
+}
+
+std::optional<Eigen::Isometry3d> truth_at(const std::vector<TruthRow>& truth, std::int64_t time_ns) {
+  const auto after = std::lower_bound(truth.begin(), truth.end(), time_ns,
+                                      [](const TruthRow& row, std::int64_t t) { return row.time_ns < t; });
+  if (after == truth.end()) return std::nullopt;
+  if (after->time_ns == time_ns) return after->T_world_body;
+  if (after == truth.begin() || after->time_ns - std::prev(after)->time_ns > kMaxGapNs) return std::nullopt;
+  const auto before = std::prev(after);
+  const double u =
+      static_cast<double>(time_ns - before->time_ns) / static_cast<double>(after->time_ns - before->time_ns);
+  return interpolate(before->T_world_body, after->T_world_body, u);
+}
+
+// Exposed together, if the clocks that stamped them differ a little.
+std::int64_t most_apart_ns(const PictureList& lefts) {
+  return std::min<std::int64_t>(1'000'000, lefts.interval_ns / 20);
+}
+
+void pair_up(const PictureList& lefts, const PictureList& rights, StereoDataSet& set,
+             std::vector<std::int64_t>& times_ns) {
+  const std::int64_t most_ns = most_apart_ns(lefts);
+  std::int64_t widest_ns = 0;
+  auto right = rights.pictures.begin();
+  for (const Listed& left : lefts.pictures) {
+    while (right != rights.pictures.end() && right->time_ns < left.time_ns - most_ns)
+      ++right, ++set.left_out[kWithoutPartner];
+    if (right == rights.pictures.end() || right->time_ns > left.time_ns + most_ns) {
+      ++set.left_out[kWithoutPartner];
+      continue;
+    }
+    const Listed& partner = *right++;
+    if (!fs::exists(left.picture) || !fs::exists(partner.picture)) {
+      ++set.left_out["pairs of which a picture is not there"];
+      continue;
+    }
+    widest_ns = std::max(widest_ns, std::abs(partner.time_ns - left.time_ns));
+    times_ns.push_back(left.time_ns);
+    set.pairs.push_back(
+        {(left.time_ns - times_ns.front()) / 1000, left.picture.string(), partner.picture.string(), {}});
+  }
+  set.left_out[kWithoutPartner] += static_cast<int>(rights.pictures.end() - right);
+  if (widest_ns > 0)
+    set.notes.push_back("the two pictures of a pair are up to " + std::to_string((widest_ns + 999) / 1000) +
+                        " us apart");
+}
+
+void add_truth(const fs::path& dir, const std::vector<std::int64_t>& times_ns, StereoDataSet& set) {
+  const std::vector<TruthRow> truth = read_truth(dir, set.left_out);
+  const Eigen::Isometry3d T_sensors_body = set.rig.T_body_left * T_body_left_camera().inverse();
+  bool any = false;
+  for (size_t i = 0; i < set.pairs.size(); ++i)
+    if (const auto T_world_sensors = truth_at(truth, times_ns[i])) {
+      set.pairs[i].T_map_body = *T_world_sensors * T_sensors_body;
+      any = true;
+    }
+  if (!truth.empty() && !set.pairs.empty() && !any)
+    throw ConfigError((dir / "data.csv").string() + ": from " + std::to_string(truth.front().time_ns) + " to " +
+                      std::to_string(truth.back().time_ns) + " ns, no picture is of a time with truth; they begin at " +
+                      std::to_string(times_ns.front()) + " ns");
+}
+
+}  // namespace
+
+StereoDataSet read_euroc(const std::string& dir) {
+  const fs::path root = fs::is_directory(fs::path(dir) / "mav0") ? fs::path(dir) / "mav0" : fs::path(dir);
+  StereoDataSet set;
+  set.layout = "EuRoC";
+  set.name = fs::absolute(dir).lexically_normal().filename().string();
+  read_cameras(root, set);
+  std::vector<std::int64_t> times_ns;
+  const PictureList lefts = read_pictures(root / "cam0");
+  pair_up(lefts, read_pictures(root / "cam1"), set, times_ns);
+  add_truth(root / "state_groundtruth_estimate0", times_ns, set);
+  set.rig.T_body_left = T_body_left_camera();
+  return set;
+}
+
+}  // namespace rover::interchange

@@ -1,0 +1,65 @@
+#include "tools/interchange/picture_file.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "common/bus/config.hpp"
+#include "common/bus/text_file.hpp"
+
+namespace rover::interchange {
+namespace {
+
+constexpr size_t kMostPictureBytes = 64 << 20;
+
+// The libraries that read PNG and JPEG tell stderr of what they find; what the user is told is one line.
+class Silence {
+ public:
+  Silence() : stderr_(dup(STDERR_FILENO)), nowhere_(open("/dev/null", O_WRONLY | O_CLOEXEC)) {
+    dup2(nowhere_, STDERR_FILENO);
+  }
+  ~Silence() {
+    dup2(stderr_, STDERR_FILENO);
+    close(stderr_);
+    close(nowhere_);
+  }
+  Silence(const Silence&) = delete;
+  Silence& operator=(const Silence&) = delete;
+
+ private:
+  int stderr_;
+  int nowhere_;
+};
+
+// The decoders make pictures of halves of files. A PNG ends with IEND, a JPEG with ff d9, and something may follow.
+bool is_whole(const std::string& bytes) {
+  const bool png = bytes.starts_with("\x89PNG");
+  return bytes.find(png ? "IEND" : "\xff\xd9", bytes.size() - std::min<size_t>(bytes.size(), 1024)) !=
+         std::string::npos;
+}
+
+cv::Mat decode(const std::string& bytes) {
+  const Silence silence;
+  const cv::Mat view(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<char*>(bytes.data()));
+  try {
+    return cv::imdecode(view, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
+  } catch (const cv::Exception&) {
+    return {};
+  }
+}
+
+}  // namespace
+
+GrayImage read_picture(const std::string& file) {
+  const std::string bytes = read_text(file, kMostPictureBytes);
+  if (bytes.empty()) throw ConfigError(file + ": empty; no picture");
+  const cv::Mat picture = decode(bytes);
+  if (picture.empty()) throw ConfigError(file + ": no picture that can be read");
+  if (!is_whole(bytes)) throw ConfigError(file + ": the picture is cut short; its end is missing");
+  GrayImage image(picture.cols, picture.rows);
+  picture.copyTo(cv::Mat(picture.rows, picture.cols, CV_8UC1, image.data.data()));
+  return image;
+}
+
+}  // namespace rover::interchange

@@ -1,0 +1,84 @@
+#include "tools/launcher/drive_folder.hpp"
+
+#include <filesystem>
+
+#include "common/bus/config.hpp"
+#include "common/geo/elevation_map.hpp"
+#include "common/geo/geotiff_writer.hpp"
+
+namespace rover {
+namespace fs = std::filesystem;
+namespace {
+
+std::string config_dir_of(const DriveArguments& arguments) {
+  return arguments.config_dir.empty() ? arguments.source_dir + "/config" : arguments.config_dir;
+}
+
+std::string ground_of(const DriveArguments& arguments) {
+  return arguments.ground.empty() ? config_dir_of(arguments) + "/ground.yaml" : arguments.ground;
+}
+
+void check_inputs(const DriveArguments& arguments) {
+  const std::string config_dir = config_dir_of(arguments);
+  if (!fs::is_directory(config_dir)) throw ConfigError(config_dir + ": no such folder");
+  const std::string ground = ground_of(arguments);
+  if (!fs::is_regular_file(ground))
+    throw ConfigError(ground +
+                      ": no such file. It says where the rover stands and where it shall go; begin with a copy of " +
+                      "examples/driver/ground.yaml, and name it by --ground");
+}
+
+ElevationMap read_map(const std::string& file) try {
+  ElevationMap map = read_elevation_map(file);
+  demand_no_voids(map, file);
+  return map;
+} catch (const DtmError& error) {
+  throw ConfigError("--map " + std::string(error.what()));
+}
+
+// In metres, whatever the user's file has: all who read it in the run's folder see the same.
+void write_map(const std::string& file, RunFolder& folder) {
+  ElevationMap map = read_map(file);
+  write_geotiff(folder.dir + "/orbital_map.tif", map.raster);
+  folder.map_notes = std::move(map.notes);
+}
+
+void fill(const DriveArguments& arguments, RunFolder& folder) {
+  copy_configuration(config_dir_of(arguments), folder.config_dir);
+  fs::copy_file(ground_of(arguments), fs::path(folder.config_dir) / "ground.yaml",
+                fs::copy_options::overwrite_existing);
+  if (!arguments.map.empty()) write_map(arguments.map, folder);
+  if (arguments.headless) apply_setting("mission_control.page=false", folder.config_dir);
+  if (!arguments.record.empty()) apply_setting("recorder.record=" + arguments.record, folder.config_dir);
+  for (const std::string& setting : arguments.set) apply_setting(setting, folder.config_dir);
+  if (!arguments.bus.empty()) apply_setting("bus.url=" + arguments.bus, folder.config_dir);
+  folder.bus_url = Config::load(folder.config_dir + "/bus.yaml").text("url");
+}
+
+}  // namespace
+
+RunFolder make_drive_folder(const DriveArguments& arguments) {
+  check_inputs(arguments);
+  const fs::path dir = run_dir_for(arguments.source_dir, arguments.out, "drive");
+  RunFolder folder{.dir = dir, .config_dir = dir / "config", .is_new = !fs::exists(dir)};
+  create_folders(dir);
+  try {
+    fill(arguments, folder);
+  } catch (const std::exception& error) {
+    remove_run_folder(folder);
+    throw ConfigError(in_users_files(error.what(), folder, arguments));
+  }
+  return folder;
+}
+
+std::string in_users_files(std::string message, const RunFolder& folder, const DriveArguments& arguments) {
+  const auto replace = [&message](const std::string& from, const std::string& to) {
+    for (size_t at = message.find(from); at != std::string::npos; at = message.find(from, at + to.size()))
+      message.replace(at, from.size(), to);
+  };
+  replace(folder.config_dir + "/ground.yaml", ground_of(arguments));
+  replace(folder.config_dir, config_dir_of(arguments));
+  return message;
+}
+
+}  // namespace rover

@@ -1,0 +1,86 @@
+#include "tools/launcher/drive_watch.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "common/bus/channels.hpp"
+#include "common/bus/streams.hpp"
+#include "common/bus/wall_clock.hpp"
+#include "tools/conform/duties.hpp"
+
+namespace rover {
+namespace {
+
+constexpr size_t kJudgedAfterTicks = 150;  // 3 s: some pictures, and none is late by its start alone
+
+template <class Message>
+bool decoded(const lcm::ReceiveBuffer* buffer, Message& message) {
+  return decode_message(buffer->data, static_cast<int>(buffer->data_size), message);
+}
+
+std::string silent_channels(const conform::Heard& heard) {
+  std::string silent;
+  const auto look = [&silent](const char* channel, bool empty) {
+    if (empty) silent += (silent.empty() ? "" : ", ") + std::string(channel);
+  };
+  look(channel::kImu, heard.imu.empty());
+  look(channel::kWheelState, heard.wheels.empty());
+  look(channel::kLocCamLeft, heard.left.empty());
+  look(channel::kLocCamRight, heard.right.empty());
+  return silent;
+}
+
+}  // namespace
+
+DriveWatch::DriveWatch(lcm::LCM& lcm) {
+  driver_.emplace(lcm, wall_s);
+  lcm.subscribeFunction(
+      channel::kTick, +[](const lcm::ReceiveBuffer*, const std::string&, DriveWatch* watch) { watch->on_tick(); },
+      this);
+  lcm.subscribeFunction(
+      channel::kState,
+      +[](const lcm::ReceiveBuffer* buffer, const std::string&, DriveWatch* watch) {
+        supervisor_state_t state;
+        if (decoded(buffer, state)) watch->on_state(state);
+      },
+      this);
+  lcm.subscribeFunction(
+      channel::kGroundCommand,
+      +[](const lcm::ReceiveBuffer* buffer, const std::string&, DriveWatch* watch) {
+        ground_command_t command;
+        if (decoded(buffer, command)) watch->on_command(command);
+      },
+      this);
+}
+
+void DriveWatch::on_state(const supervisor_state_t& state) {
+  states_at_goal_ = state.state == supervisor_state_t::GOAL_REACHED ? states_at_goal_ + 1 : 0;
+}
+
+void DriveWatch::on_command(const ground_command_t& command) {
+  if (states_at_goal_ > 0 && command.kind == ground_command_t::STOP) stop_ordered_ = true;
+}
+
+void DriveWatch::on_tick() {
+  ticks_heard_ = true;
+  ticked_ = Clock::now();
+}
+
+std::string DriveWatch::driver_problem() {
+  if (!driver_ || driver_->heard().ticks.size() < kJudgedAfterTicks) return "";
+  const conform::Heard heard = driver_->take();
+  driver_.reset();
+  if (const std::string silent = silent_channels(heard); !silent.empty())
+    return "the driver gives TICK but not " + silent + "; ./rover conform tells more";
+  for (const conform::Lag& lag : conform::clock_lags(heard))
+    if (lag.median_s < conform::kLeastLagS || lag.median_s > conform::kMostLagS)
+      return fmt::format(
+          "{} comes {:.0f} ms {} TICK ({:.0f} to {:.0f} ms are allowed): synchronise the clocks of the "
+          "drivers; ./rover conform tells more",
+          lag.channel, 1e3 * std::abs(lag.median_s), lag.median_s > 0.0 ? "behind" : "ahead of",
+          1e3 * conform::kLeastLagS, 1e3 * conform::kMostLagS);
+  return "";
+}
+
+}  // namespace rover

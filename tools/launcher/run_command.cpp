@@ -1,0 +1,163 @@
+#include "tools/launcher/run_command.hpp"
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <lcm/lcm-cpp.hpp>
+#include <nlohmann/json.hpp>
+
+#include "common/bus/config.hpp"
+#include "common/bus/interrupt.hpp"
+#include "common/bus/s6_client.hpp"
+#include "common/bus/service_names.hpp"
+#include "tools/launcher/preflight.hpp"
+#include "tools/launcher/progress.hpp"
+#include "tools/launcher/run_folder.hpp"
+#include "tools/launcher/run_report.hpp"
+#include "tools/launcher/s6_tree.hpp"
+
+namespace rover {
+namespace fs = std::filesystem;
+namespace {
+
+std::vector<std::string> services_of(const RunFolder& folder) {
+  return service_names(folder.level != "efficient");
+}
+
+bool allows_injection(const RunArguments& arguments, const RunFolder& folder) {
+  return arguments.allow_injection || folder.has_faults;
+}
+
+std::vector<ServiceCommand> service_commands(const RunArguments& arguments, const RunFolder& folder) {
+  std::vector<ServiceCommand> commands;
+  std::string participants;
+  for (const std::string& name : services_of(folder)) {
+    commands.push_back({name});
+    participants += (participants.empty() ? "" : ",") + name;
+  }
+  const std::string flags = "--scenario \"$ROVER_RUN/config/scenario.yaml\" --seed " + std::to_string(folder.seed) +
+                            " --participants " + participants + (arguments.realtime ? " --realtime" : "");
+  commands.push_back({"rover_simulator", flags, true});
+  return commands;
+}
+
+enum class End { kOver, kFailed, kNeverBegun };
+
+End wait_for_end(const RunArguments& arguments, const RunFolder& folder, S6Session& session) {
+  lcm::LCM lcm(folder.bus_url);
+  Progress progress(lcm, !arguments.quiet);
+  const std::string end_file = folder.dir + "/simulation.json";
+  // On a busy machine a service may end before the logger of its words has started.
+  constexpr int kSilentLooks = 100;
+  int silent_looks = 0;
+  while (going()) {
+    lcm.handleTimeout(100);
+    progress.show();
+    if (progress.supervisor_hangs()) {
+      kill_service(folder.dir, "supervisor");
+      progress.supervisor_killed();
+    }
+    if (fs::exists(end_file)) break;
+    const auto failed = failed_services(folder.dir);
+    if (!failed.empty() && (!failed.front().said.empty() || ++silent_looks > kSilentLooks))
+      return progress.started() ? End::kFailed : End::kNeverBegun;
+    if (!session.running()) {
+      std::fprintf(stderr, "s6-svscan has ended; see %s/service_logs/s6.log\n", folder.dir.c_str());
+      return End::kFailed;
+    }
+  }
+  progress.finish();
+  return End::kOver;
+}
+
+// Several services may stumble over the same value: one is told.
+void tell(const FailedService& failed, const RunArguments& arguments, const RunFolder& folder) {
+  std::fprintf(stderr, "%s\n", in_users_files(failed.line(), folder, arguments.source_dir + "/config").c_str());
+}
+
+// The launcher's part of the run's facts, for the report.
+void write_run_json(const RunArguments& arguments, const RunFolder& folder) {
+  const nlohmann::json facts = {{"scenario", scenario_name(arguments.scenario)},
+                                {"seed", folder.seed},
+                                {"commit", commit_of(arguments.source_dir)},
+                                {"level", folder.level},
+                                {"realtime", arguments.realtime},
+                                {"interrupted", !going()}};
+  write_json(folder.dir + "/run.json", facts);
+}
+
+// For ./rover inject, while the run lasts.
+void write_launch_json(const RunArguments& arguments, const RunFolder& folder) {
+  const nlohmann::json facts = {{"bus", folder.bus_url}, {"allow_injection", allows_injection(arguments, folder)}};
+  write_json(folder.dir + "/launch.json", facts);
+}
+
+void print_result(const RunFolder& folder, const nlohmann::json& metrics) {
+  const auto number = [&](const char* key) { return figure(metrics, key); };
+  std::printf(
+      "%s: %.1f m driven for %.1f m planned in %.0f s, %.0f repairs, %.0f hazard stops, %.0f collisions, "
+      "drift %.2f %%, %.1f times real time\n",
+      metrics.value("outcome", "unknown").c_str(), number("driven_length_m"), number("planned_length_m"),
+      number("duration_s"), number("replans"), number("hazard_stops"), number("collisions"),
+      number("odometry_drift_percent"), number("realtime_factor"));
+  std::printf("report: %s/report.html\n", folder.dir.c_str());
+}
+
+}  // namespace
+
+RunResult run(const RunArguments& given) {
+  RunArguments arguments = given;
+  arguments.scenario = scenario_file(given);
+  RunResult result;
+  RunFolder folder;
+  try {
+    folder = make_run_folder(arguments);
+  } catch (const std::exception& error) {  // ConfigError, DtmError, the file system's
+    std::fprintf(stderr, "%s\n", error.what());
+    result.exit_status = 2;
+    return result;
+  }
+  const BusLock lock(folder.bus_url);
+  try {
+    demand_programs(services_of(folder), arguments.bin_dir);
+    demand_bus(folder.bus_url, lock);
+  } catch (const ConfigError& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    remove_run_folder(folder);
+    result.exit_status = 2;
+    return result;
+  }
+  result.dir = folder.dir;
+  catch_interrupts();
+  if (!arguments.quiet) std::printf("run: %s\n", folder.dir.c_str());
+  if (const std::string line = page_line(folder.config_dir); !arguments.quiet && !line.empty())
+    std::printf("%s\n", line.c_str());
+  for (const std::string& note : folder.map_notes) std::printf("%s\n", note.c_str());
+  write_launch_json(arguments, folder);
+  write_s6_tree(folder.dir, service_commands(arguments, folder), allows_injection(arguments, folder));
+  End end = End::kFailed;
+  {
+    S6Session session(folder, arguments.bin_dir);
+    end = wait_for_end(arguments, folder, session);
+    session.stop();
+  }
+  if (end != End::kOver) {
+    const auto failed = failed_services(folder.dir);
+    if (!failed.empty()) tell(failed.front(), arguments, folder);
+    if (end == End::kNeverBegun) {
+      remove_run_folder(folder);
+      result.dir.clear();
+    }
+    result.exit_status = failed.empty() ? 1 : 2;
+    return result;
+  }
+  write_run_json(arguments, folder);
+  if (!make_report(arguments.bin_dir, folder)) return result;
+  const nlohmann::json metrics = read_metrics(folder);
+  if (!arguments.quiet) print_result(folder, metrics);
+  const bool success = metrics.value("outcome", "") == "goal_reached" && metrics.value("collisions", 1) == 0;
+  result.exit_status = success ? 0 : 1;
+  return result;
+}
+
+}  // namespace rover

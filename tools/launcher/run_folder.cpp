@@ -1,0 +1,199 @@
+#include "tools/launcher/run_folder.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+
+#include "common/bus/config.hpp"
+#include "common/bus/yaml_file.hpp"
+#include "common/geo/elevation_map.hpp"
+#include "common/geo/geotiff_writer.hpp"
+#include "rover_simulator/world/scenario.hpp"
+
+namespace rover {
+namespace fs = std::filesystem;
+namespace {
+
+std::string time_stamp() {
+  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  char text[32];
+  std::strftime(text, sizeof text, "%Y%m%d-%H%M%S", std::localtime(&now));
+  return text;
+}
+
+// The elevation model is named absolutely in the run's copy, which lies elsewhere.
+void copy_scenario(const std::string& file, const std::string& dtm_file, const fs::path& to) {
+  YAML::Node scenario = load_yaml(file);
+  if (!dtm_file.empty()) scenario["world"]["dtm"] = fs::absolute(dtm_file).lexically_normal().string();
+  write_yaml(to, scenario);
+}
+
+// What the ground knows and orders: the start by its own belief, the height from the orbital map.
+void write_ground(const Scenario& scenario, const std::string& level, double start_z_m, const fs::path& file) {
+  const Pose2 start = scenario.start_pose();
+  YAML::Node ground;
+  ground["start"]["x_m"] = start.x_m;
+  ground["start"]["y_m"] = start.y_m;
+  ground["start"]["z_m"] = start_z_m;
+  ground["start"]["yaw_deg"] = to_deg(start.yaw_rad);
+  ground["start"]["sigma_m"] = std::max(0.01, scenario.start.sigma_m);
+  ground["start"]["sigma_yaw_deg"] = std::max(0.05, to_deg(scenario.start.sigma_yaw_rad));
+  ground["start"]["clear_radius_m"] = scenario.start.clear_radius_m;
+  ground["path"]["x_m"] = scenario.path.x_m;
+  ground["path"]["y_m"] = scenario.path.y_m;
+  std::vector<int> levels = scenario.path.level;
+  if (level != "auto") std::fill(levels.begin(), levels.end(), level == "full" ? 1 : 0);
+  ground["path"]["level"] = levels;
+  ground["path"]["corridor_half_width_m"] = scenario.path.corridor_half_width_m;
+  ground["path"]["goal_tolerance_m"] = scenario.path.goal_tolerance_m;
+  write_yaml(file, ground);
+}
+
+// Empty where it is not names between dots.
+std::vector<std::string> keys_of(const std::string& path) {
+  std::vector<std::string> keys(1);
+  for (const char c : path) {
+    if (c == '.') {
+      keys.emplace_back();
+    } else if (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_') {
+      keys.back() += c;
+    } else {
+      return {};
+    }
+  }
+  return std::find(keys.begin(), keys.end(), "") == keys.end() ? keys : std::vector<std::string>{};
+}
+
+std::string replaced(std::string text, const std::string& old, const std::string& with) {
+  for (size_t at = text.find(old); at != std::string::npos; at = text.find(old, at + with.size()))
+    text.replace(at, old.size(), with);
+  return text;
+}
+
+double height_at(const ElevationRaster& raster, double x_m, double y_m) {
+  const int column = std::clamp(static_cast<int>(x_m / raster.resolution_m), 0, raster.width - 1);
+  const int row = std::clamp(static_cast<int>(y_m / raster.resolution_m), 0, raster.height - 1);
+  return raster.at(column, row);
+}
+
+void apply_arguments(const RunArguments& arguments, RunFolder& folder) {
+  if (arguments.headless) apply_setting("mission_control.page=false", folder.config_dir);
+  if (!arguments.record.empty()) apply_setting("recorder.record=" + arguments.record, folder.config_dir);
+  for (const std::string& setting : arguments.set) apply_setting(setting, folder.config_dir);
+  if (!folder.bus_url.empty()) apply_setting("bus.url=" + folder.bus_url, folder.config_dir);
+  folder.bus_url = Config::load(folder.config_dir + "/bus.yaml").text("url");
+}
+
+void fill_run_folder(const RunArguments& arguments, const std::string& dtm_file, RunFolder& folder) {
+  copy_configuration(arguments.source_dir + "/config", folder.config_dir);
+  copy_scenario(arguments.scenario, dtm_file, folder.scenario);
+  apply_arguments(arguments, folder);
+
+  const Scenario scenario = load_scenario(folder.scenario);
+  folder.has_faults = !scenario.faults.empty();
+  folder.map_notes = scenario.dtm_notes;
+  folder.level = arguments.level.empty() ? scenario.level : arguments.level;
+  folder.seed = arguments.seed >= 0 ? arguments.seed : static_cast<std::int64_t>(scenario.seed);
+  const World world(scenario.world, scenario.dtm, static_cast<std::uint64_t>(folder.seed));
+  const ElevationRaster orbital = world.orbital_map(scenario.orbital_resolution_m);
+  write_geotiff(folder.dir + "/orbital_map.tif", orbital);
+  const Pose2 start = scenario.start_pose();
+  write_ground(scenario, folder.level, height_at(orbital, start.x_m, start.y_m), folder.config_dir + "/ground.yaml");
+}
+
+}  // namespace
+
+std::string run_dir_for(const std::string& source_dir, const std::string& out, const std::string& name) {
+  if (!out.empty()) return fs::absolute(out);
+  return fs::absolute(fs::path(source_dir) / "logs" / (time_stamp() + "-" + name));
+}
+
+void copy_configuration(const std::string& from, const std::string& to) {
+  for (const auto& entry : fs::directory_iterator(from))
+    if (entry.path().extension() == ".yaml") fs::copy_file(entry.path(), fs::path(to) / entry.path().filename());
+}
+
+void apply_setting(const std::string& setting, const std::string& config_dir) {
+  const size_t equals = setting.find('=');
+  const std::vector<std::string> keys = keys_of(setting.substr(0, equals));
+  if (equals == std::string::npos || equals + 1 == setting.size() || keys.size() < 2)
+    throw ConfigError("--set " + setting + ": file.key=value is expected, as in path_planner.margin_m=0.2");
+  const fs::path file = fs::path(config_dir) / (keys.front() + ".yaml");
+  std::error_code ignored;  // a name that is too long
+  if (!fs::exists(file, ignored))
+    throw ConfigError("--set " + setting + ": there is no config/" + keys.front() + ".yaml");
+  const YAML::Node root = load_yaml(file);
+  YAML::Node node = root;
+  for (size_t i = 1; i + 1 < keys.size(); ++i) {
+    const YAML::Node child = node[keys[i]];
+    if (!child.IsDefined() || !child.IsMap())
+      throw ConfigError("--set " + setting + ": no section '" + keys[i] + "' in " + file.filename().string());
+    node.reset(child);
+  }
+  node[keys.back()] = parse_yaml(setting.substr(equals + 1), "--set " + setting.substr(0, equals));
+  write_yaml(file, root);
+}
+
+void create_folders(const std::string& run_dir) {
+  const fs::path dir(run_dir);
+  std::error_code error;
+  if (fs::exists(dir) && !fs::is_empty(dir, error))
+    throw ConfigError(dir.string() + ": exists already and is not empty");
+  fs::create_directories(dir / "config", error);
+  fs::create_directories(dir / "service_logs", error);
+  if (error) throw ConfigError(dir.string() + ": cannot be made: " + error.message());
+}
+
+RunFolder make_run_folder(const RunArguments& arguments) {
+  const fs::path dir = run_dir_for(arguments.source_dir, arguments.out, scenario_name(arguments.scenario));
+  if (!fs::is_regular_file(arguments.scenario)) throw ConfigError(arguments.scenario + ": no such file");
+  // Before anything is made, so that what is wrong is named in the user's own file.
+  const std::string dtm_file = load_scenario(arguments.scenario).dtm_file;
+  RunFolder folder{dir, dir / "config", dir / "config" / "scenario.yaml", arguments.bus, 0, false, !fs::exists(dir)};
+  create_folders(dir);
+  try {
+    fill_run_folder(arguments, dtm_file, folder);
+  } catch (const std::exception& error) {
+    remove_run_folder(folder);
+    const std::string message = replaced(error.what(), folder.scenario, arguments.scenario + " with --set");
+    throw ConfigError(in_users_files(message, folder, arguments.source_dir + "/config"));
+  }
+  return folder;
+}
+
+RunFolder make_replay_folder(const RunArguments& arguments, const std::string& name, const std::string& config_from,
+                             const std::string& log_dir) {
+  const fs::path dir = run_dir_for(arguments.source_dir, arguments.out, "replay-" + name);
+  RunFolder folder{dir, dir / "config", dir / "config" / "scenario.yaml", arguments.bus, 0, false, !fs::exists(dir)};
+  create_folders(dir);
+  try {
+    copy_configuration(config_from, folder.config_dir);
+    const fs::path orbital_map = fs::path(log_dir) / "orbital_map.tif";
+    if (fs::exists(orbital_map)) fs::copy_file(orbital_map, dir / "orbital_map.tif");
+    apply_arguments(arguments, folder);
+  } catch (const std::exception& error) {
+    remove_run_folder(folder);
+    throw ConfigError(in_users_files(error.what(), folder, config_from));
+  }
+  return folder;
+}
+
+std::string in_users_files(const std::string& message, const RunFolder& folder, const std::string& users_config_dir) {
+  return replaced(message, folder.config_dir, fs::path(users_config_dir).lexically_normal().string());
+}
+
+void remove_run_folder(const RunFolder& folder) {
+  std::error_code ignored;
+  if (folder.is_new) {
+    fs::remove_all(folder.dir, ignored);
+    return;
+  }
+  for (const auto& entry : fs::directory_iterator(folder.dir, ignored)) fs::remove_all(entry.path(), ignored);
+}
+
+}  // namespace rover

@@ -1,0 +1,30 @@
+#include "tools/launcher/run_report.hpp"
+
+#include <cstdio>
+#include <fstream>
+
+#include "common/bus/child_process.hpp"
+
+namespace rover {
+
+void write_json(const std::string& file, const nlohmann::json& facts) {
+  std::ofstream(file) << facts.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
+}
+
+bool make_report(const std::string& bin_dir, const RunFolder& folder) {
+  const std::string log = folder.dir + "/service_logs/report.log";
+  if (run_into(log, {bin_dir + "/rover_report", folder.dir}) == 0) return true;
+  std::fprintf(stderr, "the report failed; see %s\n", log.c_str());
+  return false;
+}
+
+nlohmann::json read_metrics(const RunFolder& folder) {
+  std::ifstream in(folder.dir + "/metrics.json");
+  return nlohmann::json::parse(in, nullptr, false);
+}
+
+double figure(const nlohmann::json& metrics, const char* key) {
+  return metrics.contains(key) && metrics[key].is_number() ? metrics[key].get<double>() : 0.0;
+}
+
+}  // namespace rover

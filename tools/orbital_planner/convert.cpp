@@ -1,0 +1,106 @@
+#include "tools/orbital_planner/convert.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "common/core/frames.hpp"
+
+namespace rover::orbital {
+namespace {
+
+using nlohmann::json;
+
+constexpr size_t kNumbersInLine = 10;
+
+static_assert(static_cast<std::int8_t>(Level::kEfficient) == path_t::EFFICIENT &&
+              static_cast<std::int8_t>(Level::kFull) == path_t::FULL);
+
+template <class Format>
+std::string yaml_list(const std::string& key, size_t count, Format&& text_of) {
+  std::string text = fmt::format("  {}: [", key);
+  const std::string indent(text.size(), ' ');
+  for (size_t i = 0; i < count; ++i) {
+    text += text_of(i);
+    if (i + 1 == count) break;
+    text += (i + 1) % kNumbersInLine == 0 ? ",\n" + indent : ", ";
+  }
+  return text + "]\n";
+}
+
+double rounded_to(double value, double unit) {
+  return std::round(value / unit) * unit;
+}
+
+json position(const Eigen::Vector2d& map_m, const ToLonLat& to_lon_lat) {
+  const Eigen::Vector2d p = to_lon_lat(map_m);
+  return {rounded_to(p.x(), 1e-9), rounded_to(p.y(), 1e-9)};
+}
+
+json point_json(const Eigen::Vector2d& p) {
+  return {rounded_to(p.x(), 1e-4), rounded_to(p.y(), 1e-4)};
+}
+
+json stretch_feature(const Plan& plan, const Stretch& stretch, const ToLonLat& to_lon_lat) {
+  json coordinates = json::array(), map_xy = json::array();
+  for (size_t i = stretch.first; i <= stretch.last; ++i) {
+    coordinates.push_back(position(plan.line[i], to_lon_lat));
+    map_xy.push_back(point_json(plan.line[i]));
+  }
+  return {{"type", "Feature"},
+          {"geometry", {{"type", "LineString"}, {"coordinates", coordinates}}},
+          {"properties",
+           {{"level", name_of(stretch.level)},
+            {"length_m", rounded_to(stretch.length_m, 1e-3)},
+            {"mean_difficulty", rounded_to(stretch.mean_difficulty, 1e-3)},
+            {"most_slope_deg", rounded_to(to_deg(stretch.most_slope_rad), 1e-2)},
+            {"map_xy_m", map_xy}}}};
+}
+
+json waypoint_feature(const Line& waypoints, size_t i, const ToLonLat& to_lon_lat) {
+  const char* role = i == 0 ? "start" : i + 1 == waypoints.size() ? "goal" : "via";
+  return {{"type", "Feature"},
+          {"geometry", {{"type", "Point"}, {"coordinates", position(waypoints[i], to_lon_lat)}}},
+          {"properties", {{"role", role}, {"map_xy_m", point_json(waypoints[i])}}}};
+}
+
+}  // namespace
+
+const char* name_of(Level level) {
+  return level == Level::kFull ? "FULL" : "EFFICIENT";
+}
+
+path_t message_from(const Plan& plan, const PathTerms& terms) {
+  path_t message{};
+  message.path_id = 1;
+  message.frame = path_t::MAP;
+  message.kind = path_t::GLOBAL;
+  message.corridor_half_width_m = terms.corridor_half_width_m;
+  message.goal_tolerance_m = terms.goal_tolerance_m;
+  message.point_count = static_cast<std::int32_t>(plan.line.size());
+  for (size_t i = 0; i < plan.line.size(); ++i) {
+    message.x_m.push_back(plan.line[i].x());
+    message.y_m.push_back(plan.line[i].y());
+    message.level.push_back(static_cast<std::int8_t>(plan.level[i]));
+  }
+  return message;
+}
+
+std::string yaml_from(const Plan& plan, const PathTerms& terms) {
+  const size_t count = plan.line.size();
+  return "path:\n" + yaml_list("x_m", count, [&](size_t i) { return fmt::format("{:.4f}", plan.line[i].x()); }) +
+         yaml_list("y_m", count, [&](size_t i) { return fmt::format("{:.4f}", plan.line[i].y()); }) +
+         yaml_list("level", count, [&](size_t i) { return fmt::format("{}", static_cast<int>(plan.level[i])); }) +
+         fmt::format("  corridor_half_width_m: {}\n  goal_tolerance_m: {}\n", terms.corridor_half_width_m,
+                     terms.goal_tolerance_m);
+}
+
+std::string geojson_from(const Plan& plan, const Line& waypoints, const ToLonLat& to_lon_lat) {
+  json features = json::array();
+  for (const Stretch& stretch : plan.stretches) features.push_back(stretch_feature(plan, stretch, to_lon_lat));
+  for (size_t i = 0; i < waypoints.size(); ++i) features.push_back(waypoint_feature(waypoints, i, to_lon_lat));
+  return json{{"type", "FeatureCollection"}, {"features", features}}.dump(1) + "\n";
+}
+
+}  // namespace rover::orbital

@@ -1,0 +1,13 @@
+// The terrain's layers as a GeoTIFF, a band for each.
+#pragma once
+
+#include <string>
+
+#include "tools/orbital_planner/terrain.hpp"
+
+namespace rover::orbital {
+
+// Throws DtmError where the file cannot be written.
+void write_layers(const std::string& file, const ElevationRaster& map, const TerrainLayers& layers);
+
+}  // namespace rover::orbital

@@ -1,0 +1,130 @@
+#include "tools/orbital_planner/terrain.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace rover::orbital {
+namespace {
+
+constexpr float kNoValue = std::numeric_limits<float>::quiet_NaN();
+
+struct Plane {
+  double gradient_x = 0.0;  // per cell
+  double gradient_y = 0.0;
+  double rms_m = 0.0;
+};
+
+// Sums over the known cells of a square, in cells and metres from its middle.
+struct Moments {
+  double n = 0, x = 0, y = 0, z = 0, xx = 0, xy = 0, yy = 0, xz = 0, yz = 0, zz = 0;
+
+  void add(double dx, double dy, double dz) {
+    n += 1.0;
+    x += dx, y += dy, z += dz;
+    xx += dx * dx, xy += dx * dy, yy += dy * dy;
+    xz += dx * dz, yz += dy * dz, zz += dz * dz;
+  }
+
+  // None where the cells lie on a line.
+  std::optional<Plane> plane() const {
+    const double cxx = xx - x * x / n, cxy = xy - x * y / n, cyy = yy - y * y / n;
+    const double cxz = xz - x * z / n, cyz = yz - y * z / n, czz = zz - z * z / n;
+    const double det = cxx * cyy - cxy * cxy;
+    if (!(det > 1e-6 * std::max(1.0, cxx * cyy))) return std::nullopt;
+    const double gx = (cyy * cxz - cxy * cyz) / det, gy = (cxx * cyz - cxy * cxz) / det;
+    return Plane{gx, gy, std::sqrt(std::max(0.0, (czz - gx * cxz - gy * cyz) / n))};
+  }
+};
+
+class Window {
+ public:
+  Window(const ElevationRaster& map, const TerrainConfig& config)
+      : map_(map),
+        reach_(std::max(1, static_cast<int>(std::lround(0.5 * config.window_m / map.resolution_m - 0.5)))),
+        least_(config.least_known * (2 * reach_ + 1) * (2 * reach_ + 1)) {}
+
+  std::optional<Plane> plane_at(int column, int row) const {
+    const float middle = map_.at(column, row);
+    if (!std::isfinite(middle)) return std::nullopt;
+    Moments moments;
+    for_known(column, row, reach_, [&](int dx, int dy, float z) { moments.add(dx, dy, z - middle); });
+    return moments.n < least_ ? std::nullopt : moments.plane();
+  }
+
+  double step_m(int column, int row, const Plane& plane) const {
+    const float middle = map_.at(column, row);
+    double most = 0.0;
+    for_known(column, row, 1, [&](int dx, int dy, float z) {
+      most = std::max(most, std::abs(z - middle - plane.gradient_x * dx - plane.gradient_y * dy));
+    });
+    return most;
+  }
+
+ private:
+  template <class F>
+  void for_known(int column, int row, int reach, F&& f) const {
+    for (int y = std::max(0, row - reach); y <= std::min(map_.height - 1, row + reach); ++y)
+      for (int x = std::max(0, column - reach); x <= std::min(map_.width - 1, column + reach); ++x)
+        if (const float z = map_.at(x, y); std::isfinite(z)) f(x - column, y - row, z);
+  }
+
+  const ElevationRaster& map_;
+  int reach_;
+  double least_;
+};
+
+TerrainClass classify(double slope_rad, double roughness_m, double step_m, const TerrainConfig& config) {
+  if (slope_rad > config.most_slope_rad || roughness_m > config.most_roughness_m || step_m > config.most_step_m)
+    return TerrainClass::kObstacle;
+  if (slope_rad > config.steep_rad) return TerrainClass::kSteep;
+  if (roughness_m > config.rough_m) return TerrainClass::kRough;
+  return slope_rad > config.sloping_rad ? TerrainClass::kSloping : TerrainClass::kLevel;
+}
+
+void judge_cell(const Window& window, int column, int row, const TerrainConfig& config, TerrainLayers& layers) {
+  const std::optional<Plane> plane = window.plane_at(column, row);
+  if (!plane) return;
+  const size_t i = static_cast<size_t>(row) * layers.width + column;
+  const double slope = std::atan(std::hypot(plane->gradient_x, plane->gradient_y) / layers.cell_m);
+  const double step = window.step_m(column, row, *plane);
+  const double worst =
+      std::max({slope / config.most_slope_rad, plane->rms_m / config.most_roughness_m, step / config.most_step_m});
+  layers.slope_rad[i] = static_cast<float>(slope);
+  layers.roughness_m[i] = static_cast<float>(plane->rms_m);
+  layers.step_m[i] = static_cast<float>(step);
+  layers.difficulty[i] = static_cast<float>(std::min(1.0, worst));
+  layers.terrain_class[i] = classify(slope, plane->rms_m, step, config);
+}
+
+}  // namespace
+
+const char* name_of(TerrainClass c) {
+  static constexpr std::array<const char*, kTerrainClasses> kNames = {"unknown", "level", "sloping",
+                                                                      "steep",   "rough", "obstacle"};
+  return kNames[static_cast<size_t>(c)];
+}
+
+TerrainLayers analyse(const ElevationRaster& map, const TerrainConfig& config) {
+  TerrainLayers layers;
+  layers.width = map.width;
+  layers.height = map.height;
+  layers.cell_m = map.resolution_m;
+  for (std::vector<float>* layer : {&layers.slope_rad, &layers.roughness_m, &layers.step_m, &layers.difficulty})
+    layer->assign(map.z_m.size(), kNoValue);
+  layers.terrain_class.assign(map.z_m.size(), TerrainClass::kUnknown);
+  const Window window(map, config);
+  for (int row = 0; row < map.height; ++row)
+    for (int column = 0; column < map.width; ++column) judge_cell(window, column, row, config, layers);
+  return layers;
+}
+
+std::array<double, kTerrainClasses> class_shares(const TerrainLayers& layers) {
+  std::array<double, kTerrainClasses> shares{};
+  for (TerrainClass c : layers.terrain_class)
+    shares[static_cast<size_t>(c)] += 1.0 / static_cast<double>(layers.terrain_class.size());
+  return shares;
+}
+
+}  // namespace rover::orbital

@@ -1,0 +1,56 @@
+#include "tools/orbital_planner/travel_cost.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "common/core/distance_field.hpp"
+
+namespace rover::orbital {
+namespace {
+
+// To obstacles and unknown ground; what lies beyond the map's border is unknown too.
+std::vector<double> distance_to_closed(const TerrainLayers& layers) {
+  std::vector<std::uint8_t> closed(layers.terrain_class.size());
+  std::transform(layers.terrain_class.begin(), layers.terrain_class.end(), closed.begin(), [](TerrainClass c) {
+    return static_cast<std::uint8_t>(c == TerrainClass::kUnknown || c == TerrainClass::kObstacle);
+  });
+  std::vector<double> distance = distance_field(closed, layers.width, layers.height, layers.cell_m);
+  for (int y = 0; y < layers.height; ++y)
+    for (int x = 0; x < layers.width; ++x) {
+      const int cells = 1 + std::min({x, y, layers.width - 1 - x, layers.height - 1 - y});
+      double& d = distance[static_cast<size_t>(y) * layers.width + x];
+      d = std::min(d, cells * layers.cell_m);
+    }
+  return distance;
+}
+
+double risk_share(double distance_m, const CostConfig& config) {
+  if (distance_m >= config.risk_distance_m) return 0.0;
+  return config.risk_cost * (config.risk_distance_m - distance_m) / (config.risk_distance_m - config.clearance_m);
+}
+
+}  // namespace
+
+double slope_cost(double slope_rad) {
+  static constexpr std::array<double, 4> kCost = {1.0, 1.5, 2.5, 4.0};
+  constexpr double kStepRad = to_rad(5.0);
+  const double place = slope_rad / kStepRad;
+  // Beyond the table's end, where a configuration allows steeper ground, its last rise goes on.
+  const size_t i = std::min(static_cast<size_t>(place), kCost.size() - 2);
+  return kCost[i] + (place - static_cast<double>(i)) * (kCost[i + 1] - kCost[i]);
+}
+
+CostMap travel_cost(const TerrainLayers& layers, const CostConfig& config) {
+  CostMap map{{layers.width, layers.height, layers.cell_m, {}}, distance_to_closed(layers)};
+  map.grid.cost_per_m.assign(layers.terrain_class.size(), kInfinity);
+  for (size_t i = 0; i < layers.terrain_class.size(); ++i) {
+    const double distance = map.obstacle_distance_m[i];
+    if (distance == 0.0 || distance < config.clearance_m) continue;
+    map.grid.cost_per_m[i] = slope_cost(layers.slope_rad[i]) * (1.0 + risk_share(distance, config)) +
+                             config.difficulty_cost * layers.difficulty[i];
+  }
+  return map;
+}
+
+}  // namespace rover::orbital

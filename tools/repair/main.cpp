@@ -1,0 +1,34 @@
+// rover_repair LOG: makes a damaged log whole.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "common/bus/command_line.hpp"
+#include "common/bus/interrupt.hpp"
+#include "tools/repair/repair.hpp"
+
+int main(int argc, char** argv) {
+  rover::recorder::RepairArguments repair;
+  CLI::App app(
+      "Keeps every whole message of a log that was cut or damaged, and leaves out the rest. The log itself stays as "
+      "it\n"
+      "is unless --in-place is given.\n"
+      "Example: ./rover repair logs/RUN/traverse.lcm");
+  app.name("./rover repair");
+  app.add_option("log", repair.log, "a log, or a run's folder")->required()->transform(rover::is_user_path());
+  CLI::Option* out = app.add_option("--out", repair.out, "the whole log; default: NAME.repaired.lcm beside it")
+                         ->transform(rover::is_user_path());
+  app.add_flag("--in-place", repair.in_place, "replace the damaged log")->excludes(out);
+  try {
+    rover::parse_arguments(app, argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return rover::end_of_parse(app, error);
+  }
+  rover::catch_interrupts();
+  try {
+    rover::recorder::repair(repair);
+  } catch (const std::exception& error) {  // ConfigError, the file system's
+    std::fprintf(stderr, "%s\n", error.what());
+    return 2;
+  }
+  return 0;
+}

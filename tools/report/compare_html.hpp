@@ -1,0 +1,20 @@
+// Two runs side by side, as one HTML document that needs nothing beside itself.
+#pragma once
+
+#include <string>
+
+#include "tools/report/config_difference.hpp"
+#include "tools/report/html.hpp"
+
+namespace rover::report {
+
+struct ComparedRun {
+  std::string name;  // of its folder
+  Metrics metrics;
+  Pictures pictures;
+};
+
+std::string compare_html(const ComparedRun& a, const ComparedRun& b,
+                         const std::vector<ConfigDifference>& configuration);
+
+}  // namespace rover::report

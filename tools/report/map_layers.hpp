@@ -1,0 +1,50 @@
+// The layers that the map and its insets are made of.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tools/report/scene.hpp"
+#include "tools/report/svg.hpp"
+
+namespace rover::report {
+
+// Places a piece of the map frame, north up, in a picture.
+struct MapView {
+  Box box;
+  double left = 0.0;
+  double top = 0.0;
+  double px_per_m = 1.0;
+  double width() const { return box.width_m() * px_per_m; }
+  double height() const { return box.height_m() * px_per_m; }
+  Eigen::Vector2d px(const Eigen::Vector2d& p) const {
+    return {left + (p.x() - box.x0_m) * px_per_m, top + (box.y1_m - p.y()) * px_per_m};
+  }
+  Points px(const Points& line) const;
+};
+
+inline constexpr double kMapWidth = 1400.0;
+inline constexpr double kMapAxis = 34.0;  // room for the coordinates, left and below
+
+// Of a whole traverse, its planned path included.
+MapView map_view(const Scene& scene);
+void draw_axes(Svg& svg, const MapView& view);
+// Style of a line.
+std::string stroke(const char* colour, double width, const std::string& more = "");
+
+// The box grown until height / width lies in the range.
+Box with_aspect(Box box, double least, double most);
+Box bounds(const std::vector<Points>& lines);
+
+enum class RockStyle { kFilled, kOutlined };  // outlined where the ground's own picture shows the rocks
+void draw_rocks(Svg& svg, const MapView& view, const Scene& scene, RockStyle style);
+// Squares of the lattice in which hazard cells were seen; each once.
+void draw_cells(Svg& svg, const MapView& view, const Points& cells, double cell_m, const std::string& style);
+void draw_footprint(Svg& svg, const MapView& view, const Pose2& pose, const Footprint& footprint,
+                    const std::string& style);
+// In the lower corner that is farther from the line.
+void draw_scale_bar(Svg& svg, const MapView& view, const Points& line);
+void draw_north(Svg& svg, const MapView& view);
+std::string incident_title(const Scene& scene, size_t index);
+
+}  // namespace rover::report

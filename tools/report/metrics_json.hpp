@@ -1,0 +1,12 @@
+// metrics.json: the names are the project's contract.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "tools/report/metrics.hpp"
+
+namespace rover::report {
+
+nlohmann::ordered_json metrics_json(const Metrics& metrics);
+
+}  // namespace rover::report

@@ -1,0 +1,226 @@
+// What the judge knows of a run: the log as plain series, and what the run's folder says of it. Times are message time.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/core/frames.hpp"
+#include "tools/report/elevation_mosaic.hpp"
+
+namespace rover::report {
+
+struct TruthSample {
+  double t_s = 0.0;
+  Eigen::Isometry3d T_map_body = Eigen::Isometry3d::Identity();
+  double speed_mps = 0.0;
+  double wheel_slip = 0.0;  // mean of the six
+  double clearance_m = kInfinity;
+  bool collision = false;
+};
+
+struct PoseSample {
+  double t_s = 0.0;
+  Eigen::Isometry3d T_odom_body = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d T_map_odom = Eigen::Isometry3d::Identity();
+};
+
+// Each VO message.
+struct VisualSample {
+  double from_s = 0.0;
+  double to_s = 0.0;
+  bool lost = false;
+  Eigen::Isometry3d T_from_to = Eigen::Isometry3d::Identity();
+};
+
+enum class Following { kIdle, kFollowing, kPointTurn, kOther };
+
+struct ControlSample {
+  double t_s = 0.0;
+  Following following = Following::kIdle;
+  std::int64_t path_id = -1;
+  double cross_track_m = 0.0;
+};
+
+struct WheelSample {
+  double t_s = 0.0;
+  std::array<double, 6> current_a{};
+};
+
+struct SlipSample {
+  double t_s = 0.0;
+  double slip_ratio = kNaN;
+};
+
+// As supervisor_state_t.
+enum class State {
+  kBoot,
+  kStandby,
+  kDriving,
+  kHazardStop,
+  kRepairing,
+  kSweeping,
+  kCorrecting,
+  kPaused,
+  kGoalReached,
+  kFaultStop,
+  kSafe,
+  kTeleop
+};
+std::string state_name(State state);
+
+// Each change of STATE.
+struct StateChange {
+  double t_s = 0.0;
+  State state = State::kBoot;
+  bool full = false;
+  std::string cause;
+  std::string quantity;  // measured, behind the cause; empty: none
+  double value = kNaN;
+  double threshold = kNaN;
+};
+
+struct PathRecord {
+  double t_s = 0.0;
+  std::int64_t id = -1;
+  bool in_odom = false;
+  bool is_repair = false;
+  std::vector<Eigen::Vector2d> points;
+};
+
+struct HazardCell {
+  Eigen::Vector2d p_body;  // middle of the cell, at the exposure
+  bool hole = false;
+};
+
+// One HAZARDS map: cells seen as obstacle or hole, without margins.
+struct HazardMap {
+  double t_s = 0.0;  // exposure
+  double released_s = 0.0;
+  bool blind = false;
+  double coverage = 0.0;
+  double cell_m = 0.1;
+  std::vector<HazardCell> cells;
+};
+
+struct PlannerSample {
+  double t_s = 0.0;
+  bool no_path = false;
+  bool blocked_by_unseen = false;
+  int replans = 0;
+};
+
+// A DRIVE_PERMIT that was granted.
+struct PermitSample {
+  double released_s = 0.0;
+  double until_s = 0.0;
+};
+
+struct FaultRecord {
+  double t_s = 0.0;
+  std::string id;
+  double value = kNaN;
+  double limit = kNaN;
+  std::string response;
+  bool standing = false;
+};
+
+struct CorrectionRecord {
+  double t_s = 0.0;  // of the local map
+  bool accepted = false;
+  Pose2 T_map_odom;
+  double released_s = kNaN;
+  std::string reason;  // of an abstention
+};
+
+// Each SLAM_POSE.
+struct SlamSample {
+  double t_s = 0.0;  // of its cloud
+  Pose2 T_map_odom;
+};
+
+// CPU time of a process so far, and its memory.
+struct HeartbeatSample {
+  double t_s = 0.0;
+  std::int64_t boot_id = 0;
+  double cpu_s = 0.0;
+  double rss_mb = 0.0;
+};
+
+struct ServiceRecord {
+  std::map<std::int64_t, double> cpu_s_of_boot;
+  std::vector<HeartbeatSample> heartbeats;
+  double p50_ms = 0.0;
+  double p99_ms = 0.0;
+  std::map<std::pair<std::int64_t, std::string>, std::int64_t> gaps;  // of each boot and input
+};
+
+struct BusRecord {
+  std::int64_t messages = 0;  // published, by their sequence numbers
+  std::int64_t bytes = 0;
+  int damaged_events = 0;  // records of the log that do not decode
+};
+
+struct RunRecord {
+  std::vector<TruthSample> truth;
+  std::vector<PoseSample> poses;
+  std::vector<ControlSample> control;
+  std::vector<WheelSample> wheels;
+  std::vector<SlipSample> slip;
+  std::vector<StateChange> states;
+  std::vector<PathRecord> global_paths;
+  std::vector<PathRecord> local_paths;
+  std::vector<HazardMap> hazards;
+  std::vector<PlannerSample> planner;
+  std::vector<PermitSample> permits;
+  std::vector<FaultRecord> faults;
+  std::vector<CorrectionRecord> corrections;
+  std::map<std::string, ServiceRecord> services;
+  std::vector<SlamSample> slam;
+  ElevationMosaic elevation;  // of the Full level
+  std::vector<VisualSample> visual;
+  BusRecord bus;
+};
+
+// run.json, simulation.json and the configuration in the run's folder.
+struct RunInfo {
+  std::string scenario;
+  std::optional<std::int64_t> seed;
+  std::string commit;
+  std::string level;
+  std::optional<bool> deterministic;
+  std::optional<bool> realtime;
+  std::optional<double> wall_s;
+  std::optional<double> sim_s;
+  std::string outcome_hint;
+  std::map<std::string, int> restarts;
+  std::optional<int> data_set_pairs;  // of stereo pictures; empty: no imported data set
+};
+
+// The ground that the rover covers, about the body origin, and how high that is above flat ground.
+struct Footprint {
+  double half_length_m = 0.875;
+  double half_width_m = 0.47;
+  double origin_height_m = 0.62;
+  double top_speed_mps = 0.2;
+};
+
+struct Rock {
+  double x_m = 0.0;
+  double y_m = 0.0;
+  double radius_m = 0.0;
+  double height_m = 0.0;
+};
+
+// The true world around the run, for the judge alone.
+struct TrueWorld {
+  std::vector<Rock> rocks;
+  std::function<double(double x_m, double y_m)> height_m;  // of the surface; empty: unknown
+};
+
+}  // namespace rover::report

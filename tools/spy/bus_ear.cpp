@@ -1,0 +1,43 @@
+#include "tools/spy/bus_ear.hpp"
+
+#include <poll.h>
+
+#include <cerrno>
+
+#include "common/bus/bus_url.hpp"
+#include "common/bus/config.hpp"
+#include "common/bus/interrupt.hpp"
+#include "common/bus/wall_clock.hpp"
+
+namespace rover::spy {
+
+BusEar::BusEar(const std::string& bus_url, Traffic& traffic)
+    : url_(bus_url), bus_(bus_url), reports_(reports_url(bus_url)), traffic_(traffic) {
+  if (!bus_.good() || !reports_.good()) throw ConfigError("bus: cannot join " + bus_url);
+  subscribe(bus_);
+  if (reports_url(bus_url) != bus_url) subscribe(reports_);
+}
+
+void BusEar::subscribe(lcm::LCM& lcm) {
+  auto* subscription = lcm.subscribeFunction(
+      ".*",
+      +[](const lcm::ReceiveBuffer* buffer, const std::string& channel, BusEar* self) {
+        if (channel != "LCM_SELF_TEST")
+          self->traffic_.hear(channel, buffer->data, static_cast<int>(buffer->data_size), wall_s());
+      },
+      this);
+  // What LCM drops from a full queue would look like a gap of the bus.
+  subscription->setQueueCapacity(0);
+}
+
+void BusEar::listen(int timeout_ms) {
+  pollfd ears[] = {{bus_.getFileno(), POLLIN, 0}, {reports_.getFileno(), POLLIN, 0}};
+  if (poll(ears, 2, timeout_ms) < 0 && errno != EINTR) throw ConfigError("bus: " + url_ + " has failed");
+  for (lcm::LCM* lcm : {&bus_, &reports_}) {
+    int handled = 1;
+    while (handled > 0) handled = lcm->handleTimeout(0);
+    if (handled < 0 && going()) throw ConfigError("bus: " + url_ + " has failed");
+  }
+}
+
+}  // namespace rover::spy

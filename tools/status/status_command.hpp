@@ -1,0 +1,17 @@
+// ./rover status: finds the run, listens to its bus for a moment, and shows.
+#pragma once
+
+#include "tools/status/target.hpp"
+
+namespace rover::status {
+
+struct StatusArguments {
+  TargetArguments target;
+  bool json = false;
+  bool watch = false;
+};
+
+// Exit status: 0 when something was shown, 1 where nothing runs. Throws ConfigError.
+int show_status(const StatusArguments& arguments);
+
+}  // namespace rover::status
