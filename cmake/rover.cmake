@@ -31,7 +31,11 @@ add_library(rover_flags INTERFACE)
 target_compile_options(rover_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wno-restrict
   -Wno-missing-field-initializers -Werror
-  -march=x86-64-v2 -ffp-contract=off)
+  -ffp-contract=off)
+# A baseline of the processor, never the builder's own: the same program gives the same bytes on each machine.
+if(CMAKE_SYSTEM_PROCESSOR STREQUAL x86_64)
+  target_compile_options(rover_flags INTERFACE -march=x86-64-v2)
+endif()
 if(ROVER_SANITIZE STREQUAL address)
   # UBSan without the checks that ASan's own cover (null, object-size) or that x86 has no need of: 30 % of the build time.
   # Under the sanitizers GCC 12 takes parts of std::regex for uninitialized (PR 105562).

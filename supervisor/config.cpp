@@ -19,9 +19,9 @@ std::vector<std::string> split(const std::string& words) {
 
 using enum State;
 
-constexpr StateSet kMotion = {kDriving, kHazardStop, kRepairing, kSweeping, kCorrecting, kFaultStop, kTeleop};
+constexpr StateSet kMotion = {kDriving, kHazardStop, kRepairing, kSweeping, kFaultStop, kTeleop};
 // All states but BOOT: no row is evaluated before every input has arrived once.
-constexpr StateSet kAlways = {kStandby, kDriving,     kHazardStop, kRepairing, kSweeping, kCorrecting,
+constexpr StateSet kAlways = {kStandby, kDriving,     kHazardStop, kRepairing, kSweeping,
                               kPaused,  kGoalReached, kFaultStop,  kSafe,      kTeleop};
 
 const std::vector<std::string> kResponses = {"log",  "slow",        "stop", "stop_replan", "restart_service",

@@ -1,5 +1,6 @@
 #include "supervisor/persistent_state_codec.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 namespace rover::supervisor {
@@ -17,7 +18,8 @@ std::optional<PersistentState> persistent_state_from(const std::vector<std::uint
   try {
     const nlohmann::json json = nlohmann::json::parse(bytes.begin(), bytes.end());
     const int state = json.at("state"), level = json.at("level"), forced = json.at("forced");
-    if (state < 0 || state >= kStateCount || level < 0 || level > 1 || forced < 0 || forced > 2) return std::nullopt;
+    const bool known = std::find(kStates.begin(), kStates.end(), static_cast<State>(state)) != kStates.end();
+    if (!known || level < 0 || level > 1 || forced < 0 || forced > 2) return std::nullopt;
     PersistentState persistent_state;
     persistent_state.state = static_cast<State>(state);
     persistent_state.level = static_cast<Level>(level);

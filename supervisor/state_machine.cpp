@@ -9,21 +9,21 @@ namespace {
 using enum State;
 using F = Fact;
 
-constexpr StateSet kAllButSafe = {kBoot,       kStandby, kDriving,     kHazardStop, kRepairing, kSweeping,
-                                  kCorrecting, kPaused,  kGoalReached, kFaultStop,  kTeleop};
+constexpr StateSet kAllButSafe = {kBoot,     kStandby, kDriving,     kHazardStop, kRepairing,
+                                  kSweeping, kPaused,  kGoalReached, kFaultStop,  kTeleop};
 
-// First match wins. Order of priority: SAFE, ground commands, faults, goal, sweeping and correction, hazards.
+// First match wins. Order of priority: SAFE, ground commands, faults, goal, sweeping, hazards.
 constexpr std::array kTransitions = {
     Transition{kAllButSafe, {F::kCommandEmergencyStop}, {}, kSafe, "emergency_stop", F::kCommandEmergencyStop},
     Transition{kAllButSafe, {F::kSafeFault}, {}, kSafe, "safe_fault", F::kSafeFault},
     Transition{{kSafe}, {F::kCommandClearSafe}, {F::kSafeFault}, kStandby, "clear_safe", F::kCommandClearSafe},
-    Transition{{kDriving, kHazardStop, kRepairing, kSweeping, kCorrecting, kPaused, kFaultStop, kGoalReached, kTeleop},
+    Transition{{kDriving, kHazardStop, kRepairing, kSweeping, kPaused, kFaultStop, kGoalReached, kTeleop},
                {F::kCommandStop},
                {},
                kStandby,
                "stop",
                F::kCommandStop},
-    Transition{{kDriving, kHazardStop, kRepairing, kSweeping, kCorrecting, kFaultStop},
+    Transition{{kDriving, kHazardStop, kRepairing, kSweeping, kFaultStop},
                {F::kCommandPause},
                {},
                kPaused,
@@ -59,14 +59,6 @@ constexpr std::array kTransitions = {
                F::kTerrainKnown},
     Transition{{kSweeping}, {F::kTerrainKnown}, {F::kBlockingFault}, kDriving, "terrain_known", F::kTerrainKnown},
     Transition{{kSweeping}, {}, {F::kLevelFull, F::kBlockingFault}, kDriving, "level_efficient", F::kLevelFull},
-    Transition{
-        {kDriving}, {F::kCorrectionWanted}, {F::kBlockingFault}, kCorrecting, "correction", F::kCorrectionWanted},
-    Transition{{kCorrecting},
-               {},
-               {F::kCorrectionWanted, F::kBlockingFault},
-               kDriving,
-               "correction_done",
-               F::kCorrectionWanted},
     Transition{{kDriving}, {F::kPathBlocked}, {F::kBlockingFault}, kHazardStop, "path_blocked", F::kPathBlocked},
     Transition{{kHazardStop, kRepairing},
                {F::kPathClear},
@@ -136,13 +128,10 @@ constexpr std::array kLevelTransitions = {
                     L::kFullFailing},
 };
 
-constexpr std::array<const char*, kStateCount> kStateNames = {"BOOT",         "STANDBY",    "DRIVING",    "HAZARD_STOP",
-                                                              "REPAIRING",    "SWEEPING",   "CORRECTING", "PAUSED",
-                                                              "GOAL_REACHED", "FAULT_STOP", "SAFE",       "TELEOP"};
 constexpr std::array<const char*, kFactCount> kFactNames = {
-    "inputs_ready", "pose_fresh", "path_present", "blocking_fault", "safe_fault",     "path_blocked", "path_clear",
-    "standing",     "repairing",  "goal_reached", "level_full",     "terrain_known",  "correction",   "teleop_fresh",
-    "GO",           "STOP",       "PAUSE",        "RESUME",         "EMERGENCY_STOP", "CLEAR_SAFE",   "TELEOP"};
+    "inputs_ready", "pose_fresh", "path_present", "blocking_fault", "safe_fault",    "path_blocked", "path_clear",
+    "standing",     "repairing",  "goal_reached", "level_full",     "terrain_known", "teleop_fresh", "GO",
+    "STOP",         "PAUSE",      "RESUME",       "EMERGENCY_STOP", "CLEAR_SAFE",    "TELEOP"};
 constexpr std::array<const char*, 2> kLevelNames = {"EFFICIENT", "FULL"};
 constexpr std::array<const char*, kLevelFactCount> kLevelFactNames = {
     "full_ready",    "forced_full",  "forced_efficient", "path_full",   "raised_by_path",
@@ -184,7 +173,31 @@ std::span<const PermitRule> permit_rules() {
   return kPermitRules;
 }
 const char* name(State state) {
-  return kStateNames[static_cast<size_t>(state)];
+  switch (state) {
+    case kBoot:
+      return "BOOT";
+    case kStandby:
+      return "STANDBY";
+    case kDriving:
+      return "DRIVING";
+    case kHazardStop:
+      return "HAZARD_STOP";
+    case kRepairing:
+      return "REPAIRING";
+    case kSweeping:
+      return "SWEEPING";
+    case kPaused:
+      return "PAUSED";
+    case State::kGoalReached:
+      return "GOAL_REACHED";
+    case kFaultStop:
+      return "FAULT_STOP";
+    case kSafe:
+      return "SAFE";
+    case kTeleop:
+      return "TELEOP";
+  }
+  return "?";
 }
 const char* name(Fact fact) {
   return kFactNames[static_cast<size_t>(fact)];
@@ -228,9 +241,9 @@ std::string to_graphviz() {
   std::ostringstream out;
   out << "digraph supervisor {\n  rankdir=LR;\n  node [shape=box, style=rounded];\n";
   for (const Transition& row : kTransitions)
-    for (int s = 0; s < kStateCount; ++s) {
-      if (!row.from.has(static_cast<State>(s))) continue;
-      out << "  " << kStateNames[s] << " -> " << name(row.to) << " [label=\"" << row.cause << "\\n"
+    for (const State from : kStates) {
+      if (!row.from.has(from)) continue;
+      out << "  " << name(from) << " -> " << name(row.to) << " [label=\"" << row.cause << "\\n"
           << condition(row.required, row.forbidden, kFactNames) << "\"];\n";
     }
   out << "  subgraph cluster_level {\n    label=\"level\";\n";

@@ -11,7 +11,7 @@
 
 namespace rover::supervisor {
 
-// Values as in lcmtypes/supervisor_state_t.lcm.
+// Values as in lcmtypes/supervisor_state_t.lcm, where 6 is not used.
 enum class State : std::int8_t {
   kBoot = 0,
   kStandby = 1,
@@ -19,14 +19,15 @@ enum class State : std::int8_t {
   kHazardStop = 3,
   kRepairing = 4,
   kSweeping = 5,
-  kCorrecting = 6,
   kPaused = 7,
   kGoalReached = 8,
   kFaultStop = 9,
   kSafe = 10,
   kTeleop = 11,
 };
-inline constexpr int kStateCount = 12;
+inline constexpr std::array kStates = {State::kBoot,      State::kStandby,  State::kDriving, State::kHazardStop,
+                                       State::kRepairing, State::kSweeping, State::kPaused,  State::kGoalReached,
+                                       State::kFaultStop, State::kSafe,     State::kTeleop};
 
 enum class Level : std::int8_t { kEfficient = 0, kFull = 1 };
 
@@ -42,9 +43,8 @@ enum class Fact : int {
   kPlannerRepairing,
   kGoalReached,
   kLevelFull,
-  kTerrainKnown,      // the Full-level map is recent and covers the ground ahead
-  kCorrectionWanted,  // global localization requests standstill
-  kTeleopFresh,       // the newest operator command is recent
+  kTerrainKnown,  // the Full-level map is recent and covers the ground ahead
+  kTeleopFresh,   // the newest operator command is recent
   kCommandGo,
   kCommandStop,
   kCommandPause,
@@ -53,7 +53,7 @@ enum class Fact : int {
   kCommandClearSafe,
   kCommandTeleop,
 };
-inline constexpr int kFactCount = 21;
+inline constexpr int kFactCount = 20;
 
 // Facts of the level machine.
 enum class LevelFact : int {
@@ -102,10 +102,9 @@ using LevelFactSet = EnumSet<LevelFact>;
 using StateSet = EnumSet<State>;
 
 // States of a drive in progress; the second set includes stops by faults that may clear.
-inline constexpr StateSet kUnderWay = {State::kDriving, State::kHazardStop, State::kRepairing, State::kSweeping,
-                                       State::kCorrecting};
-inline constexpr StateSet kUnderWayOrFaultStop = {State::kDriving,  State::kHazardStop, State::kRepairing,
-                                                  State::kSweeping, State::kCorrecting, State::kFaultStop};
+inline constexpr StateSet kUnderWay = {State::kDriving, State::kHazardStop, State::kRepairing, State::kSweeping};
+inline constexpr StateSet kUnderWayOrFaultStop = {State::kDriving, State::kHazardStop, State::kRepairing,
+                                                  State::kSweeping, State::kFaultStop};
 
 // Fires in any `from` state if all `required` and no `forbidden` facts are true.
 struct Transition {

@@ -203,7 +203,6 @@ FactSet Supervisor::facts(Utime now) {
            {"goal_distance_m", inputs_.planner.goal_distance_m, config_.goal_tolerance_m, 0.0,
             std::max(planner_age, control_age)});
   set_fact(out, Fact::kLevelFull, level_ == Level::kFull, {"level", level_ == Level::kFull ? 1.0 : 0.0, 1.0, 0.0, 0.0});
-  set_fact(out, Fact::kCorrectionWanted, correction_wanted_, {});
   set_fact(out, Fact::kTeleopFresh, fresh(teleop_utime_, now, config_.teleop_max_age_s),
            {"teleop_age_s", age_s(teleop_utime_, now), config_.teleop_max_age_s, 0.0, 0.0});
   terrain_fact(out, now);

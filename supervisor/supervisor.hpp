@@ -136,7 +136,6 @@ class Supervisor {
   void on_slam(const SlamReport& slam) { inputs_.slam = slam; }
   void on_motion_command(Utime utime) { inputs_.motion_command_utime = utime; }
   void on_path(PathLevels path);
-  void on_correction_wanted(bool wanted) { correction_wanted_ = wanted; }
   void on_command(const GroundCommand& command) { commands_.push_back(command); }
 
   SupervisorOutput step(Utime now);
@@ -190,7 +189,6 @@ class Supervisor {
   Inputs inputs_;
   PathLevels path_;
   bool backtracking_ = false;  // path_ is a reverse path that recovers from a stop_retreat fault
-  bool correction_wanted_ = false;
   std::vector<GroundCommand> commands_;
 
   DerivedValueTracker derived_;

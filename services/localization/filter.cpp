@@ -44,7 +44,6 @@ void update(FilterState& state, const Eigen::Matrix<double, N, kErrorSize>& H, c
 struct GyroRotation {
   Matrix3d R = Matrix3d::Identity();
   double gyro_s = 0.0;                    // time with gyro, over which the bias acts
-  double no_gyro_s = 0.0;                 // time without a gyro
   Vector3d force_sum = Vector3d::Zero();  // of specific force times time, axes of the body at the start
   double force_s = 0.0;
 };

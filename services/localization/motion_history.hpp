@@ -43,7 +43,6 @@ class MotionHistory {
   bool covers(Utime from, Utime to) const;
   bool empty() const { return records_.empty(); }
   Utime end() const { return records_.back().end; }
-  const MotionRecord& newest() const { return records_.back(); }
 
  private:
   Utime span_us_;

@@ -78,7 +78,6 @@ Patch PatchBinner::patch_of(const Bin& bin, int column, int row) const {
   patch.ray_x_m = (cos_ * sums.ray_x - sin_ * sums.ray_y) / n * shrink;
   patch.ray_y_m = (sin_ * sums.ray_x + cos_ * sums.ray_y) / n * shrink;
   patch.top_m = step ? bin.upper_z / bin.upper_weight : patch.z_m;
-  patch.points = sums.count;
   // The position of a step inside the cell is unknown.
   if (step) patch.variance_m2 += 0.01F * (bin.highest - bin.lowest) * (bin.highest - bin.lowest);
   return patch;

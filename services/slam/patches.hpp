@@ -18,7 +18,6 @@ struct Patch {
   float variance_m2 = 0.0F;  // of z_m
   float ray_x_m = 0.0F;      // of the mean: horizontal shift by one sigma of depth
   float ray_y_m = 0.0F;
-  int points = 0;
 };
 
 struct PatchConfig {

@@ -26,7 +26,6 @@ struct MotionConfig {
   double yaw_share = 0.0001;                       // of the turn
   double gyro_bias_rad_per_sqrt_s = to_rad(0.01);  // growth of POSE's yaw deviation that is gyro bias, not noise
   double min_noise_m = 0.0005;                     // lower bound per cloud
-  double height_share = 0.01;
 };
 
 struct JumpConfig {
@@ -98,7 +97,6 @@ class Slam {
   double height_offset_m() const { return z_m_ - previous_.T_odom_body.translation().z(); }
   const ElevationMap& map() const { return map_; }
   bool running() const { return filter_.running(); }
-  double travelled_m() const { return travelled_m_; }
 
   std::vector<std::uint8_t> save() const;
   // False without any change if the bytes are invalid or of another map size.

@@ -8,10 +8,6 @@ namespace rover::vo {
 DisparityOffset::DisparityOffset(const DisparityOffsetConfig& config)
     : config_(config), information_(1.0 / (config.prior_sigma_px * config.prior_sigma_px)) {}
 
-double DisparityOffset::sigma_px() const {
-  return 1.0 / std::sqrt(information_);
-}
-
 void DisparityOffset::add(const OffsetMeasurement& measurement, double used_px) {
   if (!std::isfinite(measurement.gradient) || !(measurement.information > 0.0)) return;
   information_ += config_.information_factor * measurement.information;

@@ -27,7 +27,6 @@ class DisparityOffset {
 
   // To be added to each measured disparity.
   double px() const { return px_; }
-  double sigma_px() const;
   // `used_px`: offset applied while measuring.
   void add(const OffsetMeasurement& measurement, double used_px);
 

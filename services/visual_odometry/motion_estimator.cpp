@@ -183,11 +183,9 @@ MotionEstimate refine(const std::vector<Observation>& observations, const Stereo
   double chi2 = 0.0;
   double square_px = 0.0;
   int residual_count = 0;
-  estimate.inlier.assign(observations.size(), 0);
   for (size_t i = 0; i < observations.size(); ++i) {
     if (!linearise(observations[i], camera, T, config, l)) continue;
     if (l.chi2 > config.gate_sigma * config.gate_sigma * l.size / 2.0) continue;
-    estimate.inlier[i] = 1;
     ++estimate.inliers;
     chi2 += l.chi2;
     square_px += l.r.squaredNorm();

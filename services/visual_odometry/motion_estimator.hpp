@@ -39,7 +39,6 @@ struct RansacResult {
 struct MotionEstimate {
   Eigen::Isometry3d T_cur_key = nan_pose();
   Matrix6d cov = nan_cov();  // (translation, rotation), left perturbation of T_cur_key
-  std::vector<char> inlier;  // for each observation
   int inliers = 0;
   OffsetMeasurement offset;
   double rms_px = kNaN;  // reprojection error of the inliers, per coordinate

@@ -23,7 +23,7 @@ include_is_refused services/localization/filter.cpp ../supervisor/fdir.hpp
 link_is_refused() {  # FILE LINE MESSAGE
   echo "$2" >>"$copy/$1"
   ! cmake -S "$copy" -B "$WORK/build" -G Ninja >"$WORK/said" 2>&1 || fail "$2 is configured"
-  grep -q "$3" "$WORK/said" || fail "no word of '$3': $(tail -5 "$WORK/said")"
+  tr -s ' \n' ' ' <"$WORK/said" | grep -q "$3" || fail "no word of '$3': $(tail -5 "$WORK/said")"
   cp "$SOURCE/$1" "$copy/$1"
 }
 link_is_refused services/slam/CMakeLists.txt 'target_link_libraries(slam_core PUBLIC rover_bus)' \

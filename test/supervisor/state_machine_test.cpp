@@ -17,11 +17,7 @@ using F = Fact;
 constexpr std::uint32_t kFactSets = 1U << kFactCount;
 
 // States of a drive that waits.
-constexpr StateSet kWaiting = {kHazardStop, kRepairing, kSweeping, kCorrecting, kFaultStop};
-
-State state(int s) {
-  return static_cast<State>(s);
-}
+constexpr StateSet kWaiting = {kHazardStop, kRepairing, kSweeping, kFaultStop};
 
 // Constraints between facts: a path is not both clear and blocked, no path means blocked, one command at a time, and a
 // safe fault is also a blocking fault.
@@ -34,16 +30,16 @@ bool is_consistent(FactSet facts) {
 
 template <class Visit>
 void for_all(Visit visit) {
-  for (int s = 0; s < kStateCount; ++s)
+  for (const State s : kStates)
     for (std::uint32_t bits = 0; bits < kFactSets; ++bits) {
       const FactSet facts = FactSet::from_bits(bits);
-      if (is_consistent(facts)) visit(state(s), facts);
+      if (is_consistent(facts)) visit(s, facts);
     }
 }
 
 // As in the supervisor: a command is valid for one transition.
 State settle(State s, FactSet facts, int& steps) {
-  for (steps = 0; steps <= kStateCount; ++steps) {
+  for (steps = 0; steps <= static_cast<int>(kStates.size()); ++steps) {
     const Transition* row = next_transition(s, facts);
     if (row == nullptr) return s;
     s = row->to;
@@ -57,8 +53,8 @@ std::set<State> reachable() {
   for (size_t before = 0; before != out.size();) {
     before = out.size();
     for (const Transition& row : transitions())
-      for (int s = 0; s < kStateCount; ++s)
-        if (row.from.has(state(s)) && out.count(state(s)) > 0) out.insert(row.to);
+      for (const State s : kStates)
+        if (row.from.has(s) && out.count(s) > 0) out.insert(row.to);
   }
   return out;
 }
@@ -99,7 +95,7 @@ TEST(StateMachine, BlockingFaultStopsDrivingInTheSameTick) {
     if (!facts.has(F::kBlockingFault)) return;
     int steps = 0;
     const State settled = settle(s, facts, steps);
-    ASSERT_FALSE((StateSet{kDriving, kHazardStop, kRepairing, kSweeping, kCorrecting, kTeleop}.has(settled)));
+    ASSERT_FALSE((StateSet{kDriving, kHazardStop, kRepairing, kSweeping, kTeleop}.has(settled)));
   });
 }
 
@@ -154,8 +150,8 @@ TEST(StateMachine, EveryReachableStateCanBeLeftAndLeadsBackToDriving) {
     for (size_t before = 0; before != from_here.size();) {
       before = from_here.size();
       for (const Transition& row : transitions())
-        for (int k = 0; k < kStateCount; ++k)
-          if (row.from.has(state(k)) && from_here.count(state(k)) > 0) from_here.insert(row.to);
+        for (const State k : kStates)
+          if (row.from.has(k) && from_here.count(k) > 0) from_here.insert(row.to);
     }
     EXPECT_EQ(from_here.count(kDriving), 1u) << name(s);
   }
@@ -170,7 +166,7 @@ TEST(StateMachine, EveryTransitionFiresForSomeFacts) {
 }
 
 TEST(StateMachine, EveryStateIsReachable) {
-  EXPECT_EQ(reachable().size(), static_cast<size_t>(kStateCount));
+  EXPECT_EQ(reachable().size(), kStates.size());
 }
 
 TEST(StateMachine, MatchesAReferenceImplementation) {
@@ -185,11 +181,9 @@ TEST(StateMachine, MatchesAReferenceImplementation) {
       ASSERT_EQ(settled, State::kGoalReached);
     } else if (under_way && facts.has(F::kLevelFull) && !facts.has(F::kTerrainKnown)) {
       ASSERT_EQ(settled, kSweeping);
-    } else if (s == kDriving && facts.has(F::kCorrectionWanted)) {
-      ASSERT_EQ(settled, kCorrecting);
     } else if (under_way && facts.has(F::kPathBlocked)) {
       ASSERT_TRUE(settled == kHazardStop || settled == kRepairing);
-    } else if (under_way && facts.has(F::kPathClear) && !facts.has(F::kCorrectionWanted)) {
+    } else if (under_way && facts.has(F::kPathClear)) {
       ASSERT_EQ(settled, kDriving);
     } else if (s == kPaused || s == State::kGoalReached || s == kStandby || s == kSafe) {
       ASSERT_EQ(settled, s);

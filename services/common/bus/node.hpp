@@ -6,26 +6,21 @@
 // meanwhile. TICK lists what has been published, so a node knows that it holds all it must have before it goes on.
 #pragma once
 
-#include <chrono>
-#include <deque>
 #include <functional>
 #include <lcm/lcm-cpp.hpp>
-#include <map>
 #include <memory>
-#include <optional>
-#include <rover/done_t.hpp>
 #include <rover/heartbeat_t.hpp>
 #include <rover/injection_t.hpp>
 #include <rover/tick_t.hpp>
 #include <string>
 #include <vector>
 
-#include "common/bus/channel_types.hpp"
 #include "common/bus/channels.hpp"
 #include "common/bus/config.hpp"
 #include "common/bus/health.hpp"
+#include "common/bus/inbox.hpp"
+#include "common/bus/lockstep.hpp"
 #include "common/bus/streams.hpp"
-#include "common/bus/tap.hpp"
 #include "common/core/time.hpp"
 
 namespace rover {
@@ -38,19 +33,11 @@ struct NodeOptions {
   std::vector<std::string> muted;  // channels not to take, whatever arrives on them
 };
 
-// One message as it lies on the bus, for those who do not decode it.
-struct RawMessage {
-  std::string channel;
-  header_t header{};
-  std::vector<std::uint8_t> bytes;
-};
-
 class Node {
  public:
   // `reports` carries DONE; null: the bus itself.
   // The bus outlives the node.
   Node(NodeOptions options, lcm::LCM& lcm, lcm::LCM* reports = nullptr);
-  ~Node();
   Node(const Node&) = delete;
   Node& operator=(const Node&) = delete;
 
@@ -86,7 +73,7 @@ class Node {
   // Time since the newest message taken on the channel was measured [s], infinity where none came yet.
   double age_s(const std::string& channel) const;
   // The content of a message was not usable (range, NaN, size): counts as malformed.
-  void reject(const std::string& channel, const std::string& why);
+  void reject(const std::string& channel, const std::string& why) { inbox_.reject(channel, why); }
 
   // Health that the next heartbeats report (heartbeat_t constants).
   void set_status(std::int8_t status, std::string text);
@@ -95,7 +82,7 @@ class Node {
 
   Utime now() const { return now_; }
   // Whether the newest ticks were paced by the clock, not by lockstep.
-  bool follows_clock() const { return last_tick_wall_.has_value(); }
+  bool follows_clock() const { return lockstep_.follows_clock(); }
   const NodeOptions& options() const { return options_; }
 
   // Announces the node, then handles messages while `running`.
@@ -103,37 +90,12 @@ class Node {
   // Handles what waits on the bus, at most timeout_ms; false where the bus failed.
   bool handle(int timeout_ms);
   // Tells the world that this node is there and waits for ticks.
-  void announce();
+  void announce() { lockstep_.announce(); }
 
  private:
-  struct Subscription;
-  struct Pending;
-  struct QueuedTick;
-
-  // Calls the handler with a decoded message.
-  using Deliver = std::function<void()>;
-  // Empty where the bytes are not a message of the type.
-  using Decode = std::function<Deliver(RawMessage)>;
-  Subscription& add_subscription(const std::string& channel, std::int64_t fingerprint, Utime slow, Decode decode);
-  static std::int64_t fingerprint_of(const Subscription& subscription, const std::string& channel);
-  void receive(const lcm::ReceiveBuffer* buffer, const std::string& channel, Subscription& subscription);
-  void enqueue(Subscription& subscription, Pending pending, Utime delay);
-  void receive_tick(const lcm::ReceiveBuffer* buffer, const std::string& channel);
-  void process_ready_ticks();
-  void look_for_silence();
-  bool holds_all_for(QueuedTick& tick);
   void process(const tick_t& tick);
-  std::vector<Pending> take_released(Utime until);
-  std::vector<Pending> through_tap(std::vector<Pending> released);
-  void tap_one(Pending pending, std::vector<Pending>& passed);
   void obey(const injection_t& injection);
-  void forget_before(Utime first_tick);
-  bool in_order(Subscription& subscription, const std::string& channel, const header_t& header);
-  void dispatch(const Pending& pending);
-  void count_malformed(input_health_t& health, const std::string& channel, const std::string& why);
   void publish_heartbeat();
-  void publish_done(Utime tick, bool busy = false);
-  void report(const done_t& done);
   template <class Message>
   void send(lcm::LCM& lcm, const std::string& channel, const Message& message);
   void send_bytes(lcm::LCM& lcm, const std::string& channel, const std::vector<std::uint8_t>& bytes);
@@ -142,21 +104,12 @@ class Node {
   lcm::LCM& lcm_;
   lcm::LCM& reports_;
   StreamCounter streams_;
-  StreamCounter reports_counter_;  // DONE is not among the streams that it lists
-  ArrivalLedger ledger_;
-  std::unique_ptr<Tap> tap_;
+  Inbox inbox_;
+  Lockstep lockstep_;
   StepTimer timer_;
   std::function<void(Utime)> step_;
   std::function<void()> silence_;
-  std::optional<std::chrono::steady_clock::time_point> last_tick_wall_;  // of the clock's ticks, until told silent
   std::function<void(const injection_t&)> on_injection_;
-  std::vector<std::unique_ptr<Subscription>> subscriptions_;
-  std::vector<lcm::Subscription*> taken_;  // on the bus, which outlives the node
-  input_health_t ticks_health_{};
-  std::map<std::pair<std::string, std::string>, std::int64_t> malformed_;  // by subscription and channel
-  std::vector<Pending> pending_;
-  std::deque<QueuedTick> ticks_;
-  done_t last_done_{};
   Utime now_ = kNever;
   Utime promise_ = kNever;
   std::int8_t status_ = heartbeat_t::OK;
@@ -171,7 +124,7 @@ void Node::subscribe(const std::string& channel, std::function<void(const Messag
 template <class Message>
 void Node::subscribe_slow(const std::string& channel, Utime latency, std::function<void(const Message&)> handler) {
   const auto shared = std::make_shared<const std::function<void(const Message&)>>(std::move(handler));
-  add_subscription(channel, Message::getHash(), latency, [shared](const RawMessage& raw) -> Deliver {
+  inbox_.add(channel, Message::getHash(), latency, [shared](const RawMessage& raw) -> Inbox::Deliver {
     const auto message = std::make_shared<Message>();
     if (!decode_message(raw.bytes.data(), static_cast<int>(raw.bytes.size()), *message)) return nullptr;
     return [shared, message] { (*shared)(*message); };

@@ -6,8 +6,8 @@
 namespace rover {
 namespace {
 
-constexpr std::array kStateNames = {"BOOT",       "STANDBY", "DRIVING",      "HAZARD_STOP", "REPAIRING", "SWEEPING",
-                                    "CORRECTING", "PAUSED",  "GOAL_REACHED", "FAULT_STOP",  "SAFE",      "TELEOP"};
+constexpr std::array kStateNames = {"BOOT", "STANDBY", "DRIVING",      "HAZARD_STOP", "REPAIRING", "SWEEPING",
+                                    "?",    "PAUSED",  "GOAL_REACHED", "FAULT_STOP",  "SAFE",      "TELEOP"};
 
 }  // namespace
 

@@ -10,7 +10,7 @@ const element = (tag, className, text) => {
 };
 const TONE = {
   DRIVING: "good", TELEOP: "good", GOAL_REACHED: "good", REPAIRING: "warn", HAZARD_STOP: "warn", PAUSED: "warn", SWEEPING: "warn",
-  CORRECTING: "warn", FAULT_STOP: "bad", SAFE: "bad",
+  FAULT_STOP: "bad", SAFE: "bad",
 };
 const MANY_SERVICES = 13;
 const WHEELS = ["FL", "FR", "ML", "MR", "RL", "RR"];

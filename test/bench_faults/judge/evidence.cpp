@@ -133,8 +133,8 @@ bool Evidence::armed(const Row& row) const {
   using S = supervisor_state_t;
   const std::int8_t s = state_.state;
   if (s == S::BOOT) return false;
-  const bool under_way = s == S::DRIVING || s == S::HAZARD_STOP || s == S::REPAIRING || s == S::SWEEPING ||
-                         s == S::CORRECTING || s == S::FAULT_STOP;
+  const bool under_way =
+      s == S::DRIVING || s == S::HAZARD_STOP || s == S::REPAIRING || s == S::SWEEPING || s == S::FAULT_STOP;
   switch (row.armed) {
     case Armed::kAlways:
       return true;
