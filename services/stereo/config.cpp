@@ -9,7 +9,7 @@ namespace rover::stereo {
 NodeConfig load_config(const std::string& config_dir) {
   NodeConfig config;
   config.rig = load_stereo_rig(config_dir, "loccam");
-  config.ground_below_m = load_vehicle(config_dir).origin_height_m;
+  config.origin_height_m = load_vehicle(config_dir).origin_height_m;
   const Config yaml = Config::load(config_dir + "/stereo.yaml");
   double latency_s = to_seconds(config.latency_us);
   yaml.read("latency_s", latency_s, {0.02, 5.0});

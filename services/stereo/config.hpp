@@ -1,4 +1,4 @@
-// config/stereo.yaml, config/cameras.yaml and config/vehicle.yaml into what the core needs.
+// Reads config/stereo.yaml, config/cameras.yaml and config/vehicle.yaml.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ namespace rover::stereo {
 struct NodeConfig {
   StereoConfig core;
   StereoRig rig;
-  double ground_below_m = 0.0;  // of the body origin
+  double origin_height_m = 0.0;  // height of the body origin above flat ground
   Utime latency_us = 120'000;
 };
 

@@ -8,13 +8,13 @@
 namespace rover::stereo {
 namespace {
 
-constexpr double kBlindFraction = 0.02;  // less valid stereo than this is worth a word in the heartbeat
+constexpr double kMinValidFraction = 0.02;  // DEGRADED below this fraction of valid pixels
 
 }  // namespace
 
 StereoNode::StereoNode(Node& node, const NodeConfig& config)
     : node_(node),
-      core_(config.core, config.rig, config.ground_below_m),
+      core_(config.core, config.rig, config.origin_height_m),
       pairs_(
           node,
           {channel::kLocCamLeft, channel::kLocCamRight, core_.camera().width, core_.camera().height, config.latency_us},
@@ -36,21 +36,21 @@ void StereoNode::process(const ImagePair& pair) {
   disparity_t disparity{};
   disparity_to(result->disparity, core_.camera(), disparity);
   node_.publish(channel::kDisparity, disparity, pair.utime);
-  report(pair.frozen                                 ? "camera frozen"
-         : disparity.valid_fraction < kBlindFraction ? "no stereo"
-                                                     : "",
+  report(pair.frozen                                    ? "camera frozen"
+         : disparity.valid_fraction < kMinValidFraction ? "no stereo"
+                                                        : "",
          disparity.valid_fraction);
 }
 
-void StereoNode::report(const std::string& trouble, double valid_fraction) {
-  if (trouble == trouble_) return;
-  trouble_ = trouble;
+void StereoNode::report(const std::string& problem, double valid_fraction) {
+  if (problem == problem_) return;
+  problem_ = problem;
   const std::string figure = " valid_fraction=" + std::to_string(valid_fraction);
-  node_.set_status(trouble.empty() ? heartbeat_t::OK : heartbeat_t::DEGRADED, trouble);
-  if (trouble.empty())
+  node_.set_status(problem.empty() ? heartbeat_t::OK : heartbeat_t::DEGRADED, problem);
+  if (problem.empty())
     node_.log("INFO", "STEREO_BACK" + figure);
   else
-    node_.log("WARN", "NO_STEREO why=" + trouble + figure);
+    node_.log("WARN", "NO_STEREO why=" + problem + figure);
 }
 
 std::shared_ptr<StereoNode> make_stereo(Node& node, const std::string& config_dir) {

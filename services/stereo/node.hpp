@@ -1,4 +1,4 @@
-// The bus side of stereo: pairs the LocCam images by their time and publishes what the core makes of them.
+// Pairs the LocCam images by exposure time; publishes the rectified pair and the disparity.
 #pragma once
 
 #include <memory>
@@ -17,12 +17,12 @@ class StereoNode {
 
  private:
   void process(const ImagePair& pair);
-  void report(const std::string& trouble, double valid_fraction);
+  void report(const std::string& problem, double valid_fraction);
 
   Node& node_;
   Stereo core_;
   ImagePairs pairs_;
-  std::string trouble_;  // empty: none
+  std::string problem_;  // empty: healthy
 };
 
 std::shared_ptr<StereoNode> make_stereo(Node& node, const std::string& config_dir);

@@ -1,6 +1,5 @@
-// The block matcher against OpenCV's StereoBM, which does the same tests on the same costs. Known differences: StereoBM
-// rounds the sub-pixel value up to 1/16 px, not to the nearest; its left-right check lets pass what agrees with either
-// right pixel beside the match; and the speckle filter sees what these two leave.
+// Block matcher against OpenCV's StereoBM, which uses the same costs and tests. Known differences: StereoBM rounds the
+// sub-pixel value up to 1/16 px, and its left-right check accepts agreement with either neighbouring right pixel.
 #include "common/stereo/block_matcher.hpp"
 
 #include <gtest/gtest.h>
@@ -20,7 +19,7 @@ namespace {
 struct PaddedPair {
   std::string name;
   MatcherConfig config;
-  cv::Mat left, right, right_seen;
+  cv::Mat left, right, right_valid;
 };
 
 PaddedPair rendered() {
@@ -31,7 +30,7 @@ PaddedPair rendered() {
   const MatcherConfig config;
   const Rectifier rectifier(rig, BlockMatcher::pad(config), 0.62);
   const RectifiedPair pair = rectifier.rectify(raw.left, raw.right);
-  return {"rendered", config, pair.match_left, pair.match_right, rectifier.match_right_seen()};
+  return {"rendered", config, pair.match_left, pair.match_right, rectifier.match_right_valid()};
 }
 
 PaddedPair padded(const std::string& name, const MatcherConfig& config, const cv::Mat& left, const cv::Mat& right) {
@@ -39,7 +38,7 @@ PaddedPair padded(const std::string& name, const MatcherConfig& config, const cv
   PaddedPair pair{name, config, {}, {}, {}};
   cv::copyMakeBorder(left, pair.left, pad.rows, pad.rows, pad.left, pad.right, cv::BORDER_REPLICATE);
   cv::copyMakeBorder(right, pair.right, pad.rows, pad.rows, pad.left, pad.right, cv::BORDER_REPLICATE);
-  pair.right_seen = cv::Mat(pair.right.size(), CV_8U, cv::Scalar(255));
+  pair.right_valid = cv::Mat(pair.right.size(), CV_8U, cv::Scalar(255));
   return pair;
 }
 
@@ -51,7 +50,7 @@ PaddedPair recorded(const std::string& left, const std::string& right) {
                 cv::imread(data + right, cv::IMREAD_GRAYSCALE));
 }
 
-// Black and white noise whose right image is the negative: costs are as large as they get.
+// Black and white noise with a negated right image: maximum costs.
 PaddedPair negative() {
   std::mt19937 random(7);
   cv::Mat left(60, 150, CV_8U);
@@ -99,10 +98,10 @@ cv::Mat opencv_residual(const PaddedPair& pair) {
 }
 
 cv::Mat own_residual(const PaddedPair& pair, bool avx2 = BlockMatcher::cpu_has_avx2()) {
-  return BlockMatcher(pair.config, avx2).match(pair.left, pair.right, pair.right_seen);
+  return BlockMatcher(pair.config, avx2).match(pair.left, pair.right, pair.right_valid);
 }
 
-// Share of the pixels that are invalid in both or have the same value but for StereoBM's rounding up.
+// Fraction of pixels that are invalid in both or equal up to StereoBM's rounding.
 double agreement(const cv::Mat& own, const cv::Mat& opencv) {
   int agree = 0;
   for (int v = 0; v < own.rows; ++v)
@@ -117,46 +116,46 @@ double valid_share(const cv::Mat& residual) {
   return cv::countNonZero(residual != BlockMatcher::kInvalid) / static_cast<double>(residual.total());
 }
 
-TEST(BlockMatcherTest, CostsTextureUniquenessAndSubpixelAreThoseOfStereoBM) {
+TEST(BlockMatcherTest, CostsTextureUniquenessAndSubpixelMatchStereoBM) {
   for (PaddedPair& pair : pairs_and_negative()) {
     pair.config.left_right_max_px = pair.config.residual_count_px;
     pair.config.speckle_px = 0;
-    pair.right_seen.setTo(255);
+    pair.right_valid.setTo(255);
     const cv::Mat own = own_residual(pair);
     EXPECT_EQ(agreement(own, opencv_residual(pair)), 1.0) << pair.name;
     EXPECT_GT(valid_share(own), 0.3) << pair.name;
   }
 }
 
-TEST(BlockMatcherTest, TheLeftRightCheckDiffersForAFewOccludedPixels) {
+TEST(BlockMatcherTest, LeftRightCheckDiffersFromStereoBMForFewPixels) {
   for (PaddedPair& pair : pairs()) {
     pair.config.speckle_px = 0;
-    pair.right_seen.setTo(255);
+    pair.right_valid.setTo(255);
     EXPECT_GT(agreement(own_residual(pair), opencv_residual(pair)), 0.998) << pair.name;
   }
 }
 
-// Islands are connected by steps of 2/16 px, so that rounding makes or breaks them.
-TEST(BlockMatcherTest, TheWholeMatcherDiffersAtTheEdgesOfIslands) {
+// Regions connect by steps of 2/16 px, so rounding can join or split them.
+TEST(BlockMatcherTest, SpeckleFilterDiffersFromStereoBMAtRegionEdges) {
   for (PaddedPair& pair : pairs()) {
-    pair.right_seen.setTo(255);
+    pair.right_valid.setTo(255);
     EXPECT_GT(agreement(own_residual(pair), opencv_residual(pair)), 0.985) << pair.name;
   }
 }
 
-TEST(BlockMatcherTest, BothVariantsGiveTheSameBytes) {
+TEST(BlockMatcherTest, Avx2AndBaselineAreByteIdentical) {
   if (!BlockMatcher::cpu_has_avx2()) GTEST_SKIP() << "no AVX2";
   for (const PaddedPair& pair : pairs_and_negative())
     EXPECT_EQ(cv::norm(own_residual(pair, true), own_residual(pair, false), cv::NORM_INF), 0.0) << pair.name;
 }
 
-TEST(BlockMatcherTest, AMatchWithAPixelThatIsNotSeenIsInvalid) {
+TEST(BlockMatcherTest, MatchWithMaskedRightPixelIsInvalid) {
   PaddedPair pair = recorded("minnie/MinnieRectLeftDeg3.png", "minnie/MinnieRectRightDeg3.png");
   pair.config.speckle_px = 0;
   const cv::Mat all = own_residual(pair);
   const MatchPad pad = BlockMatcher::pad(pair.config);
   const int seen_from = 320;
-  pair.right_seen.colRange(0, pad.left + seen_from).setTo(0);
+  pair.right_valid.colRange(0, pad.left + seen_from).setTo(0);
   const cv::Mat some = own_residual(pair);
   for (int v = 0; v < all.rows; ++v)
     for (int u = 0; u < all.cols; ++u) {

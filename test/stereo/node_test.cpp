@@ -41,7 +41,7 @@ class StereoNodeTest : public testing::Test {
   std::vector<image_t> rect_left_, rect_right_;
 };
 
-TEST_F(StereoNodeTest, APairBecomesADisparityOfItsExposureReleasedAfterTheLatency) {
+TEST_F(StereoNodeTest, PairGivesDisparityWithExposureTimeAfterLatency) {
   world_.send(channel::kLocCamLeft, left_, 20'000);
   world_.send(channel::kLocCamRight, right_, 20'000);
   world_.tick(40'000);
@@ -54,7 +54,7 @@ TEST_F(StereoNodeTest, APairBecomesADisparityOfItsExposureReleasedAfterTheLatenc
   EXPECT_EQ(d.height, 384);
   EXPECT_NEAR(d.baseline_m, 0.12, 1e-4);
   EXPECT_GT(d.valid_fraction, 0.85f);
-  // The rectified camera stands where the left camera stands and looks down by 33 deg within its alignment.
+  // Same position as the left camera, pitched down 33 deg within the mounting alignment.
   EXPECT_NEAR(d.position_body_cam_m[0], 0.527, 1e-9);
   const StereoCamera camera = camera_from(d);
   EXPECT_NEAR(std::asin(-(camera.T_body_cam.linear() * Eigen::Vector3d::UnitZ()).z()), to_rad(33.0), to_rad(0.5));
@@ -82,7 +82,7 @@ TEST_F(StereoNodeTest, UnpairedImagesAreCountedAndDropped) {
   EXPECT_EQ(world_.malformed(channel::kLocCamRight), 1);
 }
 
-TEST_F(StereoNodeTest, ContradictingImagesAreCountedAndDropped) {
+TEST_F(StereoNodeTest, InconsistentImagesAreCountedAndDropped) {
   image_t small = message_of(GrayImage(256, 192, 100));
   image_t lying = left_;
   lying.height = 383;
@@ -100,7 +100,7 @@ TEST_F(StereoNodeTest, ContradictingImagesAreCountedAndDropped) {
   EXPECT_EQ(world_.malformed(channel::kLocCamLeft), 3);
 }
 
-TEST_F(StereoNodeTest, ABlindPairIsPublishedAsSuch) {
+TEST_F(StereoNodeTest, BlankPairIsPublishedAsAllInvalid) {
   world_.send(channel::kLocCamLeft, message_of(GrayImage(512, 384, 30)), 20'000);
   world_.send(channel::kLocCamRight, message_of(GrayImage(512, 384, 30)), 20'000);
   world_.tick(20'000);
@@ -111,8 +111,8 @@ TEST_F(StereoNodeTest, ABlindPairIsPublishedAsSuch) {
                           [](int d) { return d == disparity_t::INVALID; }));
 }
 
-// Odometry on a picture that stands would say that the rover does.
-TEST_F(StereoNodeTest, AFrozenCameraSeesNothing) {
+// Odometry on a frozen image would report a stationary rover.
+TEST_F(StereoNodeTest, FrozenCameraGivesAllInvalidDisparity) {
   Utime t = 20'000;
   const auto send = [&](bool left_moves, bool right_moves) {
     left_.data[1000] ^= static_cast<std::uint8_t>(left_moves);
@@ -132,7 +132,7 @@ TEST_F(StereoNodeTest, AFrozenCameraSeesNothing) {
   EXPECT_EQ(disparities_.size(), 5u);
 }
 
-TEST(StereoConfigTest, AnUnknownKeyOrAWrongRangeStopsTheStart) {
+TEST(StereoConfigTest, UnknownKeyOrBadRangeStopsStartUp) {
   const std::filesystem::path dir = std::filesystem::path(testing::TempDir()) / "stereo_config";
   std::filesystem::create_directories(dir);
   for (const char* file : {"vehicle.yaml", "cameras.yaml"})

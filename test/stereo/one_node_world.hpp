@@ -1,4 +1,4 @@
-// A world of one node for tests of the bus side: gives ticks and inputs, hears one output and the heartbeats.
+// Test harness for one node: publishes ticks and inputs, records one output and the heartbeats.
 #pragma once
 
 #include <lcm/lcm-cpp.hpp>
@@ -13,7 +13,7 @@ namespace rover::test {
 
 class OneNodeWorld {
  public:
-  // `run_dir`: where the node keeps its checkpoint; empty: it keeps none.
+  // `run_dir`: folder of the node's checkpoint; empty: no checkpoint.
   explicit OneNodeWorld(const std::string& service, const std::string& run_dir = "")
       : bus_("memq://"), world_("world", 1), node_({.name = service, .run_dir = run_dir}, bus_) {
     hear(channel::kHeartbeat, heartbeats_);
@@ -34,7 +34,7 @@ class OneNodeWorld {
         &out);
   }
 
-  // Released when it was measured, unless a time is given.
+  // Released at its measurement time, unless a time is given.
   template <class Message>
   void send(const std::string& channel, Message message, Utime utime, Utime release = kNever) {
     message.header = world_.next(channel, utime, release == kNever ? utime : release);
@@ -53,7 +53,7 @@ class OneNodeWorld {
     while (bus_.handleTimeout(0) > 0) node_.handle(0);
   }
 
-  // Malformed inputs of the channel by the newest heartbeat.
+  // Malformed inputs of the channel, from the newest heartbeat.
   std::int64_t malformed(const std::string& channel) const {
     if (heartbeats_.empty()) return -1;
     for (const input_health_t& input : heartbeats_.back().inputs)

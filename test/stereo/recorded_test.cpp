@@ -1,4 +1,4 @@
-// Stereo on real ground: a desert field trial on Earth and a Curiosity pair from Mars.
+// Stereo on recorded images: a desert field trial on Earth and a Curiosity pair from Mars.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ GrayImage load(const std::string& file) {
   return image;
 }
 
-// A rectified pair of a camera pair without distortion, searched from 0 to 63 px.
+// Matcher for an already rectified pair, search range 0 to 63 px.
 Disparity match(const std::string& left, const std::string& right, const PinholeCamera& camera, double baseline_m) {
   cv::setNumThreads(1);
   const GrayImage l = load(left), r = load(right);
@@ -41,7 +41,7 @@ double quantile(std::vector<double>& values, double q) {
   return *at;
 }
 
-TEST(RecordedStereoTest, MinnieAgreesWithThePublishedDisparity) {
+TEST(RecordedStereoTest, MinnieMatchesPublishedDisparity) {
   const Disparity ours = match("minnie/MinnieRectLeftDeg3.png", "minnie/MinnieRectRightDeg3.png",
                                {339.532, 339.532, 318.834, 205.771, {}}, 0.2675);
   const cv::Mat theirs = cv::imread(kData + "minnie/MinnieDisparityDeg3.png", cv::IMREAD_UNCHANGED);
@@ -54,14 +54,14 @@ TEST(RecordedStereoTest, MinnieAgreesWithThePublishedDisparity) {
       ++published;
       if (ours.valid(u, v)) difference.push_back(std::abs(ours.px(u, v) - theirs.at<std::uint16_t>(v, u) / 16.0));
     }
-  // The published one rounds up by 0.03 px on average and locks to whole pixels.
+  // The published disparity rounds up by 0.03 px on average, with pixel locking.
   EXPECT_GT(static_cast<double>(difference.size()), 0.95 * published);
   EXPECT_LT(quantile(difference, 0.5), 0.2);
   EXPECT_LT(quantile(difference, 0.9), 0.5);
   EXPECT_LT(quantile(difference, 0.98), 1.5);
 }
 
-TEST(RecordedStereoTest, MarsGroundHasThePairsDisparitiesAndTheSkyHasNone) {
+TEST(RecordedStereoTest, MarsGroundHasDisparityAndSkyHasNone) {
   const Disparity disparity =
       match("msl_navcam/rect_left.png", "msl_navcam/rect_right.png", {1224.7, 1224.8, 507.2, 502.1, {}}, 0.424);
   int sky = 0, ground = 0, measured = 0;
@@ -78,7 +78,7 @@ TEST(RecordedStereoTest, MarsGroundHasThePairsDisparitiesAndTheSkyHasNone) {
       if (v > 960) bottom.push_back(values.back());
     }
   EXPECT_LT(sky, 400);  // of 370 000
-  // Rows of this pair are off by 1.3 px at the median, and a JPEG's smooth sand fails the uniqueness test.
+  // Rows are misaligned by 1.3 px (median), and JPEG-smoothed sand fails the uniqueness test.
   EXPECT_GT(measured, 0.35 * ground);
   EXPECT_GT(quantile(values, 0.02), 13.0);
   EXPECT_LT(quantile(values, 0.98), 42.0);

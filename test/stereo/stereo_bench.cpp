@@ -1,4 +1,4 @@
-// Time of rectification and disparity at 512x384 on one core; the gate is 20 ms.
+// Time of rectification and disparity at 512x384 on one core; limit 20 ms.
 #include <benchmark/benchmark.h>
 
 #include <opencv2/core.hpp>

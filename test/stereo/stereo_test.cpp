@@ -43,7 +43,7 @@ Errors compare(const Disparity& disparity, const std::vector<float>& exact, int 
   return {std::sqrt(squares / std::max(1, measured - wrong)), double(measured) / seen, double(wrong) / measured};
 }
 
-// Ground seen under a pitch of the body about its origin.
+// Flat ground with the body pitched about its origin.
 synthetic::World pitched(double pitch_deg) {
   synthetic::World world;
   world.slope_x = std::tan(to_rad(pitch_deg));
@@ -63,7 +63,7 @@ class StereoTest : public testing::Test {
   Stereo stereo_;
 };
 
-TEST_F(StereoTest, FlatGroundIsMeasuredDenselyAndToATenthOfAPixel) {
+TEST_F(StereoTest, FlatGroundIsDenseWithinTenthOfPixel) {
   const auto exact = synthetic::exact_disparity({}, stereo_.camera());
   const StereoResult result = see({});
   const Errors all = compare(result.disparity, exact);
@@ -74,7 +74,7 @@ TEST_F(StereoTest, FlatGroundIsMeasuredDenselyAndToATenthOfAPixel) {
   EXPECT_LT(all.rms_px, 0.20);
 }
 
-TEST_F(StereoTest, SlopesOfTenDegreesAreWithinTheSearch) {
+TEST_F(StereoTest, SlopesOfTenDegreesAreWithinSearchRange) {
   for (double pitch_deg : {-10.0, 10.0}) {
     const synthetic::World world = pitched(pitch_deg);
     const Errors errors = compare(see(world).disparity, synthetic::exact_disparity(world, stereo_.camera()), 160);
@@ -84,8 +84,8 @@ TEST_F(StereoTest, SlopesOfTenDegreesAreWithinTheSearch) {
   }
 }
 
-TEST_F(StereoTest, SubpixelErrorDoesNotFollowTheFraction) {
-  // A gentle slope runs through all fractions of a pixel.
+TEST_F(StereoTest, SubpixelErrorDoesNotDependOnFraction) {
+  // A gentle slope covers all sub-pixel fractions.
   const synthetic::World world = pitched(3.0);
   const auto exact = synthetic::exact_disparity(world, stereo_.camera());
   const StereoResult result = see(world);
@@ -104,7 +104,7 @@ TEST_F(StereoTest, SubpixelErrorDoesNotFollowTheFraction) {
   }
 }
 
-TEST_F(StereoTest, RocksHaveTheirHeight) {
+TEST_F(StereoTest, RockHeightIsMeasured) {
   synthetic::World world;
   world.rocks = {{1.5, 0.2, 0.25, 0.2}, {2.0, -0.3, 0.3, 0.3, true}};
   const StereoCamera& camera = stereo_.camera();
@@ -122,7 +122,7 @@ TEST_F(StereoTest, RocksHaveTheirHeight) {
   EXPECT_NEAR(top_box, 0.3, 0.03);
 }
 
-TEST_F(StereoTest, ARockWithoutTextureIsNotGuessed) {
+TEST_F(StereoTest, TexturelessRockIsInvalid) {
   synthetic::World world;
   world.rocks = {{1.8, 0.0, 0.25, 0.25, false, true}};
   const StereoResult result = see(world, 1.5);
@@ -136,11 +136,11 @@ TEST_F(StereoTest, ARockWithoutTextureIsNotGuessed) {
       measured += result.disparity.valid(u, v);
     }
   ASSERT_GT(inside, 5000);
-  // The block reaches over the edge, so a rim half a block wide sees the ground's texture.
+  // A rim half a block wide is matched by the ground's texture.
   EXPECT_LT(measured, 0.15 * inside);
 }
 
-TEST_F(StereoTest, SensorNoiseAloneIsNotStereo) {
+TEST_F(StereoTest, SensorNoiseAloneGivesNoDisparity) {
   for (double sigma : {0.5, 1.0, 2.0, 4.0}) {
     std::mt19937_64 random(3);
     std::normal_distribution<double> grey(100.0, sigma);
@@ -152,13 +152,13 @@ TEST_F(StereoTest, SensorNoiseAloneIsNotStereo) {
   }
 }
 
-TEST_F(StereoTest, ABlankPairIsAllInvalid) {
+TEST_F(StereoTest, BlankPairIsAllInvalid) {
   const Disparity disparity = stereo_.step(GrayImage(512, 384, 0), GrayImage(512, 384, 0))->disparity;
   EXPECT_TRUE(
       std::all_of(disparity.px16.begin(), disparity.px16.end(), [](int d) { return d == Disparity::kInvalid; }));
 }
 
-TEST_F(StereoTest, TheReferencePlaneChangesTheSearchNotTheResult) {
+TEST_F(StereoTest, ReferencePlaneChangesSearchRangeNotResult) {
   StereoConfig plain;
   plain.ground_reference = false;
   plain.matcher.residual_min_px = 0;
@@ -174,9 +174,8 @@ TEST_F(StereoTest, TheReferencePlaneChangesTheSearchNotTheResult) {
   EXPECT_LT(difference[difference.size() / 2], 0.15);
 }
 
-TEST_F(StereoTest, RectifiedImagesShowAPointInTheSameRow) {
-  // The rectified pair itself, matched without the shear: rows must agree to a fraction of a pixel. A row error of
-  // 0.5 px would cost coverage and accuracy on the plane; here the images are compared along rows directly.
+TEST_F(StereoTest, RectifiedRowsAreAligned) {
+  // Compares the unsheared rectified pair row by row; a row error of 0.5 px would cost coverage and accuracy.
   const StereoResult result = see({}, 0.0);
   const auto exact = synthetic::exact_disparity({}, stereo_.camera());
   const auto mean_difference = [&](int row_shift) {
@@ -197,19 +196,19 @@ TEST_F(StereoTest, RectifiedImagesShowAPointInTheSameRow) {
   EXPECT_LT(mean_difference(0), 0.6 * mean_difference(-1));
 }
 
-TEST_F(StereoTest, AnImageOfAnotherSizeIsRefused) {
+TEST_F(StereoTest, ImageOfWrongSizeIsRejected) {
   EXPECT_FALSE(stereo_.step(GrayImage(512, 384), GrayImage(511, 384)));
   EXPECT_FALSE(stereo_.step(GrayImage(), GrayImage(512, 384)));
 }
 
-TEST_F(StereoTest, TheSamePairGivesTheSameBytes) {
+TEST_F(StereoTest, IsDeterministicByteForByte) {
   const synthetic::RawPair pair = synthetic::render({}, rig_, 1.0, 5);
   const Disparity first = stereo_.step(pair.left, pair.right)->disparity;
   EXPECT_EQ(first.px16, stereo_.step(pair.left, pair.right)->disparity.px16);
   EXPECT_EQ(first.px16, Stereo({}, rig_, kGroundBelow).step(pair.left, pair.right)->disparity.px16);
 }
 
-TEST(RectifierTest, AnIdealRigStaysAsItIs) {
+TEST(RectifierTest, IdealRigIsUnchanged) {
   StereoRig rig;
   rig.width = 640;
   rig.height = 400;
@@ -223,7 +222,7 @@ TEST(RectifierTest, AnIdealRigStaysAsItIs) {
   EXPECT_TRUE(rectifier.camera().T_body_cam.isApprox(rig.T_body_left, 1e-9));
 }
 
-// A spot of light, small enough for its middle to stay one, where the camera sees the point.
+// Image of a small light spot at the point's projection.
 GrayImage picture_of_spot(const StereoRig& rig, const PinholeCamera& camera, const Eigen::Vector3d& p_camera) {
   const cv::Matx33d K(camera.fx_px, 0, camera.cx_px, 0, camera.fy_px, camera.cy_px, 0, 0, 1);
   std::vector<cv::Point2d> at;
@@ -246,7 +245,7 @@ Eigen::Vector2d middle_of_spot(const GrayImage& image) {
   return sum.head<2>() / sum.z();
 }
 
-TEST(Fisheye, PointsThatOpenCvProjectsAreRectifiedOntoThePinholeModel) {
+TEST(Fisheye, PointsProjectedByOpenCvRectifyToPinholeModel) {
   StereoRig rig = synthetic::loccam_rig();
   for (PinholeCamera* camera : {&rig.left, &rig.right}) {
     camera->model = DistortionModel::kEquidistant;

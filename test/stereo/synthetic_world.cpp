@@ -15,7 +15,7 @@ double hit_ground(const World& w, const Vector3d& o, const Vector3d& d) {
   const double above = o.z() - w.plane_m(o.x(), o.y());
   double t = climb < 0.0 ? -above / climb : kInfinity;
   if (!w.relief || !std::isfinite(t)) return t;
-  // The first crossing of the relief: march from well above the plane, then bisect.
+  // First intersection with the relief: ray marching, then bisection.
   const auto over = [&](double s) { return o.z() + s * d.z() - w.ground_m(o.x() + s * d.x(), o.y() + s * d.y()); };
   double low = 0.3 * t;
   const double step = 0.01 * t;
@@ -54,7 +54,7 @@ double hit_rock(const World& w, const Rock& rock, const Vector3d& o, const Vecto
   return enter < leave ? enter : kInfinity;
 }
 
-// A ray that meets the ground over a pit goes on to its wall or floor.
+// A ray over a pit continues to its wall or floor.
 double through_pits(const World& w, const Vector3d& o, const Vector3d& d, double t) {
   for (const Pit& pit : w.pits) {
     const Vector3d p = o + t * d;
@@ -89,7 +89,7 @@ double value_noise(double x, double y, std::uint64_t salt) {
          v * ((1 - u) * lattice(i, j + 1, salt) + u * lattice(i + 1, j + 1, salt));
 }
 
-// Brightness of a surface point; waves shorter than two pixels are left out, as a lens would blur them.
+// Brightness of a surface point, band-limited to two pixels against aliasing.
 double brightness(const Vector3d& p, double pixel_m, std::uint64_t seed) {
   double grey = 120.0;
   std::uint64_t salt = seed * 7919;

@@ -1,5 +1,5 @@
-// Known worlds for tests: a ground plane or a smooth ground, rocks (half ellipsoids and boxes) and pits, in body axes
-// at the exposure. Rays are cast against the surfaces themselves; pairs of textured images or exact disparities follow.
+// Analytic test scenes: ground, rocks (half ellipsoids and boxes) and pits, in body axes at the exposure. Ray casting
+// gives textured image pairs or exact disparities.
 #pragma once
 
 #include <cstdint>
@@ -48,10 +48,9 @@ struct Hit {
 
 Hit cast(const World& world, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction);
 
-// Exact disparity [px] of each pixel of the rectified left camera; 0 where nothing is hit or the surface is
-// textureless.
+// Exact disparity [px] per pixel of the rectified left camera; 0 without a hit or without texture.
 std::vector<float> exact_disparity(const World& world, const StereoCamera& camera);
-// Rounded to 1/16 px after Gaussian noise; `drop` is the share of pixels that stereo does not find.
+// Adds Gaussian noise and rounds to 1/16 px; `drop` is the fraction of invalid pixels.
 Disparity noisy_disparity(const std::vector<float>& exact, const StereoCamera& camera, double sigma_px, double drop,
                           std::mt19937_64& random);
 
@@ -62,7 +61,7 @@ struct RawPair {
 };
 RawPair render(const World& world, const StereoRig& rig, double sigma_grey, std::uint64_t seed);
 
-// The LocCam as config/cameras.yaml gives it, and an ideal rectified camera like it.
+// The LocCam of config/cameras.yaml, and its ideal rectified camera.
 StereoRig loccam_rig();
 StereoCamera loccam_camera();
 

@@ -9,10 +9,8 @@
 namespace rover::stereo {
 namespace {
 
-// The search range is indexed from its far end: index k is the residual max - k, so that the right pixels of one left
-// pixel lie in memory in the order of their indices.
-//
-// A match is cost << 16 | index: of two matches the lesser number is the better one.
+// Index k of the search range is the residual max - k, so candidate right pixels are contiguous in memory.
+// A match is encoded as cost << 16 | index, so the smaller number is the better match.
 constexpr std::uint32_t kNoMatch = UINT32_MAX;
 constexpr int cost_of(std::uint32_t match) {
   return static_cast<int>(match >> 16);
@@ -25,7 +23,7 @@ int residual_max_px(const MatcherConfig& config) {
   return config.residual_min_px + config.residual_count_px - 1;
 }
 
-// Horizontal Sobel gradient of one row, clipped. The first and the last pixel have none.
+// Clipped horizontal Sobel gradient of one row, without its first and last pixel.
 void x_sobel(const std::uint8_t* above, const std::uint8_t* row, const std::uint8_t* below, int width, int cap,
              std::int8_t* __restrict gradient) {
   for (int x = 1; x < width - 1; ++x) {
@@ -34,8 +32,8 @@ void x_sobel(const std::uint8_t* above, const std::uint8_t* row, const std::uint
   }
 }
 
-// Rows of the gradient images that enter and leave the block, from the first column of the first block on; of the right
-// image from the first pixel of that column's search range on.
+// Gradient rows that enter and leave the block, starting at the first block's first column (right image: at the first
+// pixel of that column's search range).
 struct BlockRows {
   const std::int8_t* left_in;
   const std::int8_t* left_out;
@@ -43,8 +41,8 @@ struct BlockRows {
   const std::int8_t* right_out;
 };
 
-// Costs of the columns of the block, [column][index].
-void move_down(const BlockRows& rows, int columns, int count, std::uint16_t* __restrict cost) {
+// Updates the column costs, [column][index].
+void slide_down(const BlockRows& rows, int columns, int count, std::uint16_t* __restrict cost) {
   for (int x = 0; x < columns; ++x) {
     const int in = rows.left_in[x], out = rows.left_out[x];
     for (int k = 0; k < count; ++k)
@@ -54,25 +52,25 @@ void move_down(const BlockRows& rows, int columns, int count, std::uint16_t* __r
   }
 }
 
-void move_down(const BlockRows& rows, int columns, std::uint16_t* __restrict texture) {
+void slide_down(const BlockRows& rows, int columns, std::uint16_t* __restrict texture) {
   for (int x = 0; x < columns; ++x)
     texture[x] = static_cast<std::uint16_t>(texture[x] + std::abs(rows.left_in[x]) - std::abs(rows.left_out[x]));
 }
 
-void move_right(const std::uint16_t* column_in, const std::uint16_t* column_out, int count,
-                std::uint16_t* __restrict cost) {
+void slide_right(const std::uint16_t* column_in, const std::uint16_t* column_out, int count,
+                 std::uint16_t* __restrict cost) {
   for (int k = 0; k < count; ++k) cost[k] = static_cast<std::uint16_t>(cost[k] + column_in[k] - column_out[k]);
 }
 
-std::uint32_t best_match(const std::uint16_t* cost, int count) {
+std::uint32_t min_cost_match(const std::uint16_t* cost, int count) {
   std::uint32_t best = kNoMatch;
   for (int k = 0; k < count; ++k) best = std::min(best, static_cast<std::uint32_t>(cost[k]) << 16 | k);
   return best;
 }
 
-// The best match, if no index beside it and its neighbours costs less than the margin more.
+// The best match, if all indices except its neighbours exceed its cost by the margin.
 std::uint32_t unique_match(const std::uint16_t* cost, int count, int margin_percent) {
-  const std::uint32_t best = best_match(cost, count);
+  const std::uint32_t best = min_cost_match(cost, count);
   const int k = index_of(best);
   const auto limit = static_cast<std::uint16_t>(std::min(cost_of(best) * (100 + margin_percent) / 100, UINT16_MAX));
   std::uint16_t within = 0;
@@ -82,24 +80,24 @@ std::uint32_t unique_match(const std::uint16_t* cost, int count, int margin_perc
   return within == 0 ? best : kNoMatch;
 }
 
-// Fraction [1/16 px] by which the residual exceeds that of the index: the costs about the minimum of absolute
-// differences are two lines of opposite slope. None at the ends of the range.
-int fraction_px16(const std::uint16_t* cost, int count, int best) {
+// Sub-pixel offset [1/16 px] by equiangular (V-shaped) interpolation, suited to SAD costs; 0 at the ends of the range.
+int subpixel_px16(const std::uint16_t* cost, int count, int best) {
   if (best == 0 || best == count - 1) return 0;
-  const int nearer = cost[best - 1], farther = cost[best + 1];
-  const int rise = std::max(nearer, farther) - cost[best];
+  const int cost_nearer = cost[best - 1], cost_farther = cost[best + 1];
+  const int rise = std::max(cost_nearer, cost_farther) - cost[best];
   if (rise == 0) return 0;
-  return (16 * (farther - nearer) + 17 * rise) / (2 * rise) - 8;  // 8 (farther - nearer) / rise, rounded
+  return (16 * (cost_farther - cost_nearer) + 17 * rise) / (2 * rise) - 8;  // 8 (farther - nearer) / rise, rounded
 }
 
-// Of the left pixels that match one right pixel the best has it; the others must agree with that one's residual.
-void check_left_right(const std::uint32_t* left_match, const std::uint32_t* right_match, const std::uint8_t* right_seen,
-                      int width, int max_px, std::int16_t* residual) {
+// Invalidates left pixels whose residual disagrees with the best match of their right pixel, or whose right pixel is
+// masked.
+void check_left_right(const std::uint32_t* left_match, const std::uint32_t* right_match,
+                      const std::uint8_t* right_valid, int width, int max_px, std::int16_t* residual) {
   for (int x = 0; x < width; ++x) {
     if (left_match[x] == kNoMatch) continue;
     const int k = index_of(left_match[x]);
     const bool agrees = std::abs(index_of(right_match[x + k]) - k) <= max_px;
-    if (!agrees || right_seen[x + k] == 0) residual[x] = BlockMatcher::kInvalid;
+    if (!agrees || right_valid[x + k] == 0) residual[x] = BlockMatcher::kInvalid;
   }
 }
 
@@ -115,31 +113,29 @@ MatchPad BlockMatcher::pad(const MatcherConfig& config) {
   return {std::max(residual_max_px(config), 0) + block, std::max(-config.residual_min_px, 0) + block, block};
 }
 
-const cv::Mat& BlockMatcher::match(const cv::Mat& left, const cv::Mat& right, const cv::Mat& right_seen) {
+const cv::Mat& BlockMatcher::match(const cv::Mat& left, const cv::Mat& right, const cv::Mat& right_valid) {
   if (avx2_)
-    match_avx2(left, right, right_seen);
+    match_avx2(left, right, right_valid);
   else
-    match_baseline(left, right, right_seen);
+    match_baseline(left, right, right_valid);
   cv::filterSpeckles(residual_, kInvalid, config_.speckle_px, config_.speckle_step_px16, speckle_buffer_);
   return residual_;
 }
 
-// Flattened: all that is called in the loops is compiled for this function's processor. (Function clones would choose
-// by an ifunc, which runs before AddressSanitizer is ready.)
+// `flatten` compiles all callees for AVX2. target_clones is not used: its ifunc runs before AddressSanitizer is ready.
 [[gnu::target("avx2"), gnu::flatten]] void BlockMatcher::match_avx2(const cv::Mat& left, const cv::Mat& right,
-                                                                    const cv::Mat& right_seen) {
-  match_rows(left, right, right_seen);
+                                                                    const cv::Mat& right_valid) {
+  match_rows(left, right, right_valid);
 }
 
 [[gnu::flatten]] void BlockMatcher::match_baseline(const cv::Mat& left, const cv::Mat& right,
-                                                   const cv::Mat& right_seen) {
-  match_rows(left, right, right_seen);
+                                                   const cv::Mat& right_valid) {
+  match_rows(left, right, right_valid);
 }
 
-// A box sum from running sums (down the columns, then along the row): what enters the block is added, what leaves it is
-// subtracted. Above the gradients lie block_px rows of zeros and left of the column sums as many columns, so that the
-// first blocks need no other code.
-void BlockMatcher::match_rows(const cv::Mat& left, const cv::Mat& right, const cv::Mat& right_seen) {
+// Separable running box sum. block_px rows and columns of zeros precede the data, so the first blocks need no special
+// case.
+void BlockMatcher::match_rows(const cv::Mat& left, const cv::Mat& right, const cv::Mat& right_valid) {
   const int block = config_.block_px, count = config_.residual_count_px;
   const int columns = left.cols - pad_.left - pad_.right + block - 1;
   prefilter(left, left_gradient_);
@@ -152,15 +148,15 @@ void BlockMatcher::match_rows(const cv::Mat& left, const cv::Mat& right, const c
     const BlockRows rows{
         left_gradient_.ptr<std::int8_t>(y + block) + left_from, left_gradient_.ptr<std::int8_t>(y) + left_from,
         right_gradient_.ptr<std::int8_t>(y + block) + right_from, right_gradient_.ptr<std::int8_t>(y) + right_from};
-    move_down(rows, columns, count, column_cost_.data() + block * count);
-    move_down(rows, columns, column_texture_.data() + block);
+    slide_down(rows, columns, count, column_cost_.data() + block * count);
+    slide_down(rows, columns, column_texture_.data() + block);
     if (y < block - 1) continue;
-    const std::uint8_t* seen = right_seen.ptr(y - pad_.rows) + right_from + pad_.rows;
-    match_row(seen, residual_.ptr<std::int16_t>(y - block + 1));
+    const std::uint8_t* valid_row = right_valid.ptr(y - pad_.rows) + right_from + pad_.rows;
+    match_row(valid_row, residual_.ptr<std::int16_t>(y - block + 1));
   }
 }
 
-void BlockMatcher::match_row(const std::uint8_t* right_seen, std::int16_t* residual) {
+void BlockMatcher::match_row(const std::uint8_t* right_valid, std::int16_t* residual) {
   const int block = config_.block_px, count = config_.residual_count_px, width = residual_.cols;
   left_match_.resize(static_cast<size_t>(width));
   right_match_.assign(static_cast<size_t>(width + count), kNoMatch);
@@ -169,7 +165,7 @@ void BlockMatcher::match_row(const std::uint8_t* right_seen, std::int16_t* resid
   int texture = 0;
   for (int x = 1 - block; x < width; ++x) {
     const int out = x + block - 1, in = out + block;
-    move_right(&column_cost_[in * count], &column_cost_[out * count], count, cost);
+    slide_right(&column_cost_[in * count], &column_cost_[out * count], count, cost);
     texture += column_texture_[in] - column_texture_[out];
     if (x < 0) continue;
     const bool textured = texture >= config_.texture_threshold;
@@ -179,9 +175,9 @@ void BlockMatcher::match_row(const std::uint8_t* right_seen, std::int16_t* resid
     if (match == kNoMatch) continue;
     const int k = index_of(match);
     right_match_[x + k] = std::min(right_match_[x + k], match);
-    residual[x] = static_cast<std::int16_t>(16 * (residual_max_px(config_) - k) + fraction_px16(cost, count, k));
+    residual[x] = static_cast<std::int16_t>(16 * (residual_max_px(config_) - k) + subpixel_px16(cost, count, k));
   }
-  check_left_right(left_match_.data(), right_match_.data(), right_seen, width, config_.left_right_max_px, residual);
+  check_left_right(left_match_.data(), right_match_.data(), right_valid, width, config_.left_right_max_px, residual);
 }
 
 void BlockMatcher::prefilter(const cv::Mat& image, cv::Mat& gradient) const {

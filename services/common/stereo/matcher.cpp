@@ -7,7 +7,7 @@ namespace rover::stereo {
 Matcher::Matcher(const MatcherConfig& config) : block_matcher_(config) {}
 
 Disparity Matcher::match(const RectifiedPair& pair, const Rectifier& rectifier) {
-  const cv::Mat& residual = block_matcher_.match(pair.match_left, pair.match_right, rectifier.match_right_seen());
+  const cv::Mat& residual = block_matcher_.match(pair.match_left, pair.match_right, rectifier.match_right_valid());
   const DisparityPlane& plane = rectifier.reference();
   Disparity disparity(residual.cols, residual.rows);
   for (int v = 0; v < disparity.height; ++v) {

@@ -1,4 +1,4 @@
-// Dense disparity of a rectified pair: the residual that block matching finds and the disparity of the reference plane.
+// Dense disparity of a rectified pair: block-matching residual plus the disparity of the reference plane.
 #pragma once
 
 #include "common/core/image.hpp"

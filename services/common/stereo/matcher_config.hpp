@@ -1,4 +1,4 @@
-// The section "matcher" of a service's YAML.
+// Reads the section "matcher" of a service's YAML.
 #pragma once
 
 #include "common/bus/config.hpp"

@@ -24,13 +24,12 @@ cv::Mat distortion(const PinholeCamera& camera) {
   return coefficients;
 }
 
-// Header over the image's own bytes.
+// Non-owning view.
 cv::Mat view(const GrayImage& image) {
   return {image.height, image.width, CV_8UC1, const_cast<std::uint8_t*>(image.data.data())};
 }
 
-// Rectified pixel to pixel of the sheared, padded image: xs = u + plane(xs, v), since the left pixel x with the
-// residual r lies at x - r there.
+// Rectified pixel to sheared, padded pixel: xs = u + plane(xs, v), because left pixel x with residual r maps to x - r.
 cv::Matx33d shear(const DisparityPlane& plane, const MatchPad& pad) {
   const double k = 1.0 / (1.0 - plane.per_u);
   return {k, k * plane.per_v, k * plane.at_origin_px + pad.left, 0, 1, double(pad.rows), 0, 0, 1};
@@ -38,7 +37,7 @@ cv::Matx33d shear(const DisparityPlane& plane, const MatchPad& pad) {
 
 }  // namespace
 
-Rectifier::Rectifier(const StereoRig& rig, const MatchPad& pad, std::optional<double> ground_below_m) : pad_(pad) {
+Rectifier::Rectifier(const StereoRig& rig, const MatchPad& pad, std::optional<double> origin_height_m) : pad_(pad) {
   const cv::Size size(rig.width, rig.height);
   const cv::Size match_size(rig.width + pad.left + pad.right, rig.height + 2 * pad.rows);
   const Eigen::Isometry3d T_right_left = rig.T_left_right.inverse();
@@ -61,7 +60,7 @@ Rectifier::Rectifier(const StereoRig& rig, const MatchPad& pad, std::optional<do
   Eigen::Matrix3d R_rect_left;
   cv::cv2eigen(R1, R_rect_left);
   camera_.T_body_cam = rig.T_body_left * make_pose(R_rect_left.transpose(), Eigen::Vector3d::Zero());
-  if (ground_below_m) reference_ = disparity_plane(camera_, {0, 0, -*ground_below_m}, Eigen::Vector3d::UnitZ());
+  if (origin_height_m) reference_ = disparity_plane(camera_, {0, 0, -*origin_height_m}, Eigen::Vector3d::UnitZ());
 
   const auto make_map = [&rig](const cv::Mat& K, const cv::Mat& D, const cv::Mat& rotation, const cv::Mat& P,
                                cv::Size to) {
@@ -78,10 +77,10 @@ Rectifier::Rectifier(const StereoRig& rig, const MatchPad& pad, std::optional<do
   left_ = make_map(K1, D1, R1, to_left, match_size);
   right_ = make_map(K2, D2, R2, P, size);
   match_right_ = make_map(K2, D2, R2, to_sheared, match_size);
-  const cv::Mat everywhere(size, CV_8UC1, cv::Scalar(255));
-  cv::remap(everywhere, match_right_seen_, match_right_.xy, match_right_.fraction, cv::INTER_LINEAR,
+  const cv::Mat full_mask(size, CV_8UC1, cv::Scalar(255));
+  cv::remap(full_mask, match_right_valid_, match_right_.xy, match_right_.fraction, cv::INTER_LINEAR,
             cv::BORDER_CONSTANT, cv::Scalar(0));
-  cv::threshold(match_right_seen_, match_right_seen_, 254, 255, cv::THRESH_BINARY);
+  cv::threshold(match_right_valid_, match_right_valid_, 254, 255, cv::THRESH_BINARY);
 }
 
 RectifiedPair Rectifier::rectify(const GrayImage& left, const GrayImage& right) const {

@@ -1,9 +1,8 @@
-// Rectification from the calibration: one map per image, made once, used for each frame.
+// Rectification with precomputed remap tables.
 //
-// Beside the rectified pair it makes the pair that the matcher works on: wider by a pad, so that no disparity is lost
-// at the edges, and with the right image sheared by the disparity of a reference plane (plane plus parallax). On ground
-// near that plane all that remains to be searched is a small residual, nearly constant over a matching window, although
-// the disparity itself changes by 0.15 px a row.
+// The matching pair is padded, so no disparity is lost at the edges, and its right image is sheared by the disparity of
+// a reference plane (plane plus parallax). Near that plane the residual is small and nearly constant over a block,
+// although the disparity changes by 0.15 px per row.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -25,15 +24,15 @@ struct RectifiedPair {
 
 class Rectifier {
  public:
-  // The ground plane at z_body = -ground_below_m is the reference; none: the plane at infinity (no shear).
-  Rectifier(const StereoRig& rig, const MatchPad& pad, std::optional<double> ground_below_m);
+  // Reference plane z_body = -origin_height_m; empty: the plane at infinity (no shear).
+  Rectifier(const StereoRig& rig, const MatchPad& pad, std::optional<double> origin_height_m);
 
   const StereoCamera& camera() const { return camera_; }
   const MatchPad& pad() const { return pad_; }
-  // Disparity that the shear has taken out, over the coordinates of the rectified left image.
+  // Disparity removed by the shear, over rectified left coordinates.
   const DisparityPlane& reference() const { return reference_; }
-  // 255 where the sheared right image was seen by the camera.
-  const cv::Mat& match_right_seen() const { return match_right_seen_; }
+  // 255 where the sheared right image has camera data.
+  const cv::Mat& match_right_valid() const { return match_right_valid_; }
 
   RectifiedPair rectify(const GrayImage& left, const GrayImage& right) const;
 
@@ -49,7 +48,7 @@ class Rectifier {
   Map left_;
   Map right_;
   Map match_right_;
-  cv::Mat match_right_seen_;
+  cv::Mat match_right_valid_;
 };
 
 }  // namespace rover::stereo

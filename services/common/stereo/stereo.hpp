@@ -1,4 +1,4 @@
-// Rectification and dense disparity of a calibrated pair, once for all users.
+// Rectification and dense disparity of a calibrated stereo pair.
 #pragma once
 
 #include <optional>
@@ -9,23 +9,23 @@
 namespace rover::stereo {
 
 struct StereoConfig {
-  bool ground_reference = true;  // search about the disparity of the ground plane
+  bool ground_reference = true;  // search relative to the disparity of the ground plane
   MatcherConfig matcher;
 };
 
 struct StereoResult {
   GrayImage left;  // rectified
   GrayImage right;
-  Disparity disparity;  // all kInvalid where nothing was found
+  Disparity disparity;  // kInvalid without a match
 };
 
 class Stereo {
  public:
-  // ground_below_m: of the body origin on flat ground.
-  Stereo(const StereoConfig& config, const StereoRig& rig, double ground_below_m);
+  // origin_height_m: height of the body origin above flat ground.
+  Stereo(const StereoConfig& config, const StereoRig& rig, double origin_height_m);
 
   const StereoCamera& camera() const { return rectifier_.camera(); }
-  // Empty where an image has not the rig's size.
+  // Empty if an image does not have the rig's size.
   std::optional<StereoResult> step(const GrayImage& left, const GrayImage& right);
 
  private:
