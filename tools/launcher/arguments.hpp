@@ -1,4 +1,4 @@
-// The arguments of ./rover run and of each run of a bench.
+// Arguments of ./rover run and of each benchmark run.
 #pragma once
 
 #include <cstdint>
@@ -23,11 +23,11 @@ struct RunArguments {
   bool quiet = false;            // no progress (benches)
 };
 
-// The scenario that is meant: the default one where none is named.
+// The scenario file; the default scenario if none is given.
 std::string scenario_file(const RunArguments& arguments);
-// Name of a scenario file without folder and ending.
+// File name without folder and extension.
 std::string scenario_name(const std::string& file);
-// The sources' commit, with -dirty where they differ from it; "unknown" outside of a checkout.
+// Commit of the sources, with -dirty if modified; "unknown" outside a checkout.
 std::string commit_of(const std::string& source_dir);
 // "1..10" or "3" or "1,4,7". Throws ConfigError.
 std::vector<std::int64_t> parse_seeds(const std::string& text);

@@ -1,4 +1,4 @@
-// ./rover bench seed: runs of scenarios over seeds, kept as rows, aggregated into a table.
+// ./rover bench seed: runs scenarios over seeds and aggregates the results into a table.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ struct BenchArguments {
   std::string suite = "seed";
   std::vector<std::int64_t> seeds;
   bool resume = false;  // keep the rows that this commit already has
-  int jobs = 1;         // runs at a time, each on a bus of its own
+  int jobs = 1;         // parallel runs, each on its own bus
   std::string command;  // as given, for the table
 };
 

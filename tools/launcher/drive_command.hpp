@@ -10,7 +10,7 @@ struct DriveArguments {
   std::string source_dir = ".";     // holds config/ and logs/
   std::string bin_dir;              // holds the services' executables
   std::string config_dir;           // empty: source_dir/config
-  std::string ground;               // what the ground believes and wants; empty: config_dir/ground.yaml
+  std::string ground;               // start pose and path; empty: config_dir/ground.yaml
   std::string map;                  // orbital map; empty: none
   std::string bus;                  // LCM URL; empty: of bus.yaml
   std::string out;                  // run folder; empty: logs/<time>-drive

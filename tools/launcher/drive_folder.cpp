@@ -36,7 +36,7 @@ ElevationMap read_map(const std::string& file) try {
   throw ConfigError("--map " + std::string(error.what()));
 }
 
-// In metres, whatever the user's file has: all who read it in the run's folder see the same.
+// Written in metres, so that all readers of the run folder agree.
 void write_map(const std::string& file, RunFolder& folder) {
   ElevationMap map = read_map(file);
   write_geotiff(folder.dir + "/orbital_map.tif", map.raster);

@@ -1,4 +1,4 @@
-// The folder of a drive: the effective configuration, the ground's orders and the orbital map.
+// Prepares the folder of a drive: effective configuration, mission plan and orbital map.
 #pragma once
 
 #include "tools/launcher/drive_command.hpp"
@@ -6,9 +6,9 @@
 
 namespace rover {
 
-// Throws ConfigError with one line where something is missing or not right; nothing is left of the folder then.
+// Throws ConfigError with one line on invalid input, and removes the folder.
 RunFolder make_drive_folder(const DriveArguments& arguments);
-// A message that names files of the drive's own configuration, with the names of the user's instead.
+// Replaces the drive's own file names in a message with the user's.
 std::string in_users_files(std::string message, const RunFolder& folder, const DriveArguments& arguments);
 
 }  // namespace rover

@@ -1,4 +1,4 @@
-// What the launcher hears of a drive: the driver, the goal, the operator's order to stop.
+// Monitors a drive on the bus: driver channels, goal, and the operator's STOP.
 #pragma once
 
 #include <chrono>
@@ -17,14 +17,14 @@ class DriveWatch {
   explicit DriveWatch(lcm::LCM& lcm);
 
   bool ticks_heard() const { return ticks_heard_; }
-  // Judged once, when the driver has been heard for a while: what is missing of it, or how far the clocks of its parts
-  // are from the one that gives TICK. Empty: nothing is known yet, or all is well.
+  // Checked once, after 3 s of ticks: silent channels, or clock offsets from TICK. Empty if not checked yet or no
+  // problem.
   std::string driver_problem();
-  // For a second of its time: the record holds it then.
+  // At the goal for one second of message time, so that the log contains it.
   bool rests_at_goal() const { return states_at_goal_ >= 10; }
-  // Asked for at the goal: elsewhere STOP is an order to the rover.
+  // True after STOP at the goal. Elsewhere STOP only stops the rover.
   bool stop_ordered() const { return stop_ordered_; }
-  // Wall time since ticks came last, or since the beginning.
+  // Wall time since the last tick, or since the start.
   double silence_s() const { return std::chrono::duration<double>(Clock::now() - ticked_).count(); }
 
  private:
@@ -33,7 +33,7 @@ class DriveWatch {
   void on_state(const supervisor_state_t& state);
   void on_command(const ground_command_t& command);
 
-  std::optional<conform::Listener> driver_;  // until it is judged
+  std::optional<conform::Listener> driver_;  // until checked
   bool ticks_heard_ = false;
   int states_at_goal_ = 0;
   bool stop_ordered_ = false;

@@ -79,7 +79,7 @@ int pid_of(const LiveRun& run, const std::string& service) {
   return said ? std::atoi(said->c_str()) : -1;
 }
 
-// Each blow falls on a new process: s6 gives it a second at least.
+// Each kill waits for a new process, which s6 starts after up to 1 s.
 void kill_again_and_again(const LiveRun& run, const std::string& service, int times) {
   constexpr auto kPatience = std::chrono::seconds(20);
   for (int i = 0; i < times; ++i) {
@@ -119,7 +119,7 @@ void publish_injection(const LiveRun& run, const FaultOrder& order) {
   if (!bus.good()) throw ConfigError("bus: cannot join " + run.bus);
   const Utime now = listen_for_time(bus);
   injection_t injection{};
-  // Larger each time, so that no receiver takes it for an earlier one.
+  // Increasing, so that no receiver treats it as a repetition.
   const std::int64_t id =
       std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::system_clock::now().time_since_epoch())
           .count();

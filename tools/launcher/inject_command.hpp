@@ -1,4 +1,4 @@
-// ./rover inject: does a fault to a running system, through s6 or as INJECT on its bus.
+// ./rover inject: injects a fault into a running system, through s6 or as INJECT on its bus.
 #pragma once
 
 #include <limits>

@@ -109,7 +109,7 @@ int main(int argc, char** argv) {
   CLI::App app("./rover: guidance, navigation and control of a planetary rover");
   app.name("./rover");
   app.require_subcommand(1);
-  bool tell_needs = false;  // for the script ./rover, which builds what is needed
+  bool tell_needs = false;  // for the script ./rover, which builds the needed programs
   app.add_flag("--needs-full-level", tell_needs)->group("");
   rover::RunArguments run;
   run.source_dir = rover::project_dir();
@@ -181,7 +181,7 @@ int main(int argc, char** argv) {
   } catch (const rover::ConfigError& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 2;
-  } catch (const std::exception& error) {  // the file system's
+  } catch (const std::exception& error) {  // filesystem_error
     std::fprintf(stderr, "%s\n", error.what());
     return 1;
   }

@@ -1,4 +1,4 @@
-// Which programs a command needs: the Full level's services are built only where they are wanted.
+// Programs that a command needs. The Full level's services are built only on demand.
 #pragma once
 
 #include "tools/launcher/arguments.hpp"
@@ -7,7 +7,7 @@
 
 namespace rover {
 
-// Whether the Full level may be reached. What is wrong with the arguments is for the command itself to say.
+// True if the Full level may be used. Invalid arguments are reported by the command itself.
 bool needs_full_level(const RunArguments& run);
 bool needs_full_level(const DriveArguments& drive);
 bool needs_full_level(const ReplayArguments& replay);

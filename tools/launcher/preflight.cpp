@@ -36,7 +36,7 @@ bool is_taken(const std::string& address, int port) {
   if (inet_pton(AF_INET, address.c_str(), &name.sin_addr) != 1) return false;
   const int fd = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
   if (fd < 0) return false;
-  const int yes = 1;  // as the page's server: connections that have just ended do not count
+  const int yes = 1;  // like the page's server: ignores connections in TIME_WAIT
   setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
   const bool taken = bind(fd, reinterpret_cast<const sockaddr*>(&name), sizeof name) != 0 && errno == EADDRINUSE;
   close(fd);
@@ -104,7 +104,7 @@ std::string page_line(const std::string& config_dir) try {
   return "page: " + at +
          " is taken; this run has no page. Another one: --set mission_control.port=" + std::to_string(port + 1);
 } catch (const ConfigError&) {
-  return "";  // the service itself says what is wrong, and the run ends
+  return "";  // the service reports the error and the run ends
 }
 
 }  // namespace rover

@@ -1,4 +1,4 @@
-// What must be so on this machine before services start; each failure names the command that mends it.
+// Checks of the machine before services start. Each failure names the command that fixes it.
 #pragma once
 
 #include <string>
@@ -6,10 +6,10 @@
 
 namespace rover {
 
-// Lines that say what is wrong with the bus; empty where all is well.
+// Problems of the bus, one line each.
 std::vector<std::string> bus_problems(const std::string& bus_url);
 
-// Holds the bus for this process: two rovers on one bus would drive each other. Released when the process ends.
+// Locks the bus for this process, because two rovers on one bus would drive each other.
 class BusLock {
  public:
   explicit BusLock(const std::string& bus_url);
@@ -22,14 +22,13 @@ class BusLock {
   int fd_ = -1;
 };
 
-// Throws ConfigError where one of the services is not built.
+// Throws ConfigError if a service is not built.
 void demand_programs(const std::vector<std::string>& services, const std::string& bin_dir);
 
-// Throws ConfigError, with one line for each problem, where the bus cannot be used or is another rover's.
+// Throws ConfigError, one line per problem, if the bus is unusable or locked by another rover.
 void demand_bus(const std::string& bus_url, const BusLock& lock);
 
-// Where the run's page will be, as one line for the user; empty where it has none. A taken port takes the page from a
-// run, not the run.
+// One line with the page's address; empty without a page. A used port disables the page, not the run.
 std::string page_line(const std::string& config_dir);
 
 }  // namespace rover

@@ -25,7 +25,7 @@ Progress::Progress(lcm::LCM& lcm, bool enabled) : enabled_(enabled), terminal_(i
   listen(lcm, channel::kState, state_);
 }
 
-// What does not decode is left to the services to count and name.
+// Undecodable messages are ignored here; the services count and report them.
 template <class Message>
 void Progress::listen(lcm::LCM& lcm, const char* channel, Message& newest) {
   lcm.subscribeFunction(
@@ -38,7 +38,7 @@ void Progress::listen(lcm::LCM& lcm, const char* channel, Message& newest) {
 }
 
 bool Progress::supervisor_hangs() const {
-  constexpr std::int64_t kSilence = 2'000'000;  // message time; STATE comes ten times a second
+  constexpr std::int64_t kSilence = 2'000'000;  // message time; STATE has 10 Hz
   return state_.header.utime >= 0 && pose_.header.utime - state_.header.utime > kSilence;
 }
 

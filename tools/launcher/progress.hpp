@@ -1,4 +1,4 @@
-// What the terminal shows of a run: distance, speed, state, hazards, expected end.
+// Terminal progress of a run: distance, speed, state, hazards, estimated end.
 #pragma once
 
 #include <chrono>
@@ -14,18 +14,17 @@ namespace rover {
 
 class Progress {
  public:
-  // `enabled`: print at all; on a terminal one line is kept up to date, else a line comes every ten seconds.
+  // `enabled`: print. On a terminal it updates one line, else it prints a line every ten seconds.
   Progress(lcm::LCM& lcm, bool enabled);
-  // Prints what is due.
+  // Prints if an update is due.
   void show();
-  // Leaves the terminal on a fresh line.
+  // Ends the progress line.
   void finish();
-  // Whether the rover has been heard: the world has begun.
+  // True once POSE was received.
   bool started() const { return pose_.header.utime >= 0; }
-  // Whether the rover's time goes on without a word from its supervisor, which nobody else would start anew when it
-  // hangs.
+  // True if message time advances without STATE. Only the launcher can restart a hung supervisor.
   bool supervisor_hangs() const;
-  // Give it time again.
+  // Restarts the supervisor timeout.
   void supervisor_killed() { state_.header.utime = pose_.header.utime; }
 
  private:

@@ -1,4 +1,4 @@
-// ./rover replay: a log back on the bus, with a chosen set of services live.
+// ./rover replay: plays a log back on the bus, with selected services live.
 #pragma once
 
 #include <string>
@@ -11,9 +11,9 @@ namespace rover {
 struct ReplayArguments {
   RunArguments run;                   // folder, bus, settings
   std::string log;                    // file, or a run's folder
-  int log_run = 0;                    // of a log that holds several; 0: the only one
+  int log_run = 0;                    // run number in a log of several runs; 0: the only one
   std::string config_dir;             // empty: that of the log's folder, else the project's
-  std::vector<std::string> services;  // live; "all": those that speak in the log, but the recorder and the page's
+  std::vector<std::string> services;  // live; "all": every publisher in the log except recorder and mission_control
   bool check = false;
   bool loop = false;
   std::string speed = "1";  // or "max"
@@ -21,7 +21,7 @@ struct ReplayArguments {
   double until_s = -1.0;    // negative: to the end
 };
 
-// Exit status: 1 where the check has found a difference or a service has gone. Throws ConfigError with one line.
+// Exit status 1 if the check found a difference or a service ended. Throws ConfigError with one line.
 int replay_log(const ReplayArguments& arguments);
 
 }  // namespace rover

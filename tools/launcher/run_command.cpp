@@ -47,7 +47,7 @@ End wait_for_end(const RunArguments& arguments, const RunFolder& folder, S6Sessi
   lcm::LCM lcm(folder.bus_url);
   Progress progress(lcm, !arguments.quiet);
   const std::string end_file = folder.dir + "/simulation.json";
-  // On a busy machine a service may end before the logger of its words has started.
+  // On a busy machine a service may end before its logger has started.
   constexpr int kSilentLooks = 100;
   int silent_looks = 0;
   while (going()) {
@@ -70,12 +70,12 @@ End wait_for_end(const RunArguments& arguments, const RunFolder& folder, S6Sessi
   return End::kOver;
 }
 
-// Several services may stumble over the same value: one is told.
+// Several services may fail on the same value; report one.
 void tell(const FailedService& failed, const RunArguments& arguments, const RunFolder& folder) {
   std::fprintf(stderr, "%s\n", in_users_files(failed.line(), folder, arguments.source_dir + "/config").c_str());
 }
 
-// The launcher's part of the run's facts, for the report.
+// Run metadata for the report.
 void write_run_json(const RunArguments& arguments, const RunFolder& folder) {
   const nlohmann::json facts = {{"scenario", scenario_name(arguments.scenario)},
                                 {"seed", folder.seed},
@@ -86,7 +86,7 @@ void write_run_json(const RunArguments& arguments, const RunFolder& folder) {
   write_json(folder.dir + "/run.json", facts);
 }
 
-// For ./rover inject, while the run lasts.
+// Read by ./rover inject during the run.
 void write_launch_json(const RunArguments& arguments, const RunFolder& folder) {
   const nlohmann::json facts = {{"bus", folder.bus_url}, {"allow_injection", allows_injection(arguments, folder)}};
   write_json(folder.dir + "/launch.json", facts);
@@ -112,7 +112,7 @@ RunResult run(const RunArguments& given) {
   RunFolder folder;
   try {
     folder = make_run_folder(arguments);
-  } catch (const std::exception& error) {  // ConfigError, DtmError, the file system's
+  } catch (const std::exception& error) {  // ConfigError, DtmError or filesystem_error
     std::fprintf(stderr, "%s\n", error.what());
     result.exit_status = 2;
     return result;

@@ -7,7 +7,7 @@ namespace rover {
 
 struct RunResult {
   int exit_status = 1;  // 0: goal reached without collision; 2: bad input; 1: anything else
-  std::string dir;      // the run's folder, empty where there is none
+  std::string dir;      // run folder; empty if none
 };
 
 RunResult run(const RunArguments& arguments);

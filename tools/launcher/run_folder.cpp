@@ -26,14 +26,14 @@ std::string time_stamp() {
   return text;
 }
 
-// The elevation model is named absolutely in the run's copy, which lies elsewhere.
+// The run's copy needs the absolute path of the elevation model.
 void copy_scenario(const std::string& file, const std::string& dtm_file, const fs::path& to) {
   YAML::Node scenario = load_yaml(file);
   if (!dtm_file.empty()) scenario["world"]["dtm"] = fs::absolute(dtm_file).lexically_normal().string();
   write_yaml(to, scenario);
 }
 
-// What the ground knows and orders: the start by its own belief, the height from the orbital map.
+// The mission plan: start pose estimate with the height from the orbital map, and path.
 void write_ground(const Scenario& scenario, const std::string& level, double start_z_m, const fs::path& file) {
   const Pose2 start = scenario.start_pose();
   YAML::Node ground;
@@ -54,7 +54,7 @@ void write_ground(const Scenario& scenario, const std::string& level, double sta
   write_yaml(file, ground);
 }
 
-// Empty where it is not names between dots.
+// Empty unless the path is names separated by dots.
 std::vector<std::string> keys_of(const std::string& path) {
   std::vector<std::string> keys(1);
   for (const char c : path) {
@@ -124,7 +124,7 @@ void apply_setting(const std::string& setting, const std::string& config_dir) {
   if (equals == std::string::npos || equals + 1 == setting.size() || keys.size() < 2)
     throw ConfigError("--set " + setting + ": file.key=value is expected, as in path_planner.margin_m=0.2");
   const fs::path file = fs::path(config_dir) / (keys.front() + ".yaml");
-  std::error_code ignored;  // a name that is too long
+  std::error_code ignored;  // name too long
   if (!fs::exists(file, ignored))
     throw ConfigError("--set " + setting + ": there is no config/" + keys.front() + ".yaml");
   const YAML::Node root = load_yaml(file);
@@ -152,7 +152,7 @@ void create_folders(const std::string& run_dir) {
 RunFolder make_run_folder(const RunArguments& arguments) {
   const fs::path dir = run_dir_for(arguments.source_dir, arguments.out, scenario_name(arguments.scenario));
   if (!fs::is_regular_file(arguments.scenario)) throw ConfigError(arguments.scenario + ": no such file");
-  // Before anything is made, so that what is wrong is named in the user's own file.
+  // Checked first, so that errors name the user's own file.
   const std::string dtm_file = load_scenario(arguments.scenario).dtm_file;
   RunFolder folder{dir, dir / "config", dir / "config" / "scenario.yaml", arguments.bus, 0, false, !fs::exists(dir)};
   create_folders(dir);

@@ -1,4 +1,4 @@
-// What a run leaves beside its log: facts, the report and its figures.
+// Run metadata, report and metrics.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -8,13 +8,13 @@
 
 namespace rover {
 
-// Names that are no UTF-8 are written as far as they are.
+// Invalid UTF-8 is replaced.
 void write_json(const std::string& file, const nlohmann::json& facts);
-// False where it failed; that is said on the terminal.
+// Returns false and prints a line if it failed.
 bool make_report(const std::string& bin_dir, const RunFolder& folder);
-// metrics.json; discarded where it cannot be read.
+// metrics.json; a discarded value if unreadable.
 nlohmann::json read_metrics(const RunFolder& folder);
-// A figure of it, 0 where it is absent or null.
+// One metric; 0 if absent or null.
 double figure(const nlohmann::json& metrics, const char* key);
 
 }  // namespace rover

@@ -26,7 +26,7 @@ void write_script(const fs::path& file, const std::string& text) {
   fs::permissions(file, fs::perms::owner_exec, fs::perm_options::add);
 }
 
-// Each start gets a larger boot number, which tells the streams of one process from those of the next.
+// Each start increments boot_id, which separates the streams of successive processes.
 std::string run_script(const ServiceCommand& service, bool allow_injection) {
   const std::string boots = "boots/" + service.name;
   return "cd \"$ROVER_RUN\" || exit 1\nexec 2>&1\nBOOT=$(( $(cat " + boots +
@@ -35,8 +35,8 @@ std::string run_script(const ServiceCommand& service, bool allow_injection) {
          (allow_injection ? " --allow-injection" : "") + " --boot-id $BOOT\n";
 }
 
-// s6 starts a service again unless its finish script exits with 125: after bad configuration (2), and after a clean end
-// of one that runs once. It waits a second first; one that was up for two, and is still wanted, is asked for at once.
+// Exit 125 tells s6 not to restart: after bad configuration (2) or a clean exit of a run-once service. s6 waits 1 s
+// before a restart; a service that was up for 2 s is restarted at once.
 std::string finish_script(const ServiceCommand& service) {
   const std::string dir = "services/" + service.name;
   return "cd \"$ROVER_RUN\" || exit 0\necho \"$1 $2\" >> exits/" + service.name + "\n[ \"$1\" = 2 ] && exit 125\n" +
@@ -77,7 +77,7 @@ S6Session::S6Session(const RunFolder& folder, const std::string& bin_dir) {
   if (pid_ == 0) {
     prctl(PR_SET_PDEATHSIG, SIGTERM);
     if (getppid() != parent) _exit(1);
-    setpgid(0, 0);  // Ctrl-C goes to the launcher, which stops the services in order
+    setpgid(0, 0);  // so that Ctrl-C reaches only the launcher, which stops the services in order
     setenv("ROVER_BIN", bin_dir.c_str(), 1);
     setenv("ROVER_RUN", folder.dir.c_str(), 1);
     setenv("ROVER_BUS", folder.bus_url.c_str(), 1);

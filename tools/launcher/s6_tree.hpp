@@ -1,4 +1,4 @@
-// The s6 scan directory of a run: one service directory with its log for each executable.
+// The s6 scan directory of a run, with one service directory and log per executable.
 #pragma once
 
 #include <string>
@@ -9,23 +9,23 @@
 namespace rover {
 
 struct ServiceCommand {
-  std::string name;   // of the executable too
-  std::string flags;  // beside those that all services take; words of our own alone, a shell reads them
-  bool once = false;  // not started again after a clean exit
+  std::string name;   // also the executable
+  std::string flags;  // extra flags; no user text, because a shell reads them
+  bool once = false;  // no restart after a clean exit
 };
 
-// The scripts hold no text of the user's: folders and bus come by the environment that S6Session gives them.
+// The scripts contain no user text; S6Session passes folders and bus by the environment.
 void write_s6_tree(const std::string& run_dir, const std::vector<ServiceCommand>& services, bool allow_injection);
 
-// Keeps s6-svscan on a run's tree as a child that dies with this process.
+// Runs s6-svscan as a child process that dies with this process.
 class S6Session {
  public:
-  // The executables lie in `bin_dir`.
+  // `bin_dir` contains the executables.
   S6Session(const RunFolder& folder, const std::string& bin_dir);
   ~S6Session();
   S6Session(const S6Session&) = delete;
   S6Session& operator=(const S6Session&) = delete;
-  // Stops every service and waits until all have gone.
+  // Stops all services and waits for them.
   void stop();
   bool running();
 
@@ -33,13 +33,13 @@ class S6Session {
   int pid_ = -1;
 };
 
-// A service that ended for good with an error.
+// A service that failed and is not restarted.
 struct FailedService {
   std::string name;
-  std::string said;  // the last line of its log, empty while that lags behind
+  std::string said;  // last line of its log; empty until the logger has written it
   std::string line() const { return said.empty() ? name + ": ended with exit status 2" : said; }
 };
-// Those that have said why come first, in the order of their names.
+// Services with a log line first, then by name.
 std::vector<FailedService> failed_services(const std::string& run_dir);
 
 }  // namespace rover
