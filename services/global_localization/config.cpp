@@ -5,9 +5,9 @@
 namespace rover::global {
 namespace {
 
-void read_bend(const Config& yaml, BendConfig& out) {
+void read_drift(const Config& yaml, DriftConfig& out) {
   yaml.read_deg("tilt_sigma_deg", out.tilt_sigma_rad, {0.001, 5.0});
-  yaml.read("bow_sigma_m", out.bow_sigma_m, {0.0001, 1.0});
+  yaml.read("bow_sigma_m", out.curvature_sigma_m, {0.0001, 1.0});
 }
 
 void read_schedule(const Config& yaml, ScheduleConfig& schedule) {
@@ -70,7 +70,7 @@ NodeConfig load_config(const std::string& config_dir) {
   yaml.read("max_height_sigma_m", config.core.max_height_sigma_m, {0.01, 5.0});
   yaml.read("map_noise_m", config.core.map_noise_m, {0.001, 10.0});
   yaml.read("map_noise_cells", config.core.map_noise_cells, {0.1, 20.0});
-  read_bend(yaml.section("bend"), config.core.bend);
+  read_drift(yaml.section("bend"), config.core.drift);
   yaml.read("map_blur_cells", config.core.map_blur_cells, {0.0, 3.0});
   yaml.read("map_sigma_m", config.core.map_sigma_m, {0.0, 5.0});
   yaml.read_deg("map_sigma_deg", config.core.map_sigma_rad, {0.0, 5.0});

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "common/core/time.hpp"
+#include "global_localization/attempt_schedule.hpp"
 #include "global_localization/global_localization.hpp"
-#include "global_localization/try_schedule.hpp"
 
 namespace rover::global {
 
@@ -13,8 +13,8 @@ struct NodeConfig {
   Utime latency_us = 500'000;
   double max_map_age_s = 2.0;
   double max_pose_age_s = 0.5;
-  double local_cell_m = 0.1;  // of ELEVATION
-  double max_jump_m = 0.5;    // of the pose in odom, beyond the way driven
+  double local_cell_m = 0.1;  // cell size of ELEVATION
+  double max_jump_m = 0.5;    // position change in odom beyond the distance driven
   ScheduleConfig schedule;
   GlobalConfig core;
 };

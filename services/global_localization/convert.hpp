@@ -1,4 +1,4 @@
-// Between the messages and the core.
+// Conversion between messages and core types.
 #pragma once
 
 #include <optional>
@@ -12,10 +12,10 @@ namespace rover::global {
 
 ElevationView view_from(const elevation_t& message);
 
-// None where the message is of no use: not initialised, lost, not finite.
+// Empty if the pose is not initialised, lost or not finite.
 std::optional<Prior> prior_from(const pose_t& message);
 
-// An abstention repeats what was believed.
+// A rejected correction repeats the prior.
 void correction_to(const Correction& correction, const Prior& prior, correction_t& message);
 
 }  // namespace rover::global

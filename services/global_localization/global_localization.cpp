@@ -14,76 +14,77 @@ Eigen::Vector2d transformed(const Pose2& T, const Eigen::Vector2d& p) {
   return Eigen::Vector2d(T.x_m, T.y_m) + Eigen::Rotation2Dd(T.yaw_rad) * p;
 }
 
-// The transform that puts the template's centre where it was found, turned about that centre.
-Pose2 transform_of(const Placement& placement, const Eigen::Vector2d& center_odom) {
-  const Eigen::Vector2d t = placement.center_map - Eigen::Rotation2Dd(placement.yaw_rad) * center_odom;
-  return {t.x(), t.y(), wrap_angle(placement.yaw_rad)};
+// T_map_odom that moves the template's centre to the candidate pose.
+Pose2 transform_of(const CandidatePose& pose, const Eigen::Vector2d& center_odom) {
+  const Eigen::Vector2d t = pose.center_map - Eigen::Rotation2Dd(pose.yaw_rad) * center_odom;
+  return {t.x(), t.y(), wrap_angle(pose.yaw_rad)};
 }
 
-bool usable(const Prior& prior) {
+bool is_valid(const Prior& prior) {
   return std::isfinite(prior.T_map_odom.x_m) && std::isfinite(prior.T_map_odom.y_m) &&
          std::isfinite(prior.T_map_odom.yaw_rad) && prior.p_odom_body.allFinite() && prior.cov.allFinite() &&
          (prior.cov.diagonal().array() >= 0.0).all();
 }
 
-SearchWindow window_of(const SearchConfig& config, const Prior& prior, const TerrainTemplate& terrain) {
+SearchWindow search_window(const SearchConfig& config, const Prior& prior, const TerrainTemplate& terrain) {
   const double sigma_m = std::sqrt(std::max(prior.cov(0, 0), prior.cov(1, 1))), sigma_rad = std::sqrt(prior.cov(2, 2));
   SearchWindow window;
   window.prior = {transformed(prior.T_map_odom, terrain.center_odom), prior.T_map_odom.yaw_rad};
-  window.reach_rad = std::clamp(config.sigmas * sigma_rad, config.min_reach_rad, config.max_reach_rad);
-  // A turn about the rover moves the template's centre.
+  window.half_width_rad = std::clamp(config.sigmas * sigma_rad, config.min_reach_rad, config.max_reach_rad);
+  // A yaw error about the rover displaces the template's centre.
   const double arm_m = (terrain.center_odom - prior.p_odom_body).norm();
-  window.reach_m =
-      std::clamp(config.sigmas * sigma_m, config.min_reach_m, config.max_reach_m) + arm_m * std::sin(window.reach_rad);
+  window.half_width_m = std::clamp(config.sigmas * sigma_m, config.min_reach_m, config.max_reach_m) +
+                        arm_m * std::sin(window.half_width_rad);
   window.yaw_step_rad = config.yaw_step_rad;
   window.min_overlap = config.min_overlap;
   return window;
 }
 
-bool at_border(const SearchWindow& window, const Placement& found) {
+bool at_border(const SearchWindow& window, const CandidatePose& found) {
   const Eigen::Array2d off = (found.center_map - window.prior.center_map).array().abs();
-  return off.maxCoeff() >= window.reach_m || std::abs(found.yaw_rad - window.prior.yaw_rad) >= window.reach_rad;
+  return off.maxCoeff() >= window.half_width_m ||
+         std::abs(found.yaw_rad - window.prior.yaw_rad) >= window.half_width_rad;
 }
 
-// Between the search's steps of yaw the residual has more than one hollow: the best one's neighbours are tried too.
-void look_about(const OrbitalPart& orbital, const TerrainTemplate& terrain, int least, const GlobalConfig& config,
-                Match& best) {
-  const Placement found = best.placement;
-  for (const double turn : {-0.75, -0.375, 0.375, 0.75}) {
-    const Placement beside{found.center_map, found.yaw_rad + turn * config.search.yaw_step_rad};
-    const Match match = refined(orbital, terrain, beside, least, config.refinement);
-    if (match.fit.compared >= least && match.fit.residual_m < best.fit.residual_m) best = match;
+// The residual can have several local minima between two yaw steps, so neighbouring yaws are refined too.
+void refine_adjacent_yaws(const OrbitalSection& orbital, const TerrainTemplate& terrain, int min_compared,
+                          const GlobalConfig& config, Match& best) {
+  const CandidatePose found = best.pose;
+  for (const double yaw_offset : {-0.75, -0.375, 0.375, 0.75}) {
+    const CandidatePose adjacent{found.center_map, found.yaw_rad + yaw_offset * config.search.yaw_step_rad};
+    const Match match = refine(orbital, terrain, adjacent, min_compared, config.refinement);
+    if (match.fit.compared >= min_compared && match.fit.residual_m < best.fit.residual_m) best = match;
   }
 }
 
-// The places that fit best, best first.
-std::vector<Match> best_matches(const OrbitalPart& orbital, const TerrainTemplate& terrain, const SearchWindow& window,
-                                const GlobalConfig& config) {
-  const int least = static_cast<int>(std::ceil(window.min_overlap * static_cast<double>(terrain.samples.size())));
+// Refined candidates by increasing residual, without duplicates of the best.
+std::vector<Match> best_matches(const OrbitalSection& orbital, const TerrainTemplate& terrain,
+                                const SearchWindow& window, const GlobalConfig& config) {
+  const int min_compared =
+      static_cast<int>(std::ceil(window.min_overlap * static_cast<double>(terrain.samples.size())));
   std::vector<Match> matches;
   for (const Peak& peak : find_peaks(orbital, terrain, window, config.search.apart_m, config.search.peaks)) {
-    const Match match = refined(orbital, terrain, peak.placement, least, config.refinement);
-    if (match.fit.compared >= least) matches.push_back(match);
+    const Match match = refine(orbital, terrain, peak.pose, min_compared, config.refinement);
+    if (match.fit.compared >= min_compared) matches.push_back(match);
   }
   std::stable_sort(matches.begin(), matches.end(),
                    [](const Match& a, const Match& b) { return a.fit.residual_m < b.fit.residual_m; });
-  if (!matches.empty()) look_about(orbital, terrain, least, config, matches.front());
-  // Those that came to the best one's place are that place.
+  if (!matches.empty()) refine_adjacent_yaws(orbital, terrain, min_compared, config, matches.front());
   const auto same = [&](const Match& other) {
-    const double apart_m = (other.placement.center_map - matches.front().placement.center_map).norm();
+    const double apart_m = (other.pose.center_map - matches.front().pose.center_map).norm();
     return apart_m < 0.5 * config.search.apart_m;
   };
   if (!matches.empty()) matches.erase(std::remove_if(matches.begin() + 1, matches.end(), same), matches.end());
   return matches;
 }
 
-// Noise that went through the Gaussian hangs together over 4 pi sigma^2.
+// After the Gaussian filter, noise is correlated over an area of 4 pi sigma^2.
 double independent_samples(const TerrainTemplate& terrain, double sigma_m) {
   return std::max(1.0, terrain.area_m2() / (4.0 * kPi * sigma_m * sigma_m));
 }
 
-// Covariance of the body's place and yaw from that of the template's centre and yaw.
-Eigen::Matrix3d at_body(const Eigen::Matrix3d& cov, const Eigen::Vector2d& arm_map) {
+// Propagates the covariance (x, y, yaw) from the template's centre to the body.
+Eigen::Matrix3d covariance_at_body(const Eigen::Matrix3d& cov, const Eigen::Vector2d& arm_map) {
   Eigen::Matrix3d J = Eigen::Matrix3d::Identity();
   J(0, 2) = -arm_map.y();
   J(1, 2) = arm_map.x();
@@ -95,15 +96,16 @@ double largest_sigma(const Eigen::Matrix3d& cov) {
   return std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(cov.topLeftCorner<2, 2>()).eigenvalues()(1));
 }
 
-// How far the body would move, against what is believed of its pose.
-double surprise(const SearchConfig& config, const Prior& prior, const Correction& found) {
+// Squared Mahalanobis distance of the correction under prior plus match covariance (NIS).
+double normalised_innovation_squared(const SearchConfig& config, const Prior& prior, const Correction& found) {
   const Eigen::Vector2d moved =
       transformed(found.T_map_odom, prior.p_odom_body) - transformed(prior.T_map_odom, prior.p_odom_body);
-  const Eigen::Vector3d apart(moved.x(), moved.y(), wrap_angle(found.T_map_odom.yaw_rad - prior.T_map_odom.yaw_rad));
-  const Eigen::Array3d least(config.min_reach_m, config.min_reach_m, config.min_reach_rad);
+  const Eigen::Vector3d innovation(moved.x(), moved.y(),
+                                   wrap_angle(found.T_map_odom.yaw_rad - prior.T_map_odom.yaw_rad));
+  const Eigen::Array3d min_reach(config.min_reach_m, config.min_reach_m, config.min_reach_rad);
   Eigen::Matrix3d expected = prior.cov + found.cov;
-  expected.diagonal() = expected.diagonal().array().max((least / config.sigmas).square());
-  return apart.dot(expected.inverse() * apart);
+  expected.diagonal() = expected.diagonal().array().max((min_reach / config.sigmas).square());
+  return innovation.dot(expected.inverse() * innovation);
 }
 
 }  // namespace
@@ -111,23 +113,23 @@ double surprise(const SearchConfig& config, const Prior& prior, const Correction
 GlobalLocalization::GlobalLocalization(const GlobalConfig& config, HeightGrid orbital, double local_cell_m)
     : config_(config), orbital_(std::move(orbital)), mosaic_(config.mosaic_side_m, local_cell_m) {}
 
-void GlobalLocalization::take(const ElevationView& view, const Eigen::Vector2d& p_odom_body) {
+void GlobalLocalization::add_elevation(const ElevationView& view, const Eigen::Vector2d& p_odom_body) {
   mosaic_.add(view, p_odom_body, config_.max_height_sigma_m);
 }
 
 Correction GlobalLocalization::correct(const Prior& prior) const {
   Correction out;
-  if (!usable(prior)) {
+  if (!is_valid(prior)) {
     out.reason = "pose is not usable";
     return out;
   }
   PlaneConfig filter = config_.filter;
   filter.sigma_cells = std::hypot(filter.sigma_cells, config_.map_blur_cells);
   TerrainTemplate terrain = terrain_template(mosaic_.resampled(orbital_.lattice.cell_m), filter);
-  terrain.stiffness = stiffness_of(terrain, config_.bend, noise_density());
+  terrain.drift_information = drift_information(terrain, config_.drift, noise_density());
   out.area_m2 = terrain.area_m2();
   const Eigen::Matrix3d expected =
-      at_body(noise_density() * covariance_by_relief(terrain), prior.p_odom_body - terrain.center_odom);
+      covariance_at_body(noise_density() * expected_covariance(terrain), prior.p_odom_body - terrain.center_odom);
   out.expected_sigma_m = largest_sigma(expected);
   out.expected_sigma_rad = std::sqrt(expected(2, 2));
   if (out.area_m2 < config_.acceptance.min_area_m2) {
@@ -141,7 +143,7 @@ Correction GlobalLocalization::correct(const Prior& prior) const {
   return out;
 }
 
-// Of the map's heights [m^4].
+// Noise power density of the orbital heights [m^4].
 double GlobalLocalization::noise_density() const {
   const double side_m = config_.map_noise_cells * orbital_.lattice.cell_m;
   return config_.map_noise_m * config_.map_noise_m * side_m * side_m;
@@ -156,15 +158,16 @@ bool GlobalLocalization::featured(const Correction& c) const {
 
 void GlobalLocalization::match(const Prior& prior, const TerrainTemplate& terrain, Correction& out) const {
   const AcceptanceConfig& limits = config_.acceptance;
-  const SearchWindow window = window_of(config_.search, prior, terrain);
-  const OrbitalPart orbital = part_about(window.prior.center_map, std::sqrt(2.0) * window.reach_m + terrain.radius_m);
+  const SearchWindow window = search_window(config_.search, prior, terrain);
+  const OrbitalSection orbital =
+      orbital_section(window.prior.center_map, std::sqrt(2.0) * window.half_width_m + terrain.radius_m);
   const std::vector<Match> matches = best_matches(orbital, terrain, window, config_);
   if (matches.empty()) {
     out.reason = "the orbital map does not know this place, or nothing on it is alike";
     return;
   }
   const Match& best = matches.front();
-  out.T_map_odom = transform_of(best.placement, terrain.center_odom);
+  out.T_map_odom = transform_of(best.pose, terrain.center_odom);
   out.score = best.fit.correlation;
   out.residual_m = best.fit.residual_m;
   if (matches.size() > 1) {
@@ -172,47 +175,47 @@ void GlobalLocalization::match(const Prior& prior, const TerrainTemplate& terrai
     out.second_residual_m = matches[1].fit.residual_m;
   }
   const double sigma_m = config_.filter.sigma_cells * orbital_.lattice.cell_m;
-  const Eigen::Matrix3d cov = covariance_of(orbital, terrain, best, independent_samples(terrain, sigma_m));
+  const Eigen::Matrix3d cov = covariance_at_minimum(orbital, terrain, best, independent_samples(terrain, sigma_m));
   out.sigma_m = largest_sigma(cov);
-  const double turn = config_.map_sigma_rad, shift = config_.map_sigma_m;
-  // A map that shows the ground turned about its centre moves the body that stands beyond it, across the arm.
-  const Eigen::Matrix3d distortion = Eigen::Vector3d(shift * shift, shift * shift, turn * turn).asDiagonal();
-  out.cov = at_body(cov + distortion, transformed(out.T_map_odom, prior.p_odom_body) - best.placement.center_map);
+  const double rotation = config_.map_sigma_rad, shift = config_.map_sigma_m;
+  // Map rotation about the matched terrain displaces the body by the lever arm.
+  const Eigen::Matrix3d distortion = Eigen::Vector3d(shift * shift, shift * shift, rotation * rotation).asDiagonal();
+  out.cov = covariance_at_body(cov + distortion, transformed(out.T_map_odom, prior.p_odom_body) - best.pose.center_map);
 
   if (out.score < limits.min_score || out.residual_m > limits.max_residual_m) {
     out.reason = "no place is alike enough";
   } else if (out.residual_m > limits.max_residual_ratio * out.second_residual_m) {
     out.reason = "another place is almost as alike";
-  } else if (at_border(window, best.placement)) {
+  } else if (at_border(window, best.pose)) {
     out.reason = "best match at the border of the search window";
   } else if (!(out.sigma_m <= limits.max_sigma_m && cov(2, 2) <= limits.max_sigma_rad * limits.max_sigma_rad)) {
     out.reason = "the match is not sharp enough";
   } else if (!(largest_sigma(out.cov) <= limits.max_body_sigma_m)) {
     out.reason = "too far from the ground that was matched";
-  } else if (surprise(config_.search, prior, out) > limits.gate_chi2) {
+  } else if (normalised_innovation_squared(config_.search, prior, out) > limits.gate_chi2) {
     out.reason = "further off than the pose's covariance allows";
   }
 }
 
-// Of a part alone: the whole map can be large.
-OrbitalPart GlobalLocalization::part_about(const Eigen::Vector2d& center_map, double reach_m) const {
+// Filters only the search area, because the orbital map can be large.
+OrbitalSection GlobalLocalization::orbital_section(const Eigen::Vector2d& center_map, double half_width_m) const {
   const Lattice& all = orbital_.lattice;
-  const double margin_m = reach_m + (3.0 * config_.filter.sigma_cells + 4.0) * all.cell_m;
-  const auto cell = [&](double offset_m, int most) {
-    return static_cast<int>(std::clamp(std::floor(offset_m / all.cell_m), 0.0, static_cast<double>(most)));
+  const double margin_m = half_width_m + (3.0 * config_.filter.sigma_cells + 4.0) * all.cell_m;
+  const auto cell = [&](double offset_m, int max_index) {
+    return static_cast<int>(std::clamp(std::floor(offset_m / all.cell_m), 0.0, static_cast<double>(max_index)));
   };
   const Eigen::Vector2d p = center_map - Eigen::Vector2d(all.x0_m, all.y0_m);
   const int first_column = cell(p.x() - margin_m, all.columns), end_column = cell(p.x() + margin_m, all.columns);
   const int first_row = cell(p.y() - margin_m, all.rows), end_row = cell(p.y() + margin_m, all.rows);
-  HeightGrid part;
-  part.lattice = {end_column - first_column, end_row - first_row, all.cell_m, all.x0_m + first_column * all.cell_m,
-                  all.y0_m + first_row * all.cell_m};
+  HeightGrid section;
+  section.lattice = {end_column - first_column, end_row - first_row, all.cell_m, all.x0_m + first_column * all.cell_m,
+                     all.y0_m + first_row * all.cell_m};
   for (int row = first_row; row < end_row; ++row)
     for (int column = first_column; column < end_column; ++column) {
-      part.z_m.push_back(orbital_.z_m[all.index(column, row)]);
-      part.weight.push_back(orbital_.weight[all.index(column, row)]);
+      section.z_m.push_back(orbital_.z_m[all.index(column, row)]);
+      section.weight.push_back(orbital_.weight[all.index(column, row)]);
     }
-  return OrbitalPart(plane_field(part, config_.filter));
+  return OrbitalSection(plane_field(section, config_.filter));
 }
 
 }  // namespace rover::global

@@ -1,4 +1,4 @@
-// Heights on a lattice with the weight of each, and the lattice itself. Row 0 is the one with the smallest y.
+// Regular grid of weighted heights. Row 0 has the smallest y.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@ struct Lattice {
   int columns = 0;
   int rows = 0;
   double cell_m = 1.0;
-  double x0_m = 0.0;  // of the corner with the smallest x and y
+  double x0_m = 0.0;  // corner with the smallest x and y
   double y0_m = 0.0;
 
   size_t size() const { return static_cast<size_t>(columns) * static_cast<size_t>(rows); }
@@ -25,7 +25,7 @@ struct Lattice {
 struct HeightGrid {
   Lattice lattice;
   std::vector<float> z_m;     // any finite value where the weight is 0
-  std::vector<float> weight;  // 0: not seen, 1: seen whole
+  std::vector<float> weight;  // observed fraction of the cell, 0 to 1
 };
 
 }  // namespace rover::global

@@ -1,5 +1,5 @@
-// What the rover has seen of the ground of late: successive elevation maps laid into one larger grid of fixed size that
-// moves with the rover, in odom. Newer heights replace older ones; memory is constant.
+// Rolling local elevation map in odom: successive maps are inserted into a fixed-size grid that moves with the rover.
+// Newer heights replace older ones.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,7 +11,7 @@
 
 namespace rover::global {
 
-// An elevation map as it comes: NaN where never seen.
+// One input elevation map; NaN marks unobserved cells.
 struct ElevationView {
   Lattice lattice;
   std::vector<float> z_m;
@@ -24,10 +24,10 @@ class LocalMosaic {
 
   double cell_m() const { return grid_.cell_m(); }
   void clear() { grid_.clear(); }
-  // Lays in what the map has seen, around the rover. Cells with a sigma above the limit are not taken.
+  // Inserts the observed cells whose sigma is within the limit.
   void add(const ElevationView& view, const Eigen::Vector2d& p_odom_body, double max_sigma_m);
 
-  // Means over larger cells (anti-aliased), aligned with odom; weight: share of each that was seen.
+  // Downsamples to larger cells aligned with odom, by box averaging (anti-aliased).
   HeightGrid resampled(double cell_m) const;
 
  private:

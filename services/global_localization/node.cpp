@@ -20,34 +20,34 @@ GlobalLocalizationNode::GlobalLocalizationNode(Node& node, const NodeConfig& con
   });
   node_.subscribe<pose_t>(channel::kPose, [this](const pose_t& message) { pose_ = message; });
   node_.subscribe_slow<elevation_t>(channel::kElevation, config.latency_us,
-                                    [this](const elevation_t& message) { take(message); });
+                                    [this](const elevation_t& message) { on_elevation(message); });
 }
 
 void GlobalLocalizationNode::load_map() {
   try {
     core_.emplace(config_.core, load_orbital_map(node_.options().run_dir), config_.local_cell_m);
-  } catch (const DtmError& error) {  // a rover may drive without one
+  } catch (const DtmError& error) {  // the rover can drive without an orbital map
     node_.set_status(heartbeat_t::DEGRADED, error.what());
     node_.log("WARN", std::string("NO_ORBITAL_MAP ") + error.what());
   }
 }
 
-void GlobalLocalizationNode::take(const elevation_t& message) {
+void GlobalLocalizationNode::on_elevation(const elevation_t& message) {
   if (!full_) return;
-  const std::string refusal = refusal_of(message);
-  if (!refusal.empty()) {
-    node_.reject(channel::kElevation, refusal);
+  const std::string rejection = rejection_reason(message);
+  if (!rejection.empty()) {
+    node_.reject(channel::kElevation, rejection);
     return;
   }
   last_map_ = message.header.utime;
   const std::optional<Prior> prior = fresh_prior();
   if (!prior) return;
-  look_for_jump(*prior);
-  if (core_) core_->take(view_from(message), prior->p_odom_body);
-  if (schedule_.due(pose_.travelled_m)) try_to_correct(*prior, message.header.utime);
+  check_for_odometry_jump(*prior);
+  if (core_) core_->add_elevation(view_from(message), prior->p_odom_body);
+  if (schedule_.due(pose_.travelled_m)) attempt_correction(*prior, message.header.utime);
 }
 
-std::string GlobalLocalizationNode::refusal_of(const elevation_t& message) const {
+std::string GlobalLocalizationNode::rejection_reason(const elevation_t& message) const {
   const double age_s = to_seconds(node_.now() - message.header.utime);
   if (age_s < 0.0) return "from the future";
   if (age_s > config_.max_map_age_s) return "stale";
@@ -64,23 +64,23 @@ std::optional<Prior> GlobalLocalizationNode::fresh_prior() const {
   return prior_from(pose_);
 }
 
-// Odom never jumps; where it did all the same, what was seen before lies elsewhere in it.
-void GlobalLocalizationNode::look_for_jump(const Prior& prior) {
+// A jump of odom invalidates the local map; this happens only after a fault.
+void GlobalLocalizationNode::check_for_odometry_jump(const Prior& prior) {
   const double driven_m = std::abs(pose_.travelled_m - last_travelled_m_);
-  if (last_place_ && (prior.p_odom_body - *last_place_).norm() > driven_m + config_.max_jump_m) {
+  if (last_position_ && (prior.p_odom_body - *last_position_).norm() > driven_m + config_.max_jump_m) {
     node_.log("WARN", "ODOMETRY_JUMPED memory of the ground begins anew");
-    if (core_) core_->forget();
+    if (core_) core_->clear_local_map();
     schedule_.restart();
   }
-  last_place_ = prior.p_odom_body;
+  last_position_ = prior.p_odom_body;
   last_travelled_m_ = pose_.travelled_m;
 }
 
-void GlobalLocalizationNode::try_to_correct(const Prior& prior, Utime utime) {
+void GlobalLocalizationNode::attempt_correction(const Prior& prior, Utime utime) {
   Correction correction;
   correction.reason = "no orbital map";
   if (core_) correction = core_->correct(prior);
-  schedule_.tried(pose_.travelled_m, correction.accepted);
+  schedule_.record_attempt(pose_.travelled_m, correction.accepted);
   correction_t message{};
   correction_to(correction, prior, message);
   node_.publish(channel::kCorrection, message, utime);

@@ -1,4 +1,4 @@
-// The bus side of global localization: a CORRECTION for each try, accepted or not, while the level is FULL.
+// Publishes a CORRECTION for each attempt, accepted or not, while the level is FULL.
 #pragma once
 
 #include <memory>
@@ -9,9 +9,9 @@
 #include <string>
 
 #include "common/bus/node.hpp"
+#include "global_localization/attempt_schedule.hpp"
 #include "global_localization/config.hpp"
 #include "global_localization/global_localization.hpp"
-#include "global_localization/try_schedule.hpp"
 
 namespace rover::global {
 
@@ -23,20 +23,20 @@ class GlobalLocalizationNode {
 
  private:
   void load_map();
-  void take(const elevation_t& message);
-  std::string refusal_of(const elevation_t& message) const;
+  void on_elevation(const elevation_t& message);
+  std::string rejection_reason(const elevation_t& message) const;
   std::optional<Prior> fresh_prior() const;
-  void look_for_jump(const Prior& prior);
-  void try_to_correct(const Prior& prior, Utime utime);
+  void check_for_odometry_jump(const Prior& prior);
+  void attempt_correction(const Prior& prior, Utime utime);
 
   Node& node_;
   NodeConfig config_;
-  std::optional<GlobalLocalization> core_;  // none without an orbital map
-  TrySchedule schedule_;
+  std::optional<GlobalLocalization> core_;  // empty without an orbital map
+  AttemptSchedule schedule_;
   pose_t pose_{};
   bool full_ = false;
   Utime last_map_ = kNever;
-  std::optional<Eigen::Vector2d> last_place_;  // in odom, and the way driven until then
+  std::optional<Eigen::Vector2d> last_position_;  // in odom
   double last_travelled_m_ = 0.0;
 };
 

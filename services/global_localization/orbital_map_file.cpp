@@ -7,7 +7,7 @@
 namespace rover::global {
 namespace {
 
-constexpr double kFinestM = 0.1, kCoarsestM = 5.0;  // of a pixel
+constexpr double kFinestM = 0.1, kCoarsestM = 5.0;  // pixel size
 
 }  // namespace
 

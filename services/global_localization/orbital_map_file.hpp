@@ -1,4 +1,4 @@
-// The orbital map of a run as the core takes it.
+// Loads the orbital map of a run.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace rover::global {
 
-// From the run's folder, where mission_control and the report find it too. Cells without data weigh nothing. Throws
-// DtmError with one line: no map, none with georeference in metres, nothing on it.
+// Reads orbital_map.tif from the run's folder; cells without data get weight 0.
+// Throws DtmError with one line if the file is missing, has no metric georeference or no data.
 HeightGrid load_orbital_map(const std::string& run_dir);
 
 }  // namespace rover::global

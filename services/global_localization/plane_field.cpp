@@ -10,20 +10,20 @@ namespace {
 using Field = std::vector<double>;
 using Kernel = std::vector<double>;
 
-// u^power times the Gaussian, u in cells; the Gaussian alone sums to 1.
+// u^power times the normalised Gaussian, u in cells.
 Kernel moment_kernel(double sigma, int power) {
-  const int reach = static_cast<int>(std::ceil(3.0 * sigma));
+  const int radius = static_cast<int>(std::ceil(3.0 * sigma));
   double sum = 0.0;
-  for (int u = -reach; u <= reach; ++u) sum += std::exp(-0.5 * u * u / (sigma * sigma));
+  for (int u = -radius; u <= radius; ++u) sum += std::exp(-0.5 * u * u / (sigma * sigma));
   Kernel kernel;
-  for (int u = -reach; u <= reach; ++u)
+  for (int u = -radius; u <= radius; ++u)
     kernel.push_back(std::pow(u, power) * std::exp(-0.5 * u * u / (sigma * sigma)) / sum);
   return kernel;
 }
 
-// One pass along a row (stride 1) or a column; beyond the border nothing was seen.
+// One pass of the separable filter; cells beyond the border have weight 0.
 Field filtered(const Field& in, const Lattice& lattice, const Kernel& kernel, bool along_rows) {
-  const int reach = static_cast<int>(kernel.size() / 2);
+  const int radius = static_cast<int>(kernel.size() / 2);
   const int length = along_rows ? lattice.columns : lattice.rows, lines = along_rows ? lattice.rows : lattice.columns;
   const size_t step = along_rows ? 1 : static_cast<size_t>(lattice.columns);
   const size_t line_step = along_rows ? static_cast<size_t>(lattice.columns) : 1;
@@ -32,8 +32,8 @@ Field filtered(const Field& in, const Lattice& lattice, const Kernel& kernel, bo
     for (int i = 0; i < length; ++i) {
       const size_t base = static_cast<size_t>(line) * line_step;
       double sum = 0.0;
-      for (int k = std::max(i - reach, 0); k <= std::min(i + reach, length - 1); ++k)
-        sum += kernel[static_cast<size_t>(k - i + reach)] * in[base + static_cast<size_t>(k) * step];
+      for (int k = std::max(i - radius, 0); k <= std::min(i + radius, length - 1); ++k)
+        sum += kernel[static_cast<size_t>(k - i + radius)] * in[base + static_cast<size_t>(k) * step];
       out[base + static_cast<size_t>(i) * step] = sum;
     }
   return out;
@@ -49,7 +49,7 @@ double weighted_mean(const HeightGrid& heights) {
   return weight > 0.0 ? sum / weight : 0.0;
 }
 
-// Sums over the Gaussian of weight w, offsets u, v [cells] and height z.
+// Gaussian-weighted moments of weight w, offsets u, v [cells] and height z.
 struct Moments {
   Field w, wu, wv, wuu, wuv, wvv, wz, wuz, wvz;
 };
@@ -85,8 +85,8 @@ PlaneField plane_field(const HeightGrid& heights, const PlaneConfig& config) {
     Eigen::Matrix2d spread;
     spread << m.wuu[i] - m.wu[i] * u, m.wuv[i] - m.wu[i] * v, m.wuv[i] - m.wu[i] * v, m.wvv[i] - m.wv[i] * v;
     const double half_trace = 0.5 * spread.trace();
-    const double least = half_trace - std::sqrt(std::max(half_trace * half_trace - spread.determinant(), 0.0));
-    if (least < 0.5 * config.min_support * full_spread) continue;
+    const double min_eigenvalue = half_trace - std::sqrt(std::max(half_trace * half_trace - spread.determinant(), 0.0));
+    if (min_eigenvalue < 0.5 * config.min_support * full_spread) continue;
     const Eigen::Vector2d slope = spread.inverse() * Eigen::Vector2d(m.wuz[i] - m.wz[i] * u, m.wvz[i] - m.wz[i] * v);
     field.z[i] = static_cast<float>(z - slope.x() * u - slope.y() * v);
     field.gx[i] = static_cast<float>(slope.x() / heights.lattice.cell_m);

@@ -1,6 +1,5 @@
-// Heights and gradients of a grid with holes: at each cell the plane that fits the seen heights around it best,
-// weighted by a Gaussian. On whole ground the gradient is the derivative of the Gaussian; beside a hole it stays
-// unbiased, and where too little is seen there is none. What was not seen never counts as level ground.
+// Smoothed heights and gradients of a grid with holes: Gaussian-weighted least-squares plane at each cell. Without
+// holes the gradient equals the derivative of Gaussian; beside a hole it remains unbiased.
 #pragma once
 
 #include <cstdint>
@@ -11,16 +10,16 @@
 namespace rover::global {
 
 struct PlaneConfig {
-  double sigma_cells = 2.0;  // of the Gaussian
-  double min_support = 0.5;  // of the Gaussian's weight (and of its spread along each direction) that must be seen
+  double sigma_cells = 2.0;  // Gaussian standard deviation
+  double min_support = 0.5;  // minimum observed fraction of the Gaussian's weight, and of its spread along each axis
 };
 
 struct PlaneField {
   Lattice lattice;
-  std::vector<float> z;  // at the cell's centre, over the grid's mean [m]
+  std::vector<float> z;  // at the cell's centre, relative to the grid's mean [m]
   std::vector<float> gx;
   std::vector<float> gy;
-  std::vector<std::uint8_t> known;  // 0: the others are 0
+  std::vector<std::uint8_t> known;  // 0: too little support, the other fields are 0
 };
 
 PlaneField plane_field(const HeightGrid& heights, const PlaneConfig& config);

@@ -10,31 +10,32 @@
 namespace rover::global {
 namespace {
 
-// Of x, y and the way of the farthest sample in a turn, all in metres.
+// Mean square height residual over x, y and yaw; yaw is scaled to the arc at the template's radius, in metres.
 struct Objective {
-  const OrbitalPart& orbital;
+  const OrbitalSection& orbital;
   const TerrainTemplate& terrain;
-  Placement start;
-  int least;
+  CandidatePose start;
+  int min_compared;
   double radius_m;
 
-  Placement at(const double* x) const {
+  CandidatePose at(const double* x) const {
     return {start.center_map + Eigen::Vector2d(x[0], x[1]), start.yaw_rad + x[2] / radius_m};
   }
-  double operator()(const Eigen::Vector3d& x) const { return orbital.mean_square(terrain, at(x.data()), least); }
+  double operator()(const Eigen::Vector3d& x) const { return orbital.mean_square(terrain, at(x.data()), min_compared); }
 };
 
-Objective objective_at(const OrbitalPart& orbital, const TerrainTemplate& terrain, const Placement& start, int least) {
-  return {orbital, terrain, start, least, std::max(terrain.radius_m, orbital.field().lattice.cell_m)};
+Objective objective_at(const OrbitalSection& orbital, const TerrainTemplate& terrain, const CandidatePose& start,
+                       int min_compared) {
+  return {orbital, terrain, start, min_compared, std::max(terrain.radius_m, orbital.field().lattice.cell_m)};
 }
 
-double evaluated(unsigned, const double* x, double*, void* data) {
+double evaluate_objective(unsigned, const double* x, double*, void* data) {
   const auto& f = *static_cast<const Objective*>(data);
-  // BOBYQA's model bears no infinity.
+  // BOBYQA needs finite values.
   return std::min(f(Eigen::Vector3d(x[0], x[1], x[2])), 1e6);
 }
 
-Eigen::Matrix3d second_derivative(const Objective& f, double step) {
+Eigen::Matrix3d hessian(const Objective& f, double step) {
   const Eigen::Matrix3d e = step * Eigen::Matrix3d::Identity();
   Eigen::Matrix3d H;
   for (int i = 0; i < 3; ++i)
@@ -47,33 +48,33 @@ Eigen::Matrix3d second_derivative(const Objective& f, double step) {
 
 }  // namespace
 
-Match refined(const OrbitalPart& orbital, const TerrainTemplate& terrain, const Placement& start, int least,
-              const RefinementConfig& config) {
-  Objective f = objective_at(orbital, terrain, start, least);
+Match refine(const OrbitalSection& orbital, const TerrainTemplate& terrain, const CandidatePose& start,
+             int min_compared, const RefinementConfig& config) {
+  Objective f = objective_at(orbital, terrain, start, min_compared);
   const double cell_m = orbital.field().lattice.cell_m;
-  const double reach_m = config.reach_cells * cell_m, turn_m = config.reach_rad * f.radius_m;
+  const double reach_m = config.reach_cells * cell_m, reach_yaw_m = config.reach_rad * f.radius_m;
   nlopt::opt optimiser(nlopt::LN_BOBYQA, 3);
-  optimiser.set_min_objective(&evaluated, &f);
-  optimiser.set_lower_bounds({-reach_m, -reach_m, -turn_m});
-  optimiser.set_upper_bounds({reach_m, reach_m, turn_m});
-  optimiser.set_initial_step(0.5 * std::min(cell_m, turn_m));
+  optimiser.set_min_objective(&evaluate_objective, &f);
+  optimiser.set_lower_bounds({-reach_m, -reach_m, -reach_yaw_m});
+  optimiser.set_upper_bounds({reach_m, reach_m, reach_yaw_m});
+  optimiser.set_initial_step(0.5 * std::min(cell_m, reach_yaw_m));
   optimiser.set_xtol_abs(1e-3 * cell_m);
   optimiser.set_maxeval(config.most_evaluations);
   std::vector<double> x = {0.0, 0.0, 0.0};
-  double least_square = 0.0;
+  double min_mean_square = 0.0;
   try {
-    optimiser.optimize(x, least_square);
-  } catch (const nlopt::roundoff_limited&) {  // as near as numbers go
+    optimiser.optimize(x, min_mean_square);
+  } catch (const nlopt::roundoff_limited&) {  // converged to machine precision
   }
   return {f.at(x.data()), orbital.fit(terrain, f.at(x.data()))};
 }
 
-Eigen::Matrix3d covariance_of(const OrbitalPart& orbital, const TerrainTemplate& terrain, const Match& match,
-                              double independent_samples) {
-  const Objective f = objective_at(orbital, terrain, match.placement, match.fit.compared / 2);
-  const double square = std::max(match.fit.residual_m * match.fit.residual_m, 1e-8);
-  const Eigen::Matrix3d H = second_derivative(f, orbital.field().lattice.cell_m);
-  const Eigen::LLT<Eigen::Matrix3d> information(0.5 * independent_samples / square * H);
+Eigen::Matrix3d covariance_at_minimum(const OrbitalSection& orbital, const TerrainTemplate& terrain, const Match& match,
+                                      double independent_samples) {
+  const Objective f = objective_at(orbital, terrain, match.pose, match.fit.compared / 2);
+  const double mean_square = std::max(match.fit.residual_m * match.fit.residual_m, 1e-8);
+  const Eigen::Matrix3d H = hessian(f, orbital.field().lattice.cell_m);
+  const Eigen::LLT<Eigen::Matrix3d> information(0.5 * independent_samples / mean_square * H);
   if (!H.allFinite() || information.info() != Eigen::Success) return Eigen::Matrix3d::Constant(kNaN);
   const Eigen::Vector3d scale(1.0, 1.0, 1.0 / f.radius_m);
   return scale.asDiagonal() * information.solve(Eigen::Matrix3d::Identity()) * scale.asDiagonal();

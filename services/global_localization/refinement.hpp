@@ -1,4 +1,4 @@
-// From a cell and a step of yaw to the place between them where the heights differ least, and how sharp that place is.
+// Sub-cell refinement of a match by minimising the height residual, and the covariance from its curvature.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,23 +8,23 @@
 namespace rover::global {
 
 struct RefinementConfig {
-  double reach_cells = 3.0;  // to each side of the start
+  double reach_cells = 3.0;  // bounds around the start
   double reach_rad = 0.05;
   int most_evaluations = 150;
 };
 
 struct Match {
-  Placement placement;
+  CandidatePose pose;
   Fit fit;
 };
 
-// NLopt's BOBYQA: no derivatives, no clock, no chance. `least`: samples that must be compared.
-Match refined(const OrbitalPart& orbital, const TerrainTemplate& terrain, const Placement& start, int least,
-              const RefinementConfig& config);
+// NLopt's BOBYQA: derivative-free, deterministic, no time limit. `min_compared`: minimum number of compared samples.
+Match refine(const OrbitalSection& orbital, const TerrainTemplate& terrain, const CandidatePose& start,
+             int min_compared, const RefinementConfig& config);
 
-// Covariance of the template's centre and yaw there: with n independent samples the logarithm of the likelihood is
-// -n/2 log(residual^2). NaN where the residual grows not to all sides.
-Eigen::Matrix3d covariance_of(const OrbitalPart& orbital, const TerrainTemplate& terrain, const Match& match,
-                              double independent_samples);
+// Covariance of the template's centre and yaw from the Hessian of the log-likelihood -n/2 log(residual^2) with n
+// independent samples. NaN if the Hessian is not positive definite.
+Eigen::Matrix3d covariance_at_minimum(const OrbitalSection& orbital, const TerrainTemplate& terrain, const Match& match,
+                                      double independent_samples);
 
 }  // namespace rover::global

@@ -10,7 +10,7 @@
 namespace rover::global {
 namespace {
 
-constexpr double kLeastEnergy = 1e-20;
+constexpr double kMinEnergy = 1e-20;
 
 std::array<double, 4> cubic_weights(double t) {
   const double t2 = t * t, t3 = t2 * t;
@@ -25,28 +25,28 @@ bool all_known(const PlaneField& field, int column, int row) {
   return true;
 }
 
-// Of heights, less the bend that fits them best.
-class Differences {
+// Height differences after least-squares removal of the local map's drift.
+class HeightResiduals {
  public:
-  explicit Differences(const Bend& stiffness) : form_(stiffness.asDiagonal()) {}
+  explicit HeightResiduals(const DriftBasis& drift_information) : normal_matrix_(drift_information.asDiagonal()) {}
 
   void add(const TerrainSample& sample, double difference) {
     ++count_;
-    squares_ += difference * difference;
-    share_ += difference * sample.bend;
-    form_.noalias() += sample.bend * sample.bend.transpose();
+    sum_squared_ += difference * difference;
+    cross_ += difference * sample.drift_basis;
+    normal_matrix_.noalias() += sample.drift_basis * sample.drift_basis.transpose();
   }
   int count() const { return count_; }
   double mean_square() const {
-    if (count_ <= Bend::RowsAtCompileTime) return std::numeric_limits<double>::infinity();  // bends fit anything
-    return std::max(0.0, (squares_ - share_.dot(form_.ldlt().solve(share_))) / count_);
+    if (count_ <= DriftBasis::RowsAtCompileTime) return std::numeric_limits<double>::infinity();  // drift fits exactly
+    return std::max(0.0, (sum_squared_ - cross_.dot(normal_matrix_.ldlt().solve(cross_))) / count_);
   }
 
  private:
   int count_ = 0;
-  double squares_ = 0.0;
-  Bend share_ = Bend::Zero();
-  BendForm form_;
+  double sum_squared_ = 0.0;
+  DriftBasis cross_ = DriftBasis::Zero();
+  DriftMatrix normal_matrix_;
 };
 
 }  // namespace
@@ -54,10 +54,10 @@ class Differences {
 double CorrelationSums::correlation() const {
   if (count == 0) return 0.0;
   const double energy = (tt - (tx * tx + ty * ty) / count) * (mm - (mx * mx + my * my) / count);
-  return energy > kLeastEnergy ? (tm - (tx * mx + ty * my) / count) / std::sqrt(energy) : 0.0;
+  return energy > kMinEnergy ? (tm - (tx * mx + ty * my) / count) / std::sqrt(energy) : 0.0;
 }
 
-struct OrbitalPart::Square {
+struct OrbitalSection::Stencil {
   size_t first, row_step;
   std::array<double, 4> u, v;
 
@@ -71,46 +71,46 @@ struct OrbitalPart::Square {
   }
 };
 
-OrbitalPart::OrbitalPart(PlaneField field) : field_(std::move(field)) {
+OrbitalSection::OrbitalSection(PlaneField field) : field_(std::move(field)) {
   for (int row = 0; row < field_.lattice.rows; ++row)
     for (int column = 0; column < field_.lattice.columns; ++column)
-      surrounded_.push_back(all_known(field_, column, row) ? 1 : 0);
+      stencil_known_.push_back(all_known(field_, column, row) ? 1 : 0);
 }
 
-// False where a cell around the place is not known.
-bool OrbitalPart::find(const Eigen::Vector2d& p_map, Square& square) const {
+// False if a cell of the stencil is unknown.
+bool OrbitalSection::find_stencil(const Eigen::Vector2d& p_map, Stencil& stencil) const {
   const Lattice& lattice = field_.lattice;
   const double u = (p_map.x() - lattice.x0_m) / lattice.cell_m - 0.5;
   const double v = (p_map.y() - lattice.y0_m) / lattice.cell_m - 0.5;
   if (!(u >= 0.0 && v >= 0.0 && u < lattice.columns && v < lattice.rows)) return false;
   const int column = static_cast<int>(u), row = static_cast<int>(v);
-  if (surrounded_[lattice.index(column, row)] == 0) return false;
-  square = {lattice.index(column - 1, row - 1), static_cast<size_t>(lattice.columns), cubic_weights(u - column),
-            cubic_weights(v - row)};
+  if (stencil_known_[lattice.index(column, row)] == 0) return false;
+  stencil = {lattice.index(column - 1, row - 1), static_cast<size_t>(lattice.columns), cubic_weights(u - column),
+             cubic_weights(v - row)};
   return true;
 }
 
-Fit OrbitalPart::fit(const TerrainTemplate& terrain, const Placement& placement) const {
-  const Eigen::Matrix2d R = Eigen::Rotation2Dd(placement.yaw_rad).toRotationMatrix();
+Fit OrbitalSection::fit(const TerrainTemplate& terrain, const CandidatePose& pose) const {
+  const Eigen::Matrix2d R = Eigen::Rotation2Dd(pose.yaw_rad).toRotationMatrix();
   CorrelationSums gradients;
-  Differences heights(terrain.stiffness);
-  Square square{};
+  HeightResiduals heights(terrain.drift_information);
+  Stencil stencil{};
   for (const TerrainSample& sample : terrain.samples) {
-    if (!find(placement.center_map + R * sample.p, square)) continue;
-    const Eigen::Vector2d turned = R * sample.g;
-    gradients.add(turned.x(), turned.y(), square.value(field_.gx), square.value(field_.gy));
-    heights.add(sample, square.value(field_.z) - sample.z);
+    if (!find_stencil(pose.center_map + R * sample.p, stencil)) continue;
+    const Eigen::Vector2d rotated = R * sample.g;
+    gradients.add(rotated.x(), rotated.y(), stencil.value(field_.gx), stencil.value(field_.gy));
+    heights.add(sample, stencil.value(field_.z) - sample.z);
   }
   return {gradients.count, gradients.correlation(), std::sqrt(heights.mean_square())};
 }
 
-double OrbitalPart::mean_square(const TerrainTemplate& terrain, const Placement& placement, int least) const {
-  const Eigen::Matrix2d R = Eigen::Rotation2Dd(placement.yaw_rad).toRotationMatrix();
-  Differences heights(terrain.stiffness);
-  Square square{};
+double OrbitalSection::mean_square(const TerrainTemplate& terrain, const CandidatePose& pose, int min_compared) const {
+  const Eigen::Matrix2d R = Eigen::Rotation2Dd(pose.yaw_rad).toRotationMatrix();
+  HeightResiduals heights(terrain.drift_information);
+  Stencil stencil{};
   for (const TerrainSample& sample : terrain.samples)
-    if (find(placement.center_map + R * sample.p, square)) heights.add(sample, square.value(field_.z) - sample.z);
-  return heights.count() >= std::max(least, 1) ? heights.mean_square() : std::numeric_limits<double>::infinity();
+    if (find_stencil(pose.center_map + R * sample.p, stencil)) heights.add(sample, stencil.value(field_.z) - sample.z);
+  return heights.count() >= std::max(min_compared, 1) ? heights.mean_square() : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace rover::global

@@ -1,5 +1,5 @@
-// How well the template fits the orbital map at a place and a turn: by the correlation of the gradients, which tells
-// places apart, and by what is left of the heights' difference, which says where exactly the place is.
+// Match quality of the template at a candidate pose on the orbital map: the gradient correlation discriminates between
+// places, the height residual localises precisely.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,8 +10,8 @@
 
 namespace rover::global {
 
-// Masked normalised cross-correlation: sums over those samples alone that both maps know. Means are taken out: a common
-// tilt tells nothing of the place.
+// Masked normalised cross-correlation (Padfield 2012) over samples valid in both maps. Means are subtracted because a
+// common tilt carries no position information.
 struct CorrelationSums {
   int count = 0;
   double tx = 0.0, ty = 0.0, tt = 0.0;  // template: sums of the components, sum of squares
@@ -24,39 +24,38 @@ struct CorrelationSums {
     mx += m_x, my += m_y, mm += m_x * m_x + m_y * m_y;
     tm += t_x * m_x + t_y * m_y;
   }
-  // -1 .. 1; 0 where there is nothing to compare.
+  // In [-1, 1]; 0 without overlap.
   double correlation() const;
 };
 
-// Where the template's centre lies in map, and its turn from odom to map.
-struct Placement {
+// Position of the template's centre in map, and yaw from odom to map.
+struct CandidatePose {
   Eigen::Vector2d center_map = Eigen::Vector2d::Zero();
   double yaw_rad = 0.0;
 };
 
 struct Fit {
-  int compared = 0;          // samples that both maps know
+  int compared = 0;          // samples valid in both maps
   double correlation = 0.0;  // of the gradients
-  double residual_m = 0.0;   // rms of the difference of the heights, without a common offset
+  double residual_m = 0.0;   // rms height difference after removing the fitted drift
 };
 
-// A part of the orbital map with the same filter as the template, read between its cells by cubic convolution (Keys
-// 1981).
-class OrbitalPart {
+// Section of the orbital map, filtered like the template and interpolated by cubic convolution (Keys 1981).
+class OrbitalSection {
  public:
-  explicit OrbitalPart(PlaneField field);
+  explicit OrbitalSection(PlaneField field);
 
   const PlaneField& field() const { return field_; }
-  Fit fit(const TerrainTemplate& terrain, const Placement& placement) const;
-  // The residual alone [m^2]; infinite where fewer than `least` samples can be compared.
-  double mean_square(const TerrainTemplate& terrain, const Placement& placement, int least) const;
+  Fit fit(const TerrainTemplate& terrain, const CandidatePose& pose) const;
+  // Mean square height residual [m^2]; infinite with fewer than `min_compared` valid samples.
+  double mean_square(const TerrainTemplate& terrain, const CandidatePose& pose, int min_compared) const;
 
  private:
-  struct Square;  // the 4 x 4 cells about a place, and their weights
-  bool find(const Eigen::Vector2d& p_map, Square& square) const;
+  struct Stencil;  // 4 x 4 cells around a position, with interpolation weights
+  bool find_stencil(const Eigen::Vector2d& p_map, Stencil& stencil) const;
 
   PlaneField field_;
-  std::vector<std::uint8_t> surrounded_;  // all 4 x 4 cells about the square from here to the next cell are known
+  std::vector<std::uint8_t> stencil_known_;  // per cell: its whole 4 x 4 stencil is known
 };
 
 }  // namespace rover::global

@@ -7,15 +7,15 @@
 namespace rover::global {
 namespace {
 
-constexpr double kLeastForm = 1e-9;  // of ground that tells nothing, so that it can be inverted
+constexpr double kRegularisation = 1e-9;  // regularisation, keeps the matrices of featureless terrain invertible
 
-Bend bend_at(const Eigen::Vector2d& p) {
-  Bend bend;
-  bend << 1.0, p.x(), p.y(), p.x() * p.x(), p.x() * p.y(), p.y() * p.y();
-  return bend;
+DriftBasis drift_basis_at(const Eigen::Vector2d& p) {
+  DriftBasis drift_basis;
+  drift_basis << 1.0, p.x(), p.y(), p.x() * p.x(), p.x() * p.y(), p.y() * p.y();
+  return drift_basis;
 }
 
-void centre(TerrainTemplate& terrain) {
+void centre_samples(TerrainTemplate& terrain) {
   const auto count = static_cast<double>(terrain.samples.size());
   double mean_z = 0.0;
   for (const TerrainSample& sample : terrain.samples) {
@@ -27,7 +27,7 @@ void centre(TerrainTemplate& terrain) {
     sample.z -= mean_z;
     terrain.radius_m = std::max(terrain.radius_m, sample.p.norm());
   }
-  for (TerrainSample& sample : terrain.samples) sample.bend = bend_at(sample.p / terrain.radius_m);
+  for (TerrainSample& sample : terrain.samples) sample.drift_basis = drift_basis_at(sample.p / terrain.radius_m);
 }
 
 }  // namespace
@@ -45,34 +45,34 @@ TerrainTemplate terrain_template(const HeightGrid& local, const PlaneConfig& con
       out.samples.push_back({{lattice.center_x_m(column), lattice.center_y_m(row)},
                              field.z[i],
                              {field.gx[i], field.gy[i]},
-                             Bend::Zero()});
+                             DriftBasis::Zero()});
     }
-  centre(out);
+  centre_samples(out);
   return out;
 }
 
-Bend stiffness_of(const TerrainTemplate& terrain, const BendConfig& config, double noise_density) {
+DriftBasis drift_information(const TerrainTemplate& terrain, const DriftConfig& config, double noise_density) {
   const double tilt_m = config.tilt_sigma_rad * terrain.radius_m;
-  const double tilt = 1.0 / (tilt_m * tilt_m), bow = 1.0 / (config.bow_sigma_m * config.bow_sigma_m);
-  Bend out;
-  out << 0.0, tilt, tilt, bow, bow, bow;
+  const double tilt = 1.0 / (tilt_m * tilt_m), curvature = 1.0 / (config.curvature_sigma_m * config.curvature_sigma_m);
+  DriftBasis out;
+  out << 0.0, tilt, tilt, curvature, curvature, curvature;
   return noise_density / terrain.sample_area_m2 * out;
 }
 
-Eigen::Matrix3d covariance_by_relief(const TerrainTemplate& terrain) {
-  // Change of height for a shift along x, y and a turn, and what of it a bend would explain.
-  Eigen::Matrix3d form = Eigen::Matrix3d::Zero();
-  Eigen::Matrix<double, 3, 6> shared = Eigen::Matrix<double, 3, 6>::Zero();
-  BendForm shapes = kLeastForm * BendForm::Identity();
-  shapes.diagonal() += terrain.stiffness;
+Eigen::Matrix3d expected_covariance(const TerrainTemplate& terrain) {
+  // Height change per shift in x, y and per yaw, and its cross terms with the drift (Schur complement).
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  Eigen::Matrix<double, 3, 6> cross = Eigen::Matrix<double, 3, 6>::Zero();
+  DriftMatrix drift_matrix = kRegularisation * DriftMatrix::Identity();
+  drift_matrix.diagonal() += terrain.drift_information;
   for (const TerrainSample& s : terrain.samples) {
     const Eigen::Vector3d change(s.g.x(), s.g.y(), s.g.y() * s.p.x() - s.g.x() * s.p.y());
-    form += change * change.transpose();
-    shared += change * s.bend.transpose();
-    shapes += s.bend * s.bend.transpose();
+    information += change * change.transpose();
+    cross += change * s.drift_basis.transpose();
+    drift_matrix += s.drift_basis * s.drift_basis.transpose();
   }
-  form = terrain.sample_area_m2 * (form - shared * shapes.ldlt().solve(shared.transpose()));
-  return (form + kLeastForm * Eigen::Matrix3d::Identity()).inverse();
+  information = terrain.sample_area_m2 * (information - cross * drift_matrix.ldlt().solve(cross.transpose()));
+  return (information + kRegularisation * Eigen::Matrix3d::Identity()).inverse();
 }
 
 }  // namespace rover::global

@@ -1,5 +1,4 @@
-// The local map as it is looked for in the orbital one: heights and gradients at the orbital map's resolution where the
-// ground was seen, and how much they can tell.
+// Template of the local map: heights and gradients at the orbital map's resolution, and the accuracy they allow.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,41 +9,41 @@
 
 namespace rover::global {
 
-// Shapes by which the local map is bent as odometry's height wanders along the way: offset, tilt and bow, each 1 at the
-// template's radius. Taken as heights they would be shifts.
-using Bend = Eigen::Matrix<double, 6, 1>;
-using BendForm = Eigen::Matrix<double, 6, 6>;
+// Height drift of odometry deforms the local map and would bias the position. Modelled as a quadratic polynomial with
+// offset, tilt and curvature, each 1 at the template's radius.
+using DriftBasis = Eigen::Matrix<double, 6, 1>;
+using DriftMatrix = Eigen::Matrix<double, 6, 6>;
 
-struct BendConfig {
+struct DriftConfig {
   double tilt_sigma_rad = to_rad(0.04);
-  double bow_sigma_m = 0.01;
+  double curvature_sigma_m = 0.01;
 };
 
 struct TerrainSample {
-  Eigen::Vector2d p;         // from the template's centre, odom axes [m]
-  double z = 0.0;            // over the mean height [m]
-  Eigen::Vector2d g;         // gradient, odom axes
-  Bend bend = Bend::Zero();  // here
+  Eigen::Vector2d p;                            // relative to the template's centre, odom axes [m]
+  double z = 0.0;                               // relative to the mean height [m]
+  Eigen::Vector2d g;                            // gradient, odom axes
+  DriftBasis drift_basis = DriftBasis::Zero();  // drift polynomial basis at p
 };
 
 struct TerrainTemplate {
-  Eigen::Vector2d center_odom = Eigen::Vector2d::Zero();  // mean place of the samples
-  std::vector<TerrainSample> samples;                     // about one each standard deviation of the Gaussian
-  double sample_area_m2 = 0.0;                            // that each stands for
-  double radius_m = 0.0;                                  // of the farthest sample
-  Bend stiffness = Bend::Zero();  // what a bend costs, against the sum over the samples of squared heights
+  Eigen::Vector2d center_odom = Eigen::Vector2d::Zero();  // mean sample position
+  std::vector<TerrainSample> samples;                     // spaced about one Gaussian standard deviation
+  double sample_area_m2 = 0.0;                            // area per sample
+  double radius_m = 0.0;                                  // distance of the farthest sample
+  DriftBasis drift_information =
+      DriftBasis::Zero();  // diagonal prior information of the drift, in units of height noise variance
 
   double area_m2() const { return static_cast<double>(samples.size()) * sample_area_m2; }
 };
 
 TerrainTemplate terrain_template(const HeightGrid& local, const PlaneConfig& config);
 
-// For a map with noise of that density [m^4].
-Bend stiffness_of(const TerrainTemplate& terrain, const BendConfig& config, double noise_density);
+// For a map with this noise power density [m^4].
+DriftBasis drift_information(const TerrainTemplate& terrain, const DriftConfig& config, double noise_density);
 
-// How well the ground tells its place: the covariance of the centre's x, y and of the turn (odom axes), for noise of
-// density 1 m^2 m^2 in the map. From the sum over the seen area of the square of the height's change, less what a
-// bend would explain. Even ground and ground of one slope tell next to nothing.
-Eigen::Matrix3d covariance_by_relief(const TerrainTemplate& terrain);
+// Expected covariance of the centre's x, y and yaw (odom axes) at a map noise density of 1 m^4: inverse Fisher
+// information of the relief, with the drift marginalised. Flat and evenly sloping terrain is unobservable.
+Eigen::Matrix3d expected_covariance(const TerrainTemplate& terrain);
 
 }  // namespace rover::global

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kUnitSlope = 1.0;
 
-// The map of a bare plane rises by as much as it is shifted.
+// On an inclined plane the map's height error gives its horizontal shift.
 ElevationRaster shift_of(const WorldConfig& config, const ElevationRaster& dtm, std::uint64_t seed, double resolution_m,
                          double toward_rad) {
   WorldConfig bare = config;
@@ -70,7 +70,7 @@ Eigen::Vector2d MapDistortion::at(const Eigen::Vector2d& p) const {
   return p - Eigen::Vector2d(east_.at(column, row), north_.at(column, row));
 }
 
-// Least squares: between the means, by the angle of the summed products.
+// Least-squares rigid transform in 2-D.
 Eigen::Isometry2d MapDistortion::rigid(const std::vector<Eigen::Vector2d>& ground) const {
   Eigen::Vector2d from = Eigen::Vector2d::Zero(), to = Eigen::Vector2d::Zero();
   for (const Eigen::Vector2d& p : ground) {

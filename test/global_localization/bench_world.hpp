@@ -1,4 +1,4 @@
-// The worlds and drives of the bench, and the place where a distorted orbital map shows the ground.
+// Worlds and drives of the bench, and the distortion of their orbital maps.
 #pragma once
 
 #include <vector>
@@ -11,13 +11,12 @@ namespace rover::global::test {
 
 HeightGrid grid_of(const ElevationRaster& raster);
 
-// How far the orbital map of a world shows the ground from its true place (without the world's relief, which does not
-// matter for it), and the rigid motion that this makes of a part of the map.
+// Horizontal displacement field of a world's orbital map, and its rigid approximation over part of the map.
 class MapDistortion {
  public:
   MapDistortion(const WorldConfig& config, const ElevationRaster& dtm, std::uint64_t seed, double resolution_m);
 
-  // Takes true coordinates into those of the map as well as a rigid motion can over this ground.
+  // Best rigid transform (least squares) from true to map coordinates over these points.
   Eigen::Isometry2d rigid(const std::vector<Eigen::Vector2d>& ground) const;
 
  private:
@@ -26,7 +25,7 @@ class MapDistortion {
   ElevationRaster east_, north_;
 };
 
-// Lines over the elevation model that a rover can drive: nowhere steeper than 15 deg over its own length.
+// Drivable lines over the elevation model: slope at most 15 deg over the rover's length.
 std::vector<Line> drivable_lines(const World& world, double length_m, int count, std::uint64_t seed);
 
 }  // namespace rover::global::test

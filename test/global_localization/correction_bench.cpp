@@ -1,9 +1,8 @@
-// Global correction over simulated drives: the local maps that a rover would build, each looked for from many wrong
-// poses on orbital maps of two resolutions. Prints the table of test/results/correction.md; exit status 1: a gate
-// failed.
+// Global correction over simulated drives: local maps matched from many wrong poses on orbital maps of two resolutions.
+// Prints the table of test/results/correction.md; exit status 1: a gate failed.
 //
-// The featured maps are those whose relief lets expect a match within acceptance.max_expected_sigma_cells and _deg of
-// the configuration (services/global_localization/terrain_template.hpp). Lines, worlds and seeds of this program were
+// Featured maps have an expected sigma within acceptance.max_expected_sigma_cells and _deg of the configuration
+// (services/global_localization/terrain_template.hpp). Lines, worlds and seeds of this program were
 // never used to set the configuration.
 #include <time.h>
 
@@ -51,7 +50,7 @@ double yaw_of(const Eigen::Isometry2d& T) {
   return Eigen::Rotation2Dd(T.linear()).angle();
 }
 
-// One orbital map of one world, and what the tries on it gave.
+// One orbital map of one world, with the results of its trials.
 struct Row {
   std::string name;
   double cell_m = 0.0;
@@ -71,7 +70,7 @@ Trial draw(HashStream& random, double least_m, double most_m) {
   return {{r * std::cos(a), r * std::sin(a)}, random.range(-kOffsetRad, kOffsetRad)};
 }
 
-// The pose that is believed: off by the trial at the rover, and turned about it.
+// Prior with the trial's error: offset at the rover, and rotation about it.
 Prior prior_of(const MappedDrive& drive, const Eigen::Isometry2d& T_map_odom, const Trial& trial) {
   Prior prior;
   prior.p_odom_body = drive.T_odom_body().translation();
@@ -90,9 +89,9 @@ Eigen::Isometry2d isometry(const Pose2& pose) {
   return T;
 }
 
-// `on_map`: where the map shows the ground that was seen; `truth`: where it is.
-void try_once(const GlobalLocalization& core, const MappedDrive& drive, const Trial& trial,
-              const Eigen::Isometry2d& on_map, Row& row) {
+// `on_map`: T_map_odom as the distorted map shows the terrain; `truth`: the true one.
+void attempt_once(const GlobalLocalization& core, const MappedDrive& drive, const Trial& trial,
+                  const Eigen::Isometry2d& on_map, Row& row) {
   const Eigen::Isometry2d truth = drive.T_map_odom();
   const Prior prior = prior_of(drive, on_map, trial);
   const double start_s = cpu_s();
@@ -125,7 +124,7 @@ void drive_through(const Surface& world, const Line& line, std::uint64_t seed, c
   double next_m = kFirstMapM;
   while (drive.driven_m() < kDriveM) {
     drive.advance();
-    for (OrbitalCase& c : cases) c.core.take(drive.view(), drive.T_odom_body().translation());
+    for (OrbitalCase& c : cases) c.core.add_elevation(drive.view(), drive.T_odom_body().translation());
     if (drive.driven_m() < next_m) continue;
     next_m += kMapEveryM;
     const std::vector<Eigen::Vector2d> ground = drive.seen_ground(0.5 * config.mosaic_side_m);
@@ -133,7 +132,7 @@ void drive_through(const Surface& world, const Line& line, std::uint64_t seed, c
       const Eigen::Isometry2d on_map = c.distortion.rigid(ground) * drive.T_map_odom();
       const int featured = c.row->featured_tries;
       for (int k = 0; k < c.tries; ++k)
-        try_once(c.core, drive, draw(random, c.least_offset_m, c.most_offset_m), on_map, *c.row);
+        attempt_once(c.core, drive, draw(random, c.least_offset_m, c.most_offset_m), on_map, *c.row);
       ++c.row->maps;
       if (c.row->featured_tries > featured) ++c.row->featured_maps;
     }

@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "test/global_localization/made_ground.hpp"
+#include "test/global_localization/synthetic_terrain.hpp"
 
 namespace rover::global::test {
 namespace {
@@ -12,19 +12,19 @@ namespace {
 const Pose2 kTruth{95.0, 60.0, 2.1};  // odom is turned against map, its origin is far from the rover
 const Eigen::Vector2d kPlace(22.0, -14.0);
 
-// A rover that has driven so far to kPlace.
+// Core after a straight drive of this length to kPlace.
 GlobalLocalization driven(const Height& height, double cell_m, const Seen& seen = all_seen, double noise_m = 0.0,
-                          double way_m = 16.0) {
+                          double distance_m = 16.0) {
   GlobalLocalization core({}, orbital_of(height, cell_m, noise_m), kCellM);
-  for (double back = way_m; back >= 0.0; back -= 8.0) {
+  for (double back = distance_m; back >= 0.0; back -= 8.0) {
     const Eigen::Vector2d p = kPlace - Eigen::Vector2d(back, 0.0);
-    core.take(view_of(height, kTruth, p, seen), p);
+    core.add_elevation(view_of(height, kTruth, p, seen), p);
   }
   return core;
 }
 
 Prior prior(const Eigen::Vector2d& off_m, double turn_deg) {
-  return {believed(kTruth, kPlace, off_m, to_rad(turn_deg)), kPlace, pose_cov()};
+  return {perturbed_transform(kTruth, kPlace, off_m, to_rad(turn_deg)), kPlace, pose_cov()};
 }
 
 double error_m(const Correction& c) {
@@ -34,9 +34,8 @@ double error_deg(const Correction& c) {
   return to_deg(std::abs(wrap_angle(c.T_map_odom.yaw_rad - kTruth.yaw_rad)));
 }
 
-// The published matcher forgets half of the template's size and turns the correction by the yaw: it moves such a rover
-// by 14.14 m.
-TEST(GlobalLocalization, PerfectOdometryIsNotMoved) {
+// Regression of two errors in the published matcher (template offset, yaw applied to the correction): 14.14 m here.
+TEST(GlobalLocalization, CorrectTransformStaysUnchanged) {
   for (double cell_m : {0.5, 1.0}) {
     const Correction c = driven(hills, cell_m).correct(prior({0.0, 0.0}, 0.0));
     ASSERT_TRUE(c.accepted) << c.reason;
@@ -46,8 +45,8 @@ TEST(GlobalLocalization, PerfectOdometryIsNotMoved) {
   }
 }
 
-// In all directions, so that a correction in wrong axes cannot pass; and the yaw search keeps its best.
-TEST(GlobalLocalization, WrongPosesAreMended) {
+// All directions, so that swapped axes cannot pass.
+TEST(GlobalLocalization, CorrectsOffsetsInAllDirections) {
   const GlobalLocalization core = driven(hills, 0.5);
   for (const auto& [x, y, turn] : {std::array{9.0, 3.0, 9.0}, std::array{-6.5, 7.3, -9.0}, std::array{0.0, -10.0, 4.0},
                                    std::array{-9.9, 0.2, 0.0}, std::array{3.3, 0.0, -7.7}}) {
@@ -58,7 +57,7 @@ TEST(GlobalLocalization, WrongPosesAreMended) {
   }
 }
 
-TEST(GlobalLocalization, TheMapsNoiseIsWithinTheCovariance) {
+TEST(GlobalLocalization, ErrorFromMapNoiseIsWithinCovariance) {
   for (double cell_m : {0.5, 1.0}) {
     const Correction c = driven(hills, cell_m, all_seen, 0.1).correct(prior({4.0, -5.0}, 6.0));
     ASSERT_TRUE(c.accepted) << c.reason;
@@ -70,8 +69,7 @@ TEST(GlobalLocalization, TheMapsNoiseIsWithinTheCovariance) {
   }
 }
 
-// Ground that the map shows turned moves the body beyond it: place and yaw are wrong together.
-TEST(GlobalLocalization, TheMapsDistortionReachesTheBodyThroughTheArm) {
+TEST(GlobalLocalization, MapRotationCorrelatesPositionAndYawThroughLeverArm) {
   const Correction c = driven(hills, 0.5, all_seen, 0.0, 48.0).correct(prior({1.0, 1.0}, 1.0));
   ASSERT_TRUE(c.accepted) << c.reason;
   const Eigen::Rotation2Dd R(c.T_map_odom.yaw_rad);
@@ -82,25 +80,25 @@ TEST(GlobalLocalization, TheMapsDistortionReachesTheBodyThroughTheArm) {
   EXPECT_NEAR(across.dot(c.cov.block<2, 1>(0, 2)), arm_m * turn_rad * turn_rad, 1e-4);
 }
 
-// At the Efficient level nothing is mapped, and the ground that could be matched falls behind.
-TEST(GlobalLocalization, AbstainsFarFromTheGroundThatWasMatched) {
+// At level EFFICIENT nothing is mapped, so the matched terrain falls behind the body.
+TEST(GlobalLocalization, RejectsMatchFarFromBody) {
   GlobalConfig config;
   config.map_sigma_rad = to_rad(3.0);
   config.acceptance.max_body_sigma_m = 0.8;
   GlobalLocalization core(config, orbital_of(hills, 0.5, 0.0), kCellM);
-  core.take(view_of(hills, kTruth, kPlace, all_seen), kPlace);
+  core.add_elevation(view_of(hills, kTruth, kPlace, all_seen), kPlace);
   const double limit_m = config.acceptance.max_body_sigma_m / config.map_sigma_rad;
-  const auto on_by = [&](double way_m) {
+  const auto on_by = [&](double distance_m) {
     Prior further = prior({1.0, 1.0}, 1.0);
-    further.p_odom_body += Eigen::Vector2d(way_m, 0.0);
+    further.p_odom_body += Eigen::Vector2d(distance_m, 0.0);
     return core.correct(further);
   };
   EXPECT_EQ(on_by(0.9 * limit_m).reason, "");
   EXPECT_EQ(on_by(1.1 * limit_m).reason, "too far from the ground that was matched");
 }
 
-// The published matcher's score collapses when 1 % of the cells are empty.
-TEST(GlobalLocalization, HolesDoNotHurt) {
+// The published matcher's score collapses with 1 % empty cells.
+TEST(GlobalLocalization, ToleratesHolesInLocalMap) {
   const Correction whole = driven(hills, 0.5, all_seen, 0.1).correct(prior({4.0, -5.0}, 6.0));
   ASSERT_TRUE(whole.accepted) << whole.reason;
   for (int percent : {1, 10, 40}) {
@@ -113,7 +111,7 @@ TEST(GlobalLocalization, HolesDoNotHurt) {
   }
 }
 
-TEST(GlobalLocalization, AStripMatchesAsWellAsTheWholeMap) {
+TEST(GlobalLocalization, NarrowStripMatchesLikeWholeMap) {
   const auto strip = [](int, int row) { return row > 60 && row < 140 && row % 23 != 0; };
   const Correction c = driven(hills, 0.5, strip, 0.1, 40.0).correct(prior({-7.0, 5.0}, -6.0));
   ASSERT_TRUE(c.accepted) << c.reason;
@@ -121,7 +119,7 @@ TEST(GlobalLocalization, AStripMatchesAsWellAsTheWholeMap) {
   EXPECT_LT(error_m(c), 0.25);
 }
 
-TEST(GlobalLocalization, AbstainsOnEvenGround) {
+TEST(GlobalLocalization, RejectsFeaturelessTerrain) {
   const auto slope = [](double x, double y) { return 0.15 * x - 0.05 * y; };
   for (const Height& height : {Height([](double, double) { return 3.0; }), Height(slope)}) {
     const Correction c = driven(height, 0.5, all_seen, 0.1).correct(prior({2.0, 1.0}, 1.0));
@@ -130,56 +128,56 @@ TEST(GlobalLocalization, AbstainsOnEvenGround) {
   }
 }
 
-// Dunes that repeat each 9 m across and along.
-TEST(GlobalLocalization, AbstainsWherePlacesAreAlike) {
+// Dunes with a period of 9 m in both directions.
+TEST(GlobalLocalization, RejectsAmbiguousPeriodicTerrain) {
   const auto dunes = [](double x, double y) { return 0.6 * std::sin(x * 2 * kPi / 9.0) * std::cos(y * 2 * kPi / 9.0); };
   const Correction c = driven(dunes, 0.5, all_seen, 0.1).correct(prior({2.0, 1.0}, 1.0));
   EXPECT_FALSE(c.accepted);
   EXPECT_EQ(c.reason, "another place is almost as alike");
 }
 
-TEST(GlobalLocalization, AbstainsWhereTheTruePlaceIsOutsideOfTheWindow) {
+TEST(GlobalLocalization, RejectsTruePoseOutsideSearchWindow) {
   const GlobalLocalization core = driven(hills, 0.5, all_seen, 0.1);
   for (const auto& [x, y] : {std::array{25.0, 0.0}, std::array{-20.0, 20.0}, std::array{0.0, -26.0}})
     EXPECT_FALSE(core.correct(prior({x, y}, 2.0)).accepted) << x << " " << y;
   EXPECT_FALSE(core.correct(prior({1.0, 1.0}, 25.0)).accepted);
 }
 
-// The search takes it to the window's edge, the refinement over it.
-TEST(GlobalLocalization, AbstainsAtTheEdgeOfTheWindow) {
+// The search ends at the window's border, the refinement crosses it.
+TEST(GlobalLocalization, RejectsMatchAtSearchWindowBorder) {
   EXPECT_EQ(driven(hills, 0.5).correct(prior({1.0, 1.0}, 13.5)).reason,
             "best match at the border of the search window");
 }
 
-// Inside the window, but too far on all counts together.
-TEST(GlobalLocalization, AbstainsWhereThePosesCovarianceDoesNotAllowIt) {
+// Inside the window in x, y and yaw, but too far in combination.
+TEST(GlobalLocalization, RejectsLargeNormalisedInnovation) {
   EXPECT_EQ(driven(hills, 0.5).correct(prior({11.5, -11.5}, 10.0)).reason,
             "further off than the pose's covariance allows");
 }
 
-// Alike in form, but of a third of the height.
-TEST(GlobalLocalization, AbstainsWhereHeightsDiffer) {
+// Same shape at a third of the height.
+TEST(GlobalLocalization, RejectsHeightResidualAboveLimit) {
   GlobalLocalization core({}, orbital_of([](double x, double y) { return 0.3 * hills(x, y); }, 0.5), kCellM);
   for (double back : {16.0, 8.0, 0.0}) {
     const Eigen::Vector2d p = kPlace - Eigen::Vector2d(back, 0.0);
-    core.take(view_of(hills, kTruth, p), p);
+    core.add_elevation(view_of(hills, kTruth, p), p);
   }
   EXPECT_EQ(core.correct(prior({1.0, 1.0}, 1.0)).reason, "no place is alike enough");
 }
 
-TEST(GlobalLocalization, AbstainsOnAMapOfAnotherPlace) {
+TEST(GlobalLocalization, RejectsMapOfAnotherArea) {
   const auto elsewhere = [](double x, double y) { return hills(x + 500.0, y - 300.0); };
   GlobalLocalization core({}, orbital_of(elsewhere, 0.5, 0.1), kCellM);
   for (double back : {16.0, 8.0, 0.0}) {
     const Eigen::Vector2d p = kPlace - Eigen::Vector2d(back, 0.0);
-    core.take(view_of(hills, kTruth, p), p);
+    core.add_elevation(view_of(hills, kTruth, p), p);
   }
   const Correction c = core.correct(prior({1.0, 1.0}, 1.0));
   EXPECT_FALSE(c.accepted);
   EXPECT_FALSE(c.reason.empty());
 }
 
-TEST(GlobalLocalization, OffTheMapItSaysSo) {
+TEST(GlobalLocalization, RejectsPoseOutsideOrbitalMap) {
   const GlobalLocalization core = driven(hills, 0.5);
   Prior off = prior({0.0, 0.0}, 0.0);
   for (double far_m : {-100.0, 400.0, 1e9, -1e9}) {
@@ -190,7 +188,7 @@ TEST(GlobalLocalization, OffTheMapItSaysSo) {
   }
 }
 
-TEST(GlobalLocalization, CellsWithoutDataInTheOrbitalMapAreLeftOut) {
+TEST(GlobalLocalization, IgnoresOrbitalCellsWithoutData) {
   HeightGrid orbital = orbital_of(hills, 0.5, 0.05);
   std::mt19937_64 random(4);
   for (int k = 0; k < 60; ++k) {  // voids of 1.5 m
@@ -204,17 +202,17 @@ TEST(GlobalLocalization, CellsWithoutDataInTheOrbitalMapAreLeftOut) {
   GlobalLocalization core({}, orbital, kCellM);
   for (double back : {16.0, 8.0, 0.0}) {
     const Eigen::Vector2d p = kPlace - Eigen::Vector2d(back, 0.0);
-    core.take(view_of(hills, kTruth, p), p);
+    core.add_elevation(view_of(hills, kTruth, p), p);
   }
   const Correction c = core.correct(prior({5.0, 5.0}, -5.0));
   ASSERT_TRUE(c.accepted) << c.reason;
   EXPECT_LT(error_m(c), 0.25);
 }
 
-TEST(GlobalLocalization, AnEmptyMapAndABrokenPoseAreRefused) {
+TEST(GlobalLocalization, RejectsEmptyMapAndInvalidPose) {
   GlobalLocalization core({}, orbital_of(hills, 1.0), kCellM);
   EXPECT_EQ(core.correct(prior({0.0, 0.0}, 0.0)).reason, "too little ground seen");
-  core.take(view_of(hills, kTruth, kPlace, [](int, int) { return false; }), kPlace);
+  core.add_elevation(view_of(hills, kTruth, kPlace, [](int, int) { return false; }), kPlace);
   EXPECT_EQ(core.correct(prior({0.0, 0.0}, 0.0)).reason, "too little ground seen");
   Prior broken = prior({0.0, 0.0}, 0.0);
   broken.cov(0, 0) = kNaN;
@@ -224,7 +222,7 @@ TEST(GlobalLocalization, AnEmptyMapAndABrokenPoseAreRefused) {
   EXPECT_EQ(core.correct(broken).reason, "pose is not usable");
 }
 
-TEST(GlobalLocalization, TheSameInputsGiveTheSameBits) {
+TEST(GlobalLocalization, IsDeterministicBitForBit) {
   const Correction a = driven(hills, 0.5, all_seen, 0.1).correct(prior({4.0, -5.0}, 6.0));
   const Correction b = driven(hills, 0.5, all_seen, 0.1).correct(prior({4.0, -5.0}, 6.0));
   EXPECT_EQ(a.T_map_odom.x_m, b.T_map_odom.x_m);

@@ -32,8 +32,8 @@ Eigen::Vector2d Line::at(double s_m) const {
   return start + Eigen::Rotation2Dd(heading_rad) * straight;
 }
 
-// Where the picture is taken, and how the ground slopes under the rover.
-struct MappedDrive::Stand {
+// Camera position of an image, and terrain slope under the rover.
+struct MappedDrive::Viewpoint {
   Eigen::Vector2d camera;
   double camera_z, azimuth_rad, slope_forward, pitch_error_rad, roll_error_rad;
 };
@@ -47,7 +47,7 @@ MappedDrive::MappedDrive(const Surface& world, const Line& line, const DriveErro
   publish();
 }
 
-// Box and Muller: the same numbers everywhere.
+// Box-Muller instead of std::normal_distribution, whose output depends on the library.
 double MappedDrive::normal(double sigma) {
   const double u = (static_cast<double>(random_() >> 11) + 0.5) * 0x1p-53;
   const double v = (static_cast<double>(random_() >> 11) + 0.5) * 0x1p-53;
@@ -76,44 +76,45 @@ void MappedDrive::advance() {
 void MappedDrive::look(double pan_rad) {
   map_.move_to(T_odom_body_.translation().x(), T_odom_body_.translation().y());
   known_.move_to(T_map_body_.translation().x(), T_map_body_.translation().y());
-  Stand stand;
-  stand.camera = T_map_body_ * Eigen::Vector2d(kCameraForwardM, 0.0);
-  stand.azimuth_rad = yaw_of(T_map_body_) + pan_rad;
-  const Eigen::Vector2d way = Eigen::Rotation2Dd(stand.azimuth_rad) * Eigen::Vector2d(0.75, 0.0);
+  Viewpoint viewpoint;
+  viewpoint.camera = T_map_body_ * Eigen::Vector2d(kCameraForwardM, 0.0);
+  viewpoint.azimuth_rad = yaw_of(T_map_body_) + pan_rad;
+  const Eigen::Vector2d way = Eigen::Rotation2Dd(viewpoint.azimuth_rad) * Eigen::Vector2d(0.75, 0.0);
   const Eigen::Vector2d p = T_map_body_.translation(), front = p + way, rear = p - way;
-  stand.slope_forward = (world_.height_m(front.x(), front.y()) - world_.height_m(rear.x(), rear.y())) / 1.5;
-  stand.camera_z = world_.height_m(p.x(), p.y()) + kCameraForwardM * stand.slope_forward + kCameraUpM;
-  stand.pitch_error_rad = normal(errors_.attitude_sigma_rad);
-  stand.roll_error_rad = normal(errors_.attitude_sigma_rad);
-  for (double a = -kHalfWidthRad; a <= kHalfWidthRad; a += kAzimuthStepRad) look_along(stand, stand.azimuth_rad + a);
+  viewpoint.slope_forward = (world_.height_m(front.x(), front.y()) - world_.height_m(rear.x(), rear.y())) / 1.5;
+  viewpoint.camera_z = world_.height_m(p.x(), p.y()) + kCameraForwardM * viewpoint.slope_forward + kCameraUpM;
+  viewpoint.pitch_error_rad = normal(errors_.attitude_sigma_rad);
+  viewpoint.roll_error_rad = normal(errors_.attitude_sigma_rad);
+  for (double a = -kHalfWidthRad; a <= kHalfWidthRad; a += kAzimuthStepRad)
+    look_along(viewpoint, viewpoint.azimuth_rad + a);
 }
 
-// Outwards along the ground: what stands lower than something nearer is hidden.
-void MappedDrive::look_along(const Stand& stand, double azimuth_rad) {
+// Line-of-sight scan outwards: terrain below the horizon of nearer terrain is occluded.
+void MappedDrive::look_along(const Viewpoint& viewpoint, double azimuth_rad) {
   const Eigen::Vector2d direction(std::cos(azimuth_rad), std::sin(azimuth_rad));
   double horizon = -kInfinity;
   for (double range = 0.3; range <= kFarM; range += kRangeStepM) {
-    const Eigen::Vector2d p = stand.camera + range * direction;
-    const double z = world_.height_m(p.x(), p.y()), elevation = (z - stand.camera_z) / range;
+    const Eigen::Vector2d p = viewpoint.camera + range * direction;
+    const double z = world_.height_m(p.x(), p.y()), elevation = (z - viewpoint.camera_z) / range;
     if (elevation < horizon) continue;
     horizon = elevation;
-    const double in_camera = std::atan(elevation) - std::atan(stand.slope_forward) + kPitchRad;
-    if (range >= kNearM && std::abs(in_camera) <= kHalfHeightRad) measure(stand, {p.x(), p.y(), z});
+    const double in_camera = std::atan(elevation) - std::atan(viewpoint.slope_forward) + kPitchRad;
+    if (range >= kNearM && std::abs(in_camera) <= kHalfHeightRad) measure(viewpoint, {p.x(), p.y(), z});
   }
 }
 
-void MappedDrive::measure(const Stand& stand, const Eigen::Vector3d& p_map) {
+void MappedDrive::measure(const Viewpoint& viewpoint, const Eigen::Vector3d& p_map) {
   const double patch =
       0.5 + 0.5 * std::erf(gradient_noise(seed_ + 9, p_map.x() / 2.5, p_map.y() / 2.5) / std::sqrt(2.0));
   if (patch < errors_.untextured_share || unit_of(random_()) < errors_.lost_points) return;
-  const Eigen::Vector3d camera(stand.camera.x(), stand.camera.y(), stand.camera_z);
+  const Eigen::Vector3d camera(viewpoint.camera.x(), viewpoint.camera.y(), viewpoint.camera_z);
   Eigen::Vector3d ray = p_map - camera;
   const double d = ray.norm();
   const double sigma = errors_.depth_sigma_per_m2 * d * d;
   ray *= 1.0 + (normal(sigma) + errors_.depth_bias_per_m2 * d * d) / d;
   Eigen::Vector3d p = camera + ray;
-  const Eigen::Vector2d flat = Eigen::Rotation2Dd(-stand.azimuth_rad) * ray.head<2>();
-  p.z() += flat.x() * stand.pitch_error_rad + flat.y() * stand.roll_error_rad + height_drift_m_;
+  const Eigen::Vector2d flat = Eigen::Rotation2Dd(-viewpoint.azimuth_rad) * ray.head<2>();
+  p.z() += flat.x() * viewpoint.pitch_error_rad + flat.y() * viewpoint.roll_error_rad + height_drift_m_;
   const Eigen::Vector2d in_odom = T_odom_body_ * (T_map_body_.inverse() * Eigen::Vector2d(p.x(), p.y()));
   const CellIndex cell = map_.index_of(in_odom.x(), in_odom.y());
   if (!map_.contains(cell)) return;

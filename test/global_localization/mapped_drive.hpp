@@ -1,6 +1,5 @@
-// A drive over the simulated world, and the elevation maps that mapping would build along it: what a NavCam sees from
-// where the rover stands (hidden ground, patches without texture, lost points and pictures), with stereo's errors,
-// attitude errors and a drifting odometry.
+// Simulated drive with the elevation maps that mapping would build: NavCam visibility (occlusion, textureless patches,
+// lost points and images), stereo errors, attitude errors and odometry drift.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -12,13 +11,13 @@
 
 namespace rover::global::test {
 
-// Odometry: about 1.5 times what localization did in a recorded drive of 107 m among rocks (over 40 m: 0.04 m along and
-// across, 0.02 deg, 0.017 m in height; roll and pitch wrong by 0.05 deg).
+// Odometry errors: about 1.5 times those of a recorded 107 m drive among rocks (over 40 m: 0.04 m along and across,
+// 0.02 deg, 0.017 m in height; roll and pitch 0.05 deg).
 struct DriveErrors {
   double depth_sigma_per_m2 = 0.001;  // 0.2 px at a baseline of 0.24 m and a focal length of 818 px
   double depth_bias_per_m2 = 0.0005;  // calibration
-  double attitude_sigma_rad = 0.001;  // of each picture
-  double scale_sigma = 0.0015;        // one error of scale for the drive
+  double attitude_sigma_rad = 0.001;  // per image
+  double scale_sigma = 0.0015;        // constant scale error of the drive
   double yaw_walk_rad_rtm = 0.00015;
   double height_walk_m_rtm = 0.003;
   double untextured_share = 0.08;
@@ -29,7 +28,7 @@ struct DriveErrors {
 struct Line {
   Eigen::Vector2d start = Eigen::Vector2d::Zero();
   double heading_rad = 0.0;
-  double wave_m = 6.0;  // to each side
+  double wave_m = 6.0;  // amplitude
   double wave_length_m = 50.0;
 
   Eigen::Vector2d at(double s_m) const;
@@ -39,7 +38,7 @@ class MappedDrive {
  public:
   MappedDrive(const Surface& world, const Line& line, const DriveErrors& errors, std::uint64_t seed);
 
-  // Half a metre on, with a picture.
+  // Drives 0.5 m and takes an image.
   void advance();
 
   const ElevationView& view() const { return view_; }  // 20 x 20 m about the rover, in odom
@@ -47,7 +46,7 @@ class MappedDrive {
   const Eigen::Isometry2d& T_odom_body() const { return T_odom_body_; }
   Eigen::Isometry2d T_map_odom() const { return T_map_body_ * T_odom_body_.inverse(); }
   double driven_m() const { return s_m_; }
-  // True places of the ground that has been seen within the distance along x and y from the rover, one each half metre.
+  // True positions of the terrain observed within this distance along x and y, on a 0.5 m grid.
   std::vector<Eigen::Vector2d> seen_ground(double reach_m) const;
 
  private:
@@ -55,13 +54,13 @@ class MappedDrive {
     float z = 0.0f, variance = 0.0f;
     bool seen = false;
   };
-  struct Stand;  // camera and attitude of one picture
+  struct Viewpoint;  // camera pose of one image
 
   double normal(double sigma);
   void move(double step_m);
   void look(double pan_rad);
-  void look_along(const Stand& stand, double azimuth_rad);
-  void measure(const Stand& stand, const Eigen::Vector3d& p_map);
+  void look_along(const Viewpoint& viewpoint, double azimuth_rad);
+  void measure(const Viewpoint& viewpoint, const Eigen::Vector3d& p_map);
   void publish();
 
   const Surface& world_;

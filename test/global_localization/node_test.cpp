@@ -10,7 +10,7 @@
 #include "common/geo/elevation_map.hpp"
 #include "common/geo/geotiff_writer.hpp"
 #include "global_localization/orbital_map_file.hpp"
-#include "test/global_localization/made_ground.hpp"
+#include "test/global_localization/synthetic_terrain.hpp"
 #include "test/stereo/one_node_world.hpp"
 
 namespace rover::global::test {
@@ -54,7 +54,7 @@ class GlobalLocalizationNodeTest : public testing::Test {
     fs::create_directories(dir_);
   }
 
-  // With the orbital map that lies in the run's folder by now.
+  // Uses the orbital map written so far.
   void start(int level = supervisor_state_t::FULL) {
     world_ = std::make_unique<rover::test::OneNodeWorld>("global_localization", dir_.string());
     service_ = make_global_localization(world_->node(), kConfig);
@@ -74,12 +74,12 @@ class GlobalLocalizationNodeTest : public testing::Test {
     world_->send(channel::kState, state, now_);
   }
 
-  // The belief is off by (3, -2) m and 4 deg.
+  // Pose with an error of (3, -2) m and 4 deg.
   pose_t pose() const {
     pose_t message{};
     pose_to(make_pose(Eigen::Matrix3d::Identity(), {place_.x(), place_.y(), 1.0}), message.position_odom_body_m,
             message.quat_odom_body_wxyz);
-    pose_to(from_planar(believed(kTruth, place_, {3.0, -2.0}, to_rad(4.0))), message.position_map_odom_m,
+    pose_to(from_planar(perturbed_transform(kTruth, place_, {3.0, -2.0}, to_rad(4.0))), message.position_map_odom_m,
             message.quat_map_odom_wxyz);
     Matrix6d cov = Matrix6d::Zero();
     cov.diagonal() << 1.0, 1.0, 0.1, 0.001, 0.001, 0.002;
@@ -90,7 +90,7 @@ class GlobalLocalizationNodeTest : public testing::Test {
   elevation_t elevation() const { return message_of(view_of(hills, kTruth, place_)); }
 
   // A pose, and a map 0.1 s old.
-  void give(const pose_t& pose_message, elevation_t map, double age_s = 0.1) {
+  void publish_inputs(const pose_t& pose_message, elevation_t map, double age_s = 0.1) {
     now_ += 1'000'000;
     world_->send(channel::kPose, pose_message, now_ - kTickUs);
     world_->send(channel::kElevation, std::move(map), now_ - to_utime(age_s), now_);
@@ -101,7 +101,7 @@ class GlobalLocalizationNodeTest : public testing::Test {
     for (double s = 0.0; s < metres; s += 4.0) {
       place_.x() += 4.0;
       travelled_m_ += 4.0;
-      give(pose(), elevation());
+      publish_inputs(pose(), elevation());
     }
   }
 
@@ -115,7 +115,7 @@ class GlobalLocalizationNodeTest : public testing::Test {
   double travelled_m_ = 50.0;
 };
 
-TEST_F(GlobalLocalizationNodeTest, FindsTheRoverAfterSomeWayAndAgainAfterMore) {
+TEST_F(GlobalLocalizationNodeTest, CorrectsAfterFirstDistanceAndAgainAfterInterval) {
   write_map();
   start();
   drive(12.0);
@@ -137,7 +137,7 @@ TEST_F(GlobalLocalizationNodeTest, FindsTheRoverAfterSomeWayAndAgainAfterMore) {
   EXPECT_EQ(corrections_.size(), 2u);
 }
 
-TEST_F(GlobalLocalizationNodeTest, IdlesInEfficient) {
+TEST_F(GlobalLocalizationNodeTest, IsIdleAtLevelEfficient) {
   write_map();
   start(supervisor_state_t::EFFICIENT);
   drive(40.0);
@@ -147,22 +147,22 @@ TEST_F(GlobalLocalizationNodeTest, IdlesInEfficient) {
   EXPECT_EQ(corrections_.size(), 1u);
 }
 
-TEST_F(GlobalLocalizationNodeTest, AnAbstentionSaysWhyAndMovesNothing) {
+TEST_F(GlobalLocalizationNodeTest, RejectedCorrectionGivesReasonAndRepeatsPrior) {
   write_map([](double, double) { return 2.0; });
   start();
   drive(16.0);
   ASSERT_EQ(corrections_.size(), 1u);
   EXPECT_EQ(corrections_[0].accepted, 0);
   EXPECT_FALSE(corrections_[0].reason.empty());
-  const Pose2 belief = believed(kTruth, place_, {3.0, -2.0}, to_rad(4.0));
-  EXPECT_NEAR(corrections_[0].x_m, belief.x_m, 1e-9);
-  EXPECT_NEAR(corrections_[0].y_m, belief.y_m, 1e-9);
-  EXPECT_NEAR(corrections_[0].yaw_rad, belief.yaw_rad, 1e-9);
-  drive(8.0);  // tries again sooner than after a fix
+  const Pose2 prior = perturbed_transform(kTruth, place_, {3.0, -2.0}, to_rad(4.0));
+  EXPECT_NEAR(corrections_[0].x_m, prior.x_m, 1e-9);
+  EXPECT_NEAR(corrections_[0].y_m, prior.y_m, 1e-9);
+  EXPECT_NEAR(corrections_[0].yaw_rad, prior.yaw_rad, 1e-9);
+  drive(8.0);  // the retry interval is shorter than after a fix
   EXPECT_EQ(corrections_.size(), 2u);
 }
 
-TEST_F(GlobalLocalizationNodeTest, WithoutAnOrbitalMapItSaysSo) {
+TEST_F(GlobalLocalizationNodeTest, MissingOrbitalMapIsDegradedAndRejected) {
   start();
   drive(16.0);
   ASSERT_EQ(corrections_.size(), 1u);
@@ -173,7 +173,7 @@ TEST_F(GlobalLocalizationNodeTest, WithoutAnOrbitalMapItSaysSo) {
   EXPECT_NE(heartbeats_.back().text.find("orbital_map.tif"), std::string::npos) << heartbeats_.back().text;
 }
 
-TEST_F(GlobalLocalizationNodeTest, BadElevationIsCountedAndChangesNothing) {
+TEST_F(GlobalLocalizationNodeTest, InvalidElevationIsCountedAndIgnored) {
   write_map();
   start();
   drive(12.0);
@@ -183,17 +183,17 @@ TEST_F(GlobalLocalizationNodeTest, BadElevationIsCountedAndChangesNothing) {
   bad[2].origin_x_m = kInfinity;
   bad[3].cell_m = 0.2;
   bad[4].cells_y = -3;
-  for (const elevation_t& map : bad) give(pose(), map);
+  for (const elevation_t& map : bad) publish_inputs(pose(), map);
   now_ += 10'000'000;
-  give(pose(), elevation(), 5.0);   // stale
-  give(pose(), elevation(), -0.5);  // from the future
+  publish_inputs(pose(), elevation(), 5.0);   // stale
+  publish_inputs(pose(), elevation(), -0.5);  // from the future
   EXPECT_EQ(world_->malformed(channel::kElevation), 7);
   drive(4.0);
   ASSERT_EQ(corrections_.size(), 1u);
   EXPECT_EQ(corrections_[0].accepted, 1) << corrections_[0].reason;
 }
 
-TEST_F(GlobalLocalizationNodeTest, EmptyMapsAndPosesOfNoUseGiveNothing) {
+TEST_F(GlobalLocalizationNodeTest, EmptyMapsAndInvalidPosesGiveNoCorrection) {
   write_map();
   start();
   pose_t broken = pose();
@@ -201,20 +201,19 @@ TEST_F(GlobalLocalizationNodeTest, EmptyMapsAndPosesOfNoUseGiveNothing) {
   pose_t lost = pose();
   lost.status = pose_t::LOST;
   for (int k = 0; k < 3; ++k) {
-    give(broken, elevation());
-    give(lost, elevation());
+    publish_inputs(broken, elevation());
+    publish_inputs(lost, elevation());
   }
   EXPECT_TRUE(corrections_.empty());
   for (int k = 0; k < 5; ++k) {
     travelled_m_ += 4.0, place_.x() += 4.0;
-    give(pose(), message_of(view_of(hills, kTruth, place_, [](int, int) { return false; })));
+    publish_inputs(pose(), message_of(view_of(hills, kTruth, place_, [](int, int) { return false; })));
   }
   ASSERT_GE(corrections_.size(), 1u);
   EXPECT_EQ(corrections_[0].reason, "too little ground seen");
 }
 
-// What was seen before lies elsewhere in odom: it would be matched as a ground that is nowhere.
-TEST_F(GlobalLocalizationNodeTest, AJumpOfTheOdometryBeginsTheMemoryAnew) {
+TEST_F(GlobalLocalizationNodeTest, OdometryJumpClearsLocalMap) {
   write_map();
   start();
   drive(12.0);
@@ -226,7 +225,7 @@ TEST_F(GlobalLocalizationNodeTest, AJumpOfTheOdometryBeginsTheMemoryAnew) {
   EXPECT_EQ(corrections_[0].accepted, 1) << corrections_[0].reason;
 }
 
-TEST_F(GlobalLocalizationNodeTest, OrbitalMapsOfNoUseAreNamed) {
+TEST_F(GlobalLocalizationNodeTest, InvalidOrbitalMapIsNamedInError) {
   const std::string file = (dir_ / "orbital_map.tif").string();
   const auto refusal = [&]() -> std::string {
     try {
@@ -260,7 +259,7 @@ TEST_F(GlobalLocalizationNodeTest, OrbitalMapsOfNoUseAreNamed) {
 
 class GlobalLocalizationConfigTest : public testing::Test {};
 
-TEST_F(GlobalLocalizationConfigTest, WrongKeysAndRangesStopTheStart) {
+TEST_F(GlobalLocalizationConfigTest, UnknownKeysAndBadRangesStopStartUp) {
   const fs::path dir = fs::path(testing::TempDir()) / "global_localization_config";
   fs::create_directories(dir);
   const auto write = [&](const std::string& text) { std::ofstream(dir / "global_localization.yaml") << text; };
@@ -274,8 +273,8 @@ TEST_F(GlobalLocalizationConfigTest, WrongKeysAndRangesStopTheStart) {
   }
 }
 
-// On measured terrain: the rover stands on it, the orbital map is coarser and noisy.
-TEST(GlobalLocalizationOnGale, FindsTheRoverOnFeaturedGround) {
+// Measured terrain with a coarser, noisy orbital map.
+TEST(GlobalLocalizationOnGale, CorrectsPoseOnFeaturedTerrain) {
   const ElevationRaster gale = read_elevation_map(kGale).raster;
   const auto height = [&](double x, double y) {
     const double u = x - 0.5, v = y - 0.5;
@@ -290,9 +289,9 @@ TEST(GlobalLocalizationOnGale, FindsTheRoverOnFeaturedGround) {
   GlobalLocalization core(config.core, orbital_of(shifted, 1.0, 0.1), kCellM);
   const Pose2 on_map{truth.x_m - 100.0, truth.y_m - 100.0, truth.yaw_rad};
   Eigen::Vector2d p(0.0, 0.0);
-  for (; p.x() <= 48.0; p.x() += 6.0) core.take(view_of(shifted, on_map, p), p);
+  for (; p.x() <= 48.0; p.x() += 6.0) core.add_elevation(view_of(shifted, on_map, p), p);
   p.x() -= 6.0;
-  const Correction c = core.correct({believed(on_map, p, {-5.0, 6.0}, to_rad(-7.0)), p, pose_cov()});
+  const Correction c = core.correct({perturbed_transform(on_map, p, {-5.0, 6.0}, to_rad(-7.0)), p, pose_cov()});
   ASSERT_TRUE(c.accepted) << c.reason;
   EXPECT_LT((transformed(c.T_map_odom, p) - transformed(on_map, p)).norm(), 0.5);
   EXPECT_NEAR(c.T_map_odom.yaw_rad, on_map.yaw_rad, to_rad(1.0));

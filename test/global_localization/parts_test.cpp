@@ -1,14 +1,14 @@
-// The parts: gradients of ground with holes, the memory of what was seen, relief, tries by way.
+// Unit tests of plane fit, local mosaic, expected covariance, search, refinement and schedule.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
 #include <random>
 
-#include "global_localization/place_search.hpp"
+#include "global_localization/attempt_schedule.hpp"
+#include "global_localization/correlation_search.hpp"
 #include "global_localization/refinement.hpp"
 #include "global_localization/terrain_template.hpp"
-#include "global_localization/try_schedule.hpp"
-#include "test/global_localization/made_ground.hpp"
+#include "test/global_localization/synthetic_terrain.hpp"
 
 namespace rover::global::test {
 namespace {
@@ -26,8 +26,7 @@ HeightGrid grid_of(const Height& height, int cells, double cell_m, const Seen& s
   return grid;
 }
 
-// Whatever a hole holds, and however its rim cuts the filter.
-TEST(PlaneField, AnInclineHasItsSlopeBesideHolesToo) {
+TEST(PlaneField, SlopeIsUnbiasedBesideHoles) {
   std::mt19937_64 random(3);
   const auto seen = [&](int column, int row) { return column < 22 + row / 4 && random() % 100 >= 20; };
   const PlaneField field =
@@ -43,7 +42,7 @@ TEST(PlaneField, AnInclineHasItsSlopeBesideHolesToo) {
   EXPECT_LT(known, 1300);
 }
 
-TEST(PlaneField, UnseenGroundHasNoGradient) {
+TEST(PlaneField, UnobservedCellsHaveNoGradient) {
   const PlaneField field = plane_field(
       grid_of([](double, double) { return 1.0; }, 30, 0.5, [](int column, int) { return column < 8; }), {2.0, 0.5});
   for (int row = 0; row < 30; ++row) {
@@ -53,8 +52,8 @@ TEST(PlaneField, UnseenGroundHasNoGradient) {
   EXPECT_EQ(field.known[field.lattice.index(4, 15)], 1);
 }
 
-// A wave's gradient against calculus: the Gaussian damps it by exp(-k^2 sigma^2 / 2).
-TEST(PlaneField, IsTheDerivativeOfTheGaussian) {
+// The Gaussian damps a wave's gradient by exp(-k^2 sigma^2 / 2).
+TEST(PlaneField, EqualsDerivativeOfGaussian) {
   const double k = 2.0 * kPi / 8.0, sigma_m = 1.0;
   const HeightGrid grid = grid_of([&](double x, double) { return std::sin(k * x); }, 60, 0.5);
   const PlaneField field = plane_field(grid, {sigma_m / 0.5, 0.5});
@@ -65,21 +64,21 @@ TEST(PlaneField, IsTheDerivativeOfTheGaussian) {
   }
 }
 
-TEST(LocalMosaic, KeepsWhatLeftTheMapAndForgetsWhatIsFar) {
+TEST(LocalMosaic, KeepsCellsThatLeftTheInputMapUntilOutOfRange) {
   LocalMosaic mosaic(40.0, kCellM);
   const Pose2 T{80.0, 80.0, 0.0};
   for (double x = 0.0; x <= 12.0; x += 4.0) mosaic.add(view_of(hills, T, {x, 0.0}), {x, 0.0}, 0.3);
   const HeightGrid near = mosaic.resampled(0.5);
   double area_m2 = 0.0;
   for (float w : near.weight) area_m2 += 0.25 * w;
-  EXPECT_NEAR(area_m2, 30.0 * 20.0, 1.0);  // from -8, where the memory ends, to 22
+  EXPECT_NEAR(area_m2, 30.0 * 20.0, 1.0);  // x from -8 (mosaic border) to 22
   mosaic.add(view_of(hills, T, {200.0, 0.0}, [](int, int) { return false; }), {200.0, 0.0}, 0.3);
   for (float w : mosaic.resampled(0.5).weight) EXPECT_EQ(w, 0.0f);
 }
 
-TEST(LocalMosaic, TakesMeansOverTheOrbitalMapsCells) {
+TEST(LocalMosaic, DownsamplesByBoxAverage) {
   LocalMosaic mosaic(20.0, kCellM);
-  // A checkerboard of 0.1 m cells means nothing at 0.5 m; every second row is not seen.
+  // A checkerboard of 0.1 m cells averages to 0 at 1 m; every second row is unobserved.
   const Height checks = [](double x, double y) {
     return (std::lround(std::floor(x / kCellM + 1e-6) + std::floor(y / kCellM + 1e-6)) % 2 == 0) ? 0.5 : -0.5;
   };
@@ -96,7 +95,7 @@ TEST(LocalMosaic, TakesMeansOverTheOrbitalMapsCells) {
   EXPECT_GT(seen, 300);
 }
 
-TEST(LocalMosaic, TakesNothingOfNoUse) {
+TEST(LocalMosaic, IgnoresCellsWithLargeOrNanSigma) {
   LocalMosaic mosaic(20.0, kCellM);
   ElevationView view = view_of(hills, {80.0, 80.0, 0.0}, {0.0, 0.0});
   std::fill(view.sigma_m.begin(), view.sigma_m.begin() + 20'000, 1.0f);
@@ -105,14 +104,14 @@ TEST(LocalMosaic, TakesNothingOfNoUse) {
   for (float w : mosaic.resampled(0.5).weight) EXPECT_EQ(w, 0.0f);
 }
 
-// Inverse variances: in the direction of the shift in which the ground tells least, and of a turn.
+// Information (inverse variance) about the least observable shift, and about yaw.
 struct Relief {
   double shift_m2;
   double turn_m4;
 };
 
 Relief relief_of(const TerrainTemplate& terrain) {
-  const Eigen::Matrix3d covariance = covariance_by_relief(terrain);
+  const Eigen::Matrix3d covariance = expected_covariance(terrain);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> shift(covariance.topLeftCorner<2, 2>());
   return {1.0 / shift.eigenvalues()(1), 1.0 / covariance(2, 2)};
 }
@@ -121,7 +120,7 @@ Relief relief_of(const Height& height) {
   return relief_of(terrain_template(grid_of(height, 60, 0.5), {1.5, 0.5}));
 }
 
-TEST(Relief, EvenGroundSlopesAndFurrowsTellNothing) {
+TEST(Relief, FlatSlopingAndFurrowedTerrainIsUnobservable) {
   EXPECT_LT(relief_of([](double, double) { return 2.0; }).shift_m2, 1e-6);
   EXPECT_LT(relief_of([](double x, double y) { return 0.2 * x + 0.1 * y; }).shift_m2, 1e-6);
   const Relief furrows = relief_of([](double x, double) { return std::sin(x); });
@@ -130,15 +129,14 @@ TEST(Relief, EvenGroundSlopesAndFurrowsTellNothing) {
   EXPECT_LT(relief_of(TerrainTemplate{}).shift_m2, 1e-6);
 }
 
-// A turn changes nothing.
-TEST(Relief, ARoundHillHasNoDirection) {
+TEST(Relief, YawIsUnobservableOnRoundHill) {
   const Relief hill = relief_of(
       [](double x, double y) { return 2.0 * std::exp(-0.02 * (std::pow(x - 12.0, 2) + std::pow(y - 22.0, 2))); });
   EXPECT_LT(hill.turn_m4, 0.1);
 }
 
-// Of z = a sin(kx) sin(ky) a shift by one metre changes a^2 k^2 / 4 on the mean of squares.
-TEST(Relief, IsTheChangeByAShift) {
+// For z = a sin(kx) sin(ky) the mean square height change per metre of shift is a^2 k^2 / 4.
+TEST(Relief, InformationEqualsMeanSquareHeightChangePerMetre) {
   const double a = 0.5, k = 2.0 * kPi / 10.0, damping = std::exp(-k * k * 0.75 * 0.75);
   const double mean = a * a * k * k / 4.0 * damping * damping;  // of a wave along the diagonal
   const TerrainTemplate terrain = terrain_template(
@@ -146,8 +144,7 @@ TEST(Relief, IsTheChangeByAShift) {
   EXPECT_NEAR(relief_of(terrain).shift_m2 / terrain.area_m2(), mean, 0.15 * mean);
 }
 
-// Cells of either map that are not known count in no sum: the score is that of the others, and the place is found.
-TEST(PlaceSearch, ComparesOnlyWhatBothMapsKnow) {
+TEST(CorrelationSearch, ComparesOnlyCellsValidInBothMaps) {
   const auto holed = [](int column, int row) { return (column / 9 + row / 9) % 3 != 0; };
   const HeightGrid local = grid_of(hills, 50, 0.5);
   const TerrainTemplate terrain = terrain_template(local, {1.5, 0.5});
@@ -161,20 +158,20 @@ TEST(PlaceSearch, ComparesOnlyWhatBothMapsKnow) {
       }
     SearchWindow window;
     window.prior = {terrain.center_odom + Eigen::Vector2d(3.0, -2.0), 0.0};
-    window.reach_m = 6.0;
+    window.half_width_m = 6.0;
     window.min_overlap = 0.4;
-    const std::vector<Peak> peaks = find_peaks(OrbitalPart(plane_field(map, {1.5, 0.5})), terrain, window, 4.0, 3);
+    const std::vector<Peak> peaks = find_peaks(OrbitalSection(plane_field(map, {1.5, 0.5})), terrain, window, 4.0, 3);
     EXPECT_FALSE(peaks.empty());
     return peaks.empty() ? Peak{} : peaks.front();
   };
   const Peak whole = peak_on(all_seen), part = peak_on(holed);
   EXPECT_GT(whole.score, 0.99);
   EXPECT_GT(part.score, 0.97);
-  EXPECT_LT((part.placement.center_map - terrain.center_odom).norm(), 0.6);
+  EXPECT_LT((part.pose.center_map - terrain.center_odom).norm(), 0.6);
 }
 
-// On a bowl a tilt is a shift, but for the hills in it: odometry's height has wandered by 4 cm over the local map.
-TEST(Refinement, ATiltOfTheLocalMapIsNoShift) {
+// On a bowl, a tilt looks like a shift. Height drift here: 4 cm over the local map.
+TEST(Refinement, TiltOfLocalMapDoesNotBiasPosition) {
   const auto bowl = [](double x, double y) {
     return hills(x, y) + 0.005 * (std::pow(x - 9.0, 2) + std::pow(y - 19.0, 2));
   };
@@ -187,25 +184,25 @@ TEST(Refinement, ATiltOfTheLocalMapIsNoShift) {
     for (int column = 0; column < 130; ++column)
       map.z_m.push_back(static_cast<float>(bowl(map.lattice.center_x_m(column), map.lattice.center_y_m(row))));
   map.weight.assign(map.z_m.size(), 1.0f);
-  const OrbitalPart orbital(plane_field(map, filter));
-  const auto error_m = [&](const BendConfig& bend) {
-    terrain.stiffness = stiffness_of(terrain, bend, 0.01 * 0.25);
-    const Placement start{terrain.center_odom + Eigen::Vector2d(0.4, -0.3), 0.01};
-    return (refined(orbital, terrain, start, 100, {}).placement.center_map - terrain.center_odom).norm();
+  const OrbitalSection orbital(plane_field(map, filter));
+  const auto error_m = [&](const DriftConfig& drift) {
+    terrain.drift_information = drift_information(terrain, drift, 0.01 * 0.25);
+    const CandidatePose start{terrain.center_odom + Eigen::Vector2d(0.4, -0.3), 0.01};
+    return (refine(orbital, terrain, start, 100, {}).pose.center_map - terrain.center_odom).norm();
   };
   EXPECT_LT(error_m({to_rad(0.04), 0.01}), 0.01);
   EXPECT_GT(error_m({to_rad(1e-4), 1e-5}), 0.02);
 }
 
-TEST(TrySchedule, ComesWithTheWay) {
-  TrySchedule schedule({10.0, 20.0, 5.0});
+TEST(AttemptSchedule, AttemptsAreDueByDistanceDriven) {
+  AttemptSchedule schedule({10.0, 20.0, 5.0});
   EXPECT_FALSE(schedule.due(300.0));  // the first map, late in a drive
   EXPECT_FALSE(schedule.due(309.9));
   EXPECT_TRUE(schedule.due(310.0));
-  schedule.tried(310.0, false);
+  schedule.record_attempt(310.0, false);
   EXPECT_FALSE(schedule.due(314.9));
   EXPECT_TRUE(schedule.due(315.0));
-  schedule.tried(315.0, true);
+  schedule.record_attempt(315.0, true);
   EXPECT_FALSE(schedule.due(334.9));
   EXPECT_TRUE(schedule.due(335.0));
   schedule.restart();

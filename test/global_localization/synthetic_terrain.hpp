@@ -1,4 +1,4 @@
-// Ground made from a formula, as an orbital map and as what a rover sees of it.
+// Analytic terrain, as an orbital map and as the rover's local elevation map.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -47,7 +47,7 @@ inline bool all_seen(int, int) {
   return true;
 }
 
-// 20 x 20 m about the rover, aligned with odom, 5 m higher than the map has it: odom knows no heights of the map.
+// 20 x 20 m around the rover, aligned with odom, 5 m above the map's heights because odom has its own datum.
 inline ElevationView view_of(const Height& height, const Pose2& T_map_odom, const Eigen::Vector2d& p_odom_body,
                              const Seen& seen = all_seen) {
   ElevationView view;
@@ -64,9 +64,9 @@ inline ElevationView view_of(const Height& height, const Pose2& T_map_odom, cons
   return view;
 }
 
-// The transform that is believed: off at the rover by (dx, dy) in map, and turned about it.
-inline Pose2 believed(const Pose2& truth, const Eigen::Vector2d& p_odom_body, const Eigen::Vector2d& off_m,
-                      double turn_rad) {
+// T_map_odom with an error at the rover: offset in map, and rotation about the rover.
+inline Pose2 perturbed_transform(const Pose2& truth, const Eigen::Vector2d& p_odom_body, const Eigen::Vector2d& off_m,
+                                 double turn_rad) {
   const double yaw = truth.yaw_rad + turn_rad;
   const Eigen::Vector2d t = transformed(truth, p_odom_body) + off_m - Eigen::Rotation2Dd(yaw) * p_odom_body;
   return {t.x(), t.y(), yaw};

@@ -1,0 +1,36 @@
+// Schedules correction attempts by distance driven: after the first map, after a fix, sooner after a rejection.
+#pragma once
+
+namespace rover::global {
+
+struct ScheduleConfig {
+  double first_m = 10.0;
+  double every_m = 20.0;
+  double retry_m = 5.0;
+};
+
+class AttemptSchedule {
+ public:
+  explicit AttemptSchedule(const ScheduleConfig& config) : config_(config) {}
+
+  // `travelled_m`: total distance driven.
+  bool due(double travelled_m) {
+    if (!started_) {
+      started_ = true;
+      next_m_ = travelled_m + config_.first_m;
+    }
+    return travelled_m >= next_m_;
+  }
+  void record_attempt(double travelled_m, bool accepted) {
+    next_m_ = travelled_m + (accepted ? config_.every_m : config_.retry_m);
+  }
+  // The local map was cleared.
+  void restart() { started_ = false; }
+
+ private:
+  ScheduleConfig config_;
+  bool started_ = false;
+  double next_m_ = 0.0;
+};
+
+}  // namespace rover::global
