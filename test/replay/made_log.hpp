@@ -1,4 +1,4 @@
-// A small log: a world that measures, and a service that answers one tick later.
+// A small log: a world that publishes IMU, and a service that replies one tick later.
 #pragma once
 
 #include <lcm/lcm-cpp.hpp>
@@ -13,14 +13,12 @@
 
 namespace rover::replay {
 
-// At each tick k = 1 .. count, 20 ms apart from 1 s on: the world's IMU with dt_s = k, and what the service "echo" said
-// one tick before: SLIP with slip_ratio = k - 1.
+// For each tick k = 1 .. count (20 ms apart, from 1 s): IMU with dt_s = k, and SLIP of "echo" with slip_ratio = k - 1.
 class MadeLog {
  public:
   static Utime tick_time(int k) { return 1'000'000 + (k - 1) * kTickUs; }
 
-  // mode "a": behind what the file holds already, as `cat` puts logs together. From tick `jump_at` on the clock is set
-  // by `jump`.
+  // mode "a": append to the file, as `cat` joins logs. From tick `jump_at` on, the clock is shifted by `jump`.
   MadeLog(const std::string& path, int count, const char* mode = "w", int jump_at = 0, Utime jump = 0)
       : path_(path), log_(path, mode), world_("world", 1), echo_("echo", 1) {
     for (int k = 1; k <= count; ++k) {

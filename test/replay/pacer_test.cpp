@@ -7,7 +7,7 @@
 namespace rover::replay {
 namespace {
 
-TEST(Pacer, follows_the_clock_at_its_speed) {
+TEST(Pacer, FollowsClockAtPlaybackSpeed) {
   Pacer pacer(2.0);
   pacer.go_from(1'000'000, 50.0);
   EXPECT_DOUBLE_EQ(pacer.wait_s(1'000'000, 50.0), 0.0);
@@ -16,7 +16,7 @@ TEST(Pacer, follows_the_clock_at_its_speed) {
   EXPECT_DOUBLE_EQ(pacer.wait_s(3'000'000, 52.0), 0.0);  // late: due at once
 }
 
-TEST(Pacer, message_time_stands_still_in_a_pause) {
+TEST(Pacer, MessageTimeStopsDuringPause) {
   Pacer pacer(1.0);
   pacer.go_from(0, 0.0);
   pacer.pause(1.0);
@@ -25,7 +25,7 @@ TEST(Pacer, message_time_stands_still_in_a_pause) {
   EXPECT_DOUBLE_EQ(pacer.wait_s(1'500'000, 10.0), 0.5);
 }
 
-TEST(Pacer, a_change_of_speed_makes_no_jump) {
+TEST(Pacer, SpeedChangeCausesNoJump) {
   Pacer pacer(1.0);
   pacer.go_from(0, 0.0);
   pacer.set_speed(4.0, 2.0);
@@ -33,7 +33,7 @@ TEST(Pacer, a_change_of_speed_makes_no_jump) {
   EXPECT_DOUBLE_EQ(pacer.wait_s(6'000'000, 2.0), 1.0);
 }
 
-TEST(Pacer, speed_zero_never_waits) {
+TEST(Pacer, SpeedZeroNeverWaits) {
   Pacer pacer(0.0);
   pacer.go_from(0, 0.0);
   EXPECT_DOUBLE_EQ(pacer.wait_s(3'600'000'000, 0.0), 0.0);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr char kBus[] = "udpm://239.255.76.67:21763?ttl=0&recv_buf_size=4194304";
 
-// The service of the log: SLIP with the IMU's dt_s as slip ratio; from `odd_from` on with another one.
+// Service under test: publishes SLIP with the IMU's dt_s as slip ratio; from `odd_from` on a different value.
 class Echo {
  public:
   explicit Echo(double odd_from = 1e9)
@@ -44,38 +44,38 @@ class PlayerTest : public testing::Test {
  protected:
   PlayerTest() { const MadeLog log(path_, 200); }
 
-  std::vector<StreamVerdict> check(double odd_from) {
+  std::vector<StreamComparison> check(double odd_from) {
     const Echo echo(odd_from);
     RecordedLog log(path_);
     lcm::LCM bus(kBus), reports(reports_url(kBus));
-    Comparison judge;
-    Player player({.live = {"echo"}, .speed = 0.0}, log, bus, reports, &judge);
-    const Played played = player.play({});
+    Comparison comparison;
+    Player player({.live = {"echo"}, .speed = 0.0}, log, bus, reports, &comparison);
+    const PlayResult played = player.play({});
     EXPECT_EQ(played.first, MadeLog::tick_time(1));
     EXPECT_EQ(played.last, MadeLog::tick_time(200));
-    return judge.finish(played.last);
+    return comparison.finish(played.last);
   }
 
   testing_support::TempFolder folder_;
   std::string path_ = folder_.file("made.lcm");
 };
 
-TEST_F(PlayerTest, a_live_service_says_again_what_it_said) {
-  const auto verdicts = check(1e9);
-  ASSERT_EQ(verdicts.size(), 1U);
-  EXPECT_EQ(verdicts[0].publisher, "echo");
-  EXPECT_EQ(verdicts[0].identical, 199);
-  EXPECT_FALSE(verdicts[0].first);
+TEST_F(PlayerTest, IdenticalLiveServiceShowsNoDifference) {
+  const auto results = check(1e9);
+  ASSERT_EQ(results.size(), 1U);
+  EXPECT_EQ(results[0].publisher, "echo");
+  EXPECT_EQ(results[0].identical, 199);
+  EXPECT_FALSE(results[0].first);
 }
 
-TEST_F(PlayerTest, a_service_that_says_other_things_is_found_out) {
+TEST_F(PlayerTest, DifferentLiveServiceIsDetected) {
   const auto first = first_of(check(120.0));
   ASSERT_TRUE(first);
   EXPECT_EQ(first->name.seq, 120);
   EXPECT_EQ(first->kind, Difference::Kind::kContent);
 }
 
-// What a log played alone puts on a bus in memory.
+// Everything that is published on an in-memory bus when a log is played without live services.
 struct Heard {
   std::vector<std::string> channels;
   std::vector<Utime> ticks;
@@ -100,7 +100,7 @@ Heard play_alone(RecordedLog& log, const PlayerOptions& options, PlayerHooks hoo
   return heard;
 }
 
-TEST_F(PlayerTest, without_live_services_everything_comes_as_recorded) {
+TEST_F(PlayerTest, WithoutLiveServicesMessagesAreAsRecorded) {
   RecordedLog log(path_);
   const Heard heard = play_alone(log, {.speed = 0.0});
   ASSERT_EQ(heard.channels.size(), 3 * 200 - 1U);
@@ -110,33 +110,33 @@ TEST_F(PlayerTest, without_live_services_everything_comes_as_recorded) {
   EXPECT_EQ(heard.ticks, log.ticks());
 }
 
-TEST_F(PlayerTest, plays_from_and_until) {
+TEST_F(PlayerTest, PlaysFromAndUntil) {
   RecordedLog log(path_);
   const Heard heard = play_alone(log, {.speed = 0.0, .from = MadeLog::tick_time(50), .until = MadeLog::tick_time(60)});
   ASSERT_EQ(heard.ticks.size(), 11U);
   EXPECT_EQ(heard.ticks.front(), MadeLog::tick_time(50));
 }
 
-// At the speed of the clock: the test would last for days.
-TEST_F(PlayerTest, a_gap_of_days_is_passed_in_one_step) {
+// Paced by the clock: without the jump this test would take days.
+TEST_F(PlayerTest, GapOfDaysIsSkippedInOneStep) {
   { const MadeLog jumps(path_, 10, "w", 6, 3 * Utime{86'400'000'000}); }
   RecordedLog log(path_);
   EXPECT_EQ(play_alone(log, {.speed = 1.0}).ticks, log.ticks());
   const Echo echo;
   lcm::LCM bus(kBus), reports(reports_url(kBus));
-  Comparison judge;
-  Player player({.live = {"echo"}, .speed = 1.0}, log, bus, reports, &judge);
-  const Played played = player.play({});
+  Comparison comparison;
+  Player player({.live = {"echo"}, .speed = 1.0}, log, bus, reports, &comparison);
+  const PlayResult played = player.play({});
   EXPECT_EQ(played.last, log.ticks().back());
   EXPECT_FALSE(played.quit);
 }
 
-TEST_F(PlayerTest, keys_seek_both_ways_and_end) {
+TEST_F(PlayerTest, KeysSeekBothDirectionsAndQuit) {
   { const MadeLog longer(path_, 2000); }
   RecordedLog log(path_);
   int count = 0;
   PlayerHooks hooks;
-  // The keys come before the ticks 3, 4, 5 ... of those that are played.
+  // The keys arrive before the played ticks 3, 4, 5 ...
   hooks.key = [&]() -> std::optional<Key> {
     ++count;
     if (count == 3) return Key::kForward;

@@ -34,7 +34,7 @@ class RecordedLogTest : public testing::Test {
   TempFolder folder_;
 };
 
-TEST_F(RecordedLogTest, gives_the_messages_before_each_tick) {
+TEST_F(RecordedLogTest, GroupsMessagesBeforeEachTick) {
   RecordedLog log(made(3));
   EXPECT_EQ(log.ticks(), (std::vector<Utime>{1'000'000, 1'020'000, 1'040'000}));
   const auto first = log.next();
@@ -50,7 +50,7 @@ TEST_F(RecordedLogTest, gives_the_messages_before_each_tick) {
   EXPECT_FALSE(log.next());
 }
 
-TEST_F(RecordedLogTest, seeks_to_the_first_tick_not_before_the_time) {
+TEST_F(RecordedLogTest, SeeksToFirstTickAtOrAfterTime) {
   RecordedLog log(made(10));
   log.seek(1'050'000);
   EXPECT_EQ(log.next()->tick, 1'060'000);
@@ -60,7 +60,7 @@ TEST_F(RecordedLogTest, seeks_to_the_first_tick_not_before_the_time) {
   EXPECT_EQ(log.next()->tick, 1'180'000);
 }
 
-TEST_F(RecordedLogTest, knows_its_streams) {
+TEST_F(RecordedLogTest, ReportsStreamsPerProcess) {
   const RecordedLog log(made(5));
   ASSERT_EQ(log.streams().size(), 3U);
   const RecordedStream& slip = log.streams()[1];
@@ -71,7 +71,7 @@ TEST_F(RecordedLogTest, knows_its_streams) {
   EXPECT_TRUE(boots_of(log, "stereo").empty());
 }
 
-TEST_F(RecordedLogTest, a_cut_log_ends_with_its_last_whole_tick) {
+TEST_F(RecordedLogTest, TruncatedLogEndsAtLastCompleteTick) {
   const std::string path = made(5);
   std::filesystem::resize_file(path, std::filesystem::file_size(path) - 10);
   const RecordedLog log(path);
@@ -80,7 +80,7 @@ TEST_F(RecordedLogTest, a_cut_log_ends_with_its_last_whole_tick) {
   EXPECT_EQ(log.left_messages(), 2) << "behind the last whole tick";
 }
 
-TEST_F(RecordedLogTest, goes_on_in_the_next_part) {
+TEST_F(RecordedLogTest, ContinuesInNextPart) {
   const std::string path = made(6);
   const auto size = std::filesystem::file_size(path);
   // Cut between two records: the third TICK and what follows it.
@@ -110,7 +110,7 @@ TEST_F(RecordedLogTest, goes_on_in_the_next_part) {
   EXPECT_EQ(log.next()->tick, MadeLog::tick_time(2));
 }
 
-TEST_F(RecordedLogTest, a_log_of_several_runs_is_played_run_by_run) {
+TEST_F(RecordedLogTest, LogOfSeveralRunsIsPlayedByRun) {
   const std::string path = made(5);
   { const MadeLog second(path, 3, "a"); }
   EXPECT_EQ(refusal(path),
@@ -127,7 +127,7 @@ TEST_F(RecordedLogTest, a_log_of_several_runs_is_played_run_by_run) {
   EXPECT_EQ(RecordedLog(path, 1).ticks().size(), 5U);
 }
 
-TEST_F(RecordedLogTest, goes_on_behind_a_damaged_record) {
+TEST_F(RecordedLogTest, ContinuesAfterDamagedRecord) {
   const std::string path = made(5);
   std::int64_t begin = 0;
   for_each_event(path,
@@ -140,7 +140,7 @@ TEST_F(RecordedLogTest, goes_on_behind_a_damaged_record) {
            "goes on behind it; remarks: " + folder_.short_names(remarks(log.run()).front()));
 }
 
-TEST_F(RecordedLogTest, counts_what_cannot_be_sent) {
+TEST_F(RecordedLogTest, CountsMessagesThatCannotBeSent) {
   const std::string path = made(3);
   {
     lcm::LogFile file(path, "a");
@@ -158,7 +158,7 @@ TEST_F(RecordedLogTest, counts_what_cannot_be_sent) {
   EXPECT_EQ(log.next()->messages.front().channel, "/foreign");
 }
 
-TEST_F(RecordedLogTest, refuses_what_is_no_log) {
+TEST_F(RecordedLogTest, RefusesFilesThatAreNotLogs) {
   EXPECT_THROW(RecordedLog(folder_.file("absent.lcm")), ConfigError);
   std::ofstream(folder_.file("text.lcm")) << "this is no log of a rover, and it is longer than a header of one\n";
   EXPECT_THROW(RecordedLog(folder_.file("text.lcm")), ConfigError);

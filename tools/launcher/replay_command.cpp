@@ -19,9 +19,9 @@
 #include "tools/launcher/run_folder.hpp"
 #include "tools/launcher/run_report.hpp"
 #include "tools/launcher/s6_tree.hpp"
+#include "tools/replay/comparison_text.hpp"
 #include "tools/replay/field_difference.hpp"
 #include "tools/replay/player.hpp"
-#include "tools/replay/verdict_text.hpp"
 
 namespace rover {
 namespace fs = std::filesystem;
@@ -205,8 +205,8 @@ class Watch {
   bool fine_ = true;
 };
 
-replay::Played play_once(const Plan& plan, RecordedLog& log, const std::string& bus_url, Watch& watch,
-                         const replay::Keyboard& keyboard, replay::Comparison* judge) {
+replay::PlayResult play_once(const Plan& plan, RecordedLog& log, const std::string& bus_url, Watch& watch,
+                             const replay::Keyboard& keyboard, replay::Comparison* judge) {
   lcm::LCM bus(bus_url);
   lcm::LCM reports(reports_url(bus_url));
   if (!bus.good() || !reports.good()) throw ConfigError("bus: cannot join " + bus_url);
@@ -221,7 +221,7 @@ replay::Played play_once(const Plan& plan, RecordedLog& log, const std::string& 
 
 // For ./rover report: the facts of the recorded run, and what the replay adds.
 void write_run_json(const Plan& plan, const RunArguments& arguments, const RunFolder& folder,
-                    const replay::Played& played) {
+                    const replay::PlayResult& played) {
   std::ifstream in(plan.log_dir + "/run.json");
   nlohmann::json facts = nlohmann::json::parse(in, nullptr, false);
   if (!facts.is_object()) facts = {{"scenario", plan.name}};
@@ -234,9 +234,9 @@ void write_run_json(const Plan& plan, const RunArguments& arguments, const RunFo
   write_json(folder.dir + "/run.json", facts);
 }
 
-int tell_verdict(const Plan& plan, replay::Comparison& judge, const replay::Played& played) {
+int tell_verdict(const Plan& plan, replay::Comparison& judge, const replay::PlayResult& played) {
   const auto verdicts = judge.finish(played.last);
-  std::printf("%s", replay::verdict_table(verdicts, replay::field_difference).c_str());
+  std::printf("%s", replay::comparison_table(verdicts, replay::field_difference).c_str());
   std::int64_t identical = 0;
   for (const auto& verdict : verdicts) identical += verdict.identical;
   const auto first = replay::first_of(verdicts);
@@ -260,7 +260,7 @@ int play_live(const ReplayArguments& arguments, const Plan& plan, RecordedLog& l
   write_s6_tree(folder.dir, service_commands(plan), plan.injects);
   set_boots(plan, log, folder);
   replay::Comparison judge;
-  replay::Played played;
+  replay::PlayResult played;
   Watch watch(folder.dir);
   std::string gone;
   {

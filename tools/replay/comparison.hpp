@@ -1,4 +1,4 @@
-// What services say now against what they said when the log was recorded, byte by byte.
+// Compares the messages of live services with those of the recorded log, byte by byte.
 #pragma once
 
 #include <cstdint>
@@ -14,45 +14,45 @@ namespace rover::replay {
 
 using Bytes = std::vector<std::uint8_t>;
 
-// One message as its header names it.
+// Header fields that identify a message.
 struct MessageName {
   std::string channel;
   std::string publisher;
   std::int64_t boot_id = 0;
   std::int64_t seq = 0;
-  Utime utime = kNever;    // measurement
-  Utime release = kNever;  // of the recorded one where there is one
+  Utime utime = kNever;    // measurement time
+  Utime release = kNever;  // release time of the recorded message, else of the live one
 
   auto stream() const { return std::tie(channel, publisher); }
 };
 
-// The first difference of one stream.
+// First difference of one stream (channel and publisher).
 struct Difference {
-  enum class Kind { kContent, kMissingNow, kNotInLog };
+  enum class Kind { kContent, kMissingLive, kNotInLog };
   Kind kind = Kind::kContent;
   MessageName name;
-  Bytes then;  // empty: not in the log
-  Bytes now;   // empty: not said now
+  Bytes recorded;  // empty: not in the log
+  Bytes live;      // empty: not published live
 };
 
-struct StreamVerdict {
+struct StreamComparison {
   std::string channel;
   std::string publisher;
-  std::int64_t identical = 0;  // messages, before the first difference
+  std::int64_t identical = 0;  // messages before the first difference
   std::optional<Difference> first;
 };
 
 class Comparison {
  public:
-  // Either side first; a message that both have said is settled at once.
-  void recorded(const MessageName& name, const Bytes& bytes) { take(name, bytes, true); }
-  void said_now(const MessageName& name, const Bytes& bytes) { take(name, bytes, false); }
+  // The two sides may arrive in any order; a message is compared when both are present.
+  void add_recorded(const MessageName& name, const Bytes& bytes) { add(name, bytes, true); }
+  void add_live(const MessageName& name, const Bytes& bytes) { add(name, bytes, false); }
 
-  // The verdicts by channel and publisher. What only one side has said counts where its release is not after `end`.
-  std::vector<StreamVerdict> finish(Utime end);
+  // Results by channel and publisher. Messages of one side alone are differences if released at or before `end`.
+  std::vector<StreamComparison> finish(Utime end);
 
  private:
-  struct Waiting {
+  struct Unmatched {
     MessageName name;
     Bytes bytes;
     bool recorded;
@@ -61,15 +61,15 @@ class Comparison {
   struct Stream {
     std::int64_t identical = 0;
     std::optional<Difference> first;
-    std::map<Id, Waiting> waiting;  // one side has said these
+    std::map<Id, Unmatched> unmatched;  // messages of one side that wait for the other
   };
-  void take(const MessageName& name, const Bytes& bytes, bool recorded);
-  static void settle(Stream& stream, const Waiting& one, const Waiting& other);
+  void add(const MessageName& name, const Bytes& bytes, bool recorded);
+  static void compare(Stream& stream, const Unmatched& one, const Unmatched& other);
 
   std::map<std::pair<std::string, std::string>, Stream> streams_;
 };
 
-// The earliest by release, then by channel; nothing where all is alike.
-std::optional<Difference> first_of(const std::vector<StreamVerdict>& verdicts);
+// The earliest by release time, then by channel; empty if all messages are identical.
+std::optional<Difference> first_of(const std::vector<StreamComparison>& results);
 
 }  // namespace rover::replay

@@ -21,10 +21,11 @@ Leaves leaves_of(const std::string& channel, const Bytes& bytes) {
 }  // namespace
 
 std::string field_difference(const Difference& difference) {
-  const Leaves then = leaves_of(difference.name.channel, difference.then);
-  const Leaves now = leaves_of(difference.name.channel, difference.now);
-  for (size_t i = 0; i < then.size() && i < now.size(); ++i)
-    if (then[i] != now[i]) return then[i].first + " is " + then[i].second + " in the log, " + now[i].second + " now";
+  const Leaves recorded = leaves_of(difference.name.channel, difference.recorded);
+  const Leaves live = leaves_of(difference.name.channel, difference.live);
+  for (size_t i = 0; i < recorded.size() && i < live.size(); ++i)
+    if (recorded[i] != live[i])
+      return recorded[i].first + " is " + recorded[i].second + " in the log, " + live[i].second + " now";
   return {};
 }
 

@@ -8,7 +8,7 @@
 namespace rover::replay {
 
 Keyboard::Keyboard() {
-  // A job in the background must not touch the terminal.
+  // A background job must not change the terminal mode.
   if (isatty(STDIN_FILENO) != 1 || tcgetpgrp(STDIN_FILENO) != getpgrp()) return;
   if (tcgetattr(STDIN_FILENO, &before_) != 0) return;
   termios raw = before_;
@@ -25,7 +25,7 @@ Keyboard::~Keyboard() {
 std::optional<Key> Keyboard::take() const {
   if (!there_) return std::nullopt;
   char text[8] = {};
-  const ssize_t count = read(STDIN_FILENO, text, sizeof text - 1);  // an arrow's three bytes come together
+  const ssize_t count = read(STDIN_FILENO, text, sizeof text - 1);  // the three bytes of an arrow key arrive together
   const std::string_view key(text, count > 0 ? static_cast<size_t>(count) : 0);
   if (key == " ") return Key::kPause;
   if (key == "\033[C") return Key::kForward;

@@ -1,4 +1,4 @@
-// Single keys from the terminal, without Enter.
+// Reads single key presses from the terminal, without Enter.
 #pragma once
 
 #include <termios.h>
@@ -11,14 +11,14 @@ enum class Key { kPause, kForward, kBack, kFaster, kSlower, kQuit };
 
 class Keyboard {
  public:
-  // Takes the terminal over until the end of the object, where standard input is one.
+  // Sets the terminal to raw mode until destruction, if standard input is a terminal.
   Keyboard();
   ~Keyboard();
   Keyboard(const Keyboard&) = delete;
   Keyboard& operator=(const Keyboard&) = delete;
 
   bool there() const { return there_; }
-  // A key that waits.
+  // The next key in the queue, if any.
   std::optional<Key> take() const;
 
  private:

@@ -1,4 +1,4 @@
-// Plays a log: its messages in recorded order, tick by tick, without those that live services say themselves.
+// Plays a log tick by tick in recorded order. Messages of live services are muted.
 #pragma once
 
 #include <chrono>
@@ -9,18 +9,18 @@
 #include <string>
 #include <vector>
 
+#include "tools/replay/clock_master.hpp"
 #include "tools/replay/comparison.hpp"
 #include "tools/replay/keyboard.hpp"
 #include "tools/replay/pacer.hpp"
 #include "tools/replay/recorded_log.hpp"
-#include "tools/replay/tick_giver.hpp"
 
 namespace rover::replay {
 
 struct PlayerOptions {
-  std::vector<std::string> live;  // services that run; what they said in the log is muted
+  std::vector<std::string> live;  // running services; their recorded messages are muted
   double speed = 1.0;             // 0: as fast as possible
-  Utime from = kNever;            // first and last tick played; kNever: of the log
+  Utime from = kNever;            // first and last tick to play; kNever: those of the log
   Utime until = kNever;
 };
 
@@ -30,20 +30,20 @@ struct PlayerHooks {
   std::function<void(Utime now, const Pacer& pacer)> show = [](Utime, const Pacer&) {};
 };
 
-struct Played {
-  Utime first = kNever;  // ticks
+struct PlayResult {
+  Utime first = kNever;  // tick times
   Utime last = kNever;
   double wall_s = 0.0;
-  bool quit = false;  // by key, or because it was to stop
+  bool quit = false;  // by key or by request
   double sim_s() const { return to_seconds(last - first); }
 };
 
 class Player {
  public:
-  // `judge` null: nothing is compared.
-  Player(const PlayerOptions& options, RecordedLog& log, lcm::LCM& bus, lcm::LCM& reports, Comparison* judge);
+  // `comparison` null: messages are not compared.
+  Player(const PlayerOptions& options, RecordedLog& log, lcm::LCM& bus, lcm::LCM& reports, Comparison* comparison);
   // Throws ServiceGone.
-  Played play(const PlayerHooks& hooks);
+  PlayResult play(const PlayerHooks& hooks);
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -52,10 +52,10 @@ class Player {
   void play_group(const TickGroup& group, const PlayerHooks& hooks);
   void publish(const LogMessage& message);
   bool wait_until_due(Utime t, const PlayerHooks& hooks);
-  void obey(Key key, Utime t);
-  void go_on_from(Utime t, const PlayerHooks& hooks);
+  void handle_key(Key key, Utime t);
+  void resume_from(Utime t, const PlayerHooks& hooks);
   void seek(Utime t, const PlayerHooks& hooks);
-  void hear();
+  void receive();
   void finish(const PlayerHooks& hooks);
   void on_message(const lcm::ReceiveBuffer* buffer, const std::string& channel);
 
@@ -63,13 +63,13 @@ class Player {
   std::set<std::string> live_;
   RecordedLog& log_;
   lcm::LCM& bus_;
-  Comparison* judge_;
-  TickGiver ticks_;
-  ArrivalLedger heard_;
+  Comparison* comparison_;
+  ClockMaster ticks_;
+  ArrivalLedger arrivals_;
   Pacer pacer_;
   Clock::time_point started_;
   bool quit_ = false;
-  std::optional<Utime> wanted_;  // a seek that was asked for
+  std::optional<Utime> seek_time_;  // requested seek time
 };
 
 }  // namespace rover::replay

@@ -14,7 +14,7 @@
 namespace rover::replay {
 namespace {
 
-// Empty where the message is no tick.
+// Empty if the message is not a valid TICK.
 std::optional<tick_t> tick_of(const LogMessage& message) {
   tick_t tick{};
   if (message.channel != channel::kTick || !message.header) return std::nullopt;
@@ -48,7 +48,7 @@ RecordedLog::RecordedLog(const std::string& log_or_run, int log_run)
   if (run_.last_tick == kNever)
     throw ConfigError(run_.log + ": no log of a rover: it holds no TICK" +
                       (run_.bad_ticks > 0 ? " of this version's type" : ""));
-  look_through();
+  scan();
   seek(ticks_.front());
 }
 
@@ -72,7 +72,7 @@ std::optional<LogMessage> RecordedLog::next_message() {
   return message;
 }
 
-void RecordedLog::look_through() {
+void RecordedLog::scan() {
   std::map<StreamKey, RecordedStream> streams;
   LogPlace group = run_.begin;
   std::int64_t since_tick = 0;
@@ -85,7 +85,7 @@ void RecordedLog::look_through() {
     note(streams, *message);
     ++since_tick;
     const auto tick = tick_of(*message);
-    if (!tick || (!ticks_.empty() && tick->header.utime <= ticks_.back())) continue;  // given again to a late node
+    if (!tick || (!ticks_.empty() && tick->header.utime <= ticks_.back())) continue;  // a tick repeated for a late node
     by_the_clock_ = by_the_clock_ || tick->mode == tick_t::REALTIME;
     ticks_.push_back(tick->header.utime);
     places_.push_back(group);
@@ -105,8 +105,8 @@ std::optional<TickGroup> RecordedLog::next() {
       continue;
     }
     const auto tick = tick_of(*message);
-    if (!tick || tick->header.utime <= given_) continue;
-    group.tick = given_ = tick->header.utime;
+    if (!tick || tick->header.utime <= newest_tick_) continue;
+    group.tick = newest_tick_ = tick->header.utime;
     group.tick_message = std::move(*message);
     return group;
   }
@@ -117,7 +117,7 @@ void RecordedLog::seek(Utime t) {
   const auto it = std::lower_bound(ticks_.begin(), ticks_.end(), t);
   const size_t index = std::min(static_cast<size_t>(it - ticks_.begin()), ticks_.size() - 1);
   open(places_[index]);
-  given_ = index == 0 ? kNever : ticks_[index - 1];
+  newest_tick_ = index == 0 ? kNever : ticks_[index - 1];
 }
 
 std::map<std::int64_t, Utime> boots_of(const RecordedLog& log, const std::string& service) {

@@ -1,4 +1,4 @@
-// A log as replay takes it: tick by tick, each with the messages that belong before it.
+// Reads a log as tick groups: each tick with the messages recorded before it.
 #pragma once
 
 #include <cstdint>
@@ -15,17 +15,17 @@ namespace rover::replay {
 
 struct LogMessage {
   std::string channel;
-  std::optional<header_t> header;  // empty: not readable
+  std::optional<header_t> header;  // empty: header not decodable
   std::vector<std::uint8_t> bytes;
 };
 
 struct TickGroup {
   Utime tick = kNever;
-  std::vector<LogMessage> messages;  // as recorded, TICK excluded
+  std::vector<LogMessage> messages;  // in recorded order, without TICK
   LogMessage tick_message;
 };
 
-// What one process said on one channel.
+// Statistics of one process's messages on one channel.
 struct RecordedStream {
   std::string channel;
   std::string publisher;
@@ -38,42 +38,42 @@ struct RecordedStream {
 
 class RecordedLog {
  public:
-  // Looks through the whole log, all parts of it (event_log.hpp); of one that holds several runs, `log_run` names one
-  // (log_runs.hpp). Throws ConfigError with one line where there is no such run or it holds no ticks.
+  // Scans all parts of the log (event_log.hpp); `log_run` selects a run if there are several (log_runs.hpp). Throws
+  // ConfigError.
   explicit RecordedLog(const std::string& log_or_run, int log_run = 0);
 
   const LogRun& run() const { return run_; }
   const std::vector<Utime>& ticks() const { return ticks_; }
   const std::vector<RecordedStream>& streams() const { return streams_; }
-  // Whether the ticks followed the clock: such a run is not repeated exactly.
+  // True if ticks were paced by the wall clock; such a run is not reproducible.
   bool by_the_clock() const { return by_the_clock_; }
-  // Messages that no group holds: behind the last tick, or on channels with names that LCM does not send.
+  // Messages in no group: after the last tick, or on channels whose names LCM cannot send.
   std::int64_t left_messages() const { return left_messages_; }
 
-  // The group of the next tick; nothing at the end.
+  // The group of the next tick; empty at the end.
   std::optional<TickGroup> next();
-  // next() then gives the first tick not before t.
+  // After this, next() returns the first tick at or after t.
   void seek(Utime t);
 
  private:
-  // From the current place on; empty at the end of the run.
+  // The next record from the current position; empty at the end of the run.
   std::optional<LogMessage> next_message();
   void open(const LogPlace& place);
-  void look_through();
+  void scan();
 
   LogRun run_;
   std::vector<std::string> parts_;
   std::unique_ptr<EventLogReader> reader_;
-  LogPlace place_;  // behind the last message
+  LogPlace place_;  // position after the last message read
   std::vector<Utime> ticks_;
-  std::vector<LogPlace> places_;  // of the first record after the tick before
+  std::vector<LogPlace> places_;  // position of the first record after the previous tick
   std::vector<RecordedStream> streams_;
   bool by_the_clock_ = false;
   std::int64_t left_messages_ = 0;
-  Utime given_ = kNever;  // newest tick
+  Utime newest_tick_ = kNever;  // newest tick returned
 };
 
-// The processes of a service in the order of their starts, with the release of the last message of each.
+// The processes of a service in start order, with the release time of each one's last message.
 std::map<std::int64_t, Utime> boots_of(const RecordedLog& log, const std::string& service);
 
 }  // namespace rover::replay

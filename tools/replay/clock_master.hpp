@@ -1,4 +1,4 @@
-// The giver of ticks of a replay: as the simulator's, for services that are live over a log.
+// Clock master of a replay: publishes TICK and collects DONE of the live services, as the simulator does.
 #pragma once
 
 #include <functional>
@@ -14,29 +14,29 @@
 
 namespace rover::replay {
 
-// A live service died, hangs or did not come up: the replay cannot go on.
+// A live service died, hangs or did not start; the replay cannot continue.
 class ServiceGone : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-class TickGiver {
+class ClockMaster {
  public:
   using Running = std::function<bool()>;
-  // `reports` brings DONE.
-  TickGiver(const std::vector<std::string>& services, lcm::LCM& bus, lcm::LCM& reports);
+  // `reports`: the bus that carries DONE.
+  ClockMaster(const std::vector<std::string>& services, lcm::LCM& bus, lcm::LCM& reports);
 
-  // Waits until every service is up.
+  // Waits until every service is ready.
   void wait_for_start(const Running& running);
-  // A message that the next tick lists.
+  // Registers a published message; the next tick lists it.
   void list(const std::string& channel, const header_t& header);
-  // TICK(t), as soon as all have published what belongs before it.
-  void give(Utime t, const Running& running);
-  // Waits until all have done all work of the last tick.
+  // Publishes TICK(t) after all services have published what precedes it.
+  void publish_tick(Utime t, const Running& running);
+  // Waits until all services have finished the work of the last tick.
   void wait_until_idle(const Running& running);
-  // Message time may go on to t in one step: all are idle.
+  // Lets message time advance to t in one step. All services must be idle.
   void jump(Utime t) { barrier_.allow_until(t); }
-  // The newest message of each stream that the services reported as published.
+  // The newest message of each stream that a service reported as published.
   std::vector<stream_seq_t> reported() const;
 
  private:
@@ -50,7 +50,7 @@ class TickGiver {
   StreamCounter streams_;
   std::vector<stream_seq_t> listed_;
   std::map<ArrivalLedger::Key, stream_seq_t> reported_;
-  std::vector<done_t> dones_;  // whose streams no tick has listed yet
+  std::vector<done_t> dones_;  // their streams are not yet listed by a tick
   std::vector<std::uint8_t> last_tick_;
 };
 

@@ -1,4 +1,4 @@
-#include "tools/replay/tick_giver.hpp"
+#include "tools/replay/clock_master.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -13,8 +13,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kAskAgain_s = 1.0;   // the tick or the report may be lost
-constexpr double kPatience_s = 60.0;  // on a busy machine a frame may take seconds
+constexpr double kRepeatTick_s = 1.0;  // TICK or DONE may be lost: repeat the tick
+constexpr double kTimeout_s = 60.0;    // timeout: a frame may take seconds on a loaded machine
 
 double since_s(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -22,12 +22,12 @@ double since_s(Clock::time_point start) {
 
 }  // namespace
 
-TickGiver::TickGiver(const std::vector<std::string>& services, lcm::LCM& bus, lcm::LCM& reports)
+ClockMaster::ClockMaster(const std::vector<std::string>& services, lcm::LCM& bus, lcm::LCM& reports)
     : bus_(bus), reports_(reports), barrier_(services), streams_("replay", 1) {
-  reports_.subscribe(channel::kDone, &TickGiver::on_done, this)->setQueueCapacity(0);
+  reports_.subscribe(channel::kDone, &ClockMaster::on_done, this)->setQueueCapacity(0);
 }
 
-void TickGiver::on_done(const lcm::ReceiveBuffer* buffer, const std::string&) {
+void ClockMaster::on_done(const lcm::ReceiveBuffer* buffer, const std::string&) {
   done_t done{};
   if (!decode_message(buffer->data, static_cast<int>(buffer->data_size), done)) return;
   const header_t& header = done.header;
@@ -38,30 +38,30 @@ void TickGiver::on_done(const lcm::ReceiveBuffer* buffer, const std::string&) {
   dones_.push_back(std::move(done));
 }
 
-// `missing()`: those for whom to wait.
+// `missing()` returns the services still awaited.
 template <class Missing>
-void TickGiver::wait(const Missing& missing, const Running& running) {
+void ClockMaster::wait(const Missing& missing, const Running& running) {
   const auto started = Clock::now();
-  double asked_at_s = 0.0;
+  double repeated_at_s = 0.0;
   for (std::vector<std::string> names = missing(); !names.empty() && running(); names = missing()) {
     if (reports_.handleTimeout(5) > 0) continue;
     for (const std::string& name : names) {
       const int pid = barrier_.pid_of(name);
       if (pid > 0 && !process_alive(pid)) throw ServiceGone(name + " has died");
-      if (since_s(started) > kPatience_s)
+      if (since_s(started) > kTimeout_s)
         throw ServiceGone(name + (pid > 0 ? " does not answer any more" : " did not start"));
     }
-    if (last_tick_.empty() || since_s(started) - asked_at_s < kAskAgain_s) continue;
-    asked_at_s = since_s(started);
+    if (last_tick_.empty() || since_s(started) - repeated_at_s < kRepeatTick_s) continue;
+    repeated_at_s = since_s(started);
     bus_.publish(channel::kTick, last_tick_.data(), static_cast<unsigned int>(last_tick_.size()));
   }
 }
 
-void TickGiver::wait_for_start(const Running& running) {
+void ClockMaster::wait_for_start(const Running& running) {
   wait([this] { return barrier_.waiting_for(0); }, running);
 }
 
-void TickGiver::list(const std::string& channel, const header_t& header) {
+void ClockMaster::list(const std::string& channel, const header_t& header) {
   stream_seq_t stream{};
   stream.channel = channel;
   stream.publisher = header.publisher;
@@ -70,7 +70,7 @@ void TickGiver::list(const std::string& channel, const header_t& header) {
   listed_.push_back(std::move(stream));
 }
 
-void TickGiver::give(Utime t, const Running& running) {
+void ClockMaster::publish_tick(Utime t, const Running& running) {
   wait([this, t] { return barrier_.waiting_for(t); }, running);
   std::erase_if(dones_, [&](const done_t& done) {
     if (done.header.release_utime > t) return false;
@@ -89,7 +89,7 @@ void TickGiver::give(Utime t, const Running& running) {
   bus_.publish(channel::kTick, last_tick_.data(), static_cast<unsigned int>(last_tick_.size()));
 }
 
-void TickGiver::wait_until_idle(const Running& running) {
+void ClockMaster::wait_until_idle(const Running& running) {
   const auto busy = [this] {
     std::vector<std::string> names;
     for (const std::string& name : barrier_.participants())
@@ -99,7 +99,7 @@ void TickGiver::wait_until_idle(const Running& running) {
   wait(busy, running);
 }
 
-std::vector<stream_seq_t> TickGiver::reported() const {
+std::vector<stream_seq_t> ClockMaster::reported() const {
   std::vector<stream_seq_t> streams;
   for (const auto& [key, stream] : reported_) streams.push_back(stream);
   return streams;

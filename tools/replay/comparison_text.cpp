@@ -1,4 +1,4 @@
-#include "tools/replay/verdict_text.hpp"
+#include "tools/replay/comparison_text.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -6,21 +6,21 @@
 namespace rover::replay {
 namespace {
 
-std::string byte_text(const Bytes& then, const Bytes& now) {
+std::string byte_text(const Bytes& recorded, const Bytes& live) {
   char text[128];
-  if (then.size() != now.size()) {
-    std::snprintf(text, sizeof text, "%zu bytes in the log, %zu now", then.size(), now.size());
+  if (recorded.size() != live.size()) {
+    std::snprintf(text, sizeof text, "%zu bytes in the log, %zu now", recorded.size(), live.size());
     return text;
   }
-  const auto at = std::mismatch(then.begin(), then.end(), now.begin());
+  const auto at = std::mismatch(recorded.begin(), recorded.end(), live.begin());
   std::snprintf(text, sizeof text, "byte %zu of %zu is %02x in the log, %02x now",
-                static_cast<size_t>(at.first - then.begin()), then.size(), *at.first, *at.second);
+                static_cast<size_t>(at.first - recorded.begin()), recorded.size(), *at.first, *at.second);
   return text;
 }
 
 std::string what_differs(const Difference& difference, NameField name_field) {
   switch (difference.kind) {
-    case Difference::Kind::kMissingNow:
+    case Difference::Kind::kMissingLive:
       return "in the log, not said now";
     case Difference::Kind::kNotInLog:
       return "said now, not in the log";
@@ -28,7 +28,7 @@ std::string what_differs(const Difference& difference, NameField name_field) {
       break;
   }
   const std::string field = name_field(difference);
-  return field.empty() ? byte_text(difference.then, difference.now) : field;
+  return field.empty() ? byte_text(difference.recorded, difference.live) : field;
 }
 
 }  // namespace
@@ -41,14 +41,14 @@ std::string difference_text(const Difference& difference, NameField name_field) 
   return text + what_differs(difference, name_field);
 }
 
-std::string verdict_table(const std::vector<StreamVerdict>& verdicts, NameField name_field) {
+std::string comparison_table(const std::vector<StreamComparison>& results, NameField name_field) {
   std::string table;
-  for (const StreamVerdict& verdict : verdicts) {
+  for (const StreamComparison& result : results) {
     char line[128];
-    std::snprintf(line, sizeof line, "%-18s %-20s %7lld identical", verdict.channel.c_str(), verdict.publisher.c_str(),
-                  static_cast<long long>(verdict.identical));
+    std::snprintf(line, sizeof line, "%-18s %-20s %7lld identical", result.channel.c_str(), result.publisher.c_str(),
+                  static_cast<long long>(result.identical));
     table += line;
-    if (verdict.first) table += ", then " + difference_text(*verdict.first, name_field);
+    if (result.first) table += ", then " + difference_text(*result.first, name_field);
     table += "\n";
   }
   return table;
