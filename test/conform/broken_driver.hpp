@@ -1,4 +1,4 @@
-// The example driver behind a relay that can spoil what it says and what it is told. Time is counted, not waited for.
+// The example driver behind a relay that can change its messages and commands. Time is simulated.
 #pragma once
 
 #include <functional>
@@ -11,11 +11,11 @@
 #include "driver/driver.hpp"
 #include "tools/conform/duties.hpp"
 #include "tools/conform/listener.hpp"
-#include "tools/conform/speaker.hpp"
+#include "tools/conform/trial_publisher.hpp"
 
 namespace rover::conform {
 
-// A quarter of the LocCam's size: sixteen times as fast to draw.
+// A quarter of the LocCam's size: 16 times faster to render.
 inline StereoRig small_rig() {
   StereoRig rig;
   rig.width = 128;
@@ -39,14 +39,14 @@ inline Vehicle small_vehicle() {
 
 class BrokenDriver {
  public:
-  // What becomes of a message: itself, changed, nothing or several.
+  // Maps a message to zero or more messages.
   template <class Message>
   using Hook = std::function<std::vector<Message>(Message)>;
 
   BrokenDriver()
       : driver_({.boot_id = 7, .exposure = std::launch::deferred}, small_vehicle(), small_rig(), driver_bus_),
         listener_(bus_, [this] { return arrival(now_); }),
-        speaker_(bus_, 1) {
+        publisher_(bus_, 1) {
     relay<tick_t>(channel::kTick, &tick);
     relay<imu_t>(channel::kImu, &imu);
     relay<wheel_state_t>(channel::kWheelState, &wheels);
@@ -57,29 +57,29 @@ class BrokenDriver {
         +[](const lcm::ReceiveBuffer* buffer, const std::string&, BrokenDriver* self) { self->tell(*buffer); }, this);
   }
 
-  // The whole examination: at rest, then the trial.
+  // The complete test: stationary, then the trial.
   std::vector<Line> examine(bool move = true) {
     constexpr Utime kRest = 4'000'000;
     const Utime begin = 100 * kTickUs;
     for (now_ = begin; now_ < begin + kRest; now_ += kTickUs) period();
-    const Heard at_rest = listener_.take();
-    std::vector<Line> lines = judge_time(at_rest);
-    for (Line& line : judge_content(at_rest, small_rig())) lines.push_back(line);
+    const Received at_rest = listener_.take();
+    std::vector<Line> lines = check_time(at_rest);
+    for (Line& line : check_content(at_rest, small_rig())) lines.push_back(line);
     const Trial trial({.move = move}, now_);
     for (trial_ = &trial; !trial.over(now_); now_ += kTickUs) {
       period();
-      speaker_.say(trial, now_);
+      publisher_.publish(trial, now_);
       drain();
     }
     trial_ = nullptr;
-    for (Line& line : judge_trial(listener_.take(), trial)) lines.push_back(line);
+    for (Line& line : check_trial(listener_.take(), trial)) lines.push_back(line);
     return lines;
   }
 
   Utime now() const { return now_; }
   bool at_rest() const { return trial_ == nullptr; }
   lcm::LCM& bus() { return bus_; }
-  // Tells the driver what nobody has said.
+  // Sends the driver a command that is not part of the trial.
   void tell(wheel_command_t said) {
     said.header.utime = said.header.release_utime = now_;
     said.valid_until_utime = now_ + 10 * kTickUs;
@@ -92,7 +92,7 @@ class BrokenDriver {
   Hook<image_t> left;
   Hook<image_t> right;
   Hook<wheel_command_t> command;
-  std::function<void()> damaged;  // what came was no command
+  std::function<void()> damaged;  // called for bytes that are not a command
   std::function<double(Utime)> arrival = [](Utime t) { return to_seconds(t); };
 
  private:
@@ -139,7 +139,7 @@ class BrokenDriver {
   const Trial* trial_ = nullptr;
   example::Driver driver_;
   Listener listener_;
-  Speaker speaker_;
+  TrialPublisher publisher_;
 };
 
 }  // namespace rover::conform

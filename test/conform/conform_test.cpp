@@ -1,4 +1,4 @@
-// The example driver passes every line; drivers that are broken in one way each fail exactly their line.
+// The example driver passes every line; drivers with one defect fail exactly the line of that defect.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,14 +18,14 @@ std::vector<std::string> failed(const std::vector<Line>& lines) {
   return out;
 }
 
-TEST(Conform, TheExampleDriverDoesEveryDuty) {
+TEST(Conform, ExampleDriverPassesEveryRequirement) {
   BrokenDriver driver;
   const std::vector<Line> lines = driver.examine();
   EXPECT_EQ(failures(lines), 0) << table(lines, false);
   for (const Line& line : lines) EXPECT_EQ(line.verdict, Verdict::kPass) << line.duty << ": " << line.measured;
 }
 
-TEST(Conform, WithoutMoveNoWheelTurns) {
+TEST(Conform, NoWheelCommandWithoutMoveOption) {
   BrokenDriver driver;
   driver.command = [](wheel_command_t) -> std::vector<wheel_command_t> {
     ADD_FAILURE() << "a command was given";
@@ -35,14 +35,14 @@ TEST(Conform, WithoutMoveNoWheelTurns) {
   EXPECT_EQ(failures(lines), 0) << table(lines, false);
 }
 
-TEST(Conform, ASilentBusFails) {
-  const std::vector<Line> lines = judge_time({});
+TEST(Conform, SilentBusFails) {
+  const std::vector<Line> lines = check_time({});
   EXPECT_EQ(failed(lines), std::vector<std::string>{"ticks"});
 }
 
 struct Fault {
   const char* name;
-  const char* duty;  // the one line to fail
+  const char* duty;  // the only line to fail
   void (*breaks)(BrokenDriver&);
 };
 
@@ -50,17 +50,17 @@ void PrintTo(const Fault& fault, std::ostream* out) {
   *out << fault.name;
 }
 
-// Keeps the messages for which `keeps` holds of their count, and numbers them anew: a slower sender, no loss.
+// Keeps the messages whose index satisfies `keeps` and renumbers them: a lower rate without loss.
 template <class Message>
 BrokenDriver::Hook<Message> thinned(bool (*keeps)(int)) {
-  return [keeps, heard = 0, seq = std::int64_t{0}](Message m) mutable -> std::vector<Message> {
-    if (!keeps(heard++)) return {};
+  return [keeps, received = 0, seq = std::int64_t{0}](Message m) mutable -> std::vector<Message> {
+    if (!keeps(received++)) return {};
     m.header.seq = ++seq;
     return {m};
   };
 }
 
-// Changes each message.
+// Modifies each message.
 template <class Message, class Change>
 BrokenDriver::Hook<Message> changed(Change change) {
   return [change](Message m) mutable -> std::vector<Message> {
@@ -82,8 +82,8 @@ const Fault kFaults[] = {
      [](BrokenDriver& d) { d.arrival = [](Utime t) { return to_seconds(t) + (t / kTickUs % 10 == 0 ? 0.06 : 0.0); }; }},
     {"SlowImu", "rate of IMU",
      [](BrokenDriver& d) {
-       d.imu = [heard = 0, seq = std::int64_t{0}](imu_t m) mutable -> std::vector<imu_t> {
-         if (++heard % 2 == 0) return {};
+       d.imu = [received = 0, seq = std::int64_t{0}](imu_t m) mutable -> std::vector<imu_t> {
+         if (++received % 2 == 0) return {};
          m.header.seq = ++seq;
          m.dt_s *= 2.0;
          return {m};
@@ -270,7 +270,7 @@ TEST_P(BrokenDrivers, FailExactlyTheirLine) {
 INSTANTIATE_TEST_SUITE_P(Each, BrokenDrivers, testing::ValuesIn(kFaults),
                          [](const auto& fault) { return std::string(fault.param.name); });
 
-TEST(Conform, EveryLineHasADriverThatFailsIt) {
+TEST(Conform, EveryRequirementHasAFailingDriver) {
   BrokenDriver driver;
   for (const Line& line : driver.examine()) {
     const bool covered = std::any_of(std::begin(kFaults), std::end(kFaults),
@@ -279,7 +279,7 @@ TEST(Conform, EveryLineHasADriverThatFailsIt) {
   }
 }
 
-TEST(ImageShift, IsThatOfThePicturesAndNoneWhereNothingIsAlike) {
+TEST(ImageShift, FindsShiftAndIsEmptyForUncorrelatedImages) {
   GrayImage left(160, 120);
   GrayImage right(160, 120);
   GrayImage other(160, 120);

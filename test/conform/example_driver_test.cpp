@@ -30,7 +30,7 @@ double rate_in_force(WheelWatchdog& watchdog, Utime t) {
   return in_force ? in_force->drive_rate_radps[0] : 0.0;
 }
 
-TEST(WheelWatchdog, ACommandHoldsFromItsReleaseUntilItsEnd) {
+TEST(WheelWatchdog, CommandIsValidFromReleaseToValidUntil) {
   WheelWatchdog watchdog;
   watchdog.take(command(1'000'000, 0.5));
   EXPECT_EQ(rate_in_force(watchdog, 980'000), 0.0);
@@ -41,15 +41,15 @@ TEST(WheelWatchdog, ACommandHoldsFromItsReleaseUntilItsEnd) {
   EXPECT_TRUE(watchdog.expired(1'220'000));
 }
 
-TEST(WheelWatchdog, OldWordsDoNotComeBack) {
+TEST(WheelWatchdog, ReorderedOlderCommandIsIgnored) {
   WheelWatchdog watchdog;
   watchdog.take(command(1'100'000, 0.1));
   EXPECT_EQ(rate_in_force(watchdog, 1'100'000), 0.1);
-  watchdog.take(command(1'000'000, 0.9));  // overtaken on the way
+  watchdog.take(command(1'000'000, 0.9));  // arrives out of order
   EXPECT_EQ(rate_in_force(watchdog, 1'120'000), 0.1);
 }
 
-TEST(WheelWatchdog, TheNextRunOfTheStackIsObeyedThoughItCountsFromOneAgain) {
+TEST(WheelWatchdog, RestartedStackIsObeyedDespiteSequenceRestart) {
   WheelWatchdog watchdog;
   wheel_command_t last = command(1'000'000, 0.1);
   last.header.seq = 5000;
@@ -60,7 +60,7 @@ TEST(WheelWatchdog, TheNextRunOfTheStackIsObeyedThoughItCountsFromOneAgain) {
   EXPECT_EQ(rate_in_force(watchdog, 9'000'000), 0.2);
 }
 
-TEST(WheelWatchdog, NeitherNaNNorValidityWithoutEndMovesAWheel) {
+TEST(WheelWatchdog, NaNOrUnlimitedValidityDoesNotMoveWheels) {
   WheelWatchdog watchdog;
   wheel_command_t broken = command(1'000'000, 0.5);
   broken.steer_angle_rad[3] = rover::kNaN;
@@ -75,7 +75,7 @@ TEST(WheelWatchdog, NeitherNaNNorValidityWithoutEndMovesAWheel) {
 TEST(PlaneRover, DrivesTheCircleOfItsSteering) {
   const rover::Vehicle vehicle = rover::conform::small_vehicle();
   PlaneRover rover(vehicle, {});
-  // The corner wheels stand on circles about one point on the axis of the middle wheels, 3 m to the left.
+  // The four corner wheels' circles share one centre: 3 m to the left on the middle wheels' axis.
   wheel_command_t turn{};
   const double radius_m = 3.0;
   for (size_t k = 0; k < 4; ++k) {
@@ -95,7 +95,7 @@ TEST(PlaneRover, DrivesTheCircleOfItsSteering) {
   EXPECT_NEAR(end.y_m, radius_m * (1.0 - std::cos(end.yaw_rad)), 0.01);
 }
 
-TEST(PlaneRover, TheImuFeelsGravityUpwardAndTheTurn) {
+TEST(PlaneRover, ImuMeasuresGravityAndTurnRate) {
   PlaneRover rover(rover::conform::small_vehicle(), {});
   for (int i = 0; i < 150; ++i) rover.step(command(0, 0.0, 0.2), 0.02);
   double turned = 0.0;
@@ -111,8 +111,8 @@ TEST(PlaneRover, TheImuFeelsGravityUpwardAndTheTurn) {
   EXPECT_NEAR(up / 2.0, 9.81, 0.01);
 }
 
-// A picture shifts as the rover moves: the paint belongs to the ground, not to the camera.
-TEST(PlaneCamera, ThePaintStaysOnTheGround) {
+// The texture is fixed to the ground: the image shifts as the rover moves.
+TEST(PlaneCamera, TextureIsFixedToTheGround) {
   const rover::StereoRig rig = rover::conform::small_rig();
   const PlaneCamera camera(rig, 0.62);
   const auto difference = [](const rover::GrayImage& a, const rover::GrayImage& b) {
@@ -121,8 +121,8 @@ TEST(PlaneCamera, ThePaintStaysOnTheGround) {
     return sum / static_cast<double>(a.data.size());
   };
   const rover::GrayImage here = camera.expose({}, 1).left;
-  EXPECT_LT(difference(here, camera.expose({}, 2).left), 2.5);               // noise alone
-  EXPECT_GT(difference(here, camera.expose({0.3, 0.0, 0.0}, 1).left), 8.0);  // other ground
+  EXPECT_LT(difference(here, camera.expose({}, 2).left), 2.5);               // only noise
+  EXPECT_GT(difference(here, camera.expose({0.3, 0.0, 0.0}, 1).left), 8.0);  // different ground
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
-// The duties of a driver (docs/drivers.md), one line of the table each.
+// Requirements for a driver (docs/drivers.md), one table line each.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "common/core/camera_rig.hpp"
-#include "tools/conform/heard.hpp"
+#include "tools/conform/received.hpp"
 #include "tools/conform/trial.hpp"
 
 namespace rover::conform {
@@ -15,29 +15,29 @@ enum class Verdict { kPass, kFail, kSkipped };
 struct Line {
   std::string duty;
   Verdict verdict = Verdict::kSkipped;
-  std::string measured;  // or why it was skipped
+  std::string measured;  // measured value, or why it was skipped
   std::string demand;
 };
 
-// Ticks, rates, stamps, clocks.
-std::vector<Line> judge_time(const Heard& heard);
-// What the messages hold, for a rover that stands still on ground within 25 deg of level.
-std::vector<Line> judge_content(const Heard& heard, const StereoRig& loccam);
-// What the driver did with the trial's commands.
-std::vector<Line> judge_trial(const Heard& heard, const Trial& trial);
+// Ticks, rates, timestamps, clocks.
+std::vector<Line> check_time(const Received& received);
+// Content of the messages of a stationary rover on ground within 25 deg of level.
+std::vector<Line> check_content(const Received& received, const StereoRig& loccam);
+// Reaction of the driver to the trial's commands.
+std::vector<Line> check_trial(const Received& received, const Trial& trial);
 
-// By how much a channel's messages come later than their release, in ticks heard until then [s], median; NaN where
-// none came. It is the difference of the clocks of two drivers plus what the way took.
+// Median delay of a channel's messages after their release, in ticks received until then [s]: clock offset plus
+// transport. NaN if none.
 struct Lag {
   std::string channel;
   double median_s = 0.0;
 };
-std::vector<Lag> clock_lags(const Heard& heard);
-// Limits of a lag: a message may come a tick before its own, and not much later than it.
-constexpr double kLeastLagS = -0.040;
-constexpr double kMostLagS = 0.100;
+std::vector<Lag> clock_lags(const Received& received);
+// Limits of the delay: a message may precede its tick by two periods, and follow it by 100 ms.
+constexpr double kMinLagS = -0.040;
+constexpr double kMaxLagS = 0.100;
 
-// Lines helpers.
+// Helpers that make a line.
 Line line(std::string duty, bool pass, std::string measured, std::string demand);
 Line skipped(std::string duty, std::string why, std::string demand);
 

@@ -12,10 +12,10 @@
 namespace rover::conform {
 namespace {
 
-constexpr double kMostSkipped = 0.01;  // of the ticks
+constexpr double kMaxSkipped = 0.01;  // fraction of the ticks
 constexpr double kPaceTolerance = 0.02;
-constexpr double kMostJitterS = 0.020;
-constexpr double kMostReleaseS = 0.30;
+constexpr double kMaxJitterS = 0.020;
+constexpr double kMaxReleaseS = 0.30;
 constexpr size_t kFewestTicks = 50;
 
 using Stamps = std::vector<const Stamp*>;
@@ -32,12 +32,12 @@ struct Channel {
   Stamps stamps;
 };
 
-std::vector<Channel> channels_of(const Heard& heard) {
-  return {{"TICK", stamps_of(heard.ticks)},
-          {"IMU", stamps_of(heard.imu)},
-          {"WHEEL_STATE", stamps_of(heard.wheels)},
-          {"LOCCAM_LEFT", stamps_of(heard.left)},
-          {"LOCCAM_RIGHT", stamps_of(heard.right)}};
+std::vector<Channel> channels_of(const Received& received) {
+  return {{"TICK", stamps_of(received.ticks)},
+          {"IMU", stamps_of(received.imu)},
+          {"WHEEL_STATE", stamps_of(received.wheels)},
+          {"LOCCAM_LEFT", stamps_of(received.left)},
+          {"LOCCAM_RIGHT", stamps_of(received.right)}};
 }
 
 double quantile(std::vector<double> values, double share) {
@@ -46,51 +46,51 @@ double quantile(std::vector<double> values, double share) {
   return *at;
 }
 
-Line tick_line(const Heard& heard) {
+Line tick_line(const Received& received) {
   const std::string demand = "REALTIME, on multiples of 20 ms, none left out";
   int by_the_clock = 0;
   int on_grid = 0;
   int steps = 0;
-  for (size_t i = 0; i < heard.ticks.size(); ++i) {
-    const Utime t = heard.ticks[i].stamp.utime;
-    by_the_clock += heard.ticks[i].by_the_clock ? 1 : 0;
+  for (size_t i = 0; i < received.ticks.size(); ++i) {
+    const Utime t = received.ticks[i].stamp.utime;
+    by_the_clock += received.ticks[i].by_the_clock ? 1 : 0;
     on_grid += t % kTickUs == 0 ? 1 : 0;
-    steps += i > 0 && t - heard.ticks[i - 1].stamp.utime == kTickUs ? 1 : 0;
+    steps += i > 0 && t - received.ticks[i - 1].stamp.utime == kTickUs ? 1 : 0;
   }
-  const auto n = static_cast<int>(heard.ticks.size());
-  const bool whole = steps >= (1.0 - kMostSkipped) * (n - 1);
+  const auto n = static_cast<int>(received.ticks.size());
+  const bool whole = steps >= (1.0 - kMaxSkipped) * (n - 1);
   return line("ticks", by_the_clock == n && on_grid == n && whole,
               fmt::format("{} ticks, {} REALTIME, {} on the grid, {} steps of 20 ms", n, by_the_clock, on_grid, steps),
               demand);
 }
 
-// Message time against this machine's clock: least squares, and what is left of it.
-std::vector<Line> clock_lines(const Heard& heard) {
-  const auto n = static_cast<double>(heard.ticks.size());
+// Least-squares fit of message time over wall time, and its residuals.
+std::vector<Line> clock_lines(const Received& received) {
+  const auto n = static_cast<double>(received.ticks.size());
   double mean_t = 0.0;
   double mean_s = 0.0;
-  const Utime first = heard.ticks.front().stamp.utime;
-  const auto t_of = [first](const TickHeard& tick) { return to_seconds(tick.stamp.utime - first); };
-  for (const TickHeard& tick : heard.ticks) {
+  const Utime first = received.ticks.front().stamp.utime;
+  const auto t_of = [first](const ReceivedTick& tick) { return to_seconds(tick.stamp.utime - first); };
+  for (const ReceivedTick& tick : received.ticks) {
     mean_t += t_of(tick) / n;
     mean_s += tick.stamp.arrival_s / n;
   }
   double ts = 0.0;
   double ss = 0.0;
-  for (const TickHeard& tick : heard.ticks) {
+  for (const ReceivedTick& tick : received.ticks) {
     const double s = tick.stamp.arrival_s - mean_s;
     ts += (t_of(tick) - mean_t) * s;
     ss += s * s;
   }
   const double pace = ss > 0.0 ? ts / ss : 0.0;
   std::vector<double> late;
-  for (const TickHeard& tick : heard.ticks)
+  for (const ReceivedTick& tick : received.ticks)
     late.push_back(std::abs((tick.stamp.arrival_s - mean_s) - (t_of(tick) - mean_t) / std::max(pace, 1e-3)));
   const double jitter = quantile(late, 0.99);
   return {line("pace", std::abs(pace - 1.0) <= kPaceTolerance, fmt::format("{:.4f} s of message time a second", pace),
                fmt::format("1 +- {}", kPaceTolerance)),
-          line("jitter", jitter <= kMostJitterS, fmt::format("99 % of ticks within {:.1f} ms", 1e3 * jitter),
-               fmt::format("{:.0f} ms", 1e3 * kMostJitterS))};
+          line("jitter", jitter <= kMaxJitterS, fmt::format("99 % of ticks within {:.1f} ms", 1e3 * jitter),
+               fmt::format("{:.0f} ms", 1e3 * kMaxJitterS))};
 }
 
 Line rate_line(const std::string& channel, size_t count, double seconds, double least_hz, double most_hz) {
@@ -99,16 +99,16 @@ Line rate_line(const std::string& channel, size_t count, double seconds, double 
               fmt::format("{} to {} Hz", least_hz, most_hz));
 }
 
-// By message time, so that a busy machine does not count.
-std::vector<Line> rate_lines(const Heard& heard) {
-  const double seconds = to_seconds(heard.ticks.back().stamp.utime - heard.ticks.front().stamp.utime);
-  return {rate_line("IMU", heard.imu.size(), seconds, 49.0, 51.0),
-          rate_line("WHEEL_STATE", heard.wheels.size(), seconds, 49.0, 51.0),
-          rate_line("LOCCAM_LEFT", heard.left.size(), seconds, 2.0, 5.0),
-          rate_line("LOCCAM_RIGHT", heard.right.size(), seconds, 2.0, 5.0)};
+// In message time, so that machine load does not count.
+std::vector<Line> rate_lines(const Received& received) {
+  const double seconds = to_seconds(received.ticks.back().stamp.utime - received.ticks.front().stamp.utime);
+  return {rate_line("IMU", received.imu.size(), seconds, 49.0, 51.0),
+          rate_line("WHEEL_STATE", received.wheels.size(), seconds, 49.0, 51.0),
+          rate_line("LOCCAM_LEFT", received.left.size(), seconds, 2.0, 5.0),
+          rate_line("LOCCAM_RIGHT", received.right.size(), seconds, 2.0, 5.0)};
 }
 
-// The first channel that breaks a law between one message and the next.
+// The first channel that violates a condition between consecutive messages.
 std::string first_breach(const std::vector<Channel>& channels,
                          const std::function<bool(const Stamp& before, const Stamp& now)>& broken) {
   for (const Channel& channel : channels)
@@ -138,32 +138,32 @@ std::vector<Line> order_lines(const std::vector<Channel>& channels) {
 }
 
 Line release_line(const std::vector<Channel>& channels) {
-  double least = kMostReleaseS;
+  double least = kMaxReleaseS;
   double most = 0.0;
   for (const Channel& channel : channels)
     for (const Stamp* stamp : channel.stamps) {
       least = std::min(least, to_seconds(stamp->release - stamp->utime));
       most = std::max(most, to_seconds(stamp->release - stamp->utime));
     }
-  return line("release", least >= 0.0 && most <= kMostReleaseS,
+  return line("release", least >= 0.0 && most <= kMaxReleaseS,
               fmt::format("{:.0f} to {:.0f} ms after utime", 1e3 * least, 1e3 * most),
-              fmt::format("0 to {:.0f} ms", 1e3 * kMostReleaseS));
+              fmt::format("0 to {:.0f} ms", 1e3 * kMaxReleaseS));
 }
 
-Line clock_line(const Heard& heard) {
+Line clock_line(const Received& received) {
   std::string measured;
   bool within = true;
-  for (const Lag& lag : clock_lags(heard)) {
+  for (const Lag& lag : clock_lags(received)) {
     measured += fmt::format("{}{} {:+.0f} ms", measured.empty() ? "" : ", ", lag.channel, 1e3 * lag.median_s);
-    within = within && lag.median_s >= kLeastLagS && lag.median_s <= kMostLagS;
+    within = within && lag.median_s >= kMinLagS && lag.median_s <= kMaxLagS;
   }
   return line("clock", within, measured,
-              fmt::format("{:.0f} to {:.0f} ms against TICK", 1e3 * kLeastLagS, 1e3 * kMostLagS));
+              fmt::format("{:.0f} to {:.0f} ms against TICK", 1e3 * kMinLagS, 1e3 * kMaxLagS));
 }
 
-Line decodes_line(const Heard& heard) {
+Line decodes_line(const Received& received) {
   std::string measured;
-  for (const auto& [channel, count] : heard.malformed)
+  for (const auto& [channel, count] : received.malformed)
     measured += fmt::format("{}{}: {} do not decode", measured.empty() ? "" : ", ", channel, count);
   return line("types", measured.empty(), measured.empty() ? "all messages decode" : measured,
               "types of lcmtypes/ on every channel");
@@ -179,9 +179,9 @@ Line skipped(std::string duty, std::string why, std::string demand) {
   return {std::move(duty), Verdict::kSkipped, std::move(why), std::move(demand)};
 }
 
-std::vector<Lag> clock_lags(const Heard& heard) {
+std::vector<Lag> clock_lags(const Received& received) {
   std::vector<Lag> lags;
-  for (const Channel& channel : channels_of(heard)) {
+  for (const Channel& channel : channels_of(received)) {
     std::vector<double> lag_s;
     for (const Stamp* stamp : channel.stamps)
       if (stamp->tick != kNever) lag_s.push_back(to_seconds(stamp->tick - stamp->release));
@@ -190,17 +190,18 @@ std::vector<Lag> clock_lags(const Heard& heard) {
   return lags;
 }
 
-std::vector<Line> judge_time(const Heard& heard) {
-  if (heard.ticks.size() < kFewestTicks)
-    return {line("ticks", false, fmt::format("{} ticks", heard.ticks.size()), "50 a second"), decodes_line(heard)};
-  const std::vector<Channel> channels = channels_of(heard);
-  std::vector<Line> lines{decodes_line(heard), tick_line(heard)};
+std::vector<Line> check_time(const Received& received) {
+  if (received.ticks.size() < kFewestTicks)
+    return {line("ticks", false, fmt::format("{} ticks", received.ticks.size()), "50 a second"),
+            decodes_line(received)};
+  const std::vector<Channel> channels = channels_of(received);
+  std::vector<Line> lines{decodes_line(received), tick_line(received)};
   const auto add = [&lines](std::vector<Line> more) { lines.insert(lines.end(), more.begin(), more.end()); };
-  add(clock_lines(heard));
-  add(rate_lines(heard));
+  add(clock_lines(received));
+  add(rate_lines(received));
   add(order_lines(channels));
   lines.push_back(release_line(channels));
-  lines.push_back(clock_line(heard));
+  lines.push_back(clock_line(received));
   return lines;
 }
 

@@ -9,14 +9,14 @@
 namespace rover::conform {
 namespace {
 
-constexpr double kAtRest = 0.02;    // [rad/s]
-constexpr double kStopS = 0.5;      // from the end of validity to rest
-constexpr double kSettleS = 1.0;    // until wheels have reached a rate
-constexpr double kRateShare = 0.3;  // that a wheel may differ from its command
+constexpr double kAtRest = 0.02;        // [rad/s]
+constexpr double kStopS = 0.5;          // from the end of validity to standstill
+constexpr double kSettleS = 1.0;        // until the wheels reach the commanded rate
+constexpr double kRateTolerance = 0.3;  // allowed relative deviation from the command
 constexpr double kEncoderShare = 0.2;
-constexpr double kLeastTurnRad = 0.01;
+constexpr double kMinTurnRad = 0.01;
 
-// The part of what was heard that lies in a phase, by utime.
+// The received messages of one phase, by utime.
 template <class Message>
 std::vector<const Message*> during(const std::vector<Message>& messages, const Trial& trial, double from_s,
                                    double until_s) {
@@ -28,88 +28,89 @@ std::vector<const Message*> during(const std::vector<Message>& messages, const T
   return out;
 }
 
-double fastest(const std::vector<const WheelsHeard*>& wheels) {
+double fastest(const std::vector<const ReceivedWheels*>& wheels) {
   double rate = 0.0;
-  for (const WheelsHeard* sample : wheels)
+  for (const ReceivedWheels* sample : wheels)
     for (double value : sample->rate_radps) rate = std::fmax(rate, std::abs(value));
   return rate;
 }
 
-double most_backwards(const std::vector<const WheelsHeard*>& wheels) {
+double most_backwards(const std::vector<const ReceivedWheels*>& wheels) {
   double rate = 0.0;
-  for (const WheelsHeard* sample : wheels)
+  for (const ReceivedWheels* sample : wheels)
     for (double value : sample->rate_radps) rate = std::fmin(rate, value);
   return rate;
 }
 
-bool all_finite(const std::vector<const WheelsHeard*>& wheels) {
-  return std::all_of(wheels.begin(), wheels.end(), [](const WheelsHeard* sample) { return sample->finite; });
+bool all_finite(const std::vector<const ReceivedWheels*>& wheels) {
+  return std::all_of(wheels.begin(), wheels.end(), [](const ReceivedWheels* sample) { return sample->finite; });
 }
 
-Line damaged_line(const Heard& heard, const Trial& trial) {
+Line damaged_line(const Received& received, const Trial& trial) {
   const std::string demand = "dropped: wheels stay at rest, WHEEL_STATE goes on";
-  const auto wheels = during(heard.wheels, trial, kDamagedPhase.from_s, kDamagedPhase.until_s);
+  const auto wheels = during(received.wheels, trial, kDamagedPhase.from_s, kDamagedPhase.until_s);
   const auto expected = static_cast<size_t>((kDamagedPhase.until_s - kDamagedPhase.from_s) / to_seconds(kTickUs));
   const double rate = fastest(wheels);
   return line("damaged commands", rate <= kAtRest && wheels.size() > expected / 2,
               fmt::format("fastest wheel {:.3f} rad/s, {} of {} WHEEL_STATE", rate, wheels.size(), expected), demand);
 }
 
-Line follow_line(const Heard& heard, const Trial& trial) {
+Line follow_line(const Received& received, const Trial& trial) {
   const double wanted = trial.config().rate_radps;
   const std::string demand = fmt::format("{:.2f} rad/s, positive forward, encoders turn with it", wanted);
-  const auto wheels = during(heard.wheels, trial, kForwardPhase.from_s + kSettleS, kForwardPhase.until_s);
+  const auto wheels = during(received.wheels, trial, kForwardPhase.from_s + kSettleS, kForwardPhase.until_s);
   if (wheels.size() < 2) return skipped("follows", "no WHEEL_STATE", demand);
   double slowest = kInfinity;
   double worst_encoder = 0.0;
   const double covered_s = to_seconds(wheels.back()->stamp.utime - wheels.front()->stamp.utime);
   for (size_t i = 0; i < 6; ++i) {
     double mean = 0.0;
-    for (const WheelsHeard* sample : wheels) mean += sample->rate_radps[i] / static_cast<double>(wheels.size());
+    for (const ReceivedWheels* sample : wheels) mean += sample->rate_radps[i] / static_cast<double>(wheels.size());
     const double turned = (wheels.back()->angle_rad[i] - wheels.front()->angle_rad[i]) / covered_s;
     if (std::abs(mean - wanted) > std::abs(slowest - wanted) || slowest == kInfinity) slowest = mean;
     worst_encoder = std::max(worst_encoder, std::abs(turned - mean));
   }
-  return line("follows", std::abs(slowest - wanted) <= kRateShare * wanted && worst_encoder <= kEncoderShare * wanted,
+  return line("follows",
+              std::abs(slowest - wanted) <= kRateTolerance * wanted && worst_encoder <= kEncoderShare * wanted,
               fmt::format("worst wheel {:.2f} rad/s, encoder {:.3f} rad/s off", slowest, worst_encoder), demand);
 }
 
-Line watchdog_line(const Heard& heard, const Trial& trial) {
-  const double due_s = kSilentPhase.from_s + trial.config().validity_s + kStopS;
+Line watchdog_line(const Received& received, const Trial& trial) {
+  const double due_s = kNoCommandPhase.from_s + trial.config().validity_s + kStopS;
   const std::string demand = fmt::format("at rest {:.1f} s after valid_until_utime", kStopS);
-  const auto wheels = during(heard.wheels, trial, due_s, kSilentPhase.until_s);
+  const auto wheels = during(received.wheels, trial, due_s, kNoCommandPhase.until_s);
   if (wheels.empty()) return skipped("watchdog", "no WHEEL_STATE", demand);
   double moved_until_s = 0.0;
-  for (const WheelsHeard* sample : during(heard.wheels, trial, kSilentPhase.from_s, kSilentPhase.until_s))
-    if (fastest({sample}) > kAtRest) moved_until_s = trial.seconds(sample->stamp.utime) - kSilentPhase.from_s;
+  for (const ReceivedWheels* sample : during(received.wheels, trial, kNoCommandPhase.from_s, kNoCommandPhase.until_s))
+    if (fastest({sample}) > kAtRest) moved_until_s = trial.seconds(sample->stamp.utime) - kNoCommandPhase.from_s;
   return line("watchdog", fastest(wheels) <= kAtRest,
               fmt::format("last motion {:.2f} s after the last command", moved_until_s), demand);
 }
 
-Line status_line(const Heard& heard, const Trial& trial) {
+Line status_line(const Received& received, const Trial& trial) {
   const std::string demand = "WHEEL_STATE says COMMAND_EXPIRED";
-  const double from_s = kSilentPhase.from_s + trial.config().validity_s + 0.2;
-  const auto wheels = during(heard.wheels, trial, from_s, kSilentPhase.until_s);
+  const double from_s = kNoCommandPhase.from_s + trial.config().validity_s + 0.2;
+  const auto wheels = during(received.wheels, trial, from_s, kNoCommandPhase.until_s);
   if (wheels.empty()) return skipped("status when expired", "no WHEEL_STATE", demand);
-  const auto told = std::count_if(wheels.begin(), wheels.end(), [](const auto* w) { return w->command_expired; });
-  return line("status when expired", told == static_cast<std::ptrdiff_t>(wheels.size()),
-              fmt::format("in {} of {}", told, wheels.size()), demand);
+  const auto reported = std::count_if(wheels.begin(), wheels.end(), [](const auto* w) { return w->command_expired; });
+  return line("status when expired", reported == static_cast<std::ptrdiff_t>(wheels.size()),
+              fmt::format("in {} of {}", reported, wheels.size()), demand);
 }
 
-Line refused_line(const std::string& duty, const Heard& heard, const Trial& trial, const Phase& phase) {
+Line refused_line(const std::string& duty, const Received& received, const Trial& trial, const Phase& phase) {
   const std::string demand = "not obeyed";
-  // What the phase before has set in motion may come to rest first.
-  const auto wheels = during(heard.wheels, trial, phase.from_s + kStopS, phase.until_s);
+  // Motion of the previous phase may end first.
+  const auto wheels = during(received.wheels, trial, phase.from_s + kStopS, phase.until_s);
   if (wheels.empty()) return skipped(duty, "no WHEEL_STATE", demand);
   const double rate = most_backwards(wheels);
   return line(duty, rate >= -kAtRest && all_finite(wheels), fmt::format("{:.3f} rad/s backwards", std::abs(rate)),
               demand);
 }
 
-Line steering_line(const Heard& heard, const Trial& trial) {
+Line steering_line(const Received& received, const Trial& trial) {
   const double wanted = trial.config().steer_rad;
   const std::string demand = fmt::format("front wheels to {:+.2f} rad (left), rear ones to {:+.2f}", wanted, -wanted);
-  const auto wheels = during(heard.wheels, trial, kSteerPhase.until_s - 0.2, kSteerPhase.until_s);
+  const auto wheels = during(received.wheels, trial, kSteerPhase.until_s - 0.2, kSteerPhase.until_s);
   if (wheels.empty()) return skipped("steering", "no WHEEL_STATE", demand);
   const std::array<double, 4>& s = wheels.back()->steer_rad;
   const auto near = [&](double angle, double goal) { return std::abs(angle - goal) <= 0.5 * wanted; };
@@ -117,37 +118,37 @@ Line steering_line(const Heard& heard, const Trial& trial) {
               fmt::format("{:+.2f} {:+.2f} {:+.2f} {:+.2f} rad", s[0], s[1], s[2], s[3]), demand);
 }
 
-Line turn_line(const Heard& heard, const Trial& trial) {
+Line turn_line(const Received& received, const Trial& trial) {
   const std::string demand = "positive to the left, both gyros";
-  const auto imu = during(heard.imu, trial, kTurnPhase.from_s, kTurnPhase.until_s);
+  const auto imu = during(received.imu, trial, kTurnPhase.from_s, kTurnPhase.until_s);
   if (imu.empty()) return skipped("sense of turn", "no IMU", demand);
   double gyro = 0.0;
   double fog = 0.0;
-  for (const ImuHeard* sample : imu) {
+  for (const ReceivedImu* sample : imu) {
     gyro += sample->delta_angle_rad.z();
     fog += sample->fog_delta_yaw_rad;
   }
-  return line("sense of turn", gyro >= kLeastTurnRad && fog >= kLeastTurnRad,
+  return line("sense of turn", gyro >= kMinTurnRad && fog >= kMinTurnRad,
               fmt::format("gyro {:+.3f} rad, fibre-optic gyro {:+.3f} rad", gyro, fog), demand);
 }
 
 }  // namespace
 
-std::vector<Line> judge_trial(const Heard& heard, const Trial& trial) {
-  std::vector<Line> lines{damaged_line(heard, trial)};
+std::vector<Line> check_trial(const Received& received, const Trial& trial) {
+  std::vector<Line> lines{damaged_line(received, trial)};
   if (!trial.config().move) {
     for (const char* duty : {"follows", "watchdog", "status when expired", "expired commands", "commands with NaN",
                              "steering", "sense of turn"})
       lines.push_back(skipped(duty, "needs --move: the rover rolls", ""));
     return lines;
   }
-  lines.push_back(follow_line(heard, trial));
-  lines.push_back(watchdog_line(heard, trial));
-  lines.push_back(status_line(heard, trial));
-  lines.push_back(refused_line("expired commands", heard, trial, kExpiredPhase));
-  lines.push_back(refused_line("commands with NaN", heard, trial, kNanPhase));
-  lines.push_back(steering_line(heard, trial));
-  lines.push_back(turn_line(heard, trial));
+  lines.push_back(follow_line(received, trial));
+  lines.push_back(watchdog_line(received, trial));
+  lines.push_back(status_line(received, trial));
+  lines.push_back(refused_line("expired commands", received, trial, kExpiredPhase));
+  lines.push_back(refused_line("commands with NaN", received, trial, kNanPhase));
+  lines.push_back(steering_line(received, trial));
+  lines.push_back(turn_line(received, trial));
   return lines;
 }
 

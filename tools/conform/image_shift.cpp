@@ -7,12 +7,12 @@
 namespace rover::conform {
 namespace {
 
-constexpr int kHalf = 15;           // of a patch
-constexpr int kRows = 6;            // that unrectified pictures may differ by
+constexpr int kHalf = 15;           // half patch size
+constexpr int kRows = 6;            // row search range, for unrectified images
 constexpr int kGrid = 4;            // patches along and across
-constexpr double kFound = 0.6;      // correlation
-constexpr size_t kFewest = 4;       // of the 16 patches
-constexpr double kContrast2 = 9.0;  // least variance [grey^2]
+constexpr double kFound = 0.6;      // minimum correlation
+constexpr size_t kMinPatches = 4;   // minimum number of matched patches, of 16
+constexpr double kContrast2 = 9.0;  // minimum variance [grey^2]
 
 struct Moments {
   double mean = 0.0;
@@ -73,7 +73,7 @@ std::optional<double> shift_to_left_px(const GrayImage& left, const GrayImage& r
       const int v = dv + (left.height - 1 - 2 * dv) * row / (kGrid - 1);
       if (const auto shift = shift_of(left, right, reach, u, v)) shifts.push_back(*shift);
     }
-  if (shifts.size() < kFewest) return {};
+  if (shifts.size() < kMinPatches) return {};
   std::nth_element(shifts.begin(), shifts.begin() + static_cast<std::ptrdiff_t>(shifts.size() / 2), shifts.end());
   return shifts[shifts.size() / 2];
 }

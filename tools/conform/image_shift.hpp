@@ -1,4 +1,4 @@
-// Which way the ground in the left picture lies in the right one.
+// Direction of the disparity between the left and the right image.
 #pragma once
 
 #include <optional>
@@ -7,8 +7,8 @@
 
 namespace rover::conform {
 
-// How far to the left patches of the left picture are found in the right one [px], median over a grid of patches within
-// +- reach; empty where too few are found.
+// Median disparity [px] of a grid of patches, searched within +-reach (positive: left in the right image). Empty: too
+// few matches.
 std::optional<double> shift_to_left_px(const GrayImage& left, const GrayImage& right, int reach);
 
 }  // namespace rover::conform

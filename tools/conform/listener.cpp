@@ -11,10 +11,10 @@
 namespace rover::conform {
 namespace {
 
-constexpr size_t kKeptPictures = 4;  // of each side: enough for one pair
+constexpr size_t kMaxImages = 4;  // of each side: enough for one pair
 
-ImageHeard image_heard(const image_t& message, const Stamp& stamp, bool keep) {
-  ImageHeard out{stamp, message.width, message.height, message.encoding == image_t::MONO8, message.size, {}};
+ReceivedImage image_heard(const image_t& message, const Stamp& stamp, bool keep) {
+  ReceivedImage out{stamp, message.width, message.height, message.encoding == image_t::MONO8, message.size, {}};
   if (keep) out.image = image_from(message);
   return out;
 }
@@ -35,13 +35,13 @@ Listener::Listener(lcm::LCM& lcm, std::function<double()> clock) : lcm_(lcm), cl
   listen<wheel_state_t>(channel::kWheelState);
   listen<image_t>(channel::kLocCamLeft);
   listen<image_t>(channel::kLocCamRight);
-  taken_.push_back(lcm_.subscribeFunction(
+  subscriptions_.push_back(lcm_.subscribeFunction(
       channel::kHeartbeat,
-      +[](const lcm::ReceiveBuffer*, const std::string&, Listener* self) { self->heard_.stack = true; }, this));
+      +[](const lcm::ReceiveBuffer*, const std::string&, Listener* self) { self->received_.stack = true; }, this));
 }
 
 Listener::~Listener() {
-  for (lcm::Subscription* subscription : taken_) lcm_.unsubscribe(subscription);
+  for (lcm::Subscription* subscription : subscriptions_) lcm_.unsubscribe(subscription);
 }
 
 template <class Message>
@@ -51,31 +51,31 @@ void Listener::listen(const char* channel) {
       +[](const lcm::ReceiveBuffer* buffer, const std::string& from, Listener* self) {
         Message message;
         if (!decode_message(buffer->data, static_cast<int>(buffer->data_size), message)) {
-          ++self->heard_.malformed[from];
+          ++self->received_.malformed[from];
           return;
         }
         const header_t& h = message.header;
-        self->hear(message, {self->clock_(), self->now_, h.utime, h.release_utime, h.seq, h.publisher, h.boot_id},
-                   from);
+        self->receive(message, {self->clock_(), self->now_, h.utime, h.release_utime, h.seq, h.publisher, h.boot_id},
+                      from);
       },
       this);
   subscription->setQueueCapacity(0);
-  taken_.push_back(subscription);
+  subscriptions_.push_back(subscription);
 }
 
-void Listener::hear(const tick_t& message, const Stamp& stamp, const std::string&) {
-  heard_.ticks.push_back({stamp, message.mode == tick_t::REALTIME});
+void Listener::receive(const tick_t& message, const Stamp& stamp, const std::string&) {
+  received_.ticks.push_back({stamp, message.mode == tick_t::REALTIME});
   now_ = std::max(now_, message.header.utime);
 }
 
-void Listener::hear(const imu_t& message, const Stamp& stamp, const std::string&) {
-  heard_.imu.push_back({stamp, message.dt_s, Eigen::Vector3d(message.delta_angle_rad),
-                        Eigen::Vector3d(message.delta_velocity_mps), message.fog_delta_yaw_rad,
-                        message.status == imu_t::OK});
+void Listener::receive(const imu_t& message, const Stamp& stamp, const std::string&) {
+  received_.imu.push_back({stamp, message.dt_s, Eigen::Vector3d(message.delta_angle_rad),
+                           Eigen::Vector3d(message.delta_velocity_mps), message.fog_delta_yaw_rad,
+                           message.status == imu_t::OK});
 }
 
-void Listener::hear(const wheel_state_t& message, const Stamp& stamp, const std::string&) {
-  WheelsHeard out;
+void Listener::receive(const wheel_state_t& message, const Stamp& stamp, const std::string&) {
+  ReceivedWheels out;
   out.stamp = stamp;
   std::copy_n(message.drive_angle_rad, 6, out.angle_rad.begin());
   std::copy_n(message.drive_rate_radps, 6, out.rate_radps.begin());
@@ -83,16 +83,16 @@ void Listener::hear(const wheel_state_t& message, const Stamp& stamp, const std:
   out.finite = all_finite(message);
   out.fault = message.status == wheel_state_t::FAULT;
   out.command_expired = message.status == wheel_state_t::COMMAND_EXPIRED;
-  heard_.wheels.push_back(out);
+  received_.wheels.push_back(out);
 }
 
-void Listener::hear(const image_t& message, const Stamp& stamp, const std::string& channel) {
-  auto& side = channel == channel::kLocCamLeft ? heard_.left : heard_.right;
-  side.push_back(image_heard(message, stamp, side.size() < kKeptPictures));
+void Listener::receive(const image_t& message, const Stamp& stamp, const std::string& channel) {
+  auto& side = channel == channel::kLocCamLeft ? received_.left : received_.right;
+  side.push_back(image_heard(message, stamp, side.size() < kMaxImages));
 }
 
-Heard Listener::take() {
-  return std::exchange(heard_, {});
+Received Listener::take() {
+  return std::exchange(received_, {});
 }
 
 }  // namespace rover::conform

@@ -1,4 +1,4 @@
-// Hears a driver on the bus.
+// Receives a driver's messages from the bus.
 #pragma once
 
 #include <functional>
@@ -10,13 +10,13 @@
 #include <string>
 #include <vector>
 
-#include "tools/conform/heard.hpp"
+#include "tools/conform/received.hpp"
 
 namespace rover::conform {
 
 class Listener {
  public:
-  // `clock`: this machine's time [s]. The bus outlives the listener.
+  // `clock`: wall time [s]. The bus must outlive the listener.
   Listener(lcm::LCM& lcm, std::function<double()> clock);
   ~Listener();
   Listener(const Listener&) = delete;
@@ -24,23 +24,23 @@ class Listener {
 
   // Newest TICK, kNever before the first.
   Utime now() const { return now_; }
-  const Heard& heard() const { return heard_; }
-  // What was heard since the last call; begins anew.
-  Heard take();
+  const Received& received() const { return received_; }
+  // The messages received since the last call.
+  Received take();
 
  private:
   template <class Message>
   void listen(const char* channel);
-  void hear(const tick_t& message, const Stamp& stamp, const std::string& channel);
-  void hear(const imu_t& message, const Stamp& stamp, const std::string& channel);
-  void hear(const wheel_state_t& message, const Stamp& stamp, const std::string& channel);
-  void hear(const image_t& message, const Stamp& stamp, const std::string& channel);
+  void receive(const tick_t& message, const Stamp& stamp, const std::string& channel);
+  void receive(const imu_t& message, const Stamp& stamp, const std::string& channel);
+  void receive(const wheel_state_t& message, const Stamp& stamp, const std::string& channel);
+  void receive(const image_t& message, const Stamp& stamp, const std::string& channel);
 
   lcm::LCM& lcm_;
   std::function<double()> clock_;
-  std::vector<lcm::Subscription*> taken_;
+  std::vector<lcm::Subscription*> subscriptions_;
   Utime now_ = kNever;
-  Heard heard_;
+  Received received_;
 };
 
 }  // namespace rover::conform

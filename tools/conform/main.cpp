@@ -1,4 +1,4 @@
-// ./rover conform: what a driver owes the stack, line by line.
+// ./rover conform: checks a driver against the requirements of the stack.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -13,8 +13,8 @@
 #include "common/bus/vehicle_config.hpp"
 #include "common/bus/wall_clock.hpp"
 #include "tools/conform/listener.hpp"
-#include "tools/conform/speaker.hpp"
 #include "tools/conform/table.hpp"
+#include "tools/conform/trial_publisher.hpp"
 
 namespace {
 
@@ -39,13 +39,13 @@ class Examination {
     std::printf("listening for %.0f s; the rover has to stand still\n", arguments_.listen_s);
     std::fflush(stdout);
     listener_.take();
-    handle_until([this] { return heard_for() >= arguments_.listen_s; });
-    const Heard at_rest = listener_.take();
+    handle_until([this] { return listened_s() >= arguments_.listen_s; });
+    const Received at_rest = listener_.take();
     if (at_rest.stack && arguments_.move)
       throw ConfigError("conform: the stack runs on this bus; stop ./rover drive before --move");
-    std::vector<Line> lines = judge_time(at_rest);
+    std::vector<Line> lines = check_time(at_rest);
     add(lines, at_rest.stack ? std::vector{skipped("contents, commands", "the stack runs: the rover may drive", "")}
-                             : judge_content(at_rest, loccam_));
+                             : check_content(at_rest, loccam_));
     if (!at_rest.stack) add(lines, trial());
     return lines;
   }
@@ -55,13 +55,13 @@ class Examination {
     lines.insert(lines.end(), more.begin(), more.end());
   }
 
-  // Message time: that of a slow driver takes longer.
-  double heard_for() const {
-    const auto& ticks = listener_.heard().ticks;
+  // In message time: a slow driver takes longer.
+  double listened_s() const {
+    const auto& ticks = listener_.received().ticks;
     return ticks.empty() ? 0.0 : to_seconds(ticks.back().stamp.utime - ticks.front().stamp.utime);
   }
 
-  // Gives up where ticks come no more.
+  // Timeout if ticks stop.
   template <class Over>
   void handle_until(Over over) {
     Utime last = listener_.now();
@@ -98,13 +98,13 @@ class Examination {
   std::vector<Line> trial() {
     if (arguments_.move) warn();
     const Trial trial({.move = arguments_.move}, listener_.now() + kTickUs);
-    Speaker speaker(lcm_, boot_id_from_clock());
-    Utime said = kNever;
+    TrialPublisher publisher(lcm_, boot_id_from_clock());
+    Utime last_tick = kNever;
     handle_until([&] {
-      if (listener_.now() != said) speaker.say(trial, said = listener_.now());
-      return trial.over(said);
+      if (listener_.now() != last_tick) publisher.publish(trial, last_tick = listener_.now());
+      return trial.over(last_tick);
     });
-    return judge_trial(listener_.take(), trial);
+    return check_trial(listener_.take(), trial);
   }
 
   Arguments arguments_;

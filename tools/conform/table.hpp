@@ -1,4 +1,4 @@
-// The table of the conformance test as text.
+// Formats the result of the conformance test as text.
 #pragma once
 
 #include <string>

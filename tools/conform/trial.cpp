@@ -19,8 +19,8 @@ Command Trial::command(double rate_radps, double steer_rad, Utime valid_until) c
   return out;
 }
 
-// Commands that must not be obeyed drive backwards, so that one who obeys them is told from one who only rolls on.
-std::optional<Trial::Say> Trial::step(Utime now) const {
+// Commands to be rejected drive backward: obeying one differs from coasting forward.
+std::optional<Trial::Output> Trial::step(Utime now) const {
   const double s = seconds(now);
   const Utime valid = now + to_utime(config_.validity_s);
   const auto each_fifth = now / kTickUs % 5;

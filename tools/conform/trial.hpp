@@ -1,4 +1,4 @@
-// What the driver is told in the trial, by message time: damaged commands, and on request commands that move it.
+// Command sequence of the trial, by message time: damaged commands, and on request commands that move the rover.
 #pragma once
 
 #include <array>
@@ -9,13 +9,13 @@
 
 namespace rover::conform {
 
-// A WHEEL_COMMAND to give.
+// A WHEEL_COMMAND.
 struct Command {
   Utime valid_until = 0;
   std::array<double, 6> rate_radps{};
   std::array<double, 4> steer_rad{};
 };
-// Bytes that are no WHEEL_COMMAND: cut short, or of another type.
+// Bytes that are not a WHEEL_COMMAND: truncated, or of another type.
 enum class Damaged { kCut, kForeign };
 
 struct TrialConfig {
@@ -25,14 +25,14 @@ struct TrialConfig {
   double validity_s = 0.2;
 };
 
-// A phase, from and until in seconds from the beginning of the trial.
+// A phase of the trial, in seconds from its start.
 struct Phase {
   double from_s;
   double until_s;
 };
 inline constexpr Phase kDamagedPhase{0.0, 1.0};
 inline constexpr Phase kForwardPhase{1.0, 3.0};
-inline constexpr Phase kSilentPhase{3.0, 5.0};
+inline constexpr Phase kNoCommandPhase{3.0, 5.0};
 inline constexpr Phase kExpiredPhase{5.0, 6.0};
 inline constexpr Phase kNanPhase{6.0, 7.0};
 inline constexpr Phase kSteerPhase{7.0, 9.0};
@@ -41,11 +41,11 @@ inline constexpr Phase kLastPhase{12.0, 13.0};
 
 class Trial {
  public:
-  using Say = std::variant<Command, Damaged>;
+  using Output = std::variant<Command, Damaged>;
   Trial(const TrialConfig& config, Utime begin) : config_(config), begin_(begin) {}
 
-  // What to say at the tick, if anything.
-  std::optional<Say> step(Utime now) const;
+  // The output at this tick, if any.
+  std::optional<Output> step(Utime now) const;
   bool over(Utime now) const { return seconds(now) > (config_.move ? kLastPhase : kDamagedPhase).until_s; }
 
   const TrialConfig& config() const { return config_; }

@@ -19,7 +19,7 @@ bool decoded(const lcm::ReceiveBuffer* buffer, Message& message) {
   return decode_message(buffer->data, static_cast<int>(buffer->data_size), message);
 }
 
-std::string silent_channels(const conform::Heard& heard) {
+std::string silent_channels(const conform::Received& heard) {
   std::string silent;
   const auto look = [&silent](const char* channel, bool empty) {
     if (empty) silent += (silent.empty() ? "" : ", ") + std::string(channel);
@@ -68,18 +68,18 @@ void DriveWatch::on_tick() {
 }
 
 std::string DriveWatch::driver_problem() {
-  if (!driver_ || driver_->heard().ticks.size() < kJudgedAfterTicks) return "";
-  const conform::Heard heard = driver_->take();
+  if (!driver_ || driver_->received().ticks.size() < kJudgedAfterTicks) return "";
+  const conform::Received heard = driver_->take();
   driver_.reset();
   if (const std::string silent = silent_channels(heard); !silent.empty())
     return "the driver gives TICK but not " + silent + "; ./rover conform tells more";
   for (const conform::Lag& lag : conform::clock_lags(heard))
-    if (lag.median_s < conform::kLeastLagS || lag.median_s > conform::kMostLagS)
+    if (lag.median_s < conform::kMinLagS || lag.median_s > conform::kMaxLagS)
       return fmt::format(
           "{} comes {:.0f} ms {} TICK ({:.0f} to {:.0f} ms are allowed): synchronise the clocks of the "
           "drivers; ./rover conform tells more",
           lag.channel, 1e3 * std::abs(lag.median_s), lag.median_s > 0.0 ? "behind" : "ahead of",
-          1e3 * conform::kLeastLagS, 1e3 * conform::kMostLagS);
+          1e3 * conform::kMinLagS, 1e3 * conform::kMaxLagS);
   return "";
 }
 

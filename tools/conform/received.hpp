@@ -1,4 +1,4 @@
-// What was heard of a driver, in the order of arrival.
+// Messages received from a driver, in order of arrival.
 #pragma once
 
 #include <Eigen/Dense>
@@ -12,10 +12,10 @@
 
 namespace rover::conform {
 
-// Of every message: who said it when, by its own word and by ours.
+// Times and source of a message, by its header and by this machine.
 struct Stamp {
   double arrival_s = 0.0;  // by this machine's clock
-  Utime tick = kNever;     // the newest TICK that had come before it
+  Utime tick = kNever;     // newest TICK at arrival
   Utime utime = 0;
   Utime release = 0;
   std::int64_t seq = 0;
@@ -23,12 +23,12 @@ struct Stamp {
   std::int64_t boot_id = 0;
 };
 
-struct TickHeard {
+struct ReceivedTick {
   Stamp stamp;
   bool by_the_clock = false;
 };
 
-struct ImuHeard {
+struct ReceivedImu {
   Stamp stamp;
   double dt_s = 0.0;
   Eigen::Vector3d delta_angle_rad = Eigen::Vector3d::Zero();
@@ -37,33 +37,33 @@ struct ImuHeard {
   bool ok = true;
 };
 
-struct WheelsHeard {
+struct ReceivedWheels {
   Stamp stamp;
   std::array<double, 6> angle_rad{};
   std::array<double, 6> rate_radps{};
   std::array<double, 4> steer_rad{};
-  bool finite = true;  // every number of the message
+  bool finite = true;  // all numbers of the message are finite
   bool fault = false;
   bool command_expired = false;
 };
 
-struct ImageHeard {
+struct ReceivedImage {
   Stamp stamp;
   int width = 0;
   int height = 0;
   bool mono8 = true;
   int bytes = 0;
-  GrayImage image;  // kept of some, empty otherwise
+  GrayImage image;  // stored for a few images, empty otherwise
 };
 
-struct Heard {
-  std::vector<TickHeard> ticks;
-  std::vector<ImuHeard> imu;
-  std::vector<WheelsHeard> wheels;
-  std::vector<ImageHeard> left;
-  std::vector<ImageHeard> right;
+struct Received {
+  std::vector<ReceivedTick> ticks;
+  std::vector<ReceivedImu> imu;
+  std::vector<ReceivedWheels> wheels;
+  std::vector<ReceivedImage> left;
+  std::vector<ReceivedImage> right;
   std::map<std::string, int> malformed;  // by channel
-  bool stack = false;                    // services of the rover speak on this bus too
+  bool stack = false;                    // services of the rover publish on this bus too
 };
 
 }  // namespace rover::conform

@@ -1,4 +1,4 @@
-#include "tools/conform/speaker.hpp"
+#include "tools/conform/trial_publisher.hpp"
 
 #include <algorithm>
 #include <rover/drive_permit_t.hpp>
@@ -11,11 +11,11 @@
 namespace rover::conform {
 namespace {}  // namespace
 
-void Speaker::say(const Trial& trial, Utime now) {
-  if (const auto said = trial.step(now)) std::visit([&](const auto& what) { give(what, now); }, *said);
+void TrialPublisher::publish(const Trial& trial, Utime now) {
+  if (const auto output = trial.step(now)) std::visit([&](const auto& what) { publish(what, now); }, *output);
 }
 
-void Speaker::give(const Command& command, Utime now) {
+void TrialPublisher::publish(const Command& command, Utime now) {
   wheel_command_t message{};
   message.valid_until_utime = command.valid_until;
   std::copy(command.rate_radps.begin(), command.rate_radps.end(), message.drive_rate_radps);
@@ -24,8 +24,8 @@ void Speaker::give(const Command& command, Utime now) {
   lcm_.publish(channel::kWheelCommand, &message);
 }
 
-// Would drive forward, were it taken for a command.
-void Speaker::give(Damaged damaged, Utime now) {
+// A driver that accepts this as a command would drive forward.
+void TrialPublisher::publish(Damaged damaged, Utime now) {
   header_t header{};
   header.utime = header.release_utime = now;
   header.seq = 1;
