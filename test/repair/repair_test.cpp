@@ -44,7 +44,7 @@ class Repair : public testing::Test {
   void damage(const std::string& path, std::int64_t at) {
     std::fstream(path, std::ios::binary | std::ios::in | std::ios::out).seekp(at) << "damage";
   }
-  // The one line of a refusal.
+  // The error line.
   std::string refusal(const RepairArguments& arguments) {
     try {
       repair(arguments);
@@ -53,7 +53,7 @@ class Repair : public testing::Test {
     }
     return "no refusal";
   }
-  // What a repair prints.
+  // The output of a repair.
   std::string done(const RepairArguments& arguments) {
     testing::internal::CaptureStdout();
     repair(arguments);
@@ -66,7 +66,7 @@ class Repair : public testing::Test {
   std::string repaired_ = folder_.file("traverse.repaired.lcm");
 };
 
-TEST_F(Repair, ACutLogEndsWithItsLastWholeMessage) {
+TEST_F(Repair, TruncatedLogEndsAtLastCompleteMessage) {
   write(log_, 5);
   fs::resize_file(log_, 5 * kRecord - 1);
   const std::string before = content(log_);
@@ -76,7 +76,7 @@ TEST_F(Repair, ACutLogEndsWithItsLastWholeMessage) {
   EXPECT_EQ(read_back(repaired_).size(), 4U);
 }
 
-TEST_F(Repair, WhatIsDamagedInTheMiddleIsLeftOut) {
+TEST_F(Repair, DamagedMiddleIsDropped) {
   write(log_, 5);
   damage(log_, 2 * kRecord + 20);
   done({.log = log_, .out = folder_.file("mine.lcm")});
@@ -86,7 +86,7 @@ TEST_F(Repair, WhatIsDamagedInTheMiddleIsLeftOut) {
   EXPECT_EQ(events[2].timestamp, 3000);
 }
 
-TEST_F(Repair, InPlaceOnlyWhereTold) {
+TEST_F(Repair, RepairsInPlaceOnlyOnRequest) {
   write(log_, 5);
   damage(log_, 2 * kRecord + 20);
   fs::resize_file(log_, 5 * kRecord - 7);
@@ -97,13 +97,13 @@ TEST_F(Repair, InPlaceOnlyWhereTold) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator()), 1) << "nothing beside it";
 }
 
-TEST_F(Repair, AWholeLogIsLeftAlone) {
+TEST_F(Repair, ValidLogIsUnchanged) {
   write(log_, 5);
   EXPECT_THAT(done({.log = folder_.path()}), HasSubstr("whole, 5 messages"));
   EXPECT_FALSE(fs::exists(repaired_));
 }
 
-TEST_F(Repair, EachPartForItself) {
+TEST_F(Repair, PartsAreRepairedSeparately) {
   write(log_, 5);
   write(folder_.file("traverse-002.lcm"), 3);
   fs::resize_file(folder_.file("traverse-002.lcm"), 3 * kRecord - 1);
@@ -120,7 +120,7 @@ TEST_F(Repair, NothingIsOverwritten) {
   EXPECT_EQ(content(repaired_), "mine");
 }
 
-TEST_F(Repair, AFullDiskCostsNothing) {
+TEST_F(Repair, FullDiskLeavesLogUnchanged) {
   write(log_, 5);
   damage(log_, 2 * kRecord + 20);
   const std::string before = content(log_);
@@ -148,7 +148,7 @@ TEST_F(Repair, InPlaceThroughASymbolicLinkRepairsTheFile) {
            "the file is repaired");
 }
 
-TEST_F(Repair, AnEmptyPartIsLeftAlone) {
+TEST_F(Repair, EmptyPartIsUnchanged) {
   write(log_, 5);
   fs::resize_file(log_, 5 * kRecord - 1);
   std::ofstream(folder_.file("traverse-002.lcm"));
@@ -161,7 +161,7 @@ TEST_F(Repair, AnEmptyPartIsLeftAlone) {
   wild_row("Logs", "repair of a log whose second part is empty", "holds no whole record; is it an LCM log?", said);
 }
 
-TEST_F(Repair, SaysThatALogHoldsSeveralRuns) {
+TEST_F(Repair, ReportsSeveralRunsInLog) {
   write(log_, 5);
   const auto tick = [](Utime t) {
     tick_t message{};

@@ -1,4 +1,4 @@
-// rover_repair LOG: makes a damaged log whole.
+// rover_repair LOG: repairs a damaged log.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
@@ -26,7 +26,7 @@ int main(int argc, char** argv) {
   rover::catch_interrupts();
   try {
     rover::recorder::repair(repair);
-  } catch (const std::exception& error) {  // ConfigError, the file system's
+  } catch (const std::exception& error) {  // ConfigError, or an error of the file system
     std::fprintf(stderr, "%s\n", error.what());
     return 2;
   }

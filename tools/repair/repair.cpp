@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Neighbouring records, as one piece of the file.
+// Adjacent records as one range of the file.
 struct Piece {
   std::int64_t begin = 0;
   std::int64_t end = 0;
@@ -88,9 +88,9 @@ void check_target(const Scan& damaged, const std::string& to) {
                                   static_cast<double>(damaged.kept_bytes()) * 1e-9));
 }
 
-// Where the whole log is written to; in place it takes the damaged one's name afterwards.
+// Output path; with --in-place a temporary file that then replaces the damaged log.
 std::string target_of(const Scan& part, const RepairArguments& arguments) {
-  if (arguments.in_place) return fs::canonical(part.path).string() + ".new";  // behind a symbolic link
+  if (arguments.in_place) return fs::canonical(part.path).string() + ".new";  // follow a symbolic link
   return arguments.out.empty() ? repaired_name(part.path) : arguments.out;
 }
 

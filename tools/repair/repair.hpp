@@ -1,4 +1,4 @@
-// Makes a damaged log whole: keeps every whole record, leaves out what is between and behind them.
+// Repairs a damaged log: copies every valid record, drops the bytes between and after them.
 #pragma once
 
 #include <string>
@@ -6,12 +6,12 @@
 namespace rover::recorder {
 
 struct RepairArguments {
-  std::string log;        // a log with its parts, or a run's folder
-  std::string out;        // empty: beside it as NAME.repaired.lcm
-  bool in_place = false;  // replace the damaged one
+  std::string log;        // log file with its parts, or a run folder
+  std::string out;        // empty: NAME.repaired.lcm beside the log
+  bool in_place = false;  // replace the damaged log
 };
 
-// Prints a line for each part. Throws ConfigError, and then nothing has been written.
+// Prints one line for each part. Throws ConfigError; then nothing was written.
 void repair(const RepairArguments& arguments);
 
 }  // namespace rover::recorder
