@@ -1,4 +1,4 @@
-// hazard_calibrate LOG: makes the hazard detector's calibration from DISPARITY messages recorded on flat ground.
+// hazard_calibrate LOG: calibrates the hazard detector's camera from DISPARITY messages recorded on flat ground.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
