@@ -1,4 +1,4 @@
-// Small data sets in the layouts of KITTI and EuRoC, and what ./rover import says of them.
+// Small data sets in the layouts of KITTI and EuRoC, and the output of ./rover import.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -44,7 +44,7 @@ class ExportTest : public testing::Test {
   std::string out_ = folder_.file("out");
 };
 
-TEST_F(ExportTest, writes_a_table_for_each_channel) {
+TEST_F(ExportTest, WritesOneTablePerChannel) {
   export_log({.log = log_, .out = out_});
   const std::string slip = text_of(fs::path(out_) / "csv" / "SLIP.csv");
   EXPECT_EQ(std::count(slip.begin(), slip.end(), '\n'), 20);  // the head and 19 messages
@@ -54,14 +54,14 @@ TEST_F(ExportTest, writes_a_table_for_each_channel) {
   EXPECT_FALSE(fs::exists(fs::path(out_) / "tum" / "truth.txt")) << "the log has none";
 }
 
-TEST_F(ExportTest, writes_what_is_asked_for_alone) {
+TEST_F(ExportTest, WritesOnlySelectedFormats) {
   export_log({.log = log_, .out = out_, .formats = {"csv"}, .channels = {"IMU"}});
   EXPECT_TRUE(fs::exists(fs::path(out_) / "csv" / "IMU.csv"));
   EXPECT_FALSE(fs::exists(fs::path(out_) / "csv" / "SLIP.csv"));
   EXPECT_FALSE(fs::exists(fs::path(out_) / "traverse.mcap"));
 }
 
-TEST_F(ExportTest, counts_what_does_not_decode) {
+TEST_F(ExportTest, CountsUndecodableMessages) {
   {
     lcm::LogFile log(log_, "a");
     std::uint8_t bytes[] = {1, 2, 3};
@@ -76,7 +76,7 @@ TEST_F(ExportTest, counts_what_does_not_decode) {
   EXPECT_EQ(lines.front(), "IMU: 1 messages do not decode; left out");
 }
 
-TEST_F(ExportTest, never_mixes_two_runs) {
+TEST_F(ExportTest, NeverMixesTwoRuns) {
   { const replay::MadeLog second(log_, 5, "a"); }
   const std::string said = folder_.short_names(refused({.log = log_, .out = out_}));
   EXPECT_EQ(said,
@@ -90,7 +90,7 @@ TEST_F(ExportTest, never_mixes_two_runs) {
   EXPECT_EQ(std::count(slip.begin(), slip.end(), '\n'), 5);
 }
 
-TEST_F(ExportTest, a_jump_of_days_is_said_and_kept_as_recorded) {
+TEST_F(ExportTest, JumpOfDaysIsReportedAndKept) {
   { const replay::MadeLog jumps(log_, 10, "w", 6, 3 * Utime{86'400'000'000}); }
   const auto lines = export_log({.log = log_, .out = out_, .formats = {"csv", "mcap"}});
   EXPECT_NE(lines.front().find("message time jumps from 1.08 to 259201.10 s"), std::string::npos) << lines.front();
@@ -98,7 +98,7 @@ TEST_F(ExportTest, a_jump_of_days_is_said_and_kept_as_recorded) {
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 11);
 }
 
-TEST_F(ExportTest, poses_without_ticks_whose_time_falls_are_said) {
+TEST_F(ExportTest, NonMonotonicPosesWithoutTicksAreReported) {
   {
     report::MessageLog log(log_);
     pose_t pose{};
@@ -112,7 +112,7 @@ TEST_F(ExportTest, poses_without_ticks_whose_time_falls_are_said) {
 }
 
 // Names that lead elsewhere, in other alphabets, and very many of them.
-TEST_F(ExportTest, no_channel_of_a_log_names_a_file) {
+TEST_F(ExportTest, ChannelNamesNeverBecomePaths) {
   const auto outside = [&] { return std::distance(fs::recursive_directory_iterator(folder_.path()), {}); };
   const auto before = outside();
   {
@@ -134,7 +134,7 @@ TEST_F(ExportTest, no_channel_of_a_log_names_a_file) {
            "a line for each, its bytes as they are", lines.front());
 }
 
-TEST_F(ExportTest, a_full_disk_is_one_line_and_leaves_nothing) {
+TEST_F(ExportTest, FullDiskPrintsOneLineAndLeavesNothing) {
   { const replay::MadeLog longer(log_, 2000); }
   for (const char* format : {"csv", "mcap"}) {
     const testing_support::SmallDisk disk(50'000);
@@ -163,7 +163,7 @@ int export_in_child(const ExportOptions& options, int signal) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-TEST_F(ExportTest, an_interrupted_one_leaves_nothing_and_a_second_try_works) {
+TEST_F(ExportTest, InterruptedExportLeavesNothingAndCanBeRepeated) {
   EXPECT_EQ(export_in_child({.log = log_, .out = out_}, SIGINT), 2);
   EXPECT_FALSE(fs::exists(out_));
   fs::create_directories(fs::path(out_) / ".unfinished" / "csv");  // what SIGKILL leaves
@@ -175,7 +175,7 @@ TEST_F(ExportTest, an_interrupted_one_leaves_nothing_and_a_second_try_works) {
            "exported");
 }
 
-TEST_F(ExportTest, bad_input_is_one_line_and_leaves_nothing) {
+TEST_F(ExportTest, BadInputPrintsOneLineAndLeavesNothing) {
   EXPECT_NE(refused({.log = folder_.file("none.lcm"), .out = out_}).find("no such log"), std::string::npos);
   EXPECT_NE(refused({.log = log_, .out = out_, .formats = {"rosbag"}}).find("no format 'rosbag'"), std::string::npos);
   EXPECT_NE(refused({.log = log_, .out = out_, .channels = {"IMV"}}).find("no channel 'IMV'"), std::string::npos);

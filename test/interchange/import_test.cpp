@@ -19,7 +19,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-TEST_F(ImportTest, kitti_calibration_and_truth_are_in_the_rovers_axes) {
+TEST_F(ImportTest, KittiCalibrationAndTruthUseRoverAxes) {
   make_kitti();
   const StereoDataSet set = read_stereo_data_set(data_.string(), "", 10.0);
   EXPECT_EQ(set.layout, "KITTI");
@@ -31,13 +31,13 @@ TEST_F(ImportTest, kitti_calibration_and_truth_are_in_the_rovers_axes) {
   EXPECT_TRUE(set.pairs[2].T_map_body->translation().isApprox(Vector3d(1.0, -1.0, 0.0), 1e-12)) << "right is -y";
 }
 
-TEST_F(ImportTest, kitti_times_come_from_the_file) {
+TEST_F(ImportTest, KittiTimesComeFromFile) {
   make_kitti();
   write_text(data_ / "times.txt", "0.5\n0.604\n0.71\n");
   EXPECT_EQ(read_stereo_data_set(data_.string(), "", 10.0).pairs[1].since_first, 104'000);
 }
 
-TEST_F(ImportTest, euroc_pairs_have_the_same_time_and_interpolated_truth) {
+TEST_F(ImportTest, EurocPairsHaveEqualTimeAndInterpolatedTruth) {
   make_euroc();
   const StereoDataSet set = read_stereo_data_set(data_.string(), "", 10.0);
   EXPECT_EQ(set.layout, "EuRoC");
@@ -55,7 +55,7 @@ TEST_F(ImportTest, euroc_pairs_have_the_same_time_and_interpolated_truth) {
   EXPECT_TRUE(T_map_left.linear().col(2).isApprox(Vector3d(std::sqrt(0.5), 0.0, std::sqrt(0.5)), 1e-6));
 }
 
-TEST_F(ImportTest, the_log_holds_every_pair_with_truth_and_the_start_pose) {
+TEST_F(ImportTest, LogContainsPairsTruthAndStartPose) {
   make_kitti();
   import_data_set(options());
   std::map<std::string, int> counts;
@@ -87,7 +87,7 @@ TEST_F(ImportTest, the_log_holds_every_pair_with_truth_and_the_start_pose) {
   EXPECT_TRUE(rig.T_body_left.isApprox(T_body_left_camera(), 1e-12));
 }
 
-TEST_F(ImportTest, the_configuration_holds_the_rig_in_every_digit_that_counts) {
+TEST_F(ImportTest, ConfigurationKeepsRigPrecision) {
   make_euroc();
   import_data_set(options());
   const StereoRig rig = load_stereo_rig((out_ / "config").string(), "loccam");
@@ -97,7 +97,7 @@ TEST_F(ImportTest, the_configuration_holds_the_rig_in_every_digit_that_counts) {
   EXPECT_EQ(rig.right.distortion, set.rig.right.distortion);
 }
 
-TEST_F(ImportTest, bad_input_is_one_line_and_leaves_nothing) {
+TEST_F(ImportTest, BadInputPrintsOneLineAndLeavesNothing) {
   expect_refused("no such folder");
   fs::create_directories(data_);
   expect_refused("neither KITTI's odometry layout");
@@ -117,7 +117,7 @@ TEST_F(ImportTest, bad_input_is_one_line_and_leaves_nothing) {
   expect_refused("the first picture has 64 x 48");
 }
 
-TEST_F(ImportTest, bad_input_of_the_other_layout_too) {
+TEST_F(ImportTest, BadEurocInputPrintsOneLineAndLeavesNothing) {
   make_euroc();
   write_text(data_ / "mav0/cam1/data.csv", "#timestamp [ns],filename\nsoon,a.png\n");
   expect_refused("cam1/data.csv:2: 'soon' is no time");
@@ -126,14 +126,14 @@ TEST_F(ImportTest, bad_input_of_the_other_layout_too) {
   expect_refused("camera_model");
 }
 
-TEST_F(ImportTest, a_picture_beyond_the_size_of_a_message_is_refused) {
+TEST_F(ImportTest, RefusesImagesLargerThanAMessage) {
   make_kitti();
   for (const char* camera : {"image_0", "image_1"})
     for (int i = 0; i < 3; ++i) write_picture(data_ / camera / ("00000" + std::to_string(i) + ".png"), 9, 1000, 600);
   expect_refused("600000 px, a message holds 500000");
 }
 
-TEST_F(ImportTest, nothing_is_overwritten) {
+TEST_F(ImportTest, OverwritesNothing) {
   make_kitti();
   write_text(out_ / "mine", "mine");
   EXPECT_NE(refusal(options()).find("exists already"), std::string::npos);

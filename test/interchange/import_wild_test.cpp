@@ -1,4 +1,4 @@
-// Data sets as people have them: each is taken rightly, with a count of what was left out, or refused by file and line.
+// Real-world data sets: each is imported with a count of skipped data, or refused with file and line.
 #include <fmt/format.h>
 
 #include "data_set_fixture.hpp"
@@ -11,7 +11,7 @@ const char* kIdentity = "1 0 0 0 0 1 0 0 0 0 1 ";
 
 class WildImport : public ImportTest {
  protected:
-  // Pictures of these names in both folders; the left one of number n is of grey n.
+  // Images with these names in both folders; left image n has grey value n.
   void make_pictures(const std::vector<std::string>& names) {
     for (size_t i = 0; i < names.size(); ++i)
       for (const char* folder : {"image_0", "image_1"}) write_picture(data_ / folder / names[i], static_cast<int>(i));
@@ -99,7 +99,7 @@ TEST_F(WildImport, KittisPosesAndTimesAreThoseOfTheNumbers) {
   expect("KITTI: fewer times than pictures", "refused", "times.txt: 3 rows");
 }
 
-TEST_F(WildImport, WhatIsNoPictureIsLeftOutAndCounted) {
+TEST_F(WildImport, OtherFilesAreSkippedAndCounted) {
   make_pictures(numbered(0, 3));
   write_text(data_ / "image_0" / "._000000.png", "of another system");
   write_text(data_ / "image_1" / ".DS_Store", "of another system");
@@ -248,7 +248,7 @@ TEST_F(WildImport, EurocsCameras) {
   expect("EuRoC: T_BS in millimetres", "taken", "T_BS: a baseline of 110 m");
 }
 
-TEST_F(WildImport, PicturesThatDoNotFit) {
+TEST_F(WildImport, RefusesImagesOfWrongSize) {
   const auto import_says = [&] { return refusal(options()); };
   make_kitti();
   write_text(data_ / "calib.txt", "P0: 700 0 62 0 0 701 44 0 0 0 1 0\nP1: 700 0 62 -350 0 701 44 0 0 0 1 0\n");
@@ -271,7 +271,7 @@ TEST_F(WildImport, PicturesThatDoNotFit) {
   EXPECT_FALSE(fs::exists(out_));
 }
 
-TEST_F(WildImport, TheOutputIsNewOrNothing) {
+TEST_F(WildImport, OutputIsCompleteOrAbsent) {
   make_kitti();
   ImportOptions asked = options();
   asked.out = data_.string();

@@ -43,7 +43,7 @@ class McapWriterTest : public testing::Test {
 
 constexpr size_t kMagicBytes = 8;
 
-TEST_F(McapWriterTest, records_fill_the_file_and_chunks_match_their_index) {
+TEST_F(McapWriterTest, RecordsFillFileAndChunksMatchIndex) {
   ASSERT_EQ(file_.substr(0, kMagicBytes), std::string("\x89MCAP0\r\n", 8));
   ASSERT_EQ(file_.substr(file_.size() - kMagicBytes), std::string("\x89MCAP0\r\n", 8));
   std::map<int, int> counts;
@@ -72,7 +72,7 @@ TEST_F(McapWriterTest, records_fill_the_file_and_chunks_match_their_index) {
             crc32(0, reinterpret_cast<const Bytef*>(covered.data()), static_cast<uInt>(covered.size())));
 }
 
-TEST_F(McapWriterTest, a_chunk_has_its_checksum_and_its_times) {
+TEST_F(McapWriterTest, ChunkHasChecksumAndTimeRange) {
   size_t at = kMagicBytes;
   while (file_[at] != 0x06) at += 9 + number_at<std::uint64_t>(file_, at + 1);
   const size_t content = at + 9;

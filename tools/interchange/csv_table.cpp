@@ -13,7 +13,7 @@ bool varies(const FieldSchema& field) {
                      [](const FieldSchema::Dimension& dimension) { return !dimension.length_field.empty(); });
 }
 
-// Pixels of pictures and disparities: no table's matter.
+// Pixels have no column.
 bool is_pixels(const FieldSchema& field) {
   return field.type == "byte" || (field.type == "int16_t" && varies(field));
 }
@@ -47,7 +47,7 @@ void add_columns(const std::string& prefix, const std::string& type, bool in_lis
   }
 }
 
-// The column of a leaf: "inputs[2].gaps" belongs to "inputs.gaps" where no column has the whole path.
+// Column of a leaf: "inputs[2].gaps" goes to "inputs.gaps" if no column has the full path.
 std::string without_subscripts(const std::string& path) {
   std::string column;
   int depth = 0;

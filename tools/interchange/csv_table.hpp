@@ -1,4 +1,4 @@
-// One channel as a CSV table (RFC 4180): a column for each number or text, a row for each message.
+// Writes a channel as a CSV table (RFC 4180): one column per number or text, one row per message.
 #pragma once
 
 #include <ostream>
@@ -9,9 +9,8 @@
 
 namespace rover::interchange {
 
-// Columns of a message type: "header.utime", "position_m[0]" ... An array whose length varies is one column, its values
-// separated by spaces; that of messages is one such column for each of their fields. Pixels of
-// pictures and disparities have no column.
+// Columns: "header.utime", "position_m[0]" ... A variable-length array is one space-separated column (per field for
+// messages). No pixels.
 std::vector<std::string> csv_columns(const std::string& type);
 
 void write_csv_header(std::ostream& out, const std::vector<std::string>& columns);

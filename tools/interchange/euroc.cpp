@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t kMaxGapNs = 100'000'000;  // between two ground-truth poses that a picture may lie between
+constexpr std::int64_t kMaxGapNs = 100'000'000;  // maximum interval for interpolation of the ground truth
 
 struct Listed {
   std::int64_t time_ns = 0;
@@ -35,7 +35,7 @@ struct PictureList {
   std::int64_t interval_ns = 0;
 };
 
-// data.csv of a camera: nanoseconds and the picture's name.
+// data.csv of a camera: time [ns] and image name.
 PictureList read_pictures(const fs::path& camera) {
   const std::string file = (camera / "data.csv").string();
   TextRows rows(file, ',');
@@ -101,7 +101,7 @@ struct TruthRow {
   Eigen::Isometry3d T_world_body;
 };
 
-// Columns are known by their order; a head that tells of another one is believed.
+// Columns have a fixed order; a header with another order is refused or followed.
 void check_head(const TextRows& rows) {
   const auto& names = rows.head();
   if (names.size() >= 8 && names[4].find('w') == std::string_view::npos)
@@ -142,7 +142,7 @@ std::optional<Eigen::Isometry3d> truth_at(const std::vector<TruthRow>& truth, st
   return interpolate(before->T_world_body, after->T_world_body, u);
 }
 
-// Exposed together, if the clocks that stamped them differ a little.
+// Pairs images with nearly equal times.
 std::int64_t most_apart_ns(const PictureList& lefts) {
   return std::min<std::int64_t>(1'000'000, lefts.interval_ns / 20);
 }

@@ -78,7 +78,7 @@ class CsvExport {
     std::vector<std::string> columns;
     std::ofstream file;
   };
-  // Of a channel that the project knows: no other has fields, so no name in a log leads out of the folder.
+  // Only known channels have fields, so a channel name in a log cannot lead out of the folder.
   fs::path file_of(const std::string& channel) const { return dir_ / (channel + ".csv"); }
 
   fs::path dir_;
@@ -148,7 +148,7 @@ class TrackExport {
   static void add(Trajectory& trajectory, Utime utime, const Eigen::Isometry3d& T) {
     if (is_finite(T)) trajectory.push_back({utime, T});
   }
-  // A path may be sent again.
+  // A path may be repeated.
   void add_path(const path_t& message) {
     const auto same = [&](const Path& path) { return path.id == message.path_id; };
     if (std::any_of(tracks_.global_paths.begin(), tracks_.global_paths.end(), same)) return;
@@ -160,7 +160,7 @@ class TrackExport {
   Tracks tracks_;
 };
 
-// Places by the run's orbital map, where that knows its place on a planet.
+// Geographic coordinates by the run's orbital map, if it is georeferenced.
 ToLonLat planet_of(const fs::path& log) {
   const fs::path map = log.parent_path() / "orbital_map.tif";
   if (!fs::exists(map)) return {};
@@ -168,7 +168,7 @@ ToLonLat planet_of(const fs::path& log) {
     const auto geography = std::make_shared<Geography>(read_elevation_map(map.string()).raster);
     if (!geography->is_known()) return {};
     return [geography](const Eigen::Vector2d& p) { return geography->to_lon_lat(p); };
-  } catch (const std::exception&) {  // a map without projection: metres then
+  } catch (const std::exception&) {  // no projection: use metres
     return {};
   }
 }
@@ -197,7 +197,7 @@ void write_trajectories(const fs::path& dir, const Tracks& tracks, std::vector<s
   }
 }
 
-// Messages that are not exported, by channel.
+// Skipped messages by channel.
 class LeftOut {
  public:
   void add(const std::string& channel) { ++(find_channel_type(channel) == nullptr ? foreign_ : damaged_)[channel]; }
@@ -227,7 +227,7 @@ class LeftOut {
   std::map<std::string, std::int64_t> foreign_;
 };
 
-// What is exported as the log is read.
+// Exporters that run while the log is read.
 struct Exports {
   std::optional<CsvExport> csv;
   std::optional<McapExport> mcap;
@@ -275,7 +275,7 @@ std::vector<std::string> write_all(const ExportOptions& options, const LogRun& r
   return lines;
 }
 
-// Beside the log where none is named.
+// Default: beside the log.
 fs::path target_of(const ExportOptions& options, const fs::path& log) {
   if (!options.out.empty()) return options.out;
   const fs::path dir = log.parent_path();
@@ -300,7 +300,7 @@ std::vector<std::string> export_log(const ExportOptions& options) {
     return lines;
   } catch (const ConfigError&) {
     throw;
-  } catch (const std::exception& failure) {  // the file system's
+  } catch (const std::exception& failure) {  // file system error
     throw ConfigError(failure.what());
   }
 }

@@ -1,4 +1,4 @@
-// ./rover export: a log in the formats of other tools.
+// ./rover export: converts a log to formats of other tools.
 #pragma once
 
 #include <set>
@@ -10,16 +10,15 @@ namespace rover::interchange {
 inline const std::set<std::string> kExportFormats = {"csv", "tum", "geojson", "mcap"};
 
 struct ExportOptions {
-  std::string log;  // file, or a run's folder
+  std::string log;  // log file or run folder
   std::string out;  // folder, new or empty; empty: "export" in the run's folder, or beside
                     // the log as NAME_export
-  int log_run = 0;  // of a log that holds several runs; 0: the only one
-  std::set<std::string> formats = kExportFormats;  // of these
+  int log_run = 0;  // selects a run of a log with several; 0: the only one
+  std::set<std::string> formats = kExportFormats;  // subset of kExportFormats
   std::set<std::string> channels;                  // empty: all
 };
 
-// Lines that say what was written and what was left out. Throws ConfigError with one line, also where the process is
-// told to end (interrupt.hpp); nothing is left then.
+// Returns a summary. Throws ConfigError, also on SIGINT and SIGTERM (interrupt.hpp); then nothing is left.
 std::vector<std::string> export_log(const ExportOptions& options);
 
 }  // namespace rover::interchange

@@ -1,4 +1,4 @@
-// rover_export LOG: a log in the formats of other tools.
+// rover_export LOG: converts a log to formats of other tools.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 

@@ -31,12 +31,12 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr Utime kFirstTick = 1'000'000;
-constexpr Utime kStartPose = 1'060'000;  // localization has begun
+constexpr Utime kStartPose = 1'060'000;  // after the start of localization
 constexpr Utime kFirstPair = 1'200'000;
-constexpr Utime kAfterLast = 1'000'000;  // what is said of the last pair
+constexpr Utime kAfterLast = 1'000'000;  // time for outputs of the last pair
 constexpr size_t kMaxMessageBytes = 500'000;
 
-// The log of the data set, in the order in which a recorder would have written it.
+// Log of the data set, in the order in which the recorder would have written it.
 class LogWriter {
  public:
   explicit LogWriter(const std::string& path) : path_(path), log_(path, "w"), streams_("import", 1) {
@@ -53,7 +53,7 @@ class LogWriter {
     event.datalen = static_cast<std::int32_t>(bytes.size());
     if (log_.writeEvent(&event) != 0) fail();
   }
-  // What is still in memory may not have room on the disk.
+  // Buffered data may not fit on the disk.
   void finish() {
     if (std::fflush(log_.getFilePtr()) != 0) fail();
   }
@@ -154,7 +154,7 @@ YAML::Node rig_node(const StereoRig& rig) {
     node["left_in_body"]["position_m"].push_back(0.0);
   }
   const Eigen::Vector3d mount = rpy_of(rig.T_body_left.linear() * T_body_left_camera().linear().transpose());
-  // Roll and yaw are one where it looks straight up or down.
+  // Gimbal lock: roll and yaw are not separable.
   if (!(rotation_from_rpy(mount.x(), mount.y(), mount.z()) * T_body_left_camera().linear())
            .isApprox(rig.T_body_left.linear(), 1e-6))
     throw ConfigError("the left camera looks straight up or down at the first pair: its mounting has no angles");
@@ -164,7 +164,7 @@ YAML::Node rig_node(const StereoRig& rig) {
   return node;
 }
 
-// The project's configuration for the cameras of the data set, without ground, IMU, wheels or a rover's speed.
+// Project configuration for the data set's cameras, without ground plane, IMU, wheels and the rover's speed limit.
 void write_configuration(const ImportOptions& options, const StereoDataSet& set, const fs::path& dir) {
   fs::create_directory(dir);
   for (const auto& entry : fs::directory_iterator(options.config_dir))
@@ -177,14 +177,14 @@ void write_configuration(const ImportOptions& options, const StereoDataSet& set,
   });
   change_yaml(dir / "visual_odometry.yaml", [&](YAML::Node& odometry) {
     odometry["stereo"]["max_disparity_px"] = static_cast<double>(options.max_disparity_px);
-    // Per pair, and a pair may be metres from the one before.
+    // Per pair, and pairs may be metres apart.
     odometry["odometry"]["max_position_sigma_m"] = 0.2;
   });
   change_yaml(dir / "localization.yaml", [&](YAML::Node& localization) {
     localization["max_speed_mps"] = options.max_speed_mps;
     localization["cameras_alone"]["enabled"] = true;
     localization["smoothing_s"] = 0.02;
-    localization["filter"]["blind_rate_radps"] = 10.0;  // nothing but pictures knows how it turns
+    localization["filter"]["blind_rate_radps"] = 10.0;  // no IMU: rotation is known from images only
     localization["status"]["blind_distance_m"] = 100.0;
   });
 }
@@ -222,7 +222,7 @@ void set_size(StereoDataSet& set) {
   check_principal_point(rig.right, rig, file);
 }
 
-// Before any of it is written.
+// Checks before writing.
 void check_space(const StereoDataSet& set, const fs::path& dir) {
   constexpr std::uintmax_t kTickBytes = 150;
   const auto ticks = static_cast<std::uintmax_t>((set.pairs.back().since_first + kFirstPair + kAfterLast) / kTickUs);

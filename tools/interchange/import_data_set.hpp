@@ -1,4 +1,4 @@
-// ./rover import: a stereo data set as the log of a run, with its configuration.
+// ./rover import: converts a stereo data set to the log of a run, with its configuration.
 #pragma once
 
 #include <stdexcept>
@@ -9,11 +9,11 @@ namespace rover::interchange {
 
 struct ImportOptions {
   std::string data_set;        // folder
-  std::string out;             // the run's folder; new, or empty
-  std::string config_dir;      // the project's
-  std::string poses;           // KITTI: file of the ground truth, empty: poses.txt in the folder
+  std::string out;             // run folder; new or empty
+  std::string config_dir;      // project configuration
+  std::string poses;           // KITTI: ground truth file; empty: poses.txt in the folder
   double rate_hz = 10.0;       // KITTI without times.txt
-  int max_disparity_px = 128;  // the nearest that stereo sees; a multiple of 16
+  int max_disparity_px = 128;  // maximum disparity (minimum range); a multiple of 16
   double max_speed_mps = 60.0;
 };
 
@@ -22,8 +22,8 @@ class Interrupted : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Lines that say what was written and what was left out. Throws ConfigError with one line, or Interrupted after SIGINT
-// and SIGTERM (common/bus/interrupt.hpp); nothing is left then.
+// Returns a summary. Throws ConfigError, or Interrupted on SIGINT and SIGTERM (common/bus/interrupt.hpp); then nothing
+// is left.
 std::vector<std::string> import_data_set(const ImportOptions& options);
 
 }  // namespace rover::interchange

@@ -1,4 +1,4 @@
-// rover_import DATA_SET: a stereo data set as the log of a run.
+// rover_import DATA_SET: converts a stereo data set to the log of a run.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>

@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 using Matrix34d = Eigen::Matrix<double, 3, 4>;
-constexpr double kMostSeconds = 5e9;  // of the clock, too: until the year 2128
+constexpr double kMaxSeconds = 5e9;  // upper limit of times, also absolute ones: year 2128
 
 using Pictures = std::map<std::int64_t, fs::path>;
 
@@ -35,7 +35,7 @@ fs::path first_folder(const fs::path& dir, std::initializer_list<const char*> na
   throw ConfigError(dir.string() + ": no folder " + *names.begin());
 }
 
-// The rows called P0 and P1; the first two where rows have no names.
+// Rows P0 and P1, or the first two if rows have no names.
 std::vector<Matrix34d> read_projections(const fs::path& file) {
   TextRows rows(file.string(), ' ');
   std::vector<Matrix34d> P;
@@ -49,7 +49,7 @@ std::vector<Matrix34d> read_projections(const fs::path& file) {
   return P;
 }
 
-// P0 and P1 are rectified: one focal length, no distortion, the right camera at +x.
+// P0 and P1 are rectified: equal focal length, no distortion, right camera at +x.
 StereoRig rig_from(const fs::path& file) {
   const std::vector<Matrix34d> P = read_projections(file);
   StereoRig rig;
@@ -65,8 +65,7 @@ StereoRig rig_from(const fs::path& file) {
   return rig;
 }
 
-// The number of the picture that the first row of a file belongs to: 0, or that of the first picture where the file was
-// cut with them.
+// Image number of a file's first row: 0, or that of the first image if the file was cut with the images.
 std::int64_t first_number(const fs::path& file, size_t rows, const Pictures& pictures) {
   const std::int64_t first = pictures.begin()->first;
   const std::int64_t last = pictures.rbegin()->first;
@@ -77,7 +76,7 @@ std::int64_t first_number(const fs::path& file, size_t rows, const Pictures& pic
                     " to " + std::to_string(last) + "; a row for each of them, or for each from 0 on, is expected");
 }
 
-// By the numbers of the pictures, in nanoseconds.
+// Image number to time [ns].
 std::map<std::int64_t, std::int64_t> read_times(const fs::path& file, const Pictures& pictures, double rate_hz) {
   std::map<std::int64_t, std::int64_t> times_ns;
   Stamps stamps;
@@ -85,7 +84,7 @@ std::map<std::int64_t, std::int64_t> read_times(const fs::path& file, const Pict
   if (!fs::exists(file)) {
     for (const auto& [number, picture] : pictures) {
       const double after_s = static_cast<double>(number - pictures.begin()->first) / rate_hz;
-      if (after_s > kMostSeconds)
+      if (after_s > kMaxSeconds)
         throw ConfigError(picture.string() + ": the number in the name gives no time; a times.txt is expected");
       stamps.add(nanoseconds(after_s),
                  [&](const std::string& what) { throw ConfigError(picture.string() + ": " + what); });
@@ -96,7 +95,7 @@ std::map<std::int64_t, std::int64_t> read_times(const fs::path& file, const Pict
   TextRows rows(file.string(), ' ');
   while (rows.next()) {
     const double s = rows.number(0);
-    if (rows.cells().size() != 1 || !(s >= 0.0 && s <= kMostSeconds)) rows.fail("one time in seconds is expected");
+    if (rows.cells().size() != 1 || !(s >= 0.0 && s <= kMaxSeconds)) rows.fail("one time in seconds is expected");
     stamps.add(nanoseconds(s), [&](const std::string& what) { rows.fail(what); });
   }
   stamps.interval_ns(file.string());
@@ -106,7 +105,7 @@ std::map<std::int64_t, std::int64_t> read_times(const fs::path& file, const Pict
   return times_ns;
 }
 
-// By the numbers of the pictures; rows that are not a number are left out.
+// Image number to pose; rows with NaN are skipped.
 std::map<std::int64_t, Eigen::Isometry3d> read_truth(const fs::path& file, const Pictures& pictures,
                                                      std::map<std::string, int>& left_out) {
   TextRows rows(file.string(), ' ');
@@ -118,7 +117,7 @@ std::map<std::int64_t, Eigen::Isometry3d> read_truth(const fs::path& file, const
     const Eigen::Matrix3d R = m.leftCols<3>();
     if ((R * R.transpose() - Eigen::Matrix3d::Identity()).norm() > 1e-2 || R.determinant() < 0.0)
       rows.fail("no rotation in the left 3 x 3 of the matrix");
-    // Written with seven digits: made a rotation again.
+    // Seven digits only: re-orthonormalise.
     poses.back() = make_pose(Eigen::Quaterniond(R).normalized().toRotationMatrix(), m.col(3));
   }
   std::map<std::int64_t, Eigen::Isometry3d> truth;

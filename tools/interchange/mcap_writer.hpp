@@ -10,7 +10,7 @@
 
 namespace rover::interchange {
 
-// Bytes of MCAP records, little-endian.
+// Little-endian encoder of MCAP records.
 class McapBytes {
  public:
   template <class Unsigned>
@@ -18,7 +18,7 @@ class McapBytes {
     for (size_t i = 0; i < sizeof(Unsigned); ++i)
       bytes_ += static_cast<char>(static_cast<std::uint64_t>(value) >> (8 * i) & 0xffU);
   }
-  // With its length in front, of 4 bytes or 8.
+  // With a length prefix of 4 or 8 bytes.
   void text(std::string_view text);
   void long_text(std::string_view text);
   void raw(std::string_view text) { bytes_ += text; }
@@ -31,14 +31,14 @@ class McapBytes {
 
 class McapWriter {
  public:
-  // Throws std::runtime_error where the file cannot be written.
+  // Throws std::runtime_error if the file cannot be written.
   explicit McapWriter(const std::string& path);
 
-  // A topic of JSON messages with its JSON schema. The number is for write().
+  // Adds a topic of JSON messages with its schema. Returns the channel id for write().
   std::uint16_t add_channel(const std::string& topic, const std::string& schema_name, const std::string& schema);
   void write(std::uint16_t channel, std::uint32_t sequence, std::uint64_t log_time_ns, std::uint64_t publish_time_ns,
              std::string_view data);
-  // Index, statistics and end. Without it the file is not whole. Throws likewise.
+  // Writes index, statistics and footer; required for a valid file. Throws std::runtime_error.
   void finish();
 
  private:
@@ -57,13 +57,13 @@ class McapWriter {
 
   std::string path_;
   std::ofstream file_;
-  std::uint64_t size_ = 0;  // written
+  std::uint64_t size_ = 0;  // bytes written
   McapBytes chunk_;         // records not yet written
   std::uint64_t chunk_first_ns_ = 0;
   std::uint64_t chunk_last_ns_ = 0;
   std::map<std::uint16_t, std::vector<std::pair<std::uint64_t, std::uint64_t>>> chunk_messages_;  // time, offset
   std::vector<ChunkIndex> chunks_;
-  McapBytes schemas_, channels_;  // records, for the summary
+  McapBytes schemas_, channels_;  // records repeated in the summary
   std::uint16_t channel_count_ = 0;
   std::map<std::uint16_t, std::uint64_t> message_counts_;
   std::uint64_t message_count_ = 0;

@@ -20,7 +20,7 @@ std::string value_text(const Field& field, size_t index) {
   return text_of(field, index);
 }
 
-// The values from `index` on, as the dimensions from `dimension` on nest them.
+// Values from `index` on, nested by the dimensions from `dimension` on.
 std::string nested(const Field& field, size_t dimension, size_t& index) {
   if (dimension == field.shape.size()) return value_text(field, index++);
   std::string text = "[";

@@ -9,7 +9,7 @@ namespace rover::interchange {
 
 // Fields by name; arrays as arrays, bytes in base64, numbers that are not finite as null.
 std::string json_text(const Fields& fields);
-// JSON schema (draft-07) of what json_text gives for a type.
+// JSON schema (draft-07) of json_text's output for a type.
 std::string json_schema(const std::string& type);
 
 std::string base64(const void* data, size_t size);

@@ -1,4 +1,4 @@
-// The pictures of a folder, by the numbers in their names.
+// Images of a folder, sorted by the numbers in their names.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace rover::interchange {
 
-// PNG and JPEG, by the last number in each name: 2.png comes before 10.png. What is none is counted in `left_out`, by
-// what it is. Throws ConfigError where a name has no number, or two have the same.
+// PNG and JPEG, by the last number of the name. Other files are counted in `left_out`. Throws ConfigError if a number
+// is missing or repeated.
 std::map<std::int64_t, std::filesystem::path> numbered_pictures(const std::filesystem::path& dir,
                                                                 std::map<std::string, int>& left_out);
 

@@ -11,9 +11,9 @@
 namespace rover::interchange {
 namespace {
 
-constexpr size_t kMostPictureBytes = 64 << 20;
+constexpr size_t kMaxPictureBytes = 64 << 20;
 
-// The libraries that read PNG and JPEG tell stderr of what they find; what the user is told is one line.
+// Suppresses warnings of the PNG and JPEG libraries on stderr.
 class Silence {
  public:
   Silence() : stderr_(dup(STDERR_FILENO)), nowhere_(open("/dev/null", O_WRONLY | O_CLOEXEC)) {
@@ -32,7 +32,7 @@ class Silence {
   int nowhere_;
 };
 
-// The decoders make pictures of halves of files. A PNG ends with IEND, a JPEG with ff d9, and something may follow.
+// Decoders accept truncated files: check the end marker (PNG: IEND, JPEG: ff d9); trailing bytes are allowed.
 bool is_whole(const std::string& bytes) {
   const bool png = bytes.starts_with("\x89PNG");
   return bytes.find(png ? "IEND" : "\xff\xd9", bytes.size() - std::min<size_t>(bytes.size(), 1024)) !=
@@ -52,7 +52,7 @@ cv::Mat decode(const std::string& bytes) {
 }  // namespace
 
 GrayImage read_picture(const std::string& file) {
-  const std::string bytes = read_text(file, kMostPictureBytes);
+  const std::string bytes = read_text(file, kMaxPictureBytes);
   if (bytes.empty()) throw ConfigError(file + ": empty; no picture");
   const cv::Mat picture = decode(bytes);
   if (picture.empty()) throw ConfigError(file + ": no picture that can be read");

@@ -1,4 +1,4 @@
-// A picture from a file.
+// Reads an image file.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace rover::interchange {
 
-// Grey, or turned grey; as it lies in the file. Throws ConfigError where it is none, is cut short or damaged.
+// Converted to grey, unrotated. Throws ConfigError if it is not an image, truncated or damaged.
 GrayImage read_picture(const std::string& file);
 
 }  // namespace rover::interchange

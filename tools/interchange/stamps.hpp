@@ -1,4 +1,4 @@
-// The times of pictures, checked before anything is made of them.
+// Checks image timestamps.
 #pragma once
 
 #include <cstdint>
@@ -10,10 +10,9 @@ namespace rover::interchange {
 
 class Stamps {
  public:
-  // In nanoseconds. `fail` is called, and does not return, where it does not rise or is more than a minute after the
-  // one before: every second of a log costs space, with pictures or without.
+  // Time [ns]. Calls `fail` (which must not return) if it does not increase, or is over 60 s after the previous one.
   void add(std::int64_t time_ns, const std::function<void(const std::string&)>& fail);
-  // The median from one to the next; throws ConfigError where no camera is so fast or slow: times in other units.
+  // Median interval; throws ConfigError if no camera has such a rate (wrong time unit).
   std::int64_t interval_ns(const std::string& file) const;
   const std::vector<std::int64_t>& all_ns() const { return times_ns_; }
 

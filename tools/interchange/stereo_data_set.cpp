@@ -14,7 +14,7 @@ Eigen::Isometry3d T_body_left_camera() {
   return make_pose(camera_rotation(0.0), Eigen::Vector3d::Zero());
 }
 
-void begin_at_truth(StereoDataSet& set) {
+void start_at_truth(StereoDataSet& set) {
   const auto begin = std::find_if(set.pairs.begin(), set.pairs.end(),
                                   [](const StereoPair& pair) { return pair.T_map_body.has_value(); });
   if (begin == set.pairs.end()) return;
@@ -53,7 +53,7 @@ StereoDataSet read_layout(const fs::path& root, const std::string& poses, double
   try {
     if (fs::exists(root / "calib.txt")) return read_kitti(root.string(), poses, rate_hz);
     if (fs::exists(root / "mav0") || fs::exists(root / "cam0")) return read_euroc(root.string());
-  } catch (const fs::filesystem_error& failure) {  // a name that is too long, a folder that may not be read
+  } catch (const fs::filesystem_error& failure) {  // name too long, or no permission
     throw ConfigError(failure.path1().string() + ": " + failure.code().message());
   }
   fail_unknown(root);
@@ -65,7 +65,7 @@ StereoDataSet read_stereo_data_set(const std::string& dir, const std::string& po
   const fs::path root(dir);
   if (!fs::is_directory(root)) throw ConfigError(dir + ": no such folder");
   StereoDataSet set = read_layout(root, poses, rate_hz);
-  begin_at_truth(set);
+  start_at_truth(set);
   if (set.pairs.size() < 2)
     throw ConfigError(dir + ": no sequence of stereo pairs: " + std::to_string(set.pairs.size()) +
                       (set.pairs.size() == 1 ? " pair" : " pairs") + counts(set));

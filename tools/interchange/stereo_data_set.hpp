@@ -1,4 +1,4 @@
-// A recorded stereo sequence of other projects: pictures, calibration, ground truth.
+// Stereo sequence of another project: images, calibration, ground truth.
 #pragma once
 
 #include <map>
@@ -13,37 +13,35 @@ namespace rover::interchange {
 
 struct StereoPair {
   Utime since_first = 0;
-  std::string left;  // files
+  std::string left;  // file names
   std::string right;
-  std::optional<Eigen::Isometry3d> T_map_body;  // ground truth; body: where the left camera is
+  std::optional<Eigen::Isometry3d> T_map_body;  // ground truth; body origin: left camera
 };
 
 struct StereoDataSet {
   std::string layout;  // "KITTI", "EuRoC"
   std::string name;
-  StereoRig rig;  // width and height 0 where the calibration does not tell
+  StereoRig rig;  // width and height 0 if not in the calibration
   std::vector<StereoPair> pairs;
-  std::map<std::string, int> left_out;  // what, and how many
-  std::vector<std::string> notes;       // what else the user should know
+  std::map<std::string, int> left_out;  // reason and count
+  std::vector<std::string> notes;       // further information for the user
 };
 
 inline constexpr const char* kWithoutPartner = "pictures without a partner";
 inline constexpr const char* kNoNumbers = "rows of the ground truth that are not a number";
 
-// A rover's axes at the left camera: x where it looks, y left, z up in the picture.
+// Body axes at the left camera: x along the optical axis, y left, z up in the image.
 Eigen::Isometry3d T_body_left_camera();
-// Lets the drive begin at the first pair with ground truth, where there is any: its place is where the rover starts.
-// Turns the body so that it is level there, as a rover's is: the camera is mounted with what is left. Ground truth has
-// to have its z up, or to begin level.
-void begin_at_truth(StereoDataSet& set);
+// Starts at the first pair with ground truth and makes the body level there, by a camera mount. Truth must have z up or
+// start level.
+void start_at_truth(StereoDataSet& set);
 
-// KITTI odometry: image_0, image_1 (or image_l, image_r), calib.txt, and where there are times.txt and poses.txt, whose
-// rows are those of the pictures' numbers.
-// `poses`: the file with the poses, empty: poses.txt in the folder. `rate_hz` counts where there is no times.txt.
+// KITTI odometry: image_0, image_1 (or image_l, image_r), calib.txt, times.txt (else `rate_hz`), `poses` (default:
+// poses.txt).
 StereoDataSet read_kitti(const std::string& dir, const std::string& poses, double rate_hz);
-// EuRoC MAV: cam0, cam1, state_groundtruth_estimate0, each with data.csv and sensor.yaml; in the folder or its mav0.
+// EuRoC MAV: cam0, cam1, state_groundtruth_estimate0, each with data.csv and sensor.yaml; in the folder or in mav0.
 StereoDataSet read_euroc(const std::string& dir);
-// Looks at the folder. All of these throw ConfigError with one line. Nothing but text and names is read, no picture.
+// Detects the layout. All of these throw ConfigError. Reads text and file names only, no images.
 StereoDataSet read_stereo_data_set(const std::string& dir, const std::string& poses, double rate_hz);
 
 }  // namespace rover::interchange

@@ -11,7 +11,7 @@
 namespace rover::interchange {
 namespace {
 
-constexpr size_t kMostTextBytes = 64 << 20;  // hours of ground truth at 200 Hz
+constexpr size_t kMaxTextBytes = 64 << 20;  // hours of ground truth at 200 Hz
 constexpr const char* kBlanks = " \t\r";
 
 std::string_view trimmed(std::string_view text) {
@@ -23,7 +23,7 @@ std::string_view trimmed(std::string_view text) {
 }  // namespace
 
 TextRows::TextRows(const std::string& file, char separator)
-    : file_(file), separator_(separator), text_(read_text(file, kMostTextBytes)) {}
+    : file_(file), separator_(separator), text_(read_text(file, kMaxTextBytes)) {}
 
 bool TextRows::next() {
   while (at_ < text_.size()) {

@@ -1,4 +1,4 @@
-// Rows of cells, as tables and lists of poses come in text files.
+// Reads rows of cells from text files: tables and lists of poses.
 #pragma once
 
 #include <string>
@@ -7,21 +7,21 @@
 
 namespace rover::interchange {
 
-// Passes over empty lines, those that begin with '#', and the head of a table, which often lacks its '#'. Takes any
-// ends of lines, blanks around cells, and the mark of UTF-8 at the beginning. At most 64 MB.
+// Skips empty lines, '#' comments and a header. Accepts any line ends, blanks around cells, a UTF-8 byte order mark. At
+// most 64 MB.
 class TextRows {
  public:
-  // ',' parts cells, or ' ': any number of blanks and tabs. Throws ConfigError.
+  // `separator`: ',' or ' ' (any blanks and tabs). Throws ConfigError.
   TextRows(const std::string& file, char separator);
 
-  // False after the last row.
+  // Returns false after the last row.
   bool next();
   const std::vector<std::string_view>& cells() const { return cells_; }
-  // The names of the columns, where the table has a head; known after next().
+  // Column names, if the table has a header; valid after next().
   const std::vector<std::string_view>& head() const { return head_; }
-  // Not a number where the cell says nan; fails at other words.
+  // NaN if the cell is "nan"; fails for other words.
   double number(size_t cell) const;
-  // Throws ConfigError "FILE:LINE: what".
+  // Throws ConfigError "FILE:LINE: reason".
   [[noreturn]] void fail(const std::string& what) const;
 
  private:

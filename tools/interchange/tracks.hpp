@@ -1,4 +1,4 @@
-// The tracks of a run: what the rover believed, what was true, and the paths; as TUM trajectories and as GeoJSON.
+// Estimated track, true track and paths of a run, as TUM trajectories and as GeoJSON.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -17,7 +17,7 @@ struct StampedPose {
 };
 using Trajectory = std::vector<StampedPose>;
 
-// A line in the map, by its place along it.
+// Polyline in map.
 struct Path {
   std::int64_t id = 0;
   Utime utime = kNever;
@@ -34,11 +34,11 @@ struct Tracks {
 // Lines "time x y z qx qy qz qw" as evo reads them, time in seconds.
 void write_tum(std::ostream& out, const Trajectory& trajectory);
 
-// Longitude and latitude [deg] of a place in the map.
+// Longitude and latitude [deg] of a map point.
 using ToLonLat = std::function<Eigen::Vector2d(const Eigen::Vector2d& map_m)>;
 
-// One LineString for each track, thinned to `step_m`. Without `to_lon_lat` the coordinates are metres of the map, and a
-// property of each feature says so.
+// One LineString per track, decimated to `step_m`. Without `to_lon_lat`: map metres, stated in a property of each
+// feature.
 std::string geojson(const Tracks& tracks, const ToLonLat& to_lon_lat, double step_m);
 
 }  // namespace rover::interchange
