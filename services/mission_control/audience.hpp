@@ -1,5 +1,4 @@
-// How many pages are open, and how many of them want to see the true world. Without any, nobody listens and nothing is
-// made.
+// Counts the open pages and those that show ground truth. Without a page nothing is subscribed or rendered.
 #pragma once
 
 #include <chrono>
@@ -10,7 +9,7 @@ namespace rover::mission {
 
 class Audience {
  public:
-  // False where there are so many already.
+  // Returns false when most_pages are already connected.
   bool enter(bool truth, int most) {
     const std::lock_guard lock(mutex_);
     if (pages_ >= most) return false;
@@ -32,7 +31,7 @@ class Audience {
     const std::lock_guard lock(mutex_);
     return truth_ > 0;
   }
-  // Until a page is open; false where none came in that time, or all is over.
+  // Blocks until a page is open; false after the timeout or after close().
   bool wait_for_page(std::chrono::milliseconds patience) {
     std::unique_lock lock(mutex_);
     changed_.wait_for(lock, patience, [this] { return pages_ > 0 || over_; });

@@ -1,4 +1,4 @@
-// Makes the page's view five times a second while a page is open: one text, which all pages get.
+// Serialises the page's view once every 200 ms while a page is open; all pages get the same text.
 #pragma once
 
 #include <atomic>
@@ -17,22 +17,22 @@ namespace rover::mission {
 
 class Broadcaster {
  public:
-  // One view as server-sent events; that of the true world added, for those who asked for it.
+  // One view as server-sent events, with and without ground truth.
   struct Frame {
     std::int64_t number = 0;
     std::string view;
-    std::string view_and_truth;  // the view alone where nobody asked for the truth, or there is none
+    std::string view_and_truth;  // equals view if no page asked for truth or none was received
   };
 
-  // `made`: a frame is there, in the broadcaster's thread.
+  // `made` is called in the broadcaster's thread after each new frame.
   Broadcaster(Audience& audience, Ear& ear, Station& station, std::function<void()> made);
   ~Broadcaster();
   Broadcaster(const Broadcaster&) = delete;
   Broadcaster& operator=(const Broadcaster&) = delete;
 
-  // Null where none was made yet.
+  // Null before the first frame.
   std::shared_ptr<const Frame> newest();
-  // No more frames.
+  // Stops producing frames.
   void stop();
 
  private:

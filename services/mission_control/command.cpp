@@ -16,7 +16,7 @@ constexpr int kDeepest = 4;
 struct Form {
   const char* name;
   CommandKind kind;
-  const char* argument;  // its one further key, null: none
+  const char* argument;  // name of its only argument; null: none
 };
 
 constexpr std::array kForms = {Form{"go", CommandKind::kGo, nullptr},
@@ -31,8 +31,8 @@ constexpr std::array kForms = {Form{"go", CommandKind::kGo, nullptr},
                                Form{"kill", CommandKind::kKill, "service"},
                                Form{"hang", CommandKind::kHang, "service"}};
 
-// Null where the text is no JSON object, or nests deeper than any request: copies of a value recurse, and a few
-// thousand brackets would take the stack.
+// Returns null unless the text is a JSON object. Nesting is limited because copying a value recurses: a few thousand
+// brackets would overflow the stack.
 json object_from(const std::string& text) {
   bool too_deep = false;
   const auto keep = [&](int depth, json::parse_event_t, json&) {
@@ -58,7 +58,7 @@ std::optional<Level> level_from(const json& value) {
   return std::nullopt;
 }
 
-// Names of faults and services: letters, digits, '_', '.', '-'.
+// Valid fault and service names: letters, digits, '_', '.', '-'.
 bool is_name(const json& value) {
   if (!value.is_string()) return false;
   const auto& text = value.get_ref<const std::string&>();

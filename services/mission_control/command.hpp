@@ -1,5 +1,4 @@
-// What an operator may ask for through the page, from the text of a request. All that is not exactly one of these is an
-// error in words.
+// Parses an operator command from the JSON body of a request. Anything else is rejected with an error text.
 #pragma once
 
 #include <Eigen/Dense>
@@ -27,7 +26,7 @@ enum class Level { kEfficient, kFull, kAuto };
 
 struct Command {
   CommandKind kind = CommandKind::kStop;
-  Level level = Level::kAuto;           // kForceLevel; kPath: of all its points, kEfficient or kFull
+  Level level = Level::kAuto;           // kForceLevel; kPath: level of all points, kEfficient or kFull
   std::string target;                   // kClearFault: the fault's id; kKill, kHang: the service
   std::vector<Eigen::Vector2d> points;  // kPath: way-points in map coordinates [m]
 };
@@ -39,25 +38,25 @@ struct CommandLimits {
 
 struct ParsedCommand {
   std::optional<Command> command;
-  std::string error;  // where there is none
+  std::string error;  // set if there is no command
 };
 
 ParsedCommand parse_command(const std::string& json, const CommandLimits& limits);
 
-// The "points" of a request, which hold nothing else.
+// Parses a request that contains only "points".
 struct ParsedPoints {
   std::vector<Eigen::Vector2d> points;
   std::string error;
 };
 ParsedPoints parse_points(const std::string& json, const CommandLimits& limits);
 
-// As in the request: "go", "force_level" ...
+// Name used in the request: "go", "force_level" ...
 std::string name(CommandKind kind);
-// For the time line: "GO", "FORCE LEVEL full" ...
+// Text for the event list: "GO", "FORCE LEVEL full" ...
 std::string description(const Command& command);
-// Ends or forbids motion: worth giving however late, and the end of any plan of the ground.
+// True if the command ends or forbids motion. Such a command is sent even if late, and cancels the mission plan.
 bool stops(CommandKind kind);
-// Carried out on processes, not on the bus.
+// True if the command acts on processes instead of the bus.
 bool is_injection(CommandKind kind);
 
 }  // namespace rover::mission

@@ -38,7 +38,7 @@ GlobalPath read_path(const Config& config) {
   return path;
 }
 
-// The page shows these rows of the table of faults as gauges: the limit, and the lesser one that warns before it.
+// Rows of the fault table shown as gauges, with the lower limit that warns first.
 struct Gauge {
   const char* name;
   const char* row;
@@ -60,7 +60,7 @@ nlohmann::json gauge_limits(const std::string& config_dir, const Vehicle& vehicl
   return out;
 }
 
-// From where the NavCam turns, and how wide it looks to either side; null: the vehicle has none.
+// Pan axis position and half field of view of the NavCam; null if the vehicle has none.
 nlohmann::json navcam_view(const std::string& config_dir, const Vehicle& vehicle) {
   if (!vehicle.pan_tilt) return nullptr;
   const StereoRig rig = load_stereo_rig(config_dir, "navcam");

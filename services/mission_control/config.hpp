@@ -1,5 +1,5 @@
-// Reads ground.yaml (what the ground believes and wants; it holds nothing of the true world), mission_control.yaml, and
-// what the page shows of the other files.
+// Reads ground.yaml (start pose estimate and path; no ground truth), mission_control.yaml, and the parameters of other
+// files that the page displays.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -23,7 +23,7 @@ MissionPlan load_mission_plan(const std::string& config_dir);
 
 namespace mission {
 
-// Of paths that the operator draws.
+// Limits and defaults for paths drawn by the operator.
 struct DrawnPath {
   double corridor_half_width_m = 1.5;
   double goal_tolerance_m = 0.5;
@@ -36,16 +36,16 @@ struct PageConfig {
   bool served = true;
   GuardConfig guard;
   int most_pages = 16;
-  ServerLimits limits;  // but for the number of connections, which follows from most_pages
+  ServerLimits limits;  // the number of connections is derived from most_pages
   DrawnPath path;
 };
 
-// Throws ConfigError: an address that others can reach needs a token in a file of mode 0600.
+// Throws ConfigError if a non-loopback address has no token file.
 PageConfig load_page_config(const std::string& config_dir);
-// The token of the file. Throws ConfigError where it may be read by others or is too short.
+// Reads the token. Throws ConfigError if others can read the file (mode not 0600) or the token is too short.
 std::string load_token(const std::string& file);
 
-// What of the vehicle, the limits and the cameras the page draws; it does not change.
+// Constant vehicle, limit and camera parameters that the page draws.
 nlohmann::json page_setup(const std::string& config_dir, const Vehicle& vehicle);
 
 }  // namespace mission

@@ -8,7 +8,7 @@
 namespace rover::mission {
 namespace {
 
-constexpr double kLingerS = 5.0;  // after the last page has gone: it may only be loaded anew
+constexpr double kLingerS = 5.0;  // after the last page closed, so that a reload keeps the subscriptions
 
 }  // namespace
 
@@ -23,7 +23,7 @@ Ear::~Ear() {
   end();
 }
 
-// What does not decode is left to the services to count and name.
+// Undecodable messages are ignored here; the services count and report them.
 template <class Message, class Take>
 Ear::Hearing* Ear::hear(const char* channel, Take take) {
   Hearing& hearing = handlers_.emplace_back();
@@ -75,7 +75,7 @@ void Ear::begin() {
   hear<correction_t>(channel::kCorrection);
   hear<image_t>(channel::kLocCamRectLeft, [this](const image_t& image) { gatherer_.take_loccam(image); });
   hear<image_t>(channel::kNavCamLeft, [this](const image_t& image) { gatherer_.take_navcam(image); });
-  // Large, and all that is wanted of it is the camera, which does not change.
+  // Only the constant camera parameters are used, so unsubscribe from this large message once they are known.
   if (!with([](const Gatherer& g) { return g.camera().has_value(); }))
     disparity_ = hear<disparity_t>(channel::kDisparity);
 }

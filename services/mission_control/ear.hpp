@@ -1,7 +1,5 @@
-// Listens to the bus for the page, beside the node and only while a page is open: it subscribes when one opens, in the
-// node's thread and on the node's own bus, so that no datagram wakes anybody twice. It publishes nothing and takes no
-// part in the lockstep. It alone takes TRUTH, and that only while a page asks to see it; nothing of it reaches the node
-// that gives commands.
+// Subscribes to telemetry for the page while a page is open. It shares the node's bus and thread, because a second
+// socket would wake the process twice per datagram. Only this class subscribes to TRUTH; the node never sees it.
 #pragma once
 
 #include <functional>
@@ -17,17 +15,17 @@ namespace rover::mission {
 
 class Ear {
  public:
-  // The bus outlives the ear.
+  // The bus must outlive this object.
   Ear(lcm::LCM& bus, Audience& audience, const std::vector<std::string>& services);
   ~Ear();
   Ear(const Ear&) = delete;
   Ear& operator=(const Ear&) = delete;
 
-  // To be called often, in the thread that handles the bus: begins and ends to listen. `wall_s`: a steady clock.
+  // Subscribes and unsubscribes as pages come and go. Call every tick in the bus thread. `wall_s`: steady clock.
   void attend(double wall_s);
   bool listening() const { return !handlers_.empty(); }
 
-  // From any thread.
+  // Thread-safe access to the store.
   template <class Use>
   auto with(Use use) {
     const std::lock_guard lock(mutex_);

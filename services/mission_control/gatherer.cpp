@@ -15,10 +15,10 @@ constexpr double kCpuWindowS = 3.0;
 constexpr double kLostS = 1.0;  // a heartbeat comes five times a second
 constexpr double kWaitS = 2.0;
 constexpr Utime kPoseHistory = 4'000'000;
-constexpr size_t kImagesKept = 8;  // hazards follow their image by about one more
+constexpr size_t kImagesKept = 8;  // the hazard grid arrives about one image later
 constexpr Utime kHazardsAwaited = 1'500'000;
 constexpr int kLargestGrid = 2048;
-constexpr std::int64_t kMostCountedBoots = 100'000;  // a larger boot number is a clock's, of a process started by hand
+constexpr std::int64_t kMostCountedBoots = 100'000;  // larger boot ids are clock values of processes started by hand
 
 const std::array kResponses = {"log", "slow", "stop", "stop and replan", "restart service", "safe", "stop and retreat"};
 
@@ -41,7 +41,7 @@ void Gatherer::begin() {
 
 void Gatherer::take(const tick_t& message, double wall_s) {
   const Utime utime = message.header.utime;
-  if (utime <= view_.now) return;  // said again
+  if (utime <= view_.now) return;  // repeated
   view_.now = utime;
   if (first_tick_ == kNever) first_tick_ = utime;
   ticks_.emplace_back(utime, wall_s);
@@ -169,7 +169,7 @@ void Gatherer::take(const slam_pose_t& m) {
   view_.slam = {m.header.utime, m.status, m.information, m.particles};
 }
 
-// It comes before localization has used it: what it moves is told by the pose as it still is.
+// CORRECTION arrives before localization applies it, so the current pose is the uncorrected one.
 void Gatherer::take(const correction_t& m) {
   const Pose2 corrected{m.x_m, m.y_m, m.yaw_rad};
   const Pose2 odom = poses_.empty() ? Pose2{kNaN, kNaN, kNaN} : poses_.back().second;
@@ -188,7 +188,7 @@ void Gatherer::take_navcam(const image_t& message) {
   show("navcam", std::make_shared<const image_t>(message));
 }
 
-// The image that the newest hazards were found in; where none come, the newest.
+// Shows the image of the newest hazard grid; the newest image if the grid is 1.5 s late.
 void Gatherer::choose_loccam() {
   if (loccam_.empty()) return;
   const auto grid = view_.grids.find("hazards");

@@ -1,4 +1,4 @@
-// Gathers the newest of each message into what the page shows. Wall time is an argument, in seconds of a steady clock.
+// Stores the newest message of each type in the form the page shows. Wall time is in seconds of a steady clock.
 #pragma once
 
 #include <deque>
@@ -41,10 +41,10 @@ struct GridContent {
 
 class Gatherer {
  public:
-  // `services`: those that have to be there.
+  // `services`: names of the services expected to send heartbeats.
   explicit Gatherer(const std::vector<std::string>& services);
 
-  // Forgets all but the camera: what was heard long ago says nothing about now.
+  // Clears everything except the camera parameters, so that stale data is never shown.
   void begin();
   void take(const tick_t& message, double wall_s);
   void take(const heartbeat_t& message, double wall_s);
@@ -68,14 +68,14 @@ class Gatherer {
   void take(const disparity_t& message);
   void take(const truth_t& message);
 
-  // The largest currents begin anew with each.
+  // Resets the peak drive currents.
   View view(double wall_s);
   const TruthView& truth() const { return truth_; }
   const LocalPathView& path() const { return view_.path; }
-  // Rectified LocCam; none before it was heard.
+  // Rectified LocCam; empty until received.
   const std::optional<StereoCamera>& camera() const { return camera_; }
 
-  // What a picture is made of; empty: not heard.
+  // Content of a grid or image; empty until received.
   std::optional<GridContent> grid(const std::string& name) const;
   std::shared_ptr<const image_t> image(const std::string& name) const;
 
@@ -104,7 +104,7 @@ class Gatherer {
   std::map<std::string, ServiceRecord> services_;
   std::deque<std::pair<Utime, double>> ticks_;         // with wall time
   std::deque<std::pair<Utime, Pose2>> poses_;          // odom
-  std::deque<std::shared_ptr<const image_t>> loccam_;  // waiting for their hazards
+  std::deque<std::shared_ptr<const image_t>> loccam_;  // waiting for their hazard grids
   std::map<std::string, GridContent> grids_;
   std::map<std::string, std::shared_ptr<const image_t>> images_;
 };

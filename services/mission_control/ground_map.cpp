@@ -10,16 +10,16 @@
 namespace rover::mission {
 namespace {
 
-constexpr double kSmoothingM = 0.8;  // against the map's vertical noise, as in the report's relief
-constexpr double kStepM = 0.5;       // of the check along a path
+constexpr double kSmoothingM = 0.8;  // suppresses the map's vertical noise, as in the report's relief
+constexpr double kStepM = 0.5;       // sampling step of the path check
 constexpr int kPictureEdgePx = 2000;
 
 struct Stop {
-  double at;  // slope over the limit
+  double at;  // slope / limit
   cv::Vec4d bgra;
 };
 
-// Green, yellow, orange, red; flat ground keeps the relief's own look.
+// Green, yellow, orange, red; transparent on flat ground.
 cv::Vec4b slope_colour(double share) {
   static const std::array<Stop, 5> kStops = {Stop{0.0, {120, 170, 60, 0}}, Stop{0.3, {110, 190, 90, 90}},
                                              Stop{0.6, {60, 200, 235, 150}}, Stop{1.0, {40, 110, 245, 185}},

@@ -1,4 +1,4 @@
-// The orbital map as the operator sees it: relief, slope, difficulty; and what a drawn path meets on it.
+// The operator's view of the orbital map: relief, slope and difficulty images, and slope checks of drawn paths.
 #pragma once
 
 #include <Eigen/Dense>
@@ -8,7 +8,7 @@
 
 namespace rover::mission {
 
-// Heights, lower left corner at the map's origin, rows from the south.
+// Heights; origin at the lower left corner, rows ordered south to north.
 struct GroundHeights {
   int columns = 0;
   int rows = 0;
@@ -22,12 +22,12 @@ struct SlopeLimits {
 };
 
 struct PathCheck {
-  bool inside = true;    // all of it on the map
-  bool passable = true;  // nowhere steeper than the limit
+  bool inside = true;    // the whole path is on the map
+  bool passable = true;  // slope limit met everywhere
   double length_m = 0.0;
   double max_slope_rad = 0.0;
-  std::vector<double> distance_m;  // along the path, with
-  std::vector<double> slope_rad;   // the steepest slope there in any direction
+  std::vector<double> distance_m;  // along the path
+  std::vector<double> slope_rad;   // steepest slope in any direction at distance_m
   std::vector<double> height_m;
 };
 
@@ -40,7 +40,7 @@ class GroundMap {
   double resolution_m() const { return heights_.resolution_m; }
 
   std::vector<std::uint8_t> relief_jpeg() const;
-  // PNG with transparency, one pixel a cell.
+  // PNG with alpha channel, one pixel per cell.
   std::vector<std::uint8_t> slope_png() const;
   // Four classes of the worst slope within the rover's length: easy, moderate, hard, impassable.
   std::vector<std::uint8_t> difficulty_png() const;

@@ -1,4 +1,4 @@
-// A request and an answer of HTTP, without sockets.
+// HTTP request and response types, independent of sockets.
 #pragma once
 
 #include <functional>
@@ -14,11 +14,11 @@ namespace rover::mission {
 struct Request {
   std::string method;
   std::string path;                            // percent-decoded, without the query
-  std::map<std::string, std::string> params;   // of the query, percent-decoded; the first of each name
-  std::map<std::string, std::string> headers;  // names in lower case; several of one name are joined with ", "
+  std::map<std::string, std::string> params;   // query, percent-decoded; first value of each name
+  std::map<std::string, std::string> headers;  // names in lower case; repeated headers are joined with ", "
   std::string body;
 
-  // Empty where there is none. `name` in lower case.
+  // Empty if absent. `name` in lower case.
   std::string header(const std::string& name) const { return value(headers, name); }
   std::string param(const std::string& name) const { return value(params, name); }
 
@@ -29,13 +29,13 @@ struct Request {
   }
 };
 
-// HTTP status and reason; status 200: let it pass.
+// HTTP status and reason; 200: accepted.
 struct Verdict {
   int status = 200;
   std::string reason;
 };
 
-// Bytes, and what keeps them alive (nothing: they are the program's own).
+// Bytes and their owner; a null owner means static storage.
 struct Content {
   std::string_view bytes;
   std::shared_ptr<const void> owner;
@@ -53,8 +53,8 @@ struct Response {
   std::string type;  // Content-Type; empty: none
   Content content;
   Headers headers;
-  // Set: after `content` the answer goes on with what this returns, until the client leaves. Called often, in the
-  // server's own thread, so it must not block. Empty: there is nothing new.
+  // If set, the response is a stream of what this returns, until the client disconnects. It runs in the server's
+  // thread, so it must not block. Empty content: nothing new.
   std::function<Content()> next;
 };
 

@@ -31,11 +31,11 @@ using boost::system::error_code;
 using boost::system::system_error;
 using net::ip::tcp;
 
-constexpr int kShortThreads = 2;  // so much of the machine a flood of good requests gets, beside the server's thread
+constexpr int kShortThreads = 2;  // bounds the processor share of valid requests, in addition to the server's thread
 constexpr int kWaitingThreads = 24;
-constexpr int kNice = 10;  // a flood of connections yields to the drive
+constexpr int kNice = 10;  // low priority, so that a flood of connections does not slow the drive
 constexpr size_t kReadBytes = 8 * 1024;
-constexpr auto kPause = 1s;  // until an address or a file descriptor may be had again; of a silent stream
+constexpr auto kPause = 1s;  // before retrying bind or accept; between keep-alives of a stream
 constexpr auto kLingerTime = 1s;
 constexpr size_t kLingerBytes = 256 * 1024;
 
@@ -43,7 +43,7 @@ struct Connection : std::enable_shared_from_this<Connection> {
   explicit Connection(tcp::socket from)
       : socket(std::move(from)), deadline(socket.get_executor()), news(socket.get_executor()) {}
 
-  // Whatever it does with the socket ends with an error then, and it is late.
+  // After the deadline pending socket operations fail and `late` is set.
   void must_end_within(std::chrono::milliseconds time) {
     late = false;
     deadline.expires_after(time);
@@ -62,10 +62,10 @@ struct Connection : std::enable_shared_from_this<Connection> {
 
   tcp::socket socket;
   net::steady_timer deadline;
-  net::steady_timer news;  // cancelled when there are some for its stream
-  bool begun = false;      // something was received
+  net::steady_timer news;  // cancelled when its stream has new content
+  bool begun = false;      // received at least one byte
   bool late = false;
-  bool at_work = false;  // for its client: a handler or a stream
+  bool at_work = false;  // running a handler or a stream
 };
 
 std::string head_of(const Response& response, const Response::Headers& common) {
@@ -121,11 +121,11 @@ class HttpServer::Serving {
   std::map<std::string, Route> routes_;  // by method and path
   std::function<void(bool)> on_served_;
   std::atomic<bool> served_ = false;
-  // In the thread of io_ alone, from here on.
+  // Members below are used only in the thread of io_.
   net::io_context io_{1};
   tcp::acceptor acceptor_{io_};
   net::steady_timer pause_{io_};
-  std::list<Client> connections_;  // the oldest first
+  std::list<Client> connections_;  // oldest first
   bool stopping_ = false;
   net::thread_pool short_{kShortThreads};
   net::thread_pool waiting_{kWaitingThreads};
@@ -178,7 +178,7 @@ bool HttpServer::Serving::bind(const std::string& address, const std::string& po
       acceptor_.bind(found.endpoint());
       acceptor_.listen();
       return true;
-    } catch (const system_error&) {  // another program has it
+    } catch (const system_error&) {  // address in use
     }
   }
   return false;
@@ -200,7 +200,7 @@ net::awaitable<void> HttpServer::Serving::accept() {
     error_code error;
     tcp::socket socket = co_await acceptor_.async_accept(net::redirect_error(net::use_awaitable, error));
     if (stopping_) break;
-    if (error) {  // no file descriptor is left: without a pause it would ask for one all the time
+    if (error) {  // no file descriptor left; pause to avoid a busy loop
       co_await pause();
       continue;
     }
@@ -225,7 +225,7 @@ net::awaitable<void> HttpServer::Serving::serve(Client client) {
   try {
     co_await answer(*client);
     co_await linger(*client);
-  } catch (const std::exception&) {  // the client is gone, or was too slow
+  } catch (const std::exception&) {  // disconnected or timed out
   }
   client->close();
   connections_.remove(client);
@@ -259,7 +259,7 @@ net::awaitable<void> HttpServer::Serving::read_more(Connection& client, RequestP
   error_code error;
   const size_t count =
       co_await client.socket.async_read_some(net::buffer(bytes), net::redirect_error(net::use_awaitable, error));
-  if (error && !client.begun) throw system_error(error);  // nothing was asked: browsers connect in advance
+  if (error && !client.begun) throw system_error(error);  // browsers connect in advance without a request
   client.begun = true;
   if (error)
     parser.end(client.late ? Verdict{408, "the request took too long"} : Verdict{400, "the request is cut short"});
@@ -288,7 +288,7 @@ net::awaitable<void> HttpServer::Serving::send(Connection& client, const Respons
 }
 
 net::awaitable<void> HttpServer::Serving::stream(Connection& client, const std::function<Content()>& next) {
-  static constexpr std::string_view kStillThere = ":\n\n";  // a comment; shows whether the client is
+  static constexpr std::string_view kStillThere = ":\n\n";  // SSE comment; detects a closed connection
   while (!stopping_) {
     Content text = next();
     if (text.bytes.empty()) {
@@ -304,7 +304,7 @@ net::awaitable<void> HttpServer::Serving::stream(Connection& client, const std::
   }
 }
 
-// A connection closed with bytes unread would take back the answer too.
+// Reads the remaining input first, because closing a socket with unread bytes resets it and loses the response.
 net::awaitable<void> HttpServer::Serving::linger(Connection& client) {
   client.socket.shutdown(tcp::socket::shutdown_send);
   client.must_end_within(kLingerTime);

@@ -64,7 +64,7 @@ void Logbook::drive_to(double x_m, double y_m) {
   if (track_.size() > 2 * kMostPoints) thin_out();
 }
 
-// Every second point goes, and the points to come lie twice as far apart.
+// Drops every second point and doubles the spacing of later points.
 void Logbook::thin_out() {
   std::vector<float> kept;
   for (size_t i = 0; i + 1 < track_.size(); i += 4) kept.insert(kept.end(), {track_[i], track_[i + 1]});

@@ -1,4 +1,4 @@
-// What the ground remembers of a drive: the way driven, what has happened, the path in force. Outlives the process.
+// The record of a drive: track, events, active path. A checkpoint keeps it over restarts.
 #pragma once
 
 #include <cstdint>
@@ -22,11 +22,11 @@ struct Event {
   std::string text;
 };
 
-// One moment of the last minutes.
+// One sample of the trend charts.
 struct TrendSample {
   double t_s = 0.0;
   float speed_mps = 0.0F;
-  float slip = 0.0F;  // NaN: not known
+  float slip = 0.0F;  // NaN: unknown
   float roll_rad = 0.0F;
   float pitch_rad = 0.0F;
 };
@@ -34,9 +34,9 @@ struct TrendSample {
 class Logbook {
  public:
   void note(double t_s, Tone tone, const std::string& kind, const std::string& text);
-  // Points nearer than 0.1 m to the one before are left out.
+  // Skips points within 0.1 m of the previous one.
   void drive_to(double x_m, double y_m);
-  // The last two minutes stay.
+  // Keeps the last two minutes.
   void sample(const TrendSample& sample);
   void set_path(std::int64_t id, const GlobalPath& path);
   void set_forced(Level level) { forced_ = level; }
@@ -46,10 +46,10 @@ class Logbook {
   const GlobalPath& path() const { return path_; }
   std::int64_t path_id() const { return path_id_; }
   Level forced() const { return forced_; }
-  // x, y one after the other, map frame.
+  // Interleaved x, y in map [m].
   const std::vector<float>& track() const { return track_; }
 
-  // For the checkpoint, and back; false where the bytes are no logbook.
+  // Checkpoint bytes. restore() returns false and changes nothing if they are invalid.
   std::vector<std::uint8_t> save() const;
   bool restore(const std::vector<std::uint8_t>& bytes);
 

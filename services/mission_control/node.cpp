@@ -14,7 +14,7 @@ using mission::CommandKind;
 using mission::Tone;
 
 constexpr std::int64_t kCommandsPerBoot = 100'000;  // keeps the ids of two processes apart
-constexpr std::int64_t kMostBoots = 1'000'000'000;  // so that a page can count the ids too
+constexpr std::int64_t kMostBoots = 1'000'000'000;  // keeps ids exact in JavaScript numbers
 constexpr Utime kSilenceUs = 1'000'000;             // a heartbeat comes five times a second
 constexpr Utime kTrackPeriodUs = 5'000'000;
 constexpr Utime kTrendPeriodUs = 1'000'000;
@@ -168,7 +168,7 @@ void MissionControlNode::on_state(const supervisor_state_t& state) {
 void MissionControlNode::on_fault(const fault_t& fault) {
   const bool standing = fault.standing == 1;
   bool& known = faults_[fault.id];
-  if (standing == known) return;  // said again
+  if (standing == known) return;  // repeated
   known = standing;
   std::ostringstream text;
   text.precision(3);
@@ -194,7 +194,7 @@ void MissionControlNode::on_path(const path_t& path) {
   if (path.kind == path_t::RETREAT) note(Tone::kWarn, "path", "backwards along the driven track");
 }
 
-// Before the start pose has been taken the map has no place for the rover.
+// Before the start pose is accepted the rover's position in map is undefined.
 void MissionControlNode::on_pose(const pose_t& pose) {
   pose_ = pose;
   const bool known = pose.status == pose_t::OK || pose.status == pose_t::DEGRADED;
@@ -261,7 +261,7 @@ void MissionControlNode::give(const mission::Desk::Waiting& waiting) {
   const std::int64_t id = next_command_id_++;
   changed_ = true;
   station_->desk.given(waiting.ticket, id);
-  // Whoever stops the rover, or has another way in mind, does not want the plan to go on by itself.
+  // A stop or a new path replaces the plan, which must not continue by itself.
   if (mission::stops(command.kind) || command.kind == CommandKind::kPath) orders_.abandon();
   if (command.kind == CommandKind::kPath) return publish_path(id, path_of(command, drawn_));
   ground_command_t message = command_message(kind_of(command.kind), id);
@@ -298,11 +298,11 @@ void MissionControlNode::publish_path(std::int64_t command_id, const GlobalPath&
   message.y_m = path.y_m;
   message.level = path.level;
   node_.publish(channel::kGlobalPath, message, node_.now());
-  paths_given_.clear();  // of those that were never answered
+  paths_given_.clear();  // drop paths that were never acknowledged
   paths_given_[command_id] = path;
 }
 
-// The checkpoint: progress of the plan, newest command id, logbook.
+// Checkpoint layout: plan progress, next command id, logbook.
 void MissionControlNode::restore() {
   kept_.restore([this](const KeptState::Bytes& bytes) {
     std::int64_t head[2];

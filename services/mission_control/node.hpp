@@ -1,5 +1,5 @@
-// The ground's side of the bus: gives the orders of a mission plan and the operator's commands, and keeps the logbook.
-// It never takes TRUTH.
+// Bus node of the ground station: sends the mission plan and the operator's commands, and keeps the logbook. It never
+// subscribes to TRUTH.
 #pragma once
 
 #include <functional>
@@ -23,7 +23,7 @@ namespace rover {
 
 class MissionControlNode {
  public:
-  // `beside`: called once each tick, in the node's thread.
+  // `beside` is called once per tick in the node's thread.
   MissionControlNode(Node& node, MissionPlan plan,
                      std::shared_ptr<mission::Station> station = std::make_shared<mission::Station>(),
                      mission::DrawnPath drawn = {}, std::function<void()> beside = {});
@@ -71,8 +71,8 @@ class MissionControlNode {
   std::map<std::string, Life> lives_;
   std::map<std::string, bool> faults_;
   std::int64_t path_id_ = -1;
-  std::map<std::int64_t, GlobalPath> paths_given_;  // not answered yet
-  bool changed_ = false;                            // since the newest checkpoint, but for the track
+  std::map<std::int64_t, GlobalPath> paths_given_;  // by command id
+  bool changed_ = false;                            // since the newest checkpoint; the track is saved every 5 s
   Utime track_saved_ = 0;
 };
 

@@ -1,5 +1,5 @@
-// The ground's orders for one traverse, given one after the other: start pose, global path, go. Each waits for its
-// acknowledgement, is given again where none comes, and is tried again for a while where it is refused.
+// Issues the commands of a mission plan in sequence: start pose, global path, go. A command without acknowledgement, or
+// a refused one, is repeated every second.
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,13 @@
 
 namespace rover {
 
-// Where the ground believes the rover to stand, and how sure it is.
+// Start pose estimate in map, with its standard deviation.
 struct StartPose {
   Pose2 pose;
   double z_m = 0.0;
   double sigma_m = 0.1;
   double sigma_yaw_rad = 0.02;
-  double clear_radius_m = 1.5;  // certified as free of hazards: the ground under the rover is never seen
+  double clear_radius_m = 1.5;  // certified free of hazards, because the cameras never see the ground under the rover
 };
 
 struct GlobalPath {
@@ -38,21 +38,21 @@ class Orders {
     std::int64_t command_id;
   };
 
-  // The order to give at this time, if any. `standby`: the supervisor's state allows to go. `command_id`: not given
-  // to any command before; taken where there is an order.
+  // Returns the command to issue now, if any. GO requires `standby`. `command_id` must be unused; it is consumed only
+  // if a command is returned.
   std::optional<Given> step(Utime now, bool standby, std::int64_t command_id);
-  // Whether it was an answer to the order that waits.
+  // Returns true if the acknowledgement belongs to the current command.
   bool acknowledge(std::int64_t command_id, bool accepted, const std::string& reason);
 
-  // The order that is next, or waits for its answer; of no meaning when all are accepted.
+  // The next or unacknowledged step; undefined if all are accepted.
   Order waiting() const { return next_; }
   bool all_accepted() const { return next_ > Order::kGo; }
-  // The operator has taken over: nothing more is given.
+  // Ends the sequence because the operator took over.
   void abandon() { next_ = static_cast<Order>(static_cast<int>(Order::kGo) + 1); }
-  // Over restarts of the process. A number that is none of progress() begins anew.
+  // Checkpointed over restarts. An invalid number restarts the sequence.
   int progress() const { return static_cast<int>(next_); }
   void resume_at(int progress);
-  // Why the last order was refused, empty where it was not.
+  // Reason of the last refusal; empty if the last command was not refused.
   const std::string& refusal() const { return refusal_; }
 
  private:

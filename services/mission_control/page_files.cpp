@@ -1,6 +1,6 @@
 #include "mission_control/page_files.hpp"
 
-// The assembler takes a file's bytes as they are. ROVER_PAGE_DIR: services/mission_control/page.
+// Embeds each file with the assembler's .incbin. ROVER_PAGE_DIR: services/mission_control/page.
 #define PAGE_FILE(name, file)                                                                       \
   __asm__(".pushsection .rodata\n" #name "_begin:\n.incbin \"" ROVER_PAGE_DIR "/" file "\"\n" #name \
           "_end:\n.byte 0\n.popsection\n");                                                         \

@@ -8,7 +8,7 @@
 namespace rover::mission {
 
 struct PageFile {
-  std::string path;  // as asked for
+  std::string path;  // request path
   std::string type;
   std::string_view content;
 };

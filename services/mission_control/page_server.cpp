@@ -12,10 +12,10 @@ namespace {
 using namespace std::chrono_literals;
 using nlohmann::json;
 
-constexpr auto kPatience = 3s;            // for the answer to a command
-constexpr size_t kSpareConnections = 48;  // beside those of the streams
+constexpr auto kPatience = 3s;            // for the acknowledgement of a command
+constexpr size_t kSpareConnections = 48;  // in addition to one stream per page
 
-// Nothing from elsewhere is loaded, and no other site may frame the page or read from it.
+// Forbids foreign sources, frames and cross-origin reads.
 const Response::Headers kHeaders = {
     {"Content-Security-Policy",
      "default-src 'self'; img-src 'self' data: blob:; style-src 'self' 'unsafe-inline'; frame-ancestors 'none'; "
@@ -61,7 +61,7 @@ std::string content_of(const std::string& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-// The token comes once with the address of the page; from then on the browser keeps it.
+// Exchanges the token in the URL for a cookie.
 Response greet(const std::string& token, const Request& request) {
   if (!same_secret(request.param("token"), token)) return refusal({401, "not the token"});
   return {
@@ -205,7 +205,7 @@ nlohmann::json PageServer::camera() {
 Response PageServer::stream(const Request& request) {
   const bool truth = request.param("truth") == "1";
   if (!audience_.enter(truth, config_.most_pages)) return refusal({503, "too many pages are open"});
-  // Left with the last copy of `next`, however the stream ends.
+  // The last copy of `next` disconnects the client, however the stream ends.
   const std::shared_ptr<void> place(nullptr, [this, truth](void*) { audience_.leave(truth); });
   Response out{200, "text/event-stream", {}};
   out.next = [this, truth, place, sent = broadcaster_.newest()]() mutable -> Content {
@@ -248,7 +248,7 @@ Response PageServer::inject(const Command& command) {
   return ok({{"accepted", true}, {"reason", ""}});
 }
 
-// An operator's path goes over ground that the map knows and a rover can climb.
+// A drawn path must stay on the map and below the slope limit.
 std::string PageServer::path_problem(const Command& command) {
   const GroundMap* map = map_.get();
   if (map == nullptr) return "there is no orbital map to check the path against";

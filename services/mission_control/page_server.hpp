@@ -1,4 +1,4 @@
-// The page over HTTP: its files, the stream of views, pictures, and the operator's commands.
+// HTTP routes of the page: files, event stream, images and operator commands.
 #pragma once
 
 #include <functional>
@@ -15,7 +15,7 @@
 
 namespace rover::mission {
 
-// What the page is about, beside its configuration.
+// Properties of the run that the page shows.
 struct PageContext {
   std::string run_dir;   // holds orbital_map.tif; empty: no map
   std::string run_name;  // changes with the run, not with a restart of the service
@@ -23,7 +23,7 @@ struct PageContext {
   std::vector<std::string> services;
   double rover_length_m = 1.75;
   nlohmann::json setup;
-  // Does a fault to a service; false where that is not possible.
+  // Injects a process fault; false if impossible.
   std::function<bool(const std::string& service, CommandKind kind)> inject;
 };
 
@@ -34,11 +34,10 @@ class PageServer {
   PageServer(const PageServer&) = delete;
   PageServer& operator=(const PageServer&) = delete;
 
-  // Where the address is not to be had it is tried again each second.
+  // Retries every second while the address is in use.
   void start();
-  // Often, in the thread that handles the bus.
+  // Call every tick in the bus thread.
   void attend() { ear_.attend(wall_seconds()); }
-  // Whether it is being served.
   bool serving() const { return server_.serving(); }
 
  private:
@@ -64,7 +63,7 @@ class PageServer {
   Pictures pictures_;
   RunMap map_;
   HttpServer server_;
-  Broadcaster broadcaster_;  // wakes the server
+  Broadcaster broadcaster_;  // declared last: its thread wakes the server
 };
 
 }  // namespace rover::mission

@@ -1,4 +1,4 @@
-// Pictures of grids and cameras for the page, each made once for all pages, and in the thread that asks for it.
+// Encodes grids and camera images for the page. Each is encoded once for all pages, in the requesting thread.
 #pragma once
 
 #include <map>
@@ -12,7 +12,7 @@ namespace rover::mission {
 class Pictures {
  public:
   using Bytes = std::shared_ptr<const std::vector<std::uint8_t>>;
-  // PNG with transparency.
+  // PNG with alpha channel.
   Bytes grid(const std::string& name, const GridContent& content);
   // JPEG.
   Bytes camera(const std::string& name, const image_t& image);

@@ -12,7 +12,7 @@ std::string with_port(const std::string& address, int port) {
   return (v6 ? "[" + address + "]" : address) + ":" + std::to_string(port);
 }
 
-// Behind a token the host may have any name: another site's page has no cookie of ours, whatever it calls us.
+// With a token any Host is accepted, because another site's page does not have the cookie.
 bool host_is_ours(const GuardConfig& config, const std::string& host) {
   if (!config.token.empty()) return !host.empty();
   for (const char* name : kLoopback)

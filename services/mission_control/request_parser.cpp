@@ -11,15 +11,14 @@ namespace {
 
 namespace http = boost::beast::http;
 
-// The end of any chunked body. Fewer bytes need not be looked at, and Beast 1.74 aborts where they come one by one
-// (boostorg/beast pull request 2861).
+// Shortest end of a chunked body. Beast 1.74 aborts on fewer bytes at a time (boostorg/beast pull request 2861).
 constexpr size_t kShortestChunked = 5;
 
 std::string text_of(boost::beast::string_view text) {
   return {text.data(), text.size()};
 }
 
-// Nothing where an escape is damaged or stands for a control character.
+// Returns nothing if an escape is invalid or encodes a control character.
 std::optional<std::string> percent_decoded(std::string_view text) {
   std::string out;
   for (size_t i = 0; i < text.size(); ++i) {
@@ -35,7 +34,7 @@ std::optional<std::string> percent_decoded(std::string_view text) {
   return out;
 }
 
-// Path and query of the target into the request; false where an escape is wrong.
+// Splits the target into path and query; false if an escape is invalid.
 bool read_target(std::string_view target, Request& request) {
   const size_t query = std::min(target.find('?'), target.size());
   const auto path = percent_decoded(target.substr(0, query));
@@ -64,9 +63,9 @@ Verdict verdict_on(const boost::system::error_code& error) {
 
 struct RequestParser::Parsing {
   http::request_parser<http::string_body> parser;
-  std::string pending;      // received, not taken by the parser
-  size_t header_bytes = 0;  // taken
-  size_t body_bytes = 0;    // taken, with their chunk sizes
+  std::string pending;      // received, not yet parsed
+  size_t header_bytes = 0;  // parsed
+  size_t body_bytes = 0;    // parsed, including chunk sizes
 };
 
 RequestParser::RequestParser(const RequestLimits& limits) : limits_(limits), parsing_(std::make_unique<Parsing>()) {
@@ -90,7 +89,7 @@ RequestParser::State RequestParser::end(Verdict why) {
   return state_;
 }
 
-// Whether there may be more to take.
+// Returns true if more can be parsed.
 bool RequestParser::advance() {
   auto& [parser, pending, header_bytes, body_bytes] = *parsing_;
   const bool in_header = state_ == State::kHeader;

@@ -1,5 +1,5 @@
-// Bytes of a connection to one request, in bounded memory, stricter than HTTP asks for where leniency has let requests
-// through that two programs understand differently (request smuggling). Boost.Beast parses.
+// Incremental HTTP request parser with bounded memory, on Boost.Beast. It is stricter than the HTTP standard to prevent
+// request smuggling.
 #pragma once
 
 #include <cstddef>
@@ -14,14 +14,14 @@ struct RequestLimits {
   size_t header_bytes = 16 * 1024;  // request line and header fields; more: 431
   size_t fields = 100;              // more: 431
   size_t target_bytes = 8 * 1024;   // more: 414
-  size_t body_bytes = 64 * 1024;    // more: 413; that many again may be chunk sizes and extensions
+  size_t body_bytes = 64 * 1024;    // more: 413; chunk sizes and extensions may take as much again
 };
 
 class RequestParser {
  public:
   enum class State {
-    kHeader,   // more is expected, request() is empty
-    kBody,     // more is expected, request() is complete but for its body
+    kHeader,   // incomplete header; request() is empty
+    kBody,     // incomplete body; the rest of request() is valid
     kWhole,    // request() is complete
     kRefused,  // see refusal()
   };
@@ -29,9 +29,9 @@ class RequestParser {
   explicit RequestParser(const RequestLimits& limits = {});
   ~RequestParser();
 
-  // The next bytes, cut anywhere. Those after the end of the request are ignored.
+  // Adds the next bytes, in pieces of any size. Bytes after the end of the request are ignored.
   State feed(std::string_view bytes);
-  // There are no more bytes: what is not whole is refused so.
+  // Marks the end of input; an incomplete request is refused with `why`.
   State end(Verdict why);
 
   State state() const { return state_; }

@@ -34,7 +34,7 @@ void RunMap::read() {
     map_ = std::make_unique<GroundMap>(
         GroundHeights{raster.width, raster.height, raster.resolution_m, std::move(raster.z_m)}, limits_,
         rover_length_m_);
-  } catch (const DtmError&) {  // a vehicle may drive without one
+  } catch (const DtmError&) {  // a map is optional
   }
 }
 

@@ -1,4 +1,4 @@
-// The run's orbital map, read when it is first asked for, and its pictures, each made once.
+// The run's orbital map, read on first use, with its cached images.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +12,12 @@
 
 namespace rover::mission {
 
-// For any thread.
+// Thread-safe.
 class RunMap {
  public:
   using Bytes = std::shared_ptr<const std::vector<std::uint8_t>>;
 
-  // `run_dir` holds orbital_map.tif; empty: there is no map.
+  // `run_dir` contains orbital_map.tif; empty: no map.
   RunMap(std::string run_dir, const SlopeLimits& limits, double rover_length_m);
 
   // Null without a map.

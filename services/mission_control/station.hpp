@@ -1,5 +1,4 @@
-// Between the threads of the service: the operator's commands on their way to the bus and their answers, and the
-// logbook.
+// State shared by the HTTP and bus threads: the command queue and the logbook.
 #pragma once
 
 #include <atomic>
@@ -13,15 +12,15 @@
 
 namespace rover::mission {
 
-// What became of a command.
+// Outcome of an operator command.
 struct Answer {
-  enum class Outcome { kAccepted, kRefused, kSilence, kNoTime, kBusy };  // kNoTime: the rover's clock stands still
+  enum class Outcome { kAccepted, kRefused, kSilence, kNoTime, kBusy };  // kNoTime: no tick arrived
   Outcome outcome = Outcome::kSilence;
   std::int64_t command_id = -1;
   std::string reason;
 };
 
-// Commands wait here until the node, which alone speaks on the bus, takes them.
+// Queue of operator commands. HTTP threads submit; the node publishes and acknowledges.
 class Desk {
  public:
   struct Waiting {
@@ -29,21 +28,21 @@ class Desk {
     Command command;
   };
 
-  // Blocks until it is answered, at most so long. A command that was not given by then is withdrawn, so that it does
-  // not move the rover when nobody expects it any more; one that stops the rover stays.
+  // Blocks until the acknowledgement or the timeout. A command not sent by then is withdrawn, because a late one would
+  // move the rover unexpectedly; a stop stays queued.
   Answer give(const Command& command, std::chrono::milliseconds patience);
 
-  // The node's side.
+  // Called by the node.
   std::optional<Waiting> take();
   void given(std::int64_t ticket, std::int64_t command_id);
-  // The command that the answer belongs to, where it came from here.
+  // Returns the acknowledged command if it came from this queue.
   std::optional<Command> answered(std::int64_t command_id, bool accepted, const std::string& reason);
 
  private:
   struct Entry {
     Command command;
     bool taken = false;
-    bool abandoned = false;  // nobody waits for its answer any more
+    bool abandoned = false;  // the caller timed out
     std::int64_t command_id = -1;
     std::optional<Answer> answer;
   };
@@ -72,7 +71,7 @@ struct Station {
   Desk desk;
   SharedLogbook book;
   std::atomic<double> now_s = 0.0;          // message time of the newest tick
-  std::atomic<bool> page_is_served = true;  // false: the page's address is not to be had
+  std::atomic<bool> page_is_served = true;  // false: the page's address is in use
 };
 
 }  // namespace rover::mission

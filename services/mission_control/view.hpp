@@ -1,4 +1,4 @@
-// What the page shows at one moment: plain figures, NaN or empty where a thing is not known.
+// Snapshot of everything the page shows. Unknown values are NaN or empty.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ struct StateView {
   double value = kNaN;
   double threshold = kNaN;
   int hazard_stops = 0;
-  std::vector<std::string> faults;  // ids of those standing, the first one first
+  std::vector<std::string> faults;  // ids of active faults, oldest first
 };
 
 struct FaultView {
@@ -40,7 +40,7 @@ struct PermitView {
 
 struct PoseView {
   Utime utime = kNever;
-  int status = 3;  // of pose_t
+  int status = 3;  // pose_t constant
   Eigen::Vector3d position_map_m = Eigen::Vector3d::Constant(kNaN);
   double roll_rad = kNaN;  // against gravity; pitch positive nose down
   double pitch_rad = kNaN;
@@ -52,7 +52,7 @@ struct PoseView {
 };
 
 struct PlannerView {
-  int state = 0;  // of planner_status_t
+  int state = 0;  // planner_status_t constant
   double blocked_in_m = kNaN;
   double goal_distance_m = kNaN;
   double corridor_offset_m = kNaN;
@@ -68,7 +68,7 @@ struct MotionView {
   std::array<double, 4> steer_rad = {0, 0, 0, 0};
 };
 
-// kWaiting: the page has only begun to listen. kLost: no process, or no word for too long.
+// kWaiting: just subscribed. kLost: no process, or heartbeat timeout.
 enum class Health { kOk, kDegraded, kFault, kLost, kWaiting };
 
 struct ServiceView {
@@ -76,17 +76,17 @@ struct ServiceView {
   double age_s = kNaN;  // message time since its last heartbeat
   double cpu_percent = kNaN;
   double rss_mb = kNaN;
-  int restarts = -1;  // -1: not known
+  int restarts = -1;  // -1: unknown
   std::string text;
 };
 
 struct LocalPathView {
   std::int64_t id = -1;
-  int kind = 0;                  // of path_t
+  int kind = 0;                  // path_t constant
   std::vector<double> x_m, y_m;  // odom
 };
 
-// A grid of the rover's surroundings: `seq` changes with its content.
+// A grid around the rover. `seq` changes with the content.
 struct GridView {
   std::int64_t seq = 0;
   Utime utime = kNever;
@@ -96,7 +96,7 @@ struct GridView {
   double origin_y_m = 0.0;
   int cells_x = 0;
   int cells_y = 0;
-  double plane_pitch_rad = 0.0;  // hazards: of the ground ahead
+  double plane_pitch_rad = 0.0;  // hazards: ground plane ahead
   double plane_roll_rad = 0.0;
   std::string note;  // for the legend
 };
@@ -108,7 +108,7 @@ struct ImageView {
   int height = 0;
 };
 
-// The Full level's services. `utime` kNever: not heard.
+// Services of the Full level. `utime` kNever: nothing received.
 struct PanTiltView {
   Utime utime = kNever;
   double pan_rad = kNaN;   // positive to the left
@@ -124,7 +124,7 @@ struct TerrainView {
 
 struct SlamView {
   Utime utime = kNever;
-  int status = 0;  // of slam_pose_t
+  int status = 0;  // slam_pose_t constant
   double information = kNaN;
   int particles = 0;
 };
@@ -132,9 +132,9 @@ struct SlamView {
 struct CorrectionView {
   Utime utime = kNever;
   bool accepted = false;
-  double moved_m = kNaN;  // of the rover in map, by an accepted one
+  double moved_m = kNaN;  // shift of the rover in map if accepted
   double score = kNaN;
-  std::string reason;  // of an abstention
+  std::string reason;  // if not accepted
 };
 
 struct TruthView {
@@ -163,7 +163,7 @@ struct View {
   std::map<std::string, ImageView> images;  // loccam, navcam
 };
 
-// What of the logbook stands in each view.
+// Logbook fields included in each view.
 struct BookView {
   std::int64_t newest_event = 0;
   std::int64_t path_id = -1;
@@ -172,7 +172,7 @@ struct BookView {
   int pages = 0;
 };
 
-// One compact line.
+// Compact JSON on one line.
 std::string to_json(const View& view, const BookView& book);
 std::string to_json(const TruthView& truth);
 

@@ -10,7 +10,7 @@ using nlohmann::json;
 
 constexpr std::array kHealth = {"ok", "degraded", "fault", "lost", "waiting"};
 
-// Digits that nobody sees cost the network and every page.
+// Rounds to the displayed digits to save bandwidth.
 json rounded(double value, double step) {
   if (!std::isfinite(value)) return nullptr;
   const double n = std::round(value / step);
@@ -95,7 +95,7 @@ json of(const MotionView& m) {
           {"steer", steering}};
 }
 
-// Null: not heard.
+// Null: nothing received.
 json of(const PanTiltView& p) {
   if (p.utime == kNever) return nullptr;
   return {{"pan", angle(p.pan_rad)}, {"tilt", angle(p.tilt_rad)}, {"moving", p.moving}};
@@ -169,7 +169,7 @@ json of(const BookView& b) {
           {"pages", b.pages}};
 }
 
-// What the bus says may be any bytes.
+// Bus texts may contain invalid UTF-8.
 std::string text_of(const json& value) {
   return value.dump(-1, ' ', false, json::error_handler_t::replace);
 }
