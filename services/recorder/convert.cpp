@@ -37,7 +37,7 @@ bool TriggerFinder::is_trigger(const RawMessage& raw) {
   }
   if (raw.channel == channel::kPath) {
     path_t path{};
-    // Repeated each second, and a trigger once.
+    // PATH is repeated every second; only a new id is a trigger.
     return decode(raw, path) && path.kind != path_t::GLOBAL && std::exchange(path_id_, path.path_id) != path.path_id;
   }
   if (raw.channel == channel::kFault) {

@@ -1,4 +1,4 @@
-// From raw messages to the recorder's events.
+// Conversion of raw messages to recorder events.
 #pragma once
 
 #include "common/bus/node.hpp"
@@ -8,7 +8,7 @@ namespace rover::recorder {
 
 Event event_from(const RawMessage& raw);
 
-// Finds the moments whose images are worth keeping: a stop, a repaired path, a fault.
+// Detects the triggers of reduced recording: a change of state, a repaired path, a fault.
 class TriggerFinder {
  public:
   bool is_trigger(const RawMessage& raw);

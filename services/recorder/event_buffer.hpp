@@ -1,4 +1,4 @@
-// Puts the messages of the bus into the order of message time, in which two runs of one seed give the same log.
+// Sorts messages by message time, so that two runs of one seed give the same log.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 namespace rover::recorder {
 
 struct Event {
-  // A replay needs what a tick lists before the tick.
+  // Data sort before the tick that lists them, as a replay needs it.
   enum class Kind { kData = 0, kTick = 1 };
 
   Utime release = 0;
@@ -26,7 +26,7 @@ struct Event {
 class EventBuffer {
  public:
   void add(Event event) { events_.push_back(std::move(event)); }
-  // Removes what was released before `until`, ordered by (release, kind, channel, publisher, boot, seq).
+  // Removes and returns the events released before `until`, ordered by (release, kind, channel, publisher, boot, seq).
   std::vector<Event> take_before(Utime until);
   std::vector<Event> take_all();
   size_t size() const { return events_.size(); }

@@ -5,7 +5,7 @@
 namespace rover::recorder {
 namespace {
 
-// Triggers older than this concern no event that can still come: far above any latency of the bus.
+// Triggers older than this affect no later event; far above any bus latency.
 constexpr Utime kTriggerMemory = 60'000'000;
 
 }  // namespace

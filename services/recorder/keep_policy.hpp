@@ -1,4 +1,4 @@
-// What goes into the log: everything (full), or images only around events and now and then (reduced).
+// Selects the recorded events: all (full), or images only around triggers and every n-th (reduced).
 #pragma once
 
 #include <deque>
@@ -11,9 +11,9 @@ namespace rover::recorder {
 
 struct KeepConfig {
   bool reduced = false;
-  double before_s = 2.0;  // of images kept before an event: five LocCam frames
+  double before_s = 2.0;  // images kept before a trigger: five LocCam frames
   double after_s = 1.0;
-  int every = 50;  // and each so many-th frame wherever it is
+  int every = 50;  // also keep every n-th frame
   std::set<std::string> bulk_channels;
 };
 
@@ -21,10 +21,10 @@ class KeepPolicy {
  public:
   explicit KeepPolicy(KeepConfig config);
 
-  // Something happened: the images around this time are of interest.
+  // Keeps the images around this time.
   void trigger(Utime time);
   bool keep(const Event& event) const;
-  // How long an event must wait until keep() knows of every trigger that concerns it.
+  // Time that an event must be buffered so that keep() knows every relevant trigger.
   Utime hold() const { return config_.reduced ? before_ : 0; }
 
  private:

@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t kHeadBytes = 28;  // of a record, in front of channel and message
+constexpr std::int64_t kHeadBytes = 28;  // record header before channel and data
 
 struct Whole {
   std::int64_t events = 0;
@@ -19,7 +19,7 @@ struct Whole {
   Utime newest = 0;
 };
 
-// Of a log: up to its last whole record.
+// Statistics up to the last complete record.
 Whole whole_part(const std::string& path) {
   Whole whole;
   EventLogReader reader(path);
@@ -29,7 +29,7 @@ Whole whole_part(const std::string& path) {
 }
 
 void cut(const std::string& path, std::int64_t bytes) {
-  std::error_code error;  // on a failing disk the readers pass over what is cut
+  std::error_code error;  // on failure readers skip the incomplete record
   if (fs::is_regular_file(path, error)) fs::resize_file(path, static_cast<std::uintmax_t>(bytes), error);
 }
 
@@ -62,7 +62,7 @@ bool LogFile::next_part() {
   if (!close()) return false;
   try {
     open_part(part_ + 1);
-  } catch (const ConfigError&) {  // a full disk takes no new file
+  } catch (const ConfigError&) {  // disk full
     failed_ = true;
   }
   return !failed_;
@@ -72,7 +72,7 @@ bool LogFile::write(const Event& event) {
   const auto size = kHeadBytes + static_cast<std::int64_t>(event.channel.size() + event.bytes.size());
   if (part_bytes_ > 0 && bytes_ > 0 && bytes_ + size > part_bytes_ && !next_part()) return false;
   if (failed_ || log_ == nullptr) return false;
-  // Time stamps never fall, as the search by time in a log wants; only a late answer would make them.
+  // Keep time stamps monotonic for the search by time; a late message would break it.
   newest_ = std::max(newest_, event.release);
   lcm_eventlog_event_t record{};
   record.timestamp = newest_;

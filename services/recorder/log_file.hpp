@@ -1,5 +1,5 @@
-// Standard LCM event logs on disk, split into parts of bounded size, that survive a kill and a full disk: a cut last
-// record is removed.
+// Standard LCM event log, split into parts of bounded size. An incomplete last record, left by a kill or a full disk,
+// is removed.
 #pragma once
 
 #include <lcm/eventlog.h>
@@ -13,18 +13,18 @@ namespace rover::recorder {
 
 class LogFile {
  public:
-  // Goes on after the last whole record where the file exists. `part_bytes` not 0: a part that would grow beyond it is
-  // followed by the next (event_log.hpp). Throws ConfigError where it cannot be written.
+  // Appends after the last complete record of an existing file. `part_bytes`: maximum size of a part (event_log.hpp),
+  // 0: unlimited. Throws ConfigError if the file cannot be written.
   explicit LogFile(const std::string& path, std::int64_t part_bytes = 0);
   ~LogFile();
   LogFile(const LogFile&) = delete;
   LogFile& operator=(const LogFile&) = delete;
 
-  // False where the disk did not take it.
+  // Returns false if the write failed.
   bool write(const Event& event);
-  // To the operating system, so that a killed process loses nothing from before. False where the disk is full.
+  // Hands the data to the operating system, so that a kill loses nothing earlier. False if the disk is full.
   bool flush();
-  // What the disk did not take is cut off, so that the log ends with a whole record. False where that was so.
+  // Truncates to the last complete record after a failed write, and then returns false.
   bool close();
 
  private:
@@ -35,13 +35,13 @@ class LogFile {
   std::int64_t part_bytes_;
   int part_ = 1;
   lcm_eventlog_t* log_ = nullptr;
-  std::int64_t bytes_ = 0;          // of this part, written
-  std::int64_t flushed_bytes_ = 0;  // and known to have been taken
+  std::int64_t bytes_ = 0;          // written to this part
+  std::int64_t flushed_bytes_ = 0;  // successfully flushed
   bool failed_ = false;
   Utime newest_ = 0;
 };
 
-// Space left to this user where the path is, in bytes; 0 where that is not known.
+// Free disk space for this user at the path [bytes]; 0 if unknown.
 std::uintmax_t free_disk_bytes(const std::string& path);
 
 }  // namespace rover::recorder

@@ -5,7 +5,7 @@ namespace {
 
 constexpr double kBytesPerGb = 1e9;
 constexpr Utime kCheckPeriod = 1'000'000;
-constexpr Utime kTryAgain = 10'000'000;  // after a record that stopped
+constexpr Utime kTryAgain = 10'000'000;  // after recording stopped
 
 }  // namespace
 
@@ -41,7 +41,7 @@ void RecorderNode::take(const RawMessage& raw) {
 
 void RecorderNode::step(Utime now) {
   if (!log_) return try_again(now);
-  // All that is released before this tick has arrived, the answers to the tick before included.
+  // In lockstep all messages released before this tick have arrived.
   write(buffer_.take_before(now - policy_.hold()));
   if (log_ && !log_->flush()) return stop_recording("write failed");
   if (checked_ != kNever && now - checked_ < kCheckPeriod) return;
@@ -67,14 +67,14 @@ void RecorderNode::check_disk(Utime now) {
   if (left_gb < config_.min_free_gb) stop_recording("free_gb=" + std::to_string(left_gb));
 }
 
-// The disk may have been cleared: a record with a gap is more than none.
+// Resumes with a gap when disk space is available again.
 void RecorderNode::try_again(Utime now) {
   if (now - stopped_ < kTryAgain || free_gb(now) < config_.min_free_start_gb) return;
   stopped_ = now;
   try {
     open_log();
   } catch (const ConfigError&) {
-    return;  // as it was
+    return;  // still impossible
   }
   node_.set_status(heartbeat_t::OK, "");
   node_.log("WARN", "RECORDING goes on after a gap");

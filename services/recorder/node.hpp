@@ -1,4 +1,4 @@
-// Writes the whole bus into the run's traverse.lcm. It reports DONE like every node, so the world never outruns it.
+// Writes all bus messages to the run's traverse.lcm. It reports DONE like every node, so it never falls behind.
 #pragma once
 
 #include <functional>
@@ -18,7 +18,7 @@ class RecorderNode {
  public:
   using FreeBytes = std::function<std::uintmax_t()>;
 
-  // Throws ConfigError where there is too little space or the log cannot be written.
+  // Throws ConfigError if disk space is too low or the log cannot be written.
   RecorderNode(Node& node, const RecorderConfig& config, const std::string& log_path, FreeBytes free_bytes);
   ~RecorderNode();
   RecorderNode(const RecorderNode&) = delete;
@@ -41,7 +41,7 @@ class RecorderNode {
   KeepPolicy policy_;
   TriggerFinder triggers_;
   EventBuffer buffer_;
-  std::unique_ptr<LogFile> log_;  // empty: recording has stopped
+  std::unique_ptr<LogFile> log_;  // null: recording stopped
   Utime stopped_ = kNever;
   Utime checked_ = kNever;
   std::optional<injection_t> full_disk_;  // an injected fault
