@@ -1,4 +1,4 @@
-// ./rover plan as a whole: what it writes, what it says to bad input, and the scenario that was made with it.
+// ./rover plan: output files, reaction to bad input, and the scenario made with it.
 #include "tools/orbital_planner/command.hpp"
 
 #include <fmt/format.h>
@@ -60,14 +60,14 @@ class PlanCommand : public testing::Test {
     return arguments;
   }
 
-  // The written section, as a scenario reads it.
+  // The written section, parsed as a scenario.
   PlannedPath written_path(const std::string& out = "out", const std::string& map = kGale) const {
     std::ofstream(folder_.file("scenario.yaml")) << "world: {dtm: '" << map << "'}\n"
                                                  << text_of(folder_.file(out + "/path.yaml"));
     return load_scenario(folder_.file("scenario.yaml")).path;
   }
 
-  // Status and stderr of the program, called from the test's own folder.
+  // Exit status and stderr of the program, run in the test's folder.
   std::pair<int, std::string> execute(const std::string& words, const std::string& out = "out") const {
     const std::string command =
         "cd " + folder_.path().string() + " && " + kProgram + " " + words + " --out " + out + " >stdout 2>stderr";
@@ -75,7 +75,7 @@ class PlanCommand : public testing::Test {
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(folder_.file("stderr"))};
   }
 
-  // Ends with status 2 and one line that says so; nothing is left of the folder.
+  // Expects exit status 2, one error line, and no output folder.
   std::string refusal(const std::string& words, const std::string& says, const std::string& out = "out") const {
     const auto [status, line] = execute(words, out);
     EXPECT_EQ(status, 2) << words;
@@ -86,7 +86,7 @@ class PlanCommand : public testing::Test {
   }
 };
 
-TEST_F(PlanCommand, ThePlannerTakesTheMessage) {
+TEST_F(PlanCommand, PathPlannerAcceptsTheMessage) {
   run(arguments());
   lcm::LogFile log(folder_.file("out/path.lcm"), "r");
   ASSERT_TRUE(log.good());
@@ -106,7 +106,7 @@ TEST_F(PlanCommand, ThePlannerTakesTheMessage) {
   EXPECT_EQ(log.readNextEvent(), nullptr);
 }
 
-TEST_F(PlanCommand, GeojsonMessageAndScenarioSayTheSame) {
+TEST_F(PlanCommand, GeojsonMessageAndScenarioAgree) {
   run(arguments());
   const nlohmann::json geojson = nlohmann::json::parse(text_of(folder_.file("out/path.geojson")));
   EXPECT_EQ(geojson["type"], "FeatureCollection");
@@ -165,7 +165,7 @@ TEST_F(PlanCommand, ThePictureShowsBothLevels) {
   for (Level level : {Level::kEfficient, Level::kFull}) {
     cv::Mat mask;
     cv::inRange(picture, colour_of(level), colour_of(level), mask);
-    // The legend alone has less than 300 pixels of it.
+    // The legend alone has less than 300 pixels of this colour.
     EXPECT_GT(cv::countNonZero(mask), 600) << static_cast<int>(level);
   }
 }
@@ -182,8 +182,8 @@ TEST_F(PlanCommand, TheSameCommandWritesTheSameBytes) {
   }
 }
 
-// config/scenarios/combined_500.yaml says in its head how its path was made.
-TEST_F(PlanCommand, TheScenarioCombined500IsWhatThePlannerGives) {
+// The header of config/scenarios/combined_500.yaml holds the command that made its path.
+TEST_F(PlanCommand, ScenarioCombined500MatchesPlannerOutput) {
   const std::string file = kSource + "/config/scenarios/combined_500.yaml";
   Arguments made = arguments("284,158", "236,31");
   made.via = {"150,225", "152,180"};
@@ -194,7 +194,7 @@ TEST_F(PlanCommand, TheScenarioCombined500IsWhatThePlannerGives) {
   const long full = std::count(scenario.path.level.begin(), scenario.path.level.end(), 1);
   EXPECT_GT(full, 80);
   EXPECT_LT(full, 200);
-  // Rocks are as dense as on hard ground where the path wants Full.
+  // Full segments have the rock density of hard ground.
   for (size_t i = 0; i + 1 < scenario.path.x_m.size(); ++i) {
     const std::vector<RockZone>& zones = scenario.world.rocks.zones;
     const bool dense = std::any_of(zones.begin(), zones.end(), [&](const RockZone& zone) {
@@ -204,7 +204,7 @@ TEST_F(PlanCommand, TheScenarioCombined500IsWhatThePlannerGives) {
   }
 }
 
-TEST_F(PlanCommand, BadInputEndsWithStatus2AndOneLine) {
+TEST_F(PlanCommand, BadInputPrintsOneLineAndExits2) {
   ElevationRaster raster = read_elevation_map(kGale).raster;
   for (int y = 0; y < raster.height; ++y) raster.at(100, y) = std::numeric_limits<float>::quiet_NaN();
   write_geotiff(folder_.file("split.tif"), raster);
@@ -233,16 +233,16 @@ TEST_F(PlanCommand, BadInputEndsWithStatus2AndOneLine) {
   EXPECT_EQ(errors, "");
 }
 
-// A map of hills whose western 50 m are void, as each of the files has them.
+// A hilly map whose western 50 m are void, with each encoding of voids.
 struct VoidCase {
   const char* name;
   GDALDataType type;
   double scale;
-  double value;  // of the void, in the file
+  double value;  // of void cells in the file
   std::optional<double> no_data;
 };
 
-TEST_F(PlanCommand, APathOverVoidGroundIsNeverPlanned) {
+TEST_F(PlanCommand, PathNeverCrossesVoidCells) {
   const VoidCase cases[] = {
       {"no-data as float64, voids as float32", GDT_Float32, 1.0, -3.4028234663852886e38, -3.4028234663852886e38},
       {"no-data -3.4e38 in decimal", GDT_Float32, 1.0, -3.4028234663852886e38, -3.4e38},
@@ -270,7 +270,7 @@ TEST_F(PlanCommand, APathOverVoidGroundIsNeverPlanned) {
   }
 }
 
-TEST_F(PlanCommand, APlanHasSomewhereToGo) {
+TEST_F(PlanCommand, RefusesGoalAtStart) {
   const std::pair<std::string, std::string> cases[] = {
       {"--start 60,270 --goal 60,270", "start = goal"},
       {"--start 60,270 --goal 60.3,270.2", "goal within its tolerance of the start"},
@@ -279,11 +279,11 @@ TEST_F(PlanCommand, APlanHasSomewhereToGo) {
   for (const auto& [words, name] : cases)
     wild_row("Goals", "plan: " + name, "planned, exit status 0 (0.0 m from a point to itself, which `run` refused)",
              refusal(kGale + " " + words, "m from --"));
-  // There and back is a drive.
+  // A round trip is a drive.
   EXPECT_EQ(execute(kGale + " --start 60,270 --via 90,268 --goal 60,270").first, 0);
 }
 
-TEST_F(PlanCommand, WhatIsPlannedIsAcceptedByRun) {
+TEST_F(PlanCommand, RunAcceptsEveryPlan) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> x(5.0, 340.0), y(5.0, 330.0);
   int planned = 0;
@@ -293,7 +293,7 @@ TEST_F(PlanCommand, WhatIsPlannedIsAcceptedByRun) {
     made.out = folder_.file(std::to_string(i));
     try {
       run(made);
-    } catch (const ConfigError&) {  // not clear, or not to be reached
+    } catch (const ConfigError&) {  // too close to an obstacle, or unreachable
       continue;
     }
     ++planned;
@@ -302,7 +302,7 @@ TEST_F(PlanCommand, WhatIsPlannedIsAcceptedByRun) {
   EXPECT_GT(planned, 5);
 }
 
-TEST_F(PlanCommand, ResultsNeverReplaceAnything) {
+TEST_F(PlanCommand, NeverOverwritesFiles) {
   std::filesystem::create_directory(folder_.file("X"));
   const std::string before = "overwrote its own input";
   for (const char* name : {"terrain.tif", "map.tif"}) {
@@ -351,7 +351,7 @@ TEST_F(PlanCommand, AReprojectedMapIsGivenToTheRoverWithThePath) {
   const ElevationMap given = read_elevation_map(folder_.file("out/map.tif"));
   EXPECT_FALSE(given.converted);
   EXPECT_EQ(given.raster.z_m, read_elevation_map(folder_.file("degrees.tif")).raster.z_m);
-  // `run` takes either, in the same frame.
+  // `run` accepts both, in the same frame.
   const PlannedPath path = written_path("out", folder_.file("out/map.tif"));
   EXPECT_EQ(written_path("out", folder_.file("degrees.tif")).x_m, path.x_m);
 }

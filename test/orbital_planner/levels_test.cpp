@@ -1,4 +1,4 @@
-// The level along a straight line whose difficulty is known.
+// Levels along a straight line with known difficulty.
 #include "tools/orbital_planner/levels.hpp"
 
 #include <gtest/gtest.h>
@@ -35,10 +35,10 @@ const auto kEasy = [](double) { return 0.2; };
 const auto kHard = [](double) { return 0.7; };
 
 std::function<double(double)> hard_between(double from_m, double to_m) {
-  return [=](double way_m) { return way_m >= from_m && way_m <= to_m ? 0.7 : 0.2; };
+  return [=](double length_m) { return length_m >= from_m && length_m <= to_m ? 0.7 : 0.2; };
 }
 
-TEST(Levels, EasyGroundIsEfficientHardGroundFull) {
+TEST(Levels, EasyTerrainIsEfficientHardTerrainFull) {
   EXPECT_EQ(levels_of(50, kEasy), std::string(50, 'E'));
   EXPECT_EQ(levels_of(50, kHard), std::string(50, 'F'));
 }
@@ -48,8 +48,8 @@ TEST(Levels, FullBeginsAheadOfTheHardGround) {
   EXPECT_EQ(levels_of(201, hard_between(60, 100)), run(56, 45, 100));
 }
 
-TEST(Levels, BetweenTheThresholdsTheLevelStays) {
-  const auto ramp = [](double way_m) { return way_m < 100 ? way_m / 100.0 : 2.0 - way_m / 100.0; };
+TEST(Levels, HysteresisKeepsLevelBetweenThresholds) {
+  const auto ramp = [](double length_m) { return length_m < 100 ? length_m / 100.0 : 2.0 - length_m / 100.0; };
   LevelConfig config;
   config.lead_m = 0.0;
   // Up beyond 0.55 at 56 m; down again below 0.40, at 160 m, and not at 145 m already.
@@ -58,8 +58,8 @@ TEST(Levels, BetweenTheThresholdsTheLevelStays) {
   EXPECT_EQ(levels_of(201, ramp, config), run(56, 89, 56));
 }
 
-TEST(Levels, DifficultyAboutOneThresholdDoesNotSwitchAtEachPoint) {
-  const auto about = [](double way_m) { return 0.55 + 0.1 * std::sin(way_m); };
+TEST(Levels, DifficultyNearThresholdDoesNotOscillate) {
+  const auto about = [](double length_m) { return 0.55 + 0.1 * std::sin(length_m); };
   LevelConfig config;
   config.lead_m = config.least_stretch_m = 0.0;
   const std::string levels = levels_of(200, about, config);
@@ -68,15 +68,15 @@ TEST(Levels, DifficultyAboutOneThresholdDoesNotSwitchAtEachPoint) {
   EXPECT_EQ(switches, 1);
 }
 
-TEST(Levels, AShortHardPlaceMakesAStretchOfTheLeastLength) {
+TEST(Levels, ShortHardTerrainGetsMinimumSegmentLength) {
   const std::string levels = levels_of(201, hard_between(100, 102));
   EXPECT_EQ(std::count(levels.begin(), levels.end(), 'F'), 21);
   for (size_t i = 98; i <= 102; ++i) EXPECT_EQ(levels[i], 'F');
 }
 
 TEST(Levels, AShortEasyGapBecomesFull) {
-  const auto two = [](double way_m) {
-    return (way_m >= 50 && way_m <= 80) || (way_m >= 95 && way_m <= 120) ? 0.7 : 0.2;
+  const auto two = [](double length_m) {
+    return (length_m >= 50 && length_m <= 80) || (length_m >= 95 && length_m <= 120) ? 0.7 : 0.2;
   };
   EXPECT_EQ(levels_of(201, two), run(46, 75, 80));
 }
@@ -91,7 +91,7 @@ TEST(Levels, AShortPathIsOfOneLevel) {
   EXPECT_EQ(levels_of(6, hard_between(3, 3)), "FFFFFF");
 }
 
-TEST(Difficulty, IsTheMeanOfTheCorridorAndOfTheWayAboutAPoint) {
+TEST(Difficulty, IsMeanOverCorridorAndArcLength) {
   // Level ground, then a slope of 9 deg from x = 30 m on.
   const double g = std::tan(to_rad(9.0));
   const TerrainLayers layers =

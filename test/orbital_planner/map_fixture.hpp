@@ -1,4 +1,4 @@
-// Small maps for the tests, made from height functions.
+// Small test maps from height functions.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Plans on maps whose answer is plain.
+// Plans on maps with known solutions.
 #include "tools/orbital_planner/orbital_planner.hpp"
 
 #include <gtest/gtest.h>
@@ -24,11 +24,11 @@ double far_north(const Plan& plan) {
 
 double largest_slope_deg(const Plan& plan) {
   double most = 0.0;
-  for (const Stretch& s : plan.stretches) most = std::max(most, to_deg(s.most_slope_rad));
+  for (const PathSegment& s : plan.segments) most = std::max(most, to_deg(s.most_slope_rad));
   return most;
 }
 
-// What every plan promises.
+// Properties of every plan.
 void expect_sound(const Plan& plan, const Line& waypoints, const PlannerConfig& config) {
   ASSERT_EQ(plan.status, PlanStatus::kPlanned);
   EXPECT_EQ(plan.line.front(), waypoints.front());
@@ -40,7 +40,7 @@ void expect_sound(const Plan& plan, const Line& waypoints, const PlannerConfig& 
   for (size_t i = 1; i < plan.line.size(); ++i) EXPECT_TRUE(is_open(costs.grid, plan.line[i - 1], plan.line[i])) << i;
   double length = 0.0;
   size_t at = 0;
-  for (const Stretch& s : plan.stretches) {
+  for (const PathSegment& s : plan.segments) {
     EXPECT_EQ(s.first, at);
     for (size_t i = s.first; i < s.last; ++i) EXPECT_EQ(plan.level[i], s.level);
     length += s.length_m;
@@ -50,13 +50,13 @@ void expect_sound(const Plan& plan, const Line& waypoints, const PlannerConfig& 
   EXPECT_NEAR(length, plan.length_m, 1e-6);
 }
 
-TEST(OrbitalPlanner, GoesRoundARidge) {
+TEST(OrbitalPlanner, PlansAroundSteepRidge) {
   const Line waypoints{{20, 30}, {100, 30}};
   const Plan result = plan(map_of(120, 100, 1.0, ridge), waypoints, {});
   expect_sound(result, waypoints, {});
   EXPECT_GT(far_north(result), 75.0);
   EXPECT_LT(largest_slope_deg(result), 15.0);
-  // Round the ridge's end at a distance, and no further.
+  // Around the end of the ridge with clearance, but no detour.
   EXPECT_LT(far_north(result), 92.0);
   EXPECT_LT(result.length_m, 155.0);
 }
@@ -66,11 +66,11 @@ TEST(OrbitalPlanner, CrossesAGentleRidge) {
   const Plan result = plan(map_of(120, 100, 1.0, [](double x, double y) { return 0.1 * ridge(x, y); }), waypoints, {});
   expect_sound(result, waypoints, {});
   EXPECT_LT(far_north(result), 40.0);
-  EXPECT_EQ(result.stretches.size(), 1u);
-  EXPECT_EQ(result.stretches[0].level, Level::kEfficient);
+  EXPECT_EQ(result.segments.size(), 1u);
+  EXPECT_EQ(result.segments[0].level, Level::kEfficient);
 }
 
-TEST(OrbitalPlanner, AStepIsPassedAtItsGap) {
+TEST(OrbitalPlanner, PassesStepAtItsGap) {
   // 0.8 m high along x = 50 m, a ramp of 20 m length between y = 60 and 80 m.
   const auto step = [](double x, double y) {
     return y > 60 && y < 80 ? 0.8 * std::clamp((x - 40.0) / 20.0, 0.0, 1.0) : (x > 50 ? 0.8 : 0.0);
@@ -85,7 +85,7 @@ TEST(OrbitalPlanner, AStepIsPassedAtItsGap) {
     }
 }
 
-TEST(OrbitalPlanner, KeepsAwayFromAHoleInTheMap) {
+TEST(OrbitalPlanner, KeepsClearanceFromVoids) {
   const auto hole = [](double x, double y) { return std::hypot(x - 50, y - 40) < 15.0 ? kVoid : 2.0F; };
   const Line waypoints{{15, 40}, {85, 40}};
   const Plan result = plan(map_of(100, 80, 1.0, hole), waypoints, {});
@@ -93,20 +93,20 @@ TEST(OrbitalPlanner, KeepsAwayFromAHoleInTheMap) {
   for (const Eigen::Vector2d& p : result.line) EXPECT_GT((p - Eigen::Vector2d(50, 40)).norm(), 15.0 + 2.0);
 }
 
-TEST(OrbitalPlanner, HardGroundOnTheWayIsFull) {
-  // A slope of 12 deg across the whole map between x = 60 and 110 m, the only way.
+TEST(OrbitalPlanner, HardTerrainOnPathIsFull) {
+  // A slope of 12 deg across the whole map between x = 60 and 110 m.
   const double g = std::tan(to_rad(12.0));
   const auto slope = [g](double x, double) { return g * std::clamp(x - 60.0, 0.0, 50.0); };
   const Line waypoints{{15, 30}, {165, 30}};
   const Plan result = plan(map_of(180, 60, 1.0, slope), waypoints, {});
   expect_sound(result, waypoints, {});
-  ASSERT_EQ(result.stretches.size(), 3u);
-  EXPECT_EQ(result.stretches[0].level, Level::kEfficient);
-  EXPECT_EQ(result.stretches[1].level, Level::kFull);
-  EXPECT_EQ(result.stretches[2].level, Level::kEfficient);
-  EXPECT_NEAR(result.line[result.stretches[1].first].x(), 57.0, 4.0);
-  EXPECT_NEAR(result.line[result.stretches[1].last].x(), 111.0, 4.0);
-  EXPECT_NEAR(to_deg(result.stretches[1].most_slope_rad), 12.0, 0.1);
+  ASSERT_EQ(result.segments.size(), 3u);
+  EXPECT_EQ(result.segments[0].level, Level::kEfficient);
+  EXPECT_EQ(result.segments[1].level, Level::kFull);
+  EXPECT_EQ(result.segments[2].level, Level::kEfficient);
+  EXPECT_NEAR(result.line[result.segments[1].first].x(), 57.0, 4.0);
+  EXPECT_NEAR(result.line[result.segments[1].last].x(), 111.0, 4.0);
+  EXPECT_NEAR(to_deg(result.segments[1].most_slope_rad), 12.0, 0.1);
 }
 
 TEST(OrbitalPlanner, WaypointsArePassedInTheirOrder) {
@@ -122,7 +122,7 @@ TEST(OrbitalPlanner, WaypointsArePassedInTheirOrder) {
   }
 }
 
-TEST(OrbitalPlanner, SaysWhichWaypointIsWrongAndWhy) {
+TEST(OrbitalPlanner, ReportsInvalidWaypointAndReason) {
   const auto ground = [](double x, double y) {
     if (x > 70 && y > 70) return kVoid;                         // no data in the north-east corner
     if (std::abs(x - 50) < 1) return 30.0F;                     // a wall across the map
@@ -156,7 +156,7 @@ TEST(OrbitalPlanner, TheSameMapGivesTheSamePlan) {
   EXPECT_EQ(first.cost_m, second.cost_m);
 }
 
-TEST(OrbitalPlanner, TheMapsResolutionChangesThePathLittle) {
+TEST(OrbitalPlanner, MapResolutionChangesPathLittle) {
   const Line waypoints{{20, 30}, {100, 30}};
   const Plan coarse = plan(map_of(120, 100, 1.0, ridge), waypoints, {});
   const Plan fine = plan(map_of(240, 200, 0.5, ridge), waypoints, {});

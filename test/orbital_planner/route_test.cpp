@@ -1,4 +1,4 @@
-// Ways over cost maps whose best way is known.
+// Paths on cost maps with known optimum.
 #include "tools/orbital_planner/route.hpp"
 
 #include <gtest/gtest.h>
@@ -34,12 +34,12 @@ void expect_open(const MarchGrid& grid, const Line& line) {
   for (size_t i = 1; i < line.size(); ++i) EXPECT_TRUE(is_open(grid, line[i - 1], line[i])) << i;
 }
 
-TEST(BestWay, OnEvenGroundItIsAlmostStraight) {
+TEST(MinimumCostPath, IsNearlyStraightOnUniformCost) {
   const MarchGrid grid = even_grid(100, 80);
   for (const auto& [a, b] :
        {std::pair{Vector2d(3.2, 4.1), Vector2d(95.7, 70.3)}, std::pair{Vector2d(90.5, 10.5), Vector2d(90.5, 70.5)},
         std::pair{Vector2d(80.0, 5.0), Vector2d(10.0, 75.0)}}) {
-    const std::optional<Line> line = best_way(grid, a, b);
+    const std::optional<Line> line = minimum_cost_path(grid, a, b);
     ASSERT_TRUE(line);
     EXPECT_EQ(line->front(), a);
     EXPECT_EQ(line->back(), b);
@@ -48,11 +48,11 @@ TEST(BestWay, OnEvenGroundItIsAlmostStraight) {
   }
 }
 
-TEST(BestWay, RoundAWallItTouchesItsEnd) {
+TEST(MinimumCostPath, TouchesEndOfWall) {
   MarchGrid grid = even_grid(100, 100);
   for (int y = 0; y <= 60; ++y) cost(grid, 50, y) = kInfinity;
   const Vector2d a(30.5, 20.5), b(75.5, 25.5);
-  const std::optional<Line> line = best_way(grid, a, b);
+  const std::optional<Line> line = minimum_cost_path(grid, a, b);
   ASSERT_TRUE(line);
   expect_open(grid, *line);
   const double shortest = (Vector2d(50, 61) - a).norm() + 1.0 + (b - Vector2d(51, 61)).norm();
@@ -60,12 +60,12 @@ TEST(BestWay, RoundAWallItTouchesItsEnd) {
   EXPECT_GT(length_m(*line), shortest - 0.1);
 }
 
-TEST(BestWay, ADearStripIsCrossedOnlyWhereThatIsWorthIt) {
+TEST(MinimumCostPath, CrossesCostlyStripOnlyIfCheaperThanDetour) {
   for (const auto& [dear, crosses] : {std::pair{1.5, true}, std::pair{30.0, false}}) {
     MarchGrid grid = even_grid(80, 60);
     for (int y = 0; y < 50; ++y)
       for (int x = 38; x < 42; ++x) cost(grid, x, y) = dear;
-    const std::optional<Line> line = best_way(grid, {20.5, 20.5}, {60.5, 20.5});
+    const std::optional<Line> line = minimum_cost_path(grid, {20.5, 20.5}, {60.5, 20.5});
     ASSERT_TRUE(line);
     const bool crossed =
         std::any_of(line->begin(), line->end(), [&](const Vector2d& p) { return cost_at(grid, p) > 1.2; });
@@ -73,8 +73,8 @@ TEST(BestWay, ADearStripIsCrossedOnlyWhereThatIsWorthIt) {
   }
 }
 
-// Straight or with any one corner on a lattice of places, no other way is cheaper by more than the method's own error.
-TEST(BestWay, NoOtherWayIsCheaper) {
+// Brute force: no straight path, and none with one corner on a lattice, is cheaper beyond the discretisation error.
+TEST(MinimumCostPath, NoSampledPathIsCheaper) {
   std::mt19937_64 random(5);
   for (int trial = 0; trial < 5; ++trial) {
     MarchGrid grid = even_grid(60, 60);
@@ -85,7 +85,7 @@ TEST(BestWay, NoOtherWayIsCheaper) {
           cost(grid, x, y) += high * std::exp(-0.02 * ((x - bx) * (x - bx) + (y - by) * (y - by)));
     }
     const Vector2d a(4.5, 6.5), b(54.5, 52.5);
-    const std::optional<Line> line = best_way(grid, a, b);
+    const std::optional<Line> line = minimum_cost_path(grid, a, b);
     ASSERT_TRUE(line);
     const double own = cost_of(grid, *line);
     EXPECT_LT(own, 1.03 * cost_of(grid, {a, b}));
@@ -94,14 +94,14 @@ TEST(BestWay, NoOtherWayIsCheaper) {
   }
 }
 
-TEST(BestWay, BetweenScatteredObstaclesItNeverEntersOne) {
+TEST(MinimumCostPath, BetweenScatteredObstaclesItNeverEntersOne) {
   std::mt19937_64 random(11);
   int found = 0;
   for (int trial = 0; trial < 40; ++trial) {
     MarchGrid grid = even_grid(50, 50);
     for (double& c : grid.cost_per_m) c = uniform(random, 0, 1) < 0.3 ? kInfinity : uniform(random, 1.0, 4.0);
     cost(grid, 2, 2) = cost(grid, 47, 46) = 1.0;
-    const std::optional<Line> line = best_way(grid, {2.3, 2.8}, {47.9, 46.1});
+    const std::optional<Line> line = minimum_cost_path(grid, {2.3, 2.8}, {47.9, 46.1});
     if (!line) continue;
     ++found;
     expect_open(grid, *line);
@@ -111,14 +111,14 @@ TEST(BestWay, BetweenScatteredObstaclesItNeverEntersOne) {
   EXPECT_GT(found, 20);
 }
 
-TEST(BestWay, ThereIsNoneThroughAClosedWall) {
+TEST(MinimumCostPath, NoPathThroughClosedWall) {
   MarchGrid grid = even_grid(40, 40);
   for (int y = 0; y < 40; ++y) cost(grid, 20, y) = kInfinity;
-  EXPECT_FALSE(best_way(grid, {5.5, 5.5}, {30.5, 30.5}));
+  EXPECT_FALSE(minimum_cost_path(grid, {5.5, 5.5}, {30.5, 30.5}));
 }
 
-TEST(BestWay, WithinOneCellItIsStraight) {
-  const std::optional<Line> line = best_way(even_grid(10, 10), {5.1, 5.1}, {5.8, 5.6});
+TEST(MinimumCostPath, WithinOneCellItIsStraight) {
+  const std::optional<Line> line = minimum_cost_path(even_grid(10, 10), {5.1, 5.1}, {5.8, 5.6});
   ASSERT_TRUE(line);
   EXPECT_NEAR(length_m(*line), std::hypot(0.7, 0.5), 1e-9);
 }
@@ -139,7 +139,7 @@ TEST(Resampled, PointsLieEvenlyOnTheLine) {
   EXPECT_GT(passed, 16.0);
 }
 
-TEST(Rounded, ACornerBecomesABendThatCanBeDriven) {
+TEST(Rounded, CornerBecomesDrivableBend) {
   const MarchGrid grid = even_grid(60, 60);
   const Line line = rounded(resampled({{5.5, 5.5}, {45.5, 5.5}, {45.5, 45.5}}, 1.5, grid), grid, {});
   EXPECT_EQ(line.front(), Vector2d(5.5, 5.5));

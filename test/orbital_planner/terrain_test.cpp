@@ -1,4 +1,4 @@
-// Slope, roughness, steps and classes against maps of known shape.
+// Slope, roughness, steps and classes on maps of known shape.
 #include "tools/orbital_planner/terrain.hpp"
 
 #include <gtest/gtest.h>
@@ -44,14 +44,14 @@ TEST(Terrain, ClassesFollowTheLimits) {
   EXPECT_EQ(class_of(15.1), TerrainClass::kObstacle);
 }
 
-TEST(Terrain, NoiseIsRoughnessOfItsOwnDeviation) {
+TEST(Terrain, RoughnessEqualsNoiseDeviation) {
   std::mt19937_64 random(3);
   const TerrainLayers layers =
       analyse(map_of(60, 60, 1.0, [&](double, double) { return uniform(random, -0.2, 0.2); }), {});
   double mean = 0.0;
   for (int y = 2; y < 58; ++y)
     for (int x = 2; x < 58; ++x) mean += layers.roughness_m[at(layers, x, y)] / (56.0 * 56.0);
-  // A plane through 25 cells takes three degrees of freedom away.
+  // The plane fit removes three degrees of freedom from 25 cells.
   EXPECT_NEAR(mean, 0.4 / std::sqrt(12.0) * std::sqrt(22.0 / 25.0), 0.006);
 }
 
@@ -68,7 +68,7 @@ TEST(Terrain, ABoulderAndAnEdgeAreObstacles) {
   }
 }
 
-TEST(Terrain, WhatHasNoHeightIsUnknownAndItsNeighboursAreJudgedByTheRest) {
+TEST(Terrain, CellsWithoutHeightAreUnknownAndIgnoredByNeighbours) {
   const double g = std::tan(to_rad(8.0));
   const TerrainLayers layers =
       analyse(map_of(21, 21, 1.0, [g](double x, double y) { return x == 10.5 && y == 10.5 ? kVoid : g * x; }), {});
@@ -78,15 +78,15 @@ TEST(Terrain, WhatHasNoHeightIsUnknownAndItsNeighboursAreJudgedByTheRest) {
   EXPECT_NEAR(to_deg(layers.slope_rad[at(layers, 9, 10)]), 8.0, 1e-3);
 }
 
-TEST(Terrain, TooFewHeightsAroundACellMakeItUnknown) {
-  // Every third column alone has heights: less than half of each square.
+TEST(Terrain, TooFewHeightsMakeCellUnknown) {
+  // Only every third column has heights: less than half of each square.
   const TerrainLayers layers =
       analyse(map_of(21, 21, 1.0, [](double x, double) { return static_cast<int>(x) % 3 == 0 ? 1.0F : kVoid; }), {});
   for (TerrainClass c : layers.terrain_class) EXPECT_EQ(c, TerrainClass::kUnknown);
   EXPECT_NEAR(class_shares(layers)[0], 1.0, 1e-9);
 }
 
-TEST(TravelCost, FollowsTheTableOfSlopes) {
+TEST(TravelCost, FollowsSlopeCostTable) {
   EXPECT_DOUBLE_EQ(slope_cost(0.0), 1.0);
   EXPECT_NEAR(slope_cost(to_rad(2.5)), 1.25, 1e-12);
   EXPECT_NEAR(slope_cost(to_rad(5.0)), 1.5, 1e-12);
@@ -95,7 +95,7 @@ TEST(TravelCost, FollowsTheTableOfSlopes) {
   EXPECT_NEAR(slope_cost(to_rad(20.0)), 5.5, 1e-12);
 }
 
-TEST(TravelCost, KeepsItsDistanceFromVoidsAndFromTheBorder) {
+TEST(TravelCost, KeepsClearanceFromVoidsAndBorder) {
   TerrainConfig whole;
   whole.least_known = 0.3;  // in a corner a third of the square is within the map
   const TerrainLayers layers =

@@ -41,7 +41,7 @@ Line on_map(const std::vector<Place>& places, const Geography& geography, bool l
   return line;
 }
 
-// A rover that is there already does not drive.
+// The goal is at the start already: no plan.
 void check_distances(const std::vector<Place>& places, const Line& waypoints, double goal_tolerance_m) {
   for (size_t i = 1; i < waypoints.size(); ++i)
     if (const double distance_m = (waypoints[i] - waypoints[i - 1]).norm(); distance_m <= goal_tolerance_m)
@@ -91,7 +91,7 @@ std::string summary(const Plan& plan, const Line& waypoints, const ElevationMap&
   for (size_t i = 1; i < waypoints.size(); ++i) straight_m += (waypoints[i] - waypoints[i - 1]).norm();
   text += fmt::format("\npath: {:.1f} m in {} points, {:.1f} m straight, as costly as {:.0f} m of level ground\n",
                       plan.length_m, plan.line.size(), straight_m, plan.cost_m);
-  for (const Stretch& s : plan.stretches)
+  for (const PathSegment& s : plan.segments)
     text += fmt::format("  {:9} {:6.1f} m  difficulty {:.2f}  slopes to {:.1f} deg\n", name_of(s.level), s.length_m,
                         s.mean_difficulty, to_deg(s.most_slope_rad));
   return text + fmt::format("{}: path.geojson path.yaml path.lcm path.png terrain.tif\n", out);

@@ -1,4 +1,4 @@
-// What ./rover plan does.
+// ./rover plan.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,19 +12,19 @@ namespace rover::orbital {
 struct Arguments {
   std::string map;
   std::string start, goal;       // "x,y" or "longitude,latitude"
-  std::vector<std::string> via;  // in this order, between start and goal
+  std::vector<std::string> via;  // in order, between start and goal
   bool lon_lat = false;
-  std::string out;  // a folder that is new or empty; empty: default_folder()
+  std::string out;  // new or empty folder; empty string: default_folder()
   std::string config_dir = project_dir() + "/config";
 };
 
-// One place "a,b"; throws ConfigError naming the option where it is none.
+// Parses a place "a,b"; throws ConfigError with the option's name if invalid.
 Eigen::Vector2d parse_place(const std::string& text, const std::string& option);
 
-// In the project's folder: logs/<time>-plan-<name of the map>.
+// logs/<time>-plan-<map name> in the project folder.
 std::string default_folder(const std::string& map);
 
-// Plans and writes, all or nothing; returns what to print. Throws ConfigError or DtmError with one line.
+// Plans and writes all files or none; returns the text to print. Throws ConfigError or DtmError.
 std::string run(const Arguments& arguments);
 
 }  // namespace rover::orbital

@@ -42,19 +42,19 @@ json point_json(const Eigen::Vector2d& p) {
   return {rounded_to(p.x(), 1e-4), rounded_to(p.y(), 1e-4)};
 }
 
-json stretch_feature(const Plan& plan, const Stretch& stretch, const ToLonLat& to_lon_lat) {
+json segment_feature(const Plan& plan, const PathSegment& segment, const ToLonLat& to_lon_lat) {
   json coordinates = json::array(), map_xy = json::array();
-  for (size_t i = stretch.first; i <= stretch.last; ++i) {
+  for (size_t i = segment.first; i <= segment.last; ++i) {
     coordinates.push_back(position(plan.line[i], to_lon_lat));
     map_xy.push_back(point_json(plan.line[i]));
   }
   return {{"type", "Feature"},
           {"geometry", {{"type", "LineString"}, {"coordinates", coordinates}}},
           {"properties",
-           {{"level", name_of(stretch.level)},
-            {"length_m", rounded_to(stretch.length_m, 1e-3)},
-            {"mean_difficulty", rounded_to(stretch.mean_difficulty, 1e-3)},
-            {"most_slope_deg", rounded_to(to_deg(stretch.most_slope_rad), 1e-2)},
+           {{"level", name_of(segment.level)},
+            {"length_m", rounded_to(segment.length_m, 1e-3)},
+            {"mean_difficulty", rounded_to(segment.mean_difficulty, 1e-3)},
+            {"most_slope_deg", rounded_to(to_deg(segment.most_slope_rad), 1e-2)},
             {"map_xy_m", map_xy}}}};
 }
 
@@ -98,7 +98,7 @@ std::string yaml_from(const Plan& plan, const PathTerms& terms) {
 
 std::string geojson_from(const Plan& plan, const Line& waypoints, const ToLonLat& to_lon_lat) {
   json features = json::array();
-  for (const Stretch& stretch : plan.stretches) features.push_back(stretch_feature(plan, stretch, to_lon_lat));
+  for (const PathSegment& segment : plan.segments) features.push_back(segment_feature(plan, segment, to_lon_lat));
   for (size_t i = 0; i < waypoints.size(); ++i) features.push_back(waypoint_feature(waypoints, i, to_lon_lat));
   return json{{"type", "FeatureCollection"}, {"features", features}}.dump(1) + "\n";
 }

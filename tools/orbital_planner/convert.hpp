@@ -1,4 +1,4 @@
-// A plan as the messages and texts that others read.
+// Converts a plan to messages and text formats.
 #pragma once
 
 #include <functional>
@@ -20,8 +20,8 @@ path_t message_from(const Plan& plan, const PathTerms& terms);
 // The section `path:` of a scenario.
 std::string yaml_from(const Plan& plan, const PathTerms& terms);
 
-// RFC 7946, but on the map's own planet, or in whatever coordinates `to_lon_lat` gives: a line for each stretch with
-// its level and figures, a point for each way-point.
+// RFC 7946 on the map's planet, or in the coordinates of `to_lon_lat`: a line per segment with level and metrics, a
+// point per waypoint.
 using ToLonLat = std::function<Eigen::Vector2d(const Eigen::Vector2d& map_m)>;
 std::string geojson_from(const Plan& plan, const Line& waypoints, const ToLonLat& to_lon_lat);
 

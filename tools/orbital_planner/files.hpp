@@ -1,4 +1,4 @@
-// What a plan leaves behind in its folder.
+// Output files of a plan.
 #pragma once
 
 #include <string>
@@ -10,9 +10,8 @@
 
 namespace rover::orbital {
 
-// map.tif where the map was converted, path.geojson (in metres for a map on no planet), path.lcm (an LCM log with the
-// one GLOBAL_PATH), path.yaml, path.png and terrain.tif (slope [deg], roughness [m], step [m], difficulty, class).
-// Throws ConfigError with one line where one cannot be written.
+// map.tif (if converted), path.geojson (metres for a map without planet), path.lcm, path.yaml, path.png, terrain.tif.
+// Throws ConfigError.
 void write_files(const std::string& dir, const ElevationMap& map, const Geography& geography, const Plan& plan,
                  const Line& waypoints, const PathTerms& terms);
 

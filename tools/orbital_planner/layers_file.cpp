@@ -24,7 +24,7 @@ std::vector<Band> bands_of(const TerrainLayers& layers) {
           {"class: 0 unknown, 1 level, 2 sloping, 3 steep, 4 rough, 5 obstacle", std::move(classes)}};
 }
 
-// GDAL's lines run from the north.
+// GDAL rows run from the north.
 CPLErr write_band(GDALRasterBand& band, const TerrainLayers& layers, Band& content) {
   band.SetDescription(content.first);
   band.SetNoDataValue(std::numeric_limits<double>::quiet_NaN());

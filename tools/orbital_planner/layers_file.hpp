@@ -1,4 +1,4 @@
-// The terrain's layers as a GeoTIFF, a band for each.
+// Writes the terrain layers as a GeoTIFF with one band each.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace rover::orbital {
 
-// Throws DtmError where the file cannot be written.
+// Throws DtmError if the file cannot be written.
 void write_layers(const std::string& file, const ElevationRaster& map, const TerrainLayers& layers);
 
 }  // namespace rover::orbital

@@ -1,4 +1,4 @@
-// rover_orbital_planner MAP --start X,Y --goal X,Y: the path and its levels, from the orbital map.
+// rover_orbital_planner MAP --start X,Y --goal X,Y: global path and levels of autonomy from an orbital map.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <opencv2/core.hpp>

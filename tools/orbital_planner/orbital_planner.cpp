@@ -8,16 +8,16 @@
 namespace rover::orbital {
 namespace {
 
-PlanStatus judge_waypoint(const TerrainLayers& terrain, const CostMap& costs, const Eigen::Vector2d& p) {
+PlanStatus check_waypoint(const TerrainLayers& terrain, const CostMap& costs, const Eigen::Vector2d& p) {
   const int cell = cell_at(costs.grid, p);
   if (cell < 0) return PlanStatus::kOutside;
   if (terrain.terrain_class[cell] == TerrainClass::kUnknown) return PlanStatus::kNoData;
   return std::isinf(costs.grid.cost_per_m[cell]) ? PlanStatus::kNotClear : PlanStatus::kPlanned;
 }
 
-bool judge_waypoints(const Line& waypoints, const CostMap& costs, Plan& plan) {
+bool check_waypoints(const Line& waypoints, const CostMap& costs, Plan& plan) {
   for (size_t i = 0; i < waypoints.size(); ++i) {
-    plan.status = judge_waypoint(plan.terrain, costs, waypoints[i]);
+    plan.status = check_waypoint(plan.terrain, costs, waypoints[i]);
     plan.waypoint = i;
     if (plan.status == PlanStatus::kNotClear)
       plan.obstacle_distance_m = costs.obstacle_distance_m[cell_at(costs.grid, waypoints[i])];
@@ -26,21 +26,21 @@ bool judge_waypoints(const Line& waypoints, const CostMap& costs, Plan& plan) {
   return true;
 }
 
-bool find_way(const Line& waypoints, const MarchGrid& grid, Plan& plan) {
+bool connect_waypoints(const Line& waypoints, const MarchGrid& grid, Plan& plan) {
   plan.line = {waypoints.front()};
   for (size_t i = 1; i < waypoints.size(); ++i) {
-    const std::optional<Line> leg = best_way(grid, waypoints[i - 1], waypoints[i]);
-    if (!leg) {
+    const std::optional<Line> segment = minimum_cost_path(grid, waypoints[i - 1], waypoints[i]);
+    if (!segment) {
       plan.status = PlanStatus::kUnreachable;
       plan.waypoint = i;
       return false;
     }
-    plan.line.insert(plan.line.end(), leg->begin() + 1, leg->end());
+    plan.line.insert(plan.line.end(), segment->begin() + 1, segment->end());
   }
   return true;
 }
 
-// Rounding draws points together in bends: they are spread again.
+// Smoothing moves points together in bends: resample.
 Line drivable(const Line& way, const MarchGrid& grid, const RouteConfig& config) {
   const double spacing = config.point_spacing_m;
   return resampled(rounded(resampled(way, spacing, grid), grid, config), spacing, grid);
@@ -50,8 +50,8 @@ double slope_at(const TerrainLayers& terrain, const MarchGrid& grid, const Eigen
   return terrain.slope_rad[cell_at(grid, p)];
 }
 
-Stretch make_stretch(const Plan& plan, const MarchGrid& grid, size_t first, size_t last) {
-  Stretch s{first, last, plan.level[first]};
+PathSegment make_segment(const Plan& plan, const MarchGrid& grid, size_t first, size_t last) {
+  PathSegment s{first, last, plan.level[first]};
   s.length_m = length_m(std::span(plan.line).subspan(first, last - first + 1));
   for (size_t i = first; i <= last; ++i) {
     s.mean_difficulty += plan.difficulty[i] / static_cast<double>(last - first + 1);
@@ -65,7 +65,7 @@ void measure(const MarchGrid& grid, Plan& plan) {
   for (size_t i = 1; i < plan.line.size(); ++i) {
     const bool ends = i + 1 == plan.line.size() || plan.level[i] != plan.level[first];
     if (!ends) continue;
-    plan.stretches.push_back(make_stretch(plan, grid, first, i));
+    plan.segments.push_back(make_segment(plan, grid, first, i));
     first = i;
   }
   plan.length_m = length_m(plan.line);
@@ -80,7 +80,7 @@ Plan plan(const ElevationRaster& map, const Line& waypoints, const PlannerConfig
   Plan plan;
   plan.terrain = analyse(map, config.terrain);
   const CostMap costs = travel_cost(plan.terrain, config.cost);
-  if (!judge_waypoints(waypoints, costs, plan) || !find_way(waypoints, costs.grid, plan)) return plan;
+  if (!check_waypoints(waypoints, costs, plan) || !connect_waypoints(waypoints, costs.grid, plan)) return plan;
   plan.line = drivable(plan.line, costs.grid, config.route);
   plan.difficulty = difficulty_along(plan.line, plan.terrain, config.levels);
   plan.level = levels_along(plan.line, plan.difficulty, config.levels);

@@ -1,4 +1,4 @@
-// From an orbital elevation model to the globally best path with the level of autonomy of each stretch.
+// Globally optimal path on an orbital elevation model, with the level of autonomy of each segment.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +18,8 @@ struct PlannerConfig {
   LevelConfig levels;
 };
 
-struct Stretch {
-  size_t first = 0;  // points of the path; the last one of a stretch is the first of the next
+struct PathSegment {
+  size_t first = 0;  // point indices; the last point of a segment is the first of the next
   size_t last = 0;
   Level level = Level::kEfficient;
   double length_m = 0.0;
@@ -29,26 +29,26 @@ struct Stretch {
 
 enum class PlanStatus : std::int8_t {
   kPlanned,
-  kOutside,      // the way-point lies outside of the map
-  kNoData,       // ... where the map says nothing
-  kNotClear,     // ... nearer to an obstacle or to unknown ground than the clearance
-  kUnreachable,  // no way leads to it from the way-point before
+  kOutside,      // the waypoint is outside of the map
+  kNoData,       // the waypoint has no map data
+  kNotClear,     // the waypoint is closer to an obstacle or unknown ground than the clearance
+  kUnreachable,  // no path from the previous waypoint
 };
 
 struct Plan {
   PlanStatus status = PlanStatus::kPlanned;  // read first
-  size_t waypoint = 0;                       // the one that the status is about
+  size_t waypoint = 0;                       // the waypoint that the status refers to
   double obstacle_distance_m = kNaN;         // kNotClear
   TerrainLayers terrain;
   Line line;
-  std::vector<double> difficulty;  // expected at each point
-  std::vector<Level> level;        // from each point on
-  std::vector<Stretch> stretches;
+  std::vector<double> difficulty;  // expected difficulty at each point
+  std::vector<Level> level;        // level from each point on
+  std::vector<PathSegment> segments;
   double length_m = 0.0;
-  double cost_m = 0.0;  // metres of level ground that would cost as much
+  double cost_m = 0.0;  // equivalent distance on level ground
 };
 
-// Way-points in map coordinates: start, any number in between, goal.
+// Waypoints in map coordinates: start, any number of intermediate points, goal.
 Plan plan(const ElevationRaster& map, const Line& waypoints, const PlannerConfig& config);
 
 }  // namespace rover::orbital

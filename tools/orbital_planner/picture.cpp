@@ -14,7 +14,7 @@ constexpr int kLongSide = 1000;    // of the picture
 constexpr int kShift = 4;          // OpenCV draws in sixteenths of a pixel
 const cv::Vec3f kObstacle(52, 66, 176), kSteep(66, 140, 214), kUnknown(96, 96, 96);
 
-// The part of the map that is shown, in cells from the south-west.
+// Displayed part of the map, in cells from the south-west.
 struct Cut {
   int x0, y0, x1, y1;
   double pixels_per_cell;
@@ -32,7 +32,7 @@ Cut cut_around(const ElevationRaster& map, const Line& line) {
   return cut;
 }
 
-// Sun from the north-west, 40 deg high, heights doubled, as maps have it.
+// Hill shading: light from the north-west, elevation 40 deg, heights doubled.
 float light_at(const ElevationRaster& map, int x, int y) {
   const auto z = [&](int i, int j) {
     return map.at(std::clamp(i, 0, map.width - 1), std::clamp(j, 0, map.height - 1));
@@ -108,7 +108,7 @@ class Pen {
   double north_m_;
 };
 
-// 1, 2 or 5 times a power of ten, about a sixth of the picture.
+// 1, 2 or 5 times a power of ten, about a sixth of the picture's width.
 double scale_bar_m(double picture_m) {
   const double power = std::pow(10.0, std::floor(std::log10(picture_m / 6.0)));
   for (double step : {5.0, 2.0})

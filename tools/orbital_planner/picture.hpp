@@ -1,4 +1,4 @@
-// The relief with the terrain's obstacles, and the path in the colours of its levels.
+// Picture of relief, obstacles, and the path in the colours of its levels.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -7,7 +7,7 @@
 
 namespace rover::orbital {
 
-// BGR, north up, of the path's surroundings.
+// BGR image of the path's surroundings, north up.
 cv::Mat draw(const ElevationRaster& map, const Plan& plan, const Line& waypoints);
 
 // Colours of the path.

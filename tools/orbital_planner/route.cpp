@@ -12,20 +12,20 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kDescentStep = 0.5;  // cells
-constexpr double kCheckStep = 0.25;   // cells, between the places of a straight way that are looked at
+constexpr double kCheckStep = 0.25;   // cells, between the checked points of a straight segment
 
 Vector2d center_of(const MarchGrid& grid, int cell) {
   return {(cell % grid.width + 0.5) * grid.cell_m, (cell / grid.width + 0.5) * grid.cell_m};
 }
 
-// Walks down the travel cost.
+// Gradient descent on the cost-to-go.
 class Descent {
  public:
   Descent(const MarchGrid& grid, const std::vector<double>& travel) : grid_(grid), travel_(travel) {}
 
   Line walk(const Vector2d& start, const Vector2d& goal) const {
     Line line{start};
-    // The way visits no cell twice but in passing, so the bound only stops what would never end.
+    // The path does not revisit cells, so this bound only stops an endless loop.
     const size_t most = 8 * travel_.size() + 16;
     while (!arrives(line.back(), goal) && line.size() < most) step(line);
     line.push_back(goal);
@@ -42,8 +42,7 @@ class Descent {
     return cell_at(grid_, p) == cell_at(grid_, goal) || ((p - goal).norm() <= grid_.cell_m && is_open(grid_, p, goal));
   }
 
-  // A half step along the gradient where the travel cost falls that way, else by the cells' centres to the best
-  // neighbour.
+  // Half a cell along the gradient if the cost-to-go decreases, else to the centre of the best neighbour cell.
   void step(Line& line) const {
     const Vector2d p = line.back();
     const int cell = cell_at(grid_, p);
@@ -65,7 +64,7 @@ class Descent {
     int best = cell;
     for (int dy = -1; dy <= 1; ++dy)
       for (int dx = -1; dx <= 1; ++dx) {
-        // Diagonally only between cells that may be entered.
+        // Diagonal moves only between traversable cells.
         if (std::isinf(travel(x + dx, y + dy)) || std::isinf(travel(x + dx, y)) || std::isinf(travel(x, y + dy)))
           continue;
         const int neighbour = (y + dy) * grid_.width + x + dx;
@@ -78,7 +77,7 @@ class Descent {
     int x, y;
     double weight;
   };
-  // The four cells around a place with their bilinear weights.
+  // The four cells around a point with their bilinear weights.
   std::array<Corner, 4> corners(const Vector2d& p) const {
     const double px = p.x() / grid_.cell_m - 0.5, py = p.y() / grid_.cell_m - 0.5;
     const int x = static_cast<int>(std::floor(px)), y = static_cast<int>(std::floor(py));
@@ -86,7 +85,7 @@ class Descent {
     return {{{x, y, (1 - u) * (1 - v)}, {x + 1, y, u * (1 - v)}, {x, y + 1, (1 - u) * v}, {x + 1, y + 1, u * v}}};
   }
 
-  // Over the corners that have been reached.
+  // Only over cells with a finite cost-to-go.
   double interpolated(const Vector2d& p) const {
     double sum = 0.0, weights = 0.0;
     for (const Corner& c : corners(p))
@@ -101,7 +100,7 @@ class Descent {
     return sum;
   }
 
-  // Towards the lower of the two neighbours on the axis: the difference that fast marching itself takes.
+  // Upwind difference, as in the fast marching update.
   double fall_along(const Corner& c, int dx, int dy) const {
     const double here = travel(c.x, c.y);
     const double behind = travel(c.x - dx, c.y - dy), ahead = travel(c.x + dx, c.y + dy);
@@ -133,9 +132,9 @@ bool is_open(const MarchGrid& grid, const Vector2d& a, const Vector2d& b) {
   return true;
 }
 
-std::optional<Line> best_way(const MarchGrid& grid, const Vector2d& start, const Vector2d& goal) {
+std::optional<Line> minimum_cost_path(const MarchGrid& grid, const Vector2d& start, const Vector2d& goal) {
   const int from = cell_at(grid, start);
-  // The descent looks at the neighbours of the cells it passes: the front must have gone by them too.
+  // The descent reads neighbours of the path's cells, so the front must have passed them too.
   const double beyond = 4.0 * grid.cell_m * cost_at(grid, start);
   const std::vector<double> travel = march(grid, {{cell_at(grid, goal), 0.0}}, from, beyond);
   if (std::isinf(travel[from])) return std::nullopt;
@@ -152,7 +151,7 @@ Line resampled(const Line& line, double spacing_m, const MarchGrid& grid) {
   const double length = length_m(line);
   const int parts = std::max(1, static_cast<int>(std::lround(length / spacing_m)));
   Line points{line.front()};
-  double passed = 0.0;  // way to the vertex before `next`
+  double passed = 0.0;  // arc length up to the vertex before `next`
   size_t next = 1;
   for (int k = 1; k <= parts; ++k) {
     const double wanted = length * k / parts;
@@ -164,7 +163,7 @@ Line resampled(const Line& line, double spacing_m, const MarchGrid& grid) {
     const double piece = (line[next] - line[next - 1]).norm();
     const double share = piece > 0.0 ? std::min(1.0, (wanted - passed) / piece) : 0.0;
     const Vector2d p = k == parts ? line.back() : Vector2d(line[next - 1] + (line[next] - line[next - 1]) * share);
-    // The chord cuts a corner: by the line's own vertices then.
+    // The chord is blocked: use the line's own vertices.
     if (!is_open(grid, points.back(), p)) points.insert(points.end(), line.begin() + first, line.begin() + next);
     points.push_back(p);
   }

@@ -1,5 +1,4 @@
-// From travel costs to a line that can be driven: fast marching from the goal (the globally best way on the cost map),
-// descent along the steepest fall of the travel cost, points at even distances, corners rounded.
+// Path from a cost map: fast marching from the goal, gradient descent on the cost-to-go, resampling, smoothing.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,22 +17,20 @@ struct RouteConfig {
   double rounding_m = 3.0;  // standard deviation of the smoothing along the line
 };
 
-// Cell under a place of the map, -1 outside.
+// Cell index of a map point, -1 outside.
 int cell_at(const MarchGrid& grid, const Eigen::Vector2d& p);
 // Infinity outside.
 double cost_at(const MarchGrid& grid, const Eigen::Vector2d& p);
-// Whether the straight way keeps to cells that may be entered.
+// True if all cells on the straight segment are traversable.
 bool is_open(const MarchGrid& grid, const Eigen::Vector2d& a, const Eigen::Vector2d& b);
 
-// The best way between two places; none where the goal cannot be reached. Both must lie on cells that may be entered.
-std::optional<Line> best_way(const MarchGrid& grid, const Eigen::Vector2d& start, const Eigen::Vector2d& goal);
+// Minimum-cost path; empty if the goal is unreachable. Both points must be in traversable cells.
+std::optional<Line> minimum_cost_path(const MarchGrid& grid, const Eigen::Vector2d& start, const Eigen::Vector2d& goal);
 
 double length_m(std::span<const Eigen::Vector2d> line);
-// Points at even distances of about the spacing, first and last kept; where the straight way between two of them is not
-// open, the line's own points as well.
+// Equidistant points; keeps both ends. Where the chord between two points is blocked, keeps the line's own vertices.
 Line resampled(const Line& line, double spacing_m, const MarchGrid& grid);
-// Points drawn towards the middle of their neighbours again and again, the ends fixed; a point stays where the line
-// would cross a cell that may not be entered.
+// Laplacian smoothing with fixed ends; a point stays if the line would cross a cell that is not traversable.
 Line rounded(Line line, const MarchGrid& grid, const RouteConfig& config);
 
 }  // namespace rover::orbital

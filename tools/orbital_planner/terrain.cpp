@@ -16,7 +16,7 @@ struct Plane {
   double rms_m = 0.0;
 };
 
-// Sums over the known cells of a square, in cells and metres from its middle.
+// Sums over the known cells of a square, relative to its centre, in cells and metres.
 struct Moments {
   double n = 0, x = 0, y = 0, z = 0, xx = 0, xy = 0, yy = 0, xz = 0, yz = 0, zz = 0;
 
@@ -27,7 +27,7 @@ struct Moments {
     xz += dx * dz, yz += dy * dz, zz += dz * dz;
   }
 
-  // None where the cells lie on a line.
+  // Empty if the cells are collinear.
   std::optional<Plane> plane() const {
     const double cxx = xx - x * x / n, cxy = xy - x * y / n, cyy = yy - y * y / n;
     const double cxz = xz - x * z / n, cyz = yz - y * z / n, czz = zz - z * z / n;
@@ -42,14 +42,14 @@ class Window {
  public:
   Window(const ElevationRaster& map, const TerrainConfig& config)
       : map_(map),
-        reach_(std::max(1, static_cast<int>(std::lround(0.5 * config.window_m / map.resolution_m - 0.5)))),
-        least_(config.least_known * (2 * reach_ + 1) * (2 * reach_ + 1)) {}
+        half_width_(std::max(1, static_cast<int>(std::lround(0.5 * config.window_m / map.resolution_m - 0.5)))),
+        least_(config.least_known * (2 * half_width_ + 1) * (2 * half_width_ + 1)) {}
 
   std::optional<Plane> plane_at(int column, int row) const {
     const float middle = map_.at(column, row);
     if (!std::isfinite(middle)) return std::nullopt;
     Moments moments;
-    for_known(column, row, reach_, [&](int dx, int dy, float z) { moments.add(dx, dy, z - middle); });
+    for_known(column, row, half_width_, [&](int dx, int dy, float z) { moments.add(dx, dy, z - middle); });
     return moments.n < least_ ? std::nullopt : moments.plane();
   }
 
@@ -64,14 +64,14 @@ class Window {
 
  private:
   template <class F>
-  void for_known(int column, int row, int reach, F&& f) const {
-    for (int y = std::max(0, row - reach); y <= std::min(map_.height - 1, row + reach); ++y)
-      for (int x = std::max(0, column - reach); x <= std::min(map_.width - 1, column + reach); ++x)
+  void for_known(int column, int row, int half_width, F&& f) const {
+    for (int y = std::max(0, row - half_width); y <= std::min(map_.height - 1, row + half_width); ++y)
+      for (int x = std::max(0, column - half_width); x <= std::min(map_.width - 1, column + half_width); ++x)
         if (const float z = map_.at(x, y); std::isfinite(z)) f(x - column, y - row, z);
   }
 
   const ElevationRaster& map_;
-  int reach_;
+  int half_width_;
   double least_;
 };
 
@@ -83,7 +83,7 @@ TerrainClass classify(double slope_rad, double roughness_m, double step_m, const
   return slope_rad > config.sloping_rad ? TerrainClass::kSloping : TerrainClass::kLevel;
 }
 
-void judge_cell(const Window& window, int column, int row, const TerrainConfig& config, TerrainLayers& layers) {
+void classify_cell(const Window& window, int column, int row, const TerrainConfig& config, TerrainLayers& layers) {
   const std::optional<Plane> plane = window.plane_at(column, row);
   if (!plane) return;
   const size_t i = static_cast<size_t>(row) * layers.width + column;
@@ -116,7 +116,7 @@ TerrainLayers analyse(const ElevationRaster& map, const TerrainConfig& config) {
   layers.terrain_class.assign(map.z_m.size(), TerrainClass::kUnknown);
   const Window window(map, config);
   for (int row = 0; row < map.height; ++row)
-    for (int column = 0; column < map.width; ++column) judge_cell(window, column, row, config, layers);
+    for (int column = 0; column < map.width; ++column) classify_cell(window, column, row, config, layers);
   return layers;
 }
 

@@ -9,7 +9,7 @@
 namespace rover::orbital {
 namespace {
 
-// To obstacles and unknown ground; what lies beyond the map's border is unknown too.
+// Distance to obstacles and unknown ground; outside of the map is unknown.
 std::vector<double> distance_to_closed(const TerrainLayers& layers) {
   std::vector<std::uint8_t> closed(layers.terrain_class.size());
   std::transform(layers.terrain_class.begin(), layers.terrain_class.end(), closed.begin(), [](TerrainClass c) {
@@ -36,7 +36,7 @@ double slope_cost(double slope_rad) {
   static constexpr std::array<double, 4> kCost = {1.0, 1.5, 2.5, 4.0};
   constexpr double kStepRad = to_rad(5.0);
   const double place = slope_rad / kStepRad;
-  // Beyond the table's end, where a configuration allows steeper ground, its last rise goes on.
+  // Linear extrapolation beyond the table's end, if the configuration allows steeper ground.
   const size_t i = std::min(static_cast<size_t>(place), kCost.size() - 2);
   return kCost[i] + (place - static_cast<double>(i)) * (kCost[i + 1] - kCost[i]);
 }
