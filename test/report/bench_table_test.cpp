@@ -53,13 +53,13 @@ TEST(Median, OddEvenNoneAndUnknown) {
   EXPECT_EQ(median({kNaN, 5.0}), 5.0);
 }
 
-TEST(BenchTable, AGoodBenchMeetsEveryDemand) {
+TEST(BenchTable, GoodBenchmarkMeetsEveryRequirement) {
   const std::vector<Gate> gates = seed_gates(full_bench());
   EXPECT_EQ(met(gates), static_cast<int>(gates.size()));
 }
 
-// Each demand fails when its own figure does.
-TEST(BenchTable, EachFigureFailsItsOwnDemand) {
+// Each requirement fails when its own metric does.
+TEST(BenchTable, EachMetricFailsItsOwnRequirement) {
   const std::vector<std::function<void(BenchRow&)>> faults = {[](BenchRow& r) { r.outcome = "timeout"; },
                                                               [](BenchRow& r) { r.collisions = 1; },
                                                               [](BenchRow& r) { r.rocks_missed = 1; },
@@ -79,14 +79,14 @@ TEST(BenchTable, EachFigureFailsItsOwnDemand) {
   }
 }
 
-TEST(BenchTable, AnUnknownFigureMeetsNothing) {
+TEST(BenchTable, UnknownMetricMeetsNoRequirement) {
   std::vector<BenchRow> rows = full_bench();
   rows[0].rocks_missed = kNaN;
   EXPECT_FALSE(seed_gates(rows)[2].met);
   EXPECT_FALSE(seed_gates({})[0].met);
 }
 
-TEST(BenchTable, RunsWithFewRepairsDoNotCountAndAnotherSeedTakesTheirPlace) {
+TEST(BenchTable, RunsWithFewRepairsAreReplacedByAnotherSeed) {
   std::vector<BenchRow> rows = full_bench();
   rows[0].replans = 4;
   rows[0].path_ratio = 0.5;
@@ -99,7 +99,7 @@ TEST(BenchTable, RunsWithFewRepairsDoNotCountAndAnotherSeedTakesTheirPlace) {
   EXPECT_NE(table.find("here, all 20 runs"), std::string::npos);
 }
 
-TEST(BenchTable, ARunThatFailsCountsHoweverFewItsRepairs) {
+TEST(BenchTable, FailedRunCountsDespiteFewRepairs) {
   BenchRow row = good("seed_traverse_2", 1);
   row.replans = 2;
   EXPECT_FALSE(counts(row));
@@ -133,7 +133,7 @@ TEST(BenchRows, ReadsFiguresAndNull) {
   EXPECT_TRUE(std::isnan(rows[0].rocks_missed));
 }
 
-TEST(BenchRows, ADamagedLineIsNamed) {
+TEST(BenchRows, InvalidRowReportsFileAndLine) {
   try {
     parse_rows("{\"scenario\":\"a\",\"seed\":1}\n{\"scen", "rows.jsonl");
     FAIL();

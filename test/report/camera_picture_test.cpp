@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kOriginHeight = 0.62;
 
-// 0.4 m above the body's origin, 0.5 m before it, looking straight ahead.
+// 0.4 m above and 0.5 m ahead of the body origin, looking straight ahead.
 CameraView level_camera() {
   CameraView view{400.0, 256.0, 192.0, Eigen::Isometry3d::Identity()};
   view.T_body_cam.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
@@ -24,7 +24,7 @@ CameraView level_camera() {
   return view;
 }
 
-TEST(CameraPicture, ACellOnTheGroundIsWhereTheCameraSeesIt) {
+TEST(CameraPicture, GroundCellProjectsToCorrectPixel) {
   const auto ahead = pixel_of(level_camera(), {{2.5, 0.0}, false}, kOriginHeight);
   ASSERT_TRUE(ahead);
   EXPECT_NEAR(ahead->x(), 256.0, 1e-9);
@@ -43,7 +43,7 @@ HazardMap map_at(double t_s, bool with_cells) {
   return map;
 }
 
-TEST(CameraPicture, TheExposureBehindAnIncidentIsTheNewestWithCells) {
+TEST(CameraPicture, ExposureOfIncidentIsNewestWithCells) {
   RunRecord run;
   run.hazards = {map_at(8.0, true), map_at(9.0, true), map_at(9.4, false), map_at(9.8, true)};
   EXPECT_EQ(exposure_behind(run, 10.0), 9.0) << "that of 9.8 s was not known yet";
@@ -78,7 +78,7 @@ class CameraReader : public testing::Test {
   std::string path_ = folder_.file("log.lcm");
 };
 
-TEST_F(CameraReader, TakesTheRectifiedImageWhereThereIsOne) {
+TEST_F(CameraReader, PrefersRectifiedImage) {
   const auto pictures = read_camera_pictures(choose_run(path_), {0.8, 0.4, 1.2, kNaN});
   ASSERT_EQ(pictures.size(), 4U);
   ASSERT_TRUE(pictures[0] && pictures[1]);

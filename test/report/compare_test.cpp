@@ -52,7 +52,7 @@ TEST(CompareHtml, NamesOfAPictureStayUnique) {
   EXPECT_THAT(html, HasSubstr("<clipPath id=\"b-map-frame\"/><g clip-path=\"url(#b-map-frame)\"/>"));
 }
 
-TEST(CompareHtml, WhatAConfigurationSaysIsText) {
+TEST(CompareHtml, ConfigurationTextIsEscaped) {
   const std::string html =
       compare_html({"<a>", metrics_of(1, 1), {}}, {"b", metrics_of(1, 1), {}}, {{"f: key", "<script>", ""}});
   EXPECT_THAT(html, HasSubstr("&lt;script&gt;"));
@@ -116,11 +116,11 @@ TEST_F(CompareRuns, OnePageOfBoth) {
   for (const MapLayerInfo& layer : kMapLayers)
     EXPECT_THAT(html, HasSubstr("id=\"show-" + std::string(layer.id) + "\"")) << "one switch for both maps";
   EXPECT_FALSE(fs::exists(a + "/report.html")) << "the runs' own reports stay as they are";
-  compare_runs({a}, {b}, kConfig, file);  // made again
+  compare_runs({a}, {b}, kConfig, file);  // repeated
   EXPECT_EQ(read_file(file), html);
 }
 
-TEST_F(CompareRuns, OverwritesNothingElse) {
+TEST_F(CompareRuns, OverwritesOnlyComparisonPages) {
   const std::string a = write_run("a", 0.1);
   std::ofstream(folder_.file("notes.html")) << "mine";
   EXPECT_THROW(compare_runs({a}, {a}, kConfig, folder_.file("notes.html")), ConfigError);

@@ -1,5 +1,4 @@
-// What the report says of the Full level: from a log made message by message, and figures that can be worked out by
-// hand.
+// Report of the Full level, from a synthetic log with known metrics.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -27,7 +26,7 @@ namespace {
 
 constexpr float kUnseen = std::numeric_limits<float>::quiet_NaN();
 
-TEST(Mosaic, ShowsTheNewestOfWhatWasSeenAndNothingElse) {
+TEST(Mosaic, NewestObservationReplacesOlder) {
   ElevationMosaic mosaic;
   EXPECT_TRUE(mosaic.empty());
   EXPECT_TRUE(std::isnan(mosaic.at(0.0, 0.0)));
@@ -58,7 +57,7 @@ TEST(Mosaic, FitsTogetherAcrossItsTilesOnBothSidesOfZero) {
     for (double y = -9.95; y < 10.0; y += 0.7) ASSERT_NEAR(mosaic.at(x, y), height(x, y), 0.03) << x << " " << y;
 }
 
-TEST(Mosaic, WhatIsNoMapIsLeftOut) {
+TEST(Mosaic, InvalidMapsAreIgnored) {
   ElevationMosaic mosaic;
   mosaic.add(kNaN, 0.0, 0.0, 1, {1.f});
   mosaic.add(0.0, 0.0, 0.0, 1, {1.f});
@@ -68,8 +67,9 @@ TEST(Mosaic, WhatIsNoMapIsLeftOut) {
   EXPECT_TRUE(mosaic.empty());
 }
 
-// SLAM's map is turned and shifted against the true one, which its first pose takes away; what grows after it is drift.
-TEST(SlamDrift, IsWhatGrowsSinceItsFirstPose) {
+// SLAM's map is rotated and shifted against the true one; alignment at the first pose removes it. The growth after it
+// is drift.
+TEST(SlamDrift, IsMeasuredFromFirstPose) {
   RunRecord run = straight_run(20.0);
   const Pose2 off{3.0, -2.0, 0.4};
   for (double t = 25.0; t <= 205.0; t += 5.0) {
@@ -95,7 +95,7 @@ TEST(Estimate, ErrorsCountFromTheBeginAndFromTheFirstAcceptedCorrection) {
 }
 
 // 10 m at each level, with 2 s and 6 s of CPU time.
-TEST(Levels, WayTimeAndCpuAreOfEach) {
+TEST(Levels, DistanceTimeAndCpuPerLevel) {
   RunRecord run = straight_run(20.0);
   run.states = {{0.0, State::kStandby, false, ""},
                 {5.0, State::kDriving, false, ""},
@@ -105,8 +105,8 @@ TEST(Levels, WayTimeAndCpuAreOfEach) {
   for (double t = 0.0; t <= 205.0; t += 1.0)
     slam.heartbeats.push_back({t, 1, 7.0 + (t <= 5.0 ? 0.0 : t < 105.0 ? 0.02 * (t - 5.0) : 2.0 + 0.06 * (t - 105.0))});
   const Metrics m = figures(run);
-  EXPECT_NEAR(m.efficient.way_m, 10.0, 0.06);
-  EXPECT_NEAR(m.full.way_m, 10.0, 0.06);
+  EXPECT_NEAR(m.efficient.travelled_m, 10.0, 0.06);
+  EXPECT_NEAR(m.full.travelled_m, 10.0, 0.06);
   EXPECT_NEAR(m.efficient.time_s, 100.0, 1e-6);
   EXPECT_NEAR(m.services.at("slam").cpu_s_per_m_efficient, 0.2, 0.01);
   EXPECT_NEAR(m.services.at("slam").cpu_s_per_m_full, 0.6, 0.01);
@@ -116,7 +116,7 @@ TEST(Levels, WayTimeAndCpuAreOfEach) {
             "EFFICIENT to FULL: slow_progress, effective_speed_mps 0.05 against 0.06");
 }
 
-// A log of 20 m along x, from 5 s on at 0.2 m/s: the level goes up at 10 m, maps and SLAM's poses come from then on.
+// 20 m along x at 0.2 m/s from 5 s on; at 10 m the level changes to Full, with maps and SLAM poses from then on.
 class FullLogTest : public testing::Test {
  protected:
   FullLogTest() : dir_(testing::TempDir() + "/full_level_test"), log_file_(dir_ + "/traverse.lcm") {
@@ -190,8 +190,8 @@ TEST_F(FullLogTest, FiguresFromTheLog) {
   const RunRecord run = read_log(choose_run(log_file_));
   EXPECT_NEAR(run.elevation.at(18.0, -3.0), 1.8, 0.02);
   EXPECT_TRUE(std::isnan(run.elevation.at(18.0, 3.0)));
-  const Judgement judgement = judge(run, RunInfo{}, Footprint{}, std::nullopt);
-  const nlohmann::ordered_json m = metrics_json(judgement.metrics);
+  const RunEvaluation evaluation = evaluate(run, RunInfo{}, Footprint{}, std::nullopt);
+  const nlohmann::ordered_json m = metrics_json(evaluation.metrics);
   EXPECT_NEAR(m["slam_drift_percent"], 0.5, 0.01);
   EXPECT_NEAR(m["levels"]["FULL"]["way_m"], 10.0, 0.2);
   ASSERT_EQ(m["level_switches"].size(), 1u);
@@ -216,8 +216,8 @@ TEST_F(FullLogTest, PicturesShowMapTracksAndReasons) {
   const Footprint footprint;
   const std::optional<TrueWorld> world;
   const HeightRaster orbital;
-  const Judgement judgement = judge(run, RunInfo{}, footprint, world);
-  const Scene scene{run, judgement, footprint, orbital, world};
+  const RunEvaluation evaluation = evaluate(run, RunInfo{}, footprint, world);
+  const Scene scene{run, evaluation, footprint, orbital, world};
   const std::string elevation = draw_elevation(scene);
   EXPECT_NE(elevation.find("SLAM"), std::string::npos);
   EXPECT_NE(elevation.find("0.00 to 0.00 m"), std::string::npos);
@@ -234,8 +234,8 @@ TEST(FullPictures, ARunAtTheEfficientLevelHasNone) {
   const Footprint footprint;
   const std::optional<TrueWorld> world;
   const HeightRaster orbital;
-  const Judgement judgement = judge(run, RunInfo{}, footprint, world);
-  const Scene scene{run, judgement, footprint, orbital, world};
+  const RunEvaluation evaluation = evaluate(run, RunInfo{}, footprint, world);
+  const Scene scene{run, evaluation, footprint, orbital, world};
   EXPECT_EQ(draw_elevation(scene), "");
   EXPECT_EQ(draw_levels(scene), "");
 }

@@ -1,4 +1,4 @@
-// Runs whose figures can be worked out by hand.
+// Runs with known metrics.
 #pragma once
 
 #include "tools/report/metrics.hpp"
@@ -9,8 +9,8 @@ inline Eigen::Isometry3d pose_at(double x_m, double y_m, double yaw_rad = 0.0) {
   return make_pose(rotation_from_rpy(0.0, 0.0, yaw_rad), {x_m, y_m, 0.62});
 }
 
-// Straight along x at 0.1 m/s from the origin, 0.5 s a sample; stands for 5 s before and after. DRIVING from t = 5 s.
-// The rover's estimate is the truth.
+// Straight along x at 0.1 m/s, samples every 0.5 s, stationary for 5 s before and after. DRIVING from 5 s. Estimate =
+// truth.
 inline RunRecord straight_run(double length_m) {
   constexpr double kSpeed = 0.1;
   constexpr double kStep = 0.5;
@@ -33,7 +33,7 @@ inline RunRecord straight_run(double length_m) {
   return run;
 }
 
-// A hazard map with one cell at the body point.
+// Hazard map with one cell at the body point.
 inline HazardMap hazard_at(double t_s, double x_body_m, double y_body_m, double latency_s = 0.3) {
   HazardMap map;
   map.t_s = t_s;
@@ -44,7 +44,7 @@ inline HazardMap hazard_at(double t_s, double x_body_m, double y_body_m, double 
 }
 
 inline Metrics figures(const RunRecord& run, const std::optional<TrueWorld>& world = std::nullopt) {
-  return judge(run, RunInfo{}, Footprint{}, world).metrics;
+  return evaluate(run, RunInfo{}, Footprint{}, world).metrics;
 }
 
 }  // namespace rover::report

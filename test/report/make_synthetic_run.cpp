@@ -1,4 +1,4 @@
-// make_synthetic_run DIR: a run's folder with report, to look at the report's pictures without a simulator.
+// make_synthetic_run DIR: a run folder with report, to inspect its pictures without a simulator.
 #include <cmath>
 #include <filesystem>
 
@@ -39,6 +39,6 @@ int main(int argc, char** argv) {
   study.world = truth;
   rover::ElevationRaster orbital = world.orbital_map(1.0);
   study.orbital = {orbital.width, orbital.height, orbital.resolution_m, orbital.z_m};
-  study.judgement = judge(study.run, study.folder.info, study.folder.footprint, study.world);
+  study.evaluation = evaluate(study.run, study.folder.info, study.folder.footprint, study.world);
   std::puts(write_report(study).c_str());
 }

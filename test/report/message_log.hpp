@@ -1,4 +1,4 @@
-// Writes messages into an LCM event log as the recorder would.
+// Writes messages into an LCM log as the recorder does.
 #pragma once
 
 #include <lcm/eventlog.h>
@@ -33,7 +33,7 @@ class MessageLog {
     put_bytes(channel, bytes, utime + latency);
   }
 
-  // A message that was published and not recorded.
+  // Skips the sequence number of a message that is not recorded.
   void leave_out(const std::string& channel, const std::string& publisher) { ++seq_[channel + '/' + publisher + "/1"]; }
 
   void put_bytes(const std::string& channel, std::vector<std::uint8_t> bytes, Utime time) {

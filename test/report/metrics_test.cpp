@@ -7,7 +7,7 @@
 namespace rover::report {
 namespace {
 
-TEST(Metrics, AStraightRunByHand) {
+TEST(Metrics, StraightRunHasKnownMetrics) {
   const Metrics m = figures(straight_run(10.0));
   EXPECT_EQ(m.outcome, "goal_reached");
   EXPECT_DOUBLE_EQ(m.planned_length_m, 10.0);
@@ -23,7 +23,7 @@ TEST(Metrics, AStraightRunByHand) {
   EXPECT_DOUBLE_EQ(m.time_in_state_s.at("DRIVING"), 100.0);
 }
 
-TEST(Metrics, WhatIsNotKnownIsNotAFigure) {
+TEST(Metrics, UnknownMetricsAreNaN) {
   const Metrics m = figures(straight_run(10.0));
   EXPECT_FALSE(m.rocks_missed.has_value());
   EXPECT_FALSE(m.false_stops.has_value());
@@ -36,7 +36,7 @@ TEST(Metrics, WhatIsNotKnownIsNotAFigure) {
   EXPECT_EQ(empty.outcome, "timeout");
 }
 
-TEST(Metrics, ContactsOfOneBumpAreOneCollision) {
+TEST(Metrics, ContactsWithinOneSecondAreOneCollision) {
   RunRecord run = straight_run(10.0);
   for (const size_t i : {40u, 41u, 42u, 80u}) run.truth[i].collision = true;
   const Metrics m = figures(run);
@@ -44,7 +44,7 @@ TEST(Metrics, ContactsOfOneBumpAreOneCollision) {
   EXPECT_EQ(m.outcome, "collision");
 }
 
-TEST(Metrics, MotionAfterTheLeaseCounts) {
+TEST(Metrics, MotionAfterPermitExpiryIsCounted) {
   RunRecord run;
   for (int i = 0; i <= 1000; ++i) {
     TruthSample sample;
@@ -54,12 +54,12 @@ TEST(Metrics, MotionAfterTheLeaseCounts) {
   }
   run.permits = {{0.0, 4.0}, {9.0, 9.2}};
   // Moving until 14 s; leases until 4 s and from 9 s until 9.2 s, and three seconds to stop after each.
-  EXPECT_NEAR(judge(run, {}, {}, std::nullopt).metrics.motion_without_lease_s, 2.0 + 1.8, 0.05);
+  EXPECT_NEAR(evaluate(run, {}, {}, std::nullopt).metrics.motion_without_lease_s, 2.0 + 1.8, 0.05);
   run.permits.clear();
-  EXPECT_NEAR(judge(run, {}, {}, std::nullopt).metrics.motion_without_lease_s, 14.0, 0.05);
+  EXPECT_NEAR(evaluate(run, {}, {}, std::nullopt).metrics.motion_without_lease_s, 14.0, 0.05);
 }
 
-TEST(Metrics, OutcomeOfRunsThatDoNotArrive) {
+TEST(Metrics, OutcomeOfFailedRuns) {
   RunRecord run = straight_run(10.0);
   run.states.back().state = State::kFaultStop;
   EXPECT_EQ(figures(run).outcome, "fault_stop");
@@ -102,7 +102,7 @@ TEST(Metrics, DeviationIsTruthAgainstTheFollowedPathInMap) {
   EXPECT_NEAR(figures(run).truth_deviation_max_m, 0.0, 1e-9);
 }
 
-TEST(Metrics, TheFinalPoseIsThatOfTheOutcomeNotOfTheLogsEnd) {
+TEST(Metrics, FinalPoseIsAtOutcomeNotAtEndOfLog) {
   RunRecord run = straight_run(10.0);
   for (TruthSample& truth : run.truth)
     if (truth.t_s > 105.0) truth.T_map_body.translation().x() = 99.0;
@@ -123,7 +123,7 @@ TEST(Metrics, HazardStopsAndLevels) {
   EXPECT_DOUBLE_EQ(m.time_in_state_s.at("HAZARD_STOP"), 55.0);
 }
 
-TEST(Metrics, ACorrectionIsJudgedAgainstTheTruthOfItsMap) {
+TEST(Metrics, CorrectionErrorUsesTruthAtMapTime) {
   RunRecord run = straight_run(10.0);
   const double released_s = 57.0;
   for (PoseSample& pose : run.poses) pose.T_map_odom.translation().y() = pose.t_s < released_s ? 2.0 : 0.4;
@@ -137,7 +137,7 @@ TEST(Metrics, ACorrectionIsJudgedAgainstTheTruthOfItsMap) {
   EXPECT_TRUE(std::isnan(m.global_corrections[1].fix_m));
 }
 
-TEST(Metrics, ServicesAddUpOverTheirBoots) {
+TEST(Metrics, ServiceMetricsSumOverRestarts) {
   RunRecord run = straight_run(10.0);
   ServiceRecord& stereo = run.services["stereo"];
   stereo.cpu_s_of_boot = {{1, 3.0}, {2, 2.0}};

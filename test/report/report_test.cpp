@@ -1,4 +1,4 @@
-// From a log on disk to the files of a report.
+// From a log on disk to the report files.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -53,21 +53,21 @@ class ReportTest : public testing::Test {
     write_synthetic_run(short_run(), dir_);
     write_report(study());
   }
-  // With the world of the construction, which no scenario makes again.
+  // The synthetic world, which no scenario can regenerate.
   static Study study() {
     Study study;
     study.folder = open_run_folder(dir_, kConfig);
     study.log = choose_run(study.folder.log);
     study.run = read_log(study.log);
     study.world = world_of(short_run());
-    study.judgement = judge(study.run, study.folder.info, study.folder.footprint, study.world);
+    study.evaluation = evaluate(study.run, study.folder.info, study.folder.footprint, study.world);
     return study;
   }
   static nlohmann::json metrics() { return nlohmann::json::parse(read_file(dir_ + "/metrics.json")); }
   static inline std::string dir_;
 };
 
-TEST_F(ReportTest, FiguresAreThoseOfTheConstruction) {
+TEST_F(ReportTest, MetricsMatchSyntheticRun) {
   const nlohmann::json m = metrics();
   EXPECT_EQ(m["scenario"], "synthetic");
   EXPECT_EQ(m["seed"], 3);
@@ -86,7 +86,7 @@ TEST_F(ReportTest, FiguresAreThoseOfTheConstruction) {
   EXPECT_LT(m["path_ratio"], 1.25);
 }
 
-TEST_F(ReportTest, NamesAreTheProjectsContract) {
+TEST_F(ReportTest, MetricNamesAreStable) {
   const nlohmann::json m = metrics();
   for (const char* name : {"scenario",
                            "seed",
@@ -130,9 +130,9 @@ TEST_F(ReportTest, NamesAreTheProjectsContract) {
   for (const char* name : {"messages", "lost", "bytes"}) EXPECT_TRUE(m["bus"].contains(name)) << name;
 }
 
-TEST_F(ReportTest, ThePageNeedsNothingBesideItself) {
+TEST_F(ReportTest, PageIsSelfContained) {
   const std::string html = read_file(dir_ + "/report.html");
-  // The only addresses are the names of SVG's namespaces.
+  // The only URLs are SVG namespaces.
   for (size_t at = html.find("http"); at != std::string::npos; at = html.find("http", at + 1))
     EXPECT_EQ(html.compare(at, 18, "http://www.w3.org/"), 0) << html.substr(at, 60);
   EXPECT_EQ(html.find("src="), std::string::npos);
@@ -154,7 +154,7 @@ TEST_F(ReportTest, TheMapsLayersCanBeSwitched) {
     EXPECT_NE(html.find("<g class=\"layer-" + std::string(id) + "\">"), std::string::npos) << id;
 }
 
-TEST_F(ReportTest, EventsAreTold) {
+TEST_F(ReportTest, EventsAreListed) {
   const std::string html = read_file(dir_ + "/report.html");
   EXPECT_NE(html.find("<h2>Events</h2>"), std::string::npos);
   EXPECT_NE(html.find("<td>GOAL_REACHED"), std::string::npos);
@@ -167,7 +167,7 @@ TEST_F(ReportTest, ThePictureDecodes) {
   EXPECT_EQ(read_file(dir_ + "/traverse.svg").rfind("<?xml", 0), 0u);
 }
 
-TEST_F(ReportTest, MadeAgainItIsTheSame) {
+TEST_F(ReportTest, RepeatedReportIsIdentical) {
   const std::string html = read_file(dir_ + "/report.html");
   const std::string figures = read_file(dir_ + "/metrics.json");
   write_report(study());
@@ -175,7 +175,7 @@ TEST_F(ReportTest, MadeAgainItIsTheSame) {
   EXPECT_EQ(read_file(dir_ + "/metrics.json"), figures);
 }
 
-TEST_F(ReportTest, WithoutTheWorldRocksAreNotJudged) {
+TEST_F(ReportTest, RockMetricsAreNullWithoutWorld) {
   const std::string other = testing::TempDir() + "/report_test_real";
   fs::remove_all(other);
   fs::create_directories(other);
@@ -189,7 +189,7 @@ TEST_F(ReportTest, WithoutTheWorldRocksAreNotJudged) {
   EXPECT_EQ(m["outcome"], "goal_reached");
 }
 
-// A vehicle's log: everything but TRUTH.
+// Log of a real vehicle: no TRUTH.
 void copy_without_truth(const std::string& from, const std::string& to) {
   lcm::LogFile in(from, "r");
   lcm::LogFile out(to, "w");
@@ -201,7 +201,7 @@ void copy_without_truth(const std::string& from, const std::string& to) {
   }
 }
 
-TEST_F(ReportTest, WithoutTruthTheReportSaysSoAndTellsWhatTheEstimateCan) {
+TEST_F(ReportTest, WithoutTruthReportUsesEstimate) {
   const std::string other = testing::TempDir() + "/report_test_no_truth";
   fs::remove_all(other);
   fs::create_directories(other);
@@ -223,7 +223,7 @@ TEST_F(ReportTest, WithoutTruthTheReportSaysSoAndTellsWhatTheEstimateCan) {
   EXPECT_EQ(metrics()["truth"], true);
 }
 
-TEST_F(ReportTest, ACutLogLosesItsEndOnly) {
+TEST_F(ReportTest, TruncatedLogLosesOnlyItsEnd) {
   const std::string cut = testing::TempDir() + "/cut.lcm";
   const auto whole = read_log(choose_run(dir_ + "/traverse.lcm"));
   for (const std::uintmax_t missing : {1u, 7u, 30u, 333u, 100'000u}) {
@@ -243,11 +243,11 @@ TEST_F(ReportTest, ACutLogLosesItsEndOnly) {
   EXPECT_EQ(whole.bus.damaged_events, 0);
 }
 
-TEST_F(ReportTest, JudgesOneRunOfALogAndSaysWhich) {
+TEST_F(ReportTest, EvaluatesSelectedRunOfLog) {
   const testing_support::TempFolder folder;
   const std::string other = folder.file("two");
   fs::create_directories(other);
-  // Each run with a TICK behind it.
+  // Each run followed by a TICK.
   std::ofstream both(other + "/traverse.lcm", std::ios::binary);
   for (const Utime end : {Utime{600'000'000}, Utime{599'980'000}}) {
     const std::string ticks = folder.file("ticks.lcm");

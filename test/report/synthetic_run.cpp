@@ -26,9 +26,9 @@ namespace rover::report {
 namespace {
 
 constexpr double kOriginHeightM = 0.62;
-constexpr double kSwerveM = 1.2;  // sideways
+constexpr double kSwerveM = 1.2;  // lateral
 constexpr double kSwerveLengthM = 1.4;
-constexpr double kSightM = 2.6;  // ahead of the rover, where rocks are seen
+constexpr double kSightM = 2.6;  // detection range ahead
 
 class Writer {
  public:
@@ -80,7 +80,7 @@ class Writer {
     return make_pose(rotation_from_rpy(roll, pitch, yaw), {p.x(), p.y(), h(0.0, 0.0) + kOriginHeightM});
   }
 
-  // odom begins at the start pose; its error grows to the left of the way from start to goal.
+  // odom starts at the start pose; its error grows to the left of the straight line to the goal.
   Eigen::Isometry3d estimated_in_map(double s) const {
     Eigen::Isometry3d T = true_pose(s);
     const Eigen::Vector2d way = (run_.planned.back() - run_.planned.front()).normalized();

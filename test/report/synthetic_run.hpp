@@ -1,5 +1,4 @@
-// A whole run's log made without a simulator: a rover that swerves around rocks on its planned path, with every error
-// known by construction.
+// Log of a complete run without a simulator: a rover that avoids rocks on its planned path, with known errors.
 #pragma once
 
 #include <functional>
@@ -12,10 +11,10 @@ namespace rover::report {
 
 struct SyntheticRun {
   std::vector<Eigen::Vector2d> planned;  // polyline in map
-  std::vector<Rock> rocks;               // those to swerve around stand on the planned path
+  std::vector<Rock> rocks;               // those to avoid are on the planned path
   std::vector<double> swerves_m;         // arc lengths along it
   double speed_mps = 0.18;
-  double drift_percent = 0.5;  // of the odometry, sideways, linear in distance
+  double drift_percent = 0.5;  // lateral odometry drift, linear in distance
   double final_s = 2.0;        // after GOAL_REACHED
   std::function<double(double, double)> height_m = [](double, double) { return 0.0; };
 };

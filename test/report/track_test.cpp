@@ -7,7 +7,7 @@
 namespace rover::report {
 namespace {
 
-TEST(TrueTrack, ARoverThatShakesDoesNotDrive) {
+TEST(TrueTrack, VibrationDoesNotAddDistance) {
   std::vector<TruthSample> truth(1000);
   for (size_t i = 0; i < truth.size(); ++i) {
     truth[i].t_s = 0.02 * static_cast<double>(i);
@@ -16,7 +16,7 @@ TEST(TrueTrack, ARoverThatShakesDoesNotDrive) {
   EXPECT_LE(TrueTrack(truth).distance_m(100.0), 0.005);
 }
 
-TEST(TrueTrack, InterpolatesAndHoldsItsEnds) {
+TEST(TrueTrack, InterpolatesAndClampsAtEnds) {
   const TrueTrack track(straight_run(2.0).truth);
   EXPECT_NEAR(track.at(15.25).translation().x(), 1.025, 1e-12);
   EXPECT_EQ(track.at(-5.0).translation().x(), 0.0);
@@ -41,7 +41,7 @@ TEST(PlaneMotions, InverseUndoesCompose) {
   EXPECT_NEAR(both.yaw_rad, 0.0, 1e-12);
 }
 
-// An odometry without error has no drift, wherever its frame lies.
+// Odometry without error has no drift, whatever its frame.
 TEST(Drift, DoesNotDependOnTheFrameOfTheOdometry) {
   RunRecord run = straight_run(10.0);
   const Eigen::Isometry3d T_odom_map = pose_at(-40.0, 17.0, 2.2);
@@ -55,7 +55,7 @@ TEST(Drift, DoesNotDependOnTheFrameOfTheOdometry) {
 
 TEST(Drift, IsTheErrorSinceTheStart) {
   RunRecord run = straight_run(10.0);
-  // Already wrong by 3 m before the start, which does not count; from there on 2 % too long.
+  // The error of 3 m at the start does not count; the scale error of 2 % does.
   for (PoseSample& pose : run.poses)
     pose.T_odom_body.translation().x() = 3.0 + 1.02 * pose.T_odom_body.translation().x();
   const TrueTrack truth(run.truth);

@@ -10,11 +10,10 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-// Half a step beside the steps, so that rounding decides nothing.
+// Half a step off the samples, so that rounding does not matter.
 const std::vector<double> kLengths = {9.5, 19.5, 29.5, 39.5, 49.5};
 
-// A curve of `length_m` in steps of a metre, as the truth and, scaled and turned a little at each step, as an estimate
-// in a frame of its own.
+// A curve of `length_m` in 1 m steps: truth, and an estimate with scale and heading error in its own frame.
 std::vector<PosePair> curve(int length_m, double scale, double turn_rad) {
   const Isometry3d T_own = make_pose(rotation_from_rpy(0.1, -0.2, 1.3), {5.0, -7.0, 2.0});
   Isometry3d truth = Isometry3d::Identity();
@@ -28,7 +27,7 @@ std::vector<PosePair> curve(int length_m, double scale, double turn_rad) {
   return poses;
 }
 
-TEST(TrajectoryError, IsNothingForTheSameTrajectoryInAnotherFrame) {
+TEST(TrajectoryError, IsZeroForSameTrajectoryInAnotherFrame) {
   const TrajectoryError error = trajectory_error(curve(60, 1.0, 0.0), kLengths);
   EXPECT_EQ(error.poses, 61);
   EXPECT_NEAR(error.length_m, 60.0, 1e-9);
@@ -41,7 +40,7 @@ TEST(TrajectoryError, IsNothingForTheSameTrajectoryInAnotherFrame) {
 }
 
 TEST(TrajectoryError, FindsAnErrorOfScale) {
-  // Straight, so that the stretches err by exactly the scale.
+  // Straight, so that segment errors equal the scale error.
   std::vector<PosePair> poses;
   for (int i = 0; i <= 60; ++i)
     poses.push_back({make_pose(Eigen::Matrix3d::Identity(), {1.0 * i, 0, 0}),
@@ -50,7 +49,7 @@ TEST(TrajectoryError, FindsAnErrorOfScale) {
   EXPECT_NEAR(error.end_error_percent, 2.0, 1e-9);
   for (const SegmentError& segment : error.segments) EXPECT_NEAR(segment.translation_percent, 2.0, 1e-9);
   EXPECT_NEAR(error.all_segments.rotation_deg_per_m, 0.0, 1e-9);
-  // The best rigid motion puts the middles on each other: errors of 2 % of the way from there.
+  // Rigid alignment matches the centroids: errors are 2 % of the distance from there.
   double sum2 = 0.0;
   for (int i = -30; i <= 30; ++i) sum2 += std::pow(0.02 * i, 2);
   EXPECT_NEAR(error.ate_rmse_m, std::sqrt(sum2 / 61.0), 1e-9);
@@ -100,15 +99,14 @@ TEST(VisualPoses, AMotionAfterALostPairSpansIt) {
   EXPECT_NEAR(trajectory_error(poses).end_error_m, 0.0, 1e-12);
 }
 
-TEST(VisualPoses, WhatWasNotSeenIsAnError) {
+TEST(VisualPoses, UnobservedMotionCountsAsError) {
   RunRecord run = seen_run({false, false, false});
   run.visual.erase(run.visual.begin() + 1);
   EXPECT_NEAR(trajectory_error(visual_poses(run, TrueTrack(run.truth))).end_error_m, 1.0, 1e-12);
 }
 
-// Truth of a data set begins later than the pictures and ends before them: what is before, after and in a hole of it is
-// no error.
-TEST(VisualPoses, AreJudgedWhereTruthIsKnown) {
+// Ground truth that starts late, ends early or has a gap: poses without truth are not evaluated.
+TEST(VisualPoses, AreEvaluatedOnlyWhereTruthIsKnown) {
   RunRecord run = seen_run(std::vector<bool>(20, false));
   run.truth.erase(run.truth.begin(), run.truth.begin() + 5);
   run.truth.erase(run.truth.end() - 4, run.truth.end());

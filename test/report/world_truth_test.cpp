@@ -27,7 +27,7 @@ constexpr char kPlane[] =
     "world:\n  plane: {width_m: 60, height_m: 40, slope_deg: 5}\n  rock_area_k: 0.1\n"
     "path: {x_m: [10, 50], y_m: [20, 20]}\n";
 
-TEST(WorldTruth, TheSeedMakesTheRocksAgain) {
+TEST(WorldTruth, SeedRegeneratesRocks) {
   RunFolder folder = folder_with(kPlane);
   const Box box{5.0, 5.0, 55.0, 35.0};
   const auto first = load_true_world(folder, box);
@@ -45,7 +45,7 @@ TEST(WorldTruth, TheSeedMakesTheRocksAgain) {
   EXPECT_GT(first->height_m(50.0, 20.0), first->height_m(10.0, 20.0) + 2.0);
 }
 
-TEST(WorldTruth, WithoutSeedOrWithADamagedScenarioThereIsNone) {
+TEST(WorldTruth, EmptyWithoutSeedOrValidScenario) {
   RunFolder folder = folder_with(kPlane);
   folder.info.seed.reset();
   EXPECT_FALSE(load_true_world(folder, {0, 0, 10, 10}));

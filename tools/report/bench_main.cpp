@@ -1,4 +1,4 @@
-// rover_bench_table: the table of a bench from its rows.
+// rover_bench_table: makes the result table of a benchmark from its rows.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Rows of a bench: one metrics.json on each line.
+// Rows of a benchmark: one metrics.json per line.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace rover::report {
 
-// Throws ConfigError naming file and line where a line is not a run's figures.
+// Throws ConfigError with file and line if a line is not the metrics of a run.
 std::vector<BenchRow> parse_rows(const std::string& text, const std::string& file);
 
-// Model of the processor and number of cores, as the operating system names them.
+// Processor model and number of cores, as reported by the operating system.
 BenchContext this_machine();
 
 }  // namespace rover::report

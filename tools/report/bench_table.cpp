@@ -19,7 +19,7 @@ struct PaperTraverse {
   const char* ratio;
   const char* repairs;
 };
-// Azkarate et al. 2020: two field traverses, 148.2 m planned and 176.9 m driven in sum.
+// Azkarate et al. 2020: two field traverses, 148.2 m planned and 176.9 m driven in total.
 const std::map<std::string, PaperTraverse> kPaper = {{"seed_traverse_1", {5, "86.0", "", "", "6"}},
                                                      {"seed_traverse_2", {8, "62.2", "", "", "10"}}};
 
@@ -40,7 +40,7 @@ bool is_seed_traverse(const BenchRow& row) {
   return kPaper.contains(row.scenario);
 }
 
-// The first ten of each seed traverse that count, by seed.
+// The first ten valid runs of each seed traverse, by seed.
 Rows counted(const Rows& rows) {
   Rows sorted;
   std::copy_if(rows.begin(), rows.end(), std::back_inserter(sorted),
@@ -55,7 +55,7 @@ Rows counted(const Rows& rows) {
   return taken;
 }
 
-// A figure that is not known does not meet its demand.
+// An unknown (NaN) metric never meets a requirement.
 Gate all_gate(const Rows& rows, const std::string& demand, int decimals, const RowFigure& figure,
               const std::function<bool(const BenchRow&, double)>& met) {
   Gate gate{demand, "", !rows.empty()};
@@ -158,7 +158,7 @@ std::string paper_table(const Rows& runs) {
                            decimal(sum(runs, [](const BenchRow& r) { return r.replans; }), 0));
 }
 
-// What bounds the duty: shares of the drives' time, and what the driving itself loses to point turns and slow ground.
+// Time shares that limit the duty cycle, and losses by point turns and slow ground while driving.
 std::string time_lines(const Rows& runs) {
   std::map<std::string, double> spent;
   double total = 0.0;
@@ -184,7 +184,7 @@ int least_repairs(const std::string& scenario) {
 }
 
 bool counts(const BenchRow& row) {
-  // A run that fails always counts: few repairs are no excuse.
+  // A failed run always counts, however few repairs it has.
   const bool failed = row.outcome != "goal_reached" || !(row.collisions == 0.0) || !(row.rocks_missed == 0.0);
   return failed || row.replans >= least_repairs(row.scenario);
 }

@@ -1,4 +1,4 @@
-// The table of a bench: each run beside the paper's figures, medians, and whether each demand is met.
+// Result table of a benchmark: runs, the paper's figures, medians, and whether each requirement is met.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace rover::report {
 
-// One run's figures; NaN where a figure is not known.
+// Metrics of one run; NaN: unknown.
 struct BenchRow {
   std::string commit;
   std::string scenario;
@@ -26,7 +26,7 @@ struct BenchRow {
   double rocks_missed = kNaN;
   double rocks_encountered = kNaN;
   double false_stops = kNaN;
-  double faults = kNaN;  // rows of the table of faults that were raised
+  double faults = kNaN;  // fault-table rows raised
   double odometry_drift_percent = kNaN;
   double cross_track_rms_m = kNaN;
   double final_error_m = kNaN;
@@ -45,10 +45,10 @@ struct BenchContext {
   int cores = 0;
 };
 
-// Repairs below which a run that reached its goal says too little about rocks to count.
+// A successful run with fewer repairs met too few rocks to count.
 int least_repairs(const std::string& scenario);
 bool counts(const BenchRow& row);
-// NaN for none; the mean of the middle two for an even number.
+// NaN for an empty list; the mean of the middle two for an even number.
 double median(std::vector<double> values);
 
 struct Gate {
@@ -58,7 +58,7 @@ struct Gate {
 };
 std::vector<Gate> seed_gates(const std::vector<BenchRow>& rows);
 
-// Of the newest commit among the rows (the last row's); a run given twice counts as last given.
+// Uses only rows with the commit of the last row; of rows with the same seed, the last one.
 std::vector<BenchRow> newest_rows(const std::vector<BenchRow>& rows);
 std::string bench_table(const BenchContext& context, const std::vector<BenchRow>& rows);
 

@@ -1,4 +1,4 @@
-// What the LocCam saw at an incident, with the hazard cells of that exposure.
+// LocCam image at an incident, with the hazard cells of that exposure.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -24,16 +24,15 @@ struct CameraPicture {
   int width = 0;
   int height = 0;
   std::vector<std::uint8_t> grey;       // rows from the top
-  std::optional<CameraView> rectified;  // empty: as the lens saw it, and no cell has a place in it
+  std::optional<CameraView> rectified;  // empty: a raw image, in which cells cannot be drawn
 };
 
-// The exposure whose hazard map led to what happened at t: the newest with cells in the 3 s before, else the newest;
-// NaN where there is none.
+// Exposure of the hazard map that led to an event at t: the newest with cells within 3 s, else the newest; NaN if none.
 double exposure_behind(const RunRecord& run, double t_s);
-// Pixel of a cell on the ground, at its height under the body's origin; empty where the camera does not see it.
+// Pixel of a ground cell at the ground height below the body origin; empty if outside the image.
 std::optional<Eigen::Vector2d> pixel_of(const CameraView& view, const HazardCell& cell, double origin_height_m);
 
-// As an SVG as wide as those of the incidents from above.
+// SVG document with the width of the top views of incidents.
 std::string draw_camera(const CameraPicture& picture, const RunRecord& run, double origin_height_m);
 
 }  // namespace rover::report

@@ -1,4 +1,4 @@
-// Takes the pictures of chosen exposures out of a log.
+// Reads the images of given exposures from a log.
 #pragma once
 
 #include <optional>
@@ -9,8 +9,7 @@
 
 namespace rover::report {
 
-// One for each exposure, in their order: the rectified left image, else the raw one; empty where the log holds none of
-// it, as a reduced one may.
+// One per exposure, in order: the rectified left image, else the raw one; empty if not in the log (e.g. a reduced log).
 std::vector<std::optional<CameraPicture>> read_camera_pictures(const LogRun& run,
                                                                const std::vector<double>& exposures_s);
 

@@ -26,7 +26,7 @@ double known(const std::optional<int>& value) {
   return value ? *value : kNaN;
 }
 
-// What an operator weighs two runs by.
+// The metrics by which an operator compares two runs.
 const Figure kFigures[] = {
     {"Planned path", "m", 1, Better::kNeither, [](const Metrics& m) { return m.planned_length_m; }},
     {"Driven", "m", 1, Better::kNeither, [](const Metrics& m) { return m.driven_length_m; }},
@@ -61,7 +61,7 @@ const char* mark(Better better, double mine, double other) {
   return (mine < other) == (better == Better::kLess) ? " better" : "";
 }
 
-// Where both are shown by the same digits, neither is better.
+// Equal when both print the same digits.
 std::string figure_row(const Figure& figure, const Metrics& a, const Metrics& b) {
   const double of_a = figure.of(a);
   const double of_b = figure.of(b);
@@ -113,7 +113,7 @@ std::string compared_services(const ComparedRun& a, const ComparedRun& b) {
   return out + "</table>\n";
 }
 
-// A path of a hundred points tells nobody anything.
+// Do not list the points of long paths.
 std::string shortened(const std::string& text) {
   constexpr size_t kLongest = 90;
   return text.size() <= kLongest ? text : fmt::format("{} ... ({} characters)", text.substr(0, kLongest), text.size());
@@ -129,7 +129,7 @@ std::string differences_section(const std::vector<ConfigDifference>& differences
   return out + "</table>\n";
 }
 
-// The names that an SVG refers to are unique in a document.
+// Ids within one HTML document must be unique.
 std::string renamed(std::string svg, const std::string& prefix) {
   for (const std::string& before : {std::string("clipPath id=\""), std::string("url(#")})
     for (size_t at = svg.find(before); at != std::string::npos; at = svg.find(before, at + before.size()))

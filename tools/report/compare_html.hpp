@@ -1,4 +1,4 @@
-// Two runs side by side, as one HTML document that needs nothing beside itself.
+// Side-by-side comparison of two runs as one self-contained HTML document.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 namespace rover::report {
 
 struct ComparedRun {
-  std::string name;  // of its folder
+  std::string name;  // of the run folder
   Metrics metrics;
   Pictures pictures;
 };

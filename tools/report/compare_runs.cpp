@@ -16,7 +16,7 @@ std::string name_of(const std::string& dir) {
   return (whole.has_filename() ? whole : whole.parent_path()).filename().string();
 }
 
-// Made again it takes the place of the page before, and of nothing else.
+// Overwrites an earlier comparison page, and no other file.
 void check_target(const std::string& file) {
   if (!fs::exists(file)) return;
   if (!fs::is_regular_file(file) || read_file(file).find("<title>Compared: ") == std::string::npos)
@@ -24,7 +24,7 @@ void check_target(const std::string& file) {
 }
 
 ComparedRun compared(const std::string& name, const Study& study) {
-  return {name, study.judgement.metrics, draw_pictures(study)};
+  return {name, study.evaluation.metrics, draw_pictures(study)};
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// From two runs' folders to the page that compares them.
+// Makes the comparison page of two run folders.
 #pragma once
 
 #include <string>
@@ -7,11 +7,11 @@ namespace rover::report {
 
 struct RunToCompare {
   std::string dir;
-  int log_run = 0;  // of a log that holds several runs; 0: the only one
+  int log_run = 0;  // selects a run of a log with several; 0: the only one
 };
 
-// `out` empty: compare-A-B.html in the current folder. Never overwrites a file that is no such page. Returns one line.
-// Throws ConfigError.
+// `out` empty: compare-A-B.html in the current folder. Overwrites only comparison pages. Returns one line. Throws
+// ConfigError.
 std::string compare_runs(const RunToCompare& run_a, const RunToCompare& run_b, const std::string& default_config_dir,
                          const std::string& out);
 

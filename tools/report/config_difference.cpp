@@ -12,7 +12,7 @@ namespace {
 
 using Values = std::map<std::string, std::string>;
 
-// Lists of plain values are one value.
+// A list of scalars is compared as one value.
 bool is_value(const YAML::Node& node) {
   if (node.IsScalar() || node.IsNull()) return true;
   if (!node.IsSequence()) return false;

@@ -1,4 +1,4 @@
-// In which values two configurations differ.
+// Values in which two configurations differ.
 #pragma once
 
 #include <string>
@@ -11,11 +11,11 @@ using ConfigTexts = std::vector<std::pair<std::string, std::string>>;  // name a
 
 struct ConfigDifference {
   std::string key;  // "path_planner: margin_m"
-  std::string a;    // empty: not there
+  std::string a;    // empty: key missing
   std::string b;
 };
 
-// By file and key. A text that is no YAML is left out.
+// Sorted by file and key. Files that are not YAML are ignored.
 std::vector<ConfigDifference> config_differences(const ConfigTexts& a, const ConfigTexts& b);
 
 }  // namespace rover::report

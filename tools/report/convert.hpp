@@ -1,4 +1,4 @@
-// From messages to the judge's record.
+// Converts messages to the run record.
 #pragma once
 
 #include <rover/control_status_t.hpp>

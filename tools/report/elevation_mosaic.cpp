@@ -27,7 +27,7 @@ int cell_of(double at_m, double cell_m) {
 
 void ElevationMosaic::add(double cell_m, double origin_x_m, double origin_y_m, int columns,
                           const std::vector<float>& height_m) {
-  constexpr double kReachM = 1e6;  // beyond it no cell has a number
+  constexpr double kReachM = 1e6;  // limit of the map coordinates
   if (!(cell_m > 0.0) || columns <= 0 || !(std::abs(origin_x_m) < kReachM && std::abs(origin_y_m) < kReachM)) return;
   if (tiles_.empty()) {
     cell_m_ = cell_m;

@@ -1,4 +1,4 @@
-// The elevation maps of a run laid over each other, in odom: what the rover has seen of the ground along its way.
+// Mosaic of a run's elevation maps in odom: all ground that the rover has observed.
 #pragma once
 
 #include <map>
@@ -13,12 +13,12 @@ class ElevationMosaic {
  public:
   bool empty() const { return tiles_.empty(); }
   double cell_m() const { return cell_m_; }
-  // Of all cells ever seen, in odom.
+  // Bounds of all observed cells, in odom.
   const Box& bounds() const { return bounds_; }
-  // A map with its corner of smallest x and y, index iy * columns + ix, NaN where nothing was seen: newer over older.
-  // The first map's cell size is the mosaic's; a map of another one is left out.
+  // Inserts a map (index iy * columns + ix, NaN: unobserved; newer cells replace older ones). Other cell sizes than the
+  // first are ignored.
   void add(double cell_m, double origin_x_m, double origin_y_m, int columns, const std::vector<float>& height_m);
-  // NaN where nothing was seen.
+  // NaN if unobserved.
   float at(double x_m, double y_m) const;
 
  private:

@@ -18,7 +18,7 @@ constexpr double kLegend = 44.0;
 constexpr double kOrbitalSmoothingM = 0.8;
 constexpr char kSlam[] = "#c2185b";
 
-// Height of each pixel, rows from the north; NaN where nothing was seen.
+// Height of each pixel, rows from the north; NaN if unobserved.
 cv::Mat seen_heights(const ElevationMosaic& mosaic, const Pose2& T_odom_map, const Box& box, cv::Size size) {
   cv::Mat z(size, CV_32F);
   for (int v = 0; v < size.height; ++v)
@@ -47,7 +47,7 @@ HeightRange range_of(const cv::Mat& z) {
   return range;
 }
 
-// Sun from the north-west, on the slope between pixels `reach` away. One that was not seen is taken as level.
+// Hill shading, light from the north-west, slope between pixels `reach` away. Unobserved pixels count as level.
 double light_at(const cv::Mat& z, int v, int u, double step_m, int reach) {
   constexpr double kExaggeration = 1.5;
   const auto height = [&](int dv, int du) {
@@ -73,7 +73,7 @@ cv::Vec3b scaled(const cv::Vec3b& colour, double by) {
           cv::saturate_cast<uchar>(by * colour[2])};
 }
 
-// Where nothing was seen the orbital map in grey.
+// Grey orbital map where nothing was observed.
 cv::Mat paint(const cv::Mat& z, const cv::Mat& ground, const HeightRange& range, double step_m, double cell_m) {
   const int reach = std::max(1, static_cast<int>(std::lround(cell_m / step_m)));
   const cv::Mat colours = colour_table();
@@ -106,7 +106,7 @@ void draw_colour_bar(Svg& svg, const MapView& view, const HeightRange& range) {
 
 void draw_corrections(Svg& svg, const MapView& view, const Scene& scene) {
   const TrueTrack truth(scene.run.truth);
-  for (const CorrectionFigure& correction : scene.judgement.metrics.global_corrections) {
+  for (const CorrectionFigure& correction : scene.evaluation.metrics.global_corrections) {
     if (!correction.accepted || truth.empty()) continue;
     const Eigen::Vector2d p = view.px(Eigen::Vector2d(truth.at(correction.t_s).translation().head<2>()));
     svg.circle(p.x(), p.y(), 6.0, fmt::format("fill:{};stroke:#fff;stroke-width:2", palette::kGood));
@@ -134,7 +134,7 @@ std::string draw_elevation(const Scene& scene) {
   if (scene.run.elevation.empty()) return {};
   const MapView view = map_view(scene);
   const TrueTrack truth(scene.run.truth);
-  const Window& window = scene.judgement.metrics.window;
+  const Window& window = scene.evaluation.metrics.window;
   const Pose2 align = start_alignment(scene.run, truth, window);
   const cv::Size size(static_cast<int>(view.width()), static_cast<int>(view.height()));
   const cv::Mat z = seen_heights(scene.run.elevation, inverse(align), view.box, size);

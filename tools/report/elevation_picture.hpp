@@ -1,4 +1,4 @@
-// The ground that the Full level has mapped, in colours over the orbital map, with the tracks and the corrections.
+// Elevation mapped at the Full level, in colour over the orbital map, with tracks and corrections.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace rover::report {
 
-// An SVG document; empty where the run has no elevation map.
+// SVG document; empty if the run has no elevation map.
 std::string draw_elevation(const Scene& scene);
 
 }  // namespace rover::report

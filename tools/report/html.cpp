@@ -67,7 +67,7 @@ std::string paper_repairs(const Metrics& m) {
   return "6 on 86 m, 10 on 62.2 m";
 }
 
-// Azkarate et al. 2020, and other figures with their source.
+// Metrics beside those of Azkarate et al. 2020 and other sources.
 std::string comparison_table(const Metrics& m) {
   std::vector<Comparison> rows = {
       {"Driven / planned path", shown(m.path_ratio, 3), "1.19", ""},
@@ -136,7 +136,7 @@ std::string corrections_table(const Metrics& m) {
   return out + "</table>\n";
 }
 
-// Of the Full level, where the run was at it.
+// Metrics of the Full level, if the run used it.
 std::string full_section(const Metrics& m, const Pictures& pictures) {
   if (pictures.elevation.empty() && pictures.levels.empty()) return "";
   std::string out = "<h2>Levels of autonomy</h2>\n<figure>" + pictures.levels + "</figure>\n";
@@ -152,7 +152,7 @@ std::string full_section(const Metrics& m, const Pictures& pictures) {
 }
 
 std::string events_section(const Scene& scene, const Pictures& pictures) {
-  const std::vector<Incident>& incidents = scene.judgement.incidents;
+  const std::vector<Incident>& incidents = scene.evaluation.incidents;
   std::string out = "<h2>Stops and repairs</h2>\n";
   if (incidents.empty()) return out + "<p>None: nothing stood in the way.</p>\n";
   out +=
@@ -169,12 +169,12 @@ std::string events_section(const Scene& scene, const Pictures& pictures) {
       "[m]</th><th>event</th><th class=\"n\">tallest rock [m]</th><th class=\"n\">hazard "
       "cells</th><th>cause</th></tr>\n";
   const TrueTrack truth(scene.run.truth);
-  const double begin_s = scene.judgement.metrics.window.begin_s;
+  const double begin_s = scene.evaluation.metrics.window.begin_s;
   for (size_t i = 0; i < incidents.size(); ++i) {
     const Incident& incident = incidents[i];
-    const bool judged = scene.world.has_value() || incident.unseen;
+    const bool evaluated = scene.world.has_value() || incident.unseen;
     const std::string cause = incident.unseen ? "ground not seen"
-                              : !judged       ? "not judged"
+                              : !evaluated    ? "not judged"
                               : incident.real ? "real"
                                               : "none";
     out += fmt::format(
@@ -182,7 +182,7 @@ std::string events_section(const Scene& scene, const Pictures& pictures) {
         "<td class=\"n\">{}</td><td class=\"{}\">{}</td></tr>\n",
         i + 1, incident.t_s - begin_s, truth.distance_m(incident.t_s) - truth.distance_m(begin_s),
         escaped(incident_title(scene, i)), incident.tallest_rock_m > 0.0 ? shown(incident.tallest_rock_m, 2) : "",
-        incident.cells.size(), verdict(judged, !incident.is_false()), cause);
+        incident.cells.size(), verdict(evaluated, !incident.is_false()), cause);
   }
   return out + "</table>\n";
 }
@@ -205,7 +205,7 @@ struct Happening {
   std::string text;
 };
 
-// Changes of state, faults and corrections, in the order in which they came.
+// State changes, faults and corrections in chronological order.
 std::vector<Happening> happenings(const RunRecord& run) {
   std::vector<Happening> all;
   bool full = false;
@@ -230,7 +230,7 @@ std::vector<Happening> happenings(const RunRecord& run) {
 std::string happenings_section(const Scene& scene) {
   const std::vector<Happening> all = happenings(scene.run);
   if (all.empty()) return "";
-  const double begin_s = scene.judgement.metrics.window.begin_s;
+  const double begin_s = scene.evaluation.metrics.window.begin_s;
   std::string out = fmt::format(
       "<h2>Events</h2><details{}><summary>{} changes of state, faults and corrections</summary><table><tr><th "
       "class=\"n\">time [s]</th><th></th><th>event</th></tr>\n",
@@ -242,7 +242,7 @@ std::string happenings_section(const Scene& scene) {
   return out + "</table></details>\n";
 }
 
-// The share of one core's simulated time, as a bar behind the figure.
+// CPU load as a fraction of one core's simulated time, with a bar.
 std::string load_cell(double share, double largest) {
   return fmt::format("<td class=\"n load\" style=\"--load:{:.0f}%\">{}</td>",
                      share > 0.0 && std::isfinite(share) ? 100.0 * share / largest : 0.0, shown(100.0 * share, 1, "%"));
@@ -277,7 +277,7 @@ std::string configuration_section(const std::vector<std::pair<std::string, std::
 
 std::string report_html(const Scene& scene, const Pictures& pictures,
                         const std::vector<std::pair<std::string, std::string>>& configuration) {
-  const Metrics& m = scene.judgement.metrics;
+  const Metrics& m = scene.evaluation.metrics;
   std::string body = header(m) + cards(m) + layered_maps(pictures.map);
   body += full_section(m, pictures) + trajectory_section(m) + comparison_table(m) + events_section(scene, pictures);
   body += "<h2>Over the distance driven, in metres</h2><section class=\"plots\">\n";

@@ -1,4 +1,4 @@
-// The report of a run as one HTML document that needs nothing beside itself.
+// Report of a run as one self-contained HTML document.
 #pragma once
 
 #include <string>
@@ -12,9 +12,9 @@ namespace rover::report {
 struct Pictures {
   std::string map;  // SVG documents
   std::vector<std::string> incidents;
-  std::vector<std::string> cameras;  // one for each of them; empty where the log has no picture
-  std::string elevation;             // empty where the run was not at the Full level
-  std::string levels;                // likewise
+  std::vector<std::string> cameras;  // one per incident; empty if the log has no image
+  std::string elevation;             // empty if the run never used the Full level
+  std::string levels;                // empty if the run never used the Full level
   std::string states;
   std::vector<std::string> plots;
 };

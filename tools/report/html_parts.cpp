@@ -56,7 +56,7 @@ std::string run_facts(const RunInfo& info) {
   return facts;
 }
 
-// The switches stand in front of what they switch, as the style sheet wants.
+// The switches precede the layers: the CSS sibling selector requires it.
 std::string layered_maps(const std::string& maps) {
   std::string rules;
   std::string switches;

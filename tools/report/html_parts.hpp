@@ -1,4 +1,4 @@
-// What the pages of the report share.
+// HTML parts shared by the report and the comparison page.
 #pragma once
 
 #include <optional>
@@ -8,16 +8,16 @@
 
 namespace rover::report {
 
-// "n/a" where the value is not known.
+// "n/a" if unknown.
 std::string shown(double value, int decimals, const char* unit = "");
 std::string shown(const std::optional<int>& value);
-// Class of a cell or card.
+// CSS class of a cell or card.
 std::string verdict(bool known, bool good);
 std::string outcome_text(const std::string& outcome);
-// Seed, level, commit and how the run was paced, as HTML.
+// Seed, level, commit and pacing of the run, as HTML.
 std::string run_facts(const RunInfo& info);
 
-// Maps with switches for their layers, which work without a script.
+// Maps with layer switches that need no script.
 std::string layered_maps(const std::string& maps);
 // The whole document.
 std::string document(const std::string& title, const std::string& body);

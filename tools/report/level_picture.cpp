@@ -30,7 +30,7 @@ struct Stretch {
 };
 
 std::vector<Stretch> stretches(const Scene& scene) {
-  const Window& window = scene.judgement.metrics.window;
+  const Window& window = scene.evaluation.metrics.window;
   std::vector<Stretch> out;
   for (const StateChange& change : scene.run.states) {
     if (!out.empty()) out.back().to_s = std::clamp(change.t_s, window.begin_s, window.end_s);
@@ -58,12 +58,12 @@ void draw_track(Svg& svg, const MapView& view, const Scene& scene, const TrueTra
   svg.polyline(view.px(true_line(scene)), stroke("#ffffff", 6.0, "stroke-opacity:.75"));
   for (const Stretch& stretch : stretches(scene))
     svg.polyline(view.px(true_line_between(scene, stretch.from_s, stretch.to_s)), stroke(colour_of(stretch.full), 3.4));
-  for (const Incident& incident : scene.judgement.incidents) {
+  for (const Incident& incident : scene.evaluation.incidents) {
     const Eigen::Vector2d p = view.px(Eigen::Vector2d(truth.at(incident.t_s).translation().head<2>()));
     svg.circle(p.x(), p.y(), 4.0,
                fmt::format("fill:{};stroke:#fff", incident.stopped ? palette::kBad : palette::kRepair));
   }
-  const std::vector<LevelSwitch>& switches = scene.judgement.metrics.level_switches;
+  const std::vector<LevelSwitch>& switches = scene.evaluation.metrics.level_switches;
   for (size_t i = 0; i < switches.size(); ++i) {
     const Eigen::Vector2d p = view.px(Eigen::Vector2d(truth.at(switches[i].t_s).translation().head<2>()));
     const Eigen::Vector2d off(0.0, i % 2 == 0 ? -26.0 : 26.0);
@@ -72,10 +72,10 @@ void draw_track(Svg& svg, const MapView& view, const Scene& scene, const TrueTra
   }
 }
 
-// Way over the newest minute, against the way driven.
+// Distance driven within the last minute, over the distance driven.
 Points effective_speed(const Scene& scene, const TrueTrack& truth) {
   constexpr double kStepS = 1.0;
-  const Window& window = scene.judgement.metrics.window;
+  const Window& window = scene.evaluation.metrics.window;
   const double begin_m = truth.distance_m(window.begin_s);
   Points points;
   for (double t = window.begin_s + kStepS; t <= window.end_s; t += kStepS) {
@@ -85,14 +85,14 @@ Points effective_speed(const Scene& scene, const TrueTrack& truth) {
   return points;
 }
 
-// Distance driven against speed, over a band in the levels' colours.
+// Speed over driven distance, above a band in the colours of the levels.
 class Strip {
  public:
   Strip(const Scene& scene, const TrueTrack& truth, double left, double width, double top)
       : scene_(scene), truth_(truth), left_(left), width_(width), top_(top) {}
 
   void draw(Svg& svg) const {
-    const Metrics& m = scene_.judgement.metrics;
+    const Metrics& m = scene_.evaluation.metrics;
     for (const Stretch& stretch : stretches(scene_)) {
       const double from = x(m_at(stretch.from_s)), to = x(m_at(stretch.to_s));
       svg.rect(from, top_, std::max(to - from, 0.0), kStrip,
@@ -102,7 +102,7 @@ class Strip {
     Points line;
     for (const Eigen::Vector2d& p : effective_speed(scene_, truth_)) line.push_back({x(p.x()), y(p.y())});
     svg.polyline(line, stroke(palette::kInk, 1.8, "fill:none"));
-    for (const Incident& incident : scene_.judgement.incidents)
+    for (const Incident& incident : scene_.evaluation.incidents)
       svg.line(x(m_at(incident.t_s)), top_ + kStrip - 12.0, x(m_at(incident.t_s)), top_ + kStrip,
                stroke(incident.stopped ? palette::kBad : palette::kRepair, 2.4));
     for (size_t i = 0; i < m.level_switches.size(); ++i)
@@ -112,10 +112,10 @@ class Strip {
 
  private:
   double m_at(double t_s) const {
-    return truth_.distance_m(t_s) - truth_.distance_m(scene_.judgement.metrics.window.begin_s);
+    return truth_.distance_m(t_s) - truth_.distance_m(scene_.evaluation.metrics.window.begin_s);
   }
-  double x(double way_m) const {
-    return left_ + width_ * way_m / std::max(1.0, scene_.judgement.metrics.driven_length_m);
+  double x(double travelled_m) const {
+    return left_ + width_ * travelled_m / std::max(1.0, scene_.evaluation.metrics.driven_length_m);
   }
   double y(double mps) const { return top_ + kStrip * (1.0 - mps / (1.15 * scene_.footprint.top_speed_mps)); }
 
@@ -128,7 +128,7 @@ class Strip {
       svg.line(left_, y(mps), left_ + width_, y(mps), fmt::format("stroke:{};stroke-width:1", palette::kFaint));
       svg.text(left_ - 6.0, y(mps) + 4.0, fmt::format("{:.2f}", mps), 11.5, label, Anchor::kEnd);
     }
-    const Axis ticks = round_axis(0.0, std::max(1.0, scene_.judgement.metrics.driven_length_m), 10);
+    const Axis ticks = round_axis(0.0, std::max(1.0, scene_.evaluation.metrics.driven_length_m), 10);
     for (double way = 0.0; x(way) <= left_ + width_ + 0.5; way += ticks.step)
       svg.text(x(way), top_ + kStrip + 16.0, number_text(way), 11.5, label, Anchor::kMiddle);
   }
@@ -145,7 +145,7 @@ void list_switches(Svg& svg, const Metrics& m, double left, double top) {
   const auto legend = [&](double x, bool full, const LevelFigures& level) {
     svg.rect(left + x, y - 11.0, 14.0, 14.0, fmt::format("fill:{}", colour_of(full)));
     svg.text(left + x + 20.0, y,
-             fmt::format("{}: {:.1f} m in {:.0f} s, {} hazard stops", full ? "FULL" : "EFFICIENT", level.way_m,
+             fmt::format("{}: {:.1f} m in {:.0f} s, {} hazard stops", full ? "FULL" : "EFFICIENT", level.travelled_m,
                          level.time_s, level.hazard_stops),
              13, "");
   };
@@ -171,7 +171,7 @@ std::string switch_text(const LevelSwitch& change) {
 }
 
 std::string draw_levels(const Scene& scene) {
-  const Metrics& m = scene.judgement.metrics;
+  const Metrics& m = scene.evaluation.metrics;
   const TrueTrack truth(scene.run.truth);
   if (truth.empty() || (m.level_switches.empty() && !(m.full.time_s > 0.0))) return {};
   const MapView view = map_view(scene);

@@ -1,4 +1,4 @@
-// The level of autonomy along the track, why it changed, the effective speed and the hazards met.
+// Level of autonomy along the track, reasons of its changes, effective speed and hazards.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace rover::report {
 
-// An SVG document; empty where the run never was at the Full level and was not meant to be.
+// SVG document; empty if the run never used nor requested the Full level.
 std::string draw_levels(const Scene& scene);
 // "EFFICIENT to FULL: slow_progress, effective_speed_mps 0.05 against 0.06"
 std::string switch_text(const LevelSwitch& change);

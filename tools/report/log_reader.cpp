@@ -15,10 +15,10 @@ namespace rover::report {
 namespace {
 
 constexpr double kUncountedS = 0.1;
-constexpr double kElevationEveryM = 1.0;  // of way: each map shows 20 m
+constexpr double kElevationEveryM = 1.0;  // driven distance between stored maps; each map covers 20 m
 
-// Counts what was published on the bus, by sequence numbers: a reduced log leaves images out, and on a busy machine a
-// tick is given again to a node that is late, which is no other message.
+// Counts published messages by sequence number: a reduced log omits images, and a TICK repeated for a late node is no
+// new message.
 class BusCounter {
  public:
   explicit BusCounter(Utime end) : end_(end) {}
@@ -106,7 +106,7 @@ class Reader {
       return true;
     };
   }
-  // Standing faults are repeated; those of a row differ by the time at which they became visible.
+  // Active faults are repeated; reports of one row differ in the time at which the fault became visible.
   void add_fault(const FaultRecord& fault) {
     const bool known = std::any_of(run_.faults.begin(), run_.faults.end(), [&](const FaultRecord& before) {
       return before.id == fault.id && before.t_s == fault.t_s && before.standing == fault.standing;
@@ -140,7 +140,7 @@ class Reader {
   }
 
   RunRecord run_;
-  Eigen::Vector3d elevation_at_ = Eigen::Vector3d::Constant(kInfinity);  // odom, of the newest map taken
+  Eigen::Vector3d elevation_at_ = Eigen::Vector3d::Constant(kInfinity);  // odom, at the newest stored map
   BusCounter counter_;
   std::map<std::string, std::function<bool(const LogEvent&)>> handlers_;
 };

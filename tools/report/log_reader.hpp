@@ -1,4 +1,4 @@
-// Reads a run's LCM event log into the judge's record.
+// Reads the LCM log of a run into a run record.
 #pragma once
 
 #include <optional>
@@ -8,8 +8,8 @@
 
 namespace rover::report {
 
-// Of a run that was cut or damaged, what is whole. Messages of the bus are counted until shortly before the end of the
-// run, if it is known: which of the last ones still reach the log is a matter of chance.
+// Skips damaged parts. Bus messages are counted until shortly before the end of the run: the last ones may miss the
+// log.
 RunRecord read_log(const LogRun& run, std::optional<double> run_s = std::nullopt);
 
 }  // namespace rover::report

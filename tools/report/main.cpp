@@ -1,4 +1,4 @@
-// rover_report RUN_DIR: judges a run from its log. Two folders: compares them.
+// rover_report RUN_DIR: evaluates a run from its log. Two folders: compares the runs.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <opencv2/core.hpp>
@@ -42,10 +42,10 @@ int main(int argc, char** argv) {
   cv::setNumThreads(1);
   try {
     using namespace rover::report;
-    const std::string said =
+    const std::string summary =
         run_dirs.size() == 1 ? make_report(run_dirs[0], config_dir, log_runs[0])
                              : compare_runs({run_dirs[0], log_runs[0]}, {run_dirs[1], log_runs[1]}, config_dir, out);
-    std::printf("%s\n", said.c_str());
+    std::printf("%s\n", summary.c_str());
   } catch (const std::exception& error) {
     std::fprintf(stderr, "rover_report: %s\n", error.what());
     return 2;

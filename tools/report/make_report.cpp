@@ -12,7 +12,7 @@
 namespace rover::report {
 namespace {
 
-// The files of an earlier report may be made again. Anything else by these names is somebody's.
+// Overwrites only the files of an earlier report.
 void check_targets(const std::string& dir) {
   namespace fs = std::filesystem;
   const std::string metrics = dir + "/metrics.json";
@@ -31,7 +31,7 @@ void check_targets(const std::string& dir) {
 std::string write_report(const Study& study) {
   constexpr double kPngScale = 1.0;
   const RunFolder& folder = study.folder;
-  const Metrics& m = study.judgement.metrics;
+  const Metrics& m = study.evaluation.metrics;
   write_file(folder.dir + "/metrics.json",
              metrics_json(m).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
   const Pictures pictures = draw_pictures(study);

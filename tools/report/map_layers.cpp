@@ -11,7 +11,7 @@
 namespace rover::report {
 namespace {
 
-constexpr double kPebbleM = 0.08;  // lower rocks are not drawn
+constexpr double kPebbleM = 0.08;  // minimum height of drawn rocks
 
 std::string circle_path(const Eigen::Vector2d& c, double r) {
   const std::string radius = number_text(r, 1);
@@ -102,17 +102,17 @@ void draw_rocks(Svg& svg, const MapView& view, const Scene& scene, RockStyle sty
   } else {
     svg.path(hazards, fmt::format("fill:{0};fill-opacity:.3;stroke:{0};stroke-width:1.6", palette::kRock));
   }
-  for (const RockVerdict& verdict : scene.judgement.rocks) {
-    const Eigen::Vector2d p(verdict.rock.x_m, verdict.rock.y_m);
-    if (!verdict.missed() || !view.box.contains(p)) continue;
+  for (const RockResult& result : scene.evaluation.rocks) {
+    const Eigen::Vector2d p(result.rock.x_m, result.rock.y_m);
+    if (!result.missed() || !view.box.contains(p)) continue;
     const Eigen::Vector2d c = view.px(p);
-    svg.circle(c.x(), c.y(), verdict.rock.radius_m * view.px_per_m + 5.0,
+    svg.circle(c.x(), c.y(), result.rock.radius_m * view.px_per_m + 5.0,
                fmt::format("fill:none;stroke:{};stroke-width:3", palette::kBad));
   }
 }
 
 void draw_cells(Svg& svg, const MapView& view, const Points& cells, double cell_m, const std::string& style) {
-  std::set<std::pair<int, int>> lattice;  // row, column: runs along a row become one rectangle
+  std::set<std::pair<int, int>> lattice;  // row, column: adjacent cells of a row become one rectangle
   for (const Eigen::Vector2d& p : cells)
     if (view.box.contains(p))
       lattice.emplace(static_cast<int>(std::floor(p.y() / cell_m)), static_cast<int>(std::floor(p.x() / cell_m)));
@@ -171,7 +171,7 @@ void draw_north(Svg& svg, const MapView& view) {
 }
 
 std::string incident_title(const Scene& scene, size_t index) {
-  const Incident& incident = scene.judgement.incidents[index];
+  const Incident& incident = scene.evaluation.incidents[index];
   std::string title = incident.stopped ? "stop" : "repair under way";
   if (incident.stopped && incident.replanned) title = "stop and repair";
   if (incident.unseen) return title + ", ground not seen";

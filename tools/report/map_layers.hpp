@@ -1,4 +1,4 @@
-// The layers that the map and its insets are made of.
+// Layers of the map and its insets.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace rover::report {
 
-// Places a piece of the map frame, north up, in a picture.
+// Transforms a part of the map frame, north up, to picture coordinates.
 struct MapView {
   Box box;
   double left = 0.0;
@@ -24,21 +24,21 @@ struct MapView {
 };
 
 inline constexpr double kMapWidth = 1400.0;
-inline constexpr double kMapAxis = 34.0;  // room for the coordinates, left and below
+inline constexpr double kMapAxis = 34.0;  // margin for the axis labels, left and below
 
-// Of a whole traverse, its planned path included.
+// View of the whole traverse with its planned path.
 MapView map_view(const Scene& scene);
 void draw_axes(Svg& svg, const MapView& view);
 // Style of a line.
 std::string stroke(const char* colour, double width, const std::string& more = "");
 
-// The box grown until height / width lies in the range.
+// Grows the box until height / width is in the range.
 Box with_aspect(Box box, double least, double most);
 Box bounds(const std::vector<Points>& lines);
 
-enum class RockStyle { kFilled, kOutlined };  // outlined where the ground's own picture shows the rocks
+enum class RockStyle { kFilled, kOutlined };  // kOutlined: over a picture that shows the rocks
 void draw_rocks(Svg& svg, const MapView& view, const Scene& scene, RockStyle style);
-// Squares of the lattice in which hazard cells were seen; each once.
+// Lattice squares in which hazard cells were detected, without duplicates.
 void draw_cells(Svg& svg, const MapView& view, const Points& cells, double cell_m, const std::string& style);
 void draw_footprint(Svg& svg, const MapView& view, const Pose2& pose, const Footprint& footprint,
                     const std::string& style);

@@ -16,7 +16,7 @@ namespace {
 constexpr double kLegend = 40.0;
 constexpr double kHazardCellM = 0.1;
 
-// What the page can switch off, and on; the picture alone shows what is on at first.
+// Layers that the page can switch; the picture alone shows those that are initially on.
 template <class Draw>
 void in_layer(Svg& svg, MapLayer layer, Draw draw) {
   const MapLayerInfo& info = kMapLayers[static_cast<size_t>(layer)];
@@ -36,7 +36,7 @@ void draw_ground(Svg& svg, const MapView& view, const HeightRaster& orbital) {
     svg.jpeg(view.left, view.top, view.width(), view.height(),
              relief_jpeg(orbital, view.box, columns, rows, ReliefStyle{}));
   });
-  // A coarser picture will do for it.
+  // A lower resolution is sufficient here.
   in_layer(svg, MapLayer::kSlope, [&] {
     svg.jpeg(view.left, view.top, view.width(), view.height(),
              slope_jpeg(orbital, view.box, std::max(8, columns / 2), std::max(8, rows / 2)));
@@ -60,7 +60,7 @@ void draw_hazards(Svg& svg, const MapView& view, const Scene& scene) {
 
 void draw_tracks(Svg& svg, const MapView& view, const Scene& scene) {
   svg.polyline(view.px(true_line(scene)), stroke("#ffffff", 5.4, "stroke-opacity:.75"));
-  if (has_truth(scene.judgement.metrics)) svg.polyline(view.px(true_line(scene)), stroke(palette::kTruth, 3.0));
+  if (has_truth(scene.evaluation.metrics)) svg.polyline(view.px(true_line(scene)), stroke(palette::kTruth, 3.0));
   svg.polyline(view.px(estimated_line(scene)), stroke(palette::kEstimate, 1.8, "stroke-dasharray:6 5"));
 }
 
@@ -68,7 +68,7 @@ void draw_paths(Svg& svg, const MapView& view, const Scene& scene) {
   const Points global = view.px(planned_line(scene));
   svg.polyline(global, stroke("#3b2a1e", 4.0, "stroke-opacity:.55"));
   svg.polyline(global, stroke(palette::kGlobalPath, 2.4, "stroke-dasharray:9 6"));
-  for (const Incident& incident : scene.judgement.incidents)
+  for (const Incident& incident : scene.evaluation.incidents)
     if (!incident.new_path.empty())
       svg.polyline(view.px(thinned(incident.new_path, 0.1)), stroke(palette::kRepair, 2.0, "stroke-opacity:.75"));
 }
@@ -76,11 +76,11 @@ void draw_paths(Svg& svg, const MapView& view, const Scene& scene) {
 void draw_markers(Svg& svg, const MapView& view, const Scene& scene) {
   const TrueTrack truth(scene.run.truth);
   if (truth.empty()) return;
-  for (size_t i = 0; i < scene.judgement.incidents.size(); ++i) {
-    const Incident& incident = scene.judgement.incidents[i];
+  for (size_t i = 0; i < scene.evaluation.incidents.size(); ++i) {
+    const Incident& incident = scene.evaluation.incidents[i];
     const Eigen::Vector2d p = view.px(Eigen::Vector2d(truth.at(incident.t_s).translation().head<2>()));
     const char* colour = incident.stopped ? palette::kBad : palette::kRepair;
-    // Alternating sides keep the numbers of close incidents apart.
+    // Alternating sides separate the labels of close incidents.
     const double lift = i % 2 == 0 ? -26.0 : 26.0;
     svg.line(p.x(), p.y(), p.x(), p.y() + lift, stroke(colour, 1.5));
     svg.circle(p.x(), p.y(), 3.5, fmt::format("fill:{};stroke:#fff", colour));
@@ -92,7 +92,7 @@ void draw_markers(Svg& svg, const MapView& view, const Scene& scene) {
 
 void draw_ends(Svg& svg, const MapView& view, const Scene& scene) {
   const TrueTrack truth(scene.run.truth);
-  const Window& window = scene.judgement.metrics.window;
+  const Window& window = scene.evaluation.metrics.window;
   const std::string rover = fmt::format("fill:{0};fill-opacity:.25;stroke:{0};stroke-width:1.6", palette::kTruth);
   if (!truth.empty()) {
     draw_footprint(svg, view, truth.planar_at(window.begin_s), scene.footprint, rover);
@@ -179,14 +179,14 @@ std::string draw_map(const Scene& scene) {
   svg.rect(view.left, view.top, view.width(), view.height(), "fill:none;stroke:#5b4636;stroke-width:1.2");
   draw_scale_bar(svg, view, true_line(scene));
   draw_north(svg, view);
-  draw_legend(svg, view.left, bottom + 6.0, kMapWidth - 8.0, has_truth(scene.judgement.metrics));
+  draw_legend(svg, view.left, bottom + 6.0, kMapWidth - 8.0, has_truth(scene.evaluation.metrics));
   return svg.str();
 }
 
 std::string draw_incident(const Scene& scene, size_t index) {
   constexpr double kSide = 340.0;
   constexpr double kBoxM = 7.0;
-  const Incident& incident = scene.judgement.incidents[index];
+  const Incident& incident = scene.evaluation.incidents[index];
   const TrueTrack truth(scene.run.truth);
   if (truth.empty()) return {};
   const Pose2 pose = truth.planar_at(incident.t_s);
@@ -196,7 +196,7 @@ std::string draw_incident(const Scene& scene, size_t index) {
   view.top = 26.0;
   view.px_per_m = kSide / kBoxM;
   Svg svg(kSide, kSide + view.top);
-  const double distance = truth.distance_m(incident.t_s) - truth.distance_m(scene.judgement.metrics.window.begin_s);
+  const double distance = truth.distance_m(incident.t_s) - truth.distance_m(scene.evaluation.metrics.window.begin_s);
   svg.text(0.0, 16.0, fmt::format("{}", index + 1), 15,
            fmt::format("font-weight:700;fill:{}", incident.stopped ? palette::kBad : palette::kRepair));
   svg.text(24.0, 16.0, fmt::format("at {:.1f} m: {}", distance, incident_title(scene, index)), 13,

@@ -1,4 +1,4 @@
-// The map of a traverse, and a close view of each of its stops and repairs.
+// Map of a traverse, and a top view of each stop and repair.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@ enum class MapLayer { kRelief, kSlope, kRocks, kHazards, kPaths, kTracks, kEvent
 struct MapLayerInfo {
   const char* id;
   const char* title;
-  bool on;  // at first
+  bool on;  // initially
 };
 inline constexpr std::array<MapLayerInfo, 7> kMapLayers = {{{"relief", "hillshade", true},
                                                             {"slope", "slope", false},

@@ -8,8 +8,8 @@
 namespace rover::report {
 namespace {
 
-constexpr double kCollisionPauseS = 1.0;  // contacts closer together are one collision
-constexpr double kTakenWithinS = 0.1;     // after its release localization has taken a correction
+constexpr double kCollisionPauseS = 1.0;   // contacts closer in time count as one collision
+constexpr double kCorrectionDelayS = 0.1;  // time after release by which localization has applied a correction
 
 class Spread {
  public:
@@ -47,7 +47,7 @@ std::string outcome_of(const RunRecord& run, const Metrics& m) {
   return m.info.outcome_hint.empty() || m.info.outcome_hint == "goal_reached" ? "timeout" : m.info.outcome_hint;
 }
 
-void judge_length(const RunRecord& run, const TrueTrack& truth, const Footprint& footprint, Metrics& m) {
+void evaluate_length(const RunRecord& run, const TrueTrack& truth, const Footprint& footprint, Metrics& m) {
   if (!run.global_paths.empty()) m.planned_length_m = length_m(run.global_paths.back().points);
   m.duration_s = rounded(m.window.end_s - m.window.begin_s);
   if (!truth.empty()) m.driven_length_m = truth.distance_m(m.window.end_s) - truth.distance_m(m.window.begin_s);
@@ -58,7 +58,7 @@ void judge_length(const RunRecord& run, const TrueTrack& truth, const Footprint&
   }
 }
 
-void judge_truth(const RunRecord& run, Metrics& m) {
+void evaluate_truth(const RunRecord& run, Metrics& m) {
   Spread roll;
   Spread pitch;
   Spread slip;
@@ -84,7 +84,7 @@ void judge_truth(const RunRecord& run, Metrics& m) {
   m.mean_slip = slip.mean();
 }
 
-void judge_control(const RunRecord& run, Metrics& m) {
+void evaluate_control(const RunRecord& run, Metrics& m) {
   Spread cross_track;
   for (size_t i = 0; i < run.control.size(); ++i) {
     const ControlSample& sample = run.control[i];
@@ -98,10 +98,10 @@ void judge_control(const RunRecord& run, Metrics& m) {
   m.cross_track_max_m = cross_track.max_abs();
 }
 
-// Truth against the path followed, both in map, where the rover believes its path to lie: drift counts.
-// The whole log, not the drive alone: a rover that nobody lets go must stand before and after it too.
-void judge_lease(const RunRecord& run, Metrics& m) {
-  constexpr double kStopS = 3.0;  // from top speed at the vehicle's deceleration, and what the commands need
+// True position relative to the followed path where the rover believes it to be, in map: includes drift.
+// Over the whole log: the rover must not move without a permit before and after the drive either.
+void evaluate_lease(const RunRecord& run, Metrics& m) {
+  constexpr double kStopS = 3.0;  // stop from top speed at maximum deceleration, plus command latency
   constexpr double kMovingMps = 0.03;
   if (run.truth.empty() || m.info.data_set_pairs) return;
   m.motion_without_lease_s = 0.0;
@@ -117,7 +117,7 @@ void judge_lease(const RunRecord& run, Metrics& m) {
   }
 }
 
-void judge_deviation(const RunRecord& run, const TrueTrack& truth, Metrics& m) {
+void evaluate_deviation(const RunRecord& run, const TrueTrack& truth, Metrics& m) {
   constexpr double kStepS = 0.2;
   double next = m.window.begin_s;
   for (const ControlSample& control : run.control) {
@@ -137,7 +137,7 @@ void judge_deviation(const RunRecord& run, const TrueTrack& truth, Metrics& m) {
   }
 }
 
-void judge_drift(const RunRecord& run, const TrueTrack& truth, Metrics& m) {
+void evaluate_drift(const RunRecord& run, const TrueTrack& truth, Metrics& m) {
   const std::vector<DriftSample> drift = odometry_drift(run, truth, m.window);
   if (drift.empty()) return;
   for (const DriftSample& sample : drift)
@@ -151,16 +151,16 @@ void judge_drift(const RunRecord& run, const TrueTrack& truth, Metrics& m) {
   m.final_estimate_error_m = (T_map_body.translation() - truth.at(end->t_s).translation()).head<2>().norm();
 }
 
-// Over the way since SLAM's first pose: it may have begun in the middle of the drive.
-void judge_slam(const RunRecord& run, const TrueTrack& truth, Metrics& m) {
+// Distance since the first SLAM pose, which may come in the middle of the drive.
+void evaluate_slam(const RunRecord& run, const TrueTrack& truth, Metrics& m) {
   const std::vector<DriftSample> drift = slam_track(run, truth, m.window).drift;
   if (drift.size() < 2) return;
-  const double way_m = drift.back().distance_m - drift.front().distance_m;
+  const double travelled_m = drift.back().distance_m - drift.front().distance_m;
   const double error_m = std::hypot(drift.back().error_x_m, drift.back().error_y_m);
-  if (way_m > 0.0) m.slam_drift_percent = 100.0 * error_m / way_m;
+  if (travelled_m > 0.0) m.slam_drift_percent = 100.0 * error_m / travelled_m;
 }
 
-void judge_estimate(const RunRecord& run, const TrueTrack& truth, Metrics& m) {
+void evaluate_estimate(const RunRecord& run, const TrueTrack& truth, Metrics& m) {
   if (truth.empty()) return;
   const auto fixed = std::find_if(run.corrections.begin(), run.corrections.end(),
                                   [](const CorrectionRecord& correction) { return correction.accepted; });
@@ -174,7 +174,7 @@ void judge_estimate(const RunRecord& run, const TrueTrack& truth, Metrics& m) {
   }
 }
 
-void judge_goal(const RunRecord& run, const TrueTrack& truth, Metrics& m) {
+void evaluate_goal(const RunRecord& run, const TrueTrack& truth, Metrics& m) {
   if (run.global_paths.empty() || run.global_paths.back().points.empty() || truth.empty()) return;
   const Eigen::Vector2d end = truth.at(m.window.end_s).translation().head<2>();
   m.final_error_m = (run.global_paths.back().points.back() - end).norm();
@@ -186,7 +186,7 @@ double driven_at(const TrueTrack& truth, const Window& window, double t_s) {
   return truth.distance_m(std::clamp(t_s, window.begin_s, window.end_s)) - truth.distance_m(window.begin_s);
 }
 
-void judge_states(const RunRecord& run, const TrueTrack& truth, Metrics& m) {
+void evaluate_states(const RunRecord& run, const TrueTrack& truth, Metrics& m) {
   for (size_t i = 0; i < run.states.size(); ++i) {
     const StateChange& change = run.states[i];
     const bool first = i == 0;
@@ -204,12 +204,12 @@ void judge_states(const RunRecord& run, const TrueTrack& truth, Metrics& m) {
     if (!(spent > 0.0)) continue;
     m.time_in_state_s[state_name(change.state)] += rounded(spent);
     level.time_s += rounded(spent);
-    level.way_m += driven_at(truth, m.window, until) - driven_at(truth, m.window, change.t_s);
+    level.travelled_m += driven_at(truth, m.window, until) - driven_at(truth, m.window, change.t_s);
   }
   if (m.driven_length_m > 0.0) m.replans_per_m = m.replans / m.driven_length_m;
 }
 
-// A restarted planner counts from zero again.
+// A restarted planner counts from zero.
 int count_replans(const RunRecord& run, const Window& window) {
   int total = 0;
   int last = 0;
@@ -221,7 +221,7 @@ int count_replans(const RunRecord& run, const Window& window) {
   return total;
 }
 
-void judge_corrections(const RunRecord& run, const TrueTrack& truth, Metrics& m) {
+void evaluate_corrections(const RunRecord& run, const TrueTrack& truth, Metrics& m) {
   for (const CorrectionRecord& correction : run.corrections) {
     CorrectionFigure figure{.t_s = correction.t_s, .accepted = correction.accepted, .reason = correction.reason};
     const PoseSample* pose = newest(run.poses, correction.t_s);
@@ -233,8 +233,8 @@ void judge_corrections(const RunRecord& run, const TrueTrack& truth, Metrics& m)
       const Eigen::Vector2d in_odom = pose->T_odom_body.translation().head<2>();
       figure.before_m = figure.after_m = error_m(pose->T_map_odom);
       if (correction.accepted) {
-        // A damaged log may say that it was released before its map, or before every pose.
-        const double taken_s = std::max(correction.t_s, correction.released_s + kTakenWithinS);
+        // In a damaged log the release may precede the map or all poses.
+        const double taken_s = std::max(correction.t_s, correction.released_s + kCorrectionDelayS);
         figure.after_m = error_m(newest(run.poses, taken_s)->T_map_odom);
         figure.fix_m = (transform(correction.T_map_odom, in_odom) - p).norm();
       }
@@ -243,8 +243,9 @@ void judge_corrections(const RunRecord& run, const TrueTrack& truth, Metrics& m)
   }
 }
 
-// What the process used between two heartbeats is the level's at the second of them.
-void judge_cpu_by_level(const RunRecord& run, const ServiceRecord& record, const Metrics& m, ServiceFigures& figures) {
+// CPU time between two heartbeats counts for the level at the second one.
+void evaluate_cpu_by_level(const RunRecord& run, const ServiceRecord& record, const Metrics& m,
+                           ServiceFigures& figures) {
   double efficient_s = 0.0;
   double full_s = 0.0;
   const HeartbeatSample* before = nullptr;
@@ -256,13 +257,13 @@ void judge_cpu_by_level(const RunRecord& run, const ServiceRecord& record, const
     }
     before = &sample;
   }
-  constexpr double kLeastWayM = 1.0;
-  if (m.efficient.way_m > kLeastWayM) figures.cpu_s_per_m_efficient = efficient_s / m.efficient.way_m;
-  if (m.full.way_m > kLeastWayM) figures.cpu_s_per_m_full = full_s / m.full.way_m;
+  constexpr double kMinDistanceM = 1.0;
+  if (m.efficient.travelled_m > kMinDistanceM) figures.cpu_s_per_m_efficient = efficient_s / m.efficient.travelled_m;
+  if (m.full.travelled_m > kMinDistanceM) figures.cpu_s_per_m_full = full_s / m.full.travelled_m;
 }
 
-// Of the whole run and until half of the drive's time: what grows all the time shows in the difference.
-void judge_memory(const ServiceRecord& record, const Window& window, ServiceFigures& figures) {
+// Maximum over the run, and over the first half of the drive: the difference shows a leak.
+void evaluate_memory(const ServiceRecord& record, const Window& window, ServiceFigures& figures) {
   const double half_s = 0.5 * (window.begin_s + window.end_s);
   for (const HeartbeatSample& sample : record.heartbeats) {
     figures.rss_mb = std::max(figures.rss_mb, sample.rss_mb);
@@ -270,13 +271,13 @@ void judge_memory(const ServiceRecord& record, const Window& window, ServiceFigu
   }
 }
 
-void judge_services(const RunRecord& run, Metrics& m) {
+void evaluate_services(const RunRecord& run, Metrics& m) {
   for (const auto& [name, record] : run.services) {
     ServiceFigures figures;
     for (const auto& [boot, cpu_s] : record.cpu_s_of_boot) figures.cpu_s += cpu_s;
     if (m.driven_length_m > 0.0) figures.cpu_s_per_m = figures.cpu_s / m.driven_length_m;
-    judge_cpu_by_level(run, record, m, figures);
-    judge_memory(record, m.window, figures);
+    evaluate_cpu_by_level(run, record, m, figures);
+    evaluate_memory(record, m.window, figures);
     figures.p50_ms = record.p50_ms;
     figures.p99_ms = record.p99_ms;
     figures.restarts = static_cast<int>(record.cpu_s_of_boot.size()) - 1;
@@ -289,7 +290,7 @@ void judge_services(const RunRecord& run, Metrics& m) {
   }
 }
 
-void judge_sensing(const RunRecord& run, Metrics& m) {
+void evaluate_sensing(const RunRecord& run, Metrics& m) {
   Spread coverage;
   for (const HazardMap& map : run.hazards) {
     if (!m.window.contains(map.t_s)) continue;
@@ -309,54 +310,54 @@ void judge_sensing(const RunRecord& run, Metrics& m) {
   m.max_current_a = current.max_abs();
 }
 
-void judge_world(const RunRecord& run, const TrueTrack& truth, const Footprint& footprint, const TrueWorld& world,
-                 Judgement& judgement) {
-  Metrics& m = judgement.metrics;
-  judgement.rocks = judge_rocks(run, truth, m.window, footprint, world.rocks);
+void evaluate_world(const RunRecord& run, const TrueTrack& truth, const Footprint& footprint, const TrueWorld& world,
+                    RunEvaluation& evaluation) {
+  Metrics& m = evaluation.metrics;
+  evaluation.rocks = evaluate_rocks(run, truth, m.window, footprint, world.rocks);
   m.rocks_encountered = m.rocks_detected = m.rocks_missed = m.false_stops = 0;
-  for (const RockVerdict& verdict : judgement.rocks) {
-    *m.rocks_encountered += verdict.encountered ? 1 : 0;
-    *m.rocks_detected += verdict.encountered && verdict.detected_s < kInfinity ? 1 : 0;
-    *m.rocks_missed += verdict.missed() ? 1 : 0;
+  for (const RockResult& result : evaluation.rocks) {
+    *m.rocks_encountered += result.encountered ? 1 : 0;
+    *m.rocks_detected += result.encountered && result.detected_s < kInfinity ? 1 : 0;
+    *m.rocks_missed += result.missed() ? 1 : 0;
   }
-  for (const Incident& incident : judgement.incidents) *m.false_stops += incident.is_false() ? 1 : 0;
+  for (const Incident& incident : evaluation.incidents) *m.false_stops += incident.is_false() ? 1 : 0;
 }
 
 }  // namespace
 
-Judgement judge(const RunRecord& run, const RunInfo& info, const Footprint& footprint,
-                const std::optional<TrueWorld>& world) {
-  Judgement judgement;
-  Metrics& m = judgement.metrics;
+RunEvaluation evaluate(const RunRecord& run, const RunInfo& info, const Footprint& footprint,
+                       const std::optional<TrueWorld>& world) {
+  RunEvaluation evaluation;
+  Metrics& m = evaluation.metrics;
   m.info = info;
   m.window = drive_window(run);
   const TrueTrack truth(run.truth);
-  judge_length(run, truth, footprint, m);
-  judge_truth(run, m);
-  judge_lease(run, m);
-  judge_control(run, m);
-  judge_deviation(run, truth, m);
-  judge_drift(run, truth, m);
-  judge_slam(run, truth, m);
-  judge_estimate(run, truth, m);
-  judge_goal(run, truth, m);
+  evaluate_length(run, truth, footprint, m);
+  evaluate_truth(run, m);
+  evaluate_lease(run, m);
+  evaluate_control(run, m);
+  evaluate_deviation(run, truth, m);
+  evaluate_drift(run, truth, m);
+  evaluate_slam(run, truth, m);
+  evaluate_estimate(run, truth, m);
+  evaluate_goal(run, truth, m);
   m.visual_odometry = trajectory_error(visual_poses(run, truth));
   m.published_pose = trajectory_error(published_poses(run, truth));
   m.replans = count_replans(run, m.window);
-  judge_states(run, truth, m);
-  judge_corrections(run, truth, m);
-  judge_services(run, m);
-  judge_sensing(run, m);
+  evaluate_states(run, truth, m);
+  evaluate_corrections(run, truth, m);
+  evaluate_services(run, m);
+  evaluate_sensing(run, m);
   std::copy_if(run.faults.begin(), run.faults.end(), std::back_inserter(m.fdir),
                [](const FaultRecord& fault) { return fault.standing; });
   m.bus = run.bus;
   if (info.sim_s && info.wall_s && *info.wall_s > 0.0) m.realtime_factor = *info.sim_s / *info.wall_s;
-  judgement.incidents = judge_stops(run, truth, m.window, footprint, world.value_or(TrueWorld{}));
-  m.unseen_stops = static_cast<int>(std::count_if(judgement.incidents.begin(), judgement.incidents.end(),
+  evaluation.incidents = evaluate_stops(run, truth, m.window, footprint, world.value_or(TrueWorld{}));
+  m.unseen_stops = static_cast<int>(std::count_if(evaluation.incidents.begin(), evaluation.incidents.end(),
                                                   [](const Incident& incident) { return incident.unseen; }));
-  if (world) judge_world(run, truth, footprint, *world, judgement);
+  if (world) evaluate_world(run, truth, footprint, *world, evaluation);
   m.outcome = outcome_of(run, m);
-  return judgement;
+  return evaluation;
 }
 
 }  // namespace rover::report

@@ -1,4 +1,4 @@
-// The figures of a run. NaN and empty optionals: not applicable or not known.
+// Metrics of a run. NaN or empty optional: not applicable or unknown.
 #pragma once
 
 #include <map>
@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "tools/report/rock_judge.hpp"
+#include "tools/report/rock_evaluation.hpp"
 #include "tools/report/run_record.hpp"
-#include "tools/report/stop_judge.hpp"
+#include "tools/report/stop_evaluation.hpp"
 #include "tools/report/track.hpp"
 #include "tools/report/trajectory_error.hpp"
 
@@ -18,15 +18,15 @@ struct LevelSwitch {
   double t_s = 0.0;
   bool to_full = false;
   std::string reason;
-  double at_m = kNaN;    // driven until then
-  std::string quantity;  // behind the reason; empty: none
+  double at_m = kNaN;    // driven distance at the switch
+  std::string quantity;  // of the reason; empty: none
   double value = kNaN;
   double threshold = kNaN;
 };
 
-// What was driven at one level of autonomy.
+// Metrics of the time at one level of autonomy.
 struct LevelFigures {
-  double way_m = 0.0;
+  double travelled_m = 0.0;
   double time_s = 0.0;
   int hazard_stops = 0;
 };
@@ -34,10 +34,10 @@ struct LevelFigures {
 struct CorrectionFigure {
   double t_s = 0.0;
   double before_m = kNaN;
-  double after_m = kNaN;  // of the estimate that localization made of it
-  double fix_m = kNaN;    // of the fix alone; NaN for an abstention
+  double after_m = kNaN;  // of the estimate after localization applied it
+  double fix_m = kNaN;    // of the correction itself; NaN if rejected
   bool accepted = false;
-  std::string reason;  // of an abstention
+  std::string reason;  // reason of the rejection
 };
 
 struct ServiceFigures {
@@ -45,7 +45,7 @@ struct ServiceFigures {
   double cpu_s_per_m = kNaN;
   double cpu_s_per_m_efficient = kNaN;  // at that level
   double cpu_s_per_m_full = kNaN;
-  double rss_mb = 0.0;  // largest, of the run and of the drive's first half
+  double rss_mb = 0.0;  // maximum over the run, and over the first half of the drive
   double rss_first_half_mb = 0.0;
   int restarts = 0;
   double p50_ms = 0.0;
@@ -79,22 +79,22 @@ struct Metrics {
   double truth_deviation_max_m = kNaN;
   double odometry_drift_percent = kNaN;
   double odometry_drift_max_m = kNaN;
-  double slam_drift_percent = kNaN;      // SLAM's own poses, the first of them on the truth
+  double slam_drift_percent = kNaN;      // SLAM's own poses, aligned at the first one
   double estimate_error_max_m = kNaN;    // of the pose in map
-  double fixed_error_max_m = kNaN;       // the same since the first accepted correction
-  double final_error_m = kNaN;           // true end of the drive against the goal
-  double final_estimate_error_m = kNaN;  // estimated against true end of the drive, in map
+  double fixed_error_max_m = kNaN;       // the same, after the first accepted correction
+  double final_error_m = kNaN;           // true final position to the goal
+  double final_estimate_error_m = kNaN;  // estimated to true final position, in map
   std::vector<CorrectionFigure> global_corrections;
   std::optional<int> rocks_encountered;
-  std::optional<int> rocks_detected;  // of those encountered
+  std::optional<int> rocks_detected;  // among those encountered
   std::optional<int> rocks_missed;
   std::optional<int> false_stops;
   int unseen_stops = 0;
-  std::vector<FaultRecord> fdir;         // each raised
-  double motion_without_lease_s = kNaN;  // true motion later after the lease than a stop takes
+  std::vector<FaultRecord> fdir;         // each raised fault
+  double motion_without_lease_s = kNaN;  // true motion after the permit expired, beyond the stopping time
   std::map<std::string, ServiceFigures> services;
   BusRecord bus;
-  std::int64_t bus_lost = 0;  // as the receivers counted
+  std::int64_t bus_lost = 0;  // counted by the receivers
   double realtime_factor = kNaN;
   std::optional<Eigen::Isometry3d> final_truth_pose;
   double mean_slip = kNaN;
@@ -107,19 +107,19 @@ struct Metrics {
   double hazard_coverage_mean = kNaN;
   int vo_frames = 0;
   int vo_lost = 0;
-  TrajectoryError visual_odometry;  // its motions alone
+  TrajectoryError visual_odometry;  // integrated VO motions
   TrajectoryError published_pose;   // POSE at the exposures
 };
 
-// What the figures and the pictures share.
-struct Judgement {
+// Results used by metrics and pictures.
+struct RunEvaluation {
   Metrics metrics;
-  std::vector<RockVerdict> rocks;  // hazard rocks of the world
+  std::vector<RockResult> rocks;  // hazard rocks of the world
   std::vector<Incident> incidents;
 };
 
-// `world` empty: the judge does not know the ground, and its rocks are null in the figures.
-Judgement judge(const RunRecord& run, const RunInfo& info, const Footprint& footprint,
-                const std::optional<TrueWorld>& world);
+// `world` empty: ground truth of the terrain unknown; rock metrics are null.
+RunEvaluation evaluate(const RunRecord& run, const RunInfo& info, const Footprint& footprint,
+                       const std::optional<TrueWorld>& world);
 
 }  // namespace rover::report

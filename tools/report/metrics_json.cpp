@@ -9,7 +9,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// JSON knows no NaN and no infinity: null says "not applicable or not known".
+// JSON has no NaN or infinity: null means not applicable or unknown.
 Json number(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
@@ -23,7 +23,7 @@ Json text(const std::string& value) {
   return value.empty() ? Json(nullptr) : Json(value);
 }
 
-// The writer gives each double with the digits that read back as the same double.
+// Enough digits to restore the same double.
 Json pose_json(const std::optional<Eigen::Isometry3d>& T) {
   if (!T) return nullptr;
   const Eigen::Quaterniond q(T->linear());
@@ -51,7 +51,7 @@ Json switches_json(const Metrics& m) {
 }
 
 Json level_json(const LevelFigures& level) {
-  return {{"way_m", level.way_m}, {"time_s", level.time_s}, {"hazard_stops", level.hazard_stops}};
+  return {{"way_m", level.travelled_m}, {"time_s", level.time_s}, {"hazard_stops", level.hazard_stops}};
 }
 
 Json corrections_json(const Metrics& m) {

@@ -1,4 +1,4 @@
-// metrics.json: the names are the project's contract.
+// metrics.json. The key names are a public interface.
 #pragma once
 
 #include <nlohmann/json.hpp>

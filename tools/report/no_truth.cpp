@@ -5,7 +5,7 @@
 namespace rover::report {
 namespace {
 
-constexpr double kSpeedOverS = 0.5;  // poses are too noisy for a speed from one to the next
+constexpr double kSpeedOverS = 0.5;  // interval for speeds: differences of successive poses are too noisy
 
 }  // namespace
 

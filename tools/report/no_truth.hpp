@@ -1,16 +1,16 @@
-// A vehicle has no truth: its own estimate stands in for it, so that pictures and plots can be drawn, and the figures
-// that only a truth can give are left out.
+// Logs without TRUTH: the estimated pose replaces it for pictures and plots; metrics that need ground truth are
+// removed.
 #pragma once
 
 #include "tools/report/metrics.hpp"
 
 namespace rover::report {
 
-// The run with the estimated poses in the place of truth.
+// The run with estimated poses in place of TRUTH.
 RunRecord with_estimate_for_truth(const RunRecord& run);
-// Takes back what was measured against the stand-in.
+// Removes the metrics that compare the estimate with itself.
 void leave_out_truth_figures(Metrics& metrics);
-// Whether the figures are by a truth.
+// True if the metrics are based on ground truth.
 inline bool has_truth(const Metrics& metrics) {
   return metrics.final_truth_pose.has_value();
 }

@@ -1,4 +1,4 @@
-// Colours and type of every picture of the report.
+// Colours and fonts of all pictures of the report.
 #pragma once
 
 namespace rover::report::palette {

@@ -32,7 +32,7 @@ Axis value_axis(const Plot& plot) {
     for (const Eigen::Vector2d& p : series.points) include(p.y());
   for (const double limit : plot.limits) include(limit);
   if (plot.from_zero) include(0.0);
-  // Differences by rounding alone are a flat line: steps between them would be too small to count by.
+  // Differences at rounding level are a flat line; axis steps between them would be too small.
   if (low <= high && high - low < kFlat) low = high = std::abs(high) < kFlat ? 0.0 : high;
   return low <= high ? round_axis(low, high, 4) : Axis{};
 }

@@ -1,4 +1,4 @@
-// A line plot over the driven distance.
+// Line plot over driven distance.
 #pragma once
 
 #include <string>
@@ -22,17 +22,17 @@ struct Plot {
   std::string unit;
   std::vector<Series> series;
   std::vector<double> limits;  // drawn as dashed lines
-  bool from_zero = false;      // the axis holds zero
+  bool from_zero = false;      // the axis includes zero
   int decimals = 2;
 };
 
-// Distances of the numbered incidents, and how they are marked.
+// Distances and markers of the numbered incidents.
 struct PlotMarks {
   std::vector<double> at_m;
   std::vector<std::string> colours;
 };
 
-// Ends and step of an axis with about `count` round ticks that covers [low, high].
+// Limits and step of an axis with about `count` round ticks that covers [low, high].
 struct Axis {
   double low = 0.0;
   double high = 1.0;
@@ -40,7 +40,7 @@ struct Axis {
 };
 Axis round_axis(double low, double high, int count);
 
-// At most two points for each of `columns` equal parts of the x axis: the smallest and the largest value in it.
+// Min-max envelope: at most two points in each of `columns` equal parts of the x axis.
 Points envelope(const Points& points, double x_low, double x_high, int columns);
 
 std::string draw_plot(const Plot& plot, const PlotMarks& marks, double distance_m, const std::string& id);

@@ -25,7 +25,7 @@ using Context = std::unique_ptr<cairo_t, Destroy<cairo_t, cairo_destroy>>;
 void write_png(const std::string& svg, double scale, const std::string& file) {
   GError* error = nullptr;
   const Stream stream(g_memory_input_stream_new_from_data(svg.data(), static_cast<gssize>(svg.size()), nullptr));
-  // Embedded pictures may be larger than the parser's default limit on one attribute.
+  // Embedded images may exceed the parser's default attribute size.
   const Handle handle(
       rsvg_handle_new_from_stream_sync(stream.get(), nullptr, RSVG_HANDLE_FLAG_UNLIMITED, nullptr, &error));
   if (!handle) {

@@ -5,7 +5,7 @@
 
 namespace rover::report {
 
-// Throws ConfigError where the picture is damaged or the file cannot be written.
+// Throws ConfigError if the SVG is invalid or the file cannot be written.
 void write_png(const std::string& svg, double scale, const std::string& file);
 
 }  // namespace rover::report

@@ -33,7 +33,7 @@ nlohmann::json read_json(const std::string& path) {
   }
 }
 
-// What the launcher (run.json) and the simulator (simulation.json) say of the run; the latter has the last word.
+// Run data from run.json (launcher) and simulation.json (simulator); the latter has priority.
 RunInfo read_info(const std::string& dir) {
   RunInfo info;
   for (const char* name : {"/run.json", "/simulation.json"}) {
@@ -57,7 +57,7 @@ RunInfo read_info(const std::string& dir) {
   return info;
 }
 
-// First of the names that exists in the folder.
+// The first of these names that exists in the folder.
 std::string first_existing(const std::string& dir, const std::vector<std::string>& names) {
   for (const std::string& name : names)
     if (fs::is_regular_file(dir + "/" + name)) return dir + "/" + name;
@@ -109,7 +109,7 @@ std::string read_file(const std::string& path) {
 }
 
 void write_file(const std::string& path, const std::string& content) {
-  // An earlier one stays until this one is whole.
+  // Write to a temporary file first, so that an interruption keeps the old one.
   const std::string fresh = path + ".new";
   std::ofstream file(fresh, std::ios::binary | std::ios::trunc);
   file << content;

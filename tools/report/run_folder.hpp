@@ -1,4 +1,4 @@
-// A run's folder as the launcher leaves it: traverse.lcm, run.json, config/ and the orbital map.
+// Run folder as the launcher writes it: traverse.lcm, run.json, config/ and the orbital map.
 #pragma once
 
 #include <string>
@@ -13,13 +13,13 @@ struct RunFolder {
   RunInfo info;
   Footprint footprint;
   std::string log;          // traverse.lcm
-  std::string scenario;     // the effective scenario, empty where there is none
-  std::string config_dir;   // the effective configuration
-  std::string orbital_map;  // empty where there is none
+  std::string scenario;     // effective scenario; empty: none
+  std::string config_dir;   // effective configuration
+  std::string orbital_map;  // empty: none
 };
 
-// Throws ConfigError where the folder or its log is missing, or run.json is damaged. What else is missing is left
-// empty; the vehicle then comes from `default_config_dir`.
+// Throws ConfigError if folder or log is missing or run.json is invalid. Other missing files stay empty; default
+// vehicle then.
 RunFolder open_run_folder(const std::string& dir, const std::string& default_config_dir);
 
 // Name and content of each file of the effective configuration.

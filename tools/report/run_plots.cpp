@@ -12,12 +12,12 @@
 namespace rover::report {
 namespace {
 
-// Distance driven since the drive began, for samples in the drive alone.
+// Distance since the start of the drive, for samples within the drive.
 class DistanceAxis {
  public:
   explicit DistanceAxis(const Scene& scene)
       : truth_(scene.run.truth),
-        window_(scene.judgement.metrics.window),
+        window_(scene.evaluation.metrics.window),
         begin_m_(truth_.distance_m(window_.begin_s)) {}
   bool contains(double t_s) const { return window_.contains(t_s); }
   double at(double t_s) const { return truth_.distance_m(t_s) - begin_m_; }
@@ -67,7 +67,7 @@ Plot drift_plot(const Scene& scene, const DistanceAxis& axis) {
 }
 
 Plot drift_percent_plot(const Scene& scene, const DistanceAxis& axis) {
-  constexpr double kFromM = 2.0;  // a share of nearly nothing says nothing
+  constexpr double kFromM = 2.0;  // minimum distance for a meaningful ratio
   Points points;
   for (const DriftSample& s : odometry_drift(scene.run, axis.truth(), axis.window()))
     if (s.distance_m >= kFromM)
@@ -88,7 +88,7 @@ Plot attitude_plot(const Scene& scene, const DistanceAxis& axis) {
 }
 
 Plot slip_plot(const Scene& scene, const DistanceAxis& axis) {
-  // A resting wheel has no slip; one that only starts or stops has one of no use.
+  // Exclude wheels at rest and in transients: slip is undefined or useless there.
   const auto moving = [](const TruthSample& t) { return t.speed_mps > 0.03 ? 100.0 * t.wheel_slip : kNaN; };
   return {"Slip",
           "%",
@@ -141,7 +141,7 @@ const char* state_colour(State state) {
 std::vector<Plot> run_plots(const Scene& scene) {
   const DistanceAxis axis(scene);
   std::vector<Plot> plots{cross_track_plot(scene, axis)};
-  if (has_truth(scene.judgement.metrics)) {
+  if (has_truth(scene.evaluation.metrics)) {
     plots.push_back(drift_plot(scene, axis));
     plots.push_back(drift_percent_plot(scene, axis));
   }
@@ -152,7 +152,7 @@ std::vector<Plot> run_plots(const Scene& scene) {
 PlotMarks incident_marks(const Scene& scene) {
   const DistanceAxis axis(scene);
   PlotMarks marks;
-  for (const Incident& incident : scene.judgement.incidents) {
+  for (const Incident& incident : scene.evaluation.incidents) {
     marks.at_m.push_back(axis.at(incident.t_s));
     marks.colours.push_back(incident.stopped ? palette::kBad : palette::kRepair);
   }
@@ -167,8 +167,8 @@ std::string draw_state_timeline(const Scene& scene) {
   constexpr double kBand = 30.0;
   Svg svg(kWidth, 112.0);
   const std::vector<StateChange>& states = scene.run.states;
-  const double end_s = std::max(scene.judgement.metrics.window.end_s + 1.0, states.empty() ? 1.0 : states.back().t_s);
-  const double begin_s = states.empty() ? 0.0 : std::min(states.front().t_s, scene.judgement.metrics.window.begin_s);
+  const double end_s = std::max(scene.evaluation.metrics.window.end_s + 1.0, states.empty() ? 1.0 : states.back().t_s);
+  const double begin_s = states.empty() ? 0.0 : std::min(states.front().t_s, scene.evaluation.metrics.window.begin_s);
   const auto px = [&](double t) {
     return (std::min(t, end_s) - begin_s) / (end_s - begin_s) * (kRight - kLeft) + kLeft;
   };
@@ -181,7 +181,7 @@ std::string draw_state_timeline(const Scene& scene) {
     spent[states[i].state] += (i + 1 < states.size() ? states[i + 1].t_s : end_s) - states[i].t_s;
   }
   const std::string label = fmt::format("fill:{}", palette::kMuted);
-  const double start_s = scene.judgement.metrics.window.begin_s;
+  const double start_s = scene.evaluation.metrics.window.begin_s;
   const Axis ticks = round_axis(0.0, end_s - start_s, 10);
   for (double t = 0.0; t <= end_s - start_s; t += ticks.step)
     svg.text(px(start_s + t), kBandTop + kBand + 16.0, number_text(t), 11.5, label, Anchor::kMiddle);

@@ -1,4 +1,4 @@
-// Which quantities of a run are plotted.
+// The plots of a run.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ namespace rover::report {
 
 std::vector<Plot> run_plots(const Scene& scene);
 PlotMarks incident_marks(const Scene& scene);
-// States over time as a coloured band.
+// State over time as a coloured band.
 std::string draw_state_timeline(const Scene& scene);
 
 }  // namespace rover::report

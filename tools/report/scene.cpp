@@ -25,7 +25,7 @@ Points estimated_line(const Scene& scene) {
 
 Points odometry_line(const Scene& scene) {
   const TrueTrack truth(scene.run.truth);
-  const Pose2 align = start_alignment(scene.run, truth, scene.judgement.metrics.window);
+  const Pose2 align = start_alignment(scene.run, truth, scene.evaluation.metrics.window);
   Points line;
   for (const PoseSample& pose : scene.run.poses)
     line.push_back(transform(align, pose.T_odom_body.translation().head<2>()));

@@ -1,4 +1,4 @@
-// What the pictures show.
+// Input of the pictures.
 #pragma once
 
 #include <optional>
@@ -10,18 +10,18 @@ namespace rover::report {
 
 struct Scene {
   const RunRecord& run;
-  const Judgement& judgement;
+  const RunEvaluation& evaluation;
   const Footprint& footprint;
-  const HeightRaster& orbital;  // empty: none in the run's folder
+  const HeightRaster& orbital;  // empty: not in the run folder
   const std::optional<TrueWorld>& world;
 };
 
-// Thinned to points at least step_m apart; the last one stays.
+// Decimates to points at least step_m apart; keeps the last one.
 Points thinned(const Points& line, double step_m);
 Points true_line(const Scene& scene);
-// By the rover's own estimate, in map.
+// Estimated track, in map.
 Points estimated_line(const Scene& scene);
-// By the odometry alone, its start on the truth.
+// Odometry track, aligned with the truth at the start.
 Points odometry_line(const Scene& scene);
 Points planned_line(const Scene& scene);
 

@@ -11,7 +11,7 @@
 namespace rover::report {
 namespace {
 
-constexpr double kSmoothingM = 0.8;  // as the relief's
+constexpr double kSmoothingM = 0.8;  // equal to that of the relief
 
 cv::Vec3b bgr_of(const char* colour) {
   const auto rgb = static_cast<unsigned>(std::strtoul(colour + 1, nullptr, 16));

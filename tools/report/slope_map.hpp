@@ -1,4 +1,4 @@
-// Slope of the ground as a picture in classes of colour.
+// Slope map in colour classes.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 namespace rover::report {
 
 struct SlopeClass {
-  double to_deg;  // the last: all that is steeper
+  double to_deg;  // upper limit; the last class has none
   const char* colour;
 };
 inline constexpr std::array<SlopeClass, 5> kSlopeClasses = {

@@ -16,7 +16,7 @@
 namespace rover::report {
 namespace {
 
-constexpr double kAroundM = 15.0;  // of the track and the planned path: what the map shows and the cameras see
+constexpr double kAroundM = 15.0;  // margin around track and planned path
 
 Box surroundings(const RunRecord& run) {
   Points track;
@@ -28,7 +28,7 @@ Box surroundings(const RunRecord& run) {
 
 std::vector<std::string> draw_cameras(const Study& study) {
   std::vector<double> exposures_s;
-  for (const Incident& incident : study.judgement.incidents)
+  for (const Incident& incident : study.evaluation.incidents)
     exposures_s.push_back(exposure_behind(study.run, incident.t_s));
   std::vector<std::string> out;
   for (const auto& picture : read_camera_pictures(study.log, exposures_s))
@@ -48,8 +48,8 @@ Study study_run(const std::string& run_dir, const std::string& default_config_di
   study.orbital = load_orbital_map(study.folder);
   const bool true_run = !study.run.truth.empty();
   if (!true_run) study.run = with_estimate_for_truth(study.run);
-  study.judgement = judge(study.run, study.folder.info, study.folder.footprint, study.world);
-  if (!true_run) leave_out_truth_figures(study.judgement.metrics);
+  study.evaluation = evaluate(study.run, study.folder.info, study.folder.footprint, study.world);
+  if (!true_run) leave_out_truth_figures(study.evaluation.metrics);
   return study;
 }
 
@@ -57,7 +57,7 @@ Pictures draw_pictures(const Study& study) {
   const Scene scene = study.scene();
   Pictures pictures;
   pictures.map = draw_map(scene);
-  for (size_t i = 0; i < study.judgement.incidents.size(); ++i) pictures.incidents.push_back(draw_incident(scene, i));
+  for (size_t i = 0; i < study.evaluation.incidents.size(); ++i) pictures.incidents.push_back(draw_incident(scene, i));
   pictures.cameras = draw_cameras(study);
   pictures.elevation = draw_elevation(scene);
   pictures.levels = draw_levels(scene);
@@ -66,7 +66,7 @@ Pictures draw_pictures(const Study& study) {
   const std::vector<Plot> plots = run_plots(scene);
   for (size_t i = 0; i < plots.size(); ++i)
     pictures.plots.push_back(
-        draw_plot(plots[i], marks, study.judgement.metrics.driven_length_m, fmt::format("plot-{}", i)));
+        draw_plot(plots[i], marks, study.evaluation.metrics.driven_length_m, fmt::format("plot-{}", i)));
   return pictures;
 }
 

@@ -1,4 +1,4 @@
-// A run as the report sees it: its folder, its log, the ground, and what the judge says.
+// Data of a report: run folder, log, terrain, metrics.
 #pragma once
 
 #include <optional>
@@ -17,14 +17,14 @@ struct Study {
   RunRecord run;
   std::optional<TrueWorld> world;
   HeightRaster orbital;
-  Judgement judgement;
-  Scene scene() const { return {run, judgement, folder.footprint, orbital, world}; }
+  RunEvaluation evaluation;
+  Scene scene() const { return {run, evaluation, folder.footprint, orbital, world}; }
 };
 
-// Reads and judges the run; what its log holds beside it, or not whole, is said on stderr. `log_run`: of a log that
-// holds several runs; 0: the only one. Throws ConfigError.
+// Reads and evaluates the run; prints damage of the log on stderr. `log_run`: selects one of several runs. Throws
+// ConfigError.
 Study study_run(const std::string& run_dir, const std::string& default_config_dir, int log_run = 0);
-// All pictures of its report. The log is read again for those of the camera.
+// All pictures of the report. Reads the log again for camera images.
 Pictures draw_pictures(const Study& study);
 
 }  // namespace rover::report

@@ -1,4 +1,4 @@
-// Writes an SVG picture. Lengths are in user units (CSS pixels); styles are inline, so that a picture stands alone.
+// Writes SVG. Lengths in user units (CSS pixels); inline styles keep a picture self-contained.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +30,7 @@ class Svg {
   void text(double x, double y, const std::string& text, double size, const std::string& style,
             Anchor anchor = Anchor::kStart);
   void jpeg(double x, double y, double w, double h, const std::vector<std::uint8_t>& bytes);
-  // All until end() is drawn inside the rectangle only. The id must be unique in the document.
+  // Clips all drawing until end() to the rectangle. The id must be unique in the document.
   void begin_clip(const std::string& id, double x, double y, double w, double h);
   void begin_group(const std::string& attributes);
   void end() { body_ += "</g>\n"; }

@@ -9,7 +9,7 @@ namespace rover::report {
 namespace {
 
 constexpr double kStepM = 0.02;
-constexpr double kMostGapS = 0.1;
+constexpr double kMaxGapS = 0.1;
 
 }  // namespace
 
@@ -56,7 +56,7 @@ std::optional<Eigen::Isometry3d> TrueTrack::known_at(double t_s) const {
                                       [](const TruthSample& sample, double t) { return sample.t_s < t; });
   if (after == truth_.end()) return std::nullopt;
   if (after->t_s == t_s) return after->T_map_body;
-  if (after == truth_.begin() || after->t_s - std::prev(after)->t_s > kMostGapS) return std::nullopt;
+  if (after == truth_.begin() || after->t_s - std::prev(after)->t_s > kMaxGapS) return std::nullopt;
   return at(t_s);
 }
 

@@ -9,14 +9,14 @@ namespace {
 
 using Eigen::Isometry3d;
 
-std::vector<double> way_along(const std::vector<PosePair>& poses) {
+std::vector<double> arc_lengths_m(const std::vector<PosePair>& poses) {
   std::vector<double> way = {0.0};
   for (size_t i = 1; i < poses.size(); ++i)
     way.push_back(way.back() + (poses[i].truth.translation() - poses[i - 1].truth.translation()).norm());
   return way;
 }
 
-// Error of the estimated motion from i to j, seen at j.
+// Relative pose error from i to j, in the frame of j.
 Isometry3d motion_error(const PosePair& i, const PosePair& j) {
   return (i.estimate.inverse() * j.estimate).inverse() * (i.truth.inverse() * j.truth);
 }
@@ -39,8 +39,9 @@ class Mean {
   double rotation_ = 0.0;
 };
 
-void judge_segments(const std::vector<PosePair>& poses, const std::vector<double>& lengths_m, TrajectoryError& error) {
-  const std::vector<double> way = way_along(poses);
+void evaluate_segments(const std::vector<PosePair>& poses, const std::vector<double>& lengths_m,
+                       TrajectoryError& error) {
+  const std::vector<double> way = arc_lengths_m(poses);
   Mean all;
   for (const double length_m : lengths_m) {
     Mean mean;
@@ -58,7 +59,7 @@ void judge_segments(const std::vector<PosePair>& poses, const std::vector<double
   error.all_segments = all.error(kNaN);
 }
 
-void judge_aligned(const std::vector<PosePair>& poses, TrajectoryError& error) {
+void evaluate_aligned(const std::vector<PosePair>& poses, TrajectoryError& error) {
   Eigen::Matrix3Xd estimate(3, poses.size()), truth(3, poses.size());
   for (size_t i = 0; i < poses.size(); ++i) {
     estimate.col(static_cast<Eigen::Index>(i)) = poses[i].estimate.translation();
@@ -76,11 +77,11 @@ TrajectoryError trajectory_error(const std::vector<PosePair>& poses, const std::
   TrajectoryError error;
   error.poses = static_cast<int>(poses.size());
   if (poses.size() < 2) return error;
-  error.length_m = way_along(poses).back();
+  error.length_m = arc_lengths_m(poses).back();
   error.end_error_m = motion_error(poses.front(), poses.back()).translation().norm();
   if (error.length_m > 0.0) error.end_error_percent = 100.0 * error.end_error_m / error.length_m;
-  judge_aligned(poses, error);
-  judge_segments(poses, lengths_m, error);
+  evaluate_aligned(poses, error);
+  evaluate_segments(poses, lengths_m, error);
   return error;
 }
 

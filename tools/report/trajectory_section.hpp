@@ -1,4 +1,4 @@
-// The report's table of drift against the ground truth of a data set.
+// Report table of drift against the ground truth of a data set.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace rover::report {
 
-// HTML; empty where the run is no imported data set.
+// HTML; empty if the run is not an imported data set.
 std::string trajectory_section(const Metrics& metrics);
 
 }  // namespace rover::report

@@ -1,4 +1,4 @@
-// The true ground of a simulated run, made again from its scenario and seed.
+// True terrain of a simulated run, regenerated from its scenario and seed.
 #pragma once
 
 #include <optional>
@@ -9,10 +9,10 @@
 
 namespace rover::report {
 
-// Empty where the folder has no scenario or no seed: a log of a real vehicle. Rocks within `around`.
+// Empty without scenario or seed (real vehicle). Rocks within `around`.
 std::optional<TrueWorld> load_true_world(const RunFolder& folder, const Box& around);
 
-// Empty where the folder has no orbital map, or none with a georeference (a synthetic plane).
+// Empty without an orbital map, or if it has no georeference (synthetic plane).
 HeightRaster load_orbital_map(const RunFolder& folder);
 
 }  // namespace rover::report

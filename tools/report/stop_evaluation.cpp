@@ -1,4 +1,4 @@
-#include "tools/report/stop_judge.hpp"
+#include "tools/report/stop_evaluation.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,12 +7,12 @@
 namespace rover::report {
 namespace {
 
-constexpr double kMemoryS = 30.0;  // hazards seen longer ago lie behind the rover
-constexpr double kAheadM = 5.0;    // of the old path, looked at for a cause
-// From the footprint on its way to the middle of a cell in it. A path is laid about 0.2 m clear of what was known, so
-// what is nearer was new; where nothing is, margins had grown with the rover's uncertainty.
-constexpr double kInTheWayM[] = {0.20, 0.35};
-constexpr double kUnseenWindowS = 1.0;  // in which the planner must have named unseen ground as the cause
+constexpr double kMemoryS = 30.0;  // older hazards are behind the rover
+constexpr double kAheadM = 5.0;    // length of the old path that is checked for a cause
+// Clearance from the swept footprint to a cell's centre. Paths keep about 0.2 m; 0.35 m covers margins that grew with
+// uncertainty.
+constexpr double kClearancesM[] = {0.20, 0.35};
+constexpr double kUnseenWindowS = 1.0;  // time within which the planner must have reported unseen ground as the cause
 
 const PathRecord* path_by_id(const RunRecord& run, std::int64_t id, double t_s) {
   const PathRecord* found = nullptr;
@@ -23,7 +23,7 @@ const PathRecord* path_by_id(const RunRecord& run, std::int64_t id, double t_s) 
   return found;
 }
 
-// Where the rover's map or odom frame truly lies, judged by its present place alone.
+// Transform of the rover's map or odom frame to truth, from the present pose alone.
 Pose2 frame_in_truth(const RunRecord& run, const TrueTrack& truth, bool odom, double t_s) {
   const PoseSample* pose = newest(run.poses, t_s);
   if (pose == nullptr || truth.empty()) return {};
@@ -31,7 +31,7 @@ Pose2 frame_in_truth(const RunRecord& run, const TrueTrack& truth, bool odom, do
   return compose(truth.planar_at(pose->t_s), inverse(estimate));
 }
 
-// Middles of the hazard cells known at t, each once.
+// Centres of the hazard cells known at t, without duplicates.
 Points known_cells(const RunRecord& run, const TrueTrack& truth, const Footprint& footprint, double t_s) {
   Points cells;
   std::set<std::pair<int, int>> taken;
@@ -47,27 +47,27 @@ Points known_cells(const RunRecord& run, const TrueTrack& truth, const Footprint
   return cells;
 }
 
-// Those of the cells that the footprint would come near to on its way along the line.
-Points cells_in_the_way(const Points& line, const Points& cells, const Footprint& footprint, double clearance_m) {
+// The cells within clearance of the footprint swept along the line.
+Points colliding_cells(const Points& line, const Points& cells, const Footprint& footprint, double clearance_m) {
   constexpr double kStepM = 0.1;
   Points hit;
   for (const Eigen::Vector2d& cell : cells) {
-    bool in_the_way = false;
-    for (size_t i = 0; i + 1 < line.size() && !in_the_way; ++i) {
+    bool collides = false;
+    for (size_t i = 0; i + 1 < line.size() && !collides; ++i) {
       const Eigen::Vector2d step = line[i + 1] - line[i];
       const double yaw = std::atan2(step.y(), step.x());
-      for (double s = 0.0; s <= step.norm() && !in_the_way; s += kStepM) {
+      for (double s = 0.0; s <= step.norm() && !collides; s += kStepM) {
         const Eigen::Vector2d p = line[i] + step.normalized() * s;
         const Eigen::Vector2d seen = transform(inverse(Pose2{p.x(), p.y(), yaw}), cell);
-        in_the_way = distance_to_box_m(seen, footprint.half_length_m, footprint.half_width_m) <= clearance_m;
+        collides = distance_to_box_m(seen, footprint.half_length_m, footprint.half_width_m) <= clearance_m;
       }
     }
-    if (in_the_way) hit.push_back(cell);
+    if (collides) hit.push_back(cell);
   }
   return hit;
 }
 
-// Largest deviation of the surface from its own plane, within 0.4 m.
+// Largest residual of the surface from its fitted plane, within 0.4 m.
 double relief_m(const TrueWorld& world, const Eigen::Vector2d& p) {
   constexpr int kReach = 4;
   constexpr double kStep = 0.1;
@@ -83,9 +83,9 @@ double relief_m(const TrueWorld& world, const Eigen::Vector2d& p) {
   return (z - A * plane).cwiseAbs().maxCoeff();
 }
 
-void judge_cause(Incident& incident, const RockIndex& rocks, const TrueWorld& world) {
+void evaluate_cause(Incident& incident, const RockIndex& rocks, const TrueWorld& world) {
   for (const Eigen::Vector2d& cell : incident.cells) {
-    for (const size_t i : rocks.near(cell, kRealReachM))
+    for (const size_t i : rocks.near(cell, kRealRadiusM))
       incident.tallest_rock_m = std::max(incident.tallest_rock_m, rocks.rocks()[i].height_m);
     if (!incident.real && world.height_m) incident.real = relief_m(world, cell) >= kRealReliefM;
   }
@@ -98,9 +98,9 @@ bool unseen_named(const RunRecord& run, double t_s) {
   });
 }
 
-// A path published again because the map moved against odom is no answer to a hazard: the planner does not count it.
+// A path republished because of a map correction is not a replan; the planner does not count it.
 bool counted_as_replan(const RunRecord& run, const PathRecord& path) {
-  constexpr double kBeforeS = 0.3;  // the path is released some ticks after the planner has counted it
+  constexpr double kBeforeS = 0.3;  // the path is released some ticks after the planner counted it
   constexpr double kAfterS = 0.05;
   if (run.planner.empty()) return true;
   const PlannerSample* before = newest(run.planner, path.t_s - kBeforeS);
@@ -120,7 +120,7 @@ std::vector<Incident> find_incidents(const RunRecord& run, const TrueTrack& trut
   for (const PathRecord& path : run.local_paths) {
     if (!path.is_repair || !window.contains(path.t_s) || !counted_as_replan(run, path)) continue;
     const Points placed = path_in_truth(run, truth, path, path.t_s);
-    // The repair after a stop belongs to that stop until the rover drives again.
+    // A repair after a stop belongs to the stop until the rover drives again.
     const auto stop = std::find_if(incidents.begin(), incidents.end(), [&](const Incident& incident) {
       return incident.stopped && !incident.replanned && incident.t_s <= path.t_s &&
              std::none_of(run.states.begin(), run.states.end(), [&](const StateChange& change) {
@@ -157,21 +157,21 @@ Points followed_path(const RunRecord& run, const TrueTrack& truth, double t_s) {
   return path == nullptr ? Points{} : path_in_truth(run, truth, *path, t_s);
 }
 
-std::vector<Incident> judge_stops(const RunRecord& run, const TrueTrack& truth, const Window& window,
-                                  const Footprint& footprint, const TrueWorld& world) {
-  constexpr double kJustBeforeS = 0.04;  // two ticks: the new path may already be followed at the incident itself
+std::vector<Incident> evaluate_stops(const RunRecord& run, const TrueTrack& truth, const Window& window,
+                                     const Footprint& footprint, const TrueWorld& world) {
+  constexpr double kLeadS = 0.04;  // two ticks: the new path may already be active at the incident
   std::vector<Incident> incidents = find_incidents(run, truth, window);
   const RockIndex rocks(world.rocks);
   for (Incident& incident : incidents) {
-    incident.old_path = followed_path(run, truth, incident.t_s - kJustBeforeS);
+    incident.old_path = followed_path(run, truth, incident.t_s - kLeadS);
     const Eigen::Vector2d here =
         truth.empty() ? Eigen::Vector2d::Zero() : Eigen::Vector2d(truth.at(incident.t_s).translation().head<2>());
     const Points ahead = part_ahead(incident.old_path, here, kAheadM);
     const Points known = known_cells(run, truth, footprint, incident.t_s);
-    for (const double clearance : kInTheWayM)
-      if (incident.cells.empty()) incident.cells = cells_in_the_way(ahead, known, footprint, clearance);
+    for (const double clearance : kClearancesM)
+      if (incident.cells.empty()) incident.cells = colliding_cells(ahead, known, footprint, clearance);
     incident.unseen = incident.cells.empty() && unseen_named(run, incident.t_s);
-    judge_cause(incident, rocks, world);
+    evaluate_cause(incident, rocks, world);
   }
   return incidents;
 }

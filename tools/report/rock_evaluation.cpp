@@ -1,4 +1,4 @@
-#include "tools/report/rock_judge.hpp"
+#include "tools/report/rock_evaluation.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kBucketM = 1.0;
 
-// Poses of the true track at most 2 cm and 1 deg apart are enough for a footprint in motion.
+// The true track is sampled every 2 cm or 1 deg for the swept footprint.
 constexpr double kPoseStepM = 0.02;
 const double kPoseStepRad = to_rad(1.0);
 
@@ -17,9 +17,9 @@ bool far_apart(const Pose2& a, const Pose2& b) {
          std::abs(wrap_angle(a.yaw_rad - b.yaw_rad)) >= kPoseStepRad;
 }
 
-void judge_sweep(const RunRecord& run, const Window& window, const Footprint& footprint, const RockIndex& field,
-                 std::vector<RockVerdict>& verdicts) {
-  const double reach = std::max(kEncounterM, std::hypot(footprint.half_length_m, footprint.half_width_m));
+void evaluate_sweep(const RunRecord& run, const Window& window, const Footprint& footprint, const RockIndex& field,
+                    std::vector<RockResult>& results) {
+  const double radius = std::max(kEncounterM, std::hypot(footprint.half_length_m, footprint.half_width_m));
   Pose2 last{kInfinity, kInfinity, 0.0};
   for (const TruthSample& sample : run.truth) {
     if (!window.contains(sample.t_s)) continue;
@@ -27,25 +27,25 @@ void judge_sweep(const RunRecord& run, const Window& window, const Footprint& fo
     if (!far_apart(pose, last)) continue;
     last = pose;
     const Eigen::Vector2d origin(pose.x_m, pose.y_m);
-    for (const size_t i : field.near(origin, reach)) {
-      RockVerdict& verdict = verdicts[i];
-      const Eigen::Vector2d center(verdict.rock.x_m, verdict.rock.y_m);
-      verdict.encountered |= (center - origin).norm() <= verdict.rock.radius_m + kEncounterM;
+    for (const size_t i : field.near(origin, radius)) {
+      RockResult& result = results[i];
+      const Eigen::Vector2d center(result.rock.x_m, result.rock.y_m);
+      result.encountered |= (center - origin).norm() <= result.rock.radius_m + kEncounterM;
       const double gap =
           distance_to_box_m(transform(inverse(pose), center), footprint.half_length_m, footprint.half_width_m);
-      if (gap < verdict.rock.radius_m) verdict.swept_s = std::min(verdict.swept_s, sample.t_s);
+      if (gap < result.rock.radius_m) result.swept_s = std::min(result.swept_s, sample.t_s);
     }
   }
 }
 
-void judge_detection(const RunRecord& run, const TrueTrack& truth, double origin_height_m, const RockIndex& field,
-                     std::vector<RockVerdict>& verdicts) {
+void evaluate_detection(const RunRecord& run, const TrueTrack& truth, double origin_height_m, const RockIndex& field,
+                        std::vector<RockResult>& results) {
   for (const HazardMap& map : run.hazards) {
     if (map.cells.empty() || truth.empty()) continue;
     const Eigen::Isometry3d T_map_body = truth.at(map.t_s);
     for (const HazardCell& cell : map.cells)
-      for (const size_t i : field.near(cell_in_map(cell, T_map_body, origin_height_m), kDetectionReachM))
-        verdicts[i].detected_s = std::min(verdicts[i].detected_s, map.released_s);
+      for (const size_t i : field.near(cell_in_map(cell, T_map_body, origin_height_m), kDetectionRadiusM))
+        results[i].detected_s = std::min(results[i].detected_s, map.released_s);
   }
 }
 
@@ -64,8 +64,8 @@ std::int64_t RockIndex::key(int ix, int iy) {
   return static_cast<std::int64_t>(ix) * 0x100000000 + iy;
 }
 
-std::vector<size_t> RockIndex::near(const Eigen::Vector2d& p, double reach_m) const {
-  const double r = reach_m + largest_radius_m_;
+std::vector<size_t> RockIndex::near(const Eigen::Vector2d& p, double radius_m) const {
+  const double r = radius_m + largest_radius_m_;
   const auto cell = [](double v) { return static_cast<int>(std::floor(v / kBucketM)); };
   std::vector<size_t> found;
   for (int ix = cell(p.x() - r); ix <= cell(p.x() + r); ++ix)
@@ -73,7 +73,7 @@ std::vector<size_t> RockIndex::near(const Eigen::Vector2d& p, double reach_m) co
       const auto it = cells_.find(key(ix, iy));
       if (it == cells_.end()) continue;
       for (const size_t i : it->second)
-        if (std::hypot(rocks_[i].x_m - p.x(), rocks_[i].y_m - p.y()) <= rocks_[i].radius_m + reach_m)
+        if (std::hypot(rocks_[i].x_m - p.x(), rocks_[i].y_m - p.y()) <= rocks_[i].radius_m + radius_m)
           found.push_back(i);
     }
   return found;
@@ -83,21 +83,21 @@ Eigen::Vector2d cell_in_map(const HazardCell& cell, const Eigen::Isometry3d& T_m
   return (T_map_body * Eigen::Vector3d(cell.p_body.x(), cell.p_body.y(), -origin_height_m)).head<2>();
 }
 
-std::vector<RockVerdict> judge_rocks(const RunRecord& run, const TrueTrack& truth, const Window& window,
-                                     const Footprint& footprint, const std::vector<Rock>& rocks) {
+std::vector<RockResult> evaluate_rocks(const RunRecord& run, const TrueTrack& truth, const Window& window,
+                                       const Footprint& footprint, const std::vector<Rock>& rocks) {
   std::vector<Rock> hazards;
   std::copy_if(rocks.begin(), rocks.end(), std::back_inserter(hazards),
                [](const Rock& rock) { return rock.height_m >= kHazardRockM; });
   const RockIndex field(hazards);
-  std::vector<RockVerdict> verdicts;
-  for (const Rock& rock : hazards) verdicts.push_back({rock});
-  judge_sweep(run, window, footprint, field, verdicts);
-  judge_detection(run, truth, footprint.origin_height_m, field, verdicts);
+  std::vector<RockResult> results;
+  for (const Rock& rock : hazards) results.push_back({rock});
+  evaluate_sweep(run, window, footprint, field, results);
+  evaluate_detection(run, truth, footprint.origin_height_m, field, results);
   if (!run.global_paths.empty())
-    for (RockVerdict& verdict : verdicts)
-      verdict.encountered |= distance_m(run.global_paths.back().points, {verdict.rock.x_m, verdict.rock.y_m}) <=
-                             verdict.rock.radius_m + kEncounterM;
-  return verdicts;
+    for (RockResult& result : results)
+      result.encountered |= distance_m(run.global_paths.back().points, {result.rock.x_m, result.rock.y_m}) <=
+                            result.rock.radius_m + kEncounterM;
+  return results;
 }
 
 }  // namespace rover::report
