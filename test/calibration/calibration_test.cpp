@@ -1,4 +1,4 @@
-// Each tool's file gives back the rig that it was written from.
+// The file of each tool restores the rig that it was written from.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -49,7 +49,7 @@ class Calibration : public testing::Test {
         "  distortion_coeffs: [{}, {}, {}, {}]\n  resolution: [1024, 768]\n  rostopic: /cam\n",
         c.fx_px, c.fy_px, c.cx_px, c.cy_px, c.distortion[0], c.distortion[1], c.distortion[2], c.distortion[3]);
   }
-  // Kalibr's T_cn_cnm1 takes points of the camera before into this one.
+  // Kalibr's T_cn_cnm1 transforms points of the previous camera into this one.
   std::string kalibr() const {
     return "cam0:\n" + kalibr_camera(truth_.left) + "  T_cam_imu:\n" + matrix(T_left_imu_.matrix()) + "cam1:\n" +
            kalibr_camera(truth_.right) + "  T_cn_cnm1:\n" + matrix(truth_.T_left_right.inverse().matrix());
@@ -123,8 +123,8 @@ TEST_F(Calibration, OpenCvsTwoFilesGiveTheRig) {
   EXPECT_NE(refusal({intrinsics}).find("no R"), std::string::npos);
 }
 
-// A point of the world has to fall on the pixels that the tool's own library gives it.
-TEST_F(Calibration, APointFallsWhereOpenCvPutsIt) {
+// A world point must project to the same pixels as with OpenCV's own functions.
+TEST_F(Calibration, ProjectionMatchesOpenCv) {
   const StereoCalibration found = read_calibration({write("camchain.yaml", kalibr())});
   const Eigen::Vector3d p_left(0.3, -0.2, 2.0);
   const Eigen::Vector3d p_right = found.T_left_right.inverse() * p_left;
@@ -155,7 +155,7 @@ TEST_F(Calibration, MountAndPoseAreInverse) {
     }
 }
 
-TEST_F(Calibration, WhatIsWrittenIsReadByTheServices) {
+TEST_F(Calibration, ServicesReadTheOutput) {
   const Mount mount{{0.5, 0.07, 0.06}, to_rad(33.0), to_rad(0.5), to_rad(-1.0)};
   write("cameras.yaml", cameras_yaml(ROVER_SOURCE_DIR "/config/cameras.yaml", "loccam", truth_, mount, "a test"));
   const StereoRig rig = load_stereo_rig(dir_, "loccam");
@@ -170,7 +170,7 @@ TEST_F(Calibration, WhatIsWrittenIsReadByTheServices) {
   EXPECT_TRUE(navcam.T_body_left.isApprox(before.T_body_left));
 }
 
-TEST_F(Calibration, WhatCannotBeIsRefusedInOneLine) {
+TEST_F(Calibration, ImplausibleRigIsRefusedInOneLine) {
   const auto spoiled = [&](const std::string& from, const std::string& to) {
     std::string text = kalibr();
     text.replace(text.find(from), from.size(), to);
@@ -195,7 +195,7 @@ TEST_F(Calibration, WhatCannotBeIsRefusedInOneLine) {
   says(refusal({write("left.yaml", kalibr())}), "exchange left and right");
 }
 
-// Files as people have them: what was taken of one is shown by its baseline.
+// Real-world file variants; the baseline shows what was read.
 class WildCalibration : public Calibration {
  protected:
   static std::string outcome(const std::vector<std::string>& files, const std::string& model = {}) {
@@ -367,7 +367,7 @@ TEST_F(WildCalibration, CameraInfoOfRos) {
          "taken: radtan, baseline 0.120 m");
 }
 
-TEST_F(WildCalibration, WhatIsNoCalibrationOfAPair) {
+TEST_F(WildCalibration, RefusesFilesWithoutStereoCalibration) {
   expect(
       "OpenCV's calibration of one camera (image_common issue 27)", "'no M1'",
       outcome({write("one.yml",

@@ -33,7 +33,7 @@ TEST(OpenCvXml, MatricesListsAndTexts) {
   EXPECT_EQ(root["none"].size(), 0U);
 }
 
-TEST(OpenCvXml, WhatIsCutOrAmbiguousIsRefusedByLine) {
+TEST(OpenCvXml, TruncatedOrAmbiguousXmlIsRefusedByLine) {
   const std::string cut = refusal("<?xml version=\"1.0\"?>\n<opencv_storage>\n<M2 type_id=");
   EXPECT_EQ(cut.rfind("c.xml:3: not valid XML", 0), 0U) << cut;
   wild_row("Calibrations", "OpenCV: XML that is cut within an attribute (opencv issues 25946, 15127)",

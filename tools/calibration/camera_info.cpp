@@ -20,7 +20,7 @@ PinholeCamera camera_of(const ToolFile& info) {
   return camera;
 }
 
-// Of the rectified camera: how far it is to the right of the rectified left one.
+// Baseline: distance of the rectified right camera from the left one.
 double offset_m(const ToolFile& info) {
   const std::vector<double> P = info.numbers(info.name_of(kP), 12);
   if (!(P[0] > 1.0)) info.fail(info.name_of(kP), "no focal length");

@@ -12,7 +12,7 @@
 namespace rover::calibration {
 namespace {
 
-// No minus in front of what rounds to nothing.
+// Avoids "-0".
 double tidy(double value) {
   return std::abs(value) < 5e-8 ? 0.0 : value;
 }

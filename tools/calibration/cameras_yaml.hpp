@@ -1,4 +1,4 @@
-// cameras.yaml with one camera's section made anew.
+// Writes cameras.yaml with one camera's section replaced.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace rover::calibration {
 
-// The text of the file, other cameras as they stand in `file`; a header says where the new figures are from.
+// File text: other cameras unchanged from `file`; the header names the source of the new values.
 std::string cameras_yaml(const std::string& file, const std::string& camera, const StereoCalibration& calibration,
                          const Mount& mount, const std::string& source);
 

@@ -21,7 +21,7 @@ std::string set_lens(PinholeCamera& camera, const std::string& model, const std:
   } else {
     if (count < 4 && !(count == 0 && model == "none"))
       return std::to_string(count) + " coefficients; four or five are expected: k1 k2 p1 p2 (k3)";
-    // OpenCV has up to 14 of them.
+    // OpenCV has up to 14 coefficients.
     if (std::any_of(coefficients.begin() + std::min<std::ptrdiff_t>(5, std::ssize(coefficients)), coefficients.end(),
                     [](double value) { return value != 0.0; }))
       return "the rational model is not supported; calibrate with the five coefficients k1 k2 p1 p2 k3";

@@ -1,4 +1,4 @@
-// Lens models by the names that Kalibr, EuRoC, ROS and OpenCV give them.
+// Lens models by their names in Kalibr, EuRoC, ROS and OpenCV.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace rover::calibration {
 
-// Sets the camera's model and coefficients. What cannot be taken is said in words, empty: it was.
+// Sets model and coefficients. Returns the reason if unsupported, else an empty text.
 std::string set_lens(PinholeCamera& camera, const std::string& model, const std::vector<double>& coefficients);
 
 }  // namespace rover::calibration

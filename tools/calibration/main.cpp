@@ -1,4 +1,4 @@
-// ./rover calibration FILE...: cameras.yaml from the calibration files of OpenCV, Kalibr or ROS.
+// ./rover calibration FILE...: makes cameras.yaml from calibration files of OpenCV, Kalibr or ROS.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
@@ -23,11 +23,11 @@ struct Arguments {
   std::string model;
   std::vector<int> size;
   std::vector<double> mount;    // x y z [m], pitch down, roll, yaw [deg]
-  std::vector<double> imu_rpy;  // of the IMU in body [deg]
+  std::vector<double> imu_rpy;  // IMU in body [deg]
   std::string out;
 };
 
-// By hand, by the IMU that was calibrated with the cameras, or as it is.
+// Camera mount: from the command line, from the calibrated IMU, or from the existing file.
 Mount mount_for(const Arguments& arguments, const StereoCalibration& calibration) {
   if (!arguments.mount.empty()) {
     const std::vector<double>& m = arguments.mount;
@@ -65,7 +65,7 @@ void write_new(const std::string& file, const std::string& text) {
   out.keep();
 }
 
-// What is written has to be what a service reads: checked before anybody gets it.
+// Parse the output with the services' reader before writing it.
 void check_text(const std::string& text, const std::string& camera) {
   try {
     read_stereo_rig(Config::parse(text, "cameras.yaml"), camera);

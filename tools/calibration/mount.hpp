@@ -1,4 +1,4 @@
-// How a camera is mounted, in the terms of cameras.yaml.
+// Mount of a camera, as in cameras.yaml.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -12,7 +12,7 @@ struct Mount {
   double yaw_rad = 0.0;
 };
 
-// Inverse of make_pose(camera_rotation(pitch_down, roll, yaw), position); the pitch has to be within +-90 deg.
+// Inverse of make_pose(camera_rotation(pitch_down, roll, yaw), position); pitch must be within +-90 deg.
 Mount mount_of(const Eigen::Isometry3d& T_body_left);
 Eigen::Isometry3d pose_of(const Mount& mount);
 

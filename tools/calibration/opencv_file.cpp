@@ -5,7 +5,7 @@
 namespace rover::calibration {
 namespace {
 
-// The same things by other names: the stereo_calib sample's, and those that people write by hand.
+// Alternative key names: the stereo_calib sample's, and common hand-written ones.
 using Names = std::vector<std::string>;
 const Names kM1 = {"M1", "K1", "cameraMatrix1", "camera_matrix_1"};
 const Names kD1 = {"D1", "distCoeffs1", "distortion_1"};
@@ -25,7 +25,7 @@ std::vector<double> matrix(const std::vector<ToolFile>& files, const Names& name
   return file.numbers(file.name_of(names), count);
 }
 
-// OpenCV's files do not name the model; those of calibrate.cpp have fisheye_model.
+// OpenCV's files do not name the model; those of its calibrate.cpp have fisheye_model.
 std::string model_in(const std::vector<ToolFile>& files) {
   for (const ToolFile& file : files) {
     if (file.has("distortion_model")) return file.text("distortion_model");

@@ -12,7 +12,7 @@
 namespace rover::calibration {
 namespace {
 
-constexpr size_t kMostLevels = 32;
+constexpr size_t kMaxLevels = 32;
 
 struct Element {
   YAML::Node children;
@@ -21,7 +21,7 @@ struct Element {
 };
 
 struct Tree {
-  std::vector<Element> open{Element{}};  // the first stands for the file
+  std::vector<Element> open{Element{}};  // the first element is the file
 };
 
 YAML::Node value_of(const Element& element) {
@@ -39,7 +39,7 @@ void refuse(GError** error, const std::string& what) {
 
 void begin(GMarkupParseContext*, const char* name, const char**, const char**, void* tree, GError** error) {
   auto& open = static_cast<Tree*>(tree)->open;
-  if (open.size() > kMostLevels) refuse(error, "more than " + std::to_string(kMostLevels) + " levels deep");
+  if (open.size() > kMaxLevels) refuse(error, "more than " + std::to_string(kMaxLevels) + " levels deep");
   if (std::string(name) != "_" && !open.back().names.insert(name).second)
     refuse(error, std::string(name) + ": given twice");
   open.emplace_back();

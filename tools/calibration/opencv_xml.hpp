@@ -1,5 +1,4 @@
-// XML as OpenCV's FileStorage writes it. OpenCV's own parser crashes on cut or changed files (4.6; opencv issues 25946,
-// 15127).
+// Parser for OpenCV FileStorage XML. OpenCV 4.6 crashes on truncated or damaged files (issues 25946, 15127).
 #pragma once
 
 #include <yaml-cpp/yaml.h>
@@ -8,8 +7,7 @@
 
 namespace rover::calibration {
 
-// Elements as keys; a text of several words, and elements named "_", as a list. Throws ConfigError
-// "NAME:LINE: what is wrong".
+// Elements become keys; texts of several words, and elements "_", become lists. Throws ConfigError "NAME:LINE: reason".
 YAML::Node parse_opencv_xml(const std::string& text, const std::string& name);
 
 }  // namespace rover::calibration

@@ -16,7 +16,7 @@ void check_camera(const PinholeCamera& c, const StereoCalibration& pair, const s
                       " x " + std::to_string(pair.height) + " px");
 }
 
-// Whatever the tool: a rig that cannot be is not handed on.
+// Plausibility checks for all formats.
 void check(const StereoCalibration& c, const std::string& file) {
   check_camera(c.left, c, file + ": left camera");
   check_camera(c.right, c, file + ": right camera");

@@ -1,4 +1,4 @@
-// What a calibration tool finds out about a stereo camera.
+// Result of a stereo calibration.
 #pragma once
 
 #include <optional>
@@ -12,8 +12,8 @@ struct StereoCalibration {
   int height = 0;
   PinholeCamera left;
   PinholeCamera right;
-  Eigen::Isometry3d T_left_right = Eigen::Isometry3d::Identity();  // right camera in left camera axes
-  std::optional<Eigen::Isometry3d> T_left_imu;  // the IMU in left camera axes, where it was calibrated
+  Eigen::Isometry3d T_left_right = Eigen::Isometry3d::Identity();  // right camera in the left camera's axes
+  std::optional<Eigen::Isometry3d> T_left_imu;                     // IMU in the left camera's axes, if calibrated
 };
 
 }  // namespace rover::calibration

@@ -11,13 +11,13 @@
 namespace rover::calibration {
 namespace {
 
-constexpr size_t kMostTextBytes = 1 << 20;
+constexpr size_t kMaxTextBytes = 1 << 20;
 
 void blank(std::string& text, const std::string& part) {
   for (size_t at = 0; (at = text.find(part, at)) != std::string::npos;) text.replace(at, part.size(), part.size(), ' ');
 }
 
-// OpenCV marks its matrices by a tag, `rostopic echo` ends with the beginning of the next message.
+// Removes OpenCV's matrix tags, and the next document's start in `rostopic echo` output.
 YAML::Node parse_foreign_yaml(std::string text, const std::string& name) {
   blank(text, "!!opencv-matrix");
   const size_t end = text.find_last_not_of(" \t\r\n");
@@ -41,7 +41,7 @@ ToolFile::ToolFile(YAML::Node node, std::string file, std::string prefix)
     : node_(std::move(node)), file_(std::move(file)), prefix_(std::move(prefix)) {}
 
 ToolFile ToolFile::load(const std::string& file) {
-  const std::string text = read_text(file, kMostTextBytes);
+  const std::string text = read_text(file, kMaxTextBytes);
   const size_t begin = text.find_first_not_of(" \t\r\n");
   const bool xml = begin != std::string::npos && text[begin] == '<';
   ToolFile root(xml ? parse_opencv_xml(text, file) : parse_foreign_yaml(text, file), file, "");
