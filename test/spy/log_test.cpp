@@ -1,4 +1,4 @@
-// ./rover spy on a log, and what it says where there is none.
+// ./rover spy on a log, and its messages for missing or invalid logs.
 #include <gmock/gmock.h>
 #include <lcm/eventlog.h>
 
@@ -43,7 +43,7 @@ class SpyOnLog : public testing::Test {
     event.datalen = static_cast<std::int32_t>(bytes.size());
     lcm_eventlog_write_event(log, &event);
   }
-  // Exit status; `out_` and `said_` are what it wrote.
+  // Returns the exit status; `out_` and `errors_` hold stdout and stderr.
   int spy_with(const SpyArguments& arguments) {
     testing::internal::CaptureStdout();
     testing::internal::CaptureStderr();
@@ -55,18 +55,18 @@ class SpyOnLog : public testing::Test {
       thrown = std::string(error.what()) + "\n";
     }
     out_ = testing::internal::GetCapturedStdout();
-    said_ = testing::internal::GetCapturedStderr() + thrown;
+    errors_ = testing::internal::GetCapturedStderr() + thrown;
     return status;
   }
 
   testing_support::TempFolder folder_;
   std::string log_ = folder_.file("traverse.lcm");
   std::string out_;
-  std::string said_;
+  std::string errors_;
 };
 
-TEST_F(SpyOnLog, TellsOfTheWholeLog) {
-  ASSERT_EQ(spy_with({.log = log_, .json = true}), 0) << said_;
+TEST_F(SpyOnLog, ShowsAllChannelsOfLog) {
+  ASSERT_EQ(spy_with({.log = log_, .json = true}), 0) << errors_;
   const auto json = nlohmann::json::parse(out_);
   EXPECT_EQ(json["channels"]["TICK"]["messages"], 100);
   EXPECT_EQ(json["channels"]["SLIP"]["messages"], 20);
@@ -75,35 +75,35 @@ TEST_F(SpyOnLog, TellsOfTheWholeLog) {
   EXPECT_EQ(json["channels"]["SLIP"]["fields"]["header"]["utime"], 95 * kTickUs);
 }
 
-TEST_F(SpyOnLog, ARunsFolderWillDo) {
+TEST_F(SpyOnLog, AcceptsRunFolder) {
   ASSERT_EQ(spy_with({.log = folder_.path()}), 0);
   EXPECT_THAT(out_, testing::ContainsRegex("SLIP +9|SLIP +10"));
 }
 
-TEST_F(SpyOnLog, ADamagedLogIsShownAndSaidToBe) {
+TEST_F(SpyOnLog, DamagedLogIsShownWithWarning) {
   std::filesystem::resize_file(log_, std::filesystem::file_size(log_) - 3);
   ASSERT_EQ(spy_with({.log = log_, .json = true}), 0);
   EXPECT_EQ(nlohmann::json::parse(out_)["channels"]["TICK"]["messages"], 99);
-  EXPECT_THAT(said_, testing::HasSubstr("./rover repair"));
+  EXPECT_THAT(errors_, testing::HasSubstr("./rover repair"));
 }
 
-TEST_F(SpyOnLog, OfSeveralRunsOneIsShown) {
+TEST_F(SpyOnLog, SelectsOneOfSeveralRuns) {
   add_run(30);
   EXPECT_EQ(spy_with({.log = log_}), 2);
   EXPECT_EQ(
-      folder_.short_names(said_),
+      folder_.short_names(errors_),
       "traverse.lcm: holds 2 runs, of the message time 1: 0.00 - 1.98 s, 2: 0.00 - 0.58 s; choose one by --log-run "
       "N\n");
-  wild_row("Logs", "spy on logs put together with cat", "dies of heap corruption", folder_.short_names(said_));
+  wild_row("Logs", "spy on logs put together with cat", "dies of heap corruption", folder_.short_names(errors_));
   ASSERT_EQ(spy_with({.log = log_, .log_run = 2, .json = true}), 0);
   const auto json = nlohmann::json::parse(out_);
   EXPECT_EQ(json["channels"]["TICK"]["messages"], 30);
   EXPECT_EQ(json["channels"]["SLIP"]["messages"], 6);
   EXPECT_EQ(json["channels"]["SLIP"]["gaps"], 0);
-  EXPECT_EQ(folder_.short_names(said_), "traverse.lcm: run 2 of 2, message time 0.00 - 0.58 s\n");
+  EXPECT_EQ(folder_.short_names(errors_), "traverse.lcm: run 2 of 2, message time 0.00 - 0.58 s\n");
 }
 
-TEST_F(SpyOnLog, ChannelsOfOthersAreShownAsTheyCanBe) {
+TEST_F(SpyOnLog, UnknownChannelsAreShownWithoutFields) {
   const std::string latin = "caf\xe9";
   for (const std::string& name : {std::string("../../etc/passwd"), std::string("/camera/left"), latin})
     add(name, {1}, 0);
@@ -114,14 +114,14 @@ TEST_F(SpyOnLog, ChannelsOfOthersAreShownAsTheyCanBe) {
   ASSERT_EQ(spy_with({.log = log_}), 0);
   EXPECT_THAT(out_, testing::HasSubstr("caf? "));
   EXPECT_EQ(spy_with({.log = log_, .channels = {"\033[2J"}}), 2);
-  EXPECT_THAT(said_, testing::HasSubstr("caf?"));
-  EXPECT_THAT(said_, testing::Not(testing::HasSubstr("\033")));
+  EXPECT_THAT(errors_, testing::HasSubstr("caf?"));
+  EXPECT_THAT(errors_, testing::Not(testing::HasSubstr("\033")));
   wild_row("Logs", "spy: a channel whose name is Latin-1, or has slashes",
            "in a refusal its bytes as they are on the terminal", "caf? in the table, U+FFFD in JSON");
 }
 
-// The records of a logger whose clock was set, and of one that has none.
-TEST_F(SpyOnLog, TimesOfRecordsMayBeAnything) {
+// Recordings whose clock was set, or that have no timestamps.
+TEST_F(SpyOnLog, AcceptsNonMonotonicAndZeroTimestamps) {
   for (const Utime time : {Utime{0}, std::numeric_limits<Utime>::max(), std::numeric_limits<Utime>::min(), Utime{-1}})
     add("FOREIGN", {1, 2}, time);
   add("TICK", encoded(made<tick_t>(std::numeric_limits<Utime>::min(), 101, "world")), 0);
@@ -131,11 +131,11 @@ TEST_F(SpyOnLog, TimesOfRecordsMayBeAnything) {
   EXPECT_EQ(json["channels"]["TICK"]["malformed"], 1);
 }
 
-TEST_F(SpyOnLog, BadInputIsOneLineAndTwo) {
+TEST_F(SpyOnLog, BadInputPrintsOneLineAndExits2) {
   const auto refused = [&](const SpyArguments& arguments, const std::string& why) {
     EXPECT_EQ(spy_with(arguments), 2);
-    EXPECT_EQ(std::count(said_.begin(), said_.end(), '\n'), 1) << said_;
-    EXPECT_THAT(said_, testing::HasSubstr(why));
+    EXPECT_EQ(std::count(errors_.begin(), errors_.end(), '\n'), 1) << errors_;
+    EXPECT_THAT(errors_, testing::HasSubstr(why));
     EXPECT_EQ(out_, "");
   };
   refused({.log = "/nowhere.lcm"}, "/nowhere.lcm: no such log");
@@ -145,9 +145,9 @@ TEST_F(SpyOnLog, BadInputIsOneLineAndTwo) {
   refused({.target = {.run = "/nowhere"}}, "/nowhere: no such run folder");
 }
 
-TEST_F(SpyOnLog, AKnownChannelWithoutAMessageIsNoMistake) {
+TEST_F(SpyOnLog, KnownChannelWithoutMessagesExits1) {
   EXPECT_EQ(spy_with({.log = log_, .channels = {"POSE"}}), 1);
-  EXPECT_THAT(said_, testing::HasSubstr("no message on POSE; heard: SLIP TICK"));
+  EXPECT_THAT(errors_, testing::HasSubstr("no message on POSE; heard: SLIP TICK"));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Messages as their publishers send them.
+// Messages encoded as their publishers send them.
 #pragma once
 
 #include <cstdint>

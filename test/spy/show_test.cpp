@@ -1,4 +1,4 @@
-// What a person and a program see of the figures.
+// Traffic statistics as table and as JSON.
 #include <gmock/gmock.h>
 
 #include <limits>
@@ -9,7 +9,7 @@
 
 #include "messages.hpp"
 #include "tools/spy/field_lines.hpp"
-#include "tools/spy/figures_json.hpp"
+#include "tools/spy/statistics_json.hpp"
 #include "tools/spy/table.hpp"
 
 namespace rover::spy {
@@ -43,16 +43,16 @@ heartbeat_t some_heartbeat() {
   return beat;
 }
 
-Figures some_figures() {
-  Figures figures;
-  figures.now = 7'100'000;
-  figures.realtime_factor = 3.5;
-  figures.channels["SLIP"] = {"slip_t", {"localization"}, 42, 4200, 10.0, 900.0, 0.1, 2, 1, encoded(some_slip())};
-  figures.channels["HAZARDS"] = {"hazards_t", {"hazard_detector"},    7, 7000, 2.5, kNaN, 0.3, 0,
-                                 0,           encoded(some_hazards())};
-  figures.channels["HEARTBEAT"] = {"heartbeat_t", {"stereo"}, 7, 70, 5.0, 1.0, 0.1, 0, 0, encoded(some_heartbeat())};
-  figures.channels["FOREIGN"] = {"", {}, 1, 3, kNaN, kNaN, kNaN, 0, 0, {1, 2, 3}};
-  return figures;
+TrafficStatistics some_statistics() {
+  TrafficStatistics statistics;
+  statistics.now = 7'100'000;
+  statistics.realtime_factor = 3.5;
+  statistics.channels["SLIP"] = {"slip_t", {"localization"}, 42, 4200, 10.0, 900.0, 0.1, 2, 1, encoded(some_slip())};
+  statistics.channels["HAZARDS"] = {"hazards_t", {"hazard_detector"},    7, 7000, 2.5, kNaN, 0.3, 0,
+                                    0,           encoded(some_hazards())};
+  statistics.channels["HEARTBEAT"] = {"heartbeat_t", {"stereo"}, 7, 70, 5.0, 1.0, 0.1, 0, 0, encoded(some_heartbeat())};
+  statistics.channels["FOREIGN"] = {"", {}, 1, 3, kNaN, kNaN, kNaN, 0, 0, {1, 2, 3}};
+  return statistics;
 }
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -63,7 +63,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 }
 
 TEST(Table, ARowForEachChannelWithItsFields) {
-  const auto lines = lines_of(table(some_figures(), "udpm://somewhere", {}, {.columns = 400, .rows = 50}));
+  const auto lines = lines_of(table(some_statistics(), "udpm://somewhere", {}, {.columns = 400, .rows = 50}));
   ASSERT_EQ(lines.size(), 6U);
   EXPECT_THAT(lines[0], HasSubstr("message time 7.10 s   3.50 times real time"));
   EXPECT_THAT(lines, Contains(testing::AllOf(StartsWith("SLIP "), HasSubstr(" 10.00 "), HasSubstr(" 0.10 "),
@@ -72,22 +72,22 @@ TEST(Table, ARowForEachChannelWithItsFields) {
   EXPECT_THAT(lines, Contains(testing::AllOf(StartsWith("FOREIGN "), HasSubstr("? 3 B"))));
 }
 
-TEST(Table, NothingThatTheTerminalObeysAndNothingTooWide) {
-  const std::string text = table(some_figures(), "here", {}, {.columns = 90, .rows = 50});
+TEST(Table, NoControlCharactersAndNoLineTooWide) {
+  const std::string text = table(some_statistics(), "here", {}, {.columns = 90, .rows = 50});
   EXPECT_EQ(text.find('\033'), std::string::npos);
   for (const std::string& line : lines_of(text)) EXPECT_LE(line.size(), 90U);
-  EXPECT_NE(table(some_figures(), "here", {}, {.colours = true, .columns = 90, .rows = 50}).find('\033'),
+  EXPECT_NE(table(some_statistics(), "here", {}, {.colours = true, .columns = 90, .rows = 50}).find('\033'),
             std::string::npos);
 }
 
-TEST(Table, WhatDoesNotFitIsCounted) {
-  const auto lines = lines_of(table(some_figures(), "here", {}, {.columns = 90, .rows = 4}));
+TEST(Table, RowsThatDoNotFitAreCounted) {
+  const auto lines = lines_of(table(some_statistics(), "here", {}, {.columns = 90, .rows = 4}));
   ASSERT_EQ(lines.size(), 4U);
   EXPECT_THAT(lines.back(), StartsWith("and 3 more lines"));
 }
 
-TEST(Table, AChosenChannelHasAllItsFields) {
-  const std::string text = table(some_figures(), "here", {"HEARTBEAT"}, {.columns = 400, .rows = 99});
+TEST(Table, SelectedChannelShowsAllFields) {
+  const std::string text = table(some_statistics(), "here", {"HEARTBEAT"}, {.columns = 400, .rows = 99});
   EXPECT_THAT(text, HasSubstr("heartbeat_t from stereo"));
   EXPECT_THAT(text, HasSubstr("says ?[31mred?"));
   EXPECT_THAT(text, testing::ContainsRegex("channel +string +IMU"));
@@ -105,7 +105,7 @@ TEST(FieldLines, LongArraysAreCutAndCounted) {
 }
 
 TEST(Json, HasTheFiguresAndTheFields) {
-  const auto json = figures_json(some_figures(), "here", {});
+  const auto json = statistics_json(some_statistics(), "here", {});
   EXPECT_EQ(json["now_s"], 7.1);
   const auto& slip = json["channels"]["SLIP"];
   EXPECT_EQ(slip["type"], "slip_t");
@@ -120,8 +120,8 @@ TEST(Json, HasTheFiguresAndTheFields) {
   EXPECT_TRUE(json["channels"]["FOREIGN"]["fields"].is_null());
 }
 
-TEST(Json, AChosenChannelIsWhole) {
-  const auto json = figures_json(some_figures(), "here", {"HAZARDS"});
+TEST(Json, SelectedChannelHasCompleteArrays) {
+  const auto json = statistics_json(some_statistics(), "here", {"HAZARDS"});
   ASSERT_EQ(json["channels"].size(), 1U);
   EXPECT_EQ(json["channels"]["HAZARDS"]["fields"]["cells"].size(), 900U);
 }

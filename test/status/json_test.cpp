@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "made_up.hpp"
+#include "example_status.hpp"
 #include "tools/status/snapshot_json.hpp"
 
 namespace rover::status {
@@ -14,13 +14,13 @@ std::vector<std::string> keys_of(const Json& object) {
   return keys;
 }
 
-// As a reader of the text finds it.
+// The value as a reader of the text finds it.
 Json document(const Snapshot& snapshot) {
   return Json::parse(to_json(snapshot).dump(2));
 }
 
 TEST(StatusJson, KeysKeepTheirNamesAndOrder) {
-  const Json json = document(made_up_status());
+  const Json json = document(example_status());
   EXPECT_EQ(keys_of(json), (std::vector<std::string>{"state", "level", "services", "faults", "channels", "state_for_s",
                                                      "because", "permit", "hazard_stops", "clock", "run", "bus"}));
   EXPECT_EQ(keys_of(json["services"]),
@@ -34,7 +34,7 @@ TEST(StatusJson, KeysKeepTheirNamesAndOrder) {
 }
 
 TEST(StatusJson, NumbersAreNumbers) {
-  const Json json = document(made_up_status());
+  const Json json = document(example_status());
   EXPECT_EQ(json["state"], "FAULT_STOP");
   EXPECT_EQ(json["level"], "EFFICIENT");
   const Json& recorder = json["services"]["recorder"];
@@ -51,8 +51,8 @@ TEST(StatusJson, NumbersAreNumbers) {
   EXPECT_EQ(json["because"]["threshold"], 1.0);
 }
 
-TEST(StatusJson, WhatIsNotKnownIsNull) {
-  const Json json = document(made_up_status());
+TEST(StatusJson, UnknownValuesAreNull) {
+  const Json json = document(example_status());
   EXPECT_EQ(json["services"]["stereo"]["alive"], false);
   for (const char* key : {"pid", "cpu_percent", "rss_mb"})
     EXPECT_TRUE(json["services"]["stereo"][key].is_null()) << key;

@@ -21,11 +21,13 @@ bool always() {
   return true;
 }
 
-// A bus in memory, whose clock goes on by 10 ms at each look at it.
+// An in-memory bus whose clock advances by 10 ms at each reading.
 class Bus : public testing::Test {
  protected:
   Bus()
-      : bus_("memq://"), world_("rover_simulator", 1), listener_(bus_, account_, [this] { return wall_s_ += 0.01; }) {}
+      : bus_("memq://"),
+        world_("rover_simulator", 1),
+        listener_(bus_, statistics_, [this] { return wall_s_ += 0.01; }) {}
 
   template <class Message>
   void publish(const std::string& channel, Message message, Utime utime) {
@@ -38,13 +40,13 @@ class Bus : public testing::Test {
   Snapshot heard() {
     while (bus_.handleTimeout(0) > 0) {
     }
-    return account_.snapshot({}, wall_s_);
+    return statistics_.snapshot({}, wall_s_);
   }
 
   double wall_s_ = 0.0;
   lcm::LCM bus_;
   StreamCounter world_;
-  Account account_;
+  BusStatistics statistics_;
   Listener listener_;
 };
 
@@ -122,7 +124,7 @@ TEST_F(Bus, DamagedMessagesAreCounted) {
   EXPECT_TRUE(s.faults.empty());
 }
 
-TEST_F(Bus, ReportsOfLockstepAreNoChannel) {
+TEST_F(Bus, DoneIsNotListedAsChannel) {
   publish(channel::kDone, done_t{}, 1'000'000);
   publish_bytes("LCM_SELF_TEST", {1, 2, 3});
   EXPECT_TRUE(heard().channels.empty());
@@ -131,9 +133,9 @@ TEST_F(Bus, ReportsOfLockstepAreNoChannel) {
 TEST_F(Bus, ListensUntilTheTimeIsOver) {
   publish(channel::kSlip, slip_t{}, 1'000'000);
   EXPECT_TRUE(listener_.listen_until(wall_s_ + 0.2, always));
-  EXPECT_TRUE(account_.snapshot({}, wall_s_).channels.contains("SLIP"));
-  int looks = 0;
-  EXPECT_TRUE(listener_.listen_until(wall_s_ + 1e6, [&] { return ++looks < 3; }));
+  EXPECT_TRUE(statistics_.snapshot({}, wall_s_).channels.contains("SLIP"));
+  int samples = 0;
+  EXPECT_TRUE(listener_.listen_until(wall_s_ + 1e6, [&] { return ++samples < 3; }));
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ class Folder : public testing::Test {
   ~Folder() override {
     for (const int fd : open_) close(fd);
   }
-  // A run's folder as s6-svscan leaves it; `running`: with a reader of its control pipe.
+  // Creates a run folder as s6-svscan leaves it; `running`: with a reader on its control pipe.
   fs::path run(const std::string& name, bool running) {
     const fs::path scan = root_ / name / "services" / ".s6-svscan";
     fs::create_directories(scan);
@@ -38,7 +38,7 @@ class Folder : public testing::Test {
   std::vector<int> open_;
 };
 
-TEST_F(Folder, TheNewestOfThoseThatRunIsFound) {
+TEST_F(Folder, FindsNewestRunningRun) {
   begun(run("20250101-000000-flat", true), 30);
   begun(run("bench/seed/seed_traverse_1-2", true), 20);
   begun(run("20250101-000002-flat", false), 10);
@@ -48,21 +48,21 @@ TEST_F(Folder, TheNewestOfThoseThatRunIsFound) {
   EXPECT_FALSE(is_running(root_ / "20250101-000002-flat"));
 }
 
-TEST_F(Folder, WhereNothingRunsNothingIsFound) {
+TEST_F(Folder, FindsNoRunIfNoneIsRunning) {
   EXPECT_FALSE(newest_running(root_ / "missing").has_value());
   EXPECT_FALSE(newest_running(root_).has_value());
   run("20250101-000000-flat", false);
   EXPECT_FALSE(newest_running(root_).has_value());
 }
 
-TEST_F(Folder, ServicesThatS6DoesNotKeepUpAreDead) {
+TEST_F(Folder, ServicesDownInS6AreDead) {
   const fs::path dir = run("dead", true);
   fs::create_directories(dir / "services" / "stereo");
   fs::create_directories(dir / "services" / "recorder");
   fs::create_directories(dir / "boots");
   std::ofstream(dir / "boots" / "stereo") << "3\n";
   Processes processes(dir);
-  processes.look({{"stereo", getpid()}}, 0.0);
+  processes.sample({{"stereo", getpid()}}, 0.0);
   ASSERT_EQ(processes.figures().size(), 2u);
   const ProcessFigures& stereo = processes.figures().at("stereo");
   EXPECT_FALSE(stereo.alive) << "the bus does not overrule s6";
@@ -70,10 +70,10 @@ TEST_F(Folder, ServicesThatS6DoesNotKeepUpAreDead) {
   EXPECT_FALSE(processes.figures().at("recorder").restarts.has_value());
 }
 
-TEST(Processes, AProcessIsMeasuredBetweenTwoLooks) {
+TEST(Processes, CpuLoadIsMeasuredBetweenTwoSamples) {
   Processes processes("");
-  const std::map<std::string, int> heard = {{"me", getpid()}, {"nobody", 0}};
-  processes.look(heard, 10.0);
+  const std::map<std::string, int> reported_pids = {{"me", getpid()}, {"nobody", 0}};
+  processes.sample(reported_pids, 10.0);
   EXPECT_TRUE(processes.figures().at("me").alive);
   EXPECT_FALSE(processes.figures().at("nobody").alive);
   EXPECT_TRUE(std::isnan(processes.figures().at("me").cpu_percent));
@@ -81,7 +81,7 @@ TEST(Processes, AProcessIsMeasuredBetweenTwoLooks) {
   const double begin_s = usage_of(getpid()).cpu_s;
   while (usage_of(getpid()).cpu_s < begin_s + 0.2) {
   }
-  processes.look(heard, 11.0);
+  processes.sample(reported_pids, 11.0);
   EXPECT_GE(processes.figures().at("me").cpu_percent, 20.0);
   EXPECT_LT(processes.figures().at("me").cpu_percent, 60.0);
   EXPECT_FALSE(processes.figures().at("me").restarts.has_value());

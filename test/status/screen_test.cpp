@@ -6,7 +6,7 @@
 #include <regex>
 #include <sstream>
 
-#include "made_up.hpp"
+#include "example_status.hpp"
 
 namespace rover::status {
 namespace {
@@ -53,10 +53,10 @@ size_t longest(const std::string& text) {
   return most;
 }
 
-// Every service and channel of the whole system, and more faults than there is room for.
+// Every service and channel, and more faults than rows.
 Snapshot crowded() {
-  Snapshot s = made_up_status();
-  for (int i = 0; i < 16; ++i) s.services["service_" + std::to_string(i)] = made_up_service(1'234'567, 12345.678);
+  Snapshot s = example_status();
+  for (int i = 0; i < 16; ++i) s.services["service_" + std::to_string(i)] = example_service(1'234'567, 12345.678);
   for (int i = 0; i < 60; ++i)
     s.channels["CHANNEL_WITH_LONG_NAME_" + std::to_string(i)] = {50.0, 170.0, 1e9, 9e5, 1, 1};
   for (int i = 0; i < 20; ++i) s.faults.push_back(s.faults[0]);
@@ -65,11 +65,11 @@ Snapshot crowded() {
 }
 
 TEST(Screen, ShowsEverything) {
-  EXPECT_EQ(screen(made_up_status(), {}), kScreen);
+  EXPECT_EQ(screen(example_status(), {}), kScreen);
 }
 
 TEST(Screen, ColoursChangeNothingElse) {
-  const std::string coloured = screen(made_up_status(), {.colours = true});
+  const std::string coloured = screen(example_status(), {.colours = true});
   EXPECT_EQ(without_colours(coloured), kScreen);
   for (const char* red : {"FAULT_STOP", "dead     ", "silent   "})
     EXPECT_NE(coloured.find("\033[31m" + std::string(red) + "\033[0m"), std::string::npos) << red;
@@ -87,7 +87,7 @@ TEST(Screen, FitsTheTerminal) {
   EXPECT_LE(longest(without_colours(screen(crowded(), {.colours = true, .columns = 40}))), 40u);
 }
 
-TEST(Screen, CountsWhatItLeavesOut) {
+TEST(Screen, CountsTruncatedRows) {
   const std::vector<std::string> lines = lines_of(screen(crowded(), {}));
   EXPECT_NE(std::find(lines.begin(), lines.end(), "and 14 more faults"), lines.end());
   ASSERT_EQ(lines.size(), 50u);
@@ -96,20 +96,20 @@ TEST(Screen, CountsWhatItLeavesOut) {
   EXPECT_NE(lines.back().find(std::to_string(65 - shown) + " more channels"), std::string::npos) << lines.back();
 }
 
-TEST(Screen, SilenceIsSaid) {
+TEST(Screen, ScreenShowsMissingTicksAndServices) {
   const std::string silent = screen(Snapshot{}, {});
   EXPECT_NE(silent.find("no TICK heard"), std::string::npos);
   EXPECT_NE(silent.find("no STATE heard"), std::string::npos);
   EXPECT_EQ(silent.find("no fault stands"), std::string::npos);
-  Snapshot stalled = made_up_status();
+  Snapshot stalled = example_status();
   stalled.tick_silence_s = 7.2;
   EXPECT_NE(screen(stalled, {}).find("no TICK for 7.2 s"), std::string::npos);
   stalled.services["visual_odometry"].quiet_s = kNaN;
   EXPECT_NE(screen(stalled, {}).find("visual_odometry          104  waiting"), std::string::npos);
 }
 
-TEST(Screen, ServicesCannotCommandTheTerminal) {
-  Snapshot s = made_up_status();
+TEST(Screen, ControlCharactersFromTheBusAreReplaced) {
+  Snapshot s = example_status();
   s.services["recorder"].heartbeat->text = "bad\033[2J\nnews";
   const std::string text = screen(s, {});
   EXPECT_NE(text.find("    bad?[2J?news\n"), std::string::npos);

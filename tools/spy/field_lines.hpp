@@ -1,4 +1,4 @@
-// The fields of a message as text.
+// Formats the fields of a message as text.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace rover::spy {
 
-// All but the header in one line, reals with four digits: "status=0 position_m=[0.08 0 0.001] data=196608 B".
+// One line without the header, reals with 4 digits: "status=0 position_m=[0.08 0 0.001] data=196608 B".
 std::string digest(const Fields& fields);
-// One line a field, with all digits: name, type and shape, values; long arrays are cut and counted.
+// One line for each field with all digits: name, type and shape, values. Long arrays are truncated.
 std::vector<std::string> field_lines(const Fields& fields);
 
 }  // namespace rover::spy

@@ -1,4 +1,4 @@
-// rover_spy: every channel of a bus or of a log, as text.
+// rover_spy: shows every channel of a bus or a log as text.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 

@@ -9,8 +9,8 @@
 #include "common/bus/interrupt.hpp"
 #include "common/bus/log_runs.hpp"
 #include "common/bus/wall_clock.hpp"
-#include "tools/spy/bus_ear.hpp"
-#include "tools/spy/figures_json.hpp"
+#include "tools/spy/bus_subscriber.hpp"
+#include "tools/spy/statistics_json.hpp"
 #include "tools/spy/table.hpp"
 #include "tools/status/running_run.hpp"
 #include "tools/status/terminal.hpp"
@@ -28,39 +28,40 @@ status::ScreenOptions everything() {
   return {.colours = status::on_terminal(), .columns = kAll, .rows = kAll};
 }
 
-std::string names_of(const Figures& figures) {
+std::string names_of(const TrafficStatistics& statistics) {
   constexpr size_t kMost = 40;
   std::string names;
   size_t count = 0;
-  for (const auto& [name, channel] : figures.channels)
+  for (const auto& [name, channel] : statistics.channels)
     if (count++ < kMost) names += " " + status::printable(name);
   if (count > kMost) names += " ...";
   return names.empty() ? " none" : names;
 }
 
-// 0 where there is something to show; else says what is not there.
-int find_fault(const Figures& figures, const std::string& source, const std::set<std::string>& chosen) {
-  if (figures.channels.empty()) {
+// Returns 0 if there is something to show; else prints the reason.
+int report_missing(const TrafficStatistics& statistics, const std::string& source,
+                   const std::set<std::string>& chosen) {
+  if (statistics.channels.empty()) {
     std::fprintf(stderr, "%s: nothing was heard. Is a rover running there? ./rover status tells\n", source.c_str());
     return 1;
   }
   for (const std::string& channel : chosen) {
-    if (figures.channels.contains(channel)) continue;
+    if (statistics.channels.contains(channel)) continue;
     const bool known = find_channel_type(channel) != nullptr;
     std::fprintf(stderr, "%s: %s %s; heard:%s\n", source.c_str(), known ? "no message on" : "there is no channel",
-                 status::printable(channel).c_str(), names_of(figures).c_str());
+                 status::printable(channel).c_str(), names_of(statistics).c_str());
     return known ? 1 : 2;
   }
   return 0;
 }
 
-int show_once(const Figures& figures, const std::string& source, const SpyArguments& arguments) {
-  if (const int fault = find_fault(figures, source, arguments.channels); fault != 0) return fault;
+int show_once(const TrafficStatistics& statistics, const std::string& source, const SpyArguments& arguments) {
+  if (const int fault = report_missing(statistics, source, arguments.channels); fault != 0) return fault;
   const std::string text = arguments.json
-                               ? figures_json(figures, source, arguments.channels)
+                               ? statistics_json(statistics, source, arguments.channels)
                                          .dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
                                      "\n"
-                               : table(figures, source, arguments.channels, everything());
+                               : table(statistics, source, arguments.channels, everything());
   std::fputs(text.c_str(), stdout);
   return 0;
 }
@@ -70,42 +71,43 @@ int spy_on_log(const SpyArguments& arguments) {
   Traffic traffic(Traffic::Rates::kWhole);
   Utime last = std::numeric_limits<Utime>::min();
   for_each_event(run, [&](const LogEvent& event) {
-    last = std::max(last, event.time);  // records of a clock that was set back
-    traffic.hear(event.channel, event.data, event.size, to_seconds(last));
+    last = std::max(last, event.time);  // keep the maximum: the clock of a recording may be set back
+    traffic.add_message(event.channel, event.data, event.size, to_seconds(last));
   });
-  const int status = show_once(traffic.figures(to_seconds(last)), run.log, arguments);
+  const int status = show_once(traffic.statistics(to_seconds(last)), run.log, arguments);
   print_remarks(run);
   return status;
 }
 
-// Takes what comes until then, Ctrl-C, or the end of the run.
-void listen_until(BusEar& ear, double end_s) {
-  while (going() && wall_s() < end_s) ear.listen(std::clamp(static_cast<int>((end_s - wall_s()) * 1e3), 1, kPollMs));
+// Handles messages until end_s, Ctrl-C or the end of the run.
+void listen_until(BusSubscriber& subscriber, double end_s) {
+  while (going() && wall_s() < end_s)
+    subscriber.listen(std::clamp(static_cast<int>((end_s - wall_s()) * 1e3), 1, kPollMs));
 }
 
-int watch(BusEar& ear, Traffic& traffic, const status::Target& target, const SpyArguments& arguments) {
+int watch(BusSubscriber& subscriber, Traffic& traffic, const status::Target& target, const SpyArguments& arguments) {
   const double end_s = arguments.for_s > 0.0 ? wall_s() + arguments.for_s : std::numeric_limits<double>::infinity();
   const auto over = [&] { return !target.run_dir.empty() && !status::is_running(target.run_dir); };
   {
     status::Terminal terminal;
     while (going() && wall_s() < end_s && !over()) {
-      listen_until(ear, std::min(end_s, wall_s() + kRefreshS));
+      listen_until(subscriber, std::min(end_s, wall_s() + kRefreshS));
       const status::ScreenOptions options = status::on_terminal() ? terminal.options() : everything();
-      terminal.redraw(table(traffic.figures(wall_s()), target.bus_url, arguments.channels, options));
+      terminal.redraw(table(traffic.statistics(wall_s()), target.bus_url, arguments.channels, options));
     }
   }
-  return find_fault(traffic.figures(wall_s()), target.bus_url, arguments.channels);
+  return report_missing(traffic.statistics(wall_s()), target.bus_url, arguments.channels);
 }
 
 int spy_on_bus(const SpyArguments& arguments) {
   const std::optional<status::Target> target = status::find_target(arguments.target);
   if (!target) return 1;
   Traffic traffic(Traffic::Rates::kRecent);
-  BusEar ear(target->bus_url, traffic);
+  BusSubscriber subscriber(target->bus_url, traffic);
   catch_interrupts();
-  if (!arguments.once && !arguments.json) return watch(ear, traffic, *target, arguments);
-  listen_until(ear, wall_s() + (arguments.for_s > 0.0 ? arguments.for_s : kOnceS));
-  return show_once(traffic.figures(wall_s()), target->bus_url, arguments);
+  if (!arguments.once && !arguments.json) return watch(subscriber, traffic, *target, arguments);
+  listen_until(subscriber, wall_s() + (arguments.for_s > 0.0 ? arguments.for_s : kOnceS));
+  return show_once(traffic.statistics(wall_s()), target->bus_url, arguments);
 }
 
 }  // namespace

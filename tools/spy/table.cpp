@@ -17,17 +17,18 @@ using status::Line;
 using status::right;
 using Lines = std::vector<Line>;
 
-std::optional<Fields> fields_of(const std::string& name, const ChannelFigures& channel) {
+std::optional<Fields> fields_of(const std::string& name, const ChannelStatistics& channel) {
   return decode_fields(name, channel.newest.data(), static_cast<int>(channel.newest.size()));
 }
 
-Line title(const Figures& figures, const std::string& source) {
+Line title(const TrafficStatistics& statistics, const std::string& source) {
   std::string text = status::printable(source);
   double bytes_per_s = 0.0;
-  for (const auto& [name, channel] : figures.channels)
+  for (const auto& [name, channel] : statistics.channels)
     bytes_per_s += std::isfinite(channel.bytes_per_s) ? channel.bytes_per_s : 0.0;
-  if (figures.now != kNever) text += "   message time " + fixed(to_seconds(figures.now), 2) + " s";
-  if (std::isfinite(figures.realtime_factor)) text += "   " + fixed(figures.realtime_factor, 2) + " times real time";
+  if (statistics.now != kNever) text += "   message time " + fixed(to_seconds(statistics.now), 2) + " s";
+  if (std::isfinite(statistics.realtime_factor))
+    text += "   " + fixed(statistics.realtime_factor, 2) + " times real time";
   return {{text + "   " + fixed(bytes_per_s * 1e-6, 2) + " MB/s"}};
 }
 
@@ -37,7 +38,7 @@ Line head() {
            Colour::kBold}};
 }
 
-Line figures_line(const std::string& name, const ChannelFigures& c) {
+Line figures_line(const std::string& name, const ChannelStatistics& c) {
   return {{left(status::printable(name), 18)},
           {right(fixed(c.hz, 2), 8) + right(fixed(c.age_s, 2), 9)},
           {right(std::to_string(c.gaps), 7), c.gaps > 0 ? Colour::kYellow : Colour::kPlain},
@@ -45,14 +46,14 @@ Line figures_line(const std::string& name, const ChannelFigures& c) {
           {right(fixed(c.bytes_per_s * 1e-3, 1), 9) + right(std::to_string(c.messages), 10)}};
 }
 
-Line row(const std::string& name, const ChannelFigures& channel) {
+Line row(const std::string& name, const ChannelStatistics& channel) {
   Line line = figures_line(name, channel);
   const auto fields = fields_of(name, channel);
   line.push_back({"  " + (fields ? digest(*fields) : fmt::format("? {} B", channel.newest.size()))});
   return line;
 }
 
-void add_fields(const std::string& name, const ChannelFigures& channel, Lines& lines) {
+void add_fields(const std::string& name, const ChannelStatistics& channel, Lines& lines) {
   lines.push_back(figures_line(name, channel));
   std::string from;
   for (const std::string& publisher : channel.publishers) from += " " + publisher;
@@ -66,10 +67,10 @@ void add_fields(const std::string& name, const ChannelFigures& channel, Lines& l
 
 }  // namespace
 
-std::string table(const Figures& figures, const std::string& source, const std::set<std::string>& chosen,
+std::string table(const TrafficStatistics& statistics, const std::string& source, const std::set<std::string>& chosen,
                   const status::ScreenOptions& options) {
-  Lines lines = {title(figures, source), head()};
-  for (const auto& [name, channel] : figures.channels) {
+  Lines lines = {title(statistics, source), head()};
+  for (const auto& [name, channel] : statistics.channels) {
     if (chosen.contains(name)) add_fields(name, channel, lines);
     if (chosen.empty()) lines.push_back(row(name, channel));
   }

@@ -1,4 +1,4 @@
-// What was heard as a table, one row a channel, or as the fields of chosen channels.
+// Formats traffic statistics as a table with one row for each channel, or as the fields of selected channels.
 #pragma once
 
 #include <set>
@@ -9,9 +9,8 @@
 
 namespace rover::spy {
 
-// Lines that end with a newline each. `source`: the bus or the log. `chosen` not empty: these channels, with all
-// fields.
-std::string table(const Figures& figures, const std::string& source, const std::set<std::string>& chosen,
+// Newline-terminated lines. `source`: name of the bus or log. `chosen` not empty: all fields of these channels.
+std::string table(const TrafficStatistics& statistics, const std::string& source, const std::set<std::string>& chosen,
                   const status::ScreenOptions& options);
 
 }  // namespace rover::spy

@@ -10,71 +10,71 @@
 
 namespace rover::spy {
 
-void Traffic::hear(const std::string& channel, const void* data, int size, double wall_s) {
+void Traffic::add_message(const std::string& channel, const void* data, int size, double wall_s) {
   const ChannelType* type = find_channel_type(channel);
   header_t header{};
-  const bool whole = type == nullptr || (type->decodes(data, size) && peek_header(data, size, header));
-  // First of all: the accounts may begin anew.
-  if (channel == channel::kTick && whole) tick(header.utime, wall_s);
-  if (!run_.has_ticks) tick_without_ticks(wall_s);
-  Channel& account = run_.channels[channel];
-  if (!whole) {
-    ++account.malformed;
+  const bool valid = type == nullptr || (type->decodes(data, size) && peek_header(data, size, header));
+  // First: a tick that goes back resets the statistics.
+  if (channel == channel::kTick && valid) tick(header.utime, wall_s);
+  if (!run_.has_ticks) advance_by_wall_clock(wall_s);
+  Channel& counters = run_.channels[channel];
+  if (!valid) {
+    ++counters.malformed;
     return;
   }
-  ++account.messages;
-  account.bytes += size;
+  ++counters.messages;
+  counters.bytes += size;
   const Utime now = run_.clock.now();
-  // What has no header of ours is numbered as it comes.
-  if (type == nullptr) header.seq = account.messages;
+  // Channels of other projects have no header: number their messages in order of arrival.
+  if (type == nullptr) header.seq = counters.messages;
   const Utime utime = type == nullptr ? now : header.utime;
-  account.newest_utime = std::max(account.newest_utime, utime);
-  account.streams[header.publisher].hear({header.boot_id, header.seq, utime, now, static_cast<size_t>(size)});
+  counters.newest_utime = std::max(counters.newest_utime, utime);
+  counters.streams[header.publisher].add({header.boot_id, header.seq, utime, now, static_cast<size_t>(size)});
   const auto* bytes = static_cast<const std::uint8_t*>(data);
-  account.newest.assign(bytes, bytes + size);
+  counters.newest.assign(bytes, bytes + size);
 }
 
 void Traffic::tick(Utime utime, double wall_s) {
   if (run_.has_ticks && utime < run_.clock.now()) run_ = {};
-  // The first tick ends the time without.
+  // The first tick discards the statistics that were based on wall time.
   if (!run_.has_ticks) {
     run_.clock = {};
-    forget_before(std::numeric_limits<Utime>::max());
+    remove_before(std::numeric_limits<Utime>::max());
   }
   run_.has_ticks = true;
   if (std::isnan(run_.first_wall_s)) run_.first_wall_s = wall_s;
   run_.clock.tick(utime, wall_s);
-  forget_before(rates_ == Rates::kWhole ? utime : run_.clock.window(wall_s).from);
+  remove_before(rates_ == Rates::kWhole ? utime : run_.clock.window(wall_s).from);
 }
 
-// On a bus where nobody ticks, wall time stands in for message time.
-void Traffic::tick_without_ticks(double wall_s) {
+// Without TICK, wall time replaces message time.
+void Traffic::advance_by_wall_clock(double wall_s) {
   constexpr double kTickS = 0.02;
   if (std::isnan(run_.first_wall_s)) run_.first_wall_s = wall_s;
   const Utime utime = to_utime(wall_s - run_.first_wall_s);
   if (run_.clock.now() != kNever && utime - run_.clock.now() < to_utime(kTickS)) return;
   run_.clock.tick(utime, wall_s);
-  forget_before(rates_ == Rates::kWhole ? utime : run_.clock.window(wall_s).from);
+  remove_before(rates_ == Rates::kWhole ? utime : run_.clock.window(wall_s).from);
 }
 
-void Traffic::forget_before(Utime utime) {
+void Traffic::remove_before(Utime utime) {
   for (auto& [name, channel] : run_.channels)
-    for (auto& [publisher, stream] : channel.streams) stream.forget_before(utime);
+    for (auto& [publisher, stream] : channel.streams) stream.remove_before(utime);
 }
 
-Figures Traffic::figures(double wall_s) const {
-  Figures out;
+TrafficStatistics Traffic::statistics(double wall_s) const {
+  TrafficStatistics out;
   if (run_.has_ticks) out.now = run_.clock.now();
   const status::Window window = run_.clock.window(wall_s);
   if (rates_ == Rates::kRecent && run_.has_ticks && window.wall_s > 0.0)
     out.realtime_factor = window.message_s / window.wall_s;
   out.span_s = std::isnan(run_.first_wall_s) ? 0.0 : wall_s - run_.first_wall_s;
-  for (const auto& [name, channel] : run_.channels) out.channels[name] = figures_of(name, channel, wall_s);
+  for (const auto& [name, channel] : run_.channels) out.channels[name] = statistics_of(name, channel, wall_s);
   return out;
 }
 
-ChannelFigures Traffic::figures_of(const std::string& name, const Channel& channel, double wall_s) const {
-  ChannelFigures out;
+ChannelStatistics Traffic::statistics_of(const std::string& name, const Channel& channel, double wall_s) const {
+  ChannelStatistics out;
   const ChannelType* type = find_channel_type(name);
   if (type != nullptr) out.type = type->name;
   out.messages = channel.messages;

@@ -31,7 +31,7 @@ Health health_of(std::int8_t status) {
 
 }  // namespace
 
-Heard heard_from(const std::string& channel, const header_t& header, size_t bytes) {
+MessageInfo message_info(const std::string& channel, const header_t& header, size_t bytes) {
   return {channel, header.publisher, header.boot_id, header.seq, header.utime, bytes};
 }
 
@@ -82,7 +82,7 @@ FaultReport report_from(const fault_t& message) {
   out.value = message.value;
   out.limit = message.limit;
   out.visible = message.visible_utime;
-  out.standing = message.standing == 1;
+  out.active = message.standing == 1;
   return out;
 }
 

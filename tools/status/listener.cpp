@@ -11,12 +11,12 @@
 namespace rover::status {
 namespace {
 
-// Hands over what decodes.
+// Decodes the message and passes it to the handler.
 template <class Message, class Take>
-bool decoded(const void* data, int size, Take take) {
+bool decoded(const void* data, int size, Take dispatch) {
   Message message;
   if (!decode_message(data, size, message)) return false;
-  take(message);
+  dispatch(message);
   return true;
 }
 
@@ -27,39 +27,39 @@ bool right_type(const std::string& channel, const void* data, int size) {
 
 }  // namespace
 
-Listener::Listener(lcm::LCM& lcm, Account& account, std::function<double()> wall_s)
-    : lcm_(lcm), account_(account), wall_s_(std::move(wall_s)) {
+Listener::Listener(lcm::LCM& lcm, BusStatistics& statistics, std::function<double()> wall_s)
+    : lcm_(lcm), statistics_(statistics), wall_s_(std::move(wall_s)) {
   auto* subscription = lcm_.subscribeFunction(
       ".*",
       +[](const lcm::ReceiveBuffer* buffer, const std::string& channel, Listener* self) {
         self->receive(channel, buffer->data, static_cast<int>(buffer->data_size));
       },
       this);
-  // What LCM drops from a full queue would look like a gap of the bus.
+  // Unlimited queue: messages that LCM drops would be counted as gaps of the bus.
   subscription->setQueueCapacity(0);
 }
 
 void Listener::receive(const std::string& channel, const void* data, int size) {
-  // LCM's own, and reports of lockstep where they share the bus: DONE is no channel of it.
+  // Skip LCM's self test, and DONE where it shares the bus.
   if (channel == "LCM_SELF_TEST" || channel == channel::kDone) return;
   header_t header{};
-  if (!right_type(channel, data, size) || !peek_header(data, size, header) || !take(channel, header, data, size))
-    return account_.hear_malformed(channel);
-  account_.hear(heard_from(channel, header, static_cast<size_t>(size)));
+  if (!right_type(channel, data, size) || !peek_header(data, size, header) || !dispatch(channel, header, data, size))
+    return statistics_.add_malformed(channel);
+  statistics_.add_message(message_info(channel, header, static_cast<size_t>(size)));
 }
 
-bool Listener::take(const std::string& channel, const header_t& header, const void* data, int size) {
+bool Listener::dispatch(const std::string& channel, const header_t& header, const void* data, int size) {
   if (channel == channel::kTick)
     return decoded<tick_t>(data, size,
-                           [&](const auto&) { account_.hear_tick(header.publisher, header.utime, wall_s_()); });
+                           [&](const auto&) { statistics_.add_tick(header.publisher, header.utime, wall_s_()); });
   if (channel == channel::kHeartbeat)
-    return decoded<heartbeat_t>(data, size, [&](const auto& m) { account_.hear_heartbeat(report_from(m)); });
+    return decoded<heartbeat_t>(data, size, [&](const auto& m) { statistics_.add_heartbeat(report_from(m)); });
   if (channel == channel::kState)
-    return decoded<supervisor_state_t>(data, size, [&](const auto& m) { account_.hear_state(report_from(m)); });
+    return decoded<supervisor_state_t>(data, size, [&](const auto& m) { statistics_.add_state(report_from(m)); });
   if (channel == channel::kDrivePermit)
-    return decoded<drive_permit_t>(data, size, [&](const auto& m) { account_.hear_permit(report_from(m)); });
+    return decoded<drive_permit_t>(data, size, [&](const auto& m) { statistics_.add_permit(report_from(m)); });
   if (channel == channel::kFault)
-    return decoded<fault_t>(data, size, [&](const auto& m) { account_.hear_fault(report_from(m)); });
+    return decoded<fault_t>(data, size, [&](const auto& m) { statistics_.add_fault(report_from(m)); });
   return true;
 }
 

@@ -1,30 +1,30 @@
-// Takes every message of the bus into an account. It publishes nothing and takes no part in the lockstep.
+// Passes every message of the bus to the statistics. Publishes nothing and takes no part in lockstep.
 #pragma once
 
 #include <functional>
 #include <lcm/lcm-cpp.hpp>
 #include <rover/header_t.hpp>
 
-#include "tools/status/account.hpp"
+#include "tools/status/bus_statistics.hpp"
 
 namespace rover::status {
 
 class Listener {
  public:
-  // `wall_s`: a steady clock in seconds.
-  Listener(lcm::LCM& lcm, Account& account, std::function<double()> wall_s);
+  // `wall_s`: a monotonic clock [s].
+  Listener(lcm::LCM& lcm, BusStatistics& statistics, std::function<double()> wall_s);
   Listener(const Listener&) = delete;
   Listener& operator=(const Listener&) = delete;
 
-  // Until the clock says so, or `going` no longer holds. False where the bus has failed.
+  // Handles messages until wall_s or until `going` is false. Returns false if the bus fails.
   bool listen_until(double wall_s, const std::function<bool()>& going);
 
  private:
   void receive(const std::string& channel, const void* data, int size);
-  bool take(const std::string& channel, const header_t& header, const void* data, int size);
+  bool dispatch(const std::string& channel, const header_t& header, const void* data, int size);
 
   lcm::LCM& lcm_;
-  Account& account_;
+  BusStatistics& statistics_;
   std::function<double()> wall_s_;
 };
 

@@ -8,7 +8,7 @@ constexpr Utime kWindow = 5'000'000;
 }  // namespace
 
 void MessageClock::tick(Utime utime, double wall_s) {
-  if (utime == kNever || utime <= now()) return;  // said again: a node was not heard
+  if (utime == kNever || utime <= now()) return;  // tick repeated for a late node
   ticks_.push_back({utime, wall_s});
   while (ticks_.front().utime < utime - kWindow) ticks_.pop_front();
 }
@@ -21,7 +21,7 @@ Window MessageClock::window(double wall_s) const {
 double MessageClock::age_s(Utime utime) const {
   if (ticks_.empty() || utime == kNever) return kNaN;
   const Utime age = now() - utime;
-  // What the world measures for a tick goes out just before it. What is of a later future is shown as such.
+  // The world publishes measurements just before their tick: clamp. Times further in the future are shown.
   return age < 0 && age >= -kTickUs ? 0.0 : to_seconds(age);
 }
 

@@ -1,4 +1,4 @@
-// Message time against wall time, from the last ticks. Wall time is an argument, in seconds of any steady clock.
+// Message time relative to wall time, from the last ticks. Wall time is an argument [s] of any monotonic clock.
 #pragma once
 
 #include <deque>
@@ -8,22 +8,22 @@
 
 namespace rover::status {
 
-// The stretch of time that rates are taken over.
+// Time interval over which rates are computed.
 struct Window {
   Utime from = kNever;
-  double message_s = 0.0;  // 0: fewer than two ticks came
+  double message_s = 0.0;  // 0: fewer than two ticks
   double wall_s = 0.0;
 };
 
 class MessageClock {
  public:
   void tick(Utime utime, double wall_s);
-  // The newest tick; kNever before the first.
+  // Newest tick; kNever before the first.
   Utime now() const { return ticks_.empty() ? kNever : ticks_.back().utime; }
-  // At most the last 5 s of message time. Wall time runs on where no tick comes.
+  // At most the last 5 s of message time. Wall time continues if ticks stop.
   Window window(double wall_s) const;
   double silence_s(double wall_s) const { return ticks_.empty() ? kNaN : wall_s - ticks_.back().wall_s; }
-  // Age in message time, NaN where either is not known.
+  // Age in message time; NaN if unknown.
   double age_s(Utime utime) const;
 
  private:

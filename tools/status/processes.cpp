@@ -17,15 +17,15 @@ double ticks_to_s(double ticks) {
   return ticks / static_cast<double>(sysconf(_SC_CLK_TCK));
 }
 
-// 0 where it is down.
+// Process id; 0 if the service is down.
 int s6_pid(const fs::path& service_dir) {
-  std::istringstream said(output_of({"s6-svstat", "-o", "up,pid", service_dir.string()}).value_or(""));
+  std::istringstream output(output_of({"s6-svstat", "-o", "up,pid", service_dir.string()}).value_or(""));
   std::string up;
   int pid = 0;
-  return said >> up >> pid && up == "true" ? pid : 0;
+  return output >> up >> pid && up == "true" ? pid : 0;
 }
 
-// boots/NAME counts the starts.
+// boots/NAME counts the starts of a service.
 std::optional<int> restarts_of(const fs::path& run_dir, const std::string& service) {
   int starts = 0;
   if (!(std::ifstream(run_dir / "boots" / service) >> starts)) return std::nullopt;
@@ -37,7 +37,7 @@ std::map<std::string, ProcessFigures> s6_services(const fs::path& run_dir) {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(run_dir / "services", error)) {
     const std::string name = entry.path().filename();
-    if (name.front() == '.') continue;  // s6-svscan's own
+    if (name.front() == '.') continue;  // internal folders of s6-svscan
     ProcessFigures& figures = out[name];
     figures.pid = s6_pid(entry.path());
     figures.restarts = restarts_of(run_dir, name);
@@ -51,7 +51,7 @@ ProcessUsage usage_of(int pid) {
   const std::string dir = "/proc/" + std::to_string(pid);
   std::ifstream stat(dir + "/stat");
   const std::string line{std::istreambuf_iterator<char>(stat), {}};
-  const size_t name_end = line.rfind(')');  // the name before it may hold blanks
+  const size_t name_end = line.rfind(')');  // the name may contain spaces
   if (pid <= 0 || name_end == std::string::npos) return {};
   std::istringstream fields(line.substr(name_end + 1));
   char state = 0;
@@ -68,23 +68,23 @@ ProcessUsage usage_of(int pid) {
   return {true, ticks_to_s(user + system), pages_resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6};
 }
 
-void Processes::look(const std::map<std::string, int>& heard, double wall_s) {
+void Processes::sample(const std::map<std::string, int>& reported_pids, double wall_s) {
   figures_ = run_dir_.empty() ? std::map<std::string, ProcessFigures>{} : s6_services(run_dir_);
-  for (const auto& [name, pid] : heard)
+  for (const auto& [name, pid] : reported_pids)
     if (const auto [it, added] = figures_.try_emplace(name); added) it->second.pid = pid;
-  std::map<int, Look> looks;
-  for (auto& [name, figures] : figures_) measure(figures, wall_s, looks);
-  before_ = std::move(looks);
+  std::map<int, UsageSample> samples;
+  for (auto& [name, figures] : figures_) measure(figures, wall_s, samples);
+  previous_ = std::move(samples);
 }
 
-void Processes::measure(ProcessFigures& figures, double wall_s, std::map<int, Look>& looks) const {
+void Processes::measure(ProcessFigures& figures, double wall_s, std::map<int, UsageSample>& samples) const {
   const ProcessUsage usage = usage_of(figures.pid);
   figures.alive = usage.exists;
   if (!usage.exists) return;
   figures.rss_mb = usage.rss_mb;
-  looks[figures.pid] = {usage.cpu_s, wall_s};
-  const auto before = before_.find(figures.pid);
-  if (before == before_.end() || wall_s <= before->second.wall_s) return;
+  samples[figures.pid] = {usage.cpu_s, wall_s};
+  const auto before = previous_.find(figures.pid);
+  if (before == previous_.end() || wall_s <= before->second.wall_s) return;
   figures.cpu_percent = 100.0 * (usage.cpu_s - before->second.cpu_s) / (wall_s - before->second.wall_s);
 }
 

@@ -1,4 +1,4 @@
-// What s6 and the operating system know of the services' processes.
+// State of the services' processes from s6 and the operating system.
 #pragma once
 
 #include <map>
@@ -8,7 +8,7 @@
 
 namespace rover::status {
 
-// CPU seconds and resident memory of any process of this machine.
+// CPU time and resident memory of a process.
 struct ProcessUsage {
   bool exists = false;
   double cpu_s = kNaN;
@@ -18,24 +18,24 @@ ProcessUsage usage_of(int pid);
 
 class Processes {
  public:
-  // `run_dir`: whose services s6 keeps; empty: those that the bus names, alone.
+  // `run_dir`: run folder with the s6 services; empty: only processes named on the bus.
   explicit Processes(std::string run_dir) : run_dir_(std::move(run_dir)) {}
 
-  // CPU figures are over the time since the look before, and not known of a process that it did not see.
-  // `heard`: process numbers by the services' own word, for those that s6 does not keep.
-  void look(const std::map<std::string, int>& heard, double wall_s);
+  // CPU load is the mean since the previous call. `reported_pids`: process ids from heartbeats, for services outside
+  // s6.
+  void sample(const std::map<std::string, int>& reported_pids, double wall_s);
   const std::map<std::string, ProcessFigures>& figures() const { return figures_; }
 
  private:
-  struct Look {
+  struct UsageSample {
     double cpu_s = kNaN;
     double wall_s = kNaN;
   };
-  void measure(ProcessFigures& figures, double wall_s, std::map<int, Look>& looks) const;
+  void measure(ProcessFigures& figures, double wall_s, std::map<int, UsageSample>& samples) const;
 
   std::string run_dir_;
   std::map<std::string, ProcessFigures> figures_;
-  std::map<int, Look> before_;  // by process number
+  std::map<int, UsageSample> previous_;  // by process id
 };
 
 }  // namespace rover::status

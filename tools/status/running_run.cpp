@@ -20,7 +20,7 @@ struct Newest {
   std::string dir;
 };
 
-void look_at(const fs::path& dir, int depth, Newest& newest) {
+void search(const fs::path& dir, int depth, Newest& newest) {
   std::error_code error;
   if (fs::exists(dir / "services", error)) {
     const fs::file_time_type begun = fs::last_write_time(scan_dir(dir), error);
@@ -29,12 +29,12 @@ void look_at(const fs::path& dir, int depth, Newest& newest) {
   }
   if (depth == 0) return;
   for (const auto& entry : fs::directory_iterator(dir, error))
-    if (entry.is_directory(error)) look_at(entry.path(), depth - 1, newest);
+    if (entry.is_directory(error)) search(entry.path(), depth - 1, newest);
 }
 
 }  // namespace
 
-// s6-svscan reads its control pipe as long as it lives; without a reader the pipe does not open for writing.
+// s6-svscan reads its control pipe while it runs; without a reader, opening the pipe for writing fails.
 bool is_running(const std::string& run_dir) {
   const int fd = open((scan_dir(run_dir) / "control").c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
   if (fd >= 0) close(fd);
@@ -43,7 +43,7 @@ bool is_running(const std::string& run_dir) {
 
 std::optional<std::string> newest_running(const std::string& logs_dir) {
   Newest newest;
-  look_at(logs_dir, kDepth, newest);
+  search(logs_dir, kDepth, newest);
   if (newest.dir.empty()) return std::nullopt;
   return newest.dir;
 }

@@ -1,4 +1,4 @@
-// Which run's services are being kept now.
+// Finds the run whose services are running.
 #pragma once
 
 #include <optional>
@@ -6,9 +6,9 @@
 
 namespace rover::status {
 
-// Whether s6 keeps the services of the run's folder.
+// True if s6 runs the services of this run folder.
 bool is_running(const std::string& run_dir);
-// The one begun last of those that run, in the folder of runs and the folders below it.
+// The most recently started of the running runs, in this folder and below it.
 std::optional<std::string> newest_running(const std::string& logs_dir);
 
 }  // namespace rover::status

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "tools/status/judgement.hpp"
+#include "tools/status/health.hpp"
 #include "tools/status/text_line.hpp"
 
 namespace rover::status {
@@ -12,7 +12,7 @@ namespace {
 
 constexpr size_t kFaultsShown = 8;
 constexpr double kSilenceS = 1.0;
-constexpr size_t kHalf = 48;  // columns of one channel; two stand side by side
+constexpr size_t kHalf = 48;  // columns of one channel; the screen shows two side by side
 
 using Lines = std::vector<Line>;
 
@@ -76,7 +76,7 @@ Line fault_line(const FaultStatus& fault) {
 }
 
 void add_faults(const Snapshot& s, Lines& out) {
-  if (!s.state && s.faults.empty()) return;  // not heard is not "none"
+  if (!s.state && s.faults.empty()) return;  // without STATE the list of faults is unknown, not empty
   out.emplace_back();
   if (s.faults.empty()) {
     out.push_back({{"no fault stands"}});
@@ -140,14 +140,14 @@ Line side_by_side(Line first, const Line& second) {
   return first;
 }
 
-// Down the left half first, then down the right one.
+// Fills the left half first, then the right one.
 void add_channels(const Snapshot& s, size_t rows, Lines& out) {
   if (s.channels.empty()) return;
   const Line head = {
       {left("CHANNEL", 18) + right("Hz", 7) + right("AGE s", 9) + right("LOST", 6) + right("kB/s", 8), Colour::kBold}};
   Lines halves;
   for (const auto& [name, channel] : s.channels) halves.push_back(channel_half(name, channel));
-  const size_t frame = out.size() + 2;  // the empty line and the heads
+  const size_t frame = out.size() + 2;  // the empty line and the headings
   const size_t all = (halves.size() + 1) / 2;
   const bool fits = frame + all <= rows;
   const size_t height = fits ? all : rows - std::min(rows, frame + 1);

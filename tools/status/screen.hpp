@@ -1,4 +1,4 @@
-// The status as one screen of text.
+// Formats the status as one screen of text.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ struct ScreenOptions {
   size_t rows = 50;  // channels that do not fit are counted, not shown
 };
 
-// Lines that end with a newline each.
+// Newline-terminated lines.
 std::string screen(const Snapshot& snapshot, const ScreenOptions& options);
 
 }  // namespace rover::status

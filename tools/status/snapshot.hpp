@@ -1,4 +1,4 @@
-// What ./rover status shows: plain figures, NaN or empty where a thing is not known.
+// Data of ./rover status. NaN or empty: unknown.
 #pragma once
 
 #include <cstdint>
@@ -19,27 +19,27 @@ struct StateReport {
   std::string level;
   Utime since = kNever;
   std::string cause;
-  std::string quantity;  // behind the cause, else empty
+  std::string quantity;  // of the cause, else empty
   double value = kNaN;
   double threshold = kNaN;
   int hazard_stops = 0;
-  std::vector<std::string> faults;  // ids of those standing, the first one first
+  std::vector<std::string> faults;  // ids of active faults, the first one first
 };
 
 struct PermitReport {
   bool granted = false;
-  std::string reason;  // why not
+  std::string reason;  // why the rover may not drive
 };
 
 struct FaultReport {
   Utime utime = kNever;
   std::string id;
-  std::string condition;  // empty: the row was not heard, only that it stands
+  std::string condition;  // empty: the row is active but no FAULT was received
   std::string response;
   double value = kNaN;
   double limit = kNaN;
   Utime visible = kNever;
-  bool standing = false;
+  bool active = false;
 };
 
 enum class Health { kUnknown, kOk, kDegraded, kFault };
@@ -53,48 +53,48 @@ struct Heartbeat {
   std::string text;
   double step_p50_ms = kNaN;
   double step_p99_ms = kNaN;
-  std::int64_t gaps = 0;       // messages that its inputs missed since its start
-  std::int64_t malformed = 0;  // and those that it dropped
+  std::int64_t gaps = 0;       // messages missed by its inputs since its start
+  std::int64_t malformed = 0;  // messages dropped by its inputs
   std::int64_t out_of_order = 0;
-  std::map<std::string, Utime> newest_input;  // by channel, of the measurement; only of inputs that came
+  std::map<std::string, Utime> newest_input;  // measurement time by channel; only inputs that have received a message
 };
 
-// What s6 and the operating system know of one service.
+// State of one service from s6 and the operating system.
 struct ProcessFigures {
   int pid = 0;  // 0: none
   bool alive = false;
   std::optional<int> restarts;
-  double cpu_percent = kNaN;  // of one core, of wall time
+  double cpu_percent = kNaN;  // of one core, in wall time
   double rss_mb = kNaN;
 };
 
 struct ServiceStatus {
   ProcessFigures process;
-  double age_s = kNaN;    // of the last sign of life, see Account
-  double quiet_s = kNaN;  // where the age is not known: at least this long
+  double age_s = kNaN;    // since the last HEARTBEAT, see BusStatistics
+  double quiet_s = kNaN;  // age unknown: lower bound of it
   std::optional<Heartbeat> heartbeat;
 };
 
 struct ChannelStatus {
-  double hz = kNaN;           // of message time
-  double wall_hz = kNaN;      // of wall time
-  double bytes_per_s = kNaN;  // of wall time
-  double age_s = kNaN;        // of the newest message against the newest TICK
-  std::int64_t gaps = 0;      // missing by sequence number while status listened
+  double hz = kNaN;           // per second of message time
+  double wall_hz = kNaN;      // per second of wall time
+  double bytes_per_s = kNaN;  // per second of wall time
+  double age_s = kNaN;        // newest message relative to the newest TICK
+  std::int64_t gaps = 0;      // missing sequence numbers while status listened
   std::int64_t malformed = 0;
 };
 
 struct FaultStatus {
   FaultReport report;
-  double for_s = kNaN;  // since it was visible
+  double for_s = kNaN;  // since the fault became visible
 };
 
 struct Snapshot {
-  std::string run_dir;  // empty: none, the bus alone
+  std::string run_dir;  // empty: no run, only a bus
   std::string bus_url;
   Utime now = kNever;             // newest TICK
   double realtime_factor = kNaN;  // message time over wall time
-  double tick_silence_s = kNaN;   // wall time since that TICK
+  double tick_silence_s = kNaN;   // wall time since the newest TICK
   std::optional<StateReport> state;
   double state_for_s = kNaN;
   std::optional<PermitReport> permit;

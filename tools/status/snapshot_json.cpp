@@ -2,14 +2,14 @@
 
 #include <cmath>
 
-#include "tools/status/judgement.hpp"
+#include "tools/status/health.hpp"
 
 namespace rover::status {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Without the digits that measuring gives no meaning to.
+// Rounds off digits below the measurement accuracy.
 Json number(double value) {
   return std::isfinite(value) ? Json(std::round(value * 1e6) / 1e6) : Json(nullptr);
 }

@@ -1,4 +1,4 @@
-// The status as one JSON document. Keys stand in a fixed order; null is what is not known.
+// Formats the status as one JSON document with a fixed key order; null: unknown.
 #pragma once
 
 #include <nlohmann/json.hpp>

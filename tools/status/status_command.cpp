@@ -16,8 +16,8 @@
 namespace rover::status {
 namespace {
 
-// Heartbeats come each 0.2 s of message time: the first look at processes comes when most have been heard.
-constexpr double kFirstLookS = 0.3;
+// HEARTBEAT comes every 0.2 s of message time: sample the processes when most services have sent one.
+constexpr double kFirstSampleS = 0.3;
 constexpr double kListenS = 1.2;
 constexpr double kRefreshS = 1.0;
 constexpr int kMoreRefreshes = 3;
@@ -27,22 +27,22 @@ lcm::LCM& joined(lcm::LCM& lcm, const Target& target) {
   return lcm;
 }
 
-// One rover under observation.
+// Observes one rover.
 class Observer {
  public:
   explicit Observer(const Target& target)
       : target_(target),
         lcm_(target.bus_url),
-        listener_(joined(lcm_, target_), account_, wall_s),
+        listener_(joined(lcm_, target_), statistics_, wall_s),
         processes_(target.run_dir) {}
 
   void listen(double seconds) {
     if (!listener_.listen_until(wall_s() + seconds, going))
       throw ConfigError("bus: " + target_.bus_url + " has failed");
-    processes_.look(account_.pids(), wall_s());
+    processes_.sample(statistics_.pids(), wall_s());
   }
   Snapshot snapshot() const {
-    Snapshot out = account_.snapshot(processes_.figures(), wall_s());
+    Snapshot out = statistics_.snapshot(processes_.figures(), wall_s());
     out.run_dir = target_.run_dir;
     out.bus_url = target_.bus_url;
     return out;
@@ -52,7 +52,7 @@ class Observer {
  private:
   Target target_;
   lcm::LCM lcm_;
-  Account account_;
+  BusStatistics statistics_;
   Listener listener_;
   Processes processes_;
 };
@@ -81,10 +81,10 @@ int show_status(const StatusArguments& arguments) {
   const std::optional<Target> target = find_target(arguments.target);
   if (!target) return 1;
   Observer observer(*target);
-  observer.listen(kFirstLookS);
+  observer.listen(kFirstSampleS);
   if (arguments.watch) return watch(observer);
-  observer.listen(kListenS - kFirstLookS);
-  // Standing faults are told again each second of message time, which a busy machine stretches.
+  observer.listen(kListenS - kFirstSampleS);
+  // Active faults are repeated each second of message time, which takes longer on a loaded machine.
   for (int more = 0; more < kMoreRefreshes && lacks_figures(observer.snapshot()); ++more) observer.listen(kRefreshS);
   const Snapshot snapshot = observer.snapshot();
   if (target->run_dir.empty() && snapshot.channels.empty()) {

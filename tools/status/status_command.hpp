@@ -1,4 +1,4 @@
-// ./rover status: finds the run, listens to its bus for a moment, and shows.
+// ./rover status: finds the run, listens to its bus, and shows the status.
 #pragma once
 
 #include "tools/status/target.hpp"
@@ -11,7 +11,7 @@ struct StatusArguments {
   bool watch = false;
 };
 
-// Exit status: 0 when something was shown, 1 where nothing runs. Throws ConfigError.
+// Exit status: 0 if something was shown, 1 if nothing runs. Throws ConfigError.
 int show_status(const StatusArguments& arguments);
 
 }  // namespace rover::status

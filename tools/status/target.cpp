@@ -18,7 +18,7 @@ std::optional<Target> find_target(const TargetArguments& arguments) {
   if (run) {
     const std::string dir = std::filesystem::canonical(*run);
     const std::string own_bus = load_bus_url(dir + "/config");
-    // A bus named by hand is not that of a run that happens to be there too.
+    // If --bus differs from the running run's bus, the run is not the target.
     const bool other_bus = arguments.run.empty() && !arguments.bus.empty() && arguments.bus != own_bus;
     return other_bus ? Target{"", arguments.bus} : Target{dir, arguments.bus.empty() ? own_bus : arguments.bus};
   }

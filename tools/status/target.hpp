@@ -1,4 +1,4 @@
-// Which bus a command listens to: that of a run, or one named by hand.
+// Selects the bus that a command listens to: the bus of a run, or --bus.
 #pragma once
 
 #include <optional>
@@ -7,17 +7,17 @@
 namespace rover::status {
 
 struct TargetArguments {
-  std::string logs_dir = "logs";  // holds the runs
-  std::string run;                // run folder; empty: the one in logs_dir that runs
-  std::string bus;                // LCM URL; empty: the run's. Without a run: the bus alone
+  std::string logs_dir = "logs";  // contains the run folders
+  std::string run;                // run folder; empty: the running one in logs_dir
+  std::string bus;                // LCM URL; empty: that of the run. Without a run: only the bus
 };
 
 struct Target {
-  std::string run_dir;  // empty: none
+  std::string run_dir;  // empty: no run
   std::string bus_url;
 };
 
-// Empty where nothing runs; one line on stderr says so. Throws ConfigError.
+// Empty if nothing runs (prints one line on stderr). Throws ConfigError.
 std::optional<Target> find_target(const TargetArguments& arguments);
 
 }  // namespace rover::status

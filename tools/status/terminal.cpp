@@ -20,7 +20,7 @@ Terminal::~Terminal() {
   std::fflush(stdout);
 }
 
-// One row stays free: a newline in the last one would move the whole screen.
+// Keep one row free: a newline in the last row would scroll the screen.
 ScreenOptions Terminal::options() const {
   ScreenOptions options{.colours = terminal_};
   winsize size{};

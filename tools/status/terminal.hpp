@@ -1,4 +1,4 @@
-// Standard output: a terminal, with colours and redrawing in place, or a plain file.
+// Output to a terminal (colours, redraw in place) or to a plain file.
 #pragma once
 
 #include <string>
@@ -9,16 +9,16 @@ namespace rover::status {
 
 bool on_terminal();
 
-// Redraws in place and hides the cursor as long as it lives; into a file it writes one screen after the other.
+// Redraws in place and hides the cursor until destruction; in a file, screens follow each other.
 class Terminal {
  public:
   Terminal();
   ~Terminal();
   Terminal(const Terminal&) = delete;
   Terminal& operator=(const Terminal&) = delete;
-  // What fits on it; a plain file takes all.
+  // Size of the terminal; unlimited for a file.
   ScreenOptions options() const;
-  // Lines that end with a newline each.
+  // `screen`: newline-terminated lines.
   void redraw(std::string screen);
 
  private:

@@ -1,4 +1,4 @@
-// Lines of a terminal: pieces of text with a colour, cut at a width that colours do not count in.
+// Lines of coloured text, truncated at a width that does not count colour codes.
 #pragma once
 
 #include <string>
@@ -16,17 +16,17 @@ struct Piece {
 using Line = std::vector<Piece>;
 
 size_t width(const Line& line);
-// Without blanks at the end. `colours`: with the terminal's codes.
+// Without trailing spaces. `colours`: with terminal codes.
 std::string rendered(const Line& line, size_t columns, bool colours);
 
-// Filled with blanks, or cut: to the left or right side of a field.
+// Pads or truncates to the field width, aligned left or right.
 std::string left(const std::string& text, size_t field);
 std::string right(const std::string& text, size_t field);
-// With so many decimals; "-" where the value is not finite.
+// With this number of decimals; "-" if not finite.
 std::string fixed(double value, int decimals);
-// With at most four digits that count.
+// With at most four significant digits.
 std::string brief(double value);
-// Whatever a service says: one line of plain characters, nothing that the terminal obeys.
+// Replaces control characters: text from the bus must not control the terminal.
 std::string printable(const std::string& text);
 
 }  // namespace rover::status

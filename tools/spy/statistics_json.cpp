@@ -1,4 +1,4 @@
-#include "tools/spy/figures_json.hpp"
+#include "tools/spy/statistics_json.hpp"
 
 #include <cmath>
 #include <limits>
@@ -29,7 +29,7 @@ Json value_json(const Field& field, size_t index, size_t longest) {
       field.values);
 }
 
-// Nested by dimension, the first one outermost.
+// Nests the values by dimension, the first one outermost.
 Json array_json(const Field& field, size_t dimension, size_t& next, size_t longest) {
   if (dimension == field.shape.size()) return value_json(field, next++, longest);
   Json list = Json::array();
@@ -49,10 +49,11 @@ Json fields_json(const Fields& fields, size_t longest) {
   return json;
 }
 
-Json figures_json(const Figures& figures, const std::string& source, const std::set<std::string>& chosen) {
+Json statistics_json(const TrafficStatistics& statistics, const std::string& source,
+                     const std::set<std::string>& chosen) {
   const size_t longest = chosen.empty() ? kLongest : std::numeric_limits<size_t>::max();
   Json channels = Json::object();
-  for (const auto& [name, c] : figures.channels) {
+  for (const auto& [name, c] : statistics.channels) {
     if (!chosen.empty() && !chosen.contains(name)) continue;
     const auto fields = decode_fields(name, c.newest.data(), static_cast<int>(c.newest.size()));
     channels[name] = {{"type", c.type.empty() ? Json(nullptr) : Json(c.type)},
@@ -67,9 +68,9 @@ Json figures_json(const Figures& figures, const std::string& source, const std::
                       {"fields", fields ? fields_json(*fields, longest) : Json(nullptr)}};
   }
   return {{"source", source},
-          {"now_s", figures.now == kNever ? Json(nullptr) : Json(to_seconds(figures.now))},
-          {"realtime_factor", number(figures.realtime_factor)},
-          {"span_s", figures.span_s},
+          {"now_s", statistics.now == kNever ? Json(nullptr) : Json(to_seconds(statistics.now))},
+          {"realtime_factor", number(statistics.realtime_factor)},
+          {"span_s", statistics.span_s},
           {"channels", channels}};
 }
 

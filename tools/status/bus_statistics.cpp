@@ -1,42 +1,42 @@
-#include "tools/status/account.hpp"
+#include "tools/status/bus_statistics.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace rover::status {
 
-void Account::hear(const Heard& message) {
-  StreamAccount& stream = streams_[{message.channel, message.publisher}];
-  stream.hear({message.boot_id, message.seq, message.utime, clock_.now(), message.bytes});
+void BusStatistics::add_message(const MessageInfo& message) {
+  StreamStatistics& stream = streams_[{message.channel, message.publisher}];
+  stream.add({message.boot_id, message.seq, message.utime, clock_.now(), message.bytes});
 }
 
-void Account::hear_tick(const std::string& publisher, Utime utime, double wall_s) {
-  if (utime < clock_.now()) *this = Account{};  // another world has begun
+void BusStatistics::add_tick(const std::string& publisher, Utime utime, double wall_s) {
+  if (utime < clock_.now()) *this = BusStatistics{};  // time went back: a new run
   clock_publisher_ = publisher;
   clock_.tick(utime, wall_s);
   const Utime from = clock_.window(wall_s).from;
-  for (auto& [key, stream] : streams_) stream.forget_before(from);
+  for (auto& [key, stream] : streams_) stream.remove_before(from);
 }
 
-void Account::hear_heartbeat(const Heartbeat& heartbeat) {
+void BusStatistics::add_heartbeat(const Heartbeat& heartbeat) {
   heartbeats_[heartbeat.service] = heartbeat;
 }
 
-void Account::hear_state(const StateReport& state) {
+void BusStatistics::add_state(const StateReport& state) {
   state_ = state;
 }
 
-void Account::hear_fault(const FaultReport& fault) {
+void BusStatistics::add_fault(const FaultReport& fault) {
   faults_[fault.id] = fault;
 }
 
-std::map<std::string, int> Account::pids() const {
+std::map<std::string, int> BusStatistics::pids() const {
   std::map<std::string, int> out;
   for (const auto& [name, heartbeat] : heartbeats_) out[name] = heartbeat.pid;
   return out;
 }
 
-Snapshot Account::snapshot(const std::map<std::string, ProcessFigures>& processes, double wall_s) const {
+Snapshot BusStatistics::snapshot(const std::map<std::string, ProcessFigures>& processes, double wall_s) const {
   const Window window = clock_.window(wall_s);
   Snapshot out;
   out.now = clock_.now();
@@ -47,13 +47,13 @@ Snapshot Account::snapshot(const std::map<std::string, ProcessFigures>& processe
   out.permit = permit_;
   for (const auto& [name, process] : processes) out.services[name].process = process;
   add_faults(out);
-  add_heard_channels(out, window);
+  add_received_channels(out, window);
   add_channels_of_inputs(out, window);
   add_services(out, window);
   return out;
 }
 
-void Account::add_heard_channels(Snapshot& out, const Window& window) const {
+void BusStatistics::add_received_channels(Snapshot& out, const Window& window) const {
   const double per_wall_s = window.wall_s > 0.0 ? 1.0 / window.wall_s : kNaN;
   std::map<std::string, Utime> newest;
   for (const auto& [key, stream] : streams_) {
@@ -71,8 +71,8 @@ void Account::add_heard_channels(Snapshot& out, const Window& window) const {
   for (const auto& [name, count] : malformed_) out.channels[name].malformed = count;
 }
 
-// A channel that was silent while status listened is known to those who take it.
-void Account::add_channels_of_inputs(Snapshot& out, const Window& window) const {
+// Channels that were silent while listening are known from the heartbeats of their subscribers.
+void BusStatistics::add_channels_of_inputs(Snapshot& out, const Window& window) const {
   const double none = window.message_s > 0.0 ? 0.0 : kNaN;
   std::map<std::string, Utime> newest;
   for (const auto& [service, heartbeat] : heartbeats_) {
@@ -85,30 +85,30 @@ void Account::add_channels_of_inputs(Snapshot& out, const Window& window) const 
     out.channels.try_emplace(channel, ChannelStatus{none, none, none, clock_.age_s(utime), 0, 0});
 }
 
-FaultStatus Account::status_of(const FaultReport& fault) const {
+FaultStatus BusStatistics::status_of(const FaultReport& fault) const {
   return {fault, clock_.age_s(fault.visible)};
 }
 
-// STATE names those that stand, FAULT their figures; what is newer than the last STATE goes before it.
-void Account::add_faults(Snapshot& out) const {
+// STATE lists the active faults, FAULT their values; a FAULT newer than the last STATE has priority.
+void BusStatistics::add_faults(Snapshot& out) const {
   const std::vector<std::string> named = state_ ? state_->faults : std::vector<std::string>{};
-  const Utime said = state_ ? state_->utime : kNever;
+  const Utime state_utime = state_ ? state_->utime : kNever;
   for (const std::string& id : named) {
-    const auto heard = faults_.find(id);
+    const auto received = faults_.find(id);
     FaultReport fault;
-    if (heard != faults_.end()) fault = heard->second;
-    if (!fault.standing && fault.utime > said) continue;
+    if (received != faults_.end()) fault = received->second;
+    if (!fault.active && fault.utime > state_utime) continue;
     fault.id = id;
-    fault.standing = true;
+    fault.active = true;
     out.faults.push_back(status_of(fault));
   }
   for (const auto& [id, fault] : faults_) {
     const bool listed = std::find(named.begin(), named.end(), id) != named.end();
-    if (!listed && fault.standing && fault.utime > said) out.faults.push_back(status_of(fault));
+    if (!listed && fault.active && fault.utime > state_utime) out.faults.push_back(status_of(fault));
   }
 }
 
-void Account::add_services(Snapshot& out, const Window& window) const {
+void BusStatistics::add_services(Snapshot& out, const Window& window) const {
   for (const auto& [name, heartbeat] : heartbeats_) {
     out.services[name].heartbeat = heartbeat;
     out.services[name].age_s = clock_.age_s(heartbeat.utime);

@@ -1,4 +1,4 @@
-// One publisher's messages on one channel: rate, volume, newest, and what is missing by sequence number.
+// Statistics of one publisher's messages on one channel: rate, volume, newest message, gaps.
 #pragma once
 
 #include <cstddef>
@@ -13,37 +13,37 @@ namespace rover::status {
 struct Arrival {
   std::int64_t boot_id = 0;
   std::int64_t seq = 0;
-  Utime utime = kNever;    // of the measurement
-  Utime arrived = kNever;  // newest tick at the arrival
+  Utime utime = kNever;    // measurement time
+  Utime arrived = kNever;  // newest tick at arrival
   size_t bytes = 0;
 };
 
-class StreamAccount {
+class StreamStatistics {
  public:
-  void hear(const Arrival& arrival);
-  // Forgets what arrived before.
-  void forget_before(Utime utime);
+  void add(const Arrival& arrival);
+  // Removes arrivals before utime.
+  void remove_before(Utime utime);
 
   Utime newest() const { return newest_; }
-  // Counted from the first message heard of each boot; one overtaken on the bus fills its gap when it comes.
-  std::int64_t gaps() const { return old_gaps_ + expected() - received_; }
-  size_t count() const { return heard_.size(); }
+  // Counted from the first message of each boot; a message that arrives out of order closes its gap.
+  std::int64_t gaps() const { return previous_gaps_ + expected() - received_; }
+  size_t count() const { return arrivals_.size(); }
   size_t bytes() const { return bytes_; }
   // Per second of message time.
   double hz(const Window& window) const;
 
  private:
   std::int64_t expected() const { return received_ == 0 ? 0 : last_seq_ - first_seq_ + 1; }
-  void begin(const Arrival& arrival);
+  void start_boot(const Arrival& arrival);
 
-  std::deque<Arrival> heard_;
+  std::deque<Arrival> arrivals_;
   size_t bytes_ = 0;
   Utime newest_ = kNever;
   std::int64_t boot_id_ = 0;
   std::int64_t first_seq_ = 0;
   std::int64_t last_seq_ = 0;
   std::int64_t received_ = 0;
-  std::int64_t old_gaps_ = 0;  // of the boots before
+  std::int64_t previous_gaps_ = 0;  // of previous boots
 };
 
 }  // namespace rover::status

@@ -1,4 +1,4 @@
-#include "tools/status/judgement.hpp"
+#include "tools/status/health.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 namespace rover::status {
 namespace {
 
-constexpr double kStaleS = 1.0;  // as the supervisor's limit for heartbeats
+constexpr double kStaleS = 1.0;  // equal to the supervisor's heartbeat limit
 constexpr double kPeriods = 3.0;
 
 }  // namespace

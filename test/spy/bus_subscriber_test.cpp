@@ -1,5 +1,5 @@
-// The spy on a bus of its own.
-#include "tools/spy/bus_ear.hpp"
+// The bus subscriber on a bus of its own.
+#include "tools/spy/bus_subscriber.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -19,9 +19,9 @@ std::string own_bus() {
   return "udpm://239.255.76.67:" + std::to_string(21000 + getpid() % 8000) + "?ttl=0";
 }
 
-TEST(BusEar, HearsTheBusAndTheReportsOfLockstep) {
+TEST(BusSubscriber, ReceivesBusAndDoneMessages) {
   Traffic traffic(Traffic::Rates::kRecent);
-  BusEar ear(own_bus(), traffic);
+  BusSubscriber subscriber(own_bus(), traffic);
   lcm::LCM bus(own_bus());
   lcm::LCM reports(reports_url(own_bus()));
   ASSERT_TRUE(bus.good() && reports.good());
@@ -33,21 +33,21 @@ TEST(BusEar, HearsTheBusAndTheReportsOfLockstep) {
     bus.publish("TICK", &tick);
     bus.publish("SLIP", &slip);
     reports.publish("DONE", &done);
-    ear.listen(20);
+    subscriber.listen(20);
   }
   const auto heard = [&](const std::string& channel) {
-    const Figures figures = traffic.figures(0.0);
-    return figures.channels.contains(channel) ? figures.channels.at(channel).messages : 0;
+    const TrafficStatistics statistics = traffic.statistics(0.0);
+    return statistics.channels.contains(channel) ? statistics.channels.at(channel).messages : 0;
   };
-  for (int i = 0; i < 500 && heard("SLIP") + heard("DONE") + heard("TICK") < 3 * kCount; ++i) ear.listen(20);
+  for (int i = 0; i < 500 && heard("SLIP") + heard("DONE") + heard("TICK") < 3 * kCount; ++i) subscriber.listen(20);
   EXPECT_EQ(heard("TICK"), kCount);
   EXPECT_EQ(heard("SLIP"), kCount);
   EXPECT_EQ(heard("DONE"), kCount);
 }
 
-TEST(BusEar, ABusThatCannotBeJoinedIsNamed) {
+TEST(BusSubscriber, BusThatCannotBeJoinedThrowsConfigError) {
   Traffic traffic(Traffic::Rates::kRecent);
-  EXPECT_THROW(BusEar("nonsense://", traffic), ConfigError);
+  EXPECT_THROW(BusSubscriber("nonsense://", traffic), ConfigError);
 }
 
 }  // namespace
