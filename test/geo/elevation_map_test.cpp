@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -483,6 +484,20 @@ TEST_F(MapFileTest, BadFilesAreNamed) {
   MapFile empty;
   write(folder_.file("empty.tif"), empty, [](int, int) { return std::nan(""); });
   EXPECT_NE(refusal(folder_.file("empty.tif")).find("no heights"), std::string::npos);
+}
+
+// Found by bench fuzz: GDAL repeats the name of a missing part, with whatever is in it.
+TEST_F(MapFileTest, ARefusalIsOneLineWhateverGdalSays) {
+  std::ofstream(folder_.file("parts.vrt")) << fmt::format(
+      "<VRTDataset rasterXSize=\"8\" rasterYSize=\"6\"><SRS>{}</SRS>"
+      "<GeoTransform>0,1,0,6,0,-1</GeoTransform><VRTRasterBand dataType=\"Float32\" band=\"1\"><SimpleSource>"
+      "<SourceFilename>a&#13;b&#10;c.tif</SourceFilename><SourceBand>1</SourceBand>"
+      "<SourceProperties RasterXSize=\"8\" RasterYSize=\"6\" DataType=\"Float32\" BlockXSize=\"8\" BlockYSize=\"6\"/>"
+      "</SimpleSource></VRTRasterBand></VRTDataset>",
+      mars_plane());
+  const std::string said = refusal(folder_.file("parts.vrt"));
+  EXPECT_NE(said.find("cut short or damaged"), std::string::npos) << said;
+  EXPECT_TRUE(std::none_of(said.begin(), said.end(), [](unsigned char c) { return std::iscntrl(c) != 0; })) << said;
 }
 
 TEST_F(MapFileTest, CutFilesAreNoticed) {
