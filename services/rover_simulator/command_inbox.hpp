@@ -1,4 +1,4 @@
-// Commands of one channel on their way to the motors: by release, through the tap where there is one.
+// Queue of actuator commands from one channel, ordered by release time, with optional fault injection (Tap).
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ class CommandInbox {
   explicit CommandInbox(const char* channel) : channel_(channel) {}
 
   void add(const Command& command) { waiting_.push_back({command.header.release_utime, command, false}); }
-  // The newest of those released until t; none where nothing new came. Older ones that come later are void.
+  // The newest command released by t; empty without a new one. Older commands that arrive later are dropped.
   std::optional<Command> take(Utime t, Tap* tap);
 
  private:

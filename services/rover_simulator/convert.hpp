@@ -1,4 +1,4 @@
-// From the simulated world's types to messages, and back.
+// Conversion between simulator types and messages.
 #pragma once
 
 #include <rover/image_t.hpp>

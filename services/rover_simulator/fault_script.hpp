@@ -1,4 +1,4 @@
-// Which faults of a scenario begin now, by message time, true way and the supervisor's states alone.
+// Triggers the scenario's faults by message time, true distance driven or supervisor state.
 #pragma once
 
 #include <set>
@@ -14,7 +14,7 @@ class FaultScript {
   FaultScript(std::vector<ScriptedFault> faults, Utime start) : waiting_(std::move(faults)), start_(start) {}
 
   void entered(std::int8_t state) { entered_.insert(state); }
-  // In the order of the list; each is given once.
+  // Faults that begin now, in the order of the list; each is returned once.
   std::vector<FaultOrder> take_due(Utime now, double driven_m) {
     std::vector<FaultOrder> due;
     std::erase_if(waiting_, [&](const ScriptedFault& fault) {

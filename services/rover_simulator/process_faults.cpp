@@ -6,7 +6,7 @@ namespace rover {
 namespace {
 
 constexpr Utime kBackAfter = 1'000'000;
-constexpr Utime kBackAfterHang = 3'000'000;  // somebody has to notice first, and end it
+constexpr Utime kBackAfterHang = 3'000'000;  // includes the time for detecting and killing the hung process
 
 }  // namespace
 

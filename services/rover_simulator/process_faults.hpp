@@ -1,5 +1,4 @@
-// Blows to processes that the simulator deals in lockstep: whom, when he takes part, and how long the world does
-// without.
+// Signals that the simulator sends to service processes in lockstep: target, signal and absence from the barrier.
 #pragma once
 
 #include <string>
@@ -13,14 +12,14 @@ namespace rover {
 struct ProcessBlow {
   std::string service;
   int signal = 0;
-  Utime away = 0;  // message time until its next process takes part
+  Utime away = 0;  // message time until the restarted process rejoins the barrier
 };
 
 class ProcessFaults {
  public:
   // Faults of FaultTarget::kService.
   void order(const FaultOrder& order);
-  // Blows to deal now. One to a service that is away waits until it is back.
+  // Signals to send now. A signal to an absent service waits until it has rejoined.
   std::vector<ProcessBlow> take_due(const Barrier& barrier);
 
  private:

@@ -1,4 +1,4 @@
-// When a simulated run is over, by message time alone.
+// Termination conditions of a simulated run, in message time.
 #pragma once
 
 #include <optional>
@@ -9,12 +9,12 @@
 namespace rover {
 
 struct RunEndConfig {
-  double linger_s = 2.0;      // after the rover says that it has arrived, or that it will not go on
-  double stuck_s = 120.0;     // standing in one fault stop for so long ends the run
+  double linger_s = 2.0;      // delay after the rover reports arrival or gives up
+  double stuck_s = 120.0;     // maximum duration of one fault stop
   double timeout_s = 3600.0;  // of message time since the first tick
 };
 
-// What the supervisor last said of itself, in the words of supervisor_state_t.
+// Derived from the last supervisor_state_t.
 enum class RoverPhase { kUnderWay, kArrived, kGivenUp, kFaultStop };
 
 class RunEnd {
@@ -26,7 +26,7 @@ class RunEnd {
     phase_ = phase;
   }
 
-  // Why the run is over at this time, if it is: goal_reached, fault_stop or timeout.
+  // Outcome if the run ends now: goal_reached, fault_stop or timeout.
   std::optional<std::string> over(Utime now) const {
     const double standing_s = to_seconds(now - entered_);
     if (phase_ == RoverPhase::kArrived && standing_s >= config_.linger_s) return "goal_reached";

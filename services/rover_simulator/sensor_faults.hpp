@@ -1,4 +1,4 @@
-// What broken sensors make of good samples.
+// Applies sensor faults to fault-free samples.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@ namespace rover {
 struct CameraFault {
   bool blind = false;
   bool frozen = false;
-  int shift_rows = 0;  // downwards; what is missing repeats the border
+  int shift_rows = 0;  // downwards; the border is replicated
   int shift_columns = 0;
 };
 
@@ -23,12 +23,12 @@ struct SensorFaults {
   std::array<bool, 6> encoder_stuck{};
 };
 
-// Sees every sample, so that it knows the last good one.
+// Must process every sample, because it stores the last one for frozen and stuck faults.
 class FaultySensors {
  public:
   ImuSample imu(const SensorFaults& faults, ImuSample sample) const;
   WheelSample wheels(const SensorFaults& faults, WheelSample sample);
-  enum class Lenses : size_t { kLocCam = 0, kNavCam = 2 };  // the left one, the right one follows
+  enum class Lenses : size_t { kLocCam = 0, kNavCam = 2 };  // index of the left camera; the right one is next
   StereoCameraSim::Pair pictures(const SensorFaults& faults, Lenses lenses, StereoCameraSim::Pair pair);
 
  private:

@@ -7,7 +7,7 @@
 namespace rover {
 namespace {
 
-// Each part draws from a stream of its own, so that one more draw in one part changes no other.
+// Independent random streams, so that an extra draw in one part does not change the others.
 enum class Stream : std::uint64_t { kSensors = 1, kCamera = 2, kStart = 3, kNavCam = 4, kPanTilt = 5 };
 
 std::uint64_t seed_of(std::uint64_t seed, Stream stream) {

@@ -1,4 +1,4 @@
-// The simulated vehicle with its sensors and cameras in its world.
+// Simulated vehicle with sensors, cameras and terrain.
 #pragma once
 
 #include <memory>
@@ -20,9 +20,9 @@ struct SimulatedRoverConfig {
   VehicleSimConfig vehicle;
   SensorConfig sensors;
   CameraSimConfig loccam;
-  std::optional<StereoRig> navcam;  // none: a rover without one. It sees the LocCam's scene with its calibration error.
-  double pan_tilt_repeatability_rad = to_rad(0.02);  // estimate: 0.05 deg between extremes
-  double start_sigma_m = 0.0;                        // the true start differs from the ground's belief by this much
+  std::optional<StereoRig> navcam;                   // empty: no NavCam. It shares the LocCam's scene.
+  double pan_tilt_repeatability_rad = to_rad(0.02);  // one sigma, estimated from 0.05 deg between extremes
+  double start_sigma_m = 0.0;                        // error of the start pose given to the rover
   double start_sigma_yaw_rad = 0.0;
 };
 
@@ -33,19 +33,19 @@ class SimulatedRover {
 
   void advance(double dt_s, const WheelCommand& command);
   void set_faults(const VehicleFaults& faults) { vehicle_.set_faults(faults); }
-  // Wheels at rest, steering as it stands: what the driver does when its command has expired.
+  // Zero drive rates at the current steering angles; used when the command has expired.
   WheelCommand hold_command() const;
 
   const VehicleTruth& truth() const { return vehicle_.truth(); }
   Eigen::Isometry3d T_map_body() const { return vehicle_.truth().T_map_body; }
-  // Of the interval that the last advance() ended.
+  // Samples over the last advance() interval.
   const ImuSample& imu() const { return imu_; }
   const WheelSample& wheels() const { return wheels_; }
-  // Null for a rover without NavCam.
+  // Null without a NavCam.
   PanTiltSim* pan_tilt() { return pan_tilt_ ? &*pan_tilt_ : nullptr; }
-  // The true left NavCam, as its unit stands.
+  // True pose of the left NavCam at the current pan and tilt.
   Eigen::Isometry3d T_map_navcam() const;
-  // Thread safe against advance() and each other.
+  // Safe to call concurrently with advance() and each other.
   StereoCameraSim::Pair expose_loccam(const Eigen::Isometry3d& T_map_body, std::int64_t frame);
   StereoCameraSim::Pair expose_navcam(const Eigen::Isometry3d& T_map_left, std::int64_t frame);
 
@@ -56,10 +56,10 @@ class SimulatedRover {
   VehicleSim vehicle_;
   SensorSuite sensors_;
   std::optional<PanTiltSim> pan_tilt_;
-  std::mutex scene_mutex_;  // one camera at a time looks at the scene
+  std::mutex scene_mutex_;  // only one camera may render at a time
   std::shared_ptr<TileScene> scene_;
   StereoCameraSim loccam_;
-  std::unique_ptr<StereoCameraSim> navcam_;  // made by its first picture
+  std::unique_ptr<StereoCameraSim> navcam_;  // created on first use
   std::uint64_t navcam_seed_;
   ImuSample imu_;
   WheelSample wheels_;

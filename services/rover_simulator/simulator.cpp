@@ -19,15 +19,15 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr Utime kStart = 1'000'000;  // the first tick; zero stays free for "never"
+constexpr Utime kStart = 1'000'000;  // first tick; 0 means never
 constexpr Utime kFramePeriod = 400'000;
 constexpr Utime kCameraLatency = 60'000;   // exposure, read-out and transfer
-constexpr Utime kReturnAfter = 1'000'000;  // a service that left is waited for again from then on
+constexpr Utime kReturnAfter = 1'000'000;  // the barrier waits again for a service this long after it left
 constexpr double kStartPatience_s = 60.0;
 constexpr double kAskAgain_s = 1.0;
 constexpr double kSilence_s = 10.0;
-constexpr double kBusy_s = 120.0;    // likewise of a process that computes, on a machine that has other work too ...
-constexpr double kBusyShare = 0.05;  // ... of its time at least
+constexpr double kBusy_s = 120.0;  // timeout of a process that uses at least kBusyShare of CPU time
+constexpr double kBusyShare = 0.05;
 constexpr double kLost_s = 2.0;
 
 bool all_finite(const wheel_command_t& command) {
@@ -50,7 +50,7 @@ RoverPhase phase_of(const supervisor_state_t& state) {
     case supervisor_state_t::GOAL_REACHED:
       return RoverPhase::kArrived;
     case supervisor_state_t::SAFE:
-      // Whoever pressed the emergency stop may clear it and go on.
+      // The operator may clear an emergency stop.
       return state.cause == "emergency_stop" ? RoverPhase::kFaultStop : RoverPhase::kGivenUp;
     case supervisor_state_t::FAULT_STOP:
       return state.cause == "no_path" ? RoverPhase::kGivenUp : RoverPhase::kFaultStop;
@@ -104,8 +104,7 @@ void Simulator::on_done(const lcm::ReceiveBuffer* buffer, const std::string& cha
   dones_.push_back(done);
 }
 
-// What the others published until t. Which reports arrived by now depends on the machine's speed, which of them are
-// released by t does not.
+// Streams of DONE messages released by t. Filtering by release time, not arrival, keeps the run deterministic.
 std::vector<stream_seq_t> Simulator::take_grown(Utime t) {
   std::vector<stream_seq_t> grown;
   std::erase_if(dones_, [&](const done_t& done) {
@@ -160,7 +159,7 @@ SimulationSummary Simulator::run(const std::function<bool()>& running) {
   return summary_;
 }
 
-// In lockstep all that is released until t is here.
+// In lockstep, all messages released by t have arrived.
 void Simulator::take_states(Utime t) {
   while (lcm_.handleTimeout(0) > 0) {
   }
@@ -191,7 +190,7 @@ WheelCommand Simulator::command_at(Utime t) {
   return wheel_command_from(*command_);
 }
 
-// Message time may jump where a fault says so: no service may be at work then.
+// A clock-step fault makes message time jump; all services must be idle then.
 Utime Simulator::next_tick(Utime t, const std::function<bool()>& running) {
   const Utime jump = world_faults_.take_clock_step();
   if (jump == 0) return t + kTickUs;
@@ -219,7 +218,7 @@ void Simulator::publish_sensors(Utime t) {
   publish_pan_tilt(t);
 }
 
-// The newest command counts; the one before is void, with its picture.
+// A new command replaces the previous one and its image request.
 void Simulator::move_pan_tilt(Utime t) {
   if (const auto newest = ptu_commands_.take(t, tap_.get())) {
     rover_.pan_tilt()->command(pan_tilt_command_from(*newest));
@@ -227,7 +226,7 @@ void Simulator::move_pan_tilt(Utime t) {
   }
 }
 
-// The unit is switched on by its first command: while the rover drives without it, it says and costs nothing.
+// Silent until the first command, so drives without the NavCam have no overhead.
 void Simulator::publish_pan_tilt(Utime t) {
   if (!ptu_on_) return;
   ptu_state_t state = ptu_state_message(rover_.pan_tilt()->state());
@@ -249,7 +248,7 @@ void Simulator::start_exposures(Utime t) {
 
 void Simulator::expose(Camera& camera, Utime t, Render render) {
   if (camera.exposure) publish_due_images(camera, camera.exposure->release);
-  if (camera.exposure) return;  // late by the clock: a camera that is still busy takes no other picture
+  if (camera.exposure) return;  // real time only: rendering is late, skip this exposure
   PendingPair pending{t, t + kCameraLatency, {}};
   pending.pair = std::async(std::launch::async, std::move(render), camera.frames++);
   camera.exposure = std::move(pending);
@@ -260,7 +259,7 @@ void Simulator::publish_due_images(Camera& camera, Utime t) {
   PendingPair& pending = *camera.exposure;
   const bool finished = pending.pair.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
   if (options_.realtime && !finished) {
-    pending.release = t + kTickUs;  // late by the clock: released when it is there
+    pending.release = t + kTickUs;  // real time only: rendering is late
     return;
   }
   const StereoCameraSim::Pair pair =
@@ -292,7 +291,7 @@ void Simulator::wait_for_barrier(Utime t, const std::function<bool()>& running) 
   wait_for_answers(running);
 }
 
-// A report may overtake the messages that it lists: they come on another socket.
+// DONE arrives on its own socket and may overtake the messages that it lists.
 void Simulator::wait_for_answers(const std::function<bool()>& running) {
   const auto started = Clock::now();
   const auto here = [this](const stream_seq_t& stream) { return ledger_.complete(stream); };
@@ -307,14 +306,14 @@ void Simulator::wait_for_answers(const std::function<bool()>& running) {
   }
 }
 
-// Long work of a living process is no silence: how long it takes is not the scenario's affair.
+// A process that uses CPU time is not silent; wall time must not change the run.
 bool Simulator::computes(const std::string& name, double waited_s) const {
   const auto before = cpu_s_.find(name);
   if (before == cpu_s_.end() || waited_s >= kBusy_s) return false;
   return process_cpu_s(barrier_.pid_of(name)) - before->second > kBusyShare * waited_s;
 }
 
-// A dead process leaves the barrier at once, a silent one after a while; both are waited for again later.
+// A dead process leaves the barrier at once, a silent one after a timeout; both may rejoin.
 void Simulator::deal_with_missing(const std::vector<std::string>& missing, Utime t, double waited_s) {
   for (const std::string& name : missing) {
     if (!barrier_.takes_part(name) && waited_s >= kSilence_s) {

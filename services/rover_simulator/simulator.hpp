@@ -1,4 +1,5 @@
-// The world on the bus: steps vehicle and cameras, publishes what sensors and judges see, and gives the ticks.
+// Bus node of the simulator: steps vehicle and cameras, publishes sensor data and ground truth, and is the clock
+// master.
 #pragma once
 
 #include <deque>
@@ -28,18 +29,18 @@
 namespace rover {
 
 struct SimulatorOptions {
-  std::vector<std::string> participants;  // nodes that the ticks wait for
+  std::vector<std::string> participants;  // nodes in the tick barrier
   std::int64_t boot_id = 1;
   bool realtime = false;
-  double pace = 1.0;                  // of message time against the clock, with realtime
-  bool allow_injection = false;       // obeys INJECT
-  std::vector<ScriptedFault> faults;  // done whether injection is allowed or not
+  double pace = 1.0;                  // message time over wall time, with realtime
+  bool allow_injection = false;       // obey INJECT of other publishers
+  std::vector<ScriptedFault> faults;  // applied even without allow_injection
   RunEndConfig end;
 };
 
-// What a run leaves for the report.
+// Summary of a run, for the report.
 struct SimulationSummary {
-  std::string outcome;  // goal_reached, fault_stop, timeout, stopped, or what kept the run from starting
+  std::string outcome;  // goal_reached, fault_stop, timeout, stopped or not_started
   bool deterministic = true;
   double simulated_s = 0.0;
   double wall_s = 0.0;
@@ -48,11 +49,11 @@ struct SimulationSummary {
 
 class Simulator {
  public:
-  // `reports` brings DONE; null: the bus itself.
+  // `reports` carries DONE; null: the bus itself.
   Simulator(const SimulatorOptions& options, SimulatedRover& rover, lcm::LCM& lcm, lcm::LCM* reports = nullptr);
-  // Runs until the run is over or `running` is false.
+  // Returns when the run ends or `running` is false.
   SimulationSummary run(const std::function<bool()>& running);
-  // Messages dropped because they do not decode, by channel; every channel taken is listed.
+  // Number of messages that failed to decode, for every subscribed channel.
   const std::map<std::string, std::int64_t>& malformed() const { return malformed_; }
 
  private:
@@ -115,16 +116,16 @@ class Simulator {
   lcm::LCM& reports_;
   StreamCounter streams_;
   Barrier barrier_;
-  std::map<std::string, double> cpu_s_;  // of those that are waited for, a second into the wait
+  std::map<std::string, double> cpu_s_;  // CPU time of missing services, one second into the wait
   RunEnd end_;
   ArrivalLedger ledger_;
-  std::vector<done_t> dones_;          // whose streams no tick has listed yet
-  std::vector<stream_seq_t> awaited_;  // reported, on channels taken here
+  std::vector<done_t> dones_;          // their streams are not yet listed in a tick
+  std::vector<stream_seq_t> awaited_;  // reported messages on subscribed channels that have not arrived
   CommandInbox<wheel_command_t> wheel_commands_;
   CommandInbox<ptu_command_t> ptu_commands_;
   std::deque<supervisor_state_t> states_;
   std::optional<wheel_command_t> command_;
-  bool ptu_on_ = false;  // somebody has commanded the pan-tilt unit
+  bool ptu_on_ = false;  // switched on by its first command
   Camera loccam_;
   Camera navcam_;
   Utime now_ = kNever;
@@ -137,11 +138,11 @@ class Simulator {
   WorldFaults world_faults_;
   SensorFaults broken_;
   FaultySensors sensors_;
-  std::unique_ptr<Tap> tap_;            // empty while no fault has been done
-  std::vector<injection_t> asked_for_;  // by others, on INJECT
-  std::vector<injection_t> announced_;  // by us: a process that starts must hear of those that last
+  std::unique_ptr<Tap> tap_;            // null until the first fault
+  std::vector<injection_t> asked_for_;  // from others, on INJECT
+  std::vector<injection_t> announced_;  // own lasting faults, repeated for restarted processes
   std::vector<std::string> members_;    // of the last tick
-  std::vector<std::string> told_;       // of the faults that stand
+  std::vector<std::string> told_;       // members that have received the active faults
   std::int64_t injections_ = 0;
   double driven_m_ = 0.0;
   Eigen::Vector2d way_mark_ = Eigen::Vector2d::Zero();

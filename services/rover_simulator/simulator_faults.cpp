@@ -1,4 +1,4 @@
-// The part of the simulator that does faults: at ticks, so that a run with them is as deterministic as one without.
+// Fault injection of the simulator. Faults begin at ticks, so runs remain deterministic.
 #include <signal.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double kPatience_s = 10.0;
-constexpr double kWayStepM = 0.01;  // shorter moves are noise of a rover that stands
+constexpr double kWayStepM = 0.01;  // smaller moves are noise of a stationary rover
 
 injection_t injection_of(const FaultOrder& order, std::int64_t id, Utime now) {
   injection_t injection{};
@@ -58,7 +58,7 @@ void Simulator::begin_scripted(Utime t) {
   }
 }
 
-// Processes are left to those who ask: they have s6 for it.
+// Process faults of other publishers are not handled here; they use s6.
 void Simulator::begin_asked_for(Utime t) {
   std::erase_if(asked_for_, [&](const injection_t& injection) {
     if (injection.header.release_utime > t) return false;
@@ -81,7 +81,7 @@ void Simulator::begin(const injection_t& injection) {
     world_faults_.begin(injection, yaw_of(rover_.T_map_body()));
 }
 
-// A process that joined with the last tick has heard nothing of the faults that stand.
+// Republishes active faults for processes that joined at the last tick.
 void Simulator::announce_again(Utime t) {
   const bool joined = std::any_of(members_.begin(), members_.end(), [this](const std::string& name) {
     return std::find(told_.begin(), told_.end(), name) == told_.end();
@@ -94,7 +94,7 @@ void Simulator::announce_again(Utime t) {
 }
 
 void Simulator::deal(const ProcessBlow& blow, Utime t, const std::function<bool()>& running) {
-  // In lockstep all that it does at this tick depends on message time alone: it has done the tick before, whole.
+  // In lockstep the service must have finished the previous tick, so the effect depends on message time only.
   if (!options_.realtime && !wait_until_idle(blow.service, running)) summary_.deterministic = false;
   const int pid = barrier_.pid_of(blow.service);
   if (pid > 0) kill(pid, blow.signal);

@@ -34,7 +34,7 @@ void break_sensor(const injection_t& injection, SensorFaults& sensors) {
   if (injection.fault == "encoder_stuck") sensors.encoder_stuck.at(std::stoul(injection.target)) = true;
 }
 
-// It comes and goes as when a rover drives on and off a slope, at this rate.
+// The tilt ramps up and down at this rate, like driving onto and off a slope.
 double tilt_rad(const injection_t& injection, Utime now) {
   constexpr double kRateRadps = to_rad(15.0);
   const double most = std::abs(to_rad(injection.amount));
@@ -43,7 +43,7 @@ double tilt_rad(const injection_t& injection, Utime now) {
   return std::copysign(std::clamp(std::min(risen, left), 0.0, most), injection.amount);
 }
 
-// The ground under a vehicle that has this roll or pitch on it with its heading.
+// Rotation of the ground that gives a vehicle with this heading this roll or pitch.
 Eigen::Matrix3d tilted(const injection_t& injection, double heading_rad, Utime now) {
   const double angle = tilt_rad(injection, now);
   const Eigen::Matrix3d heading = rotation_from_rpy(0.0, 0.0, heading_rad);

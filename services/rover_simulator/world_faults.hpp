@@ -1,4 +1,4 @@
-// Faults that the simulator does to its own world: who stands, and what they make of sensors, vehicle and clock.
+// Active faults of the simulated world, and their effect on sensors, vehicle and clock.
 #pragma once
 
 #include <rover/injection_t.hpp>
@@ -13,11 +13,11 @@ namespace rover {
 
 class WorldFaults {
  public:
-  // Faults of FaultTarget::kWorld. A slope keeps the direction that the rover's heading gives it here.
+  // For faults of FaultTarget::kWorld. A tilt keeps the rover's heading at its start.
   void begin(const injection_t& injection, double heading_rad);
   SensorFaults sensors(Utime now) const;
   VehicleFaults vehicle(Utime now) const;
-  // By how much the clock is to jump, once.
+  // Pending clock step; cleared by the call.
   Utime take_clock_step();
 
  private:

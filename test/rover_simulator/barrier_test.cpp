@@ -83,7 +83,7 @@ TEST_F(BarrierTest, ASilentProcessReturnsByItsNextReport) {
   EXPECT_FALSE(waits_at(13 * kTickUs));
 }
 
-// s6 starts it again within 0.15 s, and the world misses the old one only when it owes something.
+// s6 restarts a process within 0.15 s; the barrier notices the death only when a report is due.
 TEST_F(BarrierTest, AProcessThatIsUpBeforeItsPredecessorIsMissedReturns) {
   barrier_.done("node", 5, 100, 0, 10 * kTickUs);
   barrier_.ready("node", 6, 101);
@@ -104,7 +104,7 @@ TEST_F(BarrierTest, ASilentProcessThatIsReplacedReturnsAsTheNewOne) {
   barrier_.ready("node", 6, 101);
   EXPECT_EQ(barrier_.admit(12 * kTickUs), Names{"node"});
   EXPECT_EQ(barrier_.pid_of("node"), 101);
-  barrier_.done("node", 5, 100, 12 * kTickUs, kNever);  // the old one speaks no more for it
+  barrier_.done("node", 5, 100, 12 * kTickUs, kNever);  // reports of the old process are ignored
   EXPECT_TRUE(waits_at(14 * kTickUs));
 }
 

@@ -1,4 +1,4 @@
-// Times of the simulator's cameras: a stereo pair of each, and a tile of ground.
+// Rendering time of a stereo pair per camera, and build time of a ground tile.
 #include <benchmark/benchmark.h>
 
 #include "camera_test_world.hpp"

@@ -1,4 +1,4 @@
-// The cameras' parts, each against what is known of it.
+// Unit tests of the camera parts against known values.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -36,7 +36,7 @@ TEST(RayTable, ProjectionInvertsRays) {
   }
 }
 
-// 100 deg from corner to corner.
+// Diagonal field of view of 100 deg.
 TEST(RayTable, ProjectionInvertsRaysOfAFisheyeLens) {
   StereoRig rig = test::loccam_rig();
   rig.right.model = DistortionModel::kEquidistant;

@@ -1,4 +1,4 @@
-// What stereo makes of the pictures: OpenCV's matcher on the rectified pair, against the traced ranges.
+// OpenCV's stereo matcher on rendered pairs, against the ray-traced ranges.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -124,7 +124,6 @@ double bilinear(const GrayImage& image, const Eigen::Vector2d& at) {
          fv * ((1 - fu) * image.at(u, v + 1) + fu * image.at(u + 1, v + 1));
 }
 
-// The albedo sticks to the ground: what one picture shows of a place, the next one shows too.
 TEST(StereoOnPictures, TextureDoesNotCrawl) {
   const test::RockySurface surface;
   CameraSimConfig config;
@@ -157,7 +156,7 @@ TEST(StereoOnPictures, TextureDoesNotCrawl) {
   EXPECT_GT(correlation, 0.9);
 }
 
-// Mean squared difference between the left picture and the right one at the projected points, moved by `shift`.
+// Mean squared difference between left and right image at the projected points, displaced by `shift`.
 double mismatch(StereoCameraSim& camera, const StereoCameraSim::Pair& pair, const std::vector<float>& ranges,
                 const Eigen::Vector2d& shift) {
   const StereoRig& rig = camera.true_rig();
@@ -178,7 +177,7 @@ double mismatch(StereoCameraSim& camera, const StereoCameraSim::Pair& pair, cons
   return sum / count;
 }
 
-// Not even by a few hundredths of a pixel is one picture off the other: the mismatch is least where geometry says.
+// The photometric mismatch has its minimum at the geometric projection, within hundredths of a pixel.
 TEST(StereoOnPictures, PicturesAgreeWithTheGeometry) {
   const test::RockySurface surface;
   CameraSimConfig config;

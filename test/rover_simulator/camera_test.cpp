@@ -1,4 +1,4 @@
-// The cameras as a whole: geometry, light, determinism.
+// Complete camera model: geometry, light, determinism.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -113,7 +113,7 @@ TEST(StereoCameraSim, RangesAgreeWithMarchingTheSurfaceItself) {
       ++count;
     }
   }
-  // The rest look at the rims of rocks, which the mesh cuts off at 2 cm.
+  // The remaining rays hit rock rims, which the mesh samples at 2 cm.
   EXPECT_GT(near, 0.97 * count);
 }
 
@@ -135,7 +135,7 @@ TEST(StereoCameraSim, GroundHasNoCracks) {
   }
 }
 
-// Smooth dust everywhere, but for a flat disc of rock.
+// Smooth dust with one flat disc of rock.
 class DiscSurface : public test::PlaneSurface {
  public:
   Material material(double x, double y) const override {

@@ -1,4 +1,4 @@
-// The parts that faults are made of: the script, the blows to processes, the way of a command to the motors.
+// Unit tests of fault script, process faults and command inbox.
 #include <gtest/gtest.h>
 
 #include <csignal>

@@ -1,4 +1,4 @@
-// Faults of sensors, vehicle, clock and processes, as they show on a bus in memory.
+// Faults of sensors, vehicle, clock and processes, observed on an in-memory bus.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -23,7 +23,7 @@ namespace {
 const std::string kConfigDir = std::string(ROVER_SOURCE_DIR) + "/config";
 constexpr Utime kStart = 1'000'000;
 
-// Keeps all messages of a channel.
+// Records all messages of a channel.
 template <class Message>
 void keep(lcm::LCM& bus, const char* channel, std::vector<Message>& kept) {
   bus.subscribeFunction(
@@ -35,7 +35,7 @@ void keep(lcm::LCM& bus, const char* channel, std::vector<Message>& kept) {
       &kept);
 }
 
-// A service that drives straight ahead; its process is a child that sleeps, and comes back when it was ended.
+// Service that drives straight ahead. Its process is a sleeping child, restarted after it was killed.
 class Driver {
  public:
   explicit Driver(lcm::LCM& bus) : bus_(bus) {
@@ -68,7 +68,7 @@ class Driver {
     kill(child_, SIGKILL);
     waitpid(child_, nullptr, 0);
   }
-  // Told by the tick without it that its process is no more.
+  // A tick without this member means that its process has died.
   void on_tick(const tick_t& tick) {
     if (tick.members.empty()) {
       if (waitpid(child_, nullptr, WNOHANG) == child_) start();
@@ -116,7 +116,7 @@ ScriptedFault at_second(double at_s, const std::string& fault, const std::string
   return scripted;
 }
 
-// Some seconds on a smooth plane of firm ground.
+// Drives for some seconds on a smooth firm plane.
 Heard drive(std::vector<ScriptedFault> faults, double seconds = 2.0) {
   SimulatedRoverConfig config;
   config.loccam.scene.fine_radius_m = 4.5;

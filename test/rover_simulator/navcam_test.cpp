@@ -1,4 +1,4 @@
-// The NavCam on its pan-tilt unit, on a bus in memory, in lockstep.
+// NavCam on its pan-tilt unit, on an in-memory bus in lockstep.
 #include <gtest/gtest.h>
 
 #include <rover/image_t.hpp>
@@ -16,7 +16,7 @@ namespace {
 const std::string kRigConfig = std::string(ROVER_SOURCE_DIR) + "/config";
 using MessageBytes = std::vector<std::uint8_t>;
 
-// Says PTU_COMMAND at some ticks, counted from the first.
+// Publishes PTU_COMMAND at given ticks, counted from the first.
 class Looker {
  public:
   struct Order {

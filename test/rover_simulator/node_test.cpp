@@ -1,4 +1,4 @@
-// The simulator on a bus in memory, with one participant.
+// Simulator with one participant on an in-memory bus.
 #include <gtest/gtest.h>
 
 #include <rover/tick_t.hpp>
@@ -15,7 +15,7 @@ namespace {
 const std::string kConfig = std::string(ROVER_SOURCE_DIR) + "/config";
 using Bytes = std::vector<std::uint8_t>;
 
-// Answers each tick with all that the simulator listens to; on demand with bad copies in front.
+// Answers each tick on every channel that the simulator subscribes to, optionally preceded by invalid copies.
 class Participant {
  public:
   Participant(lcm::LCM& bus, bool disturbs) : bus_(bus), disturbs_(disturbs), streams_("participant", 1) {
@@ -132,7 +132,7 @@ TEST(SimulatorNode, BadMessagesAreCountedAndNamedAndChangeNothing) {
   ASSERT_GE(calm.truth.size(), 50u);
   EXPECT_TRUE(disturbed.truth == calm.truth);
   ASSERT_GE(disturbed.malformed.size(), 4u);
-  // Every channel that the simulator takes, also one that comes later, must be among those disturbed here.
+  // Fails if a new subscription of the simulator is not covered by this test.
   EXPECT_EQ(disturbed.malformed, disturbed.sent);
   for (const auto& [channel, count] : disturbed.malformed)
     EXPECT_NE(disturbed.log.find("BAD_MESSAGE channel=" + channel + " count=1\n"), std::string::npos) << disturbed.log;

@@ -8,7 +8,7 @@ namespace {
 const PanTiltUnit kUnit{.pan_max_rad = 2.0, .tilt_min_rad = -0.3, .tilt_max_rad = 0.8, .rate_radps = 0.5};
 constexpr double kTickS = 0.02;
 
-// Ticks until it stands.
+// Ticks until the unit is stationary.
 int settle(PanTiltSim& unit) {
   int ticks = 0;
   for (; unit.state().moving && ticks < 1000; ++ticks) unit.advance(kTickS);

@@ -61,7 +61,7 @@ TEST(WheelContact, AWallPushesBack) {
   EXPECT_NEAR(contact.climb_m, 0.5, 1e-9);
 }
 
-// Drives over a bump across the whole width; returns the highest climb and whether it came across.
+// Drives over a full-width bump; returns the maximum climb and whether the rover got across.
 struct Crossing {
   double climb_m = 0.0;
   bool across = false;
@@ -86,7 +86,7 @@ Crossing cross(const std::function<double(double, double)>& feature, double seco
   return crossing;
 }
 
-// A block with flanks of 63 degrees, as tall as given, under the left wheels.
+// Block of this height with flanks of 63 degrees, under the left wheels.
 std::function<double(double, double)> block(double height_m) {
   return [height_m](double x, double y) {
     const double edge = std::min({x - 1.3, 1.8 - x, y - 0.2, 0.7 - y});

@@ -1,4 +1,4 @@
-// Drive currents against slope, next to those of a real rover.
+// Drive current over slope, compared with field data of a real rover.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -35,7 +35,7 @@ Line fit(const std::vector<Sample>& samples) {
   return line;
 }
 
-// The right motors are mounted the other way round, and the nose points up where the pitch is negative.
+// Right motors have the opposite sign; negative pitch is nose up.
 std::vector<Sample> cuadriga() {
   std::ifstream file(ROVER_SOURCE_DIR "/test/rover_simulator/data/cuadriga_slopes.csv");
   std::vector<Sample> samples;
@@ -91,7 +91,7 @@ TEST(DriveCurrent, IsLimited) {
   MotorOutput out;
   for (int i = 0; i < 1000; ++i) out = motor.step({}, 10.0, 1.0, 0.0, 0.0, 0.002);
   EXPECT_EQ(out.current_a, 10.0);
-  // The reference does not run away while the wheel is blocked.
+  // No integrator windup while the wheel is blocked.
   out = motor.step({}, 10.0, -1.0, 0.0, 0.0, 0.002);
   for (int i = 0; i < 300; ++i) out = motor.step({}, 10.0, -1.0, 0.0, 0.0, 0.002);
   EXPECT_EQ(out.current_a, -10.0);

@@ -43,7 +43,7 @@ TEST(VehicleAtRest, LiesParallelToASlope) {
   EXPECT_NEAR(facing_up.truth().T_map_body.translation().x(), 0.0, 0.01);
 }
 
-// The ground gives the rover its start pose with a deviation of 0.2 deg: settling must not add to that.
+// The start pose has a sigma of 0.2 deg; settling must not add to it.
 TEST(VehicleAtRest, OnRoughGroundItStandsWhereItWasToStand) {
   WorldConfig config;
   config.rocks.k = 0.0;
@@ -109,7 +109,6 @@ TEST(VehicleDrive, SteersNoFasterThanItsMotors) {
   EXPECT_NEAR(sim.truth().steer_angle_rad[0], to_rad(90.7), 0.03);
 }
 
-// Increments add up to the motion, so that what integrates them meets the truth.
 TEST(VehicleTruth, IncrementsIntegrateToTheMotion) {
   WorldConfig config;
   config.rocks.k = 0.02;

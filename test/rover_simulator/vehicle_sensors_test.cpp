@@ -53,7 +53,7 @@ TEST(Sensors, WithoutErrorsTellTheTruth) {
   EXPECT_EQ(wheels.bogie_angle_rad, truth.bogie_angle_rad);
 }
 
-// The angle error of many gyros after one minute at rest: random walk grows with the root of time, bias with time.
+// Angle error of many gyros after one minute at rest: random walk grows with sqrt(t), bias with t.
 TEST(Sensors, GyroErrorGrowsAsItsDataSheetSays) {
   SensorConfig walk = perfect(), bias = perfect();
   walk.gyro_random_walk_rad_rts = 4.4e-5;

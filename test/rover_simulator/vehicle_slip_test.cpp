@@ -72,7 +72,7 @@ TEST(GrossTraction, RisesWithSlip) {
 
 class Standing : public testing::TestWithParam<Soil> {};
 
-// At rest on a slope that the soil can hold nothing creeps once the bristles have taken the load.
+// No creep on a slope within the soil's traction, after the bristles are loaded.
 TEST_P(Standing, HoldsOnTheSlope) {
   const PlaneSurface plane(GetParam(), to_rad(15));
   for (double yaw : {0.0, kPi / 2}) {

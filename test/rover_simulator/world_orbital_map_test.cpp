@@ -59,7 +59,7 @@ TEST(OrbitalMap, CarriesTheGeoreference) {
   EXPECT_EQ(map.projection_wkt, "LOCAL_CS[\"test\"]");
 }
 
-// It errs by about the vertical noise, not at all on the mean: truth is in the map's frame.
+// The error has about the configured rms and zero mean.
 TEST(OrbitalMap, ErrsAsConfigured) {
   const World world(bare_config(), hills(), 1);
   const Difference d = difference(world.orbital_map(1.0), world);

@@ -14,7 +14,7 @@ RockConfig rocks_of(double k) {
   return config;
 }
 
-// Rocks per hectare above 0.4 m, as the literature has them for these k.
+// Published rocks per hectare above 0.4 m for these k.
 TEST(RockLaw, GivesTheKnownDensities) {
   const std::pair<double, double> known[] = {{0.02, 26},  {0.05, 315},  {0.07, 575},
                                              {0.10, 983}, {0.15, 1665}, {0.20, 2321}};
@@ -116,7 +116,7 @@ TEST(RockField, EachRockStandsUpToItsHeight) {
   EXPECT_GT(alone, 1000);
 }
 
-// Steep but no cliff: a step of 2 mm never rises by more than the steepest flank allows.
+// Height change over 2 mm is bounded by the steepest flank.
 TEST(RockField, IsContinuousWithSteepFlanks) {
   const RockField field(rocks_of(0.1), 40, 40, {}, 9);
   double steepest = 0.0;

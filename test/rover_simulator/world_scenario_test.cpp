@@ -44,7 +44,7 @@ double tightest_radius_m(const PlannedPath& path) {
   return radius;
 }
 
-// Rocks of hazard size that a vehicle one metre wide meets if it follows the path.
+// Hazard-size rocks on the path of a 1 m wide vehicle.
 double hazards_on_path(const Scenario& scenario, std::uint64_t seed) {
   const World world(scenario.world, scenario.dtm, seed);
   const std::vector<Rock> rocks = world.rocks_in(0, 0, world.width_m(), world.length_m());
@@ -59,7 +59,7 @@ TEST(Scenarios, TheTraversesAreThePapersLength) {
   EXPECT_NEAR(load_scenario(kScenarios + "default.yaml").path_length_m(), 25.0, 0.01);
 }
 
-// What a planner sees from orbit: slopes within the level's limit and wide turns. Start and goal have room around them.
+// Slopes within the level's limit, wide turns, clearance around start and goal.
 TEST(Scenarios, PathsAreDrivable) {
   for (const char* name :
        {"default", "seed_traverse_1", "seed_traverse_2", "flat", "slope", "long_drift", "full_hard", "combined_500"}) {
@@ -76,7 +76,7 @@ TEST(Scenarios, PathsAreDrivable) {
   }
 }
 
-// A rock in the way makes one or two repairs (test/results/seed.md): the paper's are 6 and 10.
+// A rock on the path causes one or two repairs (test/results/seed.md); the paper reports 6 and 10.
 TEST(Scenarios, RocksStandInTheWayForThePapersRepairs) {
   const auto mean = [](const Scenario& scenario) {
     double sum = 0.0;
@@ -127,7 +127,7 @@ class ScenarioFile : public testing::Test {
   fs::path dir_;
 };
 
-// Slopes to 15 deg, more rocks than any traverse of the Efficient level has; and what the paper's levels are chosen by.
+// Slopes to 15 deg and more rocks than any Efficient-level traverse.
 TEST(Scenarios, TheHardOneIsHardAndForTheFullLevel) {
   const Scenario scenario = load_scenario(kScenarios + "full_hard.yaml");
   EXPECT_EQ(scenario.level, "auto");

@@ -56,7 +56,7 @@ TEST(WorldHeight, GoesOnFlatOutside) {
   EXPECT_TRUE(world.contains(39.9, 0.0));
 }
 
-// Firm ground varies by 1 to 1.5 cm over 0.3 m, and never by what a detector may call a hazard.
+// Firm ground varies by 1 to 1.5 cm over 0.3 m, below hazard size.
 TEST(WorldRoughness, IsThatOfFirmGround) {
   WorldConfig config = bare_config();
   config.roughness = RoughnessConfig{};

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint64_t kCalibrationSalt = 0xCA11B4A7E0ULL;
 
-// Nine numbers in pixels at the image border, so that all of them weigh alike.
+// Nine parameters, scaled to pixels at the image border so that all have equal weight.
 struct Perturbation {
   double focal_left, cx_left, cy_left, focal_right, cx_right, cy_right, yaw, pitch, roll;
 };
@@ -77,7 +77,7 @@ StereoRig with_calibration_error(const StereoRig& nominal, double error_px, std:
   if (error_px == 0.0) return nominal;
   const Perturbation p = draw(seed);
   double scale = error_px;
-  // The error is almost linear in the perturbation: two corrections settle it.
+  // The error is almost linear in the scale; two corrections are enough.
   for (int i = 0; i < 2; ++i) scale *= error_px / reprojection_rms_px(nominal, apply(nominal, p, scale));
   return apply(nominal, p, scale);
 }

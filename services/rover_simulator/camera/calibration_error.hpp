@@ -1,4 +1,4 @@
-// The true rig: the nominal one with the error that a stereo calibration leaves.
+// True camera rig: the nominal rig with a residual stereo calibration error.
 #pragma once
 
 #include <cstdint>
@@ -7,12 +7,11 @@
 
 namespace rover {
 
-// Focal lengths, principal points and the rotation between the cameras are off by amounts drawn from the seed, scaled
-// so that the reprojection error over both images is `error_px` rms. T_body_left stays: the mount is not the
-// calibration's.
+// Perturbs focal lengths, principal points and relative rotation by random amounts, scaled to a reprojection error of
+// `error_px` rms over both images. T_body_left is unchanged.
 StereoRig with_calibration_error(const StereoRig& nominal, double error_px, std::uint64_t seed);
 
-// Root mean square, over both images, of the distance between where the two rigs see the same points at infinity.
+// Rms distance, over both images, between the two rigs' projections of the same points at infinity.
 double reprojection_rms_px(const StereoRig& a, const StereoRig& b);
 
 }  // namespace rover

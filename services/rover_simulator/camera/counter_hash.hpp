@@ -1,4 +1,4 @@
-// Random numbers as a pure function of counters: the same on every thread, in every order.
+// Counter-based random numbers: independent of thread and order.
 // Finalisers: MurmurHash3 (32 bit) and its Stafford variant 13 (64 bit, "splitmix64").
 #pragma once
 
@@ -30,7 +30,7 @@ constexpr double unit_random(std::uint64_t hash) {
   return static_cast<double>(hash >> 11) * 0x1.0p-53;
 }
 
-// Of zero mean and unit variance, from 64 random bits: the sum of four uniform numbers, cut at 3.5 sigma.
+// Approximately normal (zero mean, unit variance, bounded at 3.5 sigma): sum of four uniform numbers from 64 bits.
 constexpr float near_normal(std::uint32_t a, std::uint32_t b) {
   const auto sum = static_cast<std::int32_t>((a & 0xFFFFU) + (a >> 16) + (b & 0xFFFFU) + (b >> 16));
   constexpr float kSigma = 37837.2F;  // sqrt(4 (65536^2 - 1) / 12)

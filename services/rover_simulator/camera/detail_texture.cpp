@@ -57,7 +57,7 @@ void normalise(Field& field) {
   for (float& value : field) value = static_cast<float>((value - mean) / sigma);
 }
 
-// Difference of Gaussians: a band of about two octaves round kWavelengthTexels.
+// Difference of Gaussians: band-pass of about two octaves around kWavelengthTexels.
 Field band_noise(std::uint64_t seed) {
   const double sigma = DetailTexture::kWavelengthTexels / (2.0 * std::numbers::pi);
   const Field white = white_noise(seed);
@@ -77,7 +77,7 @@ Relief band_relief(std::uint64_t seed) {
   return {band_noise(seed), band_noise(hash64(seed, 5))};
 }
 
-// Pebbles, each of one tone and domed, later ones over earlier ones, on a bed of finer noise.
+// Domed pebbles of uniform tone, drawn over each other on finer noise.
 Relief grain_relief(std::uint64_t seed) {
   Relief relief = band_relief(seed);
   for (float& value : relief.tone) value *= 0.5F;
@@ -140,7 +140,7 @@ DetailTexture::DetailTexture(std::uint64_t seed, bool grains) : texels_(static_c
 }
 
 GroundTexture::GroundTexture(std::uint64_t seed) : noise(hash64(seed, 11), false), grains(hash64(seed, 12), true) {
-  // Centre wavelengths 4.8 mm to 1.3 m: two pixels at 1 m range, and up to what the terrain's own roughness covers.
+  // Centre wavelengths from 4.8 mm (two pixels at 1 m) to 1.3 m (covered by the terrain's roughness).
   double texel_m = 0.0008;
   for (int i = 0; i < kDetailLayers; ++i, texel_m *= 4.07) layers[i] = make_layer(i, texel_m, seed);
 }

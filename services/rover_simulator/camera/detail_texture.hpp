@@ -1,8 +1,7 @@
-// The ground's fine texture: tileable noise, drawn once from the seed, laid on the world in layers of growing size.
+// Fine ground texture: layers of tileable noise at increasing scale.
 //
-// A layer covers two octaves of wavelength, and is faded out by the size of a pixel on the ground before it could
-// alias: the sum of band-limited layers is its own mip map, without seams. Texture coordinates are affine in world
-// coordinates, so a world point has one albedo, in both cameras and in all frames.
+// A layer covers two octaves and is faded out by pixel footprint before it aliases, so no mip maps are needed. Texture
+// coordinates are affine in world coordinates, so a point has the same albedo in both cameras and all frames.
 #pragma once
 
 #include <smmintrin.h>
@@ -17,7 +16,7 @@ namespace rover {
 // Four channels at once (GCC and Clang vector type).
 using Float4 = float __attribute__((vector_size(16)));
 
-// One tile of noise: tone (unit variance in kUnit steps), and the two slopes of its relief (unit variance together).
+// Tile of noise: tone (unit variance, in kUnit steps) and two relief slopes (joint unit variance).
 class DetailTexture {
  public:
   static constexpr int kSize = 512;
@@ -54,8 +53,7 @@ class DetailTexture {
   std::vector<std::int32_t> texels_;  // four signed bytes each
 };
 
-// Where a layer lies: texture coordinates = offset + axes * two map coordinates. Which two depends on where the ground
-// faces, so that steep rock faces are not smeared.
+// Texture coordinates = offset + axes * two map coordinates, chosen by surface normal (triplanar mapping).
 struct DetailLayer {
   double texel_m = 0.0;
   Eigen::Matrix2d texels_per_m;
@@ -63,13 +61,12 @@ struct DetailLayer {
   bool grains = false;
 };
 
-// Planes that textures are projected from: map coordinates kPlaneAxes[plane].
+// Projection planes of the textures: map coordinates kPlaneAxes[plane].
 inline constexpr int kPlanes = 3;
 inline constexpr std::array<std::array<int, 2>, kPlanes> kPlaneAxes = {{{0, 1}, {1, 2}, {0, 2}}};
 
 inline constexpr int kDetailLayers = 5;
-// From this layer on the waves are so long (0.3 m) that the finest tiles carry their tone in the albedo of the
-// vertices.
+// From this layer on (wavelength 0.3 m) the finest tiles bake the tone into the vertex albedo.
 inline constexpr int kFirstBakedLayer = 3;
 
 struct GroundTexture {

@@ -10,7 +10,7 @@
 namespace rover {
 namespace {
 
-constexpr double kDustPatch_m = 1.5;  // lattice of the dust noise; patches come out one to two metres wide
+constexpr double kDustPatch_m = 1.5;  // lattice of the dust noise; patches are 1 to 2 m wide
 
 std::uint64_t lattice_hash(std::uint64_t seed, std::int64_t ix, std::int64_t iy) {
   return hash64(hash64(seed, static_cast<std::uint64_t>(ix)), static_cast<std::uint64_t>(iy));
@@ -32,7 +32,7 @@ double value_noise(std::uint64_t seed, double x, double y) {
   return (1.0 - v) * ((1.0 - u) * corner(0, 0) + u * corner(1, 0)) + v * ((1.0 - u) * corner(0, 1) + u * corner(1, 1));
 }
 
-// Level below which value_noise stays with the given probability.
+// Quantile of value_noise at this probability.
 double noise_quantile(double fraction) {
   constexpr int kSide = 150;
   std::vector<double> values;
@@ -44,7 +44,7 @@ double noise_quantile(double fraction) {
   return *at;
 }
 
-// Albedos and relative contrasts are chosen by eye, so that pictures look like those of Mars rovers.
+// Albedos and contrasts are tuned visually to images of Mars rovers.
 VertexLook soil_look(Soil soil) {
   switch (soil) {
     case Soil::kSand:
@@ -64,7 +64,7 @@ VertexLook rock_look(std::uint64_t seed, int rock_id) {
 
 void cover(VertexLook& look, double dust) {
   constexpr float kDustAlbedo = 0.33F;
-  constexpr float kLeft = 0.04F;  // of the contrast
+  constexpr float kLeft = 0.04F;  // remaining contrast under dust
   const auto d = static_cast<float>(dust);
   look.albedo += d * (kDustAlbedo - look.albedo);
   const float keep = 1.0F - d * (1.0F - kLeft);

@@ -1,4 +1,4 @@
-// What the ground looks like: light, albedo and contrast by material, dust.
+// Appearance of the ground: illumination, albedo and contrast by material, dust.
 #pragma once
 
 #include <cstdint>
@@ -10,18 +10,18 @@ namespace rover {
 struct GroundLookConfig {
   double sun_elevation_rad = 0.7;
   double sun_azimuth_rad = 1.0;             // towards the sun, counter-clockwise from map x
-  double sky_light = 0.16;                  // diffuse over direct irradiance; an estimate for little dust in the air
-  double textureless_fraction = 0.03;       // share of the ground under smooth dust
-  double textureless_rock_fraction = 0.02;  // share of the rocks with a smooth, dusty skin
+  double sky_light = 0.16;                  // diffuse over direct irradiance, estimated for low atmospheric dust
+  double textureless_fraction = 0.03;       // fraction of the ground covered by smooth dust
+  double textureless_rock_fraction = 0.02;  // fraction of the rocks covered by smooth dust
   std::uint64_t seed = 1;
 };
 
-// Look of one vertex; values between vertices are interpolated.
+// Appearance of one vertex, interpolated between vertices.
 struct VertexLook {
   float albedo = 0.0F;
-  float fine_contrast = 0.0F;    // relative, of layers with wavelengths below 5 cm
-  float coarse_contrast = 0.0F;  // and above
-  float bump = 0.0F;             // slope (rms) of the relief below the mesh's resolution
+  float fine_contrast = 0.0F;    // relative, wavelengths below 5 cm
+  float coarse_contrast = 0.0F;  // relative, wavelengths above 5 cm
+  float bump = 0.0F;             // rms slope of relief below mesh resolution
 };
 
 class GroundLook {
@@ -31,12 +31,12 @@ class GroundLook {
   const GroundLookConfig& config() const { return config_; }
 
  private:
-  // 0: none, 1: smooth dust hides all texture.
+  // Dust cover from 0 to 1; 1 hides all texture.
   double dust_on_ground(double x, double y) const;
   double dust_on_rock(int rock_id) const;
 
   GroundLookConfig config_;
-  double dust_below_;  // level of the dust noise
+  double dust_below_;  // dust where the noise is below this level
 };
 
 }  // namespace rover

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-// Under ThreadSanitizer there is none: it would be called when clones are resolved, before it is loaded.
+// Disabled under ThreadSanitizer: the ifunc resolver would run before the sanitizer is loaded.
 #ifdef __SANITIZE_THREAD__
 #define ROVER_AVX2_CLONE
 #else
@@ -14,9 +14,9 @@ namespace rover {
 namespace {
 
 constexpr float kFineWavelength_m = 0.05F;
-// Half width of a shadow's edge as tangent of elevation: the sun's disc (0.003) and what scatters round it.
+// Half width of the penumbra as tangent of elevation: the sun's disc (0.003) plus scattering.
 constexpr float kPenumbra = 0.012F;
-// A layer is in full from three pixels a wave, and gone at 1.2.
+// A layer has full contrast from three pixels per wavelength and fades to zero at 1.2.
 constexpr float kPixelsGone = 1.2F;
 constexpr float kPixelsFull = 3.0F;
 
@@ -27,21 +27,21 @@ float smooth_step(float t) {
 
 }  // namespace
 
-// What is known of the eight points while the layers of texture are added.
+// Intermediate shading state of eight points.
 struct GroundShader::State {
   Lanes<float> slope_x, slope_y, sun_margin, albedo;
   Lanes<float> fine_contrast, coarse_contrast, bump;
   Lanes<float> normal_x, normal_y, normal_z;
-  Lanes<float> unbaked;      // 0 where the vertices carry the long waves already
-  Lanes<float> waves_per_m;  // the finest that a pixel can resolve
-  Lanes<int> plane;          // that the textures are projected from, and the point's coordinates in it
+  Lanes<float> unbaked;      // 0 where long wavelengths are baked into the vertices
+  Lanes<float> waves_per_m;  // resolution limit of the pixel
+  Lanes<int> plane;          // projection plane of the textures, and the point's coordinates in it
   Lanes<float> a, b;
   Lanes<float> tone;
 };
 
 namespace {
 
-// Bilinear between the tile's vertices. The skirt and rays that graze the rim take the rim's values.
+// Bilinear interpolation, clamped to the tile.
 template <class State>
 [[gnu::always_inline]] inline void interpolate(const GroundTile& tile, float x, float y, int k, State& at) {
   const TileLevel& level = kLevels[tile.key().level];
@@ -97,7 +97,7 @@ void GroundShader::face(const RayPacket& rays, const Points& points, State& at) 
     at.normal_x[k] = -sx * scale;
     at.normal_y[k] = -sy * scale;
     at.normal_z[k] = scale;
-    // A slanted pixel is longer than wide; its mean size decides which layers it can resolve.
+    // The mean size of an oblique pixel's footprint selects the resolvable layers.
     const float facing = (sx * rays.dir_x[k] + sy * rays.dir_y[k] - rays.dir_z[k]) * scale;
     at.waves_per_m[k] = std::sqrt(std::max(facing, 0.04F)) / points.pixel_m[k];
     at.tone[k] = 1.0F;
@@ -147,7 +147,7 @@ void GroundShader::add_layer(int index, const Points& points, State& at) const {
   }
 }
 
-// Eight lanes fill a register of AVX2. No operation is fused or reordered in either clone: both give the same bytes.
+// Eight lanes fill an AVX2 register. Neither clone fuses or reorders operations, so both are byte-identical.
 ROVER_AVX2_CLONE Lanes<float> GroundShader::radiance(const RayPacket& rays, const Points& points) const {
   State at{};
   for (int k = 0; k < kPacket; ++k)
@@ -168,7 +168,7 @@ ROVER_AVX2_CLONE Lanes<float> GroundShader::radiance(const RayPacket& rays, cons
     radiance[k] = at.albedo[k] * std::max(at.tone[k], 0.25F) * light;
   }
   for (int k = 0; k < kPacket; ++k) {
-    // Dusty sky: brighter towards the horizon, of the order of the ground it lights.
+    // Dusty sky, brighter towards the horizon, about as bright as the ground.
     if (points.tile[k] == nullptr) radiance[k] = sky_light_ * (0.9F - 0.4F * std::max(rays.dir_z[k], 0.0F));
   }
   return radiance;

@@ -1,4 +1,4 @@
-// Light that the ground sends to the camera: Lambert, sun with shadow, sky.
+// Radiance of the ground: Lambertian, with shadowed sun and diffuse sky.
 #pragma once
 
 #include <array>
@@ -12,11 +12,11 @@ class GroundShader {
  public:
   GroundShader(const GroundLookConfig& config, const GroundTexture& texture);
 
-  // Where eight rays meet the ground.
+  // Ground intersections of eight rays.
   struct Points {
-    Lanes<const GroundTile*> tile;  // null: the ray sees the sky
-    Lanes<float> x, y, z;           // from the tile's origin
-    Lanes<float> pixel_m;           // width of a pixel there, across the ray
+    Lanes<const GroundTile*> tile;  // null: sky
+    Lanes<float> x, y, z;           // relative to the tile's origin
+    Lanes<float> pixel_m;           // pixel width at that range, perpendicular to the ray
   };
   Lanes<float> radiance(const RayPacket& rays, const Points& points) const;
 

@@ -23,7 +23,7 @@ GroundTile::~GroundTile() {
   rtcReleaseScene(scene_);
 }
 
-// Reduced to the texture's period in double precision: single is then enough.
+// Reduced modulo the texture period in double precision, so single precision suffices afterwards.
 void GroundTile::place_textures(const GroundTexture& texture) {
   for (int layer = 0; layer < kDetailLayers; ++layer) {
     const DetailLayer& at = texture.layers[layer];
@@ -71,7 +71,7 @@ float GroundTile::baked_tone(const GroundTexture& texture, float x, float y) con
   return tone;
 }
 
-// One Embree grid. Its outermost ring is a skirt: half a cell outside and below the rim, hidden under the neighbours.
+// Embree grid with a skirt: the outermost ring is half a cell outside and below the rim, under the neighbours.
 void GroundTile::build_mesh(RTCDevice device, const HeightTile& heights) {
   const TileLevel& level = kLevels[key_.level];
   const int side = level.cells + 3;
@@ -100,7 +100,7 @@ void GroundTile::build_mesh(RTCDevice device, const HeightTile& heights) {
   *grid = {0, static_cast<unsigned>(side), static_cast<std::uint16_t>(side), static_cast<std::uint16_t>(side)};
   rtcCommitGeometry(geometry);
   scene_ = rtcNewScene(device);
-  rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);  // without it rays slip through between triangles
+  rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);  // watertight: no misses between triangles
   rtcAttachGeometry(scene_, geometry);
   rtcReleaseGeometry(geometry);
   rtcCommitScene(scene_);
@@ -108,7 +108,7 @@ void GroundTile::build_mesh(RTCDevice device, const HeightTile& heights) {
 }
 
 size_t GroundTile::memory_bytes() const {
-  // Per vertex: shading, mesh, and Embree's own tree (19 bytes by its memory monitor, on Gale's ground).
+  // Per vertex: shading, mesh and Embree's BVH (19 bytes measured on Gale terrain).
   return vertices_.size() * (sizeof(ShadingVertex) + 3 * sizeof(float) + 19);
 }
 

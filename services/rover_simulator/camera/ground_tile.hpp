@@ -1,4 +1,4 @@
-// A tile ready for the cameras: its mesh in an Embree scene of its own, and what shading needs at each vertex.
+// Renderable tile: its Embree mesh and shading data per vertex.
 #pragma once
 
 #include <embree3/rtcore.h>
@@ -15,16 +15,16 @@
 
 namespace rover {
 
-// What is interpolated between vertices.
+// Interpolated vertex attributes.
 struct ShadingVertex {
-  // Slopes along x and y; tangent of the sun's elevation less that of the horizon towards it (negative in shadow).
+  // Slopes along x and y; tangent of sun elevation minus tangent of horizon elevation (negative in shadow).
   Float4 surface;
   Float4 look;  // a VertexLook
 };
 
 class GroundTile {
  public:
-  // Height tiles of the same level: itself, and the neighbours towards the sun in x, in y and in both.
+  // Height tile and its neighbours towards the sun in x, y and both, at the same level.
   struct Heights {
     std::shared_ptr<const HeightTile> self, next_x, next_y, next_xy;
   };
@@ -37,13 +37,13 @@ class GroundTile {
 
   RTCScene scene() const { return scene_; }
   const TileKey& key() const { return key_; }
-  // The long waves of the texture are in the vertices' albedo.
+  // Long texture wavelengths are baked into the vertex albedo.
   bool baked() const { return key_.level == 0; }
-  // Its corner with the smallest x and y; mesh coordinates are relative to it.
+  // Corner with the smallest x and y; origin of the mesh coordinates.
   const Eigen::Vector3d& origin() const { return origin_; }
   // Texture coordinates of the origin.
   const Eigen::Vector2f& texture_origin(int layer, int plane) const { return texture_origin_[layer][plane]; }
-  // Row by row, cells + 1 a side.
+  // Row-major, cells + 1 per side.
   const std::vector<ShadingVertex>& vertices() const { return vertices_; }
   size_t memory_bytes() const;
 

@@ -13,7 +13,7 @@ HeightTile::HeightTile(const TileKey& tile_key, const Surface& surface) : key(ti
   ROVER_CHECK(std::isfinite(base_m), key.x_m(), key.y_m());
   height.reserve(static_cast<size_t>(side) * side);
   for (int j = -1; j < side - 1; ++j) {
-    // Positions from global lattice numbers: neighbouring tiles sample the very same points along their common edge.
+    // Global lattice indices give neighbouring tiles identical samples on their common edge.
     const double y = (static_cast<double>(key.iy) * level.cells + j) * level.spacing_m;
     for (int i = -1; i < side - 1; ++i) {
       const double x = (static_cast<double>(key.ix) * level.cells + i) * level.spacing_m;

@@ -1,4 +1,4 @@
-// Square patches of the surface's heights, sampled on lattices of three spacings.
+// Square tiles of surface heights at three levels of detail.
 #pragma once
 
 #include <array>
@@ -14,11 +14,11 @@ namespace rover {
 struct TileLevel {
   int cells = 0;
   double spacing_m = 0.0;
-  double skirt_m = 0.0;  // how far the rim hangs down, to hide gaps towards coarser neighbours
+  double skirt_m = 0.0;  // depth of the skirt that hides gaps to coarser neighbours
   double size_m() const { return cells * spacing_m; }
 };
 
-// Each size is a multiple of the one before (or the same): a tile is replaced by a whole block of finer ones.
+// Each tile size is a multiple of the finer one, so a tile is replaced by a whole block of finer tiles.
 inline constexpr int kTileLevels = 3;
 inline constexpr std::array<TileLevel, kTileLevels> kLevels = {TileLevel{200, 0.02, 0.06}, TileLevel{40, 0.1, 0.3},
                                                                TileLevel{20, 0.8, 2.0}};
@@ -33,7 +33,7 @@ struct TileKey {
   double y_m() const { return iy * kLevels[level].size_m(); }
 };
 
-// Heights at the tile's vertices and one more on each side.
+// Heights at the tile's vertices, with a border of one vertex.
 struct HeightTile {
   TileKey key;
   double base_m = 0.0;        // heights are stored relative to this

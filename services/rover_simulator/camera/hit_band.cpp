@@ -7,8 +7,8 @@
 namespace rover {
 namespace {
 
-// A traced ray: its direction with depth 1, and of the ground it meets the plane n with n . p = 1, relative to the eye.
-// The plane's inverse depth along another direction d is then n . d.
+// A traced ray: direction at depth 1, and tangent plane n of the hit with n . p = 1 relative to the camera. The plane's
+// inverse depth along direction d is n . d.
 struct Sample {
   float dir_x, dir_y, dir_z;
   float plane_x, plane_y, plane_z;
@@ -42,7 +42,7 @@ class BandTracer {
   }
 
  private:
-  // Samples of a row's even pixels and the one beyond its end.
+  // Samples of a row's even pixels and one beyond its end.
   void sample_row(int row, std::vector<Sample>& samples) const {
     for (int first = 0; first <= width_ / 2; first += kPacket) {
       RayPacket rays;
@@ -126,7 +126,7 @@ class BandTracer {
   HitBand& band_;
   int width_;
   std::vector<Sample> above_, below_;
-  std::vector<int> open_;  // pixels of the current pair of rows that must be traced
+  std::vector<int> open_;  // pixels of the current row pair still to be traced
 };
 
 }  // namespace

@@ -1,7 +1,7 @@
-// Where the rays of a band of image rows meet the ground.
+// Ray-ground intersections of a band of image rows.
 //
-// Every second ray of every second row is traced. Where four neighbours lie on one plane, the inverse depth of the rays
-// between them follows (on a plane it is linear in the image); the others, at rims and creases, are traced.
+// Every second ray of every second row is traced. If four neighbours are coplanar, the rays between them are
+// interpolated (inverse depth on a plane is linear in the image); otherwise they are traced.
 #pragma once
 
 #include <Eigen/Dense>
@@ -17,20 +17,20 @@ struct CameraView {
   const RayTable& rays;
   Eigen::Matrix3f R_map_cam;
   TileScene::View view;
-  float tolerance_per_m = 0.0F;  // of inverse depth: how far off a plane neighbours may be
+  float tolerance_per_m = 0.0F;  // coplanarity tolerance in inverse depth
 };
 
 struct HitBand {
   static constexpr int kRows = 32;
   int first_row = 0;
-  // Row by row; see HitPacket.
+  // Row-major; see HitPacket.
   std::vector<int> tile;
   std::vector<float> range_m;
 };
 
 HitBand find_hits(const TileScene& scene, const CameraView& camera, int first_row);
 
-// Sets lane k to the ray of pixel (u, v).
+// Sets lane k to the viewing ray of pixel (u, v).
 inline void aim(const CameraView& camera, int u, int v, int k, RayPacket& rays) {
   const size_t index = static_cast<size_t>(v) * camera.rays.stride + u;
   const float x = camera.rays.x[index];

@@ -12,7 +12,7 @@
 namespace rover {
 namespace {
 
-// Vertical and horizontal pass of the three-tap kernel at once; the border repeats.
+// Separable three-tap kernel in one pass, with replicated border.
 void blur_row(const RadianceImage& image, int v, float weight, std::vector<float>& vertical, std::vector<float>& out) {
   const int w = image.width;
   const float centre = 1.0F - 2.0F * weight;

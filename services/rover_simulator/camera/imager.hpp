@@ -1,4 +1,4 @@
-// The imager: blur, vignetting, exposure, shot and read noise, eight bits.
+// Image sensor model: blur, vignetting, exposure, shot and read noise, 8-bit quantisation.
 #pragma once
 
 #include <cstdint>
@@ -13,14 +13,14 @@ struct ImagerConfig {
   double read_noise_e = 25.0;
   double vignetting = 0.12;       // loss of light in the corners
   double blur_weight = 0.11;      // of each neighbour in the three-tap kernel: sigma 0.47 px
-  double exposure_target = 95.0;  // mean grey value that the exposure control seeks
-  double exposure_gain = 0.7;     // share of the (logarithmic) error removed from one image to the next
+  double exposure_target = 95.0;  // target mean grey value of the exposure control
+  double exposure_gain = 0.7;     // fraction of the logarithmic error corrected per image
   double exposure_min_s = 0.0002;
   double exposure_max_s = 0.1;
   double radiance_per_second = 120.0;  // grey value / 255 = radiance x exposure x this
 };
 
-// Radiance image: the sun at normal incidence on a white surface gives 1.
+// Radiance image, normalised to 1 for a white surface at normal sun incidence.
 struct RadianceImage {
   int width = 0;
   int height = 0;

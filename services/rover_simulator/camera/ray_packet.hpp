@@ -1,4 +1,4 @@
-// Eight rays at a time: what Embree traces at once, and what lets the compiler vectorise loops over fixed arrays.
+// Packets of eight rays, for Embree and for vectorised loops.
 #pragma once
 
 namespace rover {
@@ -21,9 +21,9 @@ struct RayPacket {
 inline constexpr int kNoTile = -1;
 
 struct HitPacket {
-  Lanes<int> tile;                            // number in the scene; kNoTile: the ray meets nothing
-  Lanes<float> range_m;                       // infinite where it meets nothing
-  Lanes<float> normal_x, normal_y, normal_z;  // of the mesh there, of any length
+  Lanes<int> tile;                            // index in the scene; kNoTile: no hit
+  Lanes<float> range_m;                       // infinite without a hit
+  Lanes<float> normal_x, normal_y, normal_z;  // of the mesh, not normalised
 };
 
 }  // namespace rover

@@ -6,9 +6,9 @@
 namespace rover {
 namespace {
 
-constexpr double kMostAngle = 1.4;  // from the axis; towards 90 deg a ray (x, y, 1) grows without end
+constexpr double kMostAngle = 1.4;  // [rad] from the axis; rays (x, y, 1) diverge towards 90 deg
 
-// k1 k2 k3 k4: angle from the axis in the picture over the true one (Kannala and Brandt 2006).
+// Fisheye model with k1 k2 k3 k4 (Kannala and Brandt 2006).
 double fisheye_angle(const PinholeCamera& camera, double angle) {
   const auto& k = camera.distortion;
   const double a2 = angle * angle;
@@ -49,7 +49,7 @@ Eigen::Vector3d ray_of_pixel(const PinholeCamera& camera, const Eigen::Vector2d&
   const Eigen::Vector2d target((pixel.x() - camera.cx_px) / camera.fx_px, (pixel.y() - camera.cy_px) / camera.fy_px);
   if (camera.model == DistortionModel::kEquidistant) return fisheye_ray(camera, target);
   Eigen::Vector2d p = target;
-  // Fixed point iteration; lenses of our kind (distortion of a few percent) gain a digit or more a round.
+  // Fixed-point iteration; gains at least a digit per round at distortions of a few percent.
   for (int i = 0; i < 30; ++i) {
     const Eigen::Vector2d step = target - distort(camera, p);
     p += step;

@@ -12,7 +12,7 @@
 namespace rover {
 namespace {
 
-// In-between rays may be off by this much disparity.
+// Disparity tolerance of interpolated rays.
 constexpr double kDisparityTolerance_px = 0.06;
 
 void shade_band(const TileScene& scene, const CameraView& camera, const HitBand& band, std::vector<float>& radiance) {

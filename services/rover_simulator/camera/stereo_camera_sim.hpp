@@ -1,5 +1,5 @@
-// A stereo camera in the simulated world. Pictures are a function of configuration, seed, surface, pose and frame
-// number, and, through the exposure control, of the picture before.
+// Simulated stereo camera. Images depend on configuration, seed, surface, pose and frame number and, through exposure
+// control, on the previous image.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -20,17 +20,17 @@ namespace rover {
 struct CameraSimConfig {
   double calibration_error_px = 0.2;  // rms; see calibration_error.hpp
   ImagerConfig imager;
-  TileSceneConfig scene;  // only for the camera that makes a scene of its own
+  TileSceneConfig scene;  // only for a camera that owns its scene
 };
 
-// Why no picture of such a camera can be made; empty: it can.
+// Why this rig cannot be rendered; empty if it can.
 std::string problem_of_rendering(const StereoRig& rig);
 
 class StereoCameraSim {
  public:
-  // The seed draws calibration error and noise; the ground's texture comes from the scene's seed.
+  // `seed`: calibration error and noise; the ground texture uses the scene's seed.
   StereoCameraSim(const StereoRig& nominal, const CameraSimConfig& config, const Surface& surface, std::uint64_t seed);
-  // With a scene that several cameras share.
+  // Shares a scene with other cameras.
   StereoCameraSim(const StereoRig& nominal, const CameraSimConfig& config, std::shared_ptr<TileScene> scene,
                   std::uint64_t seed);
 
@@ -43,7 +43,7 @@ class StereoCameraSim {
   // For a camera on a pan-tilt unit: the left camera's pose (camera axes).
   Pair render_from(const Eigen::Isometry3d& T_map_left, std::int64_t frame);
 
-  // Distance along each pixel's ray; infinite where it meets no ground. Rows from the top.
+  // Range along each pixel's ray, infinite without a hit, row-major.
   std::vector<float> left_ranges_m(const Eigen::Isometry3d& T_map_left);
 
   const StereoRig& true_rig() const { return rig_; }
@@ -65,7 +65,7 @@ class StereoCameraSim {
   std::shared_ptr<TileScene> scene_;
   Eye left_;
   Eye right_;
-  double exposure_s_ = 0.0;  // for the next image; 0: none yet, the scene is metered
+  double exposure_s_ = 0.0;  // of the next image; 0: metered from the scene
 };
 
 }  // namespace rover

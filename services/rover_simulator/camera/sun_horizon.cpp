@@ -1,4 +1,4 @@
-// Horizon march over the height lattice (Max 1988, "Horizon mapping"), for the one azimuth that matters.
+// Horizon mapping (Max 1988) for the sun's azimuth.
 #include "rover_simulator/camera/sun_horizon.hpp"
 
 #include <algorithm>
@@ -7,9 +7,9 @@
 namespace rover {
 namespace {
 
-constexpr float kMargin = 0.2F;  // larger ones mean nothing: cut off, and the march with them
+constexpr float kMargin = 0.2F;  // larger margins do not affect shading, so the march stops there
 
-// The tile and its neighbours towards the sun in one array, mirrored so that the sun stands at positive i and j.
+// Heights of the tile and its neighbours towards the sun, mirrored so that the sun is at positive i and j.
 struct Patch {
   int cells = 0;
   int side = 0;
@@ -50,7 +50,7 @@ Patch assemble(const GroundTile::Heights& heights, const Eigen::Vector2i& side) 
   return patch;
 }
 
-// Distances in cells: every cell at first, then in growing steps.
+// March distances in cells, with increasing step size.
 std::vector<float> march_distances(int cells) {
   std::vector<float> distances;
   for (float s = 1.0F; s < static_cast<float>(cells); s += std::max(1.0F, 0.04F * s)) distances.push_back(s);

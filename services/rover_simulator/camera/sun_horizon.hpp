@@ -1,6 +1,5 @@
-// How far the sun stands above the local horizon, for each vertex of a tile: the shadow's edge is where this is zero,
-// and that line is far finer than the lattice. The cameras then need no shadow rays (the sun stands still during a
-// run).
+// Horizon map: margin of the sun above the local horizon per vertex. Its interpolated zero line is the shadow edge, so
+// no shadow rays are needed (the sun is fixed during a run).
 #pragma once
 
 #include <vector>
@@ -10,7 +9,7 @@
 
 namespace rover {
 
-// (cells + 1)^2 margins. Shadows are as long as a tile at most.
+// (cells + 1)^2 margins. Shadow length is limited to one tile.
 std::vector<float> sun_margins(const GroundTile::Heights& heights, const GroundLookConfig& sun);
 
 }  // namespace rover

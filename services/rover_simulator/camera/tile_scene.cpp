@@ -9,8 +9,7 @@
 namespace rover {
 namespace {
 
-// AVX2 at most: the last bits of a range change with the instruction set, so machines with more must not use it.
-// Embree's own threads are not used.
+// Limited to AVX2, because the last bits of a range depend on the instruction set. Embree's threads are not used.
 constexpr const char* kDeviceConfig = "threads=1,isa=avx2";
 
 double distance(const TileKey& key, double x, double y) {
@@ -56,8 +55,7 @@ void TileScene::focus(double x_m, double y_m) {
   build_one_ahead(x_m, y_m);
 }
 
-// A quadtree walked from the coarsest level: a tile within the next level's radius gives way to the finer ones it
-// covers.
+// Quadtree from the coarsest level: a tile within the next level's radius is replaced by finer ones.
 std::vector<TileKey> TileScene::tiles_around(double x_m, double y_m, double margin_m) const {
   const std::array<double, kTileLevels> radius = {config_.fine_radius_m + margin_m, config_.middle_radius_m + margin_m,
                                                   config_.far_radius_m + margin_m};
@@ -107,7 +105,7 @@ void TileScene::build(const std::vector<TileKey>& keys) {
       if (heights_.try_emplace(key).second) heights.push_back(key);
     }
   }
-  // The maps' nodes exist before the threads start: they only fill in what the nodes hold.
+  // Map nodes are inserted before the threads start; threads only assign their values.
   pool_.run(static_cast<int>(heights.size()),
             [&](int i) { heights_.at(heights[i]) = std::make_shared<const HeightTile>(heights[i], surface_); });
   for (const TileKey& key : tiles) tiles_.try_emplace(key);
@@ -127,7 +125,7 @@ void TileScene::build_one_ahead(double x_m, double y_m) {
 void TileScene::forget_far(double x_m, double y_m) {
   const std::array<double, kTileLevels> radius = {config_.fine_radius_m, config_.middle_radius_m, config_.far_radius_m};
   const auto far = [&](const auto& entry) {
-    // A block of fine tiles is needed as a whole, so a tile may lie beyond its radius by its parent's diagonal.
+    // Fine tiles are used in whole blocks, so a tile may exceed its radius by its parent's diagonal.
     const int parent = std::min(entry.first.level + 1, kTileLevels - 1);
     const double reach = radius[entry.first.level] + config_.keep_m + 1.5 * kLevels[parent].size_m();
     return distance(entry.first, x_m, y_m) > reach;
@@ -136,8 +134,8 @@ void TileScene::forget_far(double x_m, double y_m) {
   std::erase_if(heights_, far);
 }
 
-// Each tile is an instance, moved to its place relative to an anchor near the camera: single precision is then good for
-// micrometres everywhere on the map.
+// Each tile is an instance translated relative to an anchor near the camera, so single precision resolves micrometres
+// everywhere on the map.
 void TileScene::assemble(const std::vector<TileKey>& keys) {
   shown_ = keys;
   shown_tiles_.clear();

@@ -1,7 +1,7 @@
-// The ground around the rover as the cameras see it: fine tiles near it, coarser ones farther out, none beyond.
+// Level-of-detail scene around the rover: fine tiles nearby, coarser ones farther away.
 //
-// Which tiles stand in the scene depends on the viewing position alone, so that pictures do not depend on where the
-// rover came from; which are kept in memory, or built ahead, is only a matter of speed.
+// The rendered tiles depend on the viewing position only, so images do not depend on the path taken; caching and
+// prefetching only affect speed.
 #pragma once
 
 #include <embree3/rtcore.h>
@@ -20,11 +20,11 @@
 namespace rover {
 
 struct TileSceneConfig {
-  double fine_radius_m = 7.0;     // everything nearer is seen at 0.02 m,
-  double middle_radius_m = 18.0;  // then at 0.1 m,
-  double far_radius_m = 80.0;     // then at 0.8 m
-  double ahead_m = 2.0;           // tiles needed this much farther on are built ahead, one an image
-  double keep_m = 3.0;            // and kept until they are this much out of reach
+  double fine_radius_m = 7.0;     // spacing 0.02 m within this radius
+  double middle_radius_m = 18.0;  // spacing 0.1 m
+  double far_radius_m = 80.0;     // spacing 0.8 m
+  double ahead_m = 2.0;           // prefetch distance beyond the radii, one tile per image
+  double keep_m = 3.0;            // eviction distance beyond the radii
   int threads = 2;
   GroundLookConfig look;
 };
@@ -37,19 +37,19 @@ class TileScene {
   TileScene(const TileScene&) = delete;
   TileScene& operator=(const TileScene&) = delete;
 
-  // Makes the scene around the point ready. Not while others trace.
+  // Prepares the scene around the point. Not concurrently with tracing.
   void focus(double x_m, double y_m);
 
-  // Position of a camera relative to the parts of the scene; valid until the next focus().
+  // Camera position relative to scene and tiles; valid until the next focus().
   struct View {
-    Eigen::Vector3f eye;                       // from the scene's anchor
-    std::vector<Eigen::Vector3f> eye_in_tile;  // from each tile's origin
+    Eigen::Vector3f eye;                       // relative to the scene's anchor
+    std::vector<Eigen::Vector3f> eye_in_tile;  // relative to each tile's origin
   };
   View view(const Eigen::Vector3d& p_map_eye) const;
 
-  // Both thread safe.
+  // Both are thread safe.
   HitPacket intersect(const View& view, const RayPacket& rays) const;
-  // Light that comes back along rays that meet these tiles at these ranges. `pixel_angle_rad`: at the image centre.
+  // Radiance along rays that hit these tiles at these ranges. `pixel_angle_rad`: at the image centre.
   Lanes<float> radiance(const View& view, const RayPacket& rays, const Lanes<int>& tile, const Lanes<float>& range_m,
                         float pixel_angle_rad) const;
 

@@ -1,4 +1,4 @@
-// A few threads that share the indices 0 .. count-1 of a loop. Whoever computes an index, the result is the same.
+// Thread pool for parallel loops over 0 .. count-1.
 #pragma once
 
 #include <atomic>
@@ -13,13 +13,13 @@ namespace rover {
 
 class WorkerPool {
  public:
-  // The calling thread counts as one of them.
+  // `threads` includes the calling thread.
   explicit WorkerPool(int threads);
   ~WorkerPool();
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
 
-  // Returns when all indices are done. One caller at a time; `work` must not throw.
+  // Blocks until all indices are processed. One caller at a time; `work` must not throw.
   void run(int count, const std::function<void(int)>& work);
 
  private:

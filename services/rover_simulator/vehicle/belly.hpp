@@ -8,7 +8,7 @@
 
 namespace rover {
 
-// Smallest vertical distance over the underside, sampled each 5 cm; negative: contact.
+// Minimum vertical distance over the underside, sampled on a 5 cm grid; negative: contact.
 double belly_clearance_m(const Vehicle& vehicle, HeightCache& heights, const Eigen::Isometry3d& T_map_body);
 
 }  // namespace rover

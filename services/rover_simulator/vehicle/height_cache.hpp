@@ -1,5 +1,5 @@
-// A window on the surface, sampled once per place at 1 cm and interpolated from then on: wheels ask for hundreds of
-// heights a step and move 0.4 mm meanwhile. A pure function of the surface, whatever the order of questions.
+// Cache of surface heights on a 1 cm grid, interpolated bilinearly: wheels query hundreds of heights per step and move
+// 0.4 mm between steps. The result does not depend on the order of queries.
 #pragma once
 
 #include <cstdint>
@@ -18,12 +18,12 @@ class HeightCache {
   Material material(double x_m, double y_m);  // of the nearest sample
 
  private:
-  static constexpr int kCells = 32;  // of a tile's side; a tile holds one sample more
+  static constexpr int kCells = 32;  // per tile side, with kCells + 1 samples
   struct Tile {
     std::int64_t tx = INT64_MIN;
     std::int64_t ty = INT64_MIN;
     std::vector<float> height_m;
-    std::vector<Material> material;  // empty until asked for
+    std::vector<Material> material;  // empty until first queried
   };
 
   Tile& tile_at(std::int64_t tx, std::int64_t ty);

@@ -6,9 +6,9 @@
 namespace rover {
 namespace {
 
-constexpr double kFrictionRate = 0.02;  // rad/s at the joint: below it gear friction fades, so that a stop is a stop
+constexpr double kFrictionRate = 0.02;  // [rad/s] friction is linear below this rate, so a stop settles
 
-// The current that gives the torque against the gear's friction, within the limit; and the torque that comes of it.
+// Limited current for the requested torque including gear friction, and the resulting torque.
 MotorOutput limited(double torque_nm, double rate_radps, double torque_per_amp_nm, double no_load_a, double limit_a) {
   const double friction_a = no_load_a * std::tanh(rate_radps / kFrictionRate);
   const double current = std::clamp(torque_nm / torque_per_amp_nm + friction_a, -limit_a, limit_a);
@@ -25,7 +25,7 @@ MotorOutput DriveMotor::step(const DriveMotorConfig& config, double limit_a, dou
   lead_rad_ = std::clamp(lead_rad_, -most_rad, most_rad);
   const double torque = config.rate_gain_nms * (rate_cmd_radps - rate_radps) + config.angle_gain_nm * lead_rad_;
   MotorOutput out = limited(torque, rate_radps, config.torque_per_amp_nm, config.no_load_current_a, limit_a);
-  // At rest the gear holds the wheel by itself.
+  // At rest the gear is self-locking.
   if (rate_cmd_radps == 0.0 && std::abs(rate_radps) < kFrictionRate) out.current_a = 0.0;
   return out;
 }

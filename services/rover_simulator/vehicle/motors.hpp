@@ -1,11 +1,11 @@
-// Drive and steering motors: servos with current limits, gear friction, and the current that a torque costs.
+// Drive and steering motors: servos with current limit, gear friction and torque-to-current model.
 #pragma once
 
 namespace rover {
 
 struct DriveMotorConfig {
   double torque_per_amp_nm = 1.0;    // at the wheel: gear 100 x 0.014 Nm/A x 0.7 efficiency [est]
-  double no_load_current_a = 0.5;    // turns motor and gear alone [est]
+  double no_load_current_a = 0.5;    // friction of motor and gear [est]
   double rotor_inertia_kgm2 = 0.05;  // at the wheel
   double rate_gain_nms = 4.0;
   double angle_gain_nm = 80.0;  // on the integral of the rate error
@@ -24,7 +24,7 @@ struct MotorOutput {
   double current_a = 0.0;
 };
 
-// Velocity servo: follows the integral of the commanded rate, so that a stop holds the wheel where it stands.
+// Velocity servo on the integral of the commanded rate, so that a stopped wheel holds its angle.
 class DriveMotor {
  public:
   MotorOutput step(const DriveMotorConfig& config, double limit_a, double rate_cmd_radps, double angle_rad,
@@ -35,7 +35,7 @@ class DriveMotor {
   double last_angle_rad_ = 0.0;
 };
 
-// Position servo that moves its reference no faster than the rate limit.
+// Position servo with a rate-limited reference.
 class SteerMotor {
  public:
   MotorOutput step(const SteerMotorConfig& config, double limit_a, double max_rate_radps, double angle_cmd_rad,

@@ -1,5 +1,5 @@
-// The pan-tilt unit of the simulated rover: goes to where it was last told at a constant rate, and asks for a picture
-// once it stands there. What it reports of its angles is what its encoders say; it stands a little beside that.
+// Simulated pan-tilt unit: moves to the commanded angles at a constant rate and requests an image on arrival. Reported
+// angles are the encoders'; the true angles differ by the repeatability.
 #pragma once
 
 #include <cstdint>
@@ -23,10 +23,10 @@ struct PanTiltState {
 
 class PanTiltSim {
  public:
-  // `repeatability_rad`: standard deviation of where the unit comes to rest, of each axis.
+  // `repeatability_rad`: standard deviation of the resting angle, per axis.
   PanTiltSim(const PanTiltUnit& unit, double repeatability_rad, std::uint64_t seed);
 
-  // Clipped to the limits; ignored where it is not finite. It replaces the command before with its picture.
+  // Clipped to the limits; ignored if not finite. Replaces the previous command and its image request.
   void command(const PanTiltCommand& command);
   void advance(double dt_s);
 
@@ -34,7 +34,7 @@ class PanTiltSim {
   // True angles.
   double pan_rad() const { return state_.pan_rad + pan_error_rad_; }
   double tilt_rad() const { return state_.tilt_rad + tilt_error_rad_; }
-  // A picture was asked for and the unit stands.
+  // An image was requested and the unit is stationary.
   bool picture_due() const { return wanted_.take_image && !state_.moving; }
   void picture_taken() { wanted_.take_image = false; }
 

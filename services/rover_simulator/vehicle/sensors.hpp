@@ -1,4 +1,4 @@
-// What the vehicle's own sensors make of the truth: noise, bias, quantisation. Seeded; one sample each tick.
+// Models of the vehicle's proprioceptive sensors: noise, bias, quantisation. Seeded; one sample per tick.
 #pragma once
 
 #include <Eigen/Dense>
@@ -12,7 +12,7 @@ namespace rover {
 
 // Defaults: Sensonor STIM300 data sheet (angle random walk 0.15 deg/sqrt(h), gyro bias instability 0.3 deg/h, velocity
 // random walk 0.07 m/s/sqrt(h), accelerometer bias instability 0.05 mg); KVH DSP-1760 data sheet for the fibre-optic
-// gyro (0.012 deg/sqrt(h), 0.05 deg/h). Constant biases are what remains after calibration on ground [est].
+// gyro (0.012 deg/sqrt(h), 0.05 deg/h). Constant biases are residuals after ground calibration [est].
 struct SensorConfig {
   double gyro_random_walk_rad_rts = 4.4e-5;     // rad/sqrt(s) = 0.15 deg/sqrt(h)
   double gyro_bias_radps = 2.4e-5;              // rms at start, each axis: 5 deg/h
@@ -54,12 +54,12 @@ struct WheelSample {
 class SensorSuite {
  public:
   SensorSuite(const SensorConfig& config, std::uint64_t seed);
-  // Each once for every advance() of the vehicle, in this order.
+  // Call each once per advance() of the vehicle, in this order.
   ImuSample sample_imu(const VehicleTruth& truth);
   WheelSample sample_wheels(const VehicleTruth& truth);
 
  private:
-  // Constant part and first-order Markov part of one axis.
+  // Constant and first-order Gauss-Markov part of one axis.
   struct Bias {
     double constant = 0.0;
     double wander = 0.0;

@@ -35,7 +35,7 @@ std::unique_ptr<mjModel, ModelDeleter> load_model(const std::string& mjcf) {
 
 using Vec3Map = Eigen::Map<const Eigen::Vector3d>;
 
-// MuJoCo integrates damping implicitly, so this much of it is a lock that stays stable at the step.
+// Locks a joint. MuJoCo integrates damping implicitly, so this value is stable at the step size.
 constexpr double kJammedNms = 1e5;
 
 constexpr int kSettleAttempts = 6;
@@ -93,7 +93,7 @@ class VehicleSim::Impl {
   double rate(int joint) const { return data_->qvel[model_->jnt_dofadr[joint]]; }
   void apply(int joint, double torque_nm) { data_->qfrc_applied[model_->jnt_dofadr[joint]] = torque_nm; }
 
-  // The free joint is the first: position, quaternion (w first); velocity in map axes, rates in body axes.
+  // The free joint comes first: position, quaternion wxyz; linear velocity in map axes, rates in body axes.
   Eigen::Isometry3d pose() const {
     const mjtNum* q = data_->qpos;
     return make_pose(Eigen::Quaterniond(q[3], q[4], q[5], q[6]).normalized().toRotationMatrix(), Vec3Map(q));
@@ -103,7 +103,7 @@ class VehicleSim::Impl {
     return Vec3Map(data_->qvel) + pose().linear() * rates.cross(vehicle_.imu_position_m);
   }
 
-  // Coming to rest the vehicle slides and turns a little, by a degree on rough ground: it is set down with that lead.
+  // Settling moves the vehicle, by up to a degree on rough ground; the initial pose compensates for it.
   void settle_at(const Pose2& start) {
     Pose2 aim = start;
     for (int attempt = 0; attempt < kSettleAttempts; ++attempt) {
@@ -124,14 +124,14 @@ class VehicleSim::Impl {
     advance(config_.settle_s, WheelCommand{});
   }
 
-  // On the plane through the ground under the six wheels, all of them in the air by a hair.
+  // Initial pose on the plane fitted to the ground under the wheels, with all wheels just above it.
   void set_down(const Pose2& start) {
     Eigen::Matrix<double, 6, 3> A;
     Eigen::Matrix<double, 6, 1> z;
     for (int i = 0; i < 6; ++i) {
       const double c = std::cos(start.yaw_rad), s = std::sin(start.yaw_rad);
       const double x = vehicle_.wheel_x_m[i], y = vehicle_.wheel_y_m[i];
-      A.row(i) << 1.0, x, y;  // at the wheels' feet, about the point below the body origin
+      A.row(i) << 1.0, x, y;  // wheel contact points, relative to the point below the body origin
       z[i] = heights_.height_m(start.x_m + c * x - s * y, start.y_m + s * x + c * y);
     }
     const Eigen::Vector3d plane = A.colPivHouseholderQr().solve(z);

@@ -1,4 +1,4 @@
-// The simulated vehicle: multibody dynamics by MuJoCo, wheel-ground contact, wheel-soil force and motors of our own.
+// Simulated vehicle: MuJoCo multibody dynamics with custom wheel contact, wheel-soil force and motor models.
 // Deterministic: the same surface, start and commands give the same bytes.
 #pragma once
 
@@ -36,17 +36,17 @@ struct VehicleSimConfig {
   SteerMotorConfig steer;
 };
 
-// What can be wrong with the vehicle and under it.
+// Faults of the vehicle and of the ground under it.
 struct VehicleFaults {
-  std::array<bool, 6> jammed{};  // the wheel does not turn, its motor goes on trying
+  std::array<bool, 6> jammed{};  // wheel locked, motor still driven
   bool loose_sand = false;       // under all wheels
-  // The ground as if it had been turned, under a map that stays: gravity and gyros feel it, cameras do not see it.
+  // Virtual rotation of the ground: acts on gravity and gyros, not on cameras or the map.
   Eigen::Matrix3d R_level_ground = Eigen::Matrix3d::Identity();
 };
 
 enum class Collision : std::int8_t { kNone = 0, kBodyContact = 1, kWheelClimb = 2 };
 
-// All of it at the end of the last advance(), in map and body axes; angles over the sensors' interval are increments.
+// State at the end of the last advance(), in map and body axes; delta values cover that interval.
 struct VehicleTruth {
   Eigen::Isometry3d T_map_body = Eigen::Isometry3d::Identity();
   Eigen::Vector3d velocity_map_mps = Eigen::Vector3d::Zero();  // of the body origin
@@ -62,24 +62,24 @@ struct VehicleTruth {
   std::array<double, 4> steer_current_a{};
   std::array<double, 3> bogie_angle_rad{};
   std::array<double, 6> wheel_load_n{};
-  std::array<double, 6> wheel_slip{};  // 1 - v / (w R); 0 where the wheel hardly turns
+  std::array<double, 6> wheel_slip{};  // 1 - v / (w R); 0 for a nearly stationary wheel
   std::array<double, 6> wheel_sinkage_m{};
   std::array<Soil, 6> wheel_soil{};
-  double clearance_m = 0.0;  // belly over ground and rock
-  double climb_m = 0.0;      // highest rock surface under a wheel, over the ground
+  double clearance_m = 0.0;  // belly above ground and rocks
+  double climb_m = 0.0;      // highest rock surface under a wheel, above the ground
   Collision collision = Collision::kNone;
 };
 
 class VehicleSim {
  public:
-  // The vehicle at rest on the surface, at the start pose within a few millimetres. The surface must outlive it.
+  // Settles on the surface within a few millimetres of the start pose. The surface must outlive the object.
   VehicleSim(const Vehicle& vehicle, const VehicleSimConfig& config, const Surface& surface, const Pose2& start);
   ~VehicleSim();
   VehicleSim(const VehicleSim&) = delete;
   VehicleSim& operator=(const VehicleSim&) = delete;
 
   void advance(double dt_s, const WheelCommand& command);
-  // From the next advance() on.
+  // Effective from the next advance().
   void set_faults(const VehicleFaults& faults);
   const VehicleTruth& truth() const;
 

@@ -31,13 +31,13 @@ Plane wheel_plane(const Eigen::Matrix3d& R_map_hub) {
 void add_strip(const ContactConfig& config, const Vehicle& vehicle, HeightCache& heights, const Plane& plane,
                const Eigen::Vector3d& center, double across_m, Sums& sums, WheelContact& contact) {
   const double radius = vehicle.wheel_radius_m, dx = 2.0 * radius / config.segments;
-  // Columns stand on the wheel's tread, not under its centre: they differ where the wheel leans.
+  // Columns are placed on the tread, not under the wheel centre; these differ when the wheel is tilted.
   const Eigen::Vector3d base = center - radius * plane.u;
   double x0 = -radius, z0 = 0.0;
   for (int i = 0; i <= config.segments; ++i) {
     const double x1 = -radius + i * dx;
     const double px = base.x() + x1 * plane.f.x(), py = base.y() + x1 * plane.f.y();
-    // Above the axle the column is a wall, whose nearest point is level with the axle.
+    // A column above the axle is a wall; its nearest point is at axle height.
     const double z1 = std::min(0.0, (heights.height_m(px, py) - center.z()) * plane.u.z());
     const double x = 0.5 * (x0 + x1), z = 0.5 * (z0 + z1), rise = z1 - z0;
     x0 = x1;

@@ -9,7 +9,7 @@
 namespace rover {
 namespace {
 
-constexpr double kFullSlip = 1.2;  // of the bristle: beyond it the wheel just slides
+constexpr double kFullSlip = 1.2;  // bristle saturation: full sliding beyond it
 
 struct Point {
   double slip, slope_deg;

@@ -1,8 +1,7 @@
-// Tangential force between wheel and soil: a brush with relaxation length. One bristle per wheel, deflected by d:
+// Tangential wheel-soil force: brush model with relaxation length. One bristle per wheel with deflection d:
 //   dd/dt = v_slip - |w R| d / sigma,    F = -N mu(|d| / sigma) d / |d| - c dd/dt
-// In steady driving |d| / sigma is the slip, so mu is the inverse of the measured slope-slip table; at standstill the
-// bristle is a spring that holds (Dahl and LuGre friction work the same way). Rolling resistance is a force against the
-// wheel's travel, chosen so that level ground gives the table's slip at 0 degrees.
+// In steady state |d| / sigma is the slip, so mu is the inverse of the slope-slip table; at standstill the bristle is a
+// spring (as in Dahl and LuGre friction). Rolling resistance gives the table's slip on level ground.
 #pragma once
 
 #include <Eigen/Dense>
@@ -16,23 +15,23 @@ struct WheelSoilConfig {
   double relaxation_m = 0.02;        // sigma
   double damping_spm = 4.0;          // c, per newton of load
   double lateral_factor = 0.9;       // sideways force over lengthwise force at the same slip
-  double rolling_speed_mps = 0.002;  // below it rolling resistance fades to none
-  double scrub_arm_m = 0.03;         // a wheel that turns on the spot rubs with mu times this arm [est]
-  double scrub_rate_radps = 0.1;     // below it scrubbing fades
+  double rolling_speed_mps = 0.002;  // rolling resistance is linear below this speed
+  double scrub_arm_m = 0.03;         // scrub torque when steering on the spot = mu x load x this arm [est]
+  double scrub_rate_radps = 0.1;     // scrub torque is linear below this rate
 };
 
-// Traction over load at this slip, rolling resistance included: mu, piecewise linear through the table's points.
+// Traction coefficient mu at this slip, including rolling resistance; piecewise linear through the table.
 double gross_traction(Soil soil, double slip);
-// Force over load that rolling costs.
+// Rolling resistance coefficient.
 double rolling_resistance(Soil soil);
-// Means over the soils under a wheel.
+// Weighted means over the soils under a wheel.
 double gross_traction(const std::array<double, 3>& soil_share, double slip);
 double rolling_resistance(const std::array<double, 3>& soil_share);
 
-// Against the wheel's travel, through its axle: the ground before the wheel pushes radially.
+// Resistance force at the axle, opposite to the direction of travel.
 double rolling_force(const WheelSoilConfig& config, const std::array<double, 3>& soil_share, double load_n,
                      double along_mps);
-// Against a wheel that turns on the spot.
+// Resistance torque of a wheel steered on the spot.
 double scrub_torque(const WheelSoilConfig& config, const std::array<double, 3>& soil_share, double load_n,
                     double turn_radps);
 

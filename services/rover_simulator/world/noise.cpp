@@ -22,7 +22,7 @@ Directions make_directions() {
 }
 const Directions kTable = make_directions();
 
-// Two rounds of multiply and shift: enough for a gradient's direction, and half the cost of mix64 twice.
+// Two multiply-shift rounds: sufficient for a gradient direction, at half the cost of mix64 twice.
 std::uint64_t corner_key(std::uint64_t seed, std::int64_t ix, std::int64_t iy) {
   std::uint64_t h = seed ^ (static_cast<std::uint64_t>(ix) * 0x9e3779b97f4a7c15ULL) ^
                     (static_cast<std::uint64_t>(iy) * 0xc2b2ae3d27d4eb4fULL);

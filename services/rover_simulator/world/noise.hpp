@@ -1,4 +1,4 @@
-// Noise fields on a hashed lattice: pure functions of seed and place, without tables.
+// Lattice noise from hashes: pure functions of seed and position.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ constexpr double unit_of(std::uint64_t bits) {
   return static_cast<double>(bits >> 11) * 0x1p-53;
 }
 
-// A stream of numbers that starts from a hash.
+// Pseudo-random sequence seeded by a hash.
 class HashStream {
  public:
   explicit HashStream(std::uint64_t state) : state_(state) {}

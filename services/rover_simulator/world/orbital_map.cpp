@@ -1,5 +1,5 @@
-// The map that the rover is given: box-filtered fine surface, smoothed, with correlated vertical noise and a local
-// horizontal distortion of zero mean, so that on the whole the map lies true.
+// Orbital map: box-filtered and smoothed fine surface with correlated vertical noise and a zero-mean horizontal
+// distortion.
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +9,7 @@
 namespace rover {
 namespace {
 
-constexpr double kBoxStepM = 0.25;  // between the samples that one pixel averages
+constexpr double kBoxStepM = 0.25;  // sample spacing of the box filter
 
 using Field = std::vector<double>;
 
@@ -41,7 +41,7 @@ std::vector<double> gaussian_kernel(double sigma_px) {
   return kernel;
 }
 
-// One pass of the separable filter, along columns or rows; the border repeats.
+// One pass of the separable filter, along columns or rows, with replicated border.
 void smooth_along(ElevationRaster& raster, const std::vector<double>& kernel, bool columns) {
   const ElevationRaster source = raster;
   const int reach = static_cast<int>(kernel.size() / 2);

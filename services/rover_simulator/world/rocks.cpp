@@ -34,7 +34,7 @@ double density_above(double k, double max_diameter_m, double diameter_m) {
 }
 
 int poisson(double mean, HashStream& stream) {
-  // Knuth's product of uniforms: the mean is a few rocks a cell.
+  // Poisson sample by Knuth's product of uniforms; the mean is a few rocks per cell.
   const double limit = std::exp(-mean);
   int count = 0;
   for (double product = stream.unit(); product > limit; product *= stream.unit()) ++count;
@@ -81,7 +81,7 @@ RockField::Law RockField::law_of(const RockConfig& config, double k) {
   Law law;
   law.per_square_metre = density_above(k, config.max_diameter_m, config.min_diameter_m);
   if (law.per_square_metre <= 0.0) return law;
-  // Inverse of the distribution of diameters, by walking down the density.
+  // Inverse cumulative distribution of diameters.
   const double ratio = std::pow(config.max_diameter_m / config.min_diameter_m, 1.0 / kQuantiles), q = q_of(k);
   double diameter = config.min_diameter_m, above = law.per_square_metre;
   for (int i = 0; i <= kQuantiles; ++i) {
@@ -118,7 +118,7 @@ void RockField::draw_cell(int cx, int cy, std::span<const KeepClear> keep_clear,
     rock.x_m = (cx + stream.unit()) * kCellM;
     rock.y_m = (cy + stream.unit()) * kCellM;
     rock.diameter_m = draw_diameter_m(law, stream.unit());
-    // Sum of two uniforms: most rocks near the mean ratio, none beyond the limits.
+    // Triangular distribution: most rocks near the mean ratio, none beyond the limits.
     const double spread = 0.5 * (stream.unit() + stream.unit());
     rock.height_m = rock.diameter_m * std::lerp(config_.min_height_ratio, config_.max_height_ratio, spread);
     rock.shape_seed = stream.bits();
@@ -149,7 +149,7 @@ RockField::Shape RockField::shape_of(const Rock& rock) const {
   for (int i = 0; i < kFlanks; ++i) {
     const double angle = 2.0 * M_PI * (i + stream.range(0.15, 0.85)) / kFlanks;
     const double offset = stream.range(0.72, 1.0);
-    // Flank slope 58-77 degrees, in units of height over semi-axis, and never too gentle to reach the top.
+    // Flank slope 58-77 degrees, in units of height over semi-axis, with a minimum that reaches the top.
     const double slope = stream.range(1.6, 4.3) * 0.5 * rock.diameter_m / rock.height_m;
     shape.flank_x[i] = static_cast<float>(std::cos(angle));
     shape.flank_y[i] = static_cast<float>(std::sin(angle));
@@ -159,14 +159,14 @@ RockField::Shape RockField::shape_of(const Rock& rock) const {
   return shape;
 }
 
-// In the ellipse's own coordinates (u, v), |(u, v)| <= 1: the lowest of a dome, a tilted top, the flanks' planes and
-// the ellipse's own rim; 1 at the centre. Continuous, and zero from the rim outwards.
+// Profile in ellipse coordinates (u, v), |(u, v)| <= 1: minimum of dome, tilted top, flank planes and rim. Continuous,
+// 1 at the centre, 0 from the rim outwards.
 float RockField::profile_m(const Shape& shape, float dx_m, float dy_m) {
   const float u = (shape.axis_x * dx_m + shape.axis_y * dy_m) * shape.inverse_long;
   const float v = (shape.axis_x * dy_m - shape.axis_y * dx_m) * shape.inverse_short;
   const float r2 = u * u + v * v;
   if (r2 >= 1.0f) return 0.0f;
-  constexpr float kTopMargin = 0.15f;  // the tilted top cuts away one side, not the summit
+  constexpr float kTopMargin = 0.15f;  // the tilted top lowers one side but not the summit
   float top = std::min(1.0f - shape.dome * r2, 1.0f + kTopMargin * 0.5f - shape.tilt_x * u - shape.tilt_y * v);
   top = std::min(top, (1.0f - r2) * 2.5f);
   for (int i = 0; i < kFlanks; ++i)
@@ -174,7 +174,7 @@ float RockField::profile_m(const Shape& shape, float dx_m, float dy_m) {
   return top > 0.0f ? top * shape.height_m : 0.0f;
 }
 
-// Calls f(cell) for each cell that the shape reaches into.
+// Calls f(cell) for each cell that the shape overlaps.
 template <class F>
 void RockField::for_cells_of(const Shape& shape, F&& f) const {
   const auto cell = [](float m, int cells) {

@@ -1,4 +1,4 @@
-// Rocks by Golombek's size-frequency law, drawn cell by cell from hashes: a pure function of seed and place.
+// Rock field from Golombek's size-frequency law, generated per cell from hashes: a pure function of seed and position.
 // Law: cumulative fractional area covered by rocks of diameter >= D is F(D) = k exp(-q D), q = 1.79 + 0.152 / k
 // (Golombek and Rapp 1997). Shapes: convex blocks of steep flanks under a domed or tilted top.
 #pragma once
@@ -19,7 +19,7 @@ struct Rock {
   std::uint64_t shape_seed = 0;
 };
 
-// Where no rock of this height or taller may stand.
+// Circle without rocks of this height or taller.
 struct KeepClear {
   double x_m = 0.0;
   double y_m = 0.0;
@@ -27,7 +27,7 @@ struct KeepClear {
   double height_m = 0.12;
 };
 
-// Ground of another abundance: everything within the half width of a line; a single point makes a circle.
+// Zone with its own rock abundance: all points within the half width of a polyline (a circle for a single point).
 struct RockZone {
   double k = 0.0;
   double half_width_m = 0.0;
@@ -38,14 +38,14 @@ struct RockZone {
 
 struct RockConfig {
   double k = 0.08;              // cumulative fractional area of all rocks; 0: none
-  std::vector<RockZone> zones;  // where they overlap the first one counts
+  std::vector<RockZone> zones;  // the first matching zone applies
   double min_diameter_m = 0.08;
   double max_diameter_m = 1.5;
-  double min_height_ratio = 0.3;  // height over diameter: spread about Golombek's 1/2
+  double min_height_ratio = 0.3;  // height over diameter, spread around Golombek's 1/2
   double max_height_ratio = 0.7;
 };
 
-// Rocks per square metre of diameter >= D outside of the zones, from the law: the integral of -dF / (pi D^2 / 4).
+// Rocks per square metre with diameter >= D outside the zones: the integral of -dF / (pi D^2 / 4).
 double rock_density_above(const RockConfig& config, double diameter_m);
 
 class RockField {
@@ -57,9 +57,9 @@ class RockField {
     int rock_id = -1;
     double height_m = 0.0;  // of the rock's surface over the ground
   };
-  // The highest rock surface at this place.
+  // The highest rock surface at this position.
   Hit at(double x_m, double y_m) const;
-  // Rocks whose centre lies in the box, by growing id.
+  // Rocks whose centre is in the box, by increasing id.
   std::vector<Rock> in(double x0_m, double y0_m, double x1_m, double y1_m) const;
   std::span<const Rock> all() const { return rocks_; }
 
@@ -73,7 +73,7 @@ class RockField {
     std::array<float, kFlanks> flank_x, flank_y, flank_offset, flank_rise;
   };
 
-  // Number and sizes of the rocks for one abundance.
+  // Density and size distribution for one abundance.
   struct Law {
     double per_square_metre = 0.0;
     std::vector<double> quantile_diameter_m;  // at equal steps of probability

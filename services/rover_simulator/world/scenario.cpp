@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 constexpr Range kMap{-1e7, 1e7};
 constexpr double kSamePointM = 1e-3;
 constexpr double kGoalClearRadiusM = 1.0;
-constexpr double kClearHeightM = 0.12;  // a little less than a hazard: what may stand in a certified circle
+constexpr double kClearHeightM = 0.12;  // maximum rock height in a certified circle, below hazard size
 
 std::string find_dtm(const Config& world, const std::string& file) {
   const std::string name = world.text("dtm");

@@ -1,4 +1,4 @@
-// A scenario file: the world, the traverse planned in it, and the conditions of the run.
+// Scenario file: world, planned traverse and run conditions.
 #pragma once
 
 #include <cstdint>
@@ -16,12 +16,12 @@ namespace rover {
 struct PlannedPath {
   std::vector<double> x_m;  // map
   std::vector<double> y_m;
-  std::vector<int> level;  // of the segment that starts here; 0: Efficient, 1: Full
+  std::vector<int> level;  // autonomy level of the segment that starts here; 0: Efficient, 1: Full
   double corridor_half_width_m = 1.5;
   double goal_tolerance_m = 0.5;
 };
 
-// The start lies on the path's first point. What the ground believes of it, and how sure it is.
+// Start pose given to the rover, at the path's first point, with its uncertainty.
 struct PlannedStart {
   std::optional<double> yaw_rad;  // absent: along the path's first segment
   double clear_radius_m = 1.5;
@@ -30,19 +30,19 @@ struct PlannedStart {
 };
 
 struct Scenario {
-  std::string name;      // of the file, without folder and ending
+  std::string name;      // file name without folder and extension
   std::string dtm_file;  // as found; empty: a synthetic plane
   ElevationRaster dtm;
-  std::vector<std::string> dtm_notes;  // for the user: what was converted, what was taken for void
-  std::uint64_t seed = 1;              // of everything random in the run, unless the command gives another
+  std::vector<std::string> dtm_notes;  // messages for the user: conversions, void cells
+  std::uint64_t seed = 1;              // seed of the run, unless given on the command line
   WorldConfig world;                   // keep-clear circles of start and goal included
   double orbital_resolution_m = 1.0;
   double gravity_mps2 = 3.71;
   double sun_elevation_rad = to_rad(40.0);
   double sun_azimuth_rad = to_rad(135.0);  // towards the sun, counter-clockwise from east
   double calibration_error_px = 0.2;       // rms, of the true cameras against config/cameras.yaml
-  std::string level =
-      "efficient";  // full: everywhere; auto: as the path's segments say, and as the rover finds the ground
+  // efficient; full: everywhere; auto: by path segment and by the terrain found.
+  std::string level = "efficient";
   PlannedStart start;
   PlannedPath path;
   double timeout_s = 3600.0;

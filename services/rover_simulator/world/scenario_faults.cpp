@@ -8,7 +8,7 @@
 namespace rover {
 namespace {
 
-constexpr double kLongest = 1e6;  // of any time or way
+constexpr double kLongest = 1e6;  // [s] or [m]
 
 std::int8_t read_state(const Config& config) {
   const std::vector<std::string> names = state_names();

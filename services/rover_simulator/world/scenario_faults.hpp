@@ -1,4 +1,4 @@
-// The list of faults in a scenario.
+// Scripted faults of a scenario.
 #pragma once
 
 #include <cstdint>
@@ -9,11 +9,11 @@
 
 namespace rover {
 
-// Begins at a time, after a way, or with the first entry into a state of the supervisor: one of the three is set.
+// Triggered by time, distance or first entry into a supervisor state; exactly one is set.
 struct ScriptedFault {
   FaultOrder order;
-  std::optional<double> at_s;           // of message time, from the first tick
-  std::optional<double> at_m;           // of true way
+  std::optional<double> at_s;           // message time since the first tick
+  std::optional<double> at_m;           // true distance driven
   std::optional<std::int8_t> at_state;  // supervisor_state_t
 };
 

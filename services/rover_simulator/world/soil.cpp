@@ -8,7 +8,7 @@
 namespace rover {
 namespace {
 
-constexpr double kBorder = 0.25;  // of the blend, in standard deviations of the noise
+constexpr double kBorder = 0.25;  // blend width, in standard deviations of the noise
 
 double smooth_step(double t) {
   t = std::clamp(t, 0.0, 1.0);
@@ -18,7 +18,7 @@ double smooth_step(double t) {
 }  // namespace
 
 SoilZones::SoilZones(const SoilConfig& config, std::uint64_t seed) : config_(config), seed_(seed) {
-  // The limits are quantiles of the noise itself, on a grid far larger than a zone and out of step with its lattice.
+  // Thresholds are noise quantiles, sampled on a large grid incommensurate with the noise lattice.
   constexpr int kGrid = 96;
   constexpr double kStep = 0.7239;
   std::vector<double> samples;

@@ -1,4 +1,4 @@
-// The fine surface that wheels touch and cameras see, in the map frame. Implementations are pure functions of place.
+// Fine surface for wheels and cameras, in the map frame. Implementations are pure functions of position.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@ enum class Soil : std::int8_t { kSand = 0, kFirm = 1, kBedrock = 2 };
 struct Material {
   Soil soil = Soil::kFirm;     // rocks count as bedrock
   int rock_id = -1;            // -1: ground
-  double rock_height_m = 0.0;  // of the rock's surface over the ground at this place; 0: ground
+  double rock_height_m = 0.0;  // rock surface above the ground at this position; 0: ground
 };
 
 class Surface {

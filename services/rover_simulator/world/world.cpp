@@ -10,7 +10,7 @@
 namespace rover {
 namespace {
 
-// Each part of the world draws from a stream of its own.
+// Independent random stream per part of the world.
 enum Stream : std::uint64_t { kRocks = 1, kSoil = 2, kRoughness = 3 };
 std::uint64_t stream_seed(std::uint64_t seed, Stream stream) {
   return hash_cell(seed, stream, 0);

@@ -1,4 +1,4 @@
-// The fine world: a measured elevation model, refined below its resolution by fractal roughness, with rocks and soils.
+// Simulated terrain: a measured elevation model with fractal roughness below its resolution, rocks and soils.
 // A pure function of configuration, elevation model and seed; safe to read from several threads.
 #pragma once
 
@@ -13,15 +13,15 @@
 namespace rover {
 
 struct RoughnessConfig {
-  double rms_m = 0.012;         // of the whole fractal on firm ground; 0: smooth
+  double rms_m = 0.012;         // total on firm ground; 0: smooth
   double longest_wave_m = 1.0;  // the elevation model's own resolution
-  int octaves = 5;              // each of half the wavelength of the one before
-  double hurst = 0.8;           // amplitude falls with wavelength^hurst (Mars at sub-metre scale: about 0.7-0.9)
+  int octaves = 5;              // each with half the previous wavelength
+  double hurst = 0.8;           // amplitude ~ wavelength^hurst (Mars at sub-metre scale: about 0.7-0.9)
   double sand_factor = 0.5;
   double bedrock_factor = 1.3;
 };
 
-// How the orbital map errs against the world.
+// Errors of the orbital map relative to the world.
 struct OrbitalConfig {
   double smoothing_px = 0.7;      // Gaussian, standard deviation
   double vertical_noise_m = 0.1;  // rms
@@ -42,22 +42,22 @@ class World : public Surface {
  public:
   World(const WorldConfig& config, const ElevationRaster& dtm, std::uint64_t seed);
 
-  // Heights over the elevation model's minimum; outside of the model its border goes on.
+  // Heights above the elevation model's minimum; the border is extended outwards.
   double height_m(double x_m, double y_m) const override;
   Material material(double x_m, double y_m) const override;
 
-  // Rocks whose centre lies in the box.
+  // Rocks whose centre is in the box.
   std::vector<Rock> rocks_in(double x0_m, double y0_m, double x1_m, double y1_m) const;
-  // What a map maker in orbit would hand to the rover: same frame and datum, with the errors of OrbitalConfig.
+  // Orbital map for the rover: same frame and datum, with the errors of OrbitalConfig.
   ElevationRaster orbital_map(double resolution_m) const;
 
-  // Without rocks and roughness, and without rocks.
+  // smooth: without roughness and rocks; ground: without rocks.
   double smooth_height_m(double x_m, double y_m) const;
   double ground_height_m(double x_m, double y_m) const;
   double width_m() const { return dtm_.width_m(); }
   double length_m() const { return dtm_.height_m(); }
   bool contains(double x_m, double y_m) const;
-  double datum_m() const { return datum_m_; }  // what was subtracted from the elevation model
+  double datum_m() const { return datum_m_; }  // minimum of the elevation model, subtracted from it
 
  private:
   struct Ground {
