@@ -21,7 +21,7 @@ constexpr double kGroundBelow = 0.62;
 struct Errors {
   double rms_px = 0.0;    // of the pixels within 1 px
   double coverage = 0.0;  // measured share of what both cameras see
-  double outliers = 0.0;  // share of measured pixels that are off by more than 1 px
+  double outliers = 0.0;  // fraction of measured pixels with an error above 1 px
 };
 
 Errors compare(const Disparity& disparity, const std::vector<float>& exact, int from_row = 0) {
