@@ -90,9 +90,9 @@ void spy_all(const std::string& file) {
   double last_s = 0.0;
   for_each_event(file, [&](const LogEvent& event) {
     last_s = std::max(last_s, to_seconds(event.time));
-    traffic.hear(event.channel, event.data, event.size, last_s);
+    traffic.add_message(event.channel, event.data, event.size, last_s);
   });
-  traffic.figures(last_s);
+  traffic.statistics(last_s);
 }
 
 void run_log(const Input& input, Scratch& scratch) {

@@ -34,7 +34,7 @@ int main(int argc, char** argv) {
   write_synthetic_run(run, argv[1]);
   Study study;
   study.folder = open_run_folder(argv[1], ROVER_SOURCE_DIR "/config");
-  study.log = choose_run(study.folder.log);
+  study.log = rover::choose_run(study.folder.log);
   study.run = read_log(study.log);
   study.world = truth;
   rover::ElevationRaster orbital = world.orbital_map(1.0);
