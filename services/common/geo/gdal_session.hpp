@@ -22,9 +22,11 @@ class GdalSession {
   GdalSession& operator=(const GdalSession&) = delete;
 
   bool failed() const { return CPLGetLastErrorType() >= CE_Failure; }
-  // On one line in brackets; empty where there was none.
+  // On one line of a readable length, in brackets; empty if there was none.
   std::string last_error() const {
+    constexpr size_t kMaxLength = 500;
     std::string text = CPLGetLastErrorMsg();
+    if (text.size() > kMaxLength) text.replace(kMaxLength, std::string::npos, " ...");
     std::replace_if(
         text.begin(), text.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
     return text.empty() ? "" : " (" + text + ")";
