@@ -23,8 +23,11 @@ double length_of(const GlobalPath& path) {
 
 }  // namespace
 
-Broadcaster::Broadcaster(Audience& audience, Ear& ear, Station& station, std::function<void()> made)
-    : audience_(audience), ear_(ear), station_(station), made_(std::move(made)), thread_([this] { run(); }) {}
+Broadcaster::Broadcaster(PageClients& clients, TelemetrySubscriber& subscriber, SharedState& shared,
+                         std::function<void()> on_frame)
+    : clients_(clients), subscriber_(subscriber), shared_(shared), on_frame_(std::move(on_frame)), thread_([this] {
+        run();
+      }) {}
 
 Broadcaster::~Broadcaster() {
   stop();
@@ -40,13 +43,13 @@ void Broadcaster::stop() {
 void Broadcaster::run() {
   std::int64_t number = 0;
   while (running_) {
-    if (!audience_.wait_for_page(1s)) continue;
+    if (!clients_.wait_for_page(1s)) continue;
     auto frame = std::make_shared<const Frame>(make(++number));
     {
       const std::lock_guard lock(mutex_);
       newest_ = std::move(frame);
     }
-    made_();
+    on_frame_();
     std::unique_lock lock(mutex_);
     changed_.wait_for(lock, kPeriod, [this] { return !running_; });
   }
@@ -54,8 +57,8 @@ void Broadcaster::run() {
 
 BookView Broadcaster::book_view() {
   BookView out;
-  out.pages = audience_.pages();
-  station_.book.with([&](const Logbook& book) {
+  out.pages = clients_.pages();
+  shared_.book.with([&](const Logbook& book) {
     out.newest_event = book.newest_event();
     out.path_id = book.path_id();
     out.path_length_m = length_of(book.path());
@@ -68,10 +71,10 @@ Broadcaster::Frame Broadcaster::make(std::int64_t number) {
   Frame frame;
   frame.number = number;
   const auto [view, truth] =
-      ear_.with([](Gatherer& gatherer) { return std::pair(gatherer.view(wall_seconds()), gatherer.truth()); });
+      subscriber_.with([](TelemetryStore& store) { return std::pair(store.view(wall_seconds()), store.truth()); });
   frame.view = as_event("view", to_json(view, book_view()));
   frame.view_and_truth = frame.view;
-  if (audience_.truth_wanted() && truth.utime != kNever) frame.view_and_truth += as_event("truth", to_json(truth));
+  if (clients_.truth_wanted() && truth.utime != kNever) frame.view_and_truth += as_event("truth", to_json(truth));
   return frame;
 }
 

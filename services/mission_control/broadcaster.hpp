@@ -9,9 +9,9 @@
 #include <string>
 #include <thread>
 
-#include "mission_control/audience.hpp"
-#include "mission_control/ear.hpp"
-#include "mission_control/station.hpp"
+#include "mission_control/page_clients.hpp"
+#include "mission_control/shared_state.hpp"
+#include "mission_control/telemetry_subscriber.hpp"
 
 namespace rover::mission {
 
@@ -24,8 +24,9 @@ class Broadcaster {
     std::string view_and_truth;  // equals view if no page asked for truth or none was received
   };
 
-  // `made` is called in the broadcaster's thread after each new frame.
-  Broadcaster(Audience& audience, Ear& ear, Station& station, std::function<void()> made);
+  // `on_frame` is called in the broadcaster's thread after each new frame.
+  Broadcaster(PageClients& clients, TelemetrySubscriber& subscriber, SharedState& shared,
+              std::function<void()> on_frame);
   ~Broadcaster();
   Broadcaster(const Broadcaster&) = delete;
   Broadcaster& operator=(const Broadcaster&) = delete;
@@ -40,10 +41,10 @@ class Broadcaster {
   Frame make(std::int64_t number);
   BookView book_view();
 
-  Audience& audience_;
-  Ear& ear_;
-  Station& station_;
-  std::function<void()> made_;
+  PageClients& clients_;
+  TelemetrySubscriber& subscriber_;
+  SharedState& shared_;
+  std::function<void()> on_frame_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::shared_ptr<const Frame> newest_;

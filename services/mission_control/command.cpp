@@ -69,13 +69,12 @@ bool is_name(const json& value) {
 
 std::string read_points(const json& value, const CommandLimits& limits, std::vector<Eigen::Vector2d>& points) {
   if (!value.is_array() || value.size() < 2) return "points: a list of at least 2 points [x, y] is expected";
-  if (value.size() > limits.most_points)
-    return "points: more than " + std::to_string(limits.most_points) + " way-points";
+  if (value.size() > limits.max_points) return "points: more than " + std::to_string(limits.max_points) + " way-points";
   for (const json& point : value) {
     if (!point.is_array() || point.size() != 2 || !point[0].is_number() || !point[1].is_number())
       return "points: each is [x, y], two numbers";
     const Eigen::Vector2d p(point[0].get<double>(), point[1].get<double>());
-    if (!p.allFinite() || p.cwiseAbs().maxCoeff() > limits.most_coordinate_m) return "points: out of range";
+    if (!p.allFinite() || p.cwiseAbs().maxCoeff() > limits.max_coordinate_m) return "points: out of range";
     points.push_back(p);
   }
   return "";

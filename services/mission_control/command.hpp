@@ -32,8 +32,8 @@ struct Command {
 };
 
 struct CommandLimits {
-  size_t most_points = 500;
-  double most_coordinate_m = 1e6;
+  size_t max_points = 500;
+  double max_coordinate_m = 1e6;
 };
 
 struct ParsedCommand {

@@ -80,14 +80,14 @@ MissionPlan load_mission_plan(const std::string& config_dir) {
 namespace mission {
 namespace {
 
-DrawnPath read_drawn_path(const Config& config) {
-  DrawnPath path;
+OperatorPathConfig read_drawn_path(const Config& config) {
+  OperatorPathConfig path;
   config.read("corridor_half_width_m", path.corridor_half_width_m, {0.1, 50});
   config.read("goal_tolerance_m", path.goal_tolerance_m, {0.01, 10});
-  config.read("longest_m", path.longest_m, {1, 1e5});
+  config.read("longest_m", path.max_length_m, {1, 1e5});
   config.read_deg("warn_slope_deg", path.slope.warn_rad, {0, 90});
-  config.read_deg("most_slope_deg", path.slope.most_rad, {0, 90});
-  if (path.slope.most_rad < path.slope.warn_rad) config.fail("most_slope_deg", "is below warn_slope_deg");
+  config.read_deg("most_slope_deg", path.slope.max_rad, {0, 90});
+  if (path.slope.max_rad < path.slope.warn_rad) config.fail("most_slope_deg", "is below warn_slope_deg");
   return path;
 }
 
@@ -100,7 +100,7 @@ PageConfig load_page_config(const std::string& config_dir) {
   config.read("page", page.served);
   config.read("address", page.guard.address);
   config.read("port", page.guard.port, {1, 65535});
-  config.read("most_pages", page.most_pages, {1, 64});
+  config.read("most_pages", page.max_pages, {1, 64});
   config.read("token_file", token_file);
   page.path = read_drawn_path(config.section("path"));
   config.finish();

@@ -9,7 +9,7 @@
 #include "mission_control/command.hpp"
 #include "mission_control/ground_map.hpp"
 #include "mission_control/http_server.hpp"
-#include "mission_control/orders.hpp"
+#include "mission_control/mission_sequence.hpp"
 #include "mission_control/request_guard.hpp"
 
 namespace rover {
@@ -24,10 +24,10 @@ MissionPlan load_mission_plan(const std::string& config_dir);
 namespace mission {
 
 // Limits and defaults for paths drawn by the operator.
-struct DrawnPath {
+struct OperatorPathConfig {
   double corridor_half_width_m = 1.5;
   double goal_tolerance_m = 0.5;
-  double longest_m = 2000.0;
+  double max_length_m = 2000.0;
   SlopeLimits slope;
   CommandLimits limits;
 };
@@ -35,9 +35,9 @@ struct DrawnPath {
 struct PageConfig {
   bool served = true;
   GuardConfig guard;
-  int most_pages = 16;
-  ServerLimits limits;  // the number of connections is derived from most_pages
-  DrawnPath path;
+  int max_pages = 16;
+  ServerLimits limits;  // the number of connections is derived from max_pages
+  OperatorPathConfig path;
 };
 
 // Throws ConfigError if a non-loopback address has no token file.

@@ -14,16 +14,16 @@ constexpr double kSmoothingM = 0.8;  // suppresses the map's vertical noise, as 
 constexpr double kStepM = 0.5;       // sampling step of the path check
 constexpr int kPictureEdgePx = 2000;
 
-struct Stop {
+struct ColourStop {
   double at;  // slope / limit
   cv::Vec4d bgra;
 };
 
 // Green, yellow, orange, red; transparent on flat ground.
 cv::Vec4b slope_colour(double share) {
-  static const std::array<Stop, 5> kStops = {Stop{0.0, {120, 170, 60, 0}}, Stop{0.3, {110, 190, 90, 90}},
-                                             Stop{0.6, {60, 200, 235, 150}}, Stop{1.0, {40, 110, 245, 185}},
-                                             Stop{1.6, {60, 40, 200, 210}}};
+  static const std::array<ColourStop, 5> kStops = {
+      ColourStop{0.0, {120, 170, 60, 0}}, ColourStop{0.3, {110, 190, 90, 90}}, ColourStop{0.6, {60, 200, 235, 150}},
+      ColourStop{1.0, {40, 110, 245, 185}}, ColourStop{1.6, {60, 40, 200, 210}}};
   const double at = std::clamp(share, 0.0, kStops.back().at);
   for (size_t i = 1; i < kStops.size(); ++i) {
     if (at > kStops[i].at) continue;
@@ -34,7 +34,7 @@ cv::Vec4b slope_colour(double share) {
 }
 
 cv::Vec4b class_colour(double slope_rad, const SlopeLimits& limits) {
-  if (slope_rad > limits.most_rad) return {70, 60, 225, 190};
+  if (slope_rad > limits.max_rad) return {70, 60, 225, 190};
   if (slope_rad > limits.warn_rad) return {50, 150, 245, 160};
   if (slope_rad > 0.5 * limits.warn_rad) return {80, 215, 235, 110};
   return {130, 190, 80, 70};
@@ -76,11 +76,11 @@ void GroundMap::measure_slopes(double rover_length_m) {
   for (int row = 0; row < z.rows; ++row)
     for (int column = 0; column < z.cols; ++column)
       slope.at<float>(row, column) = std::atan(std::hypot(dx.at<float>(row, column), dy.at<float>(row, column)));
-  const int reach = 2 * static_cast<int>(std::lround(0.5 * rover_length_m / heights_.resolution_m)) + 1;
-  cv::Mat worst;
-  cv::dilate(slope, worst, cv::getStructuringElement(cv::MORPH_ELLIPSE, cv::Size(reach, reach)));
+  const int kernel_px = 2 * static_cast<int>(std::lround(0.5 * rover_length_m / heights_.resolution_m)) + 1;
+  cv::Mat steepest;
+  cv::dilate(slope, steepest, cv::getStructuringElement(cv::MORPH_ELLIPSE, cv::Size(kernel_px, kernel_px)));
   slope_rad_ = values_of(slope);
-  worst_slope_rad_ = values_of(worst);
+  worst_slope_rad_ = values_of(steepest);
 }
 
 std::vector<std::uint8_t> GroundMap::relief_jpeg() const {
@@ -91,7 +91,7 @@ std::vector<std::uint8_t> GroundMap::relief_jpeg() const {
 }
 
 std::vector<std::uint8_t> GroundMap::slope_png() const {
-  return png_of(heights_, slope_rad_, [this](double slope) { return slope_colour(slope / limits_.most_rad); });
+  return png_of(heights_, slope_rad_, [this](double slope) { return slope_colour(slope / limits_.max_rad); });
 }
 
 std::vector<std::uint8_t> GroundMap::difficulty_png() const {
@@ -115,25 +115,25 @@ double GroundMap::height_at(const Eigen::Vector2d& p) const {
 PathCheck GroundMap::check(const std::vector<Eigen::Vector2d>& points) const {
   PathCheck out;
   for (size_t i = 0; i + 1 < points.size(); ++i) {
-    const Eigen::Vector2d way = points[i + 1] - points[i];
+    const Eigen::Vector2d segment = points[i + 1] - points[i];
     const bool last = i + 2 == points.size();
-    const int steps = std::max(1, static_cast<int>(std::ceil(std::min(way.norm(), 1e5) / kStepM)));
+    const int steps = std::max(1, static_cast<int>(std::ceil(std::min(segment.norm(), 1e5) / kStepM)));
     for (int k = 0; k < steps + (last ? 1 : 0); ++k) {
       const double u = static_cast<double>(k) / steps;
-      const Eigen::Vector2d p = points[i] + u * way;
+      const Eigen::Vector2d p = points[i] + u * segment;
       if (!contains(p)) {
         out.inside = false;
         return out;
       }
       const double slope = slope_rad_[index_of(p)];
-      out.distance_m.push_back(out.length_m + u * way.norm());
+      out.distance_m.push_back(out.length_m + u * segment.norm());
       out.slope_rad.push_back(slope);
       out.height_m.push_back(height_at(p));
       out.max_slope_rad = std::max(out.max_slope_rad, slope);
     }
-    out.length_m += way.norm();
+    out.length_m += segment.norm();
   }
-  out.passable = out.max_slope_rad <= limits_.most_rad;
+  out.passable = out.max_slope_rad <= limits_.max_rad;
   return out;
 }
 

@@ -18,7 +18,7 @@ struct GroundHeights {
 
 struct SlopeLimits {
   double warn_rad = 0.17;
-  double most_rad = 0.26;
+  double max_rad = 0.26;
 };
 
 struct PathCheck {

@@ -30,7 +30,7 @@ struct Request {
 };
 
 // HTTP status and reason; 200: accepted.
-struct Verdict {
+struct RequestCheck {
   int status = 200;
   std::string reason;
 };

@@ -32,7 +32,7 @@ using boost::system::system_error;
 using net::ip::tcp;
 
 constexpr int kShortThreads = 2;  // bounds the processor share of valid requests, in addition to the server's thread
-constexpr int kWaitingThreads = 24;
+constexpr int kBlockingThreads = 24;
 constexpr int kNice = 10;  // low priority, so that a flood of connections does not slow the drive
 constexpr size_t kReadBytes = 8 * 1024;
 constexpr auto kPause = 1s;  // before retrying bind or accept; between keep-alives of a stream
@@ -41,10 +41,10 @@ constexpr size_t kLingerBytes = 256 * 1024;
 
 struct Connection : std::enable_shared_from_this<Connection> {
   explicit Connection(tcp::socket from)
-      : socket(std::move(from)), deadline(socket.get_executor()), news(socket.get_executor()) {}
+      : socket(std::move(from)), deadline(socket.get_executor()), wake_timer(socket.get_executor()) {}
 
   // After the deadline pending socket operations fail and `late` is set.
-  void must_end_within(std::chrono::milliseconds time) {
+  void set_deadline(std::chrono::milliseconds time) {
     late = false;
     deadline.expires_after(time);
     deadline.async_wait([self = shared_from_this()](const error_code& error) {
@@ -57,15 +57,15 @@ struct Connection : std::enable_shared_from_this<Connection> {
     error_code ignored;
     socket.close(ignored);
     deadline.cancel();
-    news.cancel();
+    wake_timer.cancel();
   }
 
   tcp::socket socket;
   net::steady_timer deadline;
-  net::steady_timer news;  // cancelled when its stream has new content
-  bool begun = false;      // received at least one byte
+  net::steady_timer wake_timer;  // cancelled when its stream has new content
+  bool received_any = false;
   bool late = false;
-  bool at_work = false;  // running a handler or a stream
+  bool busy = false;  // running a handler or a stream
 };
 
 std::string head_of(const Response& response, const Response::Headers& common) {
@@ -80,16 +80,16 @@ std::string head_of(const Response& response, const Response::Headers& common) {
 
 }  // namespace
 
-class HttpServer::Serving {
+class HttpServer::Impl {
  public:
   struct Route {
     Handler handler;
     Work work = Work::kShort;
   };
 
-  Serving(const ServerLimits& limits, Response::Headers headers, Admission admission)
+  Impl(const ServerLimits& limits, Response::Headers headers, Admission admission)
       : limits_(limits), headers_(std::move(headers)), admission_(std::move(admission)) {}
-  ~Serving() { stop(); }
+  ~Impl() { stop(); }
 
   void add(const std::string& what, Route route) { routes_[what] = std::move(route); }
   bool served() const { return served_; }
@@ -102,7 +102,7 @@ class HttpServer::Serving {
 
   net::awaitable<void> listen(std::string address, std::string port);
   bool bind(const std::string& address, const std::string& port);
-  void tell(bool served);
+  void report_served(bool served);
   net::awaitable<void> pause();
   net::awaitable<void> accept();
   bool make_room();
@@ -127,12 +127,12 @@ class HttpServer::Serving {
   net::steady_timer pause_{io_};
   std::list<Client> connections_;  // oldest first
   bool stopping_ = false;
-  net::thread_pool short_{kShortThreads};
-  net::thread_pool waiting_{kWaitingThreads};
+  net::thread_pool short_pool_{kShortThreads};
+  net::thread_pool blocking_pool_{kBlockingThreads};
   std::thread thread_;
 };
 
-void HttpServer::Serving::start(const std::string& address, int port, std::function<void(bool)> on_served) {
+void HttpServer::Impl::start(const std::string& address, int port, std::function<void(bool)> on_served) {
   on_served_ = std::move(on_served);
   net::co_spawn(io_, listen(address, std::to_string(port)), net::detached);
   thread_ = std::thread([this] {
@@ -141,7 +141,7 @@ void HttpServer::Serving::start(const std::string& address, int port, std::funct
   });
 }
 
-void HttpServer::Serving::stop() {
+void HttpServer::Impl::stop() {
   if (!thread_.joinable()) return;
   net::post(io_, [this] {
     stopping_ = true;
@@ -153,22 +153,22 @@ void HttpServer::Serving::stop() {
   thread_.join();
 }
 
-void HttpServer::Serving::wake_streams() {
+void HttpServer::Impl::wake_streams() {
   net::post(io_, [this] {
-    for (const Client& client : connections_) client->news.cancel();
+    for (const Client& client : connections_) client->wake_timer.cancel();
   });
 }
 
-net::awaitable<void> HttpServer::Serving::listen(std::string address, std::string port) {
+net::awaitable<void> HttpServer::Impl::listen(std::string address, std::string port) {
   while (!stopping_) {
-    tell(bind(address, port));
+    report_served(bind(address, port));
     if (served_) co_await accept();
     if (!stopping_) co_await pause();
   }
-  tell(false);
+  report_served(false);
 }
 
-bool HttpServer::Serving::bind(const std::string& address, const std::string& port) {
+bool HttpServer::Impl::bind(const std::string& address, const std::string& port) {
   error_code error;
   for (const auto& found : tcp::resolver(io_).resolve(address, port, tcp::resolver::passive, error)) {
     try {
@@ -184,18 +184,18 @@ bool HttpServer::Serving::bind(const std::string& address, const std::string& po
   return false;
 }
 
-void HttpServer::Serving::tell(bool served) {
+void HttpServer::Impl::report_served(bool served) {
   served_ = served;
   on_served_(served);
 }
 
-net::awaitable<void> HttpServer::Serving::pause() {
+net::awaitable<void> HttpServer::Impl::pause() {
   error_code ended;
   pause_.expires_after(kPause);
   co_await pause_.async_wait(net::redirect_error(net::use_awaitable, ended));
 }
 
-net::awaitable<void> HttpServer::Serving::accept() {
+net::awaitable<void> HttpServer::Impl::accept() {
   while (!stopping_) {
     error_code error;
     tcp::socket socket = co_await acceptor_.async_accept(net::redirect_error(net::use_awaitable, error));
@@ -211,17 +211,16 @@ net::awaitable<void> HttpServer::Serving::accept() {
   }
 }
 
-bool HttpServer::Serving::make_room() {
+bool HttpServer::Impl::make_room() {
   if (connections_.size() < limits_.connections) return true;
-  const auto oldest =
-      std::find_if(connections_.begin(), connections_.end(), [](const Client& c) { return !c->at_work; });
+  const auto oldest = std::find_if(connections_.begin(), connections_.end(), [](const Client& c) { return !c->busy; });
   if (oldest == connections_.end()) return false;
   (*oldest)->close();
   connections_.erase(oldest);
   return true;
 }
 
-net::awaitable<void> HttpServer::Serving::serve(Client client) {
+net::awaitable<void> HttpServer::Impl::serve(Client client) {
   try {
     co_await answer(*client);
     co_await linger(*client);
@@ -231,17 +230,17 @@ net::awaitable<void> HttpServer::Serving::serve(Client client) {
   connections_.remove(client);
 }
 
-net::awaitable<void> HttpServer::Serving::answer(Connection& client) {
+net::awaitable<void> HttpServer::Impl::answer(Connection& client) {
   const Response response = co_await answer_to(client);
-  client.at_work = response.next != nullptr;
+  client.busy = response.next != nullptr;
   co_await send(client, response);
   if (response.next) co_await stream(client, response.next);
 }
 
-net::awaitable<Response> HttpServer::Serving::answer_to(Connection& client) {
+net::awaitable<Response> HttpServer::Impl::answer_to(Connection& client) {
   using State = RequestParser::State;
   RequestParser parser(limits_.request);
-  client.must_end_within(limits_.request_time);
+  client.set_deadline(limits_.request_time);
   while (parser.state() == State::kHeader) co_await read_more(client, parser);
   if (parser.state() == State::kRefused) co_return refusal(parser.refusal());
   if (std::optional<Response> refused = admission_(parser.request())) co_return std::move(*refused);
@@ -250,29 +249,30 @@ net::awaitable<Response> HttpServer::Serving::answer_to(Connection& client) {
   while (parser.state() == State::kBody) co_await read_more(client, parser);
   if (parser.state() == State::kRefused) co_return refusal(parser.refusal());
   client.deadline.cancel();
-  client.at_work = true;
+  client.busy = true;
   co_return co_await handle(parser.request());
 }
 
-net::awaitable<void> HttpServer::Serving::read_more(Connection& client, RequestParser& parser) {
+net::awaitable<void> HttpServer::Impl::read_more(Connection& client, RequestParser& parser) {
   std::array<char, kReadBytes> bytes;
   error_code error;
   const size_t count =
       co_await client.socket.async_read_some(net::buffer(bytes), net::redirect_error(net::use_awaitable, error));
-  if (error && !client.begun) throw system_error(error);  // browsers connect in advance without a request
-  client.begun = true;
+  if (error && !client.received_any) throw system_error(error);  // browsers connect in advance without a request
+  client.received_any = true;
   if (error)
-    parser.end(client.late ? Verdict{408, "the request took too long"} : Verdict{400, "the request is cut short"});
+    parser.end(client.late ? RequestCheck{408, "the request took too long"}
+                           : RequestCheck{400, "the request is cut short"});
   else
     parser.feed({bytes.data(), count});
 }
 
-net::awaitable<Response> HttpServer::Serving::handle(const Request& request) {
+net::awaitable<Response> HttpServer::Impl::handle(const Request& request) {
   const auto found = routes_.find(request.method + " " + request.path);
   if (found == routes_.end()) co_return refusal({404, "nothing is here"});
   const Route& route = found->second;
   const auto run = [&]() -> net::awaitable<Response> { co_return route.handler(request); };
-  net::thread_pool& threads = route.work == Work::kWaits ? waiting_ : short_;
+  net::thread_pool& threads = route.work == Work::kBlocking ? blocking_pool_ : short_pool_;
   try {
     co_return co_await net::co_spawn(threads.get_executor(), run, net::use_awaitable);
   } catch (const std::exception& problem) {
@@ -280,66 +280,66 @@ net::awaitable<Response> HttpServer::Serving::handle(const Request& request) {
   }
 }
 
-net::awaitable<void> HttpServer::Serving::send(Connection& client, const Response& response) {
-  client.must_end_within(limits_.answer_time);
+net::awaitable<void> HttpServer::Impl::send(Connection& client, const Response& response) {
+  client.set_deadline(limits_.answer_time);
   const std::string head = head_of(response, headers_);
   const std::array<net::const_buffer, 2> all{net::buffer(head), net::buffer(response.content.bytes)};
   co_await net::async_write(client.socket, all, net::use_awaitable);
 }
 
-net::awaitable<void> HttpServer::Serving::stream(Connection& client, const std::function<Content()>& next) {
+net::awaitable<void> HttpServer::Impl::stream(Connection& client, const std::function<Content()>& next) {
   static constexpr std::string_view kStillThere = ":\n\n";  // SSE comment; detects a closed connection
   while (!stopping_) {
     Content text = next();
     if (text.bytes.empty()) {
       error_code woken;
       client.deadline.cancel();
-      client.news.expires_after(kPause);
-      co_await client.news.async_wait(net::redirect_error(net::use_awaitable, woken));
+      client.wake_timer.expires_after(kPause);
+      co_await client.wake_timer.async_wait(net::redirect_error(net::use_awaitable, woken));
       text = next();
     }
-    client.must_end_within(limits_.text_time);
+    client.set_deadline(limits_.text_time);
     co_await net::async_write(client.socket, net::buffer(text.bytes.empty() ? kStillThere : text.bytes),
                               net::use_awaitable);
   }
 }
 
 // Reads the remaining input first, because closing a socket with unread bytes resets it and loses the response.
-net::awaitable<void> HttpServer::Serving::linger(Connection& client) {
+net::awaitable<void> HttpServer::Impl::linger(Connection& client) {
   client.socket.shutdown(tcp::socket::shutdown_send);
-  client.must_end_within(kLingerTime);
+  client.set_deadline(kLingerTime);
   std::array<char, kReadBytes> bytes;
   for (size_t count = 0; count < kLingerBytes;)
     count += co_await client.socket.async_read_some(net::buffer(bytes), net::use_awaitable);
 }
 
 HttpServer::HttpServer(const ServerLimits& limits, Response::Headers headers, Admission admission)
-    : serving_(std::make_unique<Serving>(limits, std::move(headers), std::move(admission))) {}
+    : impl_(std::make_unique<Impl>(limits, std::move(headers), std::move(admission))) {}
 
 HttpServer::~HttpServer() = default;
 
 void HttpServer::get(const std::string& path, Handler handler) {
-  serving_->add("GET " + path, {std::move(handler)});
+  impl_->add("GET " + path, {std::move(handler)});
 }
 
 void HttpServer::post(const std::string& path, Handler handler, Work work) {
-  serving_->add("POST " + path, {std::move(handler), work});
+  impl_->add("POST " + path, {std::move(handler), work});
 }
 
 void HttpServer::start(const std::string& address, int port, std::function<void(bool)> on_served) {
-  serving_->start(address, port, std::move(on_served));
+  impl_->start(address, port, std::move(on_served));
 }
 
 void HttpServer::stop() {
-  serving_->stop();
+  impl_->stop();
 }
 
 bool HttpServer::serving() const {
-  return serving_->served();
+  return impl_->served();
 }
 
 void HttpServer::wake_streams() {
-  serving_->wake_streams();
+  impl_->wake_streams();
 }
 
 Response json_response(int status, const nlohmann::json& body) {
@@ -350,7 +350,7 @@ Response json_response(int status, const nlohmann::json& body) {
           {}};
 }
 
-Response refusal(const Verdict& why) {
+Response refusal(const RequestCheck& why) {
   Response out = json_response(why.status, {{"accepted", false}, {"reason", why.reason}});
   if (why.status == 405) out.headers = {{"Allow", "GET, POST"}};
   return out;

@@ -31,7 +31,7 @@ class HttpServer {
   using Admission = std::function<std::optional<Response>(const Request&)>;
   enum class Work {
     kShort,
-    kWaits,  // may block for seconds; runs in its own thread pool
+    kBlocking,  // may block for seconds; runs in its own thread pool
   };
 
   // `headers` are added to every response.
@@ -55,12 +55,12 @@ class HttpServer {
   void wake_streams();
 
  private:
-  class Serving;
-  std::unique_ptr<Serving> serving_;
+  class Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 Response json_response(int status, const nlohmann::json& body);
 // {"accepted": false, "reason": REASON}
-Response refusal(const Verdict& why);
+Response refusal(const RequestCheck& why);
 
 }  // namespace rover::mission

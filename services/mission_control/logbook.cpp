@@ -47,12 +47,12 @@ std::vector<float> floats_from(const std::vector<std::uint8_t>& bytes) {
 
 }  // namespace
 
-void Logbook::note(double t_s, Tone tone, const std::string& kind, const std::string& text) {
+void Logbook::add_event(double t_s, Tone tone, const std::string& kind, const std::string& text) {
   events_.push_back({newest_event() + 1, t_s, tone, kind, text});
   if (events_.size() > kMostEvents) events_.pop_front();
 }
 
-void Logbook::drive_to(double x_m, double y_m) {
+void Logbook::add_track_point(double x_m, double y_m) {
   if (!std::isfinite(x_m) || !std::isfinite(y_m)) return;
   if (!track_.empty()) {
     const double dx = x_m - track_[track_.size() - 2];
@@ -61,11 +61,11 @@ void Logbook::drive_to(double x_m, double y_m) {
   }
   track_.push_back(static_cast<float>(x_m));
   track_.push_back(static_cast<float>(y_m));
-  if (track_.size() > 2 * kMostPoints) thin_out();
+  if (track_.size() > 2 * kMostPoints) decimate_track();
 }
 
 // Drops every second point and doubles the spacing of later points.
-void Logbook::thin_out() {
+void Logbook::decimate_track() {
   std::vector<float> kept;
   for (size_t i = 0; i + 1 < track_.size(); i += 4) kept.insert(kept.end(), {track_[i], track_[i + 1]});
   track_ = std::move(kept);

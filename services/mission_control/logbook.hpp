@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "mission_control/command.hpp"
-#include "mission_control/orders.hpp"
+#include "mission_control/mission_sequence.hpp"
 
 namespace rover::mission {
 
@@ -33,9 +33,9 @@ struct TrendSample {
 
 class Logbook {
  public:
-  void note(double t_s, Tone tone, const std::string& kind, const std::string& text);
+  void add_event(double t_s, Tone tone, const std::string& kind, const std::string& text);
   // Skips points within 0.1 m of the previous one.
-  void drive_to(double x_m, double y_m);
+  void add_track_point(double x_m, double y_m);
   // Keeps the last two minutes.
   void sample(const TrendSample& sample);
   void set_path(std::int64_t id, const GlobalPath& path);
@@ -58,7 +58,7 @@ class Logbook {
   nlohmann::json trend_json() const;
 
  private:
-  void thin_out();
+  void decimate_track();
 
   std::deque<Event> events_;
   std::deque<TrendSample> trend_;

@@ -30,15 +30,15 @@ PageContext page_context(const NodeContext& context) {
 }
 
 struct MissionControl {
-  std::shared_ptr<Station> station = std::make_shared<Station>();
+  std::shared_ptr<SharedState> shared = std::make_shared<SharedState>();
   std::unique_ptr<PageServer> page;
   MissionControlNode node;
 
   MissionControl(const NodeContext& context, const PageConfig& config)
-      : page(config.served ? std::make_unique<PageServer>(config, page_context(context), *station, context.lcm)
+      : page(config.served ? std::make_unique<PageServer>(config, page_context(context), *shared, context.lcm)
                            : nullptr),
-        node(context.node, load_mission_plan(context.config_dir), station, config.path, [this] {
-          if (page) page->attend();
+        node(context.node, load_mission_plan(context.config_dir), shared, config.path, [this] {
+          if (page) page->update();
         }) {
     if (page) page->start();
   }

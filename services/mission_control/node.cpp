@@ -14,11 +14,11 @@ using mission::CommandKind;
 using mission::Tone;
 
 constexpr std::int64_t kCommandsPerBoot = 100'000;  // keeps the ids of two processes apart
-constexpr std::int64_t kMostBoots = 1'000'000'000;  // keeps ids exact in JavaScript numbers
-constexpr Utime kSilenceUs = 1'000'000;             // a heartbeat comes five times a second
+constexpr std::int64_t kMaxBoots = 1'000'000'000;   // keeps ids exact in JavaScript numbers
+constexpr Utime kHeartbeatTimeoutUs = 1'000'000;    // a heartbeat comes five times a second
 constexpr Utime kTrackPeriodUs = 5'000'000;
 constexpr Utime kTrendPeriodUs = 1'000'000;
-constexpr Utime kSilenceLookUs = 200'000;
+constexpr Utime kHeartbeatCheckPeriodUs = 200'000;
 
 ground_command_t command_message(std::int8_t kind, std::int64_t command_id) {
   ground_command_t message{};
@@ -60,19 +60,19 @@ std::int8_t level_of(mission::Level level) {
   }
 }
 
-GlobalPath path_of(const mission::Command& command, const mission::DrawnPath& drawn) {
+GlobalPath path_of(const mission::Command& command, const mission::OperatorPathConfig& path_config) {
   GlobalPath path;
   for (const Eigen::Vector2d& p : command.points) {
     path.x_m.push_back(p.x());
     path.y_m.push_back(p.y());
     path.level.push_back(level_of(command.level));
   }
-  path.corridor_half_width_m = drawn.corridor_half_width_m;
-  path.goal_tolerance_m = drawn.goal_tolerance_m;
+  path.corridor_half_width_m = path_config.corridor_half_width_m;
+  path.goal_tolerance_m = path_config.goal_tolerance_m;
   return path;
 }
 
-std::string because(const supervisor_state_t& state) {
+std::string cause_text(const supervisor_state_t& state) {
   std::ostringstream out;
   out.precision(3);
   out << ": " << state.cause;
@@ -97,21 +97,23 @@ Tone tone_of(std::int8_t state) {
   }
 }
 
-std::string order_name(Order order) {
-  return order == Order::kStartPose ? "start pose" : order == Order::kPath ? "path of the mission" : "go";
+std::string mission_step_name(MissionStep mission_step) {
+  return mission_step == MissionStep::kStartPose ? "start pose"
+         : mission_step == MissionStep::kPath    ? "path of the mission"
+                                                 : "go";
 }
 
 }  // namespace
 
-MissionControlNode::MissionControlNode(Node& node, MissionPlan plan, std::shared_ptr<mission::Station> station,
-                                       mission::DrawnPath drawn, std::function<void()> beside)
+MissionControlNode::MissionControlNode(Node& node, MissionPlan plan, std::shared_ptr<mission::SharedState> shared,
+                                       mission::OperatorPathConfig path_config, std::function<void()> each_tick)
     : node_(node),
-      kept_(node),
+      checkpoint_(node),
       plan_(std::move(plan)),
-      station_(std::move(station)),
-      drawn_(std::move(drawn)),
-      beside_(std::move(beside)),
-      next_command_id_(node.options().boot_id % kMostBoots * kCommandsPerBoot + 1) {
+      shared_(std::move(shared)),
+      path_config_(std::move(path_config)),
+      each_tick_(std::move(each_tick)),
+      next_command_id_(node.options().boot_id % kMaxBoots * kCommandsPerBoot + 1) {
   restore();
   subscribe();
   node_.on_step([this](Utime now) { step(now); });
@@ -128,40 +130,40 @@ void MissionControlNode::subscribe() {
                           [this](const slip_t& m) { slip_ratio_ = m.valid == 1 ? m.slip_ratio : kNaN; });
 }
 
-void MissionControlNode::note(Tone tone, const std::string& kind, const std::string& text) {
-  station_->book.with([&](mission::Logbook& book) { book.note(to_seconds(node_.now()), tone, kind, text); });
+void MissionControlNode::add_event(Tone tone, const std::string& kind, const std::string& text) {
+  shared_->book.with([&](mission::Logbook& book) { book.add_event(to_seconds(node_.now()), tone, kind, text); });
   changed_ = true;
 }
 
 void MissionControlNode::on_ack(const command_ack_t& ack) {
   const bool accepted = ack.accepted != 0;
-  if (const auto order = orders_.waiting(); orders_.acknowledge(ack.command_id, accepted, ack.reason)) {
+  if (const auto mission_step = sequence_.current(); sequence_.acknowledge(ack.command_id, accepted, ack.reason)) {
     node_.log(accepted ? "INFO" : "WARN",
               "ORDER id=" + std::to_string(ack.command_id) + (accepted ? " accepted" : " refused: " + ack.reason));
-    if (accepted) note(Tone::kInfo, "command", "mission plan: " + order_name(order) + " accepted");
-  } else if (const auto command = station_->desk.answered(ack.command_id, accepted, ack.reason)) {
-    note(accepted ? Tone::kInfo : Tone::kWarn, "command",
-         mission::description(*command) + (accepted ? " accepted" : " refused: " + ack.reason));
+    if (accepted) add_event(Tone::kInfo, "command", "mission plan: " + mission_step_name(mission_step) + " accepted");
+  } else if (const auto command = shared_->commands.acknowledge(ack.command_id, accepted, ack.reason)) {
+    add_event(accepted ? Tone::kInfo : Tone::kWarn, "command",
+              mission::description(*command) + (accepted ? " accepted" : " refused: " + ack.reason));
     if (accepted) accepted_by_operator(*command, ack.command_id);
   }
-  if (const auto path = paths_given_.find(ack.command_id); path != paths_given_.end()) {
-    if (accepted) station_->book.with([&](mission::Logbook& book) { book.set_path(ack.command_id, path->second); });
-    paths_given_.erase(path);
+  if (const auto path = unacknowledged_paths_.find(ack.command_id); path != unacknowledged_paths_.end()) {
+    if (accepted) shared_->book.with([&](mission::Logbook& book) { book.set_path(ack.command_id, path->second); });
+    unacknowledged_paths_.erase(path);
   }
 }
 
 void MissionControlNode::accepted_by_operator(const mission::Command& command, std::int64_t command_id) {
   node_.log("INFO", "COMMAND id=" + std::to_string(command_id) + " accepted: " + mission::description(command));
   if (command.kind == CommandKind::kForceLevel)
-    station_->book.with([&](mission::Logbook& book) { book.set_forced(command.level); });
+    shared_->book.with([&](mission::Logbook& book) { book.set_forced(command.level); });
 }
 
 void MissionControlNode::on_state(const supervisor_state_t& state) {
   standby_ = state.state == supervisor_state_t::STANDBY;
   if (state_ && state.state != state_->state)
-    note(tone_of(state.state), "state", state_name(state.state) + because(state));
+    add_event(tone_of(state.state), "state", state_name(state.state) + cause_text(state));
   if (state_ && state.level != state_->level)
-    note(Tone::kInfo, "level", "level " + level_name(state.level) + because(state));
+    add_event(Tone::kInfo, "level", "level " + level_name(state.level) + cause_text(state));
   state_ = state;
 }
 
@@ -175,33 +177,33 @@ void MissionControlNode::on_fault(const fault_t& fault) {
   text << fault.id << (standing ? " raised" : " cleared");
   if (standing && std::isfinite(fault.value)) text << " (" << fault.value << ", limit " << fault.limit << ")";
   const bool serious = fault.response != fault_t::LOG && fault.response != fault_t::SLOW;
-  note(!standing ? Tone::kGood : serious ? Tone::kBad : Tone::kWarn, "fault", text.str());
+  add_event(!standing ? Tone::kGood : serious ? Tone::kBad : Tone::kWarn, "fault", text.str());
 }
 
 void MissionControlNode::on_heartbeat(const heartbeat_t& heartbeat) {
-  Life& life = lives_[heartbeat.service];
-  if (life.heard != kNever && heartbeat.header.boot_id != life.boot_id)
-    note(Tone::kGood, "service", heartbeat.service + " is back after a restart");
-  else if (life.silent)
-    note(Tone::kGood, "service", heartbeat.service + " is heard again");
-  life = {heartbeat.header.boot_id, heartbeat.header.utime, false};
+  ServiceLiveness& liveness = liveness_[heartbeat.service];
+  if (liveness.last_heartbeat != kNever && heartbeat.header.boot_id != liveness.boot_id)
+    add_event(Tone::kGood, "service", heartbeat.service + " is back after a restart");
+  else if (liveness.timed_out)
+    add_event(Tone::kGood, "service", heartbeat.service + " is heard again");
+  liveness = {heartbeat.header.boot_id, heartbeat.header.utime, false};
 }
 
 void MissionControlNode::on_path(const path_t& path) {
   if (path.path_id == path_id_) return;
   path_id_ = path.path_id;
-  if (path.kind == path_t::REPAIR) note(Tone::kInfo, "path", "path repaired around hazards");
-  if (path.kind == path_t::RETREAT) note(Tone::kWarn, "path", "backwards along the driven track");
+  if (path.kind == path_t::REPAIR) add_event(Tone::kInfo, "path", "path repaired around hazards");
+  if (path.kind == path_t::RETREAT) add_event(Tone::kWarn, "path", "backwards along the driven track");
 }
 
 // Before the start pose is accepted the rover's position in map is undefined.
 void MissionControlNode::on_pose(const pose_t& pose) {
   pose_ = pose;
   const bool known = pose.status == pose_t::OK || pose.status == pose_t::DEGRADED;
-  if (!known || orders_.progress() == static_cast<int>(Order::kStartPose)) return;
+  if (!known || sequence_.progress() == static_cast<int>(MissionStep::kStartPose)) return;
   const Eigen::Vector3d p =
       pose_from(pose.position_map_odom_m, pose.quat_map_odom_wxyz) * Eigen::Vector3d(pose.position_odom_body_m);
-  station_->book.with([&](mission::Logbook& book) { book.drive_to(p.x(), p.y()); });
+  shared_->book.with([&](mission::Logbook& book) { book.add_track_point(p.x(), p.y()); });
 }
 
 void MissionControlNode::sample(Utime now) {
@@ -209,61 +211,61 @@ void MissionControlNode::sample(Utime now) {
   const mission::TrendSample moment{to_seconds(now), static_cast<float>(pose_.velocity_body_mps[0]),
                                     static_cast<float>(slip_ratio_), static_cast<float>(rpy.x()),
                                     static_cast<float>(rpy.y())};
-  station_->book.with([&](mission::Logbook& book) { book.sample(moment); });
+  shared_->book.with([&](mission::Logbook& book) { book.sample(moment); });
 }
 
 void MissionControlNode::step(Utime now) {
-  kept_.tell();
-  station_->now_s = to_seconds(now);
-  while (const auto waiting = station_->desk.take()) give(*waiting);
-  if (const auto given = orders_.step(now, standby_, next_command_id_)) {
+  checkpoint_.tell();
+  shared_->now_s = to_seconds(now);
+  while (const auto waiting = shared_->commands.next()) send(*waiting);
+  if (const auto issued = sequence_.step(now, standby_, next_command_id_)) {
     ++next_command_id_;
     changed_ = true;
-    give(*given);
+    send(*issued);
   }
-  if (now % kSilenceLookUs == 0) look_for_silence(now);
+  if (now % kHeartbeatCheckPeriodUs == 0) check_heartbeats(now);
   if (now % kTrendPeriodUs == 0) sample(now);
-  tell_status();
+  report_status();
   save(now);
-  if (beside_) beside_();
+  if (each_tick_) each_tick_();
 }
 
-void MissionControlNode::look_for_silence(Utime now) {
-  for (auto& [name, life] : lives_) {
-    if (life.silent || now - life.heard < kSilenceUs) continue;
-    life.silent = true;
-    note(Tone::kBad, "service", name + " is silent");
+void MissionControlNode::check_heartbeats(Utime now) {
+  for (auto& [name, liveness] : liveness_) {
+    if (liveness.timed_out || now - liveness.last_heartbeat < kHeartbeatTimeoutUs) continue;
+    liveness.timed_out = true;
+    add_event(Tone::kBad, "service", name + " is silent");
   }
 }
 
-void MissionControlNode::tell_status() {
-  if (!orders_.refusal().empty())
-    node_.set_status(heartbeat_t::DEGRADED, orders_.refusal());
-  else if (!station_->page_is_served)
+void MissionControlNode::report_status() {
+  if (!sequence_.refusal().empty())
+    node_.set_status(heartbeat_t::DEGRADED, sequence_.refusal());
+  else if (!shared_->page_is_served)
     node_.set_status(heartbeat_t::DEGRADED, "the page's address is taken");
   else
     node_.set_status(heartbeat_t::OK, "");
 }
 
-void MissionControlNode::give(const Orders::Given& given) {
-  switch (given.order) {
-    case Order::kStartPose:
-      return publish_start_pose(given.command_id);
-    case Order::kPath:
-      return publish_path(given.command_id, plan_.path);
-    case Order::kGo:
-      return publish(command_message(ground_command_t::GO, given.command_id));
+void MissionControlNode::send(const MissionSequence::Issued& issued) {
+  switch (issued.mission_step) {
+    case MissionStep::kStartPose:
+      return publish_start_pose(issued.command_id);
+    case MissionStep::kPath:
+      return publish_path(issued.command_id, plan_.path);
+    case MissionStep::kGo:
+      return publish(command_message(ground_command_t::GO, issued.command_id));
   }
 }
 
-void MissionControlNode::give(const mission::Desk::Waiting& waiting) {
+void MissionControlNode::send(const mission::CommandQueue::Pending& waiting) {
   const mission::Command& command = waiting.command;
   const std::int64_t id = next_command_id_++;
   changed_ = true;
-  station_->desk.given(waiting.ticket, id);
+  shared_->commands.set_command_id(waiting.ticket, id);
   // A stop or a new path replaces the plan, which must not continue by itself.
-  if (mission::stops(command.kind) || command.kind == CommandKind::kPath) orders_.abandon();
-  if (command.kind == CommandKind::kPath) return publish_path(id, path_of(command, drawn_));
+  if (mission::stops(command.kind) || command.kind == CommandKind::kPath) sequence_.cancel();
+  if (command.kind == CommandKind::kPath) return publish_path(id, path_of(command, path_config_));
   ground_command_t message = command_message(kind_of(command.kind), id);
   message.level = level_of(command.level);
   message.target = command.target;
@@ -298,32 +300,32 @@ void MissionControlNode::publish_path(std::int64_t command_id, const GlobalPath&
   message.y_m = path.y_m;
   message.level = path.level;
   node_.publish(channel::kGlobalPath, message, node_.now());
-  paths_given_.clear();  // drop paths that were never acknowledged
-  paths_given_[command_id] = path;
+  unacknowledged_paths_.clear();  // drop paths that were never acknowledged
+  unacknowledged_paths_[command_id] = path;
 }
 
 // Checkpoint layout: plan progress, next command id, logbook.
 void MissionControlNode::restore() {
-  kept_.restore([this](const KeptState::Bytes& bytes) {
+  checkpoint_.restore([this](const KeptState::Bytes& bytes) {
     std::int64_t head[2];
     if (bytes.size() < sizeof head) return false;
     std::memcpy(head, bytes.data(), sizeof head);
     const std::vector<std::uint8_t> book(bytes.begin() + sizeof head, bytes.end());
-    if (!station_->book.with([&](mission::Logbook& b) { return b.restore(book); })) return false;
-    orders_.resume_at(static_cast<int>(head[0]));
+    if (!shared_->book.with([&](mission::Logbook& b) { return b.restore(book); })) return false;
+    sequence_.resume_at(static_cast<int>(head[0]));
     next_command_id_ = std::max(next_command_id_, head[1]);
     return true;
   });
 }
 
 void MissionControlNode::save(Utime now) {
-  if (!kept_.due() || (!changed_ && now < track_saved_ + kTrackPeriodUs)) return;
-  const std::int64_t head[2] = {orders_.progress(), next_command_id_};
+  if (!checkpoint_.due() || (!changed_ && now < track_saved_ + kTrackPeriodUs)) return;
+  const std::int64_t head[2] = {sequence_.progress(), next_command_id_};
   KeptState::Bytes bytes(sizeof head);
   std::memcpy(bytes.data(), head, sizeof head);
-  const auto book = station_->book.with([](const mission::Logbook& b) { return b.save(); });
+  const auto book = shared_->book.with([](const mission::Logbook& b) { return b.save(); });
   bytes.insert(bytes.end(), book.begin(), book.end());
-  if (!kept_.save(bytes)) return;
+  if (!checkpoint_.save(bytes)) return;
   changed_ = false;
   track_saved_ = now;
 }

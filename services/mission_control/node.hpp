@@ -17,22 +17,22 @@
 #include "common/bus/kept_state.hpp"
 #include "common/bus/node.hpp"
 #include "mission_control/config.hpp"
-#include "mission_control/station.hpp"
+#include "mission_control/shared_state.hpp"
 
 namespace rover {
 
 class MissionControlNode {
  public:
-  // `beside` is called once per tick in the node's thread.
+  // `each_tick` is called once per tick in the node's thread.
   MissionControlNode(Node& node, MissionPlan plan,
-                     std::shared_ptr<mission::Station> station = std::make_shared<mission::Station>(),
-                     mission::DrawnPath drawn = {}, std::function<void()> beside = {});
+                     std::shared_ptr<mission::SharedState> shared = std::make_shared<mission::SharedState>(),
+                     mission::OperatorPathConfig path_config = {}, std::function<void()> each_tick = {});
 
  private:
-  struct Life {
+  struct ServiceLiveness {
     std::int64_t boot_id = 0;
-    Utime heard = kNever;
-    bool silent = false;
+    Utime last_heartbeat = kNever;
+    bool timed_out = false;
   };
 
   void subscribe();
@@ -44,35 +44,35 @@ class MissionControlNode {
   void on_pose(const pose_t& pose);
   void sample(Utime now);
   void step(Utime now);
-  void look_for_silence(Utime now);
-  void tell_status();
-  void give(const Orders::Given& given);
-  void give(const mission::Desk::Waiting& waiting);
+  void check_heartbeats(Utime now);
+  void report_status();
+  void send(const MissionSequence::Issued& issued);
+  void send(const mission::CommandQueue::Pending& waiting);
   void publish_start_pose(std::int64_t command_id);
   void publish_path(std::int64_t command_id, const GlobalPath& path);
   void publish(ground_command_t message);
-  void note(mission::Tone tone, const std::string& kind, const std::string& text);
+  void add_event(mission::Tone tone, const std::string& kind, const std::string& text);
   void accepted_by_operator(const mission::Command& command, std::int64_t command_id);
   void restore();
   void save(Utime now);
 
   Node& node_;
-  KeptState kept_;
+  KeptState checkpoint_;
   MissionPlan plan_;
-  std::shared_ptr<mission::Station> station_;
-  mission::DrawnPath drawn_;
-  std::function<void()> beside_;
-  Orders orders_;
+  std::shared_ptr<mission::SharedState> shared_;
+  mission::OperatorPathConfig path_config_;
+  std::function<void()> each_tick_;
+  MissionSequence sequence_;
   std::int64_t next_command_id_ = 1;
   bool standby_ = false;
   std::optional<supervisor_state_t> state_;
   pose_t pose_{};
   double slip_ratio_ = kNaN;
-  std::map<std::string, Life> lives_;
+  std::map<std::string, ServiceLiveness> liveness_;
   std::map<std::string, bool> faults_;
   std::int64_t path_id_ = -1;
-  std::map<std::int64_t, GlobalPath> paths_given_;  // by command id
-  bool changed_ = false;                            // since the newest checkpoint; the track is saved every 5 s
+  std::map<std::int64_t, GlobalPath> unacknowledged_paths_;  // by command id
+  bool changed_ = false;  // since the newest checkpoint; the track is saved every 5 s
   Utime track_saved_ = 0;
 };
 

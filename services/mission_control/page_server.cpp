@@ -12,7 +12,7 @@ namespace {
 using namespace std::chrono_literals;
 using nlohmann::json;
 
-constexpr auto kPatience = 3s;            // for the acknowledgement of a command
+constexpr auto kReplyTimeout = 3s;        // for the acknowledgement of a command
 constexpr size_t kSpareConnections = 48;  // in addition to one stream per page
 
 // Forbids foreign sources, frames and cross-origin reads.
@@ -36,17 +36,17 @@ Response picture(const Bytes& bytes, const char* type) {
   return {200, type, {{reinterpret_cast<const char*>(bytes->data()), bytes->size()}, bytes}};
 }
 
-int status_of(Answer::Outcome outcome) {
+int status_of(CommandReply::Outcome outcome) {
   switch (outcome) {
-    case Answer::Outcome::kAccepted:
+    case CommandReply::Outcome::kAccepted:
       return 200;
-    case Answer::Outcome::kRefused:
+    case CommandReply::Outcome::kRefused:
       return 409;
-    case Answer::Outcome::kBusy:
+    case CommandReply::Outcome::kBusy:
       return 429;
-    case Answer::Outcome::kNoTime:
+    case CommandReply::Outcome::kClockStopped:
       return 503;
-    case Answer::Outcome::kSilence:
+    case CommandReply::Outcome::kNoReply:
       return 504;
   }
   return 500;
@@ -62,7 +62,7 @@ std::string content_of(const std::string& file) {
 }
 
 // Exchanges the token in the URL for a cookie.
-Response greet(const std::string& token, const Request& request) {
+Response exchange_token(const std::string& token, const Request& request) {
   if (!same_secret(request.param("token"), token)) return refusal({401, "not the token"});
   return {
       303, "", {}, {{"Location", "/"}, {"Set-Cookie", "rover_token=" + token + "; HttpOnly; SameSite=Strict; Path=/"}}};
@@ -70,28 +70,28 @@ Response greet(const std::string& token, const Request& request) {
 
 std::optional<Response> admit(const GuardConfig& guard, const Request& request) {
   if (!guard.token.empty() && request.method == "GET" && request.path == "/" && request.params.contains("token"))
-    return greet(guard.token, request);
-  const Verdict verdict = judge(guard, facts_of(request));
+    return exchange_token(guard.token, request);
+  const RequestCheck verdict = check_request(guard, facts_of(request));
   if (verdict.status != 200) return refusal(verdict);
   return std::nullopt;
 }
 
 ServerLimits limits_of(const PageConfig& config) {
   ServerLimits limits = config.limits;
-  limits.connections = static_cast<size_t>(config.most_pages) + kSpareConnections;
+  limits.connections = static_cast<size_t>(config.max_pages) + kSpareConnections;
   return limits;
 }
 
 }  // namespace
 
-PageServer::PageServer(PageConfig config, PageContext context, Station& station, lcm::LCM& bus)
+PageServer::PageServer(PageConfig config, PageContext context, SharedState& shared, lcm::LCM& bus)
     : config_(std::move(config)),
       context_(std::move(context)),
-      station_(station),
-      ear_(bus, audience_, context_.services),
+      shared_(shared),
+      subscriber_(bus, clients_, context_.services),
       map_(context_.run_dir, config_.path.slope, context_.rover_length_m),
       server_(limits_of(config_), kHeaders, [this](const Request& request) { return admit(config_.guard, request); }),
-      broadcaster_(audience_, ear_, station_, [this] { server_.wake_streams(); }) {
+      broadcaster_(clients_, subscriber_, shared_, [this] { server_.wake_streams(); }) {
   add_files();
   add_state();
   add_pictures();
@@ -99,13 +99,13 @@ PageServer::PageServer(PageConfig config, PageContext context, Station& station,
 }
 
 PageServer::~PageServer() {
-  audience_.end();
+  clients_.close();
   broadcaster_.stop();
   server_.stop();
 }
 
 void PageServer::start() {
-  server_.start(config_.guard.address, config_.guard.port, [this](bool served) { station_.page_is_served = served; });
+  server_.start(config_.guard.address, config_.guard.port, [this](bool served) { shared_.page_is_served = served; });
 }
 
 void PageServer::add_files() {
@@ -126,11 +126,11 @@ void PageServer::add_state() {
   server_.get("/api/history", [this](const Request&) { return ok(history()); });
   server_.get("/api/events", [this](const Request& request) {
     const std::int64_t after = number_of(request.param("after"));
-    return ok(station_.book.with([after](const Logbook& book) { return book.events_after(after); }));
+    return ok(shared_.book.with([after](const Logbook& book) { return book.events_after(after); }));
   });
   server_.get("/api/paths", [this](const Request&) {
-    const LocalPathView local = ear_.with([](const Gatherer& gatherer) { return gatherer.path(); });
-    json global = station_.book.with([](const Logbook& book) { return book.path_json(); });
+    const LocalPathView local = subscriber_.with([](const TelemetryStore& store) { return store.path(); });
+    json global = shared_.book.with([](const Logbook& book) { return book.path_json(); });
     return ok({{"global", global},
                {"local", {{"id", local.id}, {"kind", local.kind}, {"x_m", local.x_m}, {"y_m", local.y_m}}}});
   });
@@ -141,13 +141,13 @@ void PageServer::add_state() {
 void PageServer::add_pictures() {
   for (const std::string name : {"hazards", "traversability", "elevation"})
     server_.get("/layer/" + name + ".png", [this, name](const Request&) {
-      const auto content = ear_.with([&](const Gatherer& gatherer) { return gatherer.grid(name); });
-      return content ? picture(pictures_.grid(name, *content), "image/png") : refusal({404, "not heard yet"});
+      const auto content = subscriber_.with([&](const TelemetryStore& store) { return store.grid(name); });
+      return content ? picture(images_.grid(name, *content), "image/png") : refusal({404, "not heard yet"});
     });
   for (const std::string name : {"loccam", "navcam"})
     server_.get("/camera/" + name + ".jpg", [this, name](const Request&) {
-      const auto image = ear_.with([&](const Gatherer& gatherer) { return gatherer.image(name); });
-      return image ? picture(pictures_.camera(name, *image), "image/jpeg") : refusal({404, "not heard yet"});
+      const auto image = subscriber_.with([&](const TelemetryStore& store) { return store.image(name); });
+      return image ? picture(images_.camera(name, *image), "image/jpeg") : refusal({404, "not heard yet"});
     });
   for (const std::string name : {"relief", "slope", "difficulty"})
     server_.get("/map/" + name, [this, name](const Request&) {
@@ -159,7 +159,7 @@ void PageServer::add_pictures() {
 
 void PageServer::add_commands() {
   server_.post(
-      "/api/command", [this](const Request& request) { return command(request); }, HttpServer::Work::kWaits);
+      "/api/command", [this](const Request& request) { return command(request); }, HttpServer::Work::kBlocking);
   server_.post("/api/check", [this](const Request& request) { return check(request); });
 }
 
@@ -175,14 +175,14 @@ nlohmann::json PageServer::setup() {
           : json{{"width_m", map->width_m()}, {"height_m", map->height_m()}, {"resolution_m", map->resolution_m()}};
   out["path"] = {{"corridor_half_width_m", config_.path.corridor_half_width_m},
                  {"warn_slope_deg", std::round(1e6 * to_deg(config_.path.slope.warn_rad)) * 1e-6},
-                 {"most_slope_deg", std::round(1e6 * to_deg(config_.path.slope.most_rad)) * 1e-6},
-                 {"longest_m", config_.path.longest_m},
-                 {"most_points", config_.path.limits.most_points}};
+                 {"most_slope_deg", std::round(1e6 * to_deg(config_.path.slope.max_rad)) * 1e-6},
+                 {"longest_m", config_.path.max_length_m},
+                 {"most_points", config_.path.limits.max_points}};
   return out;
 }
 
 nlohmann::json PageServer::history() {
-  return station_.book.with([](const Logbook& book) {
+  return shared_.book.with([](const Logbook& book) {
     return json{{"track", book.track()},
                 {"events", book.events_after(0)},
                 {"path", book.path_json()},
@@ -191,7 +191,7 @@ nlohmann::json PageServer::history() {
 }
 
 nlohmann::json PageServer::camera() {
-  const auto camera = ear_.with([](const Gatherer& gatherer) { return gatherer.camera(); });
+  const auto camera = subscriber_.with([](const TelemetryStore& store) { return store.camera(); });
   if (!camera) return nullptr;
   json rotation = json::array();
   const Eigen::Matrix3d R = camera->T_body_cam.rotation();
@@ -204,11 +204,11 @@ nlohmann::json PageServer::camera() {
 
 Response PageServer::stream(const Request& request) {
   const bool truth = request.param("truth") == "1";
-  if (!audience_.enter(truth, config_.most_pages)) return refusal({503, "too many pages are open"});
+  if (!clients_.connect(truth, config_.max_pages)) return refusal({503, "too many pages are open"});
   // The last copy of `next` disconnects the client, however the stream ends.
-  const std::shared_ptr<void> place(nullptr, [this, truth](void*) { audience_.leave(truth); });
+  const std::shared_ptr<void> connection(nullptr, [this, truth](void*) { clients_.disconnect(truth); });
   Response out{200, "text/event-stream", {}};
-  out.next = [this, truth, place, sent = broadcaster_.newest()]() mutable -> Content {
+  out.next = [this, truth, connection, sent = broadcaster_.newest()]() mutable -> Content {
     const auto frame = broadcaster_.newest();
     if (frame == sent) return {};
     sent = frame;
@@ -223,14 +223,14 @@ Response PageServer::command(const Request& request) {
   if (is_injection(parsed.command->kind)) return inject(*parsed.command);
   if (parsed.command->kind == CommandKind::kPath)
     if (const std::string problem = path_problem(*parsed.command); !problem.empty()) return refusal({422, problem});
-  return give(*parsed.command);
+  return submit(*parsed.command);
 }
 
-Response PageServer::give(const Command& command) {
-  const Answer given = station_.desk.give(command, kPatience);
-  const bool accepted = given.outcome == Answer::Outcome::kAccepted;
-  return json_response(status_of(given.outcome),
-                       {{"accepted", accepted}, {"reason", given.reason}, {"command_id", given.command_id}});
+Response PageServer::submit(const Command& command) {
+  const CommandReply reply = shared_.commands.submit(command, kReplyTimeout);
+  const bool accepted = reply.outcome == CommandReply::Outcome::kAccepted;
+  return json_response(status_of(reply.outcome),
+                       {{"accepted", accepted}, {"reason", reply.reason}, {"command_id", reply.command_id}});
 }
 
 Response PageServer::inject(const Command& command) {
@@ -240,9 +240,9 @@ Response PageServer::inject(const Command& command) {
   if (std::find(names.begin(), names.end(), command.target) == names.end())
     return refusal({422, command.target + " is not a service"});
   const bool done = context_.inject(command.target, command.kind);
-  station_.book.with([&](Logbook& book) {
-    book.note(station_.now_s, done ? Tone::kWarn : Tone::kInfo, "command",
-              description(command) + (done ? " done" : " was not possible"));
+  shared_.book.with([&](Logbook& book) {
+    book.add_event(shared_.now_s, done ? Tone::kWarn : Tone::kInfo, "command",
+                   description(command) + (done ? " done" : " was not possible"));
   });
   if (!done) return refusal({409, "not possible: s6 does not keep this service"});
   return ok({{"accepted", true}, {"reason", ""}});
@@ -255,10 +255,11 @@ std::string PageServer::path_problem(const Command& command) {
   const PathCheck found = map->check(command.points);
   if (!found.inside) return "the path leaves the map";
   char text[96];
-  std::snprintf(text, sizeof text, "the path is %.0f m long, more than %.0f m", found.length_m, config_.path.longest_m);
-  if (found.length_m > config_.path.longest_m) return text;
+  std::snprintf(text, sizeof text, "the path is %.0f m long, more than %.0f m", found.length_m,
+                config_.path.max_length_m);
+  if (found.length_m > config_.path.max_length_m) return text;
   std::snprintf(text, sizeof text, "slope of %.1f deg on the path, more than %.1f deg", to_deg(found.max_slope_rad),
-                to_deg(config_.path.slope.most_rad));
+                to_deg(config_.path.slope.max_rad));
   return found.passable ? "" : text;
 }
 

@@ -10,7 +10,7 @@
 #include "mission_control/broadcaster.hpp"
 #include "mission_control/config.hpp"
 #include "mission_control/http_server.hpp"
-#include "mission_control/pictures.hpp"
+#include "mission_control/image_cache.hpp"
 #include "mission_control/run_map.hpp"
 
 namespace rover::mission {
@@ -29,7 +29,7 @@ struct PageContext {
 
 class PageServer {
  public:
-  PageServer(PageConfig config, PageContext context, Station& station, lcm::LCM& bus);
+  PageServer(PageConfig config, PageContext context, SharedState& shared, lcm::LCM& bus);
   ~PageServer();
   PageServer(const PageServer&) = delete;
   PageServer& operator=(const PageServer&) = delete;
@@ -37,7 +37,7 @@ class PageServer {
   // Retries every second while the address is in use.
   void start();
   // Call every tick in the bus thread.
-  void attend() { ear_.attend(wall_seconds()); }
+  void update() { subscriber_.update(wall_seconds()); }
   bool serving() const { return server_.serving(); }
 
  private:
@@ -47,7 +47,7 @@ class PageServer {
   void add_commands();
   Response stream(const Request& request);
   Response command(const Request& request);
-  Response give(const Command& command);
+  Response submit(const Command& command);
   Response inject(const Command& command);
   Response check(const Request& request);
   std::string path_problem(const Command& command);
@@ -57,10 +57,10 @@ class PageServer {
 
   PageConfig config_;
   PageContext context_;
-  Station& station_;
-  Audience audience_;
-  Ear ear_;
-  Pictures pictures_;
+  SharedState& shared_;
+  PageClients clients_;
+  TelemetrySubscriber subscriber_;
+  ImageCache images_;
   RunMap map_;
   HttpServer server_;
   Broadcaster broadcaster_;  // declared last: its thread wakes the server

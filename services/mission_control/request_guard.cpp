@@ -20,7 +20,7 @@ bool host_is_ours(const GuardConfig& config, const std::string& host) {
   return false;
 }
 
-Verdict judge_change(const RequestFacts& request) {
+RequestCheck check_state_change(const RequestFacts& request) {
   if (request.origin != "http://" + request.host) return {403, "not from this page (Origin)"};
   if (!request.fetch_site.empty() && request.fetch_site != "same-origin")
     return {403, "not from this page (Sec-Fetch-Site)"};
@@ -36,12 +36,12 @@ bool is_loopback(const std::string& address) {
   return false;
 }
 
-Verdict judge(const GuardConfig& config, const RequestFacts& request) {
+RequestCheck check_request(const GuardConfig& config, const RequestFacts& request) {
   if (!host_is_ours(config, request.host)) return {403, "not the address of this page (Host)"};
   if (!config.token.empty() && !same_secret(request.token, config.token))
     return {401, "a token is needed: open the page once as /?token=..."};
   if (request.method == "GET") return {};
-  if (request.method == "POST") return judge_change(request);
+  if (request.method == "POST") return check_state_change(request);
   return {405, "GET and POST alone"};
 }
 

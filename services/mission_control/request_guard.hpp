@@ -26,7 +26,7 @@ struct RequestFacts {
 };
 
 bool is_loopback(const std::string& address);
-Verdict judge(const GuardConfig& config, const RequestFacts& request);
+RequestCheck check_request(const GuardConfig& config, const RequestFacts& request);
 RequestFacts facts_of(const Request& request);
 // Constant-time comparison, against timing attacks.
 bool same_secret(const std::string& a, const std::string& b);

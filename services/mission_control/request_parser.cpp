@@ -53,7 +53,7 @@ bool read_target(std::string_view target, Request& request) {
   return true;
 }
 
-Verdict verdict_on(const boost::system::error_code& error) {
+RequestCheck verdict_on(const boost::system::error_code& error) {
   if (error == http::error::header_limit) return {431, "the header is too long"};
   if (error == http::error::body_limit) return {413, "the body is too long"};
   return {400, "not a request: " + error.message()};
@@ -84,7 +84,7 @@ RequestParser::State RequestParser::feed(std::string_view bytes) {
   return state_;
 }
 
-RequestParser::State RequestParser::end(Verdict why) {
+RequestParser::State RequestParser::end(RequestCheck why) {
   if (state_ == State::kHeader || state_ == State::kBody) refuse(std::move(why));
   return state_;
 }
@@ -110,7 +110,7 @@ bool RequestParser::add_header(bool more_expected) {
   if (parsing_->header_bytes + waiting > limits_.header_bytes || fields > limits_.fields)
     return refuse({431, "the header is too long"});
   if (!parsing_->parser.is_header_done()) return true;
-  if (Verdict problem = header_problem(); problem.status != 200) return refuse(std::move(problem));
+  if (RequestCheck problem = header_problem(); problem.status != 200) return refuse(std::move(problem));
   if (!read_header()) return refuse({400, "the address has a wrong escape"});
   state_ = State::kBody;
   parsing_->parser.eager(true);
@@ -131,7 +131,7 @@ bool RequestParser::take_whole() {
   return true;
 }
 
-Verdict RequestParser::header_problem() const {
+RequestCheck RequestParser::header_problem() const {
   const auto& message = parsing_->parser.get();
   const auto lengths = message.count(http::field::content_length);
   const auto encodings = message.count(http::field::transfer_encoding);
@@ -162,7 +162,7 @@ bool RequestParser::read_header() {
   return read_target({target.data(), target.size()}, request_);
 }
 
-bool RequestParser::refuse(Verdict why) {
+bool RequestParser::refuse(RequestCheck why) {
   state_ = State::kRefused;
   refusal_ = std::move(why);
   parsing_.reset();

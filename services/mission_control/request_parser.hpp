@@ -32,11 +32,11 @@ class RequestParser {
   // Adds the next bytes, in pieces of any size. Bytes after the end of the request are ignored.
   State feed(std::string_view bytes);
   // Marks the end of input; an incomplete request is refused with `why`.
-  State end(Verdict why);
+  State end(RequestCheck why);
 
   State state() const { return state_; }
   const Request& request() const { return request_; }
-  const Verdict& refusal() const { return refusal_; }
+  const RequestCheck& refusal() const { return refusal_; }
 
  private:
   struct Parsing;
@@ -45,15 +45,15 @@ class RequestParser {
   bool add_header(bool more_expected);
   bool add_body();
   bool take_whole();
-  Verdict header_problem() const;
+  RequestCheck header_problem() const;
   bool read_header();
-  bool refuse(Verdict why);
+  bool refuse(RequestCheck why);
 
   RequestLimits limits_;
   std::unique_ptr<Parsing> parsing_;
   State state_ = State::kHeader;
   Request request_;
-  Verdict refusal_;
+  RequestCheck refusal_;
 };
 
 }  // namespace rover::mission

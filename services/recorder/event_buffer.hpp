@@ -27,8 +27,8 @@ class EventBuffer {
  public:
   void add(Event event) { events_.push_back(std::move(event)); }
   // Removes and returns the events released before `until`, ordered by (release, kind, channel, publisher, boot, seq).
-  std::vector<Event> take_before(Utime until);
-  std::vector<Event> take_all();
+  std::vector<Event> pop_before(Utime until);
+  std::vector<Event> pop_all();
   size_t size() const { return events_.size(); }
 
  private:

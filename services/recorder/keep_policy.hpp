@@ -25,7 +25,7 @@ class KeepPolicy {
   void trigger(Utime time);
   bool keep(const Event& event) const;
   // Time that an event must be buffered so that keep() knows every relevant trigger.
-  Utime hold() const { return config_.reduced ? before_ : 0; }
+  Utime delay() const { return config_.reduced ? before_ : 0; }
 
  private:
   KeepConfig config_;

@@ -11,24 +11,24 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t kHeadBytes = 28;  // record header before channel and data
+constexpr std::int64_t kHeaderBytes = 28;  // record header before channel and data
 
-struct Whole {
+struct IntactPart {
   std::int64_t events = 0;
   std::int64_t bytes = 0;
   Utime newest = 0;
 };
 
 // Statistics up to the last complete record.
-Whole whole_part(const std::string& path) {
-  Whole whole;
+IntactPart scan_part(const std::string& path) {
+  IntactPart intact;
   EventLogReader reader(path);
   if (!reader.begins_as_log()) throw ConfigError(path + ": is no log; it is not written over, move it away");
-  for (LogEvent event; reader.next(event);) whole = {whole.events + 1, event.end, event.time};
-  return whole;
+  for (LogEvent event; reader.next(event);) intact = {intact.events + 1, event.end, event.time};
+  return intact;
 }
 
-void cut(const std::string& path, std::int64_t bytes) {
+void truncate_to(const std::string& path, std::int64_t bytes) {
   std::error_code error;  // on failure readers skip the incomplete record
   if (fs::is_regular_file(path, error)) fs::resize_file(path, static_cast<std::uintmax_t>(bytes), error);
 }
@@ -46,16 +46,16 @@ LogFile::~LogFile() {
 void LogFile::open_part(int number) {
   part_ = number;
   const std::string path = log_part(path_, number);
-  Whole whole;
+  IntactPart intact;
   if (fs::is_regular_file(path)) {
-    whole = whole_part(path);
-    cut(path, whole.bytes);
+    intact = scan_part(path);
+    truncate_to(path, intact.bytes);
   }
   log_ = lcm_eventlog_create(path.c_str(), "a");
   if (log_ == nullptr) throw ConfigError(path + ": cannot be written");
-  log_->eventcount = whole.events;
-  bytes_ = flushed_bytes_ = whole.bytes;
-  newest_ = std::max(newest_, whole.newest);
+  log_->eventcount = intact.events;
+  bytes_ = flushed_bytes_ = intact.bytes;
+  newest_ = std::max(newest_, intact.newest);
 }
 
 bool LogFile::next_part() {
@@ -69,7 +69,7 @@ bool LogFile::next_part() {
 }
 
 bool LogFile::write(const Event& event) {
-  const auto size = kHeadBytes + static_cast<std::int64_t>(event.channel.size() + event.bytes.size());
+  const auto size = kHeaderBytes + static_cast<std::int64_t>(event.channel.size() + event.bytes.size());
   if (part_bytes_ > 0 && bytes_ > 0 && bytes_ + size > part_bytes_ && !next_part()) return false;
   if (failed_ || log_ == nullptr) return false;
   // Keep time stamps monotonic for the search by time; a late message would break it.
@@ -97,7 +97,7 @@ bool LogFile::close() {
   flush();
   lcm_eventlog_destroy(log_);
   log_ = nullptr;
-  if (failed_) cut(log_part(path_, part_), flushed_bytes_);
+  if (failed_) truncate_to(log_part(path_, part_), flushed_bytes_);
   return !failed_;
 }
 

@@ -5,7 +5,7 @@ namespace {
 
 constexpr double kBytesPerGb = 1e9;
 constexpr Utime kCheckPeriod = 1'000'000;
-constexpr Utime kTryAgain = 10'000'000;  // after recording stopped
+constexpr Utime kRetryPeriod = 10'000'000;  // after recording stopped
 
 }  // namespace
 
@@ -16,9 +16,9 @@ RecorderNode::RecorderNode(Node& node, const RecorderConfig& config, const std::
     throw ConfigError(log_path + ": " + std::to_string(free_gb) + " GB free on the disk, min_free_start_gb asks for " +
                       std::to_string(config_.min_free_start_gb));
   open_log();
-  node_.subscribe_raw([this](const RawMessage& raw) { take(raw); }, find_channel_type);
+  node_.subscribe_raw([this](const RawMessage& raw) { add(raw); }, find_channel_type);
   node_.on_injection([this](const injection_t& injection) {
-    if (injection.fault == "full_disk") full_disk_ = injection;
+    if (injection.fault == "full_disk") injected_full_disk_ = injection;
   });
   node_.on_step([this](Utime now) { step(now); });
 }
@@ -29,23 +29,23 @@ void RecorderNode::open_log() {
 
 RecorderNode::~RecorderNode() {
   if (!log_) return;
-  write(buffer_.take_all());
+  write(buffer_.pop_all());
   if (log_ && !log_->close()) stop_recording("write failed");
 }
 
-void RecorderNode::take(const RawMessage& raw) {
+void RecorderNode::add(const RawMessage& raw) {
   if (!log_) return;
   if (triggers_.is_trigger(raw)) policy_.trigger(raw.header.release_utime);
   buffer_.add(event_from(raw));
 }
 
 void RecorderNode::step(Utime now) {
-  if (!log_) return try_again(now);
+  if (!log_) return retry_recording(now);
   // In lockstep all messages released before this tick have arrived.
-  write(buffer_.take_before(now - policy_.hold()));
+  write(buffer_.pop_before(now - policy_.delay()));
   if (log_ && !log_->flush()) return stop_recording("write failed");
-  if (checked_ != kNever && now - checked_ < kCheckPeriod) return;
-  checked_ = now;
+  if (disk_checked_ != kNever && now - disk_checked_ < kCheckPeriod) return;
+  disk_checked_ = now;
   check_disk(now);
 }
 
@@ -57,7 +57,8 @@ void RecorderNode::write(const std::vector<Event>& events) {
 }
 
 double RecorderNode::free_gb(Utime now) const {
-  if (full_disk_ && now >= full_disk_->from_utime && now <= full_disk_->until_utime) return 0.0;
+  if (injected_full_disk_ && now >= injected_full_disk_->from_utime && now <= injected_full_disk_->until_utime)
+    return 0.0;
   return static_cast<double>(free_bytes_()) / kBytesPerGb;
 }
 
@@ -68,9 +69,9 @@ void RecorderNode::check_disk(Utime now) {
 }
 
 // Resumes with a gap when disk space is available again.
-void RecorderNode::try_again(Utime now) {
-  if (now - stopped_ < kTryAgain || free_gb(now) < config_.min_free_start_gb) return;
-  stopped_ = now;
+void RecorderNode::retry_recording(Utime now) {
+  if (now - stopped_at_ < kRetryPeriod || free_gb(now) < config_.min_free_start_gb) return;
+  stopped_at_ = now;
   try {
     open_log();
   } catch (const ConfigError&) {
@@ -82,8 +83,8 @@ void RecorderNode::try_again(Utime now) {
 
 void RecorderNode::stop_recording(const std::string& why) {
   log_.reset();
-  stopped_ = node_.now();
-  buffer_.take_all();
+  stopped_at_ = node_.now();
+  buffer_.pop_all();
   node_.set_status(heartbeat_t::DEGRADED, "disk full: recording stopped (" + why + ")");
   node_.log("ERROR", "DISK_FULL recording stopped, " + why);
 }

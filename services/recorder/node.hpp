@@ -25,11 +25,11 @@ class RecorderNode {
   RecorderNode& operator=(const RecorderNode&) = delete;
 
  private:
-  void take(const RawMessage& raw);
+  void add(const RawMessage& raw);
   void step(Utime now);
   void write(const std::vector<Event>& events);
   void open_log();
-  void try_again(Utime now);
+  void retry_recording(Utime now);
   void check_disk(Utime now);
   double free_gb(Utime now) const;
   void stop_recording(const std::string& why);
@@ -42,9 +42,9 @@ class RecorderNode {
   TriggerFinder triggers_;
   EventBuffer buffer_;
   std::unique_ptr<LogFile> log_;  // null: recording stopped
-  Utime stopped_ = kNever;
-  Utime checked_ = kNever;
-  std::optional<injection_t> full_disk_;  // an injected fault
+  Utime stopped_at_ = kNever;
+  Utime disk_checked_ = kNever;
+  std::optional<injection_t> injected_full_disk_;  // an injected fault
 };
 
 std::shared_ptr<RecorderNode> make_recorder(Node& node, const std::string& config_dir);

@@ -20,7 +20,7 @@ void run_request(const Input& input, Scratch&) {
     parser.feed(bytes.substr(at, piece));
   if (parser.state() < RequestParser::State::kWhole) parser.end({408, "too slow"});
   const mission::Request& request = parser.request();
-  mission::judge({}, mission::facts_of(request));
+  mission::check_request({}, mission::facts_of(request));
   const auto command = mission::parse_command(request.body, {});
   mission::parse_points(request.body, {});
   if (parser.state() == RequestParser::State::kRefused) throw ConfigError(parser.refusal().reason);

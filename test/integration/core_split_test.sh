@@ -15,7 +15,7 @@ for service in stereo visual_odometry localization hazard_detector path_planner 
   nm -C "$program" >"$WORK/symbols"
   strings "$program" >"$WORK/strings"
   ! grep -qE 'rover::(World|RockField|VehicleSim|TileScene)::' "$WORK/symbols" || fail "$service links the simulated world"
-  # The page of mission_control shows the true world to who asks for it; its node never hears of it (ear_test).
+  # The page of mission_control shows the true world to who asks for it; its node never hears of it (telemetry_subscriber_test).
   [ "$service" = mission_control ] || ! grep -qx TRUTH "$WORK/strings" || fail "$service names the channel TRUTH"
 done
 # Maps are read by common/geo, which knows no simulator.

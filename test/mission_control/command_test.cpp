@@ -1,4 +1,4 @@
-// The text of a request is one of the commands, exactly, or it is none.
+// Command parser.
 #include "mission_control/command.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ std::string error_of(const std::string& text) {
   return parsed.error;
 }
 
-TEST(Command, EachOfThemIsUnderstood) {
+TEST(Command, ParsesEveryKind) {
   const std::map<std::string, CommandKind> plain = {{"go", CommandKind::kGo},
                                                     {"stop", CommandKind::kStop},
                                                     {"pause", CommandKind::kPause},
@@ -32,7 +32,7 @@ TEST(Command, EachOfThemIsUnderstood) {
   }
 }
 
-TEST(Command, ArgumentsAreTaken) {
+TEST(Command, ParsesArguments) {
   const auto level = parse_command(R"({"command":"force_level","level":"full"})", kLimits);
   ASSERT_TRUE(level.command);
   EXPECT_EQ(level.command->level, Level::kFull);
@@ -49,7 +49,7 @@ TEST(Command, ArgumentsAreTaken) {
   EXPECT_EQ(path.command->level, Level::kFull);
 }
 
-TEST(Command, WhatIsNotExactlyACommandIsRefusedInWords) {
+TEST(Command, RefusesInvalidCommandsWithReason) {
   const std::vector<std::string> bad = {"",
                                         "go",
                                         "null",
@@ -84,27 +84,27 @@ TEST(Command, WhatIsNotExactlyACommandIsRefusedInWords) {
   for (const std::string& text : bad) EXPECT_FALSE(error_of(text).empty()) << text;
 }
 
-TEST(Command, TooManyWayPointsAreRefused) {
+TEST(Command, RefusesTooManyWaypoints) {
   nlohmann::json request = {{"command", "path"}, {"points", nlohmann::json::array()}};
-  for (size_t i = 0; i < kLimits.most_points; ++i) request["points"].push_back({i, i});
+  for (size_t i = 0; i < kLimits.max_points; ++i) request["points"].push_back({i, i});
   EXPECT_EQ(error_of(request.dump()), "");
   request["points"].push_back({0, 0});
   EXPECT_NE(error_of(request.dump()), "");
 }
 
-TEST(Command, DeepNestingIsAnErrorLikeAnyOther) {
+TEST(Command, RefusesDeepNesting) {
   EXPECT_NE(error_of(std::string(60'000, '[')), "");
   EXPECT_NE(error_of("{\"command\":\"path\",\"points\":" + std::string(20'000, '[') + std::string(20'000, ']') + "}"),
             "");
 }
 
-TEST(Command, PointsForACheckHoldNothingElse) {
+TEST(Command, CheckRequestContainsPointsOnly) {
   EXPECT_EQ(parse_points(R"({"points":[[1,2],[3,4]]})", kLimits).points.size(), 2U);
   EXPECT_NE(parse_points(R"({"points":[[1,2],[3,4]],"go":1})", kLimits).error, "");
   EXPECT_NE(parse_points(R"([[1,2],[3,4]])", kLimits).error, "");
 }
 
-TEST(Command, WhatStopsTheRoverIsKnown) {
+TEST(Command, ClassifiesStoppingCommands) {
   EXPECT_TRUE(stops(CommandKind::kStop) && stops(CommandKind::kPause) && stops(CommandKind::kEmergencyStop));
   for (const CommandKind kind : {CommandKind::kGo, CommandKind::kResume, CommandKind::kPath, CommandKind::kClearSafe})
     EXPECT_FALSE(stops(kind));

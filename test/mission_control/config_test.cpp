@@ -1,4 +1,4 @@
-// An address that others can reach needs a token that others cannot read.
+// Page and mission configuration.
 #include "mission_control/config.hpp"
 
 #include <gtest/gtest.h>
@@ -33,14 +33,14 @@ class PageConfigTest : public testing::Test {
   testing_support::TempFolder folder_;
 };
 
-TEST_F(PageConfigTest, TheProjectsOwnIsLoopbackWithoutToken) {
+TEST_F(PageConfigTest, DefaultIsLoopbackWithoutToken) {
   const PageConfig config = load_page_config(ROVER_SOURCE_DIR "/config");
   EXPECT_TRUE(config.served);
   EXPECT_TRUE(is_loopback(config.guard.address));
   EXPECT_TRUE(config.guard.token.empty());
 }
 
-TEST_F(PageConfigTest, AMissionPathOfNoLengthIsRefused) {
+TEST_F(PageConfigTest, RefusesMissionPathOfZeroLength) {
   const auto refusal = [&](const std::string& x_m) {
     std::ofstream(folder_.file("ground.yaml")) << "start: {x_m: 10, y_m: 20, z_m: 0, yaw_deg: 0}\n"
                                                << "path: {x_m: [" << x_m << "], y_m: [20, 20], level: [0, 0]}\n";
@@ -56,7 +56,7 @@ TEST_F(PageConfigTest, AMissionPathOfNoLengthIsRefused) {
   EXPECT_EQ(refusal("10, 10.3"), "");
 }
 
-TEST_F(PageConfigTest, AnotherAddressNeedsAToken) {
+TEST_F(PageConfigTest, NonLoopbackAddressNeedsToken) {
   EXPECT_NO_THROW(load("127.0.0.1", ""));
   EXPECT_THROW(load("0.0.0.0", ""), ConfigError);
   EXPECT_THROW(load("192.168.1.5", ""), ConfigError);
@@ -64,7 +64,7 @@ TEST_F(PageConfigTest, AnotherAddressNeedsAToken) {
   EXPECT_EQ(load("0.0.0.0", token_file("0123456789abcdef", 0600)).guard.token, "0123456789abcdef");
 }
 
-TEST_F(PageConfigTest, ATokenThatOthersCanReadOrGuessIsNone) {
+TEST_F(PageConfigTest, RefusesReadableOrShortToken) {
   for (const mode_t mode : {0644, 0640, 0604, 0700, 0660})
     EXPECT_THROW(load("0.0.0.0", token_file("0123456789abcdef", mode)), ConfigError) << mode;
   EXPECT_THROW(load("0.0.0.0", token_file("short", 0600)), ConfigError);
@@ -73,12 +73,12 @@ TEST_F(PageConfigTest, ATokenThatOthersCanReadOrGuessIsNone) {
   EXPECT_THROW(load("0.0.0.0", folder_.file("none")), ConfigError);
 }
 
-TEST_F(PageConfigTest, UnknownKeysAndPortsOutOfRangeAreRefused) {
+TEST_F(PageConfigTest, RefusesUnknownKeysAndInvalidPorts) {
   EXPECT_THROW(load("127.0.0.1", "", "colour: red\n"), ConfigError);
   EXPECT_THROW(load("127.0.0.1", "", "port: 70000\n"), ConfigError);
 }
 
-TEST_F(PageConfigTest, TheGaugesHaveTheLimitsOfTheTableOfFaults) {
+TEST_F(PageConfigTest, GaugeLimitsComeFromFaultTable) {
   const std::string dir = ROVER_SOURCE_DIR "/config";
   const auto setup = page_setup(dir, load_vehicle(dir));
   for (const char* gauge : {"slip", "roll_deg", "pitch_deg", "current_a"}) {
@@ -87,7 +87,7 @@ TEST_F(PageConfigTest, TheGaugesHaveTheLimitsOfTheTableOfFaults) {
   }
 }
 
-TEST_F(PageConfigTest, TheNavCamLooksFromThePanTiltUnitWhereThereIsOne) {
+TEST_F(PageConfigTest, NavCamViewNeedsPanTiltUnit) {
   const std::string dir = ROVER_SOURCE_DIR "/config";
   Vehicle vehicle = load_vehicle(dir);
   const auto navcam = page_setup(dir, vehicle)["navcam"];

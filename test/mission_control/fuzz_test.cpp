@@ -161,7 +161,7 @@ bool is_stream(const std::string& bytes) {
   return bytes.rfind("GET /api/stream", 0) == 0;
 }
 
-TEST(Fuzz, NoRequestDoesHarm) {
+TEST(Fuzz, InvalidRequestsSendNothingAndLeakNothing) {
   TestServer server;
   Fuzzer fuzzer(server.port());
   get(server.port(), "/map/relief");
@@ -201,11 +201,11 @@ TEST(Fuzz, NoRequestDoesHarm) {
   for (int i = 0; i < 400 && open_files() > files; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(50));
   EXPECT_LE(open_files(), files + 2);
 #ifdef __SANITIZE_ADDRESS__
-  constexpr double kMostMoreMb = 340.0;  // it keeps 256 MB of what was freed
+  constexpr double kMaxGrowthMb = 340.0;  // it keeps 256 MB of what was freed
 #else
-  constexpr double kMostMoreMb = 40.0;
+  constexpr double kMaxGrowthMb = 40.0;
 #endif
-  EXPECT_LT(resident_mb(), memory_mb + kMostMoreMb);
+  EXPECT_LT(resident_mb(), memory_mb + kMaxGrowthMb);
 }
 
 }  // namespace

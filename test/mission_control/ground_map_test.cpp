@@ -1,4 +1,4 @@
-// Slopes on ground whose slope is known, and paths over it.
+// Slopes and path checks on terrain of known slope.
 #include "mission_control/ground_map.hpp"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ GroundMap ramp(double slope_rad, double resolution_m = 1.0) {
   return GroundMap(heights, kSlopeLimits, 1.75);
 }
 
-TEST(GroundMap, FindsTheSlopeOfAPlane) {
+TEST(GroundMap, SlopeOfAPlane) {
   for (const double resolution : {0.5, 1.0}) {
     const GroundMap map = ramp(0.2, resolution);
     const PathCheck flat = map.check({{5, 5}, {30, 50}});
@@ -36,14 +36,14 @@ TEST(GroundMap, FindsTheSlopeOfAPlane) {
   }
 }
 
-TEST(GroundMap, RefusesWhatIsTooSteepWhereverOnThePath) {
+TEST(GroundMap, RefusesSteepSlopeAnywhereOnPath) {
   const GroundMap map = ramp(0.3);
   EXPECT_TRUE(map.check({{5, 5}, {35, 5}}).passable);
   EXPECT_FALSE(map.check({{5, 5}, {60, 5}, {5, 20}}).passable);
   EXPECT_FALSE(map.check({{5, 5}, {60, 5}}).passable) << "across a cliff between two way-points";
 }
 
-TEST(GroundMap, NothingOutsideOfItIsInside) {
+TEST(GroundMap, RefusesPointsOutsideMap) {
   const GroundMap map = ramp(0.0);
   EXPECT_TRUE(map.check({{0, 0}, {79.9, 59.9}}).inside);
   for (const Eigen::Vector2d& p : {Eigen::Vector2d(-1, 5), {81, 5}, {5, -0.1}, {5, 60.0}, {1e6, 1e6}}) {
@@ -53,7 +53,7 @@ TEST(GroundMap, NothingOutsideOfItIsInside) {
   EXPECT_FALSE(map.check({{5, 5}, {100, 5}, {6, 5}}).inside) << "out and back";
 }
 
-TEST(GroundMap, TheProfileIsAlongThePath) {
+TEST(GroundMap, ProfileFollowsPath) {
   const PathCheck check = ramp(0.2).check({{10, 10}, {20, 10}, {20, 15}});
   ASSERT_GT(check.distance_m.size(), 30U);
   EXPECT_EQ(check.distance_m.size(), check.slope_rad.size());
@@ -63,7 +63,7 @@ TEST(GroundMap, TheProfileIsAlongThePath) {
   EXPECT_TRUE(std::is_sorted(check.distance_m.begin(), check.distance_m.end()));
 }
 
-TEST(GroundMap, DifficultyReachesARoverFurtherThanTheSlope) {
+TEST(GroundMap, DifficultyDilatesSlopeByRoverLength) {
   const GroundMap map = ramp(0.3);
   const cv::Mat slope = cv::imdecode(map.slope_png(), cv::IMREAD_UNCHANGED);
   const cv::Mat difficulty = cv::imdecode(map.difficulty_png(), cv::IMREAD_UNCHANGED);

@@ -24,9 +24,9 @@ namespace {
 using namespace std::chrono_literals;
 
 #ifdef __SANITIZE_ADDRESS__
-constexpr double kMostMoreMb = 320.0;  // it keeps 256 MB of what was freed
+constexpr double kMaxGrowthMb = 320.0;  // it keeps 256 MB of what was freed
 #else
-constexpr double kMostMoreMb = 20.0;
+constexpr double kMaxGrowthMb = 20.0;
 #endif
 
 void row(const std::string& input, const std::string& before, const std::string& now) {
@@ -74,7 +74,7 @@ class Server {
     http_.get("/fail", [](const Request&) -> Response { throw std::runtime_error("a bug"); });
     http_.get("/stream", [this](const Request&) { return stream(); });
     http_.post(
-        "/wait", [this](const Request&) { return wait(); }, HttpServer::Work::kWaits);
+        "/wait", [this](const Request&) { return wait(); }, HttpServer::Work::kBlocking);
     http_.post("/length", [](const Request& request) -> Response {
       return {200, "text/plain", Content::of(std::to_string(request.body.size()))};
     });
@@ -143,8 +143,8 @@ class Server {
 class Client {
  public:
   explicit Client(int port, const std::string& bytes = "") : fd_(connect_to(port)) {
-    const timeval patience{20, 0};
-    setsockopt(fd_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+    const timeval timeout{20, 0};
+    setsockopt(fd_, SOL_SOCKET, SO_RCVTIMEO, &timeout, sizeof timeout);
     send(bytes);
   }
   ~Client() { close(fd_); }
@@ -199,7 +199,7 @@ void expect_refused(const std::string& input, const std::string& head, const std
   const std::string answer = client.receive_all();
   EXPECT_EQ(status_of(answer), status) << input;
   EXPECT_LT(sent, 40'000'000U) << "more than the kernel's buffers hold was taken";
-  EXPECT_LT(PeakMemory::mb(), before_mb + kMostMoreMb) << input;
+  EXPECT_LT(PeakMemory::mb(), before_mb + kMaxGrowthMb) << input;
   EXPECT_EQ(get_hello(server.port()), "hello");
   row(input, before, std::to_string(status) + ", then closed; no more memory than 20 MB");
 }
@@ -270,7 +270,7 @@ TEST(HttpServer, HundredsOfSlowConnectionsLeaveRoomForOthers) {
     EXPECT_LE(open_files(), files + slow.size() + patient.connections + 4);
     EXPECT_EQ(slow.front()->receive_all(), "") << "the oldest has given its place up";
   }
-  EXPECT_LT(PeakMemory::mb(), before_mb + kMostMoreMb);
+  EXPECT_LT(PeakMemory::mb(), before_mb + kMaxGrowthMb);
   EXPECT_TRUE(comes_true([&] { return open_files() <= files; }));
   row("400 connections that never end their requests", "a client waits 6 s beside 60 of them",
       "served at once: the oldest of them give their places up");
@@ -330,7 +330,7 @@ TEST(HttpServer, AStreamThatIsNotReadIsDroppedAndTheOthersGoOn) {
   EXPECT_EQ(server.streams(), 1) << "that of the client that reads";
   server.publish(number);
   EXPECT_NE(fast.receive_until(std::to_string(number) + "\n").find(std::to_string(number) + "\n"), std::string::npos);
-  EXPECT_LT(PeakMemory::mb(), before_mb + kMostMoreMb);
+  EXPECT_LT(PeakMemory::mb(), before_mb + kMaxGrowthMb);
   row("a page that takes its views no more (opencode 31923, sse-eventbus 32)",
       "noticed when the kernel's 4 MB are full", "closed 5 s after 64 kB are full; the other pages get their views");
 }

@@ -1,4 +1,4 @@
-// The logbook keeps what matters in bounded space, and comes back from its checkpoint as it was.
+// Logbook: bounded memory, checkpoint round trip.
 #include "mission_control/logbook.hpp"
 
 #include <gtest/gtest.h>
@@ -10,9 +10,9 @@ namespace {
 
 Logbook full_book() {
   Logbook book;
-  book.note(1.5, Tone::kBad, "fault", "slip raised");
-  book.note(2.5, Tone::kGood, "state", "DRIVING");
-  for (int i = 0; i < 50; ++i) book.drive_to(0.2 * i, 1.0);
+  book.add_event(1.5, Tone::kBad, "fault", "slip raised");
+  book.add_event(2.5, Tone::kGood, "state", "DRIVING");
+  for (int i = 0; i < 50; ++i) book.add_track_point(0.2 * i, 1.0);
   GlobalPath path;
   path.x_m = {1.0, 2.0};
   path.y_m = {3.0, 4.0};
@@ -23,7 +23,7 @@ Logbook full_book() {
   return book;
 }
 
-TEST(Logbook, ComesBackFromItsCheckpoint) {
+TEST(Logbook, CheckpointRoundTrip) {
   const Logbook book = full_book();
   Logbook back;
   ASSERT_TRUE(back.restore(book.save()));
@@ -31,11 +31,11 @@ TEST(Logbook, ComesBackFromItsCheckpoint) {
   EXPECT_EQ(back.path_json(), book.path_json());
   EXPECT_EQ(back.track(), book.track());
   EXPECT_EQ(back.forced(), Level::kFull);
-  back.note(3.0, Tone::kInfo, "state", "next");
+  back.add_event(3.0, Tone::kInfo, "state", "next");
   EXPECT_EQ(back.newest_event(), 3);
 }
 
-TEST(Logbook, AnythingElseIsNoCheckpointAndChangesNothing) {
+TEST(Logbook, InvalidCheckpointIsRejected) {
   const std::vector<std::uint8_t> good = full_book().save();
   Logbook book = full_book();
   EXPECT_FALSE(book.restore({}));
@@ -47,18 +47,18 @@ TEST(Logbook, AnythingElseIsNoCheckpointAndChangesNothing) {
   EXPECT_EQ(book.path_id(), 42);
 }
 
-TEST(Logbook, OldEventsGoNumbersGoOn) {
+TEST(Logbook, OldEventsAreDroppedIdsContinue) {
   Logbook book;
-  for (int i = 0; i < 1000; ++i) book.note(i, Tone::kInfo, "state", "x");
+  for (int i = 0; i < 1000; ++i) book.add_event(i, Tone::kInfo, "state", "x");
   EXPECT_LE(book.events().size(), 400U);
   EXPECT_EQ(book.newest_event(), 1000);
   EXPECT_EQ(book.events_after(998).size(), 2U);
   EXPECT_EQ(book.events_after(1000).size(), 0U);
 }
 
-TEST(Logbook, ALongTrackIsThinnedOutNotCut) {
+TEST(Logbook, LongTrackIsDecimated) {
   Logbook book;
-  for (int i = 0; i < 60'000; ++i) book.drive_to(0.11 * i, 0.0);
+  for (int i = 0; i < 60'000; ++i) book.add_track_point(0.11 * i, 0.0);
   const auto& track = book.track();
   EXPECT_LE(track.size(), 2 * 20'002U);
   EXPECT_FLOAT_EQ(track.front(), 0.0F);
@@ -66,14 +66,14 @@ TEST(Logbook, ALongTrackIsThinnedOutNotCut) {
   for (size_t i = 2; i + 1 < track.size(); i += 2) EXPECT_LT(track[i] - track[i - 2], 2.0F);
 }
 
-TEST(Logbook, StandingAndNaNAddNothingToTheTrack) {
+TEST(Logbook, StationaryRoverAndNaNAddNoTrackPoints) {
   Logbook book;
-  for (int i = 0; i < 100; ++i) book.drive_to(1.0 + 0.0005 * i, 2.0);
-  book.drive_to(NAN, 2.0);
+  for (int i = 0; i < 100; ++i) book.add_track_point(1.0 + 0.0005 * i, 2.0);
+  book.add_track_point(NAN, 2.0);
   EXPECT_EQ(book.track().size(), 2U);
 }
 
-TEST(Logbook, TheTrendIsOfTheLastTwoMinutes) {
+TEST(Logbook, TrendKeepsTwoMinutes) {
   Logbook book;
   for (int t = 0; t < 500; ++t) book.sample({static_cast<double>(t), 0.2F, NAN, 0.0F, 0.0F});
   EXPECT_EQ(book.trend_json().size(), 121U);

@@ -75,7 +75,7 @@ image_t picture(int width, int height, int horizon, Utime now) {
 MadeUpDrive::MadeUpDrive(lcm::LCM& bus, std::vector<std::string> services)
     : bus_(bus), services_(std::move(services)), world_(rocky_world()) {}
 
-Pose2 MadeUpDrive::place(double way_m) {
+Pose2 MadeUpDrive::pose_at(double way_m) {
   const double yaw = 0.35 + 0.45 * std::sin(0.12 * way_m);
   double x = 14.0, y = 20.0;
   for (double s = 0.0; s < way_m; s += 0.05) {
@@ -98,7 +98,7 @@ void MadeUpDrive::publish(const char* channel, Message message, Utime utime) {
 }
 
 void MadeUpDrive::say(Utime now) {
-  way_now_m_ = way_m(now);
+  travelled_m_ = way_m(now);
   publish(channel::kTick, tick_t{}, now);
   say_motion(now);
   if (each(now, 200'000)) say_supervision(now);
@@ -112,7 +112,7 @@ void MadeUpDrive::say(Utime now) {
 }
 
 void MadeUpDrive::say_motion(Utime now) {
-  const Pose2 at = place(way_now_m_);
+  const Pose2 at = pose_at(travelled_m_);
   Eigen::Isometry3d T_odom_body = from_planar(in_odom(at));
   T_odom_body.linear() = rotation_from_rpy(0.04, -0.06, yaw_of(T_odom_body));
   pose_t pose{};
@@ -120,7 +120,7 @@ void MadeUpDrive::say_motion(Utime now) {
   pose_to(from_planar(kMapOdom), pose.position_map_odom_m, pose.quat_map_odom_wxyz);
   pose.covariance[0] = pose.covariance[7] = 0.02;
   pose.velocity_body_mps[0] = kSpeedMps;
-  pose.travelled_m = way_now_m_;
+  pose.travelled_m = travelled_m_;
   publish(channel::kPose, pose, now);
   wheel_state_t wheels{};
   for (int i = 0; i < 6; ++i) wheels.drive_current_a[i] = 1.2 + 0.3 * i;
@@ -153,7 +153,7 @@ void MadeUpDrive::say_supervision(Utime now) {
   publish(channel::kDrivePermit, permit, now);
   planner_status_t planner{};
   planner.state = planner_status_t::FOLLOWING;
-  planner.goal_distance_m = kWholeM - way_now_m_;
+  planner.goal_distance_m = kWholeM - travelled_m_;
   planner.replans = 3;
   publish(channel::kPlannerStatus, planner, now);
   for (const std::string& name : services_) {
@@ -172,8 +172,8 @@ void MadeUpDrive::say_paths(Utime now) {
   path.path_id = now / 1'000'000 + 1;
   path.frame = path_t::ODOM;
   path.kind = path_t::CONTINUOUS;
-  for (double s = way_now_m_; s <= way_now_m_ + 7.0; s += 0.25) {
-    const Pose2 at = in_odom(place(s));
+  for (double s = travelled_m_; s <= travelled_m_ + 7.0; s += 0.25) {
+    const Pose2 at = in_odom(pose_at(s));
     path.x_m.push_back(at.x_m);
     path.y_m.push_back(at.y_m);
     path.level.push_back(path_t::FULL);
@@ -190,7 +190,7 @@ bool MadeUpDrive::seen(double x_m, double y_m) const {
 }
 
 elevation_t MadeUpDrive::elevation() const {
-  const Pose2 at = in_odom(place(way_now_m_));
+  const Pose2 at = in_odom(pose_at(travelled_m_));
   elevation_t map{};
   map.cell_m = 0.1;
   map.cells_x = map.cells_y = 200;
@@ -210,13 +210,13 @@ elevation_t MadeUpDrive::elevation() const {
 
 void MadeUpDrive::say_terrain(Utime now) {
   stations_.clear();
-  for (double back = 0.0; back <= 9.0; back += 1.0) stations_.push_back(place(std::max(0.0, way_now_m_ - back)));
+  for (double back = 0.0; back <= 9.0; back += 1.0) stations_.push_back(pose_at(std::max(0.0, travelled_m_ - back)));
   const elevation_t map = elevation();
   publish(channel::kElevation, map, now);
   const trav::TraversabilityConfig config;
   const trav::TraversabilityMap costs = trav::compute_traversability(trav::grid_from(map), config);
   traversability_t terrain{};
-  trav::traversability_to(costs, trav::difficulty_ahead(costs, in_odom(place(way_now_m_)), config.ahead), terrain);
+  trav::traversability_to(costs, trav::difficulty_ahead(costs, in_odom(pose_at(travelled_m_)), config.ahead), terrain);
   publish(channel::kTraversability, terrain, now);
 }
 

@@ -1,4 +1,4 @@
-// A made-up drive at the Full level, as messages: what the page shows can be looked at without services or simulator.
+// A synthetic drive at the Full level as bus messages, to view the page without services or simulator.
 #pragma once
 
 #include <functional>
@@ -17,12 +17,12 @@ class MadeUpDrive {
  public:
   MadeUpDrive(lcm::LCM& bus, std::vector<std::string> services);
 
-  // Says what the bus of a driving rover says at this tick.
+  // Publishes the messages of a driving rover at this tick.
   void say(Utime now);
-  // The ground it drives over.
+  // The terrain of the drive.
   const World& world() const { return world_; }
-  // The way that it drives, map frame.
-  static Pose2 place(double way_m);
+  // The driven path in map.
+  static Pose2 pose_at(double way_m);
 
  private:
   template <class Message>
@@ -41,7 +41,7 @@ class MadeUpDrive {
   lcm::LCM& bus_;
   std::vector<std::string> services_;
   World world_;
-  double way_now_m_ = 0.0;
+  double travelled_m_ = 0.0;
   std::vector<Pose2> stations_;  // on the last metres, from where the ground was seen
 };
 

@@ -37,7 +37,7 @@ PageContext page_context(const std::string& run_dir) {
 GlobalPath whole_path() {
   GlobalPath path;
   for (double s = 0.0; s <= 45.0; s += 1.0) {
-    const Pose2 at = test::MadeUpDrive::place(s);
+    const Pose2 at = test::MadeUpDrive::set_grid(s);
     path.x_m.push_back(at.x_m);
     path.y_m.push_back(at.y_m);
     path.level.push_back(1);
@@ -46,14 +46,14 @@ GlobalPath whole_path() {
   return path;
 }
 
-void fill(Station& station) {
-  station.book.with([](Logbook& book) {
+void fill(SharedState& shared) {
+  shared.book.with([](Logbook& book) {
     book.set_path(1, whole_path());
     for (double s = 0.0; s <= 12.0; s += 0.1) {
-      const Pose2 at = test::MadeUpDrive::place(s);
-      book.drive_to(at.x_m, at.y_m);
+      const Pose2 at = test::MadeUpDrive::set_grid(s);
+      book.add_track_point(at.x_m, at.y_m);
     }
-    book.note(0.0, Tone::kInfo, "level", "level FULL: slow_progress effective_speed_mps 0.043 limit 0.06");
+    book.add_event(0.0, Tone::kInfo, "level", "level FULL: slow_progress effective_speed_mps 0.043 limit 0.06");
   });
 }
 
@@ -62,15 +62,15 @@ int serve(int port) {
   lcm::LCM bus("memq://");
   test::MadeUpDrive drive(bus, service_names(true));
   write_geotiff(folder.file("orbital_map.tif"), drive.world().orbital_map(0.5));
-  Station station;
-  fill(station);
+  SharedState shared;
+  fill(shared);
   PageConfig config;
   config.guard.port = port;
-  PageServer page(config, page_context(folder.path()), station, bus);
+  PageServer page(config, page_context(folder.path()), shared, bus);
   page.start();
   auto next = std::chrono::steady_clock::now();
   for (Utime now = 0; !ended; now += kTickUs) {
-    page.attend();
+    page.update();
     drive.say(now);
     while (bus.handleTimeout(0) > 0) {
     }

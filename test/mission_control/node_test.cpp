@@ -14,9 +14,9 @@
 namespace rover {
 namespace {
 
-using mission::Answer;
 using mission::Command;
 using mission::CommandKind;
+using mission::CommandReply;
 
 MissionPlan plan() {
   MissionPlan plan;
@@ -38,10 +38,10 @@ class MissionControlTest : public testing::Test {
   void start(std::int64_t boot_id) {
     service_.reset();
     node_.reset();
-    station_ = std::make_shared<mission::Station>();
+    shared_ = std::make_shared<mission::SharedState>();
     node_ = std::make_unique<Node>(NodeOptions{.name = "mission_control", .boot_id = boot_id, .run_dir = run_dir_},
                                    world_.bus);
-    service_ = std::make_unique<MissionControlNode>(*node_, plan(), station_);
+    service_ = std::make_unique<MissionControlNode>(*node_, plan(), shared_);
   }
 
   void tick(int times = 1) {
@@ -74,10 +74,11 @@ class MissionControlTest : public testing::Test {
   }
 
   // What an operator's command leads to; `answer`: of the rover, none: it is silent.
-  Answer operate(const Command& command, std::optional<bool> answer, const std::string& reason = "") {
-    Answer result;
+  CommandReply operate(const Command& command, std::optional<bool> answer, const std::string& reason = "") {
+    CommandReply result;
     const size_t before = commands_->size() + paths_->size();
-    std::thread page([&] { result = station_->desk.give(command, std::chrono::milliseconds(answer ? 20'000 : 300)); });
+    std::thread page(
+        [&] { result = shared_->commands.submit(command, std::chrono::milliseconds(answer ? 20'000 : 300)); });
     for (int i = 0; i < 2000 && commands_->size() + paths_->size() == before; ++i) {
       tick();
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -90,7 +91,7 @@ class MissionControlTest : public testing::Test {
   }
 
   bool noted(const std::string& text) {
-    return station_->book.with([&](const mission::Logbook& book) {
+    return shared_->book.with([&](const mission::Logbook& book) {
       return std::any_of(book.events().begin(), book.events().end(),
                          [&](const auto& event) { return event.text.find(text) != std::string::npos; });
     });
@@ -98,14 +99,14 @@ class MissionControlTest : public testing::Test {
 
   std::string run_dir_;
   test::BusWorld world_;
-  std::shared_ptr<mission::Station> station_;
+  std::shared_ptr<mission::SharedState> shared_;
   std::unique_ptr<Node> node_;
   std::unique_ptr<MissionControlNode> service_;
   std::shared_ptr<std::vector<ground_command_t>> commands_;
   std::shared_ptr<std::vector<path_t>> paths_;
 };
 
-TEST_F(MissionControlTest, ThePlanIsGivenOnceAndEndsWithGo) {
+TEST_F(MissionControlTest, PlanIsIssuedOnceAndEndsWithGo) {
   finish_plan();
   tick(200);
   ASSERT_EQ(commands_->size(), 2U);
@@ -113,10 +114,10 @@ TEST_F(MissionControlTest, ThePlanIsGivenOnceAndEndsWithGo) {
   EXPECT_EQ(commands_->back().kind, +ground_command_t::GO);
   ASSERT_EQ(paths_->size(), 1U);
   EXPECT_EQ(paths_->front().x_m, plan().path.x_m);
-  EXPECT_EQ(station_->book.with([](const auto& book) { return book.path_id(); }), paths_->front().path_id);
+  EXPECT_EQ(shared_->book.with([](const auto& book) { return book.path_id(); }), paths_->front().path_id);
 }
 
-TEST_F(MissionControlTest, EachCommandGoesOutWithAnIdOfItsOwnAndItsAnswerComesBack) {
+TEST_F(MissionControlTest, CommandsHaveUniqueIdsAndReturnTheirReplies) {
   finish_plan();
   const std::vector<std::pair<CommandKind, int>> kinds = {
       {CommandKind::kGo, +ground_command_t::GO},
@@ -129,52 +130,52 @@ TEST_F(MissionControlTest, EachCommandGoesOutWithAnIdOfItsOwnAndItsAnswerComesBa
   for (const auto& [kind, expected] : kinds) {
     Command command;
     command.kind = kind;
-    const Answer answer = operate(command, true);
-    EXPECT_EQ(answer.outcome, Answer::Outcome::kAccepted);
+    const CommandReply answer = operate(command, true);
+    EXPECT_EQ(answer.outcome, CommandReply::Outcome::kAccepted);
     EXPECT_EQ(commands_->back().kind, expected);
     EXPECT_EQ(answer.command_id, commands_->back().command_id);
     EXPECT_TRUE(ids.insert(answer.command_id).second);
   }
 }
 
-TEST_F(MissionControlTest, ARefusalComesWithItsReason) {
+TEST_F(MissionControlTest, RefusalReportsReason) {
   finish_plan();
   Command command;
   command.kind = CommandKind::kClearFault;
   command.target = "no_path";
-  const Answer answer = operate(command, false, "does not stand");
-  EXPECT_EQ(answer.outcome, Answer::Outcome::kRefused);
+  const CommandReply answer = operate(command, false, "does not stand");
+  EXPECT_EQ(answer.outcome, CommandReply::Outcome::kRefused);
   EXPECT_EQ(answer.reason, "does not stand");
   EXPECT_EQ(commands_->back().target, "no_path");
   EXPECT_TRUE(noted("clear fault no_path refused: does not stand"));
 }
 
-TEST_F(MissionControlTest, SilenceIsToldAsSuch) {
+TEST_F(MissionControlTest, MissingReplyIsReported) {
   finish_plan();
   Command command;
   command.kind = CommandKind::kGo;
-  EXPECT_EQ(operate(command, std::nullopt).outcome, Answer::Outcome::kSilence);
+  EXPECT_EQ(operate(command, std::nullopt).outcome, CommandReply::Outcome::kNoReply);
 }
 
-TEST_F(MissionControlTest, AForcedLevelIsRemembered) {
+TEST_F(MissionControlTest, ForcedLevelIsStored) {
   finish_plan();
   Command command;
   command.kind = CommandKind::kForceLevel;
   command.level = mission::Level::kFull;
   operate(command, false, "the services of the Full level are not there");
-  EXPECT_EQ(station_->book.with([](const auto& book) { return book.forced(); }), mission::Level::kAuto);
+  EXPECT_EQ(shared_->book.with([](const auto& book) { return book.forced(); }), mission::Level::kAuto);
   operate(command, true);
   EXPECT_EQ(commands_->back().level, +ground_command_t::FULL);
-  EXPECT_EQ(station_->book.with([](const auto& book) { return book.forced(); }), mission::Level::kFull);
+  EXPECT_EQ(shared_->book.with([](const auto& book) { return book.forced(); }), mission::Level::kFull);
 }
 
-TEST_F(MissionControlTest, ADrawnPathIsInForceOnceItIsAccepted) {
+TEST_F(MissionControlTest, DrawnPathIsActiveOnceAccepted) {
   finish_plan();
   const std::int64_t planned = paths_->back().path_id;
   Command command;
   command.kind = CommandKind::kPath;
   command.points = {{1.0, 2.0}, {3.0, 4.0}};
-  const auto in_force = [&] { return station_->book.with([](const auto& book) { return book.path_id(); }); };
+  const auto in_force = [&] { return shared_->book.with([](const auto& book) { return book.path_id(); }); };
   operate(command, false, "path is shorter than 0.1 m");
   EXPECT_EQ(in_force(), planned);
   operate(command, true);
@@ -183,8 +184,8 @@ TEST_F(MissionControlTest, ADrawnPathIsInForceOnceItIsAccepted) {
   EXPECT_EQ(paths_->back().x_m, (std::vector<double>{1.0, 3.0}));
 }
 
-// Nobody who has stopped the rover wants the plan's GO to follow.
-TEST_F(MissionControlTest, AStopEndsThePlan) {
+// The plan's GO must not follow a stop.
+TEST_F(MissionControlTest, StopCancelsPlan) {
   tick(2);
   acknowledge(commands_->back().command_id, true);
   acknowledge(paths_->back().path_id, true);
@@ -196,7 +197,7 @@ TEST_F(MissionControlTest, AStopEndsThePlan) {
   EXPECT_EQ(commands_->back().kind, +ground_command_t::STOP);
 }
 
-TEST_F(MissionControlTest, WhatHappensIsNoted) {
+TEST_F(MissionControlTest, LogbookRecordsEvents) {
   finish_plan();
   say_state(supervisor_state_t::DRIVING, "go");
   say_state(supervisor_state_t::HAZARD_STOP, "path_blocked");
@@ -221,8 +222,8 @@ class RestartedMissionControlTest : testing_support::TempFolder, public MissionC
   RestartedMissionControlTest() : MissionControlTest(TempFolder::path()) {}
 };
 
-// A start pose given again would put the rover back to where it began.
-TEST_F(RestartedMissionControlTest, GivesNothingAgainAndRemembersTheDrive) {
+// A repeated start pose would reset the rover's position.
+TEST_F(RestartedMissionControlTest, RestartRepeatsNoCommandAndRestoresLogbook) {
   finish_plan();
   tick(100);
   const size_t commands = commands_->size();
@@ -231,7 +232,7 @@ TEST_F(RestartedMissionControlTest, GivesNothingAgainAndRemembersTheDrive) {
   tick(200);
   EXPECT_EQ(commands_->size(), commands);
   EXPECT_EQ(paths_->size(), 1U);
-  EXPECT_EQ(station_->book.with([](const auto& book) { return book.path_id(); }), path);
+  EXPECT_EQ(shared_->book.with([](const auto& book) { return book.path_id(); }), path);
   EXPECT_TRUE(noted("mission plan: go accepted"));
 }
 

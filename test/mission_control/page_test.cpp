@@ -206,16 +206,16 @@ TEST(Page, TheTokenIsJudgedBeforeTheBodyIsRead) {
 
 TEST(Page, APortThatIsTakenIsTriedAgainAndSharedWithNobody) {
   TestServer first;
-  Station station;
+  SharedState shared;
   PageConfig config;
   config.guard.port = first.port();
   PageContext context;
   lcm::LCM bus("memq://");
   context.setup = json::object();
-  PageServer second(config, context, station, bus);
+  PageServer second(config, context, shared, bus);
   second.start();
-  for (int i = 0; i < 5000 && station.page_is_served; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  EXPECT_FALSE(station.page_is_served);
+  for (int i = 0; i < 5000 && shared.page_is_served; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  EXPECT_FALSE(shared.page_is_served);
   EXPECT_FALSE(second.serving());
   EXPECT_EQ(json_of(get(first.port(), "/api/setup"))["run"], "test");
 }

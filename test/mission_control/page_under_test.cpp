@@ -18,7 +18,7 @@ TestServer::TestServer(std::function<void(PageConfig&, PageContext&)> change) : 
   write_geotiff(folder_.file("orbital_map.tif"), raster);
   PageConfig config;
   config.guard.port = port_;
-  config.most_pages = 4;
+  config.max_pages = 4;
   PageContext context;
   context.run_dir = folder_.path();
   context.run_name = "test";
@@ -32,7 +32,7 @@ TestServer::TestServer(std::function<void(PageConfig&, PageContext&)> change) : 
   if (change) change(config, context);
   node_ = std::thread([this] {
     for (std::int64_t id = 1; running_;) {
-      const auto waiting = station_.desk.take();
+      const auto waiting = shared_.commands.next();
       if (!waiting) {
         std::this_thread::sleep_for(1ms);
         continue;
@@ -41,11 +41,11 @@ TestServer::TestServer(std::function<void(PageConfig&, PageContext&)> change) : 
         const std::lock_guard lock(mutex_);
         taken_.push_back(waiting->command);
       }
-      station_.desk.given(waiting->ticket, id);
-      station_.desk.answered(id++, true, "");
+      shared_.commands.set_command_id(waiting->ticket, id);
+      shared_.commands.acknowledge(id++, true, "");
     }
   });
-  server_ = std::make_unique<PageServer>(config, context, station_, bus_);
+  server_ = std::make_unique<PageServer>(config, context, shared_, bus_);
   server_->start();
   while (!server_->serving()) std::this_thread::sleep_for(1ms);
 }

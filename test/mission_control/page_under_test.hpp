@@ -21,7 +21,7 @@ class TestServer {
   ~TestServer();
 
   int port() const { return port_; }
-  Station& station() { return station_; }
+  SharedState& shared() { return shared_; }
   std::vector<Command> taken();
   std::vector<std::string> injected();
 
@@ -29,7 +29,7 @@ class TestServer {
   int port_;
   testing_support::TempFolder folder_;
   lcm::LCM bus_{"memq://"};
-  Station station_;
+  SharedState shared_;
   std::mutex mutex_;
   std::vector<Command> taken_;
   std::vector<std::string> injected_;

@@ -38,8 +38,8 @@ int connect_to(int port) {
 std::string talk(int port, const std::string& bytes, int whole_within_ms) {
   const int fd = connect_to(port);
   if (fd < 0) return "";
-  const timeval patience{20, 0};
-  setsockopt(fd, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+  const timeval timeout{20, 0};
+  setsockopt(fd, SOL_SOCKET, SO_RCVTIMEO, &timeout, sizeof timeout);
   size_t sent = 0;
   while (sent < bytes.size()) {
     const ssize_t n = send(fd, bytes.data() + sent, bytes.size() - sent, MSG_NOSIGNAL);

@@ -1,4 +1,4 @@
-// The view is JSON whatever the bus says.
+// The view is valid JSON for any bus content.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -10,7 +10,7 @@ namespace {
 
 using nlohmann::json;
 
-TEST(ViewJson, NothingKnownIsNull) {
+TEST(ViewJson, UnknownValuesAreNull) {
   const json view = json::parse(to_json(View{}, BookView{}));
   EXPECT_TRUE(view["t_s"].is_null());
   EXPECT_TRUE(view["pose"]["x_m"].is_null());
@@ -19,7 +19,7 @@ TEST(ViewJson, NothingKnownIsNull) {
   EXPECT_TRUE(view["services"].empty());
 }
 
-TEST(ViewJson, FiguresComeThroughRounded) {
+TEST(ViewJson, NumbersAreRounded) {
   View view;
   view.now = 12'345'678;
   view.pose.position_map_m = {12.34567, -3.0, 0.5};
@@ -38,7 +38,7 @@ TEST(ViewJson, FiguresComeThroughRounded) {
   EXPECT_EQ(out["book"]["forced"], "FULL");
 }
 
-TEST(ViewJson, TheFullLevelsServicesAreNullUntilTheyAreHeard) {
+TEST(ViewJson, FullLevelServicesAreNullUntilReceived) {
   View view;
   for (const char* part : {"pan_tilt", "terrain", "slam", "correction"})
     EXPECT_TRUE(json::parse(to_json(view, BookView{}))[part].is_null()) << part;
@@ -59,7 +59,7 @@ TEST(ViewJson, TheFullLevelsServicesAreNullUntilTheyAreHeard) {
   EXPECT_EQ(out["correction"]["reason"], "flat");
 }
 
-TEST(ViewJson, InfinityAndBadTextStayJson) {
+TEST(ViewJson, InfinityAndInvalidUtf8AreValidJson) {
   View view;
   view.planner.blocked_in_m = kInfinity;
   view.state.cause = "\xff\xfe<script>\n\n\"";
@@ -69,7 +69,7 @@ TEST(ViewJson, InfinityAndBadTextStayJson) {
   EXPECT_EQ(text.find('\n'), std::string::npos) << "a line end would end the event";
 }
 
-TEST(ViewJson, TheTrueWorldIsNotInTheView) {
+TEST(ViewJson, ViewContainsNoGroundTruth) {
   const std::string view = to_json(View{}, BookView{});
   EXPECT_EQ(view.find("truth"), std::string::npos);
 }

@@ -15,7 +15,7 @@ std::string write(const std::string& text) {
   return file;
 }
 
-TEST(RecorderConfig, TheProjectsFileLoads) {
+TEST(RecorderConfig, DefaultFileLoads) {
   const RecorderConfig config = load_config(ROVER_SOURCE_DIR "/config/recorder.yaml");
   EXPECT_FALSE(config.keep.reduced);
   EXPECT_TRUE(config.keep.bulk_channels.contains("DISPARITY"));

@@ -34,18 +34,18 @@ TEST(EventBuffer, OrderDoesNotDependOnArrival) {
     std::shuffle(events.begin(), events.end(), random);
     EventBuffer buffer;
     for (const Event& e : events) buffer.add(e);
-    EXPECT_EQ(names(buffer.take_all()), expected);
+    EXPECT_EQ(names(buffer.pop_all()), expected);
   }
 }
 
-TEST(EventBuffer, KeepsWhatIsReleasedAtTheLimitOrLater) {
+TEST(EventBuffer, PopBeforeKeepsEventsAtOrAfterLimit) {
   EventBuffer buffer;
   buffer.add(event(40, "A", 3));
   buffer.add(event(20, "A", 2));
   buffer.add(event(0, "A", 1));
-  EXPECT_EQ(names(buffer.take_before(20)), std::vector<std::string>{"A1"});
+  EXPECT_EQ(names(buffer.pop_before(20)), std::vector<std::string>{"A1"});
   EXPECT_EQ(buffer.size(), 2u);
-  EXPECT_EQ(names(buffer.take_all()), (std::vector<std::string>{"A2", "A3"}));
+  EXPECT_EQ(names(buffer.pop_all()), (std::vector<std::string>{"A2", "A3"}));
   EXPECT_EQ(buffer.size(), 0u);
 }
 

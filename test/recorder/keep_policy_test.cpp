@@ -26,15 +26,15 @@ KeepConfig reduced() {
   return config;
 }
 
-TEST(KeepPolicy, FullKeepsEverythingAndWaitsForNothing) {
+TEST(KeepPolicy, FullKeepsAllEventsWithoutDelay) {
   KeepConfig config = reduced();
   config.reduced = false;
   const KeepPolicy policy(config);
   EXPECT_TRUE(policy.keep(image(3 * kSecond, 7)));
-  EXPECT_EQ(policy.hold(), 0);
+  EXPECT_EQ(policy.delay(), 0);
 }
 
-TEST(KeepPolicy, ReducedKeepsImagesAroundATriggerOnly) {
+TEST(KeepPolicy, ReducedKeepsImagesAroundTriggers) {
   KeepPolicy policy(reduced());
   policy.trigger(10 * kSecond);
   EXPECT_FALSE(policy.keep(image(8 * kSecond - 1, 2)));
@@ -43,7 +43,7 @@ TEST(KeepPolicy, ReducedKeepsImagesAroundATriggerOnly) {
   EXPECT_FALSE(policy.keep(image(11 * kSecond + 1, 5)));
 }
 
-TEST(KeepPolicy, ReducedKeepsEachFiftiethImageAndEveryOtherMessage) {
+TEST(KeepPolicy, ReducedKeepsEvery50thImageAndAllOtherMessages) {
   const KeepPolicy policy(reduced());
   EXPECT_TRUE(policy.keep(image(0, 1)));
   EXPECT_FALSE(policy.keep(image(0, 2)));
@@ -54,11 +54,11 @@ TEST(KeepPolicy, ReducedKeepsEachFiftiethImageAndEveryOtherMessage) {
   EXPECT_TRUE(policy.keep(pose));
 }
 
-TEST(KeepPolicy, HoldsEventsUntilLaterTriggersAreKnown) {
-  EXPECT_EQ(KeepPolicy(reduced()).hold(), 2 * kSecond);
+TEST(KeepPolicy, DelaysEventsUntilLaterTriggersAreKnown) {
+  EXPECT_EQ(KeepPolicy(reduced()).delay(), 2 * kSecond);
 }
 
-TEST(KeepPolicy, OldTriggersAreForgottenNewOnesNot) {
+TEST(KeepPolicy, OldTriggersAreDropped) {
   KeepPolicy policy(reduced());
   policy.trigger(0);
   policy.trigger(100 * kSecond);

@@ -30,7 +30,7 @@ class LogFileTest : public testing::Test {
   std::string path_;
 };
 
-TEST_F(LogFileTest, WhatIsWrittenReadsBack) {
+TEST_F(LogFileTest, WrittenEventsReadBack) {
   {
     LogFile log(path_);
     EXPECT_TRUE(log.write(event(20, "IMU", {1, 2, 3})));
@@ -44,7 +44,7 @@ TEST_F(LogFileTest, WhatIsWrittenReadsBack) {
   EXPECT_EQ(events[1].channel, "TICK");
 }
 
-TEST_F(LogFileTest, TimeStampsNeverFall) {
+TEST_F(LogFileTest, TimeStampsAreMonotonic) {
   {
     LogFile log(path_);
     log.write(event(100, "A", {1}));
@@ -53,7 +53,7 @@ TEST_F(LogFileTest, TimeStampsNeverFall) {
   EXPECT_EQ(read_back(path_)[1].timestamp, 100);
 }
 
-TEST_F(LogFileTest, GoesOnAfterARecordThatAKillHasCut) {
+TEST_F(LogFileTest, AppendsAfterIncompleteRecordOfAKill) {
   {
     LogFile log(path_);
     for (int i = 0; i < 5; ++i) log.write(event(20 * i, "BEFORE", std::vector<std::uint8_t>(100, 7)));
@@ -70,13 +70,13 @@ TEST_F(LogFileTest, GoesOnAfterARecordThatAKillHasCut) {
   EXPECT_EQ(events[4].number, 4);
 }
 
-TEST_F(LogFileTest, AFullDiskIsReportedNotFatal) {
+TEST_F(LogFileTest, FullDiskIsReported) {
   LogFile log("/dev/full");
   log.write(event(20, "IMU", {1, 2, 3}));
   EXPECT_FALSE(log.flush());
 }
 
-TEST(LogFileOnAFullDisk, EndsWithItsLastWholeRecord) {
+TEST(LogFileOnAFullDisk, TruncatesToLastCompleteRecord) {
   const testing_support::TempFolder folder;
   const std::string path = folder.file("log.lcm");
   int taken = 0;
@@ -107,7 +107,7 @@ class LogFileParts : public testing::Test {
   std::string path_ = folder_.file("log.lcm");
 };
 
-TEST_F(LogFileParts, AreEachALogOfBoundedSize) {
+TEST_F(LogFileParts, EachPartIsABoundedLog) {
   write(0, 20);
   EXPECT_EQ(log_parts(path_).size(), 3U);
   for (const std::string& part : log_parts(path_)) {
@@ -119,7 +119,7 @@ TEST_F(LogFileParts, AreEachALogOfBoundedSize) {
   EXPECT_EQ(times(), all);
 }
 
-TEST_F(LogFileParts, ARestartGoesOnInTheLast) {
+TEST_F(LogFileParts, RestartAppendsToLastPart) {
   write(0, 10);
   const std::string last = log_parts(path_).back();
   std::filesystem::resize_file(last, std::filesystem::file_size(last) - 5);  // a kill has cut record 9
@@ -128,7 +128,7 @@ TEST_F(LogFileParts, ARestartGoesOnInTheLast) {
   EXPECT_EQ(times(), (std::vector<Utime>{0, 1, 2, 3, 4, 5, 6, 7, 8, 10, 11}));
 }
 
-TEST_F(LogFileParts, AMessageLargerThanAPartHasOneOfItsOwn) {
+TEST_F(LogFileParts, OversizedMessageGetsItsOwnPart) {
   LogFile log(path_, 50);
   EXPECT_TRUE(log.write(event(0, "DATA", std::vector<std::uint8_t>(100, 7))));
   EXPECT_TRUE(log.write(event(1, "DATA", std::vector<std::uint8_t>(100, 7))));
@@ -137,7 +137,7 @@ TEST_F(LogFileParts, AMessageLargerThanAPartHasOneOfItsOwn) {
   EXPECT_EQ(log_parts(path_).size(), 2U);
 }
 
-TEST_F(LogFileTest, AFileThatIsNoLogIsNotWrittenOver) {
+TEST_F(LogFileTest, DoesNotOverwriteOtherFiles) {
   std::ofstream(path_) << "notes of somebody";
   std::string said;
   try {
@@ -151,7 +151,7 @@ TEST_F(LogFileTest, AFileThatIsNoLogIsNotWrittenOver) {
            "log_file_test.lcm" + said.substr(path_.size()));
 }
 
-TEST_F(LogFileTest, APlaceThatCannotBeWrittenIsNamed) {
+TEST_F(LogFileTest, UnwritablePathIsNamed) {
   try {
     LogFile log("/nowhere/traverse.lcm");
     FAIL();

@@ -28,7 +28,7 @@ RecorderConfig config(bool reduced = false) {
   return c;
 }
 
-// A world around one recorder on a bus in memory.
+// Simulated bus around one recorder.
 class World {
  public:
   World(const std::string& path, const RecorderConfig& config, RecorderNode::FreeBytes free_bytes)
@@ -88,7 +88,7 @@ class RecorderNodeTest : public testing::Test {
   std::string path_;
 };
 
-TEST_F(RecorderNodeTest, RecordsEveryChannelItsOwnIncluded) {
+TEST_F(RecorderNodeTest, RecordsEveryChannelIncludingItsOwn) {
   World world(path_, config(), [] { return kPlenty; });
   for (Utime t = 0; t <= 400'000; t += kTickUs) {
     world.publish("SLIP", world.made<slip_t>("SLIP", t));
@@ -101,7 +101,7 @@ TEST_F(RecorderNodeTest, RecordsEveryChannelItsOwnIncluded) {
   EXPECT_EQ(count("DONE"), 0u);
 }
 
-TEST_F(RecorderNodeTest, TwoOrdersOfArrivalGiveTheSameLog) {
+TEST_F(RecorderNodeTest, LogDoesNotDependOnArrivalOrder) {
   std::vector<std::vector<ReadBack>> logs;
   for (const bool swapped : {false, true}) {
     std::filesystem::remove(path_);
@@ -128,7 +128,7 @@ TEST_F(RecorderNodeTest, TwoOrdersOfArrivalGiveTheSameLog) {
   }
 }
 
-TEST_F(RecorderNodeTest, DoesNotStartWithTooLittleDisk) {
+TEST_F(RecorderNodeTest, DoesNotStartWithLowDiskSpace) {
   lcm::LCM bus("memq://");
   Node node({.name = "recorder"}, bus);
   try {
@@ -139,7 +139,7 @@ TEST_F(RecorderNodeTest, DoesNotStartWithTooLittleDisk) {
   }
 }
 
-TEST_F(RecorderNodeTest, AFullDiskStopsTheRecordNotTheNode) {
+TEST_F(RecorderNodeTest, FullDiskStopsRecordingNotTheNode) {
   std::uintmax_t free_bytes = kPlenty;
   World world(path_, config(), [&] { return free_bytes; });
   Utime t = 0;
@@ -156,7 +156,7 @@ TEST_F(RecorderNodeTest, AFullDiskStopsTheRecordNotTheNode) {
   EXPECT_LE(ticks, 205u);
 }
 
-TEST_F(RecorderNodeTest, ADiskThatIsClearedIsRecordedOnAgain) {
+TEST_F(RecorderNodeTest, ResumesWhenDiskSpaceIsAvailable) {
   std::uintmax_t free_bytes = kPlenty;
   World world(path_, config(), [&] { return free_bytes; });
   Utime t = 0;
@@ -171,7 +171,7 @@ TEST_F(RecorderNodeTest, ADiskThatIsClearedIsRecordedOnAgain) {
   EXPECT_LE(ticks, 1501u - 450u);
 }
 
-TEST_F(RecorderNodeTest, AnInjectedFullDiskIsOneLikeAnyOther) {
+TEST_F(RecorderNodeTest, InjectedFullDiskStopsRecording) {
   World world(path_, config(), [] { return kPlenty; });
   Utime t = 0;
   for (; t <= 2'000'000; t += kTickUs) world.tick(t);
@@ -187,14 +187,14 @@ TEST_F(RecorderNodeTest, AnInjectedFullDiskIsOneLikeAnyOther) {
   EXPECT_EQ(count("INJECT"), 1u);
 }
 
-TEST_F(RecorderNodeTest, AWriteThatFailsStopsTheRecordNotTheNode) {
+TEST_F(RecorderNodeTest, FailedWriteStopsRecordingNotTheNode) {
   World world("/dev/full", config(), [] { return kPlenty; });
   for (Utime t = 0; t <= 3'000'000; t += kTickUs) world.tick(t);
   EXPECT_EQ(world.heartbeats_.back().status, std::int8_t{heartbeat_t::DEGRADED});
 }
 
-// What a kill can take is not older than the tick.
-TEST_F(RecorderNodeTest, EachTickIsOnTheDiskBeforeTheNext) {
+// A kill loses at most the current tick.
+TEST_F(RecorderNodeTest, EachTickIsFlushedBeforeTheNext) {
   World world(path_, config(), [] { return kPlenty; });
   for (Utime t = 0; t <= 100'000; t += kTickUs) world.tick(t);
   EXPECT_GE(count("TICK"), 5u);

@@ -1,4 +1,4 @@
-#include "mission_control/gatherer.hpp"
+#include "mission_control/telemetry_store.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,34 +12,34 @@ namespace {
 
 constexpr Utime kRateWindow = 3'000'000;
 constexpr double kCpuWindowS = 3.0;
-constexpr double kLostS = 1.0;  // a heartbeat comes five times a second
-constexpr double kWaitS = 2.0;
+constexpr double kHeartbeatTimeoutS = 1.0;  // a heartbeat comes five times a second
+constexpr double kStartupGraceS = 2.0;
 constexpr Utime kPoseHistory = 4'000'000;
 constexpr size_t kImagesKept = 8;  // the hazard grid arrives about one image later
-constexpr Utime kHazardsAwaited = 1'500'000;
+constexpr Utime kHazardsTimeout = 1'500'000;
 constexpr int kLargestGrid = 2048;
-constexpr std::int64_t kMostCountedBoots = 100'000;  // larger boot ids are clock values of processes started by hand
+constexpr std::int64_t kMaxCountedBoots = 100'000;  // larger boot ids are clock values of processes started by hand
 
 const std::array kResponses = {"log", "slow", "stop", "stop and replan", "restart service", "safe", "stop and retreat"};
 
-bool sane(int nx, int ny, size_t size, double cell_m) {
+bool is_valid_grid(int nx, int ny, size_t size, double cell_m) {
   return nx > 0 && ny > 0 && nx <= kLargestGrid && ny <= kLargestGrid && size == static_cast<size_t>(nx) * ny &&
          cell_m > 0.0 && cell_m < 10.0;
 }
 
 }  // namespace
 
-Gatherer::Gatherer(const std::vector<std::string>& services) : expected_(services) {
+TelemetryStore::TelemetryStore(const std::vector<std::string>& services) : expected_(services) {
   for (const std::string& name : expected_) services_[name];
 }
 
-void Gatherer::begin() {
-  Gatherer fresh(expected_);
+void TelemetryStore::reset() {
+  TelemetryStore fresh(expected_);
   fresh.camera_ = camera_;
   *this = std::move(fresh);
 }
 
-void Gatherer::take(const tick_t& message, double wall_s) {
+void TelemetryStore::add(const tick_t& message, double wall_s) {
   const Utime utime = message.header.utime;
   if (utime <= view_.now) return;  // repeated
   view_.now = utime;
@@ -48,10 +48,10 @@ void Gatherer::take(const tick_t& message, double wall_s) {
   while (ticks_.front().first < utime - kRateWindow) ticks_.pop_front();
 }
 
-void Gatherer::take(const heartbeat_t& message, double wall_s) {
+void TelemetryStore::add(const heartbeat_t& message, double wall_s) {
   ServiceRecord& record = services_[message.service];
   if (message.header.boot_id != record.boot_id) record.cpu.clear();
-  record.heard = message.header.utime;
+  record.last_heartbeat = message.header.utime;
   record.boot_id = message.header.boot_id;
   record.pid = message.pid;
   record.status = message.status;
@@ -61,12 +61,12 @@ void Gatherer::take(const heartbeat_t& message, double wall_s) {
   while (record.cpu.size() > 2 && record.cpu.front().first < wall_s - kCpuWindowS) record.cpu.pop_front();
 }
 
-void Gatherer::take(const supervisor_state_t& m) {
+void TelemetryStore::add(const supervisor_state_t& m) {
   view_.state = {m.header.utime, state_name(m.state), level_name(m.level), m.since_utime, m.cause, m.quantity,
                  m.value,        m.threshold,         m.hazard_stops,      m.faults};
 }
 
-void Gatherer::take(const fault_t& m) {
+void TelemetryStore::add(const fault_t& m) {
   const auto response = static_cast<size_t>(m.response);
   if (m.standing == 0)
     view_.faults.erase(m.id);
@@ -74,11 +74,11 @@ void Gatherer::take(const fault_t& m) {
     view_.faults[m.id] = {m.value, m.limit, response < kResponses.size() ? kResponses[response] : "?"};
 }
 
-void Gatherer::take(const drive_permit_t& m) {
+void TelemetryStore::add(const drive_permit_t& m) {
   view_.permit = {m.granted == 1, m.max_speed_mps, m.reason};
 }
 
-void Gatherer::take(const pose_t& m) {
+void TelemetryStore::add(const pose_t& m) {
   const Eigen::Isometry3d T_odom_body = pose_from(m.position_odom_body_m, m.quat_odom_body_wxyz);
   const Eigen::Isometry3d T_map_odom = pose_from(m.position_map_odom_m, m.quat_map_odom_wxyz);
   const Eigen::Isometry3d T_map_body = T_map_odom * T_odom_body;
@@ -98,32 +98,32 @@ void Gatherer::take(const pose_t& m) {
   while (poses_.front().first < m.header.utime - kPoseHistory) poses_.pop_front();
 }
 
-void Gatherer::take(const planner_status_t& m) {
+void TelemetryStore::add(const planner_status_t& m) {
   view_.planner = {m.state, m.blocked_in_m, m.goal_distance_m, m.corridor_offset_m, m.replans, m.text};
 }
 
-void Gatherer::take(const control_status_t& m) {
+void TelemetryStore::add(const control_status_t& m) {
   view_.motion.cross_track_m = m.cross_track_m;
   view_.motion.corridor_half_width_m = m.corridor_half_width_m;
 }
 
-void Gatherer::take(const slip_t& m) {
+void TelemetryStore::add(const slip_t& m) {
   view_.motion.slip_ratio = m.valid == 1 ? m.slip_ratio : kNaN;
 }
 
-void Gatherer::take(const wheel_state_t& m) {
+void TelemetryStore::add(const wheel_state_t& m) {
   for (size_t i = 0; i < 6; ++i)
     view_.motion.drive_current_a[i] = std::fmax(view_.motion.drive_current_a[i], std::abs(m.drive_current_a[i]));
   std::copy(std::begin(m.steer_angle_rad), std::end(m.steer_angle_rad), view_.motion.steer_rad.begin());
 }
 
-void Gatherer::take(const path_t& m) {
+void TelemetryStore::add(const path_t& m) {
   if (m.frame != path_t::ODOM || m.path_id == view_.path.id) return;
   view_.path = {m.path_id, m.kind, m.x_m, m.y_m};
 }
 
-GridContent& Gatherer::place(const std::string& name, const header_t& header, const Pose2& odom, double cell_m,
-                             double x_m, double y_m, int nx, int ny) {
+GridContent& TelemetryStore::set_grid(const std::string& name, const header_t& header, const Pose2& odom, double cell_m,
+                                      double x_m, double y_m, int nx, int ny) {
   GridView& grid = view_.grids[name];
   grid.seq = header.utime;
   grid.utime = header.utime;
@@ -136,41 +136,42 @@ GridContent& Gatherer::place(const std::string& name, const header_t& header, co
   return grids_[name] = {header.utime, nx, ny, cell_m, {}, {}};
 }
 
-void Gatherer::take(const hazards_t& m) {
-  if (!sane(m.cells_x, m.cells_y, m.cells.size(), m.cell_m)) return;
-  place("hazards", m.header, odom_at(m.header.utime), m.cell_m, m.origin_x_m, m.origin_y_m, m.cells_x, m.cells_y)
+void TelemetryStore::add(const hazards_t& m) {
+  if (!is_valid_grid(m.cells_x, m.cells_y, m.cells.size(), m.cell_m)) return;
+  set_grid("hazards", m.header, odom_at(m.header.utime), m.cell_m, m.origin_x_m, m.origin_y_m, m.cells_x, m.cells_y)
       .cells = m.cells;
   GridView& grid = view_.grids["hazards"];
   grid.note = m.state == hazards_t::BLIND ? "blind" : m.state == hazards_t::HAZARD ? "hazard" : "clear";
   grid.plane_pitch_rad = m.plane_pitch_rad;
   grid.plane_roll_rad = m.plane_roll_rad;
-  choose_loccam();
+  select_loccam_image();
 }
 
-void Gatherer::take(const traversability_t& m) {
-  if (!sane(m.cells_x, m.cells_y, m.cells.size(), m.cell_m)) return;
-  place("traversability", m.header, {}, m.cell_m, m.origin_x_m, m.origin_y_m, m.cells_x, m.cells_y).cells = m.cells;
+void TelemetryStore::add(const traversability_t& m) {
+  if (!is_valid_grid(m.cells_x, m.cells_y, m.cells.size(), m.cell_m)) return;
+  set_grid("traversability", m.header, {}, m.cell_m, m.origin_x_m, m.origin_y_m, m.cells_x, m.cells_y).cells = m.cells;
   constexpr auto kUnknown = traversability_t::UNKNOWN;  // LCM's constants have no address
   const auto unknown = std::count(m.cells.begin(), m.cells.end(), kUnknown);
   view_.terrain = {m.header.utime, m.difficulty,
                    1.0 - static_cast<double>(unknown) / static_cast<double>(m.cells.size())};
 }
 
-void Gatherer::take(const elevation_t& m) {
-  if (!sane(m.cells_x, m.cells_y, m.height_m.size(), m.cell_m)) return;
-  place("elevation", m.header, {}, m.cell_m, m.origin_x_m, m.origin_y_m, m.cells_x, m.cells_y).heights_m = m.height_m;
+void TelemetryStore::add(const elevation_t& m) {
+  if (!is_valid_grid(m.cells_x, m.cells_y, m.height_m.size(), m.cell_m)) return;
+  set_grid("elevation", m.header, {}, m.cell_m, m.origin_x_m, m.origin_y_m, m.cells_x, m.cells_y).heights_m =
+      m.height_m;
 }
 
-void Gatherer::take(const ptu_state_t& m) {
+void TelemetryStore::add(const ptu_state_t& m) {
   view_.pan_tilt = {m.header.utime, m.pan_rad, m.tilt_rad, m.moving != 0};
 }
 
-void Gatherer::take(const slam_pose_t& m) {
+void TelemetryStore::add(const slam_pose_t& m) {
   view_.slam = {m.header.utime, m.status, m.information, m.particles};
 }
 
 // CORRECTION arrives before localization applies it, so the current pose is the uncorrected one.
-void Gatherer::take(const correction_t& m) {
+void TelemetryStore::add(const correction_t& m) {
   const Pose2 corrected{m.x_m, m.y_m, m.yaw_rad};
   const Pose2 odom = poses_.empty() ? Pose2{kNaN, kNaN, kNaN} : poses_.back().second;
   const Eigen::Vector3d at = from_planar(odom).translation();
@@ -178,18 +179,18 @@ void Gatherer::take(const correction_t& m) {
   view_.correction = {m.header.utime, m.accepted != 0, m.accepted ? moved_m : kNaN, m.score, m.reason};
 }
 
-void Gatherer::take_loccam(const image_t& message) {
+void TelemetryStore::add_loccam(const image_t& message) {
   loccam_.push_back(std::make_shared<const image_t>(message));
   if (loccam_.size() > kImagesKept) loccam_.pop_front();
-  choose_loccam();
+  select_loccam_image();
 }
 
-void Gatherer::take_navcam(const image_t& message) {
+void TelemetryStore::add_navcam(const image_t& message) {
   show("navcam", std::make_shared<const image_t>(message));
 }
 
 // Shows the image of the newest hazard grid; the newest image if the grid is 1.5 s late.
-void Gatherer::choose_loccam() {
+void TelemetryStore::select_loccam_image() {
   if (loccam_.empty()) return;
   const auto grid = view_.grids.find("hazards");
   const Utime judged = grid == view_.grids.end() ? kNever : grid->second.utime;
@@ -197,11 +198,11 @@ void Gatherer::choose_loccam() {
       std::find_if(loccam_.begin(), loccam_.end(), [&](const auto& i) { return i->header.utime == judged; });
   if (same != loccam_.end())
     show("loccam", *same);
-  else if (loccam_.back()->header.utime - judged > kHazardsAwaited)
+  else if (loccam_.back()->header.utime - judged > kHazardsTimeout)
     show("loccam", loccam_.back());
 }
 
-void Gatherer::show(const std::string& name, const std::shared_ptr<const image_t>& image) {
+void TelemetryStore::show(const std::string& name, const std::shared_ptr<const image_t>& image) {
   if (image->width <= 0 || image->height <= 0 || image->encoding != image_t::MONO8 ||
       image->data.size() != static_cast<size_t>(image->width) * static_cast<size_t>(image->height))
     return;
@@ -209,35 +210,35 @@ void Gatherer::show(const std::string& name, const std::shared_ptr<const image_t
   view_.images[name] = {image->header.utime, image->header.utime, image->width, image->height};
 }
 
-void Gatherer::take(const disparity_t& message) {
+void TelemetryStore::add(const disparity_t& message) {
   camera_ = camera_from(message);
 }
 
-void Gatherer::take(const truth_t& m) {
+void TelemetryStore::add(const truth_t& m) {
   const Eigen::Isometry3d T = pose_from(m.position_map_body_m, m.quat_map_body_wxyz);
   truth_ = {m.header.utime, T.translation(), yaw_of(T)};
 }
 
-Pose2 Gatherer::odom_at(Utime utime) const {
+Pose2 TelemetryStore::odom_at(Utime utime) const {
   const auto at = std::find_if(poses_.begin(), poses_.end(), [utime](const auto& p) { return p.first >= utime; });
   if (at != poses_.end()) return at->second;
   return poses_.empty() ? Pose2{kNaN, kNaN, kNaN} : poses_.back().second;
 }
 
-ServiceView Gatherer::view_of(const ServiceRecord& record) const {
+ServiceView TelemetryStore::view_of(const ServiceRecord& record) const {
   ServiceView out;
-  if (record.heard == kNever) {
-    if (first_tick_ != kNever && to_seconds(view_.now - first_tick_) > kWaitS) out.health = Health::kLost;
+  if (record.last_heartbeat == kNever) {
+    if (first_tick_ != kNever && to_seconds(view_.now - first_tick_) > kStartupGraceS) out.health = Health::kLost;
     return out;
   }
-  out.age_s = std::max(0.0, to_seconds(view_.now - record.heard));
+  out.age_s = std::max(0.0, to_seconds(view_.now - record.last_heartbeat));
   out.rss_mb = record.rss_mb;
   out.text = record.text;
-  if (record.boot_id < kMostCountedBoots) out.restarts = static_cast<int>(record.boot_id) - 1;
+  if (record.boot_id < kMaxCountedBoots) out.restarts = static_cast<int>(record.boot_id) - 1;
   const auto& [wall_0, cpu_0] = record.cpu.front();
   const auto& [wall_1, cpu_1] = record.cpu.back();
   if (wall_1 - wall_0 > 0.3) out.cpu_percent = 100.0 * (cpu_1 - cpu_0) / (wall_1 - wall_0);
-  const bool lost = out.age_s > kLostS || !process_alive(record.pid);
+  const bool lost = out.age_s > kHeartbeatTimeoutS || !process_alive(record.pid);
   out.health = lost                                     ? Health::kLost
                : record.status == heartbeat_t::OK       ? Health::kOk
                : record.status == heartbeat_t::DEGRADED ? Health::kDegraded
@@ -245,7 +246,7 @@ ServiceView Gatherer::view_of(const ServiceRecord& record) const {
   return out;
 }
 
-View Gatherer::view(double wall_s) {
+View TelemetryStore::view(double wall_s) {
   if (!ticks_.empty()) {
     const double span_s = wall_s - ticks_.front().second;
     view_.silence_s = wall_s - ticks_.back().second;
@@ -257,13 +258,13 @@ View Gatherer::view(double wall_s) {
   return out;
 }
 
-std::optional<GridContent> Gatherer::grid(const std::string& name) const {
+std::optional<GridContent> TelemetryStore::grid(const std::string& name) const {
   const auto found = grids_.find(name);
   if (found == grids_.end()) return std::nullopt;
   return found->second;
 }
 
-std::shared_ptr<const image_t> Gatherer::image(const std::string& name) const {
+std::shared_ptr<const image_t> TelemetryStore::image(const std::string& name) const {
   const auto found = images_.find(name);
   return found == images_.end() ? nullptr : found->second;
 }

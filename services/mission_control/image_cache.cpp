@@ -1,4 +1,4 @@
-#include "mission_control/pictures.hpp"
+#include "mission_control/image_cache.hpp"
 
 #include <opencv2/imgcodecs.hpp>
 
@@ -7,23 +7,23 @@
 namespace rover::mission {
 
 template <class Make>
-Pictures::Bytes Pictures::made_once(const std::string& name, std::int64_t seq, Make make) {
+ImageCache::Bytes ImageCache::cached(const std::string& name, std::int64_t seq, Make make) {
   const std::lock_guard lock(mutex_);
-  Made& made = made_[name];
-  if (!made.bytes || made.seq != seq) made = {seq, std::make_shared<const std::vector<std::uint8_t>>(make())};
-  return made.bytes;
+  Entry& entry = entries_[name];
+  if (!entry.bytes || entry.seq != seq) entry = {seq, std::make_shared<const std::vector<std::uint8_t>>(make())};
+  return entry.bytes;
 }
 
-Pictures::Bytes Pictures::grid(const std::string& name, const GridContent& c) {
-  return made_once(name, c.seq, [&] {
+ImageCache::Bytes ImageCache::grid(const std::string& name, const GridContent& c) {
+  return cached(name, c.seq, [&] {
     if (name == "hazards") return hazards_png(c.cells, c.cells_x, c.cells_y);
     if (name == "traversability") return traversability_png(c.cells, c.cells_x, c.cells_y);
     return elevation_png(c.heights_m, c.cells_x, c.cells_y, c.cell_m);
   });
 }
 
-Pictures::Bytes Pictures::camera(const std::string& name, const image_t& image) {
-  return made_once(name, image.header.utime, [&] {
+ImageCache::Bytes ImageCache::camera(const std::string& name, const image_t& image) {
+  return cached(name, image.header.utime, [&] {
     constexpr int kQuality = 80;
     const cv::Mat grey(image.height, image.width, CV_8UC1, const_cast<std::uint8_t*>(image.data.data()));
     std::vector<std::uint8_t> bytes;

@@ -5,11 +5,11 @@
 #include <memory>
 #include <mutex>
 
-#include "mission_control/gatherer.hpp"
+#include "mission_control/telemetry_store.hpp"
 
 namespace rover::mission {
 
-class Pictures {
+class ImageCache {
  public:
   using Bytes = std::shared_ptr<const std::vector<std::uint8_t>>;
   // PNG with alpha channel.
@@ -18,15 +18,15 @@ class Pictures {
   Bytes camera(const std::string& name, const image_t& image);
 
  private:
-  struct Made {
+  struct Entry {
     std::int64_t seq = 0;
     Bytes bytes;
   };
   template <class Make>
-  Bytes made_once(const std::string& name, std::int64_t seq, Make make);
+  Bytes cached(const std::string& name, std::int64_t seq, Make make);
 
   std::mutex mutex_;
-  std::map<std::string, Made> made_;
+  std::map<std::string, Entry> entries_;
 };
 
 }  // namespace rover::mission

@@ -29,26 +29,26 @@ struct GlobalPath {
   double goal_tolerance_m = 0.5;
 };
 
-enum class Order { kStartPose, kPath, kGo };
+enum class MissionStep { kStartPose, kPath, kGo };
 
-class Orders {
+class MissionSequence {
  public:
-  struct Given {
-    Order order;
+  struct Issued {
+    MissionStep mission_step;
     std::int64_t command_id;
   };
 
   // Returns the command to issue now, if any. GO requires `standby`. `command_id` must be unused; it is consumed only
   // if a command is returned.
-  std::optional<Given> step(Utime now, bool standby, std::int64_t command_id);
+  std::optional<Issued> step(Utime now, bool standby, std::int64_t command_id);
   // Returns true if the acknowledgement belongs to the current command.
   bool acknowledge(std::int64_t command_id, bool accepted, const std::string& reason);
 
   // The next or unacknowledged step; undefined if all are accepted.
-  Order waiting() const { return next_; }
-  bool all_accepted() const { return next_ > Order::kGo; }
+  MissionStep current() const { return next_; }
+  bool all_accepted() const { return next_ > MissionStep::kGo; }
   // Ends the sequence because the operator took over.
-  void abandon() { next_ = static_cast<Order>(static_cast<int>(Order::kGo) + 1); }
+  void cancel() { next_ = static_cast<MissionStep>(static_cast<int>(MissionStep::kGo) + 1); }
   // Checkpointed over restarts. An invalid number restarts the sequence.
   int progress() const { return static_cast<int>(next_); }
   void resume_at(int progress);
@@ -56,9 +56,9 @@ class Orders {
   const std::string& refusal() const { return refusal_; }
 
  private:
-  Order next_ = Order::kStartPose;
+  MissionStep next_ = MissionStep::kStartPose;
   std::int64_t command_id_ = 0;
-  Utime given_at_ = kNever;
+  Utime issued_at_ = kNever;
   std::string refusal_;
 };
 

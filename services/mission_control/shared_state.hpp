@@ -13,40 +13,40 @@
 namespace rover::mission {
 
 // Outcome of an operator command.
-struct Answer {
-  enum class Outcome { kAccepted, kRefused, kSilence, kNoTime, kBusy };  // kNoTime: no tick arrived
-  Outcome outcome = Outcome::kSilence;
+struct CommandReply {
+  enum class Outcome { kAccepted, kRefused, kNoReply, kClockStopped, kBusy };  // kClockStopped: no tick arrived
+  Outcome outcome = Outcome::kNoReply;
   std::int64_t command_id = -1;
   std::string reason;
 };
 
 // Queue of operator commands. HTTP threads submit; the node publishes and acknowledges.
-class Desk {
+class CommandQueue {
  public:
-  struct Waiting {
+  struct Pending {
     std::int64_t ticket;
     Command command;
   };
 
   // Blocks until the acknowledgement or the timeout. A command not sent by then is withdrawn, because a late one would
   // move the rover unexpectedly; a stop stays queued.
-  Answer give(const Command& command, std::chrono::milliseconds patience);
+  CommandReply submit(const Command& command, std::chrono::milliseconds timeout);
 
   // Called by the node.
-  std::optional<Waiting> take();
-  void given(std::int64_t ticket, std::int64_t command_id);
+  std::optional<Pending> next();
+  void set_command_id(std::int64_t ticket, std::int64_t command_id);
   // Returns the acknowledged command if it came from this queue.
-  std::optional<Command> answered(std::int64_t command_id, bool accepted, const std::string& reason);
+  std::optional<Command> acknowledge(std::int64_t command_id, bool accepted, const std::string& reason);
 
  private:
   struct Entry {
     Command command;
-    bool taken = false;
-    bool abandoned = false;  // the caller timed out
+    bool sent = false;
+    bool caller_gone = false;  // the caller timed out
     std::int64_t command_id = -1;
-    std::optional<Answer> answer;
+    std::optional<CommandReply> answer;
   };
-  Answer outcome_of(std::int64_t ticket);
+  CommandReply take_reply(std::int64_t ticket);
 
   std::mutex mutex_;
   std::condition_variable changed_;
@@ -67,8 +67,8 @@ class SharedLogbook {
   Logbook book_;
 };
 
-struct Station {
-  Desk desk;
+struct SharedState {
+  CommandQueue commands;
   SharedLogbook book;
   std::atomic<double> now_s = 0.0;          // message time of the newest tick
   std::atomic<bool> page_is_served = true;  // false: the page's address is in use

@@ -39,34 +39,34 @@ struct GridContent {
   std::vector<float> heights_m;     // elevation
 };
 
-class Gatherer {
+class TelemetryStore {
  public:
   // `services`: names of the services expected to send heartbeats.
-  explicit Gatherer(const std::vector<std::string>& services);
+  explicit TelemetryStore(const std::vector<std::string>& services);
 
   // Clears everything except the camera parameters, so that stale data is never shown.
-  void begin();
-  void take(const tick_t& message, double wall_s);
-  void take(const heartbeat_t& message, double wall_s);
-  void take(const supervisor_state_t& message);
-  void take(const fault_t& message);
-  void take(const drive_permit_t& message);
-  void take(const pose_t& message);
-  void take(const planner_status_t& message);
-  void take(const control_status_t& message);
-  void take(const slip_t& message);
-  void take(const wheel_state_t& message);
-  void take(const path_t& message);
-  void take(const hazards_t& message);
-  void take(const traversability_t& message);
-  void take(const elevation_t& message);
-  void take(const ptu_state_t& message);
-  void take(const slam_pose_t& message);
-  void take(const correction_t& message);
-  void take_loccam(const image_t& message);
-  void take_navcam(const image_t& message);
-  void take(const disparity_t& message);
-  void take(const truth_t& message);
+  void reset();
+  void add(const tick_t& message, double wall_s);
+  void add(const heartbeat_t& message, double wall_s);
+  void add(const supervisor_state_t& message);
+  void add(const fault_t& message);
+  void add(const drive_permit_t& message);
+  void add(const pose_t& message);
+  void add(const planner_status_t& message);
+  void add(const control_status_t& message);
+  void add(const slip_t& message);
+  void add(const wheel_state_t& message);
+  void add(const path_t& message);
+  void add(const hazards_t& message);
+  void add(const traversability_t& message);
+  void add(const elevation_t& message);
+  void add(const ptu_state_t& message);
+  void add(const slam_pose_t& message);
+  void add(const correction_t& message);
+  void add_loccam(const image_t& message);
+  void add_navcam(const image_t& message);
+  void add(const disparity_t& message);
+  void add(const truth_t& message);
 
   // Resets the peak drive currents.
   View view(double wall_s);
@@ -81,7 +81,7 @@ class Gatherer {
 
  private:
   struct ServiceRecord {
-    Utime heard = kNever;
+    Utime last_heartbeat = kNever;
     std::int64_t boot_id = 0;
     int pid = 0;
     int status = heartbeat_t::OK;
@@ -91,10 +91,10 @@ class Gatherer {
   };
   ServiceView view_of(const ServiceRecord& record) const;
   Pose2 odom_at(Utime utime) const;
-  void choose_loccam();
+  void select_loccam_image();
   void show(const std::string& name, const std::shared_ptr<const image_t>& image);
-  GridContent& place(const std::string& name, const header_t& header, const Pose2& odom, double cell_m, double x_m,
-                     double y_m, int nx, int ny);
+  GridContent& set_grid(const std::string& name, const header_t& header, const Pose2& odom, double cell_m, double x_m,
+                        double y_m, int nx, int ny);
 
   std::vector<std::string> expected_;
   Utime first_tick_ = kNever;

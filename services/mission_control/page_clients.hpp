@@ -7,18 +7,18 @@
 
 namespace rover::mission {
 
-class Audience {
+class PageClients {
  public:
-  // Returns false when most_pages are already connected.
-  bool enter(bool truth, int most) {
+  // Returns false when max_pages are already connected.
+  bool connect(bool truth, int max_pages) {
     const std::lock_guard lock(mutex_);
-    if (pages_ >= most) return false;
+    if (pages_ >= max_pages) return false;
     ++pages_;
     if (truth) ++truth_;
     changed_.notify_all();
     return true;
   }
-  void leave(bool truth) {
+  void disconnect(bool truth) {
     const std::lock_guard lock(mutex_);
     --pages_;
     if (truth) --truth_;
@@ -32,14 +32,14 @@ class Audience {
     return truth_ > 0;
   }
   // Blocks until a page is open; false after the timeout or after close().
-  bool wait_for_page(std::chrono::milliseconds patience) {
+  bool wait_for_page(std::chrono::milliseconds timeout) {
     std::unique_lock lock(mutex_);
-    changed_.wait_for(lock, patience, [this] { return pages_ > 0 || over_; });
-    return pages_ > 0 && !over_;
+    changed_.wait_for(lock, timeout, [this] { return pages_ > 0 || closed_; });
+    return pages_ > 0 && !closed_;
   }
-  void end() {
+  void close() {
     const std::lock_guard lock(mutex_);
-    over_ = true;
+    closed_ = true;
     changed_.notify_all();
   }
 
@@ -48,7 +48,7 @@ class Audience {
   std::condition_variable changed_;
   int pages_ = 0;
   int truth_ = 0;
-  bool over_ = false;
+  bool closed_ = false;
 };
 
 }  // namespace rover::mission

@@ -1,0 +1,81 @@
+// Command queue between HTTP threads and node.
+#include "mission_control/shared_state.hpp"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+
+namespace rover::mission {
+namespace {
+
+using namespace std::chrono_literals;
+
+Command command(CommandKind kind) {
+  Command out;
+  out.kind = kind;
+  return out;
+}
+
+TEST(CommandQueue, UnsentCommandIsWithdrawnAfterTimeout) {
+  CommandQueue commands;
+  EXPECT_EQ(commands.submit(command(CommandKind::kGo), 10ms).outcome, CommandReply::Outcome::kClockStopped);
+  EXPECT_FALSE(commands.next()) << "it would move the rover when nobody expects it";
+}
+
+TEST(CommandQueue, StopStaysQueuedAfterTimeout) {
+  CommandQueue commands;
+  EXPECT_EQ(commands.submit(command(CommandKind::kEmergencyStop), 10ms).outcome, CommandReply::Outcome::kClockStopped);
+  const auto waiting = commands.next();
+  ASSERT_TRUE(waiting);
+  EXPECT_EQ(waiting->command.kind, CommandKind::kEmergencyStop);
+  EXPECT_FALSE(commands.next()) << "once";
+}
+
+TEST(CommandQueue, ConcurrentRepliesMatchTheirCommands) {
+  CommandQueue commands;
+  std::vector<CommandReply> answers(8);
+  std::vector<std::thread> pages;
+  for (CommandReply& answer : answers)
+    pages.emplace_back([&] { answer = commands.submit(command(CommandKind::kGo), 20s); });
+  for (std::int64_t id = 1; id <= 8;) {
+    const auto waiting = commands.next();
+    if (!waiting) {
+      std::this_thread::yield();
+      continue;
+    }
+    commands.set_command_id(waiting->ticket, id);
+    ASSERT_TRUE(commands.acknowledge(id, id % 2 == 0, "odd"));
+    EXPECT_FALSE(commands.acknowledge(id, true, "")) << "answered twice";
+    ++id;
+  }
+  for (std::thread& page : pages) page.join();
+  for (const CommandReply& answer : answers)
+    EXPECT_EQ(answer.outcome,
+              answer.command_id % 2 == 0 ? CommandReply::Outcome::kAccepted : CommandReply::Outcome::kRefused);
+}
+
+TEST(CommandQueue, LateReplyReturnsItsCommand) {
+  CommandQueue commands;
+  std::thread page(
+      [&] { EXPECT_EQ(commands.submit(command(CommandKind::kGo), 500ms).outcome, CommandReply::Outcome::kNoReply); });
+  std::optional<CommandQueue::Pending> waiting;
+  while (!(waiting = commands.next())) std::this_thread::yield();
+  commands.set_command_id(waiting->ticket, 5);
+  page.join();
+  EXPECT_TRUE(commands.acknowledge(5, true, ""));
+}
+
+TEST(CommandQueue, FullQueueIsBusy) {
+  CommandQueue commands;
+  std::vector<std::thread> pages;
+  std::atomic<int> busy = 0;
+  for (int i = 0; i < 24; ++i)
+    pages.emplace_back([&] {
+      if (commands.submit(command(CommandKind::kGo), 1s).outcome == CommandReply::Outcome::kBusy) ++busy;
+    });
+  for (std::thread& page : pages) page.join();
+  EXPECT_EQ(busy, 8);
+}
+
+}  // namespace
+}  // namespace rover::mission
