@@ -8,13 +8,13 @@
 namespace rover {
 
 template <class Command>
-auto CommandInbox<Command>::take_released(Utime t) -> std::vector<Waiting> {
-  const auto later = [t](const Waiting& waiting) { return waiting.release > t; };
-  const auto split = std::stable_partition(waiting_.begin(), waiting_.end(), later);
-  std::vector<Waiting> released(split, waiting_.end());
-  waiting_.erase(split, waiting_.end());
-  std::stable_sort(released.begin(), released.end(), [](const Waiting& a, const Waiting& b) {
-    const auto key = [](const Waiting& w) {
+auto CommandInbox<Command>::take_released(Utime t) -> std::vector<Pending> {
+  const auto later = [t](const Pending& pending) { return pending.release > t; };
+  const auto split = std::stable_partition(pending_.begin(), pending_.end(), later);
+  std::vector<Pending> released(split, pending_.end());
+  pending_.erase(split, pending_.end());
+  std::stable_sort(released.begin(), released.end(), [](const Pending& a, const Pending& b) {
+    const auto key = [](const Pending& w) {
       return std::tie(w.release, w.command.header.boot_id, w.command.header.seq);
     };
     return key(a) < key(b);
@@ -23,31 +23,31 @@ auto CommandInbox<Command>::take_released(Utime t) -> std::vector<Waiting> {
 }
 
 template <class Command>
-void CommandInbox<Command>::pass(const Command& command, Tap& tap, std::vector<Waiting>& passed) {
-  for (const Tap::Passed& through : tap.pass(channel_, command.header, encoded(command))) {
-    Waiting next{command.header.release_utime + through.delay, {}, true};
-    if (!decode_message(through.bytes.data(), static_cast<int>(through.bytes.size()), next.command)) continue;
+void CommandInbox<Command>::inject_faults(const Command& command, Tap& tap, std::vector<Pending>& ready) {
+  for (const Tap::Passed& output : tap.pass(channel_, command.header, encoded(command))) {
+    Pending next{command.header.release_utime + output.delay, {}, true};
+    if (!decode_message(output.bytes.data(), static_cast<int>(output.bytes.size()), next.command)) continue;
     next.command.header = command.header;
-    (through.delay > 0 ? waiting_ : passed).push_back(std::move(next));
+    (output.delay > 0 ? pending_ : ready).push_back(std::move(next));
   }
 }
 
 template <class Command>
 std::optional<Command> CommandInbox<Command>::take(Utime t, Tap* tap) {
-  std::vector<Waiting> passed;
-  for (Waiting& waiting : take_released(t)) {
-    if (tap != nullptr && !waiting.tapped)
-      pass(waiting.command, *tap, passed);
+  std::vector<Pending> ready;
+  for (Pending& pending : take_released(t)) {
+    if (tap != nullptr && !pending.fault_injected)
+      inject_faults(pending.command, *tap, ready);
     else
-      passed.push_back(std::move(waiting));
+      ready.push_back(std::move(pending));
   }
   std::optional<Command> newest;
-  for (const Waiting& waiting : passed) {
-    const header_t& header = waiting.command.header;
+  for (const Pending& pending : ready) {
+    const header_t& header = pending.command.header;
     if (std::tie(header.boot_id, header.seq) <= std::tie(boot_id_, seq_)) continue;
     boot_id_ = header.boot_id;
     seq_ = header.seq;
-    newest = waiting.command;
+    newest = pending.command;
   }
   return newest;
 }

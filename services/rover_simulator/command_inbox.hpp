@@ -16,21 +16,21 @@ class CommandInbox {
  public:
   explicit CommandInbox(const char* channel) : channel_(channel) {}
 
-  void add(const Command& command) { waiting_.push_back({command.header.release_utime, command, false}); }
+  void add(const Command& command) { pending_.push_back({command.header.release_utime, command, false}); }
   // The newest command released by t; empty without a new one. Older commands that arrive later are dropped.
   std::optional<Command> take(Utime t, Tap* tap);
 
  private:
-  struct Waiting {
+  struct Pending {
     Utime release;
     Command command;
-    bool tapped;
+    bool fault_injected;
   };
-  std::vector<Waiting> take_released(Utime t);
-  void pass(const Command& command, Tap& tap, std::vector<Waiting>& passed);
+  std::vector<Pending> take_released(Utime t);
+  void inject_faults(const Command& command, Tap& tap, std::vector<Pending>& ready);
 
   const char* channel_;
-  std::vector<Waiting> waiting_;
+  std::vector<Pending> pending_;
   std::int64_t boot_id_ = 0;
   std::int64_t seq_ = 0;
 };

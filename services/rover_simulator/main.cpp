@@ -26,9 +26,9 @@ rover::SimulatedRoverConfig rover_config(const rover::Scenario& scenario, std::u
   rover::SimulatedRoverConfig config;
   config.vehicle.gravity_mps2 = scenario.gravity_mps2;
   config.loccam.calibration_error_px = scenario.calibration_error_px;
-  config.loccam.scene.look.sun_elevation_rad = scenario.sun_elevation_rad;
-  config.loccam.scene.look.sun_azimuth_rad = scenario.sun_azimuth_rad;
-  config.loccam.scene.look.seed = seed;
+  config.loccam.scene.appearance.sun_elevation_rad = scenario.sun_elevation_rad;
+  config.loccam.scene.appearance.sun_azimuth_rad = scenario.sun_azimuth_rad;
+  config.loccam.scene.appearance.seed = seed;
   config.start_sigma_m = scenario.start.sigma_m;
   config.start_sigma_yaw_rad = scenario.start.sigma_yaw_rad;
   return config;

@@ -5,26 +5,26 @@
 namespace rover {
 namespace {
 
-constexpr Utime kBackAfter = 1'000'000;
-constexpr Utime kBackAfterHang = 3'000'000;  // includes the time for detecting and killing the hung process
+constexpr Utime kAbsenceAfterKill = 1'000'000;
+constexpr Utime kAbsenceAfterHang = 3'000'000;  // includes the time for detecting and killing the hung process
 
 }  // namespace
 
 void ProcessFaults::order(const FaultOrder& order) {
   if (order.fault == "hang") {
-    waiting_.push_back({{order.target, SIGSTOP, kBackAfterHang}});
+    pending_.push_back({{order.target, SIGSTOP, kAbsenceAfterHang}});
     return;
   }
   const int times = order.fault == "restart_loop" ? static_cast<int>(order.amount) : 1;
-  waiting_.push_back({{order.target, SIGKILL, kBackAfter}, times});
+  pending_.push_back({{order.target, SIGKILL, kAbsenceAfterKill}, times});
 }
 
-std::vector<ProcessBlow> ProcessFaults::take_due(const Barrier& barrier) {
-  std::vector<ProcessBlow> due;
-  std::erase_if(waiting_, [&](Waiting& waiting) {
-    if (!barrier.takes_part(waiting.blow.service)) return false;
-    due.push_back(waiting.blow);
-    return --waiting.times == 0;
+std::vector<ProcessSignal> ProcessFaults::take_due(const Barrier& barrier) {
+  std::vector<ProcessSignal> due;
+  std::erase_if(pending_, [&](Pending& pending) {
+    if (!barrier.takes_part(pending.signal_order.service)) return false;
+    due.push_back(pending.signal_order);
+    return --pending.times == 0;
   });
   return due;
 }

@@ -9,10 +9,10 @@
 
 namespace rover {
 
-struct ProcessBlow {
+struct ProcessSignal {
   std::string service;
   int signal = 0;
-  Utime away = 0;  // message time until the restarted process rejoins the barrier
+  Utime absence = 0;  // message time until the restarted process rejoins the barrier
 };
 
 class ProcessFaults {
@@ -20,14 +20,14 @@ class ProcessFaults {
   // Faults of FaultTarget::kService.
   void order(const FaultOrder& order);
   // Signals to send now. A signal to an absent service waits until it has rejoined.
-  std::vector<ProcessBlow> take_due(const Barrier& barrier);
+  std::vector<ProcessSignal> take_due(const Barrier& barrier);
 
  private:
-  struct Waiting {
-    ProcessBlow blow;
+  struct Pending {
+    ProcessSignal signal_order;
     int times = 1;
   };
-  std::vector<Waiting> waiting_;
+  std::vector<Pending> pending_;
 };
 
 }  // namespace rover

@@ -15,7 +15,7 @@ struct RunEndConfig {
 };
 
 // Derived from the last supervisor_state_t.
-enum class RoverPhase { kUnderWay, kArrived, kGivenUp, kFaultStop };
+enum class RoverPhase { kDriving, kArrived, kGivenUp, kFaultStop };
 
 class RunEnd {
  public:
@@ -27,11 +27,11 @@ class RunEnd {
   }
 
   // Outcome if the run ends now: goal_reached, fault_stop or timeout.
-  std::optional<std::string> over(Utime now) const {
-    const double standing_s = to_seconds(now - entered_);
-    if (phase_ == RoverPhase::kArrived && standing_s >= config_.linger_s) return "goal_reached";
-    if (phase_ == RoverPhase::kGivenUp && standing_s >= config_.linger_s) return "fault_stop";
-    if (phase_ == RoverPhase::kFaultStop && standing_s >= config_.stuck_s) return "fault_stop";
+  std::optional<std::string> outcome_at(Utime now) const {
+    const double duration_s = to_seconds(now - entered_);
+    if (phase_ == RoverPhase::kArrived && duration_s >= config_.linger_s) return "goal_reached";
+    if (phase_ == RoverPhase::kGivenUp && duration_s >= config_.linger_s) return "fault_stop";
+    if (phase_ == RoverPhase::kFaultStop && duration_s >= config_.stuck_s) return "fault_stop";
     if (to_seconds(now - start_) >= config_.timeout_s) return "timeout";
     return std::nullopt;
   }
@@ -39,7 +39,7 @@ class RunEnd {
  private:
   RunEndConfig config_;
   Utime start_;
-  RoverPhase phase_ = RoverPhase::kUnderWay;
+  RoverPhase phase_ = RoverPhase::kDriving;
   Utime entered_ = 0;
 };
 

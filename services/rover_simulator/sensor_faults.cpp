@@ -15,14 +15,14 @@ GrayImage shifted(const GrayImage& image, int rows, int columns) {
 
 }  // namespace
 
-ImuSample FaultySensors::imu(const SensorFaults& faults, ImuSample sample) const {
+ImuSample SensorFaultModel::imu(const SensorFaults& faults, ImuSample sample) const {
   sample.delta_angle_rad.z() += faults.yaw_bias_radps * sample.dt_s;
   sample.fog_delta_yaw_rad += faults.yaw_bias_radps * sample.dt_s;
   sample.delta_velocity_mps.x() += faults.forward_bias_mps2 * sample.dt_s;
   return sample;
 }
 
-WheelSample FaultySensors::wheels(const SensorFaults& faults, WheelSample sample) {
+WheelSample SensorFaultModel::wheels(const SensorFaults& faults, WheelSample sample) {
   for (size_t i = 0; i < sample.drive_angle_rad.size(); ++i) {
     if (!faults.encoder_stuck[i]) continue;
     sample.drive_angle_rad[i] = last_wheels_.drive_angle_rad[i];
@@ -32,14 +32,15 @@ WheelSample FaultySensors::wheels(const SensorFaults& faults, WheelSample sample
   return sample;
 }
 
-StereoCameraSim::Pair FaultySensors::pictures(const SensorFaults& faults, Lenses lenses, StereoCameraSim::Pair pair) {
-  const size_t left = static_cast<size_t>(lenses), right = left + 1;
-  pair.left = picture(faults.camera[left], std::move(pair.left), last_[left]);
-  pair.right = picture(faults.camera[right], std::move(pair.right), last_[right]);
+StereoCameraSim::Pair SensorFaultModel::images(const SensorFaults& faults, StereoPair stereo_pair,
+                                               StereoCameraSim::Pair pair) {
+  const size_t left = static_cast<size_t>(stereo_pair), right = left + 1;
+  pair.left = faulty_image(faults.camera[left], std::move(pair.left), last_[left]);
+  pair.right = faulty_image(faults.camera[right], std::move(pair.right), last_[right]);
   return pair;
 }
 
-GrayImage FaultySensors::picture(const CameraFault& fault, GrayImage image, GrayImage& last) const {
+GrayImage SensorFaultModel::faulty_image(const CameraFault& fault, GrayImage image, GrayImage& last) const {
   if (fault.frozen && !last.data.empty()) image = last;
   last = image;
   if (fault.blind) std::fill(image.data.begin(), image.data.end(), std::uint8_t{0});

@@ -24,15 +24,15 @@ struct SensorFaults {
 };
 
 // Must process every sample, because it stores the last one for frozen and stuck faults.
-class FaultySensors {
+class SensorFaultModel {
  public:
   ImuSample imu(const SensorFaults& faults, ImuSample sample) const;
   WheelSample wheels(const SensorFaults& faults, WheelSample sample);
-  enum class Lenses : size_t { kLocCam = 0, kNavCam = 2 };  // index of the left camera; the right one is next
-  StereoCameraSim::Pair pictures(const SensorFaults& faults, Lenses lenses, StereoCameraSim::Pair pair);
+  enum class StereoPair : size_t { kLocCam = 0, kNavCam = 2 };  // index of the left camera; the right one is next
+  StereoCameraSim::Pair images(const SensorFaults& faults, StereoPair stereo_pair, StereoCameraSim::Pair pair);
 
  private:
-  GrayImage picture(const CameraFault& fault, GrayImage image, GrayImage& last) const;
+  GrayImage faulty_image(const CameraFault& fault, GrayImage image, GrayImage& last) const;
 
   WheelSample last_wheels_;
   std::array<GrayImage, 4> last_;

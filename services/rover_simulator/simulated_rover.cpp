@@ -17,10 +17,10 @@ std::uint64_t seed_of(std::uint64_t seed, Stream stream) {
   return (std::uint64_t{words[0]} << 32) | words[1];
 }
 
-Pose2 true_start(const SimulatedRoverConfig& config, const Pose2& believed, std::uint64_t seed) {
+Pose2 true_start(const SimulatedRoverConfig& config, const Pose2& estimate, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal(0.0, 1.0);
-  Pose2 start = believed;
+  Pose2 start = estimate;
   start.x_m += config.start_sigma_m * normal(random);
   start.y_m += config.start_sigma_m * normal(random);
   start.yaw_rad += config.start_sigma_yaw_rad * normal(random);
@@ -30,11 +30,11 @@ Pose2 true_start(const SimulatedRoverConfig& config, const Pose2& believed, std:
 }  // namespace
 
 SimulatedRover::SimulatedRover(const SimulatedRoverConfig& config, const Vehicle& vehicle, const StereoRig& loccam,
-                               std::unique_ptr<World> world, const Pose2& believed_start, std::uint64_t seed)
+                               std::unique_ptr<World> world, const Pose2& start_estimate, std::uint64_t seed)
     : config_(config),
       geometry_(vehicle),
       world_(std::move(world)),
-      vehicle_(vehicle, config.vehicle, *world_, true_start(config, believed_start, seed_of(seed, Stream::kStart))),
+      vehicle_(vehicle, config.vehicle, *world_, true_start(config, start_estimate, seed_of(seed, Stream::kStart))),
       sensors_(config.sensors, seed_of(seed, Stream::kSensors)),
       scene_(std::make_shared<TileScene>(*world_, config.loccam.scene)),
       loccam_(loccam, config.loccam, scene_, seed_of(seed, Stream::kCamera)),

@@ -29,7 +29,7 @@ struct SimulatedRoverConfig {
 class SimulatedRover {
  public:
   SimulatedRover(const SimulatedRoverConfig& config, const Vehicle& vehicle, const StereoRig& loccam,
-                 std::unique_ptr<World> world, const Pose2& believed_start, std::uint64_t seed);
+                 std::unique_ptr<World> world, const Pose2& start_estimate, std::uint64_t seed);
 
   void advance(double dt_s, const WheelCommand& command);
   void set_faults(const VehicleFaults& faults) { vehicle_.set_faults(faults); }

@@ -22,13 +22,13 @@ using Clock = std::chrono::steady_clock;
 constexpr Utime kStart = 1'000'000;  // first tick; 0 means never
 constexpr Utime kFramePeriod = 400'000;
 constexpr Utime kCameraLatency = 60'000;   // exposure, read-out and transfer
-constexpr Utime kReturnAfter = 1'000'000;  // the barrier waits again for a service this long after it left
-constexpr double kStartPatience_s = 60.0;
-constexpr double kAskAgain_s = 1.0;
-constexpr double kSilence_s = 10.0;
-constexpr double kBusy_s = 120.0;  // timeout of a process that uses at least kBusyShare of CPU time
-constexpr double kBusyShare = 0.05;
-constexpr double kLost_s = 2.0;
+constexpr Utime kRejoinDelay = 1'000'000;  // the barrier waits again for a service this long after it left
+constexpr double kStartTimeout_s = 60.0;
+constexpr double kResendPeriod_s = 1.0;
+constexpr double kSilenceTimeout_s = 10.0;
+constexpr double kBusyTimeout_s = 120.0;  // timeout of a process that uses at least kMinBusyCpuShare of CPU time
+constexpr double kMinBusyCpuShare = 0.05;
+constexpr double kLostMessageTimeout_s = 2.0;
 
 bool all_finite(const wheel_command_t& command) {
   const auto finite = [](double value) { return std::isfinite(value); };
@@ -55,7 +55,7 @@ RoverPhase phase_of(const supervisor_state_t& state) {
     case supervisor_state_t::FAULT_STOP:
       return state.cause == "no_path" ? RoverPhase::kGivenUp : RoverPhase::kFaultStop;
     default:
-      return RoverPhase::kUnderWay;
+      return RoverPhase::kDriving;
   }
 }
 
@@ -71,10 +71,10 @@ Simulator::Simulator(const SimulatorOptions& options, SimulatedRover& rover, lcm
       end_(options.end, kStart),
       wheel_commands_(channel::kWheelCommand),
       ptu_commands_(channel::kPtuCommand),
-      loccam_{channel::kLocCamLeft, channel::kLocCamRight, FaultySensors::Lenses::kLocCam},
-      navcam_{channel::kNavCamLeft, channel::kNavCamRight, FaultySensors::Lenses::kNavCam},
+      loccam_{channel::kLocCamLeft, channel::kLocCamRight, SensorFaultModel::StereoPair::kLocCam},
+      navcam_{channel::kNavCamLeft, channel::kNavCamRight, SensorFaultModel::StereoPair::kNavCam},
       script_(options.faults, kStart),
-      way_mark_(rover.T_map_body().translation().head<2>()) {
+      last_counted_position_(rover.T_map_body().translation().head<2>()) {
   const auto listen = [this](lcm::LCM& bus, const char* channel, auto handler) {
     malformed_[channel] = 0;
     auto* subscription = bus.subscribe(channel, handler, this);
@@ -100,19 +100,19 @@ void Simulator::on_done(const lcm::ReceiveBuffer* buffer, const std::string& cha
   if (done.tick_utime == kNever) return barrier_.ready(header.publisher, header.boot_id, done.pid);
   barrier_.done(header.publisher, header.boot_id, done.pid, done.tick_utime, done.promise_utime, done.busy != 0);
   for (const stream_seq_t& stream : done.streams)
-    if (malformed_.contains(stream.channel)) awaited_.push_back(stream);
-  dones_.push_back(done);
+    if (malformed_.contains(stream.channel)) awaited_streams_.push_back(stream);
+  pending_done_.push_back(done);
 }
 
 // Streams of DONE messages released by t. Filtering by release time, not arrival, keeps the run deterministic.
-std::vector<stream_seq_t> Simulator::take_grown(Utime t) {
-  std::vector<stream_seq_t> grown;
-  std::erase_if(dones_, [&](const done_t& done) {
+std::vector<stream_seq_t> Simulator::take_released_streams(Utime t) {
+  std::vector<stream_seq_t> streams;
+  std::erase_if(pending_done_, [&](const done_t& done) {
     if (done.header.release_utime > t) return false;
-    grown.insert(grown.end(), done.streams.begin(), done.streams.end());
+    streams.insert(streams.end(), done.streams.begin(), done.streams.end());
     return true;
   });
-  return grown;
+  return streams;
 }
 
 template <class Command, CommandInbox<Command> Simulator::*inbox>
@@ -134,11 +134,11 @@ SimulationSummary Simulator::run(const std::function<bool()>& running) {
   Utime t = kStart;
   for (; running(); t = next_tick(t, running)) {
     now_ = t;
-    if (const auto over = end_.over(t)) {
-      summary_.outcome = *over;
+    if (const auto outcome = end_.outcome_at(t)) {
+      summary_.outcome = *outcome;
       break;
     }
-    do_faults(t, running);
+    apply_faults(t, running);
     if (t > kStart) step_world(t);
     publish_sensors(t);
     start_exposures(t);
@@ -149,8 +149,8 @@ SimulationSummary Simulator::run(const std::function<bool()>& running) {
                                                   to_seconds(t - kStart) / options_.pace)));
     else
       wait_for_barrier(t, running);
-    give_tick(t);
-    take_states(t);
+    publish_tick(t);
+    process_states(t);
   }
   if (summary_.outcome.empty()) summary_.outcome = "stopped";
   if (options_.realtime) summary_.deterministic = false;
@@ -160,7 +160,7 @@ SimulationSummary Simulator::run(const std::function<bool()>& running) {
 }
 
 // In lockstep, all messages released by t have arrived.
-void Simulator::take_states(Utime t) {
+void Simulator::process_states(Utime t) {
   while (lcm_.handleTimeout(0) > 0) {
   }
   if (options_.realtime)
@@ -175,9 +175,9 @@ void Simulator::take_states(Utime t) {
 
 bool Simulator::wait_for_start(const std::function<bool()>& running) {
   const auto started = Clock::now();
-  const auto absent = [&] { return barrier_.waiting_for(kStart); };
-  while (running() && !absent().empty() && since_s(started) < kStartPatience_s) reports_.handleTimeout(20);
-  const std::vector<std::string> missing = absent();
+  const auto missing_now = [&] { return barrier_.waiting_for(kStart); };
+  while (running() && !missing_now().empty() && since_s(started) < kStartTimeout_s) reports_.handleTimeout(20);
+  const std::vector<std::string> missing = missing_now();
   if (missing.empty()) return running();
   summary_.outcome = "not_started";
   for (const std::string& name : missing) summary_.left.push_back(name + " did not start");
@@ -204,15 +204,15 @@ void Simulator::step_world(Utime t) {
   move_pan_tilt(t - kTickUs);
   rover_.set_faults(world_faults_.vehicle(t));
   rover_.advance(to_seconds(kTickUs), command_at(t - kTickUs));
-  measure_way();
+  update_driven_distance();
 }
 
 void Simulator::publish_sensors(Utime t) {
   const bool expired = command_ && command_->valid_until_utime < t;
-  imu_t imu = imu_message(sensors_.imu(broken_, rover_.imu()));
-  wheel_state_t wheels = wheel_state_message(sensors_.wheels(broken_, rover_.wheels()), expired);
+  imu_t imu = imu_message(sensors_.imu(sensor_faults_, rover_.imu()));
+  wheel_state_t wheels = wheel_state_message(sensors_.wheels(sensor_faults_, rover_.wheels()), expired);
   truth_t truth = truth_message(rover_.truth());
-  if (!broken_.imu_dead) publish(channel::kImu, imu, t, t);
+  if (!sensor_faults_.imu_dead) publish(channel::kImu, imu, t, t);
   publish(channel::kWheelState, wheels, t, t);
   publish(channel::kTruth, truth, t, t);
   publish_pan_tilt(t);
@@ -222,13 +222,13 @@ void Simulator::publish_sensors(Utime t) {
 void Simulator::move_pan_tilt(Utime t) {
   if (const auto newest = ptu_commands_.take(t, tap_.get())) {
     rover_.pan_tilt()->command(pan_tilt_command_from(*newest));
-    ptu_on_ = true;
+    ptu_enabled_ = true;
   }
 }
 
 // Silent until the first command, so drives without the NavCam have no overhead.
 void Simulator::publish_pan_tilt(Utime t) {
-  if (!ptu_on_) return;
+  if (!ptu_enabled_) return;
   ptu_state_t state = ptu_state_message(rover_.pan_tilt()->state());
   publish(channel::kPtuState, state, t, t);
 }
@@ -239,8 +239,8 @@ void Simulator::start_exposures(Utime t) {
       return rover_.expose_loccam(T_map_body, frame);
     });
   PanTiltSim* unit = rover_.pan_tilt();
-  if (unit == nullptr || !unit->picture_due() || navcam_.exposure) return;
-  unit->picture_taken();
+  if (unit == nullptr || !unit->image_due() || navcam_.exposure) return;
+  unit->image_taken();
   expose(navcam_, t, [this, T_map_left = rover_.T_map_navcam()](std::int64_t frame) {
     return rover_.expose_navcam(T_map_left, frame);
   });
@@ -263,7 +263,7 @@ void Simulator::publish_due_images(Camera& camera, Utime t) {
     return;
   }
   const StereoCameraSim::Pair pair =
-      sensors_.pictures(world_faults_.sensors(pending.utime), camera.lenses, pending.pair.get());
+      sensors_.images(world_faults_.sensors(pending.utime), camera.stereo_pair, pending.pair.get());
   publish_image(camera.left_channel, pair.left, pair.exposure_s, pending);
   publish_image(camera.right_channel, pair.right, pair.exposure_s, pending);
   camera.exposure.reset();
@@ -282,41 +282,41 @@ void Simulator::wait_for_barrier(Utime t, const std::function<bool()>& running) 
   for (auto missing = barrier_.waiting_for(t); !missing.empty() && running(); missing = barrier_.waiting_for(t)) {
     if (reports_.handleTimeout(5) > 0) continue;
     const double waited_s = since_s(started);
-    deal_with_missing(missing, t, waited_s);
-    if (waited_s - asked_at_s < kAskAgain_s || last_tick_.empty()) continue;
+    handle_missing(missing, t, waited_s);
+    if (waited_s - asked_at_s < kResendPeriod_s || last_tick_.empty()) continue;
     asked_at_s = waited_s;
     for (const std::string& name : missing) cpu_s_.try_emplace(name, process_cpu_s(barrier_.pid_of(name)));
     lcm_.publish(channel::kTick, last_tick_.data(), static_cast<unsigned int>(last_tick_.size()));
   }
-  wait_for_answers(running);
+  wait_for_listed_messages(running);
 }
 
 // DONE arrives on its own socket and may overtake the messages that it lists.
-void Simulator::wait_for_answers(const std::function<bool()>& running) {
+void Simulator::wait_for_listed_messages(const std::function<bool()>& running) {
   const auto started = Clock::now();
   const auto here = [this](const stream_seq_t& stream) { return ledger_.complete(stream); };
-  while (std::erase_if(awaited_, here), !awaited_.empty() && running()) {
-    if (lcm_.handleTimeout(1) > 0 || since_s(started) < kLost_s) continue;
+  while (std::erase_if(awaited_streams_, here), !awaited_streams_.empty() && running()) {
+    if (lcm_.handleTimeout(1) > 0 || since_s(started) < kLostMessageTimeout_s) continue;
     summary_.deterministic = false;
-    for (const stream_seq_t& stream : awaited_) {
+    for (const stream_seq_t& stream : awaited_streams_) {
       ledger_.give_up(stream);
       warn(now_, "LOST_ON_BUS channel=" + stream.channel + " publisher=" + stream.publisher);
     }
-    awaited_.clear();
+    awaited_streams_.clear();
   }
 }
 
 // A process that uses CPU time is not silent; wall time must not change the run.
-bool Simulator::computes(const std::string& name, double waited_s) const {
+bool Simulator::is_computing(const std::string& name, double waited_s) const {
   const auto before = cpu_s_.find(name);
-  if (before == cpu_s_.end() || waited_s >= kBusy_s) return false;
-  return process_cpu_s(barrier_.pid_of(name)) - before->second > kBusyShare * waited_s;
+  if (before == cpu_s_.end() || waited_s >= kBusyTimeout_s) return false;
+  return process_cpu_s(barrier_.pid_of(name)) - before->second > kMinBusyCpuShare * waited_s;
 }
 
 // A dead process leaves the barrier at once, a silent one after a timeout; both may rejoin.
-void Simulator::deal_with_missing(const std::vector<std::string>& missing, Utime t, double waited_s) {
+void Simulator::handle_missing(const std::vector<std::string>& missing, Utime t, double waited_s) {
   for (const std::string& name : missing) {
-    if (!barrier_.takes_part(name) && waited_s >= kSilence_s) {
+    if (!barrier_.takes_part(name) && waited_s >= kSilenceTimeout_s) {
       summary_.deterministic = false;
       summary_.left.push_back(name + " did not return until " + std::to_string(to_seconds(t)) + " s");
       warn(t, "NOT_BACK service=" + name);
@@ -324,22 +324,22 @@ void Simulator::deal_with_missing(const std::vector<std::string>& missing, Utime
       continue;
     }
     const bool dead = barrier_.pid_of(name) > 0 && !process_alive(barrier_.pid_of(name));
-    if (!dead && (waited_s < kSilence_s || computes(name, waited_s))) continue;
+    if (!dead && (waited_s < kSilenceTimeout_s || is_computing(name, waited_s))) continue;
     if (!dead) summary_.deterministic = false;
     summary_.left.push_back(name + (dead ? " died at " : " silent at ") + std::to_string(to_seconds(t)) + " s");
     warn(t, "LEFT_BARRIER service=" + name + " dead=" + std::to_string(static_cast<int>(dead)));
-    barrier_.leave(name, dead ? Barrier::Cause::kDied : Barrier::Cause::kSilent, t, kReturnAfter);
+    barrier_.leave(name, dead ? Barrier::Cause::kDied : Barrier::Cause::kSilent, t, kRejoinDelay);
   }
 }
 
-void Simulator::give_tick(Utime t) {
+void Simulator::publish_tick(Utime t) {
   tick_t tick{};
   tick.mode = options_.realtime ? tick_t::REALTIME : tick_t::LOCKSTEP;
   tick.members = members_ = barrier_.admit(t);
   tick.member_count = static_cast<std::int32_t>(tick.members.size());
   tick.streams = streams_.take_grown();
-  const std::vector<stream_seq_t> grown = take_grown(t);
-  tick.streams.insert(tick.streams.end(), grown.begin(), grown.end());
+  const std::vector<stream_seq_t> streams = take_released_streams(t);
+  tick.streams.insert(tick.streams.end(), streams.begin(), streams.end());
   std::sort(tick.streams.begin(), tick.streams.end(), [](const stream_seq_t& a, const stream_seq_t& b) {
     return std::tie(a.channel, a.publisher, a.boot_id, a.seq) < std::tie(b.channel, b.publisher, b.boot_id, b.seq);
   });

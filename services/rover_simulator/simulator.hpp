@@ -66,7 +66,7 @@ class Simulator {
   struct Camera {
     const char* left_channel;
     const char* right_channel;
-    FaultySensors::Lenses lenses;
+    SensorFaultModel::StereoPair stereo_pair;
     std::optional<PendingPair> exposure;
     std::int64_t frames = 0;
   };
@@ -82,23 +82,23 @@ class Simulator {
   void publish_due_images(Camera& camera, Utime t);
   void publish_image(const char* channel, const GrayImage& image, double exposure_s, const PendingPair& pending);
   void wait_for_barrier(Utime t, const std::function<bool()>& running);
-  void wait_for_answers(const std::function<bool()>& running);
-  void deal_with_missing(const std::vector<std::string>& missing, Utime t, double waited_s);
-  bool computes(const std::string& name, double waited_s) const;
-  void give_tick(Utime t);
+  void wait_for_listed_messages(const std::function<bool()>& running);
+  void handle_missing(const std::vector<std::string>& missing, Utime t, double waited_s);
+  bool is_computing(const std::string& name, double waited_s) const;
+  void publish_tick(Utime t);
   Utime next_tick(Utime t, const std::function<bool()>& running);
   // simulator_faults.cpp
-  void do_faults(Utime t, const std::function<bool()>& running);
+  void apply_faults(Utime t, const std::function<bool()>& running);
   void begin_scripted(Utime t);
-  void begin_asked_for(Utime t);
+  void begin_requested(Utime t);
   void begin(const injection_t& injection);
-  void announce_again(Utime t);
-  void deal(const ProcessBlow& blow, Utime t, const std::function<bool()>& running);
+  void republish_active_faults(Utime t);
+  void send_signal(const ProcessSignal& order, Utime t, const std::function<bool()>& running);
   bool wait_until_idle(const std::string& service, const std::function<bool()>& running);
-  void measure_way();
+  void update_driven_distance();
   void on_inject(const lcm::ReceiveBuffer* buffer, const std::string& channel);
-  void take_states(Utime t);
-  std::vector<stream_seq_t> take_grown(Utime t);
+  void process_states(Utime t);
+  std::vector<stream_seq_t> take_released_streams(Utime t);
   WheelCommand command_at(Utime t);
   void on_done(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   template <class Command, CommandInbox<Command> Simulator::*inbox>
@@ -119,13 +119,13 @@ class Simulator {
   std::map<std::string, double> cpu_s_;  // CPU time of missing services, one second into the wait
   RunEnd end_;
   ArrivalLedger ledger_;
-  std::vector<done_t> dones_;          // their streams are not yet listed in a tick
-  std::vector<stream_seq_t> awaited_;  // reported messages on subscribed channels that have not arrived
+  std::vector<done_t> pending_done_;           // their streams are not yet listed in a tick
+  std::vector<stream_seq_t> awaited_streams_;  // reported messages on subscribed channels that have not arrived
   CommandInbox<wheel_command_t> wheel_commands_;
   CommandInbox<ptu_command_t> ptu_commands_;
   std::deque<supervisor_state_t> states_;
   std::optional<wheel_command_t> command_;
-  bool ptu_on_ = false;  // switched on by its first command
+  bool ptu_enabled_ = false;  // switched on by its first command
   Camera loccam_;
   Camera navcam_;
   Utime now_ = kNever;
@@ -136,16 +136,16 @@ class Simulator {
   FaultScript script_;
   ProcessFaults process_faults_;
   WorldFaults world_faults_;
-  SensorFaults broken_;
-  FaultySensors sensors_;
-  std::unique_ptr<Tap> tap_;            // null until the first fault
-  std::vector<injection_t> asked_for_;  // from others, on INJECT
-  std::vector<injection_t> announced_;  // own lasting faults, repeated for restarted processes
-  std::vector<std::string> members_;    // of the last tick
-  std::vector<std::string> told_;       // members that have received the active faults
+  SensorFaults sensor_faults_;
+  SensorFaultModel sensors_;
+  std::unique_ptr<Tap> tap_;                   // null until the first fault
+  std::vector<injection_t> requested_;         // from others, on INJECT
+  std::vector<injection_t> announced_;         // own lasting faults, repeated for restarted processes
+  std::vector<std::string> members_;           // of the last tick
+  std::vector<std::string> informed_members_;  // members that have received the active faults
   std::int64_t injections_ = 0;
   double driven_m_ = 0.0;
-  Eigen::Vector2d way_mark_ = Eigen::Vector2d::Zero();
+  Eigen::Vector2d last_counted_position_ = Eigen::Vector2d::Zero();
 };
 
 template <class Message>

@@ -16,8 +16,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kPatience_s = 10.0;
-constexpr double kWayStepM = 0.01;  // smaller moves are noise of a stationary rover
+constexpr double kIdleTimeout_s = 10.0;
+constexpr double kMinStepM = 0.01;  // smaller moves are noise of a stationary rover
 
 injection_t injection_of(const FaultOrder& order, std::int64_t id, Utime now) {
   injection_t injection{};
@@ -36,15 +36,15 @@ void Simulator::on_inject(const lcm::ReceiveBuffer* buffer, const std::string& c
   injection_t injection{};
   if (!decode(buffer, channel, injection)) return;
   const bool own = injection.header.publisher == streams_.publisher();
-  if (!own && ledger_.arrived(channel, injection.header)) asked_for_.push_back(injection);
+  if (!own && ledger_.arrived(channel, injection.header)) requested_.push_back(injection);
 }
 
-void Simulator::do_faults(Utime t, const std::function<bool()>& running) {
+void Simulator::apply_faults(Utime t, const std::function<bool()>& running) {
   begin_scripted(t);
-  begin_asked_for(t);
-  announce_again(t);
-  broken_ = world_faults_.sensors(t);
-  for (const ProcessBlow& blow : process_faults_.take_due(barrier_)) deal(blow, t, running);
+  begin_requested(t);
+  republish_active_faults(t);
+  sensor_faults_ = world_faults_.sensors(t);
+  for (const ProcessSignal& order : process_faults_.take_due(barrier_)) send_signal(order, t, running);
 }
 
 void Simulator::begin_scripted(Utime t) {
@@ -59,8 +59,8 @@ void Simulator::begin_scripted(Utime t) {
 }
 
 // Process faults of other publishers are not handled here; they use s6.
-void Simulator::begin_asked_for(Utime t) {
-  std::erase_if(asked_for_, [&](const injection_t& injection) {
+void Simulator::begin_requested(Utime t) {
+  std::erase_if(requested_, [&](const injection_t& injection) {
     if (injection.header.release_utime > t) return false;
     summary_.deterministic = false;
     begin(injection);
@@ -70,11 +70,11 @@ void Simulator::begin_asked_for(Utime t) {
 
 void Simulator::begin(const injection_t& injection) {
   const FaultKind* kind = find_fault(injection.fault);
-  const bool sound = kind != nullptr && amount_problem(*kind, injection.amount).empty();
+  const bool valid = kind != nullptr && amount_problem(*kind, injection.amount).empty();
   std::printf("%lld WARN rover_simulator INJECTED fault=%s target=%s amount=%g known=%d\n",
-              static_cast<long long>(now_), injection.fault.c_str(), injection.target.c_str(), injection.amount, sound);
+              static_cast<long long>(now_), injection.fault.c_str(), injection.target.c_str(), injection.amount, valid);
   std::fflush(stdout);
-  if (!sound) return;
+  if (!valid) return;
   if (!tap_) tap_ = std::make_unique<Tap>(streams_.publisher());
   tap_->inject(injection);
   if (kind->on == FaultTarget::kWorld && target_problem(*kind, injection.target, find_channel_type).empty())
@@ -82,39 +82,39 @@ void Simulator::begin(const injection_t& injection) {
 }
 
 // Republishes active faults for processes that joined at the last tick.
-void Simulator::announce_again(Utime t) {
+void Simulator::republish_active_faults(Utime t) {
   const bool joined = std::any_of(members_.begin(), members_.end(), [this](const std::string& name) {
-    return std::find(told_.begin(), told_.end(), name) == told_.end();
+    return std::find(informed_members_.begin(), informed_members_.end(), name) == informed_members_.end();
   });
-  told_ = members_;
+  informed_members_ = members_;
   if (!joined) return;
   std::erase_if(announced_, [t](const injection_t& injection) { return injection.until_utime < t; });
   for (injection_t& injection : announced_)
     if (injection.from_utime < t) publish(channel::kInject, injection, t, t);
 }
 
-void Simulator::deal(const ProcessBlow& blow, Utime t, const std::function<bool()>& running) {
+void Simulator::send_signal(const ProcessSignal& order, Utime t, const std::function<bool()>& running) {
   // In lockstep the service must have finished the previous tick, so the effect depends on message time only.
-  if (!options_.realtime && !wait_until_idle(blow.service, running)) summary_.deterministic = false;
-  const int pid = barrier_.pid_of(blow.service);
-  if (pid > 0) kill(pid, blow.signal);
-  barrier_.leave(blow.service, Barrier::Cause::kDied, t, blow.away);
-  const char* what = blow.signal == SIGSTOP ? " stopped at " : " killed at ";
-  summary_.left.push_back(blow.service + what + std::to_string(to_seconds(t)) + " s by the scenario");
+  if (!options_.realtime && !wait_until_idle(order.service, running)) summary_.deterministic = false;
+  const int pid = barrier_.pid_of(order.service);
+  if (pid > 0) kill(pid, order.signal);
+  barrier_.leave(order.service, Barrier::Cause::kDied, t, order.absence);
+  const char* what = order.signal == SIGSTOP ? " stopped at " : " killed at ";
+  summary_.left.push_back(order.service + what + std::to_string(to_seconds(t)) + " s by the scenario");
 }
 
 bool Simulator::wait_until_idle(const std::string& service, const std::function<bool()>& running) {
-  const auto until = Clock::now() + std::chrono::duration<double>(kPatience_s);
+  const auto until = Clock::now() + std::chrono::duration<double>(kIdleTimeout_s);
   while (!barrier_.idle(service) && running() && Clock::now() < until) reports_.handleTimeout(5);
   return barrier_.idle(service);
 }
 
-void Simulator::measure_way() {
+void Simulator::update_driven_distance() {
   const Eigen::Vector2d here = rover_.T_map_body().translation().head<2>();
-  const double moved_m = (here - way_mark_).norm();
-  if (moved_m < kWayStepM) return;
+  const double moved_m = (here - last_counted_position_).norm();
+  if (moved_m < kMinStepM) return;
   driven_m_ += moved_m;
-  way_mark_ = here;
+  last_counted_position_ = here;
 }
 
 }  // namespace rover

@@ -9,11 +9,11 @@
 namespace rover {
 namespace {
 
-bool stands(const injection_t& injection, Utime now) {
+bool is_active(const injection_t& injection, Utime now) {
   return now >= injection.from_utime && now <= injection.until_utime;
 }
 
-void break_camera(const injection_t& injection, CameraFault& camera) {
+void apply_camera_fault(const injection_t& injection, CameraFault& camera) {
   const int pixels = static_cast<int>(std::lround(injection.amount));
   if (injection.fault == "camera_blind") camera.blind = true;
   if (injection.fault == "camera_frozen") camera.frozen = true;
@@ -21,12 +21,12 @@ void break_camera(const injection_t& injection, CameraFault& camera) {
   if (injection.fault == "camera_columns") camera.shift_columns = pixels;
 }
 
-void break_sensor(const injection_t& injection, SensorFaults& sensors) {
+void apply_sensor_fault(const injection_t& injection, SensorFaults& sensors) {
   if (injection.fault.rfind("camera_", 0) == 0) {
-    static const std::array<std::string, 4> kLenses = {"left", "right", "navcam_left", "navcam_right"};
-    for (size_t i = 0; i < kLenses.size(); ++i)
-      if (injection.target == kLenses[i] || injection.target == (i < 2 ? "both" : "navcam"))
-        break_camera(injection, sensors.camera[i]);
+    static const std::array<std::string, 4> kCameraNames = {"left", "right", "navcam_left", "navcam_right"};
+    for (size_t i = 0; i < kCameraNames.size(); ++i)
+      if (injection.target == kCameraNames[i] || injection.target == (i < 2 ? "both" : "navcam"))
+        apply_camera_fault(injection, sensors.camera[i]);
   }
   if (injection.fault == "imu_dead") sensors.imu_dead = true;
   if (injection.fault == "gyro_bias") sensors.yaw_bias_radps += injection.amount;
@@ -37,14 +37,14 @@ void break_sensor(const injection_t& injection, SensorFaults& sensors) {
 // The tilt ramps up and down at this rate, like driving onto and off a slope.
 double tilt_rad(const injection_t& injection, Utime now) {
   constexpr double kRateRadps = to_rad(15.0);
-  const double most = std::abs(to_rad(injection.amount));
-  const double risen = kRateRadps * to_seconds(now - injection.from_utime);
-  const double left = most - kRateRadps * to_seconds(now - injection.until_utime);
-  return std::copysign(std::clamp(std::min(risen, left), 0.0, most), injection.amount);
+  const double max_rad = std::abs(to_rad(injection.amount));
+  const double rising_rad = kRateRadps * to_seconds(now - injection.from_utime);
+  const double falling_rad = max_rad - kRateRadps * to_seconds(now - injection.until_utime);
+  return std::copysign(std::clamp(std::min(rising_rad, falling_rad), 0.0, max_rad), injection.amount);
 }
 
 // Rotation of the ground that gives a vehicle with this heading this roll or pitch.
-Eigen::Matrix3d tilted(const injection_t& injection, double heading_rad, Utime now) {
+Eigen::Matrix3d ground_rotation(const injection_t& injection, double heading_rad, Utime now) {
   const double angle = tilt_rad(injection, now);
   const Eigen::Matrix3d heading = rotation_from_rpy(0.0, 0.0, heading_rad);
   const Eigen::Matrix3d tilt =
@@ -64,7 +64,7 @@ void WorldFaults::begin(const injection_t& injection, double heading_rad) {
 SensorFaults WorldFaults::sensors(Utime now) const {
   SensorFaults sensors;
   for (const Active& active : active_)
-    if (stands(active.injection, now)) break_sensor(active.injection, sensors);
+    if (is_active(active.injection, now)) apply_sensor_fault(active.injection, sensors);
   return sensors;
 }
 
@@ -72,8 +72,8 @@ VehicleFaults WorldFaults::vehicle(Utime now) const {
   VehicleFaults vehicle;
   for (const auto& [injection, heading_rad] : active_) {
     if (injection.fault.rfind("tilt_", 0) == 0)
-      vehicle.R_level_ground = tilted(injection, heading_rad, now) * vehicle.R_level_ground;
-    if (!stands(injection, now)) continue;
+      vehicle.R_level_ground = ground_rotation(injection, heading_rad, now) * vehicle.R_level_ground;
+    if (!is_active(injection, now)) continue;
     if (injection.fault == "wheel_jammed") vehicle.jammed.at(std::stoul(injection.target)) = true;
     if (injection.fault == "loose_sand") vehicle.loose_sand = true;
   }

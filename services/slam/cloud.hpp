@@ -32,8 +32,8 @@ struct AlignedPoint {
 };
 
 struct AttitudeNoise {
-  double tilt_rad = 0.0015;  // of roll and pitch, cloud to cloud
-  double height_m = 0.003;   // of the body's origin
+  double tilt_rad = to_rad(0.086);  // of roll and pitch, cloud to cloud
+  double height_m = 0.003;          // of the body's origin
 };
 
 struct AlignedCloud {

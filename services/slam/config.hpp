@@ -1,8 +1,9 @@
-// Reads config/slam.yaml.
+// config/slam.yaml.
 #pragma once
 
 #include <string>
 
+#include "common/bus/parameters.hpp"
 #include "slam/slam.hpp"
 
 namespace rover::slam {
@@ -12,6 +13,6 @@ struct NodeConfig {
   Utime latency_us = 100'000;
 };
 
-NodeConfig load_config(const std::string& config_dir);
+NodeConfig load_config(const std::string& config_dir, ParameterList* list = nullptr);
 
 }  // namespace rover::slam

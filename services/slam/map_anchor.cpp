@@ -14,8 +14,8 @@ bool MapAnchor::add_pose(Utime utime, const Eigen::Isometry3d& T_map_odom, const
   T_map_odom_ = T_new;
   if (!known) return false;
   const Pose2 body = planar(T_odom_body), after = compose(T_new, body), before = compose(T_old, body);
-  return std::hypot(after.x_m - before.x_m, after.y_m - before.y_m) > config_.slew_mps * dt_s + config_.slack_m ||
-         std::abs(wrap_angle(after.yaw_rad - before.yaw_rad)) > config_.slew_radps * dt_s + config_.slack_rad;
+  return std::hypot(after.x_m - before.x_m, after.y_m - before.y_m) > config_.slew_mps * dt_s + config_.tolerance_m ||
+         std::abs(wrap_angle(after.yaw_rad - before.yaw_rad)) > config_.slew_radps * dt_s + config_.tolerance_rad;
 }
 
 void MapAnchor::anchor(const Pose2& T_slam_odom) {

@@ -12,8 +12,8 @@ namespace rover::slam {
 struct AnchorConfig {
   double slew_mps = 0.03;  // above localization's slew limits for SLAM, 0.02 m/s and 0.3 deg/s
   double slew_radps = to_rad(0.45);
-  double slack_m = 0.0005;
-  double slack_rad = 1e-5;
+  double tolerance_m = 0.0005;
+  double tolerance_rad = 1e-5;
 };
 
 class MapAnchor {

@@ -108,7 +108,7 @@ int ParticleFilter::kld_particle_count() const {
 }
 
 void ParticleFilter::resample(Random& random) {
-  if (effective_particles() >= config_.resample_share * static_cast<double>(particles_.size())) return;
+  if (effective_particles() >= config_.resample_ratio * static_cast<double>(particles_.size())) return;
   const std::vector<double> w = weights();
   const int count = kld_particle_count();
   std::vector<Particle> resampled;

@@ -14,7 +14,7 @@ namespace rover::slam {
 struct FilterConfig {
   int min_particles = 100;
   int max_particles = 400;
-  double resample_share = 0.5;  // resample if the effective sample size is below this share
+  double resample_ratio = 0.5;  // resample if the effective sample size is below this share
   double bin_m = 0.01;          // histogram bins of KLD sampling
   double bin_rad = to_rad(0.1);
   double kld_error = 0.05;  // KLD bound, with 99 % probability

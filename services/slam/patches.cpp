@@ -11,7 +11,7 @@ constexpr int kMinUpperPoints = 2;  // a single high point is more likely an out
 }  // namespace
 
 PatchBinner::PatchBinner(const PatchConfig& config)
-    : config_(config), cells_(2 * static_cast<int>(std::ceil(config.reach_m / config.cell_m)) + 1) {}
+    : config_(config), cells_(2 * static_cast<int>(std::ceil(config.max_range_m / config.cell_m)) + 1) {}
 
 void PatchBinner::Sums::add(const AlignedPoint& point, float px, float py) {
   const float w = 1.0F / point.variance_m2;

@@ -22,7 +22,7 @@ struct Patch {
 
 struct PatchConfig {
   double cell_m = 0.1;
-  double reach_m = 14.0;         // farther points are ignored
+  double max_range_m = 14.0;     // farther points are ignored
   double step_m = 0.08;          // spread of heights within a cell that makes it a step
   double correlated_points = 6;  // at most so many independent points in a cell: neighbours share stereo errors
   double roughness_m = 0.006;    // standard deviation of the ground within a cell

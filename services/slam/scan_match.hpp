@@ -21,7 +21,7 @@ struct MatchConfig {
   double kernel_sigma = 3.0;
   double temper = 2.0;           // log-likelihood factor: patch errors are correlated, variances conservative
   double height_sigma_m = 0.02;  // prior of the fitted plane
-  double tilt_sigma_rad = 0.002;
+  double tilt_sigma_rad = to_rad(0.115);
   double hessian_step_m = 0.05;         // step of the numerical Hessian
   double unobservable_sigma_m = 0.012;  // a direction with a larger standard deviation is unobservable
   double yaw_lever_m = 3.0;             // scales yaw to metres, to compare it with x and y
@@ -29,7 +29,7 @@ struct MatchConfig {
 
 struct MatchFit {
   double log_likelihood = 0.0;
-  double inlier_share = 0.0;                        // inliers among the points on the map
+  double inlier_ratio = 0.0;                        // inliers among the points on the map
   Eigen::Vector3f plane = Eigen::Vector3f::Zero();  // cloud minus map: height [m], slopes along x and y [1]
 };
 

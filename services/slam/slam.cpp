@@ -45,8 +45,8 @@ void Slam::anchor() {
 bool Slam::has_jumped(const Odometry& odometry, const Odometry& from, Utime dt) const {
   const Eigen::Isometry3d moved = from.T_odom_body.inverse() * odometry.T_odom_body;
   const double s = to_seconds(dt), turned = log_so3(moved.linear()).norm();
-  return moved.translation().norm() > config_.jump.max_speed_mps * s + config_.jump.slack_m ||
-         turned > std::min(kPi, config_.jump.max_rate_radps * s + config_.jump.slack_rad);
+  return moved.translation().norm() > config_.jump.max_speed_mps * s + config_.jump.tolerance_m ||
+         turned > std::min(kPi, config_.jump.max_rate_radps * s + config_.jump.tolerance_rad);
 }
 
 // A single jump is ignored. If the next cloud confirms it, odometry was restarted, and the map restarts too.
@@ -122,15 +122,16 @@ void Slam::predict(const Odometry& odometry, Utime utime, Random& random) {
   const MotionConfig& m = config_.motion;
   // Slow growth is scale error, constant from cloud to cloud: not noise.
   const double position_growth =
-      std::max(0.0, odometry.position_sigma_m - previous_.position_sigma_m - m.scale_error_share * distance_m);
+      std::max(0.0, odometry.position_sigma_m - previous_.position_sigma_m - m.scale_error_per_m * distance_m);
   const double yaw_growth = utime_ == kNever ? 0.0 : yaw_noise_rad(odometry, utime - utime_);
   const double dead_reckoned =
-      m.dead_reckoned_share * std::max(0.0, odometry.dead_reckoned_m - previous_.dead_reckoned_m);
-  filter_.predict(motion,
-                  {std::max({m.min_noise_m, std::hypot(m.along_share * distance_m, dead_reckoned), position_growth}),
-                   std::max({m.min_noise_m, std::hypot(m.across_share * distance_m, dead_reckoned), position_growth}),
-                   std::max(m.yaw_rad_per_m * distance_m + m.yaw_share * std::abs(motion.yaw_rad), yaw_growth)},
-                  random);
+      m.dead_reckoned_sigma_per_m * std::max(0.0, odometry.dead_reckoned_m - previous_.dead_reckoned_m);
+  filter_.predict(
+      motion,
+      {std::max({m.min_noise_m, std::hypot(m.along_sigma_per_m * distance_m, dead_reckoned), position_growth}),
+       std::max({m.min_noise_m, std::hypot(m.across_sigma_per_m * distance_m, dead_reckoned), position_growth}),
+       std::max(m.yaw_rad_per_m * distance_m + m.yaw_sigma_ratio * std::abs(motion.yaw_rad), yaw_growth)},
+      random);
   z_m_ += moved.z();
   travelled_m_ += distance_m;
   previous_ = odometry;
@@ -157,7 +158,7 @@ Slam::MatchOutcome Slam::match_cloud(const AlignedCloud& cloud, Random& random) 
   match.information = info.weakest_information;
   const MatchFit fit = matcher_.fit(filter_.mean(), 2);
   match.plane = fit.plane;
-  if (fit.inlier_share < config_.min_inlier_share) match.status = Status::kLost;
+  if (fit.inlier_ratio < config_.min_inlier_ratio) match.status = Status::kLost;
   filter_.resample(random);
   return match;
 }
@@ -174,7 +175,7 @@ Pose2 Slam::T_slam_odom() const {
 
 Eigen::Matrix3d Slam::covariance() const {
   const double distance_m = travelled_m_ - anchor_travelled_m_;
-  const double position = config_.drift.position_share * distance_m;
+  const double position = config_.drift.position_sigma_per_m * distance_m;
   const double yaw2 = config_.drift.yaw_rad_per_sqrt_m * config_.drift.yaw_rad_per_sqrt_m * distance_m;
   const Eigen::Matrix3d R = rotation_from_rpy(0.0, 0.0, anchor_.T_map_slam().yaw_rad);
   Eigen::Matrix3d cov = R * filter_.covariance() * R.transpose();

@@ -18,26 +18,26 @@
 namespace rover::slam {
 
 struct MotionConfig {
-  double along_share = 0.0015;  // standard deviation per metre driven, random part
-  double across_share = 0.0015;
-  double dead_reckoned_share = 0.08;  // same, both axes, per metre without visual odometry
-  double scale_error_share = 0.01;    // growth of POSE's deviation per metre that is scale error, not noise
+  double along_sigma_per_m = 0.0015;  // standard deviation per metre driven, random part
+  double across_sigma_per_m = 0.0015;
+  double dead_reckoned_sigma_per_m = 0.08;  // same, both axes, per metre without visual odometry
+  double scale_error_per_m = 0.01;          // growth of POSE's deviation per metre that is scale error, not noise
   double yaw_rad_per_m = to_rad(0.002);
-  double yaw_share = 0.0001;                       // of the turn
+  double yaw_sigma_ratio = 0.0001;                 // of the turn
   double gyro_bias_rad_per_sqrt_s = to_rad(0.01);  // growth of POSE's yaw deviation that is gyro bias, not noise
   double min_noise_m = 0.0005;                     // lower bound per cloud
 };
 
 struct JumpConfig {
   double max_speed_mps = 0.5;  // faster odometry has jumped
-  double slack_m = 0.15;
-  double max_rate_radps = 1.0;
-  double slack_rad = to_rad(5.0);
+  double tolerance_m = 0.15;
+  double max_rate_radps = to_rad(57.0);
+  double tolerance_rad = to_rad(5.0);
 };
 
 // Growth of the error relative to the start: the particles measure it relative to the map only.
 struct DriftConfig {
-  double position_share = 0.003;
+  double position_sigma_per_m = 0.003;
   double yaw_rad_per_sqrt_m = to_rad(0.02);
 };
 
@@ -50,7 +50,7 @@ struct SlamConfig {
   JumpConfig jump;
   DriftConfig drift;
   AnchorConfig anchor;
-  double min_inlier_share = 0.5;  // of the matched patches; fewer: lost
+  double min_inlier_ratio = 0.5;  // of the matched patches; fewer: lost
   int lost_clouds = 3;            // in a row: the map is restarted
   std::uint64_t seed = 1;
 };

@@ -37,7 +37,7 @@ PageContext page_context(const std::string& run_dir) {
 GlobalPath whole_path() {
   GlobalPath path;
   for (double s = 0.0; s <= 45.0; s += 1.0) {
-    const Pose2 at = test::MadeUpDrive::set_grid(s);
+    const Pose2 at = test::MadeUpDrive::pose_at(s);
     path.x_m.push_back(at.x_m);
     path.y_m.push_back(at.y_m);
     path.level.push_back(1);
@@ -50,7 +50,7 @@ void fill(SharedState& shared) {
   shared.book.with([](Logbook& book) {
     book.set_path(1, whole_path());
     for (double s = 0.0; s <= 12.0; s += 0.1) {
-      const Pose2 at = test::MadeUpDrive::set_grid(s);
+      const Pose2 at = test::MadeUpDrive::pose_at(s);
       book.add_track_point(at.x_m, at.y_m);
     }
     book.add_event(0.0, Tone::kInfo, "level", "level FULL: slow_progress effective_speed_mps 0.043 limit 0.06");

@@ -20,7 +20,7 @@ class BarrierTest : public testing::Test {
   Barrier barrier_;
 };
 
-TEST_F(BarrierTest, WaitsForEachTickUnlessPromised) {
+TEST_F(BarrierTest, WaitsForDoneUnlessPromised) {
   EXPECT_FALSE(waits_at(kTickUs));
   EXPECT_TRUE(waits_at(2 * kTickUs));
   barrier_.done("node", 5, 100, kTickUs, 10 * kTickUs);
@@ -28,7 +28,7 @@ TEST_F(BarrierTest, WaitsForEachTickUnlessPromised) {
   EXPECT_TRUE(waits_at(10 * kTickUs));
 }
 
-TEST_F(BarrierTest, ADeadProcessReturnsAsANewerOneOnly) {
+TEST_F(BarrierTest, DeadProcessRejoinsOnlyWithNewerBootId) {
   barrier_.leave("node", Barrier::Cause::kDied, 2 * kTickUs, 10 * kTickUs);
   EXPECT_TRUE(barrier_.admit(3 * kTickUs).empty());
   EXPECT_FALSE(waits_at(6 * kTickUs));
@@ -41,7 +41,7 @@ TEST_F(BarrierTest, ADeadProcessReturnsAsANewerOneOnly) {
   EXPECT_EQ(barrier_.admit(12 * kTickUs), Names{"node"});
 }
 
-TEST_F(BarrierTest, IdlesAfterTheLastReportOfATickOnly) {
+TEST_F(BarrierTest, IsIdleOnlyAfterFinalReportOfTick) {
   EXPECT_TRUE(barrier_.idle("node"));
   barrier_.admit(kTickUs);
   EXPECT_FALSE(barrier_.idle("node"));
@@ -52,7 +52,7 @@ TEST_F(BarrierTest, IdlesAfterTheLastReportOfATickOnly) {
   EXPECT_TRUE(barrier_.idle("node"));
 }
 
-TEST_F(BarrierTest, TimeJumpsForThoseWhoIdleOnly) {
+TEST_F(BarrierTest, TimeJumpsOnlyForIdleServices) {
   barrier_.allow_until(100 * kTickUs);
   EXPECT_FALSE(waits_at(100 * kTickUs));
   EXPECT_EQ(barrier_.admit(100 * kTickUs), Names{"node"});
@@ -61,7 +61,7 @@ TEST_F(BarrierTest, TimeJumpsForThoseWhoIdleOnly) {
   EXPECT_TRUE(waits_at(200 * kTickUs));
 }
 
-TEST_F(BarrierTest, AProcessThatIsGivenUpIsNotWaitedForAndMayReturn) {
+TEST_F(BarrierTest, GivenUpProcessIsNotWaitedForAndMayRejoin) {
   barrier_.leave("node", Barrier::Cause::kDied, 2 * kTickUs, 10 * kTickUs);
   barrier_.give_up("node");
   EXPECT_FALSE(waits_at(100 * kTickUs));
@@ -70,7 +70,7 @@ TEST_F(BarrierTest, AProcessThatIsGivenUpIsNotWaitedForAndMayReturn) {
   EXPECT_EQ(barrier_.admit(100 * kTickUs), Names{"node"});
 }
 
-TEST_F(BarrierTest, ASilentProcessReturnsByItsNextReport) {
+TEST_F(BarrierTest, SilentProcessRejoinsWithItsNextReport) {
   barrier_.leave("node", Barrier::Cause::kSilent, 2 * kTickUs, 10 * kTickUs);
   EXPECT_EQ(barrier_.pid_of("node"), 100);
   EXPECT_TRUE(waits_at(12 * kTickUs));
@@ -84,7 +84,7 @@ TEST_F(BarrierTest, ASilentProcessReturnsByItsNextReport) {
 }
 
 // s6 restarts a process within 0.15 s; the barrier notices the death only when a report is due.
-TEST_F(BarrierTest, AProcessThatIsUpBeforeItsPredecessorIsMissedReturns) {
+TEST_F(BarrierTest, ProcessRestartedBeforeItsDeathIsNoticedRejoins) {
   barrier_.done("node", 5, 100, 0, 10 * kTickUs);
   barrier_.ready("node", 6, 101);
   barrier_.admit(kTickUs);
@@ -98,7 +98,7 @@ TEST_F(BarrierTest, AProcessThatIsUpBeforeItsPredecessorIsMissedReturns) {
   EXPECT_EQ(barrier_.admit(20 * kTickUs), Names{"node"});
 }
 
-TEST_F(BarrierTest, ASilentProcessThatIsReplacedReturnsAsTheNewOne) {
+TEST_F(BarrierTest, ReplacedSilentProcessRejoinsAsNewProcess) {
   barrier_.leave("node", Barrier::Cause::kSilent, 2 * kTickUs, 10 * kTickUs);
   barrier_.done("node", 5, 100, kTickUs, kNever);
   barrier_.ready("node", 6, 101);

@@ -15,7 +15,7 @@
 namespace rover {
 namespace {
 
-TEST(WorkerPool, DoesEachIndexOnce) {
+TEST(WorkerPool, ProcessesEachIndexOnce) {
   for (int threads : {1, 2, 5}) {
     WorkerPool pool(threads);
     for (int count : {0, 1, 7, 100}) {
@@ -37,7 +37,7 @@ TEST(RayTable, ProjectionInvertsRays) {
 }
 
 // Diagonal field of view of 100 deg.
-TEST(RayTable, ProjectionInvertsRaysOfAFisheyeLens) {
+TEST(RayTable, ProjectionInvertsFisheyeRays) {
   StereoRig rig = test::loccam_rig();
   rig.right.model = DistortionModel::kEquidistant;
   rig.right.distortion = {0.02, -0.015, 0.004, -0.001};
@@ -52,7 +52,7 @@ TEST(RayTable, ProjectionInvertsRaysOfAFisheyeLens) {
   EXPECT_FALSE(has_ray(rig.right, {0.0, 0.0})) << "91 deg from the axis";
 }
 
-TEST(CalibrationError, HasTheSizeAskedFor) {
+TEST(CalibrationError, HasConfiguredReprojectionError) {
   const StereoRig nominal = test::loccam_rig();
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const StereoRig rig = with_calibration_error(nominal, 0.2, seed);
@@ -65,7 +65,7 @@ TEST(CalibrationError, HasTheSizeAskedFor) {
   EXPECT_LT(reprojection_rms_px(nominal, with_calibration_error(nominal, 0.0, 1)), 1e-9);
 }
 
-TEST(DetailTexture, IsPeriodicCentredAndOfUnitVariance) {
+TEST(DetailTexture, IsPeriodicWithZeroMeanAndUnitVariance) {
   const DetailTexture texture(3, true);
   double sum = 0.0;
   double squares = 0.0;
@@ -90,10 +90,10 @@ class PlateauSurface : public Surface {
   Material material(double, double) const override { return {}; }
 };
 
-TEST(SunHorizon, ShadowIsAsLongAsTheSunIsLow) {
+TEST(SunHorizon, ShadowLengthFollowsSunElevation) {
   const PlateauSurface surface;
   for (double elevation_deg : {20.0, 35.0, 60.0}) {
-    GroundLookConfig sun;
+    GroundAppearanceConfig sun;
     sun.sun_elevation_rad = to_rad(elevation_deg);
     sun.sun_azimuth_rad = 0.0;
     const auto tile = [&](int ix, int iy) { return std::make_shared<const HeightTile>(TileKey{0, ix, iy}, surface); };
@@ -109,7 +109,7 @@ TEST(SunHorizon, ShadowIsAsLongAsTheSunIsLow) {
   }
 }
 
-TEST(Imager, NoiseFollowsShotAndReadNoise) {
+TEST(Imager, NoiseMatchesShotAndReadNoiseModel) {
   ImagerConfig config;
   config.vignetting = 0.0;
   const Imager imager(config, 256, 128);
@@ -128,7 +128,7 @@ TEST(Imager, NoiseFollowsShotAndReadNoise) {
   }
 }
 
-TEST(Imager, ExposureControlFindsTheTarget) {
+TEST(Imager, ExposureControlConvergesToTarget) {
   const ImagerConfig config;
   for (double light : {0.5, 2.0, 20.0}) {  // grey value per millisecond
     double exposure_s = 0.004;

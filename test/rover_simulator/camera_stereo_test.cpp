@@ -95,15 +95,15 @@ StereoScore score(StereoCameraSim& camera, const Eigen::Isometry3d& T_map_body) 
   return result;
 }
 
-TEST(StereoOnPictures, IsDenseAndExactOnNormalGround) {
+TEST(StereoOnRenderedImages, IsDenseAndAccurateOnNormalGround) {
   cv::setNumThreads(1);
   const test::RockySurface surface;
   for (double elevation_deg : {15.0, 35.0, 60.0}) {
     CameraSimConfig config;
     config.scene = test::small_scene();
     config.calibration_error_px = 0.0;
-    config.scene.look.textureless_fraction = 0.0;
-    config.scene.look.sun_elevation_rad = to_rad(elevation_deg);
+    config.scene.appearance.textureless_fraction = 0.0;
+    config.scene.appearance.sun_elevation_rad = to_rad(elevation_deg);
     StereoCameraSim camera(test::loccam_rig(), config, surface, 1);
     const StereoScore found = score(camera, test::body_at(surface, 50.0, 60.0, 0.5));
     EXPECT_GT(found.dense, 0.9) << elevation_deg;
@@ -124,7 +124,7 @@ double bilinear(const GrayImage& image, const Eigen::Vector2d& at) {
          fv * ((1 - fu) * image.at(u, v + 1) + fu * image.at(u + 1, v + 1));
 }
 
-TEST(StereoOnPictures, TextureDoesNotCrawl) {
+TEST(StereoOnRenderedImages, TextureIsFixedToGroundBetweenFrames) {
   const test::RockySurface surface;
   CameraSimConfig config;
   config.scene = test::small_scene();
@@ -178,7 +178,7 @@ double mismatch(StereoCameraSim& camera, const StereoCameraSim::Pair& pair, cons
 }
 
 // The photometric mismatch has its minimum at the geometric projection, within hundredths of a pixel.
-TEST(StereoOnPictures, PicturesAgreeWithTheGeometry) {
+TEST(StereoOnRenderedImages, ImagesMatchGeometryWithinHundredthsOfPixel) {
   const test::RockySurface surface;
   CameraSimConfig config;
   config.scene = test::small_scene();

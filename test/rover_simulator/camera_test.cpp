@@ -24,7 +24,7 @@ CameraSimConfig quiet_config() {
   config.calibration_error_px = 0.0;
   config.imager.full_well_e = 1e12;
   config.imager.read_noise_e = 0.0;
-  config.scene.look.textureless_fraction = 0.0;
+  config.scene.appearance.textureless_fraction = 0.0;
   return config;
 }
 
@@ -38,7 +38,7 @@ double rms_difference(const GrayImage& a, const GrayImage& b) {
   return std::sqrt(squares / static_cast<double>(a.data.size()));
 }
 
-TEST(StereoCameraSim, SameBytesWithAnyNumberOfThreads) {
+TEST(StereoCameraSim, ImageIsIdenticalForAnyThreadCount) {
   const test::RockySurface surface;
   CameraSimConfig config = small_config();
   config.scene.threads = 1;
@@ -51,7 +51,7 @@ TEST(StereoCameraSim, SameBytesWithAnyNumberOfThreads) {
   }
 }
 
-TEST(StereoCameraSim, PictureDoesNotDependOnTheWayThere) {
+TEST(StereoCameraSim, ImageDoesNotDependOnPreviousPositions) {
   const test::RockySurface surface;
   const CameraSimConfig config = small_config();
   const auto travelled = std::make_shared<TileScene>(surface, config.scene);
@@ -63,7 +63,7 @@ TEST(StereoCameraSim, PictureDoesNotDependOnTheWayThere) {
   EXPECT_TRUE(same_bytes(a.render(T_map_body, 0), b.render(T_map_body, 0)));
 }
 
-TEST(StereoCameraSim, RangesAgreeWithThePlane) {
+TEST(StereoCameraSim, RangesMatchAnalyticPlane) {
   const test::PlaneSurface surface(-4460.0, 0.08, -0.05);
   StereoCameraSim camera(loccam_rig(), quiet_config(), surface, 1);
   const Eigen::Isometry3d T_map_left = body_at(surface, 213.3, 151.7, 0.7) * camera.true_rig().T_body_left;
@@ -98,7 +98,7 @@ double marched_range_m(const Surface& surface, const Eigen::Vector3d& eye, const
   return t;
 }
 
-TEST(StereoCameraSim, RangesAgreeWithMarchingTheSurfaceItself) {
+TEST(StereoCameraSim, RangesMatchRayMarchedSurface) {
   const test::RockySurface surface;
   StereoCameraSim camera(loccam_rig(), quiet_config(), surface, 1);
   const Eigen::Isometry3d T_map_left = body_at(surface, 213.3, 151.7, 0.7) * camera.true_rig().T_body_left;
@@ -117,7 +117,7 @@ TEST(StereoCameraSim, RangesAgreeWithMarchingTheSurfaceItself) {
   EXPECT_GT(near, 0.97 * count);
 }
 
-TEST(StereoCameraSim, GroundHasNoCracks) {
+TEST(StereoCameraSim, NoGapsBetweenTiles) {
   const test::RockySurface surface;
   CameraSimConfig config = quiet_config();
   config.scene.far_radius_m = 80.0;
@@ -158,12 +158,12 @@ Eigen::Vector2d disc_centroid(const GrayImage& image) {
   return sum / count;
 }
 
-TEST(StereoCameraSim, KnownPointsProjectWhereExpected) {
+TEST(StereoCameraSim, KnownPointsProjectToExpectedPixels) {
   const DiscSurface surface;
   CameraSimConfig config = quiet_config();
   config.imager.vignetting = 0.0;
-  config.scene.look.textureless_fraction = 1.0;
-  config.scene.look.textureless_rock_fraction = 0.0;
+  config.scene.appearance.textureless_fraction = 1.0;
+  config.scene.appearance.textureless_rock_fraction = 0.0;
   StereoCameraSim camera(loccam_rig(), config, surface, 1);
   const Eigen::Isometry3d T_map_body = body_at(surface, 0.0, 0.0);
   const StereoCameraSim::Pair pair = camera.render(T_map_body, 0);
@@ -174,7 +174,7 @@ TEST(StereoCameraSim, KnownPointsProjectWhereExpected) {
   EXPECT_LT((disc_centroid(pair.right) - project(rig.right, rig.T_left_right.inverse() * p_left)).norm(), 0.6);
 }
 
-TEST(StereoCameraSim, SeedAndFrameChangeNoiseOnly) {
+TEST(StereoCameraSim, SeedAndFrameNumberChangeOnlyNoise) {
   const test::RockySurface surface;
   CameraSimConfig config = small_config();
   config.calibration_error_px = 0.0;
@@ -191,12 +191,12 @@ TEST(StereoCameraSim, SeedAndFrameChangeNoiseOnly) {
   }
 }
 
-TEST(StereoCameraSim, ExposureFollowsTheSun) {
+TEST(StereoCameraSim, ExposureAdaptsToSunElevation) {
   const test::PlaneSurface surface;
   double exposure_s[2];
   for (int i = 0; i < 2; ++i) {
     CameraSimConfig config = small_config();
-    config.scene.look.sun_elevation_rad = to_rad(i == 0 ? 15.0 : 60.0);
+    config.scene.appearance.sun_elevation_rad = to_rad(i == 0 ? 15.0 : 60.0);
     StereoCameraSim camera(loccam_rig(), config, surface, 1);
     StereoCameraSim::Pair pair;
     for (int frame = 0; frame < 5; ++frame) pair = camera.render(body_at(surface, 0.0, 0.0), frame);
@@ -214,11 +214,11 @@ double texture_of(const StereoCameraSim::Pair& pair) {
   return sum / (192 * 511);
 }
 
-TEST(StereoCameraSim, DustIsWithoutTexture) {
+TEST(StereoCameraSim, DustHasNoTexture) {
   const test::PlaneSurface surface;
   CameraSimConfig config = quiet_config();
   StereoCameraSim ground(loccam_rig(), config, surface, 1);
-  config.scene.look.textureless_fraction = 1.0;
+  config.scene.appearance.textureless_fraction = 1.0;
   StereoCameraSim dust(loccam_rig(), config, surface, 1);
   const Eigen::Isometry3d T_map_body = body_at(surface, 0.0, 0.0);
   const double textured = texture_of(ground.render(T_map_body, 0));
@@ -226,22 +226,22 @@ TEST(StereoCameraSim, DustIsWithoutTexture) {
   EXPECT_LT(texture_of(dust.render(T_map_body, 0)), 0.1 * textured);
 }
 
-TEST(GroundLook, DustCoversTheShareAskedFor) {
+TEST(GroundAppearance, DustCoversConfiguredFraction) {
   for (double fraction : {0.02, 0.05, 0.1, 0.3}) {
-    GroundLookConfig config;
+    GroundAppearanceConfig config;
     config.textureless_fraction = fraction;
-    const GroundLook look(config);
-    const float clear = look.at(0.0, 0.0, {Soil::kFirm, 3, 0.0}).fine_contrast > 0.1F ? 0.1F : 0.02F;
+    const GroundAppearance appearance(config);
+    const float clear = appearance.at(0.0, 0.0, {Soil::kFirm, 3, 0.0}).fine_contrast > 0.1F ? 0.1F : 0.02F;
     int dusty = 0;
     constexpr int kSide = 400;
     for (int j = 0; j < kSide; ++j)
       for (int i = 0; i < kSide; ++i)
-        if (look.at(0.37 * i, 0.37 * j, {Soil::kFirm, -1, 0.0}).fine_contrast < clear) ++dusty;
+        if (appearance.at(0.37 * i, 0.37 * j, {Soil::kFirm, -1, 0.0}).fine_contrast < clear) ++dusty;
     EXPECT_NEAR(dusty / double{kSide * kSide}, fraction, 0.35 * fraction) << fraction;
   }
 }
 
-TEST(TileScene, MemoryStaysBoundedOnALongTraverse) {
+TEST(TileScene, MemoryIsBoundedOnLongTraverse) {
   const test::PlaneSurface surface(0.0, 0.05, 0.02);
   TileSceneConfig config = test::small_scene();
   config.fine_radius_m = 1.0;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr Utime kScriptStart = 1'000'000;
 
-TEST(FaultScript, GivesEachFaultOnceWhenItsTimeWayOrStateHasCome) {
+TEST(FaultScript, TriggersEachFaultOnceByTimeDistanceOrState) {
   std::vector<ScriptedFault> faults(3);
   faults[0].order.fault = "by_time";
   faults[0].at_s = 2.0;
@@ -33,7 +33,7 @@ TEST(FaultScript, GivesEachFaultOnceWhenItsTimeWayOrStateHasCome) {
   EXPECT_TRUE(script.take_due(kScriptStart + 9'000'000, 9.0).empty());
 }
 
-TEST(ProcessFaults, ARestartLoopStrikesEachTimeTheServiceIsBack) {
+TEST(ProcessFaults, RestartLoopKillsServiceAfterEachRejoin) {
   Barrier barrier({"stereo"});
   ProcessFaults faults;
   faults.order({"restart_loop", "stereo", 2.0});
@@ -42,10 +42,10 @@ TEST(ProcessFaults, ARestartLoopStrikesEachTimeTheServiceIsBack) {
     const Utime t = boot * 2'000'000;
     barrier.ready("stereo", boot, 100 + boot);
     barrier.admit(t);
-    const std::vector<ProcessBlow> blows = faults.take_due(barrier);
-    ASSERT_EQ(blows.size(), 1u);
-    EXPECT_EQ(blows[0].signal, SIGKILL);
-    barrier.leave("stereo", Barrier::Cause::kDied, t, blows[0].away);
+    const std::vector<ProcessSignal> signals = faults.take_due(barrier);
+    ASSERT_EQ(signals.size(), 1u);
+    EXPECT_EQ(signals[0].signal, SIGKILL);
+    barrier.leave("stereo", Barrier::Cause::kDied, t, signals[0].absence);
     EXPECT_TRUE(faults.take_due(barrier).empty());
   }
   barrier.ready("stereo", 3, 103);
@@ -53,16 +53,16 @@ TEST(ProcessFaults, ARestartLoopStrikesEachTimeTheServiceIsBack) {
   EXPECT_TRUE(faults.take_due(barrier).empty());
 }
 
-TEST(ProcessFaults, AHungServiceIsAwayLonger) {
+TEST(ProcessFaults, HungServiceIsAbsentLongerThanKilledOne) {
   Barrier barrier({"stereo"});
   barrier.ready("stereo", 1, 100);
   barrier.admit(0);
   ProcessFaults faults;
   faults.order({"hang", "stereo"});
-  const std::vector<ProcessBlow> blows = faults.take_due(barrier);
-  ASSERT_EQ(blows.size(), 1u);
-  EXPECT_EQ(blows[0].signal, SIGSTOP);
-  EXPECT_EQ(blows[0].away, 3'000'000);
+  const std::vector<ProcessSignal> signals = faults.take_due(barrier);
+  ASSERT_EQ(signals.size(), 1u);
+  EXPECT_EQ(signals[0].signal, SIGSTOP);
+  EXPECT_EQ(signals[0].absence, 3'000'000);
 }
 
 wheel_command_t command(std::int64_t seq, Utime utime) {
@@ -74,7 +74,7 @@ wheel_command_t command(std::int64_t seq, Utime utime) {
   return message;
 }
 
-TEST(CommandInbox, GivesTheNewestReleased) {
+TEST(CommandInbox, ReturnsNewestReleasedCommand) {
   CommandInbox<wheel_command_t> inbox(channel::kWheelCommand);
   for (int i = 1; i <= 3; ++i) inbox.add(command(i, i * kTickUs));
   EXPECT_FALSE(inbox.take(kTickUs, nullptr));
@@ -83,7 +83,7 @@ TEST(CommandInbox, GivesTheNewestReleased) {
   EXPECT_EQ(inbox.take(4 * kTickUs, nullptr)->header.seq, 3);
 }
 
-TEST(CommandInbox, OldCommandsThatComeLateAreVoid) {
+TEST(CommandInbox, DropsDelayedCommandsOlderThanTheLast) {
   Tap tap("rover_simulator");
   injection_t delay{};
   delay.fault = "delay";

@@ -25,14 +25,14 @@ constexpr Utime kStart = 1'000'000;
 
 // Records all messages of a channel.
 template <class Message>
-void keep(lcm::LCM& bus, const char* channel, std::vector<Message>& kept) {
+void record(lcm::LCM& bus, const char* channel, std::vector<Message>& messages) {
   bus.subscribeFunction(
       channel,
       +[](const lcm::ReceiveBuffer* buffer, const std::string&, std::vector<Message>* out) {
         Message message;
         if (decode_message(buffer->data, static_cast<int>(buffer->data_size), message)) out->push_back(message);
       },
-      &kept);
+      &messages);
 }
 
 // Service that drives straight ahead. Its process is a sleeping child, restarted after it was killed.
@@ -62,7 +62,7 @@ class Driver {
     child_ = fork();
     if (child_ == 0)
       while (true) pause();
-    say_done(kNever);
+    publish_done(kNever);
   }
   void end() {
     kill(child_, SIGKILL);
@@ -80,9 +80,9 @@ class Driver {
     for (double& rate : command.drive_rate_radps) rate = 1.0;
     command.header = streams_->next(channel::kWheelCommand, tick.header.utime, tick.header.utime + kTickUs);
     bus_.publish(channel::kWheelCommand, &command);
-    say_done(tick.header.utime);
+    publish_done(tick.header.utime);
   }
-  void say_done(Utime t) {
+  void publish_done(Utime t) {
     done_t done{};
     done.tick_utime = t;
     done.promise_utime = kNever;
@@ -98,7 +98,7 @@ class Driver {
   int child_ = -1;
 };
 
-struct Heard {
+struct Recording {
   SimulationSummary summary;
   std::vector<imu_t> imu;
   std::vector<wheel_state_t> wheels;
@@ -117,7 +117,7 @@ ScriptedFault at_second(double at_s, const std::string& fault, const std::string
 }
 
 // Drives for some seconds on a smooth firm plane.
-Heard drive(std::vector<ScriptedFault> faults, double seconds = 2.0) {
+Recording drive(std::vector<ScriptedFault> faults, double seconds = 2.0) {
   SimulatedRoverConfig config;
   config.loccam.scene.fine_radius_m = 4.5;
   config.loccam.scene.middle_radius_m = 8.0;
@@ -133,118 +133,119 @@ Heard drive(std::vector<ScriptedFault> faults, double seconds = 2.0) {
   options.participants = {"driver"};
   options.end.timeout_s = seconds;
   options.faults = std::move(faults);
-  Heard heard;
+  Recording recorded;
   lcm::LCM bus("memq://");
-  keep(bus, channel::kImu, heard.imu);
-  keep(bus, channel::kWheelState, heard.wheels);
-  keep(bus, channel::kLocCamLeft, heard.left);
-  keep(bus, channel::kLocCamRight, heard.right);
-  keep(bus, channel::kInject, heard.injections);
-  keep(bus, channel::kTruth, heard.truth);
+  record(bus, channel::kImu, recorded.imu);
+  record(bus, channel::kWheelState, recorded.wheels);
+  record(bus, channel::kLocCamLeft, recorded.left);
+  record(bus, channel::kLocCamRight, recorded.right);
+  record(bus, channel::kInject, recorded.injections);
+  record(bus, channel::kTruth, recorded.truth);
   testing::internal::CaptureStdout();
   {
     Simulator simulator(options, rover, bus);
     const Driver driver(bus);
-    heard.summary = simulator.run([] { return true; });
-    heard.ticks = driver.ticks();
-    heard.boots = driver.boots();
+    recorded.summary = simulator.run([] { return true; });
+    recorded.ticks = driver.ticks();
+    recorded.boots = driver.boots();
   }
   testing::internal::GetCapturedStdout();
-  return heard;
+  return recorded;
 }
 
 double mean(const std::vector<std::uint8_t>& data) {
   return std::accumulate(data.begin(), data.end(), 0.0) / static_cast<double>(data.size());
 }
 
-TEST(SimulatorFaults, ABlindCameraGivesBlackPictures) {
-  const Heard heard = drive({at_second(1.0, "camera_blind", "left")});
-  ASSERT_GE(heard.left.size(), 4u);
-  EXPECT_GT(mean(heard.left.front().data), 20.0);
-  EXPECT_EQ(mean(heard.left.back().data), 0.0);
-  EXPECT_GT(mean(heard.right.back().data), 20.0);
+TEST(SimulatorFaults, BlindCameraGivesBlackImages) {
+  const Recording recorded = drive({at_second(1.0, "camera_blind", "left")});
+  ASSERT_GE(recorded.left.size(), 4u);
+  EXPECT_GT(mean(recorded.left.front().data), 20.0);
+  EXPECT_EQ(mean(recorded.left.back().data), 0.0);
+  EXPECT_GT(mean(recorded.right.back().data), 20.0);
 }
 
-TEST(SimulatorFaults, AFrozenCameraRepeatsItsLastPicture) {
-  const Heard heard = drive({at_second(0.6, "camera_frozen", "both")});
-  ASSERT_GE(heard.left.size(), 4u);
-  EXPECT_NE(heard.left[0].data, heard.left[1].data);
-  EXPECT_EQ(heard.left[2].data, heard.left[1].data);
-  EXPECT_EQ(heard.left.back().data, heard.left[1].data);
-  EXPECT_EQ(heard.right.back().data, heard.right[1].data);
+TEST(SimulatorFaults, FrozenCameraRepeatsLastImage) {
+  const Recording recorded = drive({at_second(0.6, "camera_frozen", "both")});
+  ASSERT_GE(recorded.left.size(), 4u);
+  EXPECT_NE(recorded.left[0].data, recorded.left[1].data);
+  EXPECT_EQ(recorded.left[2].data, recorded.left[1].data);
+  EXPECT_EQ(recorded.left.back().data, recorded.left[1].data);
+  EXPECT_EQ(recorded.right.back().data, recorded.right[1].data);
 }
 
-TEST(SimulatorFaults, AShiftedCameraIsShiftedByItsPixels) {
-  const Heard good = drive({}, 1.0);
-  const Heard heard = drive({at_second(0.0, "camera_rows", "right", 3)}, 1.0);
-  const image_t& image = heard.right.at(1);
+TEST(SimulatorFaults, ShiftedCameraShiftsImageByPixels) {
+  const Recording good = drive({}, 1.0);
+  const Recording recorded = drive({at_second(0.0, "camera_rows", "right", 3)}, 1.0);
+  const image_t& image = recorded.right.at(1);
   const auto w = static_cast<size_t>(image.width);
   EXPECT_TRUE(std::equal(image.data.begin() + static_cast<std::ptrdiff_t>(3 * w), image.data.end(),
                          good.right.at(1).data.begin()));
-  EXPECT_EQ(heard.left.at(1).data, good.left.at(1).data);
+  EXPECT_EQ(recorded.left.at(1).data, good.left.at(1).data);
 }
 
-TEST(SimulatorFaults, ADeadImuSaysNothing) {
-  const Heard heard = drive({at_second(1.0, "imu_dead", "imu")});
-  EXPECT_EQ(heard.imu.size(), 50u);
-  EXPECT_GE(heard.wheels.size(), 100u);
+TEST(SimulatorFaults, DeadImuPublishesNothing) {
+  const Recording recorded = drive({at_second(1.0, "imu_dead", "imu")});
+  EXPECT_EQ(recorded.imu.size(), 50u);
+  EXPECT_GE(recorded.wheels.size(), 100u);
 }
 
-TEST(SimulatorFaults, BiasesShowInTheIncrements) {
-  const Heard good = drive({}, 1.0);
-  const Heard heard = drive({at_second(0.0, "gyro_bias", "imu", 0.1), at_second(0.0, "accel_bias", "imu", 2.0)}, 1.0);
-  const imu_t& biased = heard.imu.at(20);
+TEST(SimulatorFaults, BiasFaultsAppearInIncrements) {
+  const Recording good = drive({}, 1.0);
+  const Recording recorded =
+      drive({at_second(0.0, "gyro_bias", "imu", 0.1), at_second(0.0, "accel_bias", "imu", 2.0)}, 1.0);
+  const imu_t& biased = recorded.imu.at(20);
   EXPECT_NEAR(biased.delta_angle_rad[2] - good.imu.at(20).delta_angle_rad[2], 0.1 * biased.dt_s, 1e-12);
   EXPECT_NEAR(biased.fog_delta_yaw_rad - good.imu.at(20).fog_delta_yaw_rad, 0.1 * biased.dt_s, 1e-12);
   EXPECT_NEAR(biased.delta_velocity_mps[0] - good.imu.at(20).delta_velocity_mps[0], 2.0 * biased.dt_s, 1e-12);
 }
 
-TEST(SimulatorFaults, AStuckEncoderStandsWhileItsWheelTurns) {
-  const Heard heard = drive({at_second(1.0, "encoder_stuck", "2")});
-  const wheel_state_t& last = heard.wheels.back();
-  EXPECT_EQ(last.drive_angle_rad[2], heard.wheels.at(49).drive_angle_rad[2]);
+TEST(SimulatorFaults, StuckEncoderReadsConstantWhileWheelTurns) {
+  const Recording recorded = drive({at_second(1.0, "encoder_stuck", "2")});
+  const wheel_state_t& last = recorded.wheels.back();
+  EXPECT_EQ(last.drive_angle_rad[2], recorded.wheels.at(49).drive_angle_rad[2]);
   EXPECT_EQ(last.drive_rate_radps[2], 0.0);
-  EXPECT_GT(last.drive_angle_rad[3] - heard.wheels.at(49).drive_angle_rad[3], 0.8);
+  EXPECT_GT(last.drive_angle_rad[3] - recorded.wheels.at(49).drive_angle_rad[3], 0.8);
 }
 
-TEST(SimulatorFaults, AJammedWheelStandsAndItsCurrentRisesToTheLimit) {
-  const Heard heard = drive({at_second(1.0, "wheel_jammed", "4")});
-  const wheel_state_t& last = heard.wheels.back();
+TEST(SimulatorFaults, JammedWheelStopsAndCurrentReachesLimit) {
+  const Recording recorded = drive({at_second(1.0, "wheel_jammed", "4")});
+  const wheel_state_t& last = recorded.wheels.back();
   EXPECT_NEAR(last.drive_rate_radps[4], 0.0, 0.02);
   EXPECT_GT(last.drive_current_a[4], 8.0);
-  EXPECT_LT(heard.wheels.at(45).drive_current_a[4], 2.0);
+  EXPECT_LT(recorded.wheels.at(45).drive_current_a[4], 2.0);
   EXPECT_NEAR(last.drive_rate_radps[5], 1.0, 0.1);
 }
 
-TEST(SimulatorFaults, LooseSandSlips) {
+TEST(SimulatorFaults, LooseSandIncreasesSlip) {
   const auto slip = [](const truth_t& truth) {
     return std::accumulate(truth.wheel_slip, truth.wheel_slip + 6, 0.0) / 6;
   };
-  const Heard good = drive({}, 4.0);
-  const Heard heard = drive({at_second(1.0, "loose_sand", "ground")}, 4.0);
-  EXPECT_EQ(heard.truth.back().wheel_soil[0], std::int8_t{truth_t::SAND});
-  EXPECT_GT(slip(heard.truth.back()), slip(good.truth.back()) + 0.02);
+  const Recording good = drive({}, 4.0);
+  const Recording recorded = drive({at_second(1.0, "loose_sand", "ground")}, 4.0);
+  EXPECT_EQ(recorded.truth.back().wheel_soil[0], std::int8_t{truth_t::SAND});
+  EXPECT_GT(slip(recorded.truth.back()), slip(good.truth.back()) + 0.02);
 }
 
-TEST(SimulatorFaults, ATiltIsFeltAsASlope) {
-  const Heard heard = drive({at_second(1.0, "tilt_pitch", "ground", 20.0)}, 4.0);
+TEST(SimulatorFaults, TiltActsOnImuLikeSlope) {
+  const Recording recorded = drive({at_second(1.0, "tilt_pitch", "ground", 20.0)}, 4.0);
   // On a slope that falls ahead by 20 degrees specific force points up, that is backwards in the body.
   double forward = 0.0, up = 0.0, turned = 0.0;
-  for (const imu_t& imu : heard.imu) turned += imu.delta_angle_rad[1];
+  for (const imu_t& imu : recorded.imu) turned += imu.delta_angle_rad[1];
   EXPECT_NEAR(turned, to_rad(20.0), to_rad(2.0));
-  for (size_t i = heard.imu.size() - 50; i < heard.imu.size(); ++i) {
-    forward += heard.imu[i].delta_velocity_mps[0];
-    up += heard.imu[i].delta_velocity_mps[2];
+  for (size_t i = recorded.imu.size() - 50; i < recorded.imu.size(); ++i) {
+    forward += recorded.imu[i].delta_velocity_mps[0];
+    up += recorded.imu[i].delta_velocity_mps[2];
   }
   EXPECT_NEAR(std::atan2(-forward, up), to_rad(20.0), to_rad(4.0));
 }
 
-TEST(SimulatorFaults, ATiltGoesAsItCame) {
+TEST(SimulatorFaults, TiltRampsUpAndDown) {
   ScriptedFault tilt = at_second(1.0, "tilt_roll", "ground", 20.0);
   tilt.order.for_s = 2.0;
-  const Heard heard = drive({tilt}, 5.5);
+  const Recording recorded = drive({tilt}, 5.5);
   double turned = 0.0, most = 0.0;
-  for (const imu_t& imu : heard.imu) {
+  for (const imu_t& imu : recorded.imu) {
     turned += imu.delta_angle_rad[0];
     most = std::max(most, turned);
   }
@@ -252,39 +253,39 @@ TEST(SimulatorFaults, ATiltGoesAsItCame) {
   EXPECT_NEAR(turned, 0.0, to_rad(2.0));
 }
 
-TEST(SimulatorFaults, TheClockStepsOnceAndTheRunGoesOn) {
-  const Heard heard = drive({at_second(1.0, "clock_step", "clock", 5.0)}, 7.0);
-  EXPECT_EQ(heard.summary.outcome, "timeout");
-  EXPECT_TRUE(heard.summary.deterministic);
+TEST(SimulatorFaults, ClockStepsOnceAndRunContinues) {
+  const Recording recorded = drive({at_second(1.0, "clock_step", "clock", 5.0)}, 7.0);
+  EXPECT_EQ(recorded.summary.outcome, "timeout");
+  EXPECT_TRUE(recorded.summary.deterministic);
   int jumps = 0;
-  for (size_t i = 1; i < heard.ticks.size(); ++i) {
-    const Utime step = heard.ticks[i] - heard.ticks[i - 1];
+  for (size_t i = 1; i < recorded.ticks.size(); ++i) {
+    const Utime step = recorded.ticks[i] - recorded.ticks[i - 1];
     if (step == kTickUs) continue;
     EXPECT_EQ(step, kTickUs + 5'000'000);
-    EXPECT_EQ(heard.ticks[i - 1], kStart + 1'000'000);
+    EXPECT_EQ(recorded.ticks[i - 1], kStart + 1'000'000);
     ++jumps;
   }
   EXPECT_EQ(jumps, 1);
 }
 
-TEST(SimulatorFaults, EveryFaultIsAnnounced) {
-  const Heard heard = drive({at_second(0.5, "drop", "POSE", 0.3), at_second(0.7, "gyro_bias", "imu", 0.1)}, 1.0);
-  ASSERT_EQ(heard.injections.size(), 2u);
-  EXPECT_EQ(heard.injections[0].target, "POSE");
-  EXPECT_EQ(heard.injections[0].from_utime, kStart + 500'000);
-  EXPECT_EQ(heard.injections[1].injection_id, 2);
+TEST(SimulatorFaults, EveryFaultIsPublishedOnInject) {
+  const Recording recorded = drive({at_second(0.5, "drop", "POSE", 0.3), at_second(0.7, "gyro_bias", "imu", 0.1)}, 1.0);
+  ASSERT_EQ(recorded.injections.size(), 2u);
+  EXPECT_EQ(recorded.injections[0].target, "POSE");
+  EXPECT_EQ(recorded.injections[0].from_utime, kStart + 500'000);
+  EXPECT_EQ(recorded.injections[1].injection_id, 2);
 }
 
-TEST(SimulatorFaults, AKilledServiceIsBackASecondLaterAndHearsOfWhatStands) {
-  const Heard heard = drive({at_second(0.5, "drop", "POSE", 0.3), at_second(1.0, "kill", "driver")}, 3.0);
-  EXPECT_EQ(heard.boots, 2);
-  EXPECT_TRUE(heard.summary.deterministic);
-  const auto gap = std::find(heard.ticks.begin(), heard.ticks.end(), kStart + 980'000);
-  ASSERT_NE(gap, heard.ticks.end());
+TEST(SimulatorFaults, KilledServiceRejoinsAfterOneSecondAndReceivesActiveFaults) {
+  const Recording recorded = drive({at_second(0.5, "drop", "POSE", 0.3), at_second(1.0, "kill", "driver")}, 3.0);
+  EXPECT_EQ(recorded.boots, 2);
+  EXPECT_TRUE(recorded.summary.deterministic);
+  const auto gap = std::find(recorded.ticks.begin(), recorded.ticks.end(), kStart + 980'000);
+  ASSERT_NE(gap, recorded.ticks.end());
   EXPECT_EQ(*(gap + 1), kStart + 2'000'000);
-  ASSERT_EQ(heard.injections.size(), 3u);
-  EXPECT_EQ(heard.injections[2].injection_id, 1);
-  EXPECT_EQ(heard.injections[2].header.utime, kStart + 2'020'000);
+  ASSERT_EQ(recorded.injections.size(), 3u);
+  EXPECT_EQ(recorded.injections[2].injection_id, 1);
+  EXPECT_EQ(recorded.injections[2].header.utime, kStart + 2'020'000);
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ class Looker {
             looker->answer(tick.header.utime);
         },
         this);
-    say_done(kNever);
+    publish_done(kNever);
   }
 
  private:
@@ -49,9 +49,9 @@ class Looker {
       bus_.publish(channel::kPtuCommand, &command);
     }
     ++ticks_;
-    say_done(t);
+    publish_done(t);
   }
-  void say_done(Utime t) {
+  void publish_done(Utime t) {
     done_t done{};
     done.tick_utime = t;
     done.promise_utime = kNever;
@@ -100,64 +100,64 @@ Seen look(std::vector<Looker::Order> orders, double seconds, std::vector<Scripte
   options.participants = {"looker"};
   options.end.timeout_s = seconds;
   options.faults = std::move(faults);
-  Seen heard;
+  Seen recorded;
   lcm::LCM bus("memq://");
-  collect(bus, channel::kPtuState, heard.states);
-  collect(bus, channel::kNavCamLeft, heard.left);
-  collect(bus, channel::kNavCamRight, heard.right);
-  collect(bus, channel::kLocCamLeft, heard.loccam);
+  collect(bus, channel::kPtuState, recorded.states);
+  collect(bus, channel::kNavCamLeft, recorded.left);
+  collect(bus, channel::kNavCamRight, recorded.right);
+  collect(bus, channel::kLocCamLeft, recorded.loccam);
   bus.subscribeFunction(
       ".*",
       +[](const lcm::ReceiveBuffer* buffer, const std::string&, std::vector<MessageBytes>* all) {
         const auto* begin = static_cast<const std::uint8_t*>(buffer->data);
         all->emplace_back(begin, begin + buffer->data_size);
       },
-      &heard.everything);
+      &recorded.everything);
   testing::internal::CaptureStdout();
   Simulator simulator(options, rover, bus);
   const Looker looker(bus, std::move(orders));
   const SimulationSummary summary = simulator.run([] { return true; });
   testing::internal::GetCapturedStdout();
   EXPECT_TRUE(summary.deterministic);
-  return heard;
+  return recorded;
 }
 
-TEST(NavCam, IsSilentUntilTheUnitIsCommanded) {
-  const Seen heard = look({}, 1.0);
-  EXPECT_TRUE(heard.states.empty());
-  EXPECT_TRUE(heard.left.empty());
-  EXPECT_GE(heard.loccam.size(), 2u);
+TEST(NavCam, IsSilentUntilFirstPtuCommand) {
+  const Seen recorded = look({}, 1.0);
+  EXPECT_TRUE(recorded.states.empty());
+  EXPECT_TRUE(recorded.left.empty());
+  EXPECT_GE(recorded.loccam.size(), 2u);
 }
 
-TEST(NavCam, APairIsExposedOnceTheUnitStandsWhereItWasTold) {
-  const Seen heard = look({{2, to_rad(8.0), to_rad(3.0), true}}, 1.2);
-  ASSERT_EQ(heard.left.size(), 1u);
-  ASSERT_EQ(heard.right.size(), 1u);
-  EXPECT_EQ(heard.left[0].width, 640);
-  EXPECT_EQ(heard.left[0].header.utime, heard.right[0].header.utime);
-  EXPECT_EQ(heard.left[0].header.release_utime - heard.left[0].header.utime, 60'000);
-  EXPECT_NE(heard.left[0].data, heard.right[0].data);
+TEST(NavCam, PairIsExposedAfterUnitReachesCommandedAngles) {
+  const Seen recorded = look({{2, to_rad(8.0), to_rad(3.0), true}}, 1.2);
+  ASSERT_EQ(recorded.left.size(), 1u);
+  ASSERT_EQ(recorded.right.size(), 1u);
+  EXPECT_EQ(recorded.left[0].width, 640);
+  EXPECT_EQ(recorded.left[0].header.utime, recorded.right[0].header.utime);
+  EXPECT_EQ(recorded.left[0].header.release_utime - recorded.left[0].header.utime, 60'000);
+  EXPECT_NE(recorded.left[0].data, recorded.right[0].data);
   // 8 deg at 20 deg/s, from the command's release on; a state each tick.
-  ASSERT_GT(heard.states.size(), 40u);
-  const Utime begin = heard.states.front().header.utime;
-  EXPECT_EQ(heard.left[0].header.utime - begin, 380'000);
-  for (size_t i = 0; i < heard.states.size(); ++i) {
-    const ptu_state_t& state = heard.states[i];
+  ASSERT_GT(recorded.states.size(), 40u);
+  const Utime begin = recorded.states.front().header.utime;
+  EXPECT_EQ(recorded.left[0].header.utime - begin, 380'000);
+  for (size_t i = 0; i < recorded.states.size(); ++i) {
+    const ptu_state_t& state = recorded.states[i];
     EXPECT_EQ(state.header.utime, begin + static_cast<Utime>(i) * kTickUs);
-    EXPECT_EQ(state.moving != 0, state.header.utime < heard.left[0].header.utime);
+    EXPECT_EQ(state.moving != 0, state.header.utime < recorded.left[0].header.utime);
   }
-  EXPECT_NEAR(heard.states.back().pan_rad, to_rad(8.0), 1e-12);
-  EXPECT_NEAR(heard.states.back().tilt_rad, to_rad(3.0), 1e-12);
+  EXPECT_NEAR(recorded.states.back().pan_rad, to_rad(8.0), 1e-12);
+  EXPECT_NEAR(recorded.states.back().tilt_rad, to_rad(3.0), 1e-12);
 }
 
-TEST(NavCam, TheSameCommandsGiveTheSameBytes) {
+TEST(NavCam, IsDeterministicByteForByte) {
   const std::vector<Looker::Order> orders = {{1, 0.1, 0.0, true}, {20, 0.1, 0.05, true}, {21, 0.0, 0.0, true}};
   const Seen once = look(orders, 1.0), again = look(orders, 1.0);
   EXPECT_GE(once.left.size(), 2u);
   EXPECT_TRUE(once.everything == again.everything);
 }
 
-TEST(NavCam, DoesNotChangeTheLocCamsPictures) {
+TEST(NavCam, DoesNotChangeLocCamImages) {
   const Seen without = look({}, 1.3);
   const Seen with = look({{1, 0.2, 0.0, true}, {30, 0.0, 0.1, true}}, 1.3);
   ASSERT_EQ(with.loccam.size(), without.loccam.size());
@@ -165,18 +165,18 @@ TEST(NavCam, DoesNotChangeTheLocCamsPictures) {
   for (size_t i = 0; i < with.loccam.size(); ++i) EXPECT_EQ(with.loccam[i].data, without.loccam[i].data) << i;
 }
 
-TEST(NavCam, HasFaultsOfItsOwn) {
+TEST(NavCam, HasIndependentCameraFaults) {
   ScriptedFault blind;
   blind.order = {"camera_blind", "navcam_left"};
   blind.at_s = 0.0;
-  const Seen heard = look({{1, 0.0, 0.0, true}}, 0.6, {blind});
-  ASSERT_EQ(heard.left.size(), 1u);
+  const Seen recorded = look({{1, 0.0, 0.0, true}}, 0.6, {blind});
+  ASSERT_EQ(recorded.left.size(), 1u);
   const auto black = [](const image_t& image) {
     return std::all_of(image.data.begin(), image.data.end(), [](int grey) { return grey == 0; });
   };
-  EXPECT_TRUE(black(heard.left[0]));
-  EXPECT_FALSE(black(heard.right[0]));
-  EXPECT_FALSE(black(heard.loccam[0]));
+  EXPECT_TRUE(black(recorded.left[0]));
+  EXPECT_FALSE(black(recorded.right[0]));
+  EXPECT_FALSE(black(recorded.loccam[0]));
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ class Participant {
             participant->answer(tick.header.utime);
         },
         this);
-    say_done(kNever);
+    publish_done(kNever);
   }
   const std::map<std::string, std::int64_t>& sent() const { return sent_; }
 
@@ -43,10 +43,10 @@ class Participant {
     supervisor_state_t state{};
     state.state = supervisor_state_t::DRIVING;
     send(channel::kState, state, t);
-    say_done(t);
+    publish_done(t);
   }
 
-  void say_done(Utime t) {
+  void publish_done(Utime t) {
     done_t done{};
     done.tick_utime = t;
     done.promise_utime = kNever;
@@ -123,7 +123,7 @@ Drive drive(bool disturbed) {
   return drive;
 }
 
-TEST(SimulatorNode, BadMessagesAreCountedAndNamedAndChangeNothing) {
+TEST(SimulatorNode, InvalidMessagesAreCountedAndIgnored) {
   const Drive calm = drive(false);
   const Drive disturbed = drive(true);
   EXPECT_EQ(calm.summary.outcome, "timeout");

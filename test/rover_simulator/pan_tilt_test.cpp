@@ -15,24 +15,24 @@ int settle(PanTiltSim& unit) {
   return ticks;
 }
 
-TEST(PanTiltSim, GoesAtItsRateAndAsksForThePictureOnceItStands) {
+TEST(PanTiltSim, MovesAtConstantRateAndRequestsImageOnArrival) {
   PanTiltSim unit(kUnit, 0.0, 1);
-  EXPECT_FALSE(unit.picture_due());
+  EXPECT_FALSE(unit.image_due());
   unit.command({1.0, 0.2, true});
   EXPECT_TRUE(unit.state().moving);
   unit.advance(kTickS);
   EXPECT_NEAR(unit.state().pan_rad, 0.01, 1e-12);
   EXPECT_NEAR(unit.state().tilt_rad, 0.01, 1e-12);
-  EXPECT_FALSE(unit.picture_due());
+  EXPECT_FALSE(unit.image_due());
   EXPECT_NEAR(settle(unit), 99, 1);
   EXPECT_DOUBLE_EQ(unit.state().pan_rad, 1.0);
   EXPECT_DOUBLE_EQ(unit.state().tilt_rad, 0.2);
-  ASSERT_TRUE(unit.picture_due());
-  unit.picture_taken();
-  EXPECT_FALSE(unit.picture_due());
+  ASSERT_TRUE(unit.image_due());
+  unit.image_taken();
+  EXPECT_FALSE(unit.image_due());
 }
 
-TEST(PanTiltSim, KeepsItsLimitsAndIgnoresWhatIsNotFinite) {
+TEST(PanTiltSim, ClipsToLimitsAndIgnoresNonFiniteCommands) {
   PanTiltSim unit(kUnit, 0.0, 1);
   unit.command({-5.0, 5.0, false});
   settle(unit);
@@ -41,20 +41,20 @@ TEST(PanTiltSim, KeepsItsLimitsAndIgnoresWhatIsNotFinite) {
   unit.command({std::numeric_limits<double>::quiet_NaN(), 0.0, true});
   unit.command({0.0, std::numeric_limits<double>::infinity(), true});
   EXPECT_FALSE(unit.state().moving);
-  EXPECT_FALSE(unit.picture_due());
+  EXPECT_FALSE(unit.image_due());
 }
 
-TEST(PanTiltSim, ANewCommandVoidsTheOneBeforeWithItsPicture) {
+TEST(PanTiltSim, NewCommandCancelsPreviousImageRequest) {
   PanTiltSim unit(kUnit, 0.0, 1);
   unit.command({1.0, 0.0, true});
   unit.advance(kTickS);
   unit.command({0.0, 0.0, false});
   settle(unit);
   EXPECT_DOUBLE_EQ(unit.state().pan_rad, 0.0);
-  EXPECT_FALSE(unit.picture_due());
+  EXPECT_FALSE(unit.image_due());
 }
 
-TEST(PanTiltSim, StandsALittleBesideWhatItSays) {
+TEST(PanTiltSim, TrueAngleDiffersFromReportedByRepeatability) {
   constexpr double kSigma = 0.001;
   PanTiltSim unit(kUnit, kSigma, 1);
   double squares = 0.0;

@@ -14,7 +14,7 @@ WheelContact contact_at(const Surface& surface, const Eigen::Vector3d& axle) {
   return find_contact({}, test_vehicle(), heights, axle, Eigen::Matrix3d::Identity());
 }
 
-TEST(HeightCache, EqualsTheSurfaceUpToItsSampling) {
+TEST(HeightCache, MatchesSurfaceWithinSamplingError) {
   WorldConfig config;
   const World world(config, level_raster(40), 3);
   HeightCache heights(world);
@@ -27,7 +27,7 @@ TEST(HeightCache, EqualsTheSurfaceUpToItsSampling) {
   EXPECT_NEAR(heights.height_m(10.25, -3.17), world.height_m(10.25, -3.17), 1e-5);  // a sample, south of the origin
 }
 
-TEST(HeightCache, DoesNotDependOnTheOrderOfQuestions) {
+TEST(HeightCache, DoesNotDependOnQueryOrder) {
   const World world(WorldConfig{}, level_raster(40), 3);
   HeightCache first(world), second(world);
   (void)second.height_m(30.0, 30.0);  // shares a slot with other places
@@ -35,7 +35,7 @@ TEST(HeightCache, DoesNotDependOnTheOrderOfQuestions) {
   for (double x = 9; x < 20; x += 0.31) EXPECT_EQ(first.height_m(x, x), second.height_m(x, x));
 }
 
-TEST(WheelContact, OnLevelGroundPushesStraightUp) {
+TEST(WheelContact, ForceIsVerticalOnLevelGround) {
   const PlaneSurface level(Soil::kFirm, 0.0);
   const WheelContact contact = contact_at(level, {5.0, 5.0, 0.122});
   EXPECT_NEAR(contact.load_n, 62.0, 8.0);  // 3 mm deep
@@ -45,7 +45,7 @@ TEST(WheelContact, OnLevelGroundPushesStraightUp) {
   EXPECT_EQ(contact_at(level, {5.0, 5.0, 0.126}).load_n, 0.0);
 }
 
-TEST(WheelContact, OnASlopePushesAlongItsNormal) {
+TEST(WheelContact, ForceIsNormalToSlope) {
   const double slope = to_rad(20);
   const PlaneSurface plane(Soil::kFirm, slope);
   const Eigen::Vector3d normal(-std::sin(slope), 0.0, std::cos(slope));
@@ -53,7 +53,7 @@ TEST(WheelContact, OnASlopePushesAlongItsNormal) {
   EXPECT_GT(contact.normal.dot(normal), std::cos(to_rad(1.0)));
 }
 
-TEST(WheelContact, AWallPushesBack) {
+TEST(WheelContact, WallPushesWheelBack) {
   const FeatureSurface wall([](double x, double) { return x > 5.11 ? 0.5 : 0.0; });
   const WheelContact contact = contact_at(wall, {5.0, 5.0, 0.125});
   EXPECT_GT(contact.load_n, 0.0);
@@ -94,18 +94,18 @@ std::function<double(double, double)> block(double height_m) {
   };
 }
 
-TEST(VehicleClimb, WheelsGoOverRocksOfTenCentimetres) {
+TEST(VehicleClimb, WheelsClimbRocksOfTenCentimetres) {
   const Crossing crossing = cross(block(0.10), 40.0);
   EXPECT_TRUE(crossing.across);
   EXPECT_NEAR(crossing.climb_m, 0.10, 0.005);
   EXPECT_EQ(crossing.collision, Collision::kNone);
 }
 
-TEST(VehicleClimb, ATallerRockThanAllowedIsACollision) {
+TEST(VehicleClimb, RockAboveClimbLimitIsCollision) {
   EXPECT_EQ(cross(block(0.28), 30.0).collision, Collision::kWheelClimb);
 }
 
-TEST(VehicleClimb, ARockUnderTheBellyIsACollision) {
+TEST(VehicleClimb, RockUnderBellyIsCollision) {
   const Crossing crossing =
       cross([](double x, double y) { return std::clamp(3.0 * (0.2 - std::hypot(x - 1.5, y)), 0.0, 0.35); }, 20.0);
   EXPECT_EQ(crossing.collision, Collision::kBodyContact);
@@ -113,14 +113,14 @@ TEST(VehicleClimb, ARockUnderTheBellyIsACollision) {
   EXPECT_EQ(crossing.climb_m, 0.0);
 }
 
-TEST(VehicleClimb, AStoneBetweenTheWheelsLowersTheClearance) {
+TEST(VehicleClimb, StoneBetweenWheelsReducesClearance) {
   const Crossing crossing =
       cross([](double x, double y) { return std::clamp(3.0 * (0.1 - std::hypot(x - 1.5, y)), 0.0, 0.15); }, 20.0);
   EXPECT_EQ(crossing.collision, Collision::kNone);
   EXPECT_NEAR(crossing.least_clearance_m, 0.147, 0.01);
 }
 
-TEST(VehicleClimb, DrivingIntoAWallIsACollision) {
+TEST(VehicleClimb, DrivingIntoWallIsCollision) {
   EXPECT_EQ(cross([](double x, double) { return std::clamp((x - 1.5) * 20.0, 0.0, 1.0); }, 15.0).collision,
             Collision::kWheelClimb);
 }

@@ -61,7 +61,7 @@ double mean_current_a(double slope_deg, double gravity_mps2) {
 
 // What a slope adds to the current, over the mean current at the data's mean slope: free of either rover's size. The
 // field trial's currents scatter by more than their mean (r = 0.57), and the two runs differ by 15 %: hence 30 %.
-TEST(DriveCurrent, RisesWithSlopeAsOnTheRealRover) {
+TEST(DriveCurrent, RiseWithSlopeMatchesFieldData) {
   constexpr double kEarth = 9.81;
   const std::vector<Sample> field = cuadriga();
   ASSERT_GT(field.size(), 1000u);
@@ -78,7 +78,7 @@ TEST(DriveCurrent, RisesWithSlopeAsOnTheRealRover) {
 }
 
 // On Mars: about 0.7 A on level firm ground, the motors' nominal 3.17 A at about 20 degrees, far below the limit.
-TEST(DriveCurrent, StaysNearNominalOnMars) {
+TEST(DriveCurrent, IsNearNominalOnMars) {
   const double level = mean_current_a(0.0, 3.71), steep = mean_current_a(20.0, 3.71);
   EXPECT_GT(level, 0.5);
   EXPECT_LT(level, 1.2);

@@ -7,7 +7,7 @@
 namespace rover {
 namespace {
 
-TEST(VehicleAtRest, StandsAtItsHeightAndCarriesItsWeight) {
+TEST(VehicleAtRest, RestsAtNominalHeightAndCarriesWeight) {
   const PlaneSurface level(Soil::kBedrock, 0.0);
   const VehicleSim sim(test_vehicle(), {}, level, {3.0, 4.0, 1.0});
   const VehicleTruth& truth = sim.truth();
@@ -27,7 +27,7 @@ TEST(VehicleAtRest, StandsAtItsHeightAndCarriesItsWeight) {
   EXPECT_NEAR(truth.specific_force_body_mps2.z(), 3.71, 1e-3);
 }
 
-TEST(VehicleAtRest, TakesGravityFromTheConfiguration) {
+TEST(VehicleAtRest, UsesConfiguredGravity) {
   const PlaneSurface level(Soil::kFirm, 0.0);
   VehicleSimConfig config;
   config.gravity_mps2 = 9.81;
@@ -35,7 +35,7 @@ TEST(VehicleAtRest, TakesGravityFromTheConfiguration) {
   EXPECT_NEAR(sim.truth().specific_force_body_mps2.z(), 9.81, 1e-3);
 }
 
-TEST(VehicleAtRest, LiesParallelToASlope) {
+TEST(VehicleAtRest, IsParallelToSlope) {
   const PlaneSurface plane(Soil::kFirm, to_rad(12));
   const VehicleSim facing_up(test_vehicle(), {}, plane, {0, 0, 0}), across(test_vehicle(), {}, plane, {0, 0, kPi / 2});
   EXPECT_NEAR(rpy_of(facing_up.truth().T_map_body.linear()).y(), -to_rad(12), 0.005);
@@ -44,7 +44,7 @@ TEST(VehicleAtRest, LiesParallelToASlope) {
 }
 
 // The start pose has a sigma of 0.2 deg; settling must not add to it.
-TEST(VehicleAtRest, OnRoughGroundItStandsWhereItWasToStand) {
+TEST(VehicleAtRest, SettlesAtStartPoseOnRoughGround) {
   WorldConfig config;
   config.rocks.k = 0.0;
   config.roughness.rms_m = 0.06;
@@ -58,7 +58,7 @@ TEST(VehicleAtRest, OnRoughGroundItStandsWhereItWasToStand) {
   }
 }
 
-TEST(VehicleDrive, GoesStraightAtTheWheelsSpeed) {
+TEST(VehicleDrive, DrivesStraightAtWheelSpeed) {
   const PlaneSurface level(Soil::kBedrock, 0.0);
   VehicleSim sim(test_vehicle(), {}, level, {});
   drive(sim, straight(0.2), 3.0);
@@ -72,7 +72,7 @@ TEST(VehicleDrive, GoesStraightAtTheWheelsSpeed) {
 }
 
 // All wheels tangent to a circle of radius 2 m to the left.
-TEST(VehicleDrive, TurnsOnTheCircleOfItsSteering) {
+TEST(VehicleDrive, DrivesCircleGivenBySteering) {
   const Vehicle vehicle = test_vehicle();
   const PlaneSurface level(Soil::kFirm, 0.0);
   VehicleSim sim(vehicle, {}, level, {});
@@ -93,7 +93,7 @@ TEST(VehicleDrive, TurnsOnTheCircleOfItsSteering) {
   EXPECT_NEAR(sim.truth().rate_body_radps.z(), 0.05, 0.003);
 }
 
-TEST(VehicleDrive, SteersNoFasterThanItsMotors) {
+TEST(VehicleDrive, SteeringRateIsLimited) {
   const PlaneSurface level(Soil::kFirm, 0.0);
   VehicleSim sim(test_vehicle(), {}, level, {});
   WheelCommand command;
@@ -109,7 +109,7 @@ TEST(VehicleDrive, SteersNoFasterThanItsMotors) {
   EXPECT_NEAR(sim.truth().steer_angle_rad[0], to_rad(90.7), 0.03);
 }
 
-TEST(VehicleTruth, IncrementsIntegrateToTheMotion) {
+TEST(VehicleTruth, IncrementsIntegrateToTrueMotion) {
   WorldConfig config;
   config.rocks.k = 0.02;
   const World world(config, plane_raster(40, 40, 1.0, 0.05, 0.4), 3);
@@ -133,7 +133,7 @@ TEST(VehicleTruth, IncrementsIntegrateToTheMotion) {
   EXPECT_GT(truth.T_map_body.translation().x(), 11.5);
 }
 
-TEST(VehicleTruth, IsTheSameEveryTime) {
+TEST(VehicleTruth, IsDeterministic) {
   WorldConfig config;
   config.rocks.k = 0.05;
   const World world(config, plane_raster(40, 40, 1.0, 0.05, 0.4), 3);

@@ -33,7 +33,7 @@ SensorConfig perfect() {
   return config;
 }
 
-TEST(Sensors, WithoutErrorsTellTheTruth) {
+TEST(Sensors, EqualTruthWithoutErrors) {
   SensorSuite sensors(perfect(), 3);
   VehicleTruth truth = resting();
   truth.delta_angle_rad = {0.001, -0.002, 0.003};
@@ -54,7 +54,7 @@ TEST(Sensors, WithoutErrorsTellTheTruth) {
 }
 
 // Angle error of many gyros after one minute at rest: random walk grows with sqrt(t), bias with t.
-TEST(Sensors, GyroErrorGrowsAsItsDataSheetSays) {
+TEST(Sensors, GyroErrorGrowthMatchesDataSheet) {
   SensorConfig walk = perfect(), bias = perfect();
   walk.gyro_random_walk_rad_rts = 4.4e-5;
   bias.gyro_bias_radps = 2.4e-5;
@@ -74,7 +74,7 @@ TEST(Sensors, GyroErrorGrowsAsItsDataSheetSays) {
   EXPECT_NEAR(rms_after(walk, 750), 0.5 * rms_after(walk, 3000), 0.1 * rms_after(walk, 3000));
 }
 
-TEST(Sensors, EncodersHaveSteps) {
+TEST(Sensors, EncodersAreQuantised) {
   SensorConfig config = perfect();
   config.encoder_step_rad = 0.01;
   SensorSuite sensors(config, 1);
@@ -83,7 +83,7 @@ TEST(Sensors, EncodersHaveSteps) {
   EXPECT_NEAR(sensors.sample_wheels(truth).drive_angle_rad[0], 123.46, 1e-9);
 }
 
-TEST(Sensors, SeedIsAllThatIsRandom) {
+TEST(Sensors, RandomnessDependsOnlyOnSeed) {
   const auto sum = [](std::uint64_t seed) {
     SensorSuite sensors({}, seed);
     Eigen::Vector3d total = Eigen::Vector3d::Zero();

@@ -23,7 +23,7 @@ const Case kTable[] = {{S, 0, 0.05},    {S, 5, 0.10},  {S, 10, 0.22},   {S, 12.5
 
 class SlopeSlip : public testing::TestWithParam<Case> {};
 
-TEST_P(SlopeSlip, MeetsTheTableUphill) {
+TEST_P(SlopeSlip, MatchesSlopeSlipTableUphill) {
   const Case& c = GetParam();
   const PlaneSurface plane(c.soil, to_rad(c.slope_deg));
   VehicleSim sim(test_vehicle(), {}, plane, {0, 0, 0});
@@ -73,7 +73,7 @@ TEST(GrossTraction, RisesWithSlip) {
 class Standing : public testing::TestWithParam<Soil> {};
 
 // No creep on a slope within the soil's traction, after the bristles are loaded.
-TEST_P(Standing, HoldsOnTheSlope) {
+TEST_P(Standing, HoldsOnSlopeWithoutCreep) {
   const PlaneSurface plane(GetParam(), to_rad(15));
   for (double yaw : {0.0, kPi / 2}) {
     VehicleSim sim(test_vehicle(), {}, plane, {0, 0, yaw});

@@ -21,13 +21,13 @@ TEST(GradientNoise, HasMeanZeroAndDeviationOne) {
   EXPECT_NEAR(std::sqrt(squares / kCount), 1.0, 0.03);
 }
 
-TEST(GradientNoise, IsContinuousAcrossItsLattice) {
+TEST(GradientNoise, IsContinuousAcrossLatticeCells) {
   for (double y : {-3.4, 0.2, 7.9})
     for (int cell = -5; cell < 5; ++cell)
       EXPECT_NEAR(gradient_noise(1, cell - 1e-7, y), gradient_noise(1, cell + 1e-7, y), 1e-5);
 }
 
-TEST(GradientNoise, DiffersBySeedAlone) {
+TEST(GradientNoise, DependsOnSeed) {
   EXPECT_EQ(gradient_noise(1, 2.3, 4.5), gradient_noise(1, 2.3, 4.5));
   EXPECT_NE(gradient_noise(1, 2.3, 4.5), gradient_noise(2, 2.3, 4.5));
 }

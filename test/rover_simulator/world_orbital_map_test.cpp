@@ -38,7 +38,7 @@ Difference difference(const ElevationRaster& map, const World& world) {
   return d;
 }
 
-TEST(OrbitalMap, WithoutErrorsIsTheBoxMean) {
+TEST(OrbitalMap, EqualsBoxMeanWithoutErrors) {
   WorldConfig config = bare_config();
   config.orbital = {.smoothing_px = 0.0, .vertical_noise_m = 0.0, .distortion_m = 0.0};
   const World world(config, hills(), 1);
@@ -49,7 +49,7 @@ TEST(OrbitalMap, WithoutErrorsIsTheBoxMean) {
   EXPECT_LT(d.rms, 0.01);
 }
 
-TEST(OrbitalMap, CarriesTheGeoreference) {
+TEST(OrbitalMap, HasGeoreference) {
   const World world(bare_config(), hills(), 1);
   const ElevationRaster map = world.orbital_map(0.5);
   EXPECT_EQ(map.width, 240);
@@ -60,7 +60,7 @@ TEST(OrbitalMap, CarriesTheGeoreference) {
 }
 
 // The error has about the configured rms and zero mean.
-TEST(OrbitalMap, ErrsAsConfigured) {
+TEST(OrbitalMap, ErrorMatchesConfiguration) {
   const World world(bare_config(), hills(), 1);
   const Difference d = difference(world.orbital_map(1.0), world);
   EXPECT_NEAR(d.mean, 0.0, 0.02);
@@ -69,7 +69,7 @@ TEST(OrbitalMap, ErrsAsConfigured) {
 }
 
 // Distortion alone moves features: the error is the shift times the slope.
-TEST(OrbitalMap, DistortionMovesFeaturesLocally) {
+TEST(OrbitalMap, DistortionShiftsFeaturesLocally) {
   WorldConfig config = bare_config();
   config.orbital = {.smoothing_px = 0.0, .vertical_noise_m = 0.0, .distortion_m = 0.5, .distortion_wave_m = 40.0};
   const World world(config, plane_raster(120, 120, 1.0, std::atan(0.1), 0.0), 1);
@@ -78,7 +78,7 @@ TEST(OrbitalMap, DistortionMovesFeaturesLocally) {
   EXPECT_NEAR(d.rms, 0.05, 0.015);
 }
 
-TEST(OrbitalMap, IsTheSameForTheSameSeed) {
+TEST(OrbitalMap, IsDeterministicForSameSeed) {
   const World a(WorldConfig{}, hills(), 4), b(WorldConfig{}, hills(), 4), other(WorldConfig{}, hills(), 5);
   EXPECT_EQ(a.orbital_map(1.0).z_m, b.orbital_map(1.0).z_m);
   EXPECT_NE(a.orbital_map(1.0).z_m, other.orbital_map(1.0).z_m);

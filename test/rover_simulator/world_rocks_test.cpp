@@ -15,7 +15,7 @@ RockConfig rocks_of(double k) {
 }
 
 // Published rocks per hectare above 0.4 m for these k.
-TEST(RockLaw, GivesTheKnownDensities) {
+TEST(RockLaw, MatchesPublishedDensities) {
   const std::pair<double, double> known[] = {{0.02, 26},  {0.05, 315},  {0.07, 575},
                                              {0.10, 983}, {0.15, 1665}, {0.20, 2321}};
   for (const auto& [k, per_hectare] : known)
@@ -24,7 +24,7 @@ TEST(RockLaw, GivesTheKnownDensities) {
 
 // Areas of the drawn rocks against F(D) = k exp(-q D) without the rocks that are larger than the largest drawn; within
 // four deviations of a Poisson count.
-TEST(RockField, CoversTheLawsArea) {
+TEST(RockField, CoveredAreaMatchesSizeFrequencyLaw) {
   for (double k : {0.03, 0.08, 0.19}) {
     const RockConfig config = rocks_of(k);
     const RockField field(config, 300, 300, {}, 11);
@@ -43,7 +43,7 @@ TEST(RockField, CoversTheLawsArea) {
   }
 }
 
-TEST(RockZone, IsWhatLiesWithinTheHalfWidthOfItsLine) {
+TEST(RockZone, ContainsPointsWithinHalfWidthOfLine) {
   const RockZone zone{0.1, 5.0, {10, 30, 30}, {10, 10, 40}};
   EXPECT_TRUE(zone.contains(20, 14.9));
   EXPECT_TRUE(zone.contains(34.9, 30));
@@ -57,7 +57,7 @@ TEST(RockZone, IsWhatLiesWithinTheHalfWidthOfItsLine) {
 }
 
 // Within the zone the rocks are those of a field of its abundance, outside those of the field without zones.
-TEST(RockField, AZoneHasItsOwnAbundance) {
+TEST(RockField, ZoneHasItsOwnRockAbundance) {
   RockConfig config = rocks_of(0.05);
   config.zones = {{0.12, 20.0, {30, 120}, {60, 60}}, {0.0, 15.0, {120}, {60}}, {0.2, 10.0, {100}, {150}}};
   const RockField zoned(config, 200, 200, {}, 9);
@@ -84,7 +84,7 @@ TEST(RockField, AZoneHasItsOwnAbundance) {
   EXPECT_TRUE(found[2].empty());
 }
 
-TEST(RockField, KeepsHeightsWithinTheirSpread) {
+TEST(RockField, HeightRatiosAreWithinLimits) {
   const RockField field(rocks_of(0.1), 100, 100, {}, 3);
   double mean = 0.0;
   for (const Rock& rock : field.all()) {
@@ -96,7 +96,7 @@ TEST(RockField, KeepsHeightsWithinTheirSpread) {
   EXPECT_NEAR(mean, 0.5, 0.01);
 }
 
-TEST(RockField, EachRockStandsUpToItsHeight) {
+TEST(RockField, EachRockReachesItsHeight) {
   const RockField field(rocks_of(0.05), 60, 60, {}, 4);
   int alone = 0;
   for (const Rock& rock : field.all()) {
@@ -132,7 +132,7 @@ TEST(RockField, IsContinuousWithSteepFlanks) {
   EXPECT_LT(steepest, 9.0);  // 84 degrees
 }
 
-TEST(RockField, IsAFunctionOfSeedAndPlace) {
+TEST(RockField, IsPureFunctionOfSeedAndPosition) {
   const RockConfig config = rocks_of(0.1);
   const RockField small(config, 50, 50, {}, 7), large(config, 90, 80, {}, 7), other(config, 50, 50, {}, 8);
   const std::vector<Rock> a = small.in(10, 10, 40, 40), b = large.in(10, 10, 40, 40), c = other.in(10, 10, 40, 40);
@@ -156,7 +156,7 @@ TEST(RockField, BoxQueryEqualsBruteForce) {
   for (size_t i = 0; i < found.size(); ++i) EXPECT_EQ(found[i].id, expected[i]);
 }
 
-TEST(RockField, LeavesCirclesClearAndNothingElse) {
+TEST(RockField, KeepsOnlyKeepClearCirclesFree) {
   const RockConfig config = rocks_of(0.19);
   const std::vector<KeepClear> circles = {{20, 20, 1.5, 0.12}, {40, 30, 3.0, 0.12}};
   const RockField free(config, 60, 60, {}, 2), kept(config, 60, 60, circles, 2);
@@ -168,7 +168,7 @@ TEST(RockField, LeavesCirclesClearAndNothingElse) {
   EXPECT_GT(kept.all().size(), free.all().size() - 60);
 }
 
-TEST(RockField, IsEmptyForZeroK) {
+TEST(RockField, IsEmptyForZeroAbundance) {
   const RockField field(rocks_of(0.0), 30, 30, {}, 1);
   EXPECT_TRUE(field.all().empty());
   EXPECT_EQ(field.at(10, 10).rock_id, -1);

@@ -53,7 +53,7 @@ double hazards_on_path(const Scenario& scenario, std::uint64_t seed) {
   }));
 }
 
-TEST(Scenarios, TheTraversesAreThePapersLength) {
+TEST(Scenarios, SeedTraversesHavePublishedLength) {
   EXPECT_NEAR(load_scenario(kScenarios + "seed_traverse_1.yaml").path_length_m(), 86.0, 0.01);
   EXPECT_NEAR(load_scenario(kScenarios + "seed_traverse_2.yaml").path_length_m(), 62.2, 0.01);
   EXPECT_NEAR(load_scenario(kScenarios + "default.yaml").path_length_m(), 25.0, 0.01);
@@ -77,7 +77,7 @@ TEST(Scenarios, PathsAreDrivable) {
 }
 
 // A rock on the path causes one or two repairs (test/results/seed.md); the paper reports 6 and 10.
-TEST(Scenarios, RocksStandInTheWayForThePapersRepairs) {
+TEST(Scenarios, RocksOnPathMatchPublishedRepairCount) {
   const auto mean = [](const Scenario& scenario) {
     double sum = 0.0;
     for (std::uint64_t seed = 1; seed <= 5; ++seed) sum += hazards_on_path(scenario, seed) / 5.0;
@@ -128,7 +128,7 @@ class ScenarioFile : public testing::Test {
 };
 
 // Slopes to 15 deg and more rocks than any Efficient-level traverse.
-TEST(Scenarios, TheHardOneIsHardAndForTheFullLevel) {
+TEST(Scenarios, FullHardScenarioIsHardAndUsesFullLevel) {
   const Scenario scenario = load_scenario(kScenarios + "full_hard.yaml");
   EXPECT_EQ(scenario.level, "auto");
   EXPECT_TRUE(std::all_of(scenario.path.level.begin(), scenario.path.level.end(), [](int l) { return l == 1; }));
@@ -148,7 +148,7 @@ TEST(Scenarios, TheHardOneIsHardAndForTheFullLevel) {
   EXPECT_GT(hazards, 20.0);
 }
 
-TEST(Scenarios, OthersAreForTheLevelTheyName) {
+TEST(Scenarios, ScenariosUseTheirNamedLevel) {
   EXPECT_EQ(load_scenario(kScenarios + "default.yaml").level, "efficient");
   EXPECT_EQ(load_scenario(kScenarios + "long_drift.yaml").level, "full");
   EXPECT_EQ(load_scenario(kScenarios + "combined_500.yaml").level, "auto");
@@ -167,7 +167,7 @@ TEST_F(ScenarioFile, ReadsAPlane) {
   EXPECT_EQ(scenario.world.keep_clear[0].radius_m, 1.5);
 }
 
-TEST_F(ScenarioFile, BadPathsAreNamed) {
+TEST_F(ScenarioFile, InvalidPathErrorNamesKey) {
   const std::pair<const char*, const char*> cases[] = {
       {"{x_m: [5], y_m: [5]}", "two points"},
       {"{x_m: [], y_m: []}", "two points"},
@@ -187,12 +187,12 @@ TEST_F(ScenarioFile, BadPathsAreNamed) {
   }
 }
 
-TEST_F(ScenarioFile, AnElevationModelSmallerThanThePathIsNamed) {
+TEST_F(ScenarioFile, PathOutsideElevationModelIsAnError) {
   const std::string what = complaint("world: {dtm: " + kTerrain + "}\npath: {x_m: [100, 400], y_m: [100, 100]}\n");
   EXPECT_NE(what.find("point 2 lies outside of the elevation model (348 x 337 m)"), std::string::npos) << what;
 }
 
-TEST_F(ScenarioFile, BadWorldsAreNamed) {
+TEST_F(ScenarioFile, InvalidWorldErrorNamesKey) {
   const std::string path = "path: {x_m: [5, 6], y_m: [5, 6]}\n";
   EXPECT_NE(complaint("world: {dtm: none.tif}\n" + path).find("none.tif"), std::string::npos);
   EXPECT_NE(complaint(path).find("world"), std::string::npos);
@@ -252,7 +252,7 @@ TEST_F(ScenarioFile, ReadsFaults) {
   EXPECT_FALSE(faults[2].at_s || faults[2].at_m);
 }
 
-TEST_F(ScenarioFile, BadFaultsAreNamed) {
+TEST_F(ScenarioFile, InvalidFaultErrorNamesKey) {
   const std::pair<const char*, const char*> cases[] = {
       {"{fault: kil, target: stereo, at_s: 1}", "faults[0].fault: 'kil' is not one of"},
       {"{fault: kill, target: radio, at_s: 1}", "faults[0].target: 'radio' is not a service"},

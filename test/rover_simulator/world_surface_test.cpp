@@ -25,7 +25,7 @@ TEST(WorldHeight, ReproducesAPlane) {
     for (double y : {5.5, 20.21, 33.3}) EXPECT_NEAR(world.height_m(x, y), gx * (x - 0.5) + gy * (y - 0.5), 2e-5);
 }
 
-TEST(WorldHeight, GoesThroughTheElevationModelAboveItsMinimum) {
+TEST(WorldHeight, InterpolatesElevationModelRelativeToMinimum) {
   const ElevationRaster raster = rugged_raster();
   const World world(bare_config(), raster, 1);
   float lowest = raster.z_m[0];
@@ -36,7 +36,7 @@ TEST(WorldHeight, GoesThroughTheElevationModelAboveItsMinimum) {
       EXPECT_NEAR(world.height_m(column + 0.5, row + 0.5), raster.at(column, row) - lowest, 1e-6);
 }
 
-TEST(WorldHeight, HasAContinuousSlopeAcrossPixels) {
+TEST(WorldHeight, SlopeIsContinuousAcrossPixels) {
   const World world(bare_config(), rugged_raster(), 1);
   constexpr double kH = 1e-4;
   for (int pixel = 4; pixel < 36; ++pixel)
@@ -48,7 +48,7 @@ TEST(WorldHeight, HasAContinuousSlopeAcrossPixels) {
     }
 }
 
-TEST(WorldHeight, GoesOnFlatOutside) {
+TEST(WorldHeight, ExtendsFlatOutsideElevationModel) {
   const World world(bare_config(), rugged_raster(), 1);
   EXPECT_EQ(world.height_m(-50, 20.5), world.height_m(0.2, 20.5));
   EXPECT_EQ(world.height_m(90, 20.5), world.height_m(39.9, 20.5));
@@ -57,7 +57,7 @@ TEST(WorldHeight, GoesOnFlatOutside) {
 }
 
 // Firm ground varies by 1 to 1.5 cm over 0.3 m, below hazard size.
-TEST(WorldRoughness, IsThatOfFirmGround) {
+TEST(WorldRoughness, MatchesFirmGround) {
   WorldConfig config = bare_config();
   config.roughness = RoughnessConfig{};
   const World world(config, level_raster(100), 6);
@@ -76,7 +76,7 @@ TEST(WorldRoughness, IsThatOfFirmGround) {
   EXPECT_LT(most, 0.08);
 }
 
-TEST(WorldRoughness, IsLessOnSandAndMoreOnBedrock) {
+TEST(WorldRoughness, IsSmootherOnSandAndRougherOnBedrock) {
   const auto spread = [](Soil soil) {
     WorldConfig config = bare_config();
     config.roughness = RoughnessConfig{};
@@ -90,7 +90,7 @@ TEST(WorldRoughness, IsLessOnSandAndMoreOnBedrock) {
   EXPECT_GT(spread(Soil::kBedrock), 1.2 * spread(Soil::kFirm));
 }
 
-TEST(WorldSoil, HasItsSharesOfLevelGround) {
+TEST(WorldSoil, SoilFractionsMatchConfigurationOnLevelGround) {
   WorldConfig config = bare_config();
   config.soil = SoilConfig{};
   config.soil.sand_fraction = 0.2;
@@ -103,7 +103,7 @@ TEST(WorldSoil, HasItsSharesOfLevelGround) {
   EXPECT_NEAR(share[2], 0.1, 0.03);
 }
 
-TEST(WorldSoil, SteepGroundIsBareAndNoSand) {
+TEST(WorldSoil, SteepGroundIsBedrockWithoutSand) {
   WorldConfig config = bare_config();
   config.soil = SoilConfig{};
   config.soil.sand_fraction = 0.9;
@@ -130,7 +130,7 @@ TEST(WorldMaterial, RocksAreBedrockWithTheirHeight) {
   }
 }
 
-TEST(WorldSeed, MakesEverythingRandomAndNothingElse) {
+TEST(WorldSeed, DeterminesAllRandomness) {
   WorldConfig config;
   const ElevationRaster raster = rugged_raster();
   const World a(config, raster, 1), again(config, raster, 1), b(config, raster, 2);

@@ -50,7 +50,7 @@ SlamConfig coarse_config() {
   SlamConfig config;
   config.map.cells = 270;
   config.map.patches.cell_m = 0.3;
-  config.map.patches.reach_m = kMaxRangeM;
+  config.map.patches.max_range_m = kMaxRangeM;
   config.match.max_range_m = kMaxRangeM;
   config.match.height_sigma_m = 0.3;
   config.match.tilt_sigma_rad = to_rad(1.0);
@@ -107,7 +107,7 @@ double overlap(const LocalMap& cloud, const LocalMap& with) {
 struct Registration {
   Pose2 pose;
   double score = -kInfinity;  // log-likelihood per patch
-  double inlier_share = 0.0;
+  double inlier_ratio = 0.0;
 };
 
 // Annealed particle filter: the noise shrinks each round.
@@ -126,7 +126,7 @@ std::optional<Registration> annealed_registration(const std::vector<Patch>& patc
   matcher.prepare(patches, surface, filter.mean());
   if (!matcher.has_enough_points()) return std::nullopt;
   const MatchFit fit = matcher.fit(filter.mean(), 4);
-  return Registration{filter.mean(), fit.log_likelihood / matcher.matched_points(), fit.inlier_share};
+  return Registration{filter.mean(), fit.log_likelihood / matcher.matched_points(), fit.inlier_ratio};
 }
 
 // Best of several runs from one start, as a single run may end in a local optimum.
@@ -141,7 +141,7 @@ std::optional<Registration> best_registration(const std::vector<Patch>& patches,
 }
 
 struct Convergence {
-  double relief_m = 0.0, overlap = 0.0, spread_m = kInfinity, inlier_share = 0.0;
+  double relief_m = 0.0, overlap = 0.0, spread_m = kInfinity, inlier_ratio = 0.0;
   int neighbour = -1;
   bool converged() const { return spread_m <= kMaxSpreadM; }
 };
@@ -159,7 +159,7 @@ Convergence register_from_random_starts(const LocalMap& cloud, const LocalMap& w
     const auto end = best_registration(cloud.patches, surface, config, start, random);
     if (!end) return convergence;
     ends.push_back(end->pose);
-    convergence.inlier_share += end->inlier_share / kStarts;
+    convergence.inlier_ratio += end->inlier_ratio / kStarts;
   }
   convergence.spread_m = 0.0;
   for (const Pose2& a : ends)
@@ -227,7 +227,7 @@ bool teide_study(const std::string& folder) {
     converged += relief && v.converged() ? 1 : 0;
     fmt::print("| {} | {} | {:.2f} m | {} | {:.0f} % | {:.2f} m | {:.0f} % | {}{} |\n", i,
                clouds[static_cast<size_t>(i)].cloud.points.size(), v.relief_m, v.neighbour, 100 * v.overlap, v.spread_m,
-               100 * v.inlier_share, v.converged() ? "yes" : "no",
+               100 * v.inlier_ratio, v.converged() ? "yes" : "no",
                failure_reason(v).empty() ? "" : ": " + failure_reason(v));
   }
   fmt::print("\n{} of {} clouds with relief converge ({:.0f} %).\n", converged, with_relief,

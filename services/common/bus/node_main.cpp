@@ -36,12 +36,14 @@ std::string load_bus_url(const std::string& config_dir) {
   return url;
 }
 
-int node_main(int argc, char** argv, const std::string& service, const NodeFactory& factory) {
+int node_main(int argc, char** argv, const std::string& service, const ConfigLoader& describe,
+              const NodeFactory& factory) {
   NodeOptions options;
   options.name = service;
   options.boot_id = boot_id_from_clock();
   std::string config_dir = project_dir() + "/config";
   std::string bus;
+  std::string parameters;
   CLI::App app(service + ": a service of the rover");
   app.add_option("--config", config_dir, "folder of the configuration")->capture_default_str();
   app.add_option("--bus", bus, "LCM URL instead of the one in bus.yaml");
@@ -49,6 +51,8 @@ int node_main(int argc, char** argv, const std::string& service, const NodeFacto
   app.add_option("--run-dir", options.run_dir, "the run's folder, for checkpoints");
   app.add_flag("--allow-injection", options.allow_injection, "obey INJECT");
   app.add_option("--mute", options.muted, "channels not to take");
+  app.add_option("--parameters", parameters, "print all parameters with their defaults and exit")
+      ->check(CLI::IsMember({"text", "yaml", "markdown"}));
   try {
     parse_arguments(app, argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -58,6 +62,12 @@ int node_main(int argc, char** argv, const std::string& service, const NodeFacto
   std::signal(SIGPIPE, SIG_IGN);
   limit_memory();
   try {
+    if (!parameters.empty()) {
+      ParameterList list;
+      describe(config_dir, &list);
+      std::printf("%s", to_format(list, parameters).c_str());
+      return 0;
+    }
     if (bus.empty()) bus = load_bus_url(config_dir);
     lcm::LCM lcm(bus);
     lcm::LCM reports(reports_url(bus));

@@ -8,6 +8,7 @@
 
 #include "common/bus/config.hpp"
 #include "common/bus/node.hpp"
+#include "common/bus/parameters.hpp"
 
 namespace rover {
 
@@ -21,6 +22,9 @@ struct NodeContext {
 // Builds the service on the node and returns the object that keeps it alive.
 using NodeFactory = std::function<std::shared_ptr<void>(const NodeContext&)>;
 
+// Describes the service's parameters in the list: its load_config.
+using ConfigLoader = std::function<void(const std::string& config_dir, ParameterList* list)>;
+
 // The bus of config/bus.yaml.
 std::string load_bus_url(const std::string& config_dir);
 
@@ -28,6 +32,7 @@ std::string load_bus_url(const std::string& config_dir);
 std::int64_t boot_id_from_clock();
 
 // Exit status 0 at SIGTERM or SIGINT, 2 on bad arguments or configuration.
-int node_main(int argc, char** argv, const std::string& service, const NodeFactory& factory);
+int node_main(int argc, char** argv, const std::string& service, const ConfigLoader& describe,
+              const NodeFactory& factory);
 
 }  // namespace rover

@@ -61,20 +61,20 @@ template <class State>
     return low + (high - low) * fy;
   };
   const Float4 surface = blend(0);
-  const Float4 look = blend(1);
+  const Float4 appearance = blend(1);
   at.unbaked[k] = tile.baked() ? 0.0F : 1.0F;
   at.slope_x[k] = surface[0];
   at.slope_y[k] = surface[1];
   at.sun_margin[k] = surface[2];
-  at.albedo[k] = look[0];
-  at.fine_contrast[k] = look[1];
-  at.coarse_contrast[k] = look[2];
-  at.bump[k] = look[3];
+  at.albedo[k] = appearance[0];
+  at.fine_contrast[k] = appearance[1];
+  at.coarse_contrast[k] = appearance[2];
+  at.bump[k] = appearance[3];
 }
 
 }  // namespace
 
-GroundShader::GroundShader(const GroundLookConfig& config, const GroundTexture& texture)
+GroundShader::GroundShader(const GroundAppearanceConfig& config, const GroundTexture& texture)
     : sun_x_(static_cast<float>(std::cos(config.sun_elevation_rad) * std::cos(config.sun_azimuth_rad))),
       sun_y_(static_cast<float>(std::cos(config.sun_elevation_rad) * std::sin(config.sun_azimuth_rad))),
       sun_z_(static_cast<float>(std::sin(config.sun_elevation_rad))),

@@ -10,7 +10,7 @@ namespace rover {
 
 class GroundShader {
  public:
-  GroundShader(const GroundLookConfig& config, const GroundTexture& texture);
+  GroundShader(const GroundAppearanceConfig& config, const GroundTexture& texture);
 
   // Ground intersections of eight rays.
   struct Points {

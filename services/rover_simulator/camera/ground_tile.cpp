@@ -7,15 +7,15 @@
 
 namespace rover {
 
-Eigen::Vector2i sun_side(const GroundLookConfig& config) {
+Eigen::Vector2i sun_side(const GroundAppearanceConfig& config) {
   return {std::cos(config.sun_azimuth_rad) >= 0.0 ? 1 : -1, std::sin(config.sun_azimuth_rad) >= 0.0 ? 1 : -1};
 }
 
-GroundTile::GroundTile(RTCDevice device, const Heights& heights, const Surface& surface, const GroundLook& look,
-                       const GroundTexture& texture)
+GroundTile::GroundTile(RTCDevice device, const Heights& heights, const Surface& surface,
+                       const GroundAppearance& appearance, const GroundTexture& texture)
     : key_(heights.self->key), origin_(key_.x_m(), key_.y_m(), heights.self->base_m) {
   place_textures(texture);
-  shade_vertices(heights, surface, look, texture);
+  shade_vertices(heights, surface, appearance, texture);
   build_mesh(device, *heights.self);
 }
 
@@ -36,10 +36,10 @@ void GroundTile::place_textures(const GroundTexture& texture) {
   }
 }
 
-void GroundTile::shade_vertices(const Heights& heights, const Surface& surface, const GroundLook& look,
+void GroundTile::shade_vertices(const Heights& heights, const Surface& surface, const GroundAppearance& appearance,
                                 const GroundTexture& texture) {
   const TileLevel& level = kLevels[key_.level];
-  const std::vector<float> margins = sun_margins(heights, look.config());
+  const std::vector<float> margins = sun_margins(heights, appearance.config());
   const auto slope_per_m = static_cast<float>(0.5 / level.spacing_m);
   vertices_.resize(margins.size());
   for (int j = 0; j <= level.cells; ++j) {
@@ -48,7 +48,7 @@ void GroundTile::shade_vertices(const Heights& heights, const Surface& surface, 
       const HeightTile& z = *heights.self;
       const double x = origin_.x() + i * level.spacing_m;
       const double y = origin_.y() + j * level.spacing_m;
-      VertexLook vertex = look.at(x, y, surface.material(x, y));
+      VertexAppearance vertex = appearance.at(x, y, surface.material(x, y));
       if (baked()) {
         const float tone =
             baked_tone(texture, static_cast<float>(x - origin_.x()), static_cast<float>(y - origin_.y()));
@@ -56,7 +56,7 @@ void GroundTile::shade_vertices(const Heights& heights, const Surface& surface, 
       }
       vertices_[index].surface = Float4{slope_per_m * (z.at(i + 1, j) - z.at(i - 1, j)),
                                         slope_per_m * (z.at(i, j + 1) - z.at(i, j - 1)), margins[index], 0.0F};
-      vertices_[index].look = Float4{vertex.albedo, vertex.fine_contrast, vertex.coarse_contrast, vertex.bump};
+      vertices_[index].appearance = Float4{vertex.albedo, vertex.fine_contrast, vertex.coarse_contrast, vertex.bump};
     }
   }
 }

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "rover_simulator/camera/detail_texture.hpp"
-#include "rover_simulator/camera/ground_look.hpp"
+#include "rover_simulator/camera/ground_appearance.hpp"
 #include "rover_simulator/camera/height_tile.hpp"
 
 namespace rover {
@@ -19,7 +19,7 @@ namespace rover {
 struct ShadingVertex {
   // Slopes along x and y; tangent of sun elevation minus tangent of horizon elevation (negative in shadow).
   Float4 surface;
-  Float4 look;  // a VertexLook
+  Float4 appearance;  // a VertexAppearance
 };
 
 class GroundTile {
@@ -29,7 +29,7 @@ class GroundTile {
     std::shared_ptr<const HeightTile> self, next_x, next_y, next_xy;
   };
 
-  GroundTile(RTCDevice device, const Heights& heights, const Surface& surface, const GroundLook& look,
+  GroundTile(RTCDevice device, const Heights& heights, const Surface& surface, const GroundAppearance& appearance,
              const GroundTexture& texture);
   ~GroundTile();
   GroundTile(const GroundTile&) = delete;
@@ -49,7 +49,7 @@ class GroundTile {
 
  private:
   void place_textures(const GroundTexture& texture);
-  void shade_vertices(const Heights& heights, const Surface& surface, const GroundLook& look,
+  void shade_vertices(const Heights& heights, const Surface& surface, const GroundAppearance& appearance,
                       const GroundTexture& texture);
   float baked_tone(const GroundTexture& texture, float x, float y) const;
   void build_mesh(RTCDevice device, const HeightTile& heights);
@@ -62,6 +62,6 @@ class GroundTile {
 };
 
 // Signs of the direction towards the sun: +1 or -1 in x and y.
-Eigen::Vector2i sun_side(const GroundLookConfig& config);
+Eigen::Vector2i sun_side(const GroundAppearanceConfig& config);
 
 }  // namespace rover

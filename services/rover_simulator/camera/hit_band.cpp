@@ -46,7 +46,8 @@ class BandTracer {
   void sample_row(int row, std::vector<Sample>& samples) const {
     for (int first = 0; first <= width_ / 2; first += kPacket) {
       RayPacket rays;
-      for (int k = 0; k < kPacket; ++k) aim(camera_, std::min(2 * (first + k), width_), band_.first_row + row, k, rays);
+      for (int k = 0; k < kPacket; ++k)
+        set_viewing_ray(camera_, std::min(2 * (first + k), width_), band_.first_row + row, k, rays);
       const HitPacket hits = scene_.intersect(camera_.view, rays);
       for (int k = 0; k < kPacket; ++k) samples[first + k] = sample(rays, hits, k);
     }
@@ -76,7 +77,7 @@ class BandTracer {
     const Sample& d = below_[u / 2 + 1];
     put(u, row, a.tile, a.range_m);
     if (!on_one_plane(a, b, c, d)) {
-      open_.insert(open_.end(), {index(u + 1, row), index(u, row + 1), index(u + 1, row + 1)});
+      untraced_.insert(untraced_.end(), {index(u + 1, row), index(u, row + 1), index(u + 1, row + 1)});
       return;
     }
     put_between(u + 1, row, a.tile, 0.5F * (a.inverse_depth + b.inverse_depth));
@@ -93,20 +94,20 @@ class BandTracer {
   }
 
   void trace_open() {
-    for (size_t first = 0; first < open_.size(); first += kPacket) {
+    for (size_t first = 0; first < untraced_.size(); first += kPacket) {
       RayPacket rays;
-      const int count = static_cast<int>(std::min<size_t>(kPacket, open_.size() - first));
+      const int count = static_cast<int>(std::min<size_t>(kPacket, untraced_.size() - first));
       for (int k = 0; k < kPacket; ++k) {
-        const int at = open_[first + std::min(k, count - 1)];
-        aim(camera_, at % width_, band_.first_row + at / width_, k, rays);
+        const int at = untraced_[first + std::min(k, count - 1)];
+        set_viewing_ray(camera_, at % width_, band_.first_row + at / width_, k, rays);
       }
       const HitPacket hits = scene_.intersect(camera_.view, rays);
       for (int k = 0; k < count; ++k) {
-        band_.tile[open_[first + k]] = hits.tile[k];
-        band_.range_m[open_[first + k]] = hits.range_m[k];
+        band_.tile[untraced_[first + k]] = hits.tile[k];
+        band_.range_m[untraced_[first + k]] = hits.range_m[k];
       }
     }
-    open_.clear();
+    untraced_.clear();
   }
 
   int index(int u, int row) const { return row * width_ + u; }
@@ -126,7 +127,7 @@ class BandTracer {
   HitBand& band_;
   int width_;
   std::vector<Sample> above_, below_;
-  std::vector<int> open_;  // pixels of the current row pair still to be traced
+  std::vector<int> untraced_;  // pixels of the current row pair still to be traced
 };
 
 }  // namespace

@@ -31,7 +31,7 @@ struct HitBand {
 HitBand find_hits(const TileScene& scene, const CameraView& camera, int first_row);
 
 // Sets lane k to the viewing ray of pixel (u, v).
-inline void aim(const CameraView& camera, int u, int v, int k, RayPacket& rays) {
+inline void set_viewing_ray(const CameraView& camera, int u, int v, int k, RayPacket& rays) {
   const size_t index = static_cast<size_t>(v) * camera.rays.stride + u;
   const float x = camera.rays.x[index];
   const float y = camera.rays.y[index];

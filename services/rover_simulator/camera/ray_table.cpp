@@ -6,7 +6,7 @@
 namespace rover {
 namespace {
 
-constexpr double kMostAngle = 1.4;  // [rad] from the axis; rays (x, y, 1) diverge towards 90 deg
+constexpr double kMaxAngleRad = 1.4;  // [rad] from the axis; rays (x, y, 1) diverge towards 90 deg
 
 // Fisheye model with k1 k2 k3 k4 (Kannala and Brandt 2006).
 double fisheye_angle(const PinholeCamera& camera, double angle) {
@@ -33,7 +33,7 @@ Eigen::Vector3d fisheye_ray(const PinholeCamera& camera, const Eigen::Vector2d& 
   const double in_picture = target.norm();
   if (in_picture == 0.0) return Eigen::Vector3d::UnitZ();
   double angle = in_picture;
-  for (int i = 0; i < 30; ++i) angle = std::clamp(angle + in_picture - fisheye_angle(camera, angle), 0.0, kMostAngle);
+  for (int i = 0; i < 30; ++i) angle = std::clamp(angle + in_picture - fisheye_angle(camera, angle), 0.0, kMaxAngleRad);
   const double scale = std::tan(angle) / in_picture;
   return {target.x() * scale, target.y() * scale, 1.0};
 }

@@ -23,7 +23,7 @@ void shade_band(const TileScene& scene, const CameraView& camera, const HitBand&
       Lanes<int> tile;
       Lanes<float> range_m;
       for (int k = 0; k < kPacket; ++k) {
-        aim(camera, u + k, band.first_row + row, k, rays);
+        set_viewing_ray(camera, u + k, band.first_row + row, k, rays);
         tile[k] = band.tile[static_cast<size_t>(row) * width + u + k];
         range_m[k] = band.range_m[static_cast<size_t>(row) * width + u + k];
       }
@@ -58,12 +58,12 @@ StereoCameraSim::StereoCameraSim(const StereoRig& nominal, const CameraSimConfig
       rig_(with_calibration_error(nominal, config.calibration_error_px, seed)),
       seed_(seed),
       scene_(std::move(scene)),
-      left_(make_eye(rig_.left)),
-      right_(make_eye(rig_.right)) {
+      left_(make_camera(rig_.left)),
+      right_(make_camera(rig_.right)) {
   ROVER_CHECK(problem_of_rendering(rig_).empty(), rig_.width, rig_.height);
 }
 
-StereoCameraSim::Eye StereoCameraSim::make_eye(const PinholeCamera& camera) const {
+StereoCameraSim::CameraModel StereoCameraSim::make_camera(const PinholeCamera& camera) const {
   return {make_ray_table(camera, rig_.width, rig_.height), Imager(config_.imager, rig_.width, rig_.height),
           RadianceImage(rig_.width, rig_.height)};
 }
@@ -81,7 +81,7 @@ StereoCameraSim::Pair StereoCameraSim::render_from(const Eigen::Isometry3d& T_ma
   const std::uint64_t frame_key = hash64(seed_, static_cast<std::uint64_t>(frame));
   const int jobs = rig_.height / HitBand::kRows;
   scene_->pool().run(2 * jobs, [&](int job) {
-    const Eye& eye = job < jobs ? left_ : right_;
+    const CameraModel& eye = job < jobs ? left_ : right_;
     GrayImage& image = job < jobs ? pair.left : pair.right;
     const std::uint64_t key = hash64(frame_key, job < jobs ? 0 : 1);
     const int first = job % jobs * HitBand::kRows;
@@ -92,7 +92,7 @@ StereoCameraSim::Pair StereoCameraSim::render_from(const Eigen::Isometry3d& T_ma
   return pair;
 }
 
-CameraView StereoCameraSim::view_from(const Eye& eye, const Eigen::Isometry3d& T_map_cam) const {
+CameraView StereoCameraSim::view_from(const CameraModel& eye, const Eigen::Isometry3d& T_map_cam) const {
   const double baseline_m = rig_.T_left_right.translation().norm();
   const double tolerance = kDisparityTolerance_px / (rig_.left.fx_px * baseline_m);
   return {eye.rays, T_map_cam.linear().cast<float>(), scene_->view(T_map_cam.translation()),

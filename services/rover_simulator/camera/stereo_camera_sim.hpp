@@ -50,21 +50,21 @@ class StereoCameraSim {
   TileScene& scene() { return *scene_; }
 
  private:
-  struct Eye {
+  struct CameraModel {
     RayTable rays;
     Imager imager;
     RadianceImage radiance;
   };
-  CameraView view_from(const Eye& eye, const Eigen::Isometry3d& T_map_cam) const;
+  CameraView view_from(const CameraModel& eye, const Eigen::Isometry3d& T_map_cam) const;
   void trace_radiance(const Eigen::Isometry3d& T_map_left);
-  Eye make_eye(const PinholeCamera& camera) const;
+  CameraModel make_camera(const PinholeCamera& camera) const;
 
   CameraSimConfig config_;
   StereoRig rig_;
   std::uint64_t seed_;
   std::shared_ptr<TileScene> scene_;
-  Eye left_;
-  Eye right_;
+  CameraModel left_;
+  CameraModel right_;
   double exposure_s_ = 0.0;  // of the next image; 0: metered from the scene
 };
 

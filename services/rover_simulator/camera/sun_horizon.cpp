@@ -59,7 +59,7 @@ std::vector<float> march_distances(int cells) {
 
 }  // namespace
 
-std::vector<float> sun_margins(const GroundTile::Heights& heights, const GroundLookConfig& sun) {
+std::vector<float> sun_margins(const GroundTile::Heights& heights, const GroundAppearanceConfig& sun) {
   const Eigen::Vector2i side = sun_side(sun);
   const Patch patch = assemble(heights, side);
   const std::vector<float> distances = march_distances(patch.cells);

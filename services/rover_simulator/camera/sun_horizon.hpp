@@ -4,12 +4,12 @@
 
 #include <vector>
 
-#include "rover_simulator/camera/ground_look.hpp"
+#include "rover_simulator/camera/ground_appearance.hpp"
 #include "rover_simulator/camera/ground_tile.hpp"
 
 namespace rover {
 
 // (cells + 1)^2 margins. Shadow length is limited to one tile.
-std::vector<float> sun_margins(const GroundTile::Heights& heights, const GroundLookConfig& sun);
+std::vector<float> sun_margins(const GroundTile::Heights& heights, const GroundAppearanceConfig& sun);
 
 }  // namespace rover

@@ -28,9 +28,9 @@ int tile_index(int level, double position) {
 TileScene::TileScene(const Surface& surface, const TileSceneConfig& config)
     : surface_(surface),
       config_(config),
-      look_(config.look),
-      texture_(config.look.seed),
-      shader_(config.look, texture_),
+      appearance_(config.appearance),
+      texture_(config.appearance.seed),
+      shader_(config.appearance, texture_),
       pool_(config.threads),
       device_(rtcNewDevice(kDeviceConfig)) {
   ROVER_CHECK(device_ != nullptr);
@@ -50,9 +50,9 @@ void TileScene::focus(double x_m, double y_m) {
   build(needed);
   if (needed != shown_) {
     assemble(needed);
-    forget_far(x_m, y_m);
+    evict_distant_tiles(x_m, y_m);
   }
-  build_one_ahead(x_m, y_m);
+  prefetch_one_tile(x_m, y_m);
 }
 
 // Quadtree from the coarsest level: a tile within the next level's radius is replaced by finer ones.
@@ -81,7 +81,7 @@ std::vector<TileKey> TileScene::tiles_around(double x_m, double y_m, double marg
 }
 
 std::vector<TileKey> TileScene::height_keys_of(const TileKey& key) const {
-  const Eigen::Vector2i side = sun_side(config_.look);
+  const Eigen::Vector2i side = sun_side(config_.appearance);
   return {key,
           {key.level, key.ix + side.x(), key.iy},
           {key.level, key.ix, key.iy + side.y()},
@@ -110,11 +110,12 @@ void TileScene::build(const std::vector<TileKey>& keys) {
             [&](int i) { heights_.at(heights[i]) = std::make_shared<const HeightTile>(heights[i], surface_); });
   for (const TileKey& key : tiles) tiles_.try_emplace(key);
   pool_.run(static_cast<int>(tiles.size()), [&](int i) {
-    tiles_.at(tiles[i]) = std::make_shared<const GroundTile>(device_, heights_of(tiles[i]), surface_, look_, texture_);
+    tiles_.at(tiles[i]) =
+        std::make_shared<const GroundTile>(device_, heights_of(tiles[i]), surface_, appearance_, texture_);
   });
 }
 
-void TileScene::build_one_ahead(double x_m, double y_m) {
+void TileScene::prefetch_one_tile(double x_m, double y_m) {
   for (const TileKey& key : tiles_around(x_m, y_m, config_.ahead_m)) {
     if (tiles_.contains(key)) continue;
     build({key});
@@ -122,7 +123,7 @@ void TileScene::build_one_ahead(double x_m, double y_m) {
   }
 }
 
-void TileScene::forget_far(double x_m, double y_m) {
+void TileScene::evict_distant_tiles(double x_m, double y_m) {
   const std::array<double, kTileLevels> radius = {config_.fine_radius_m, config_.middle_radius_m, config_.far_radius_m};
   const auto far = [&](const auto& entry) {
     // Fine tiles are used in whole blocks, so a tile may exceed its radius by its parent's diagonal.
@@ -161,8 +162,8 @@ void TileScene::assemble(const std::vector<TileKey>& keys) {
 TileScene::View TileScene::view(const Eigen::Vector3d& p_map_eye) const {
   View view;
   view.eye = (p_map_eye - anchor_).cast<float>();
-  view.eye_in_tile.reserve(shown_tiles_.size());
-  for (const auto& tile : shown_tiles_) view.eye_in_tile.push_back((p_map_eye - tile->origin()).cast<float>());
+  view.camera_in_tile.reserve(shown_tiles_.size());
+  for (const auto& tile : shown_tiles_) view.camera_in_tile.push_back((p_map_eye - tile->origin()).cast<float>());
   return view;
 }
 
@@ -206,7 +207,7 @@ Lanes<float> TileScene::radiance(const View& view, const RayPacket& rays, const 
   for (int k = 0; k < kPacket; ++k) {
     const bool hit = tile[k] != kNoTile;
     const float range = hit ? range_m[k] : 1.0F;
-    const Eigen::Vector3f& eye = view.eye_in_tile[hit ? tile[k] : 0];
+    const Eigen::Vector3f& eye = view.camera_in_tile[hit ? tile[k] : 0];
     points.tile[k] = hit ? shown_tiles_[tile[k]].get() : nullptr;
     points.x[k] = eye.x() + range * rays.dir_x[k];
     points.y[k] = eye.y() + range * rays.dir_y[k];

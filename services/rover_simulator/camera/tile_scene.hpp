@@ -26,7 +26,7 @@ struct TileSceneConfig {
   double ahead_m = 2.0;           // prefetch distance beyond the radii, one tile per image
   double keep_m = 3.0;            // eviction distance beyond the radii
   int threads = 2;
-  GroundLookConfig look;
+  GroundAppearanceConfig appearance;
 };
 
 class TileScene {
@@ -42,8 +42,8 @@ class TileScene {
 
   // Camera position relative to scene and tiles; valid until the next focus().
   struct View {
-    Eigen::Vector3f eye;                       // relative to the scene's anchor
-    std::vector<Eigen::Vector3f> eye_in_tile;  // relative to each tile's origin
+    Eigen::Vector3f eye;                          // relative to the scene's anchor
+    std::vector<Eigen::Vector3f> camera_in_tile;  // relative to each tile's origin
   };
   View view(const Eigen::Vector3d& p_map_eye) const;
 
@@ -60,15 +60,15 @@ class TileScene {
  private:
   std::vector<TileKey> tiles_around(double x_m, double y_m, double margin_m) const;
   void build(const std::vector<TileKey>& keys);
-  void build_one_ahead(double x_m, double y_m);
+  void prefetch_one_tile(double x_m, double y_m);
   GroundTile::Heights heights_of(const TileKey& key) const;
   std::vector<TileKey> height_keys_of(const TileKey& key) const;
-  void forget_far(double x_m, double y_m);
+  void evict_distant_tiles(double x_m, double y_m);
   void assemble(const std::vector<TileKey>& keys);
 
   const Surface& surface_;
   TileSceneConfig config_;
-  GroundLook look_;
+  GroundAppearance appearance_;
   GroundTexture texture_;
   GroundShader shader_;
   mutable WorkerPool pool_;

@@ -35,8 +35,8 @@ class PanTiltSim {
   double pan_rad() const { return state_.pan_rad + pan_error_rad_; }
   double tilt_rad() const { return state_.tilt_rad + tilt_error_rad_; }
   // An image was requested and the unit is stationary.
-  bool picture_due() const { return wanted_.take_image && !state_.moving; }
-  void picture_taken() { wanted_.take_image = false; }
+  bool image_due() const { return wanted_.take_image && !state_.moving; }
+  void image_taken() { wanted_.take_image = false; }
 
  private:
   PanTiltUnit unit_;

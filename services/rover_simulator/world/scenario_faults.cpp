@@ -8,7 +8,7 @@
 namespace rover {
 namespace {
 
-constexpr double kLongest = 1e6;  // [s] or [m]
+constexpr double kMaxTrigger = 1e6;  // [s] or [m]
 
 std::int8_t read_state(const Config& config) {
   const std::vector<std::string> names = state_names();
@@ -24,8 +24,8 @@ void read_trigger(const Config& config, ScriptedFault& fault) {
     first = key;
   }
   if (first.empty()) config.fail("at_s", "missing; or at_m, or at_state");
-  if (first == "at_s") fault.at_s = config.number(first, {0, kLongest});
-  if (first == "at_m") fault.at_m = config.number(first, {0, kLongest});
+  if (first == "at_s") fault.at_s = config.number(first, {0, kMaxTrigger});
+  if (first == "at_m") fault.at_m = config.number(first, {0, kMaxTrigger});
   if (first == "at_state") fault.at_state = read_state(config);
 }
 
@@ -41,7 +41,7 @@ FaultOrder read_order(const Config& config) {
   order.amount = kind->usual;
   if (config.has("amount") || std::isnan(kind->usual)) order.amount = config.number("amount", kind->amount);
   if (!kind->lasts && config.has("for_s")) config.fail("for_s", order.fault + " takes no duration");
-  config.read("for_s", order.for_s, {0.02, kLongest});
+  config.read("for_s", order.for_s, {0.02, kMaxTrigger});
   return order;
 }
 

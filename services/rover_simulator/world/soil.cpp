@@ -33,9 +33,9 @@ SoilZones::SoilZones(const SoilConfig& config, std::uint64_t seed) : config_(con
 }
 
 double SoilZones::zone(double x_m, double y_m) const {
-  constexpr double kFine = 0.4, kNorm = 0.92848;  // 1 / sqrt(1 + kFine^2)
+  constexpr double kFineAmplitude = 0.4, kNorm = 0.92848;  // 1 / sqrt(1 + kFine^2)
   const double x = x_m / config_.patch_m, y = y_m / config_.patch_m;
-  return kNorm * (gradient_noise(seed_, x, y) + kFine * gradient_noise(seed_ + 1, 3.1 * x, 3.1 * y));
+  return kNorm * (gradient_noise(seed_, x, y) + kFineAmplitude * gradient_noise(seed_ + 1, 3.1 * x, 3.1 * y));
 }
 
 Soil SoilZones::soil(double zone, double slope_rad) const {

@@ -1,4 +1,4 @@
-#include "rover_simulator/camera/ground_look.hpp"
+#include "rover_simulator/camera/ground_appearance.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -45,7 +45,7 @@ double noise_quantile(double fraction) {
 }
 
 // Albedos and contrasts are tuned visually to images of Mars rovers.
-VertexLook soil_look(Soil soil) {
+VertexAppearance soil_look(Soil soil) {
   switch (soil) {
     case Soil::kSand:
       return {0.30F, 0.13F, 0.06F, 0.10F};
@@ -57,35 +57,35 @@ VertexLook soil_look(Soil soil) {
   return {};
 }
 
-VertexLook rock_look(std::uint64_t seed, int rock_id) {
+VertexAppearance rock_look(std::uint64_t seed, int rock_id) {
   const auto tone = static_cast<float>(unit_random(hash64(hash64(seed, 31), static_cast<std::uint64_t>(rock_id))));
   return {0.15F + 0.15F * tone, 0.17F, 0.13F, 0.16F};
 }
 
-void cover(VertexLook& look, double dust) {
+void cover(VertexAppearance& appearance, double dust) {
   constexpr float kDustAlbedo = 0.33F;
-  constexpr float kLeft = 0.04F;  // remaining contrast under dust
+  constexpr float kResidualContrast = 0.04F;  // remaining contrast under dust
   const auto d = static_cast<float>(dust);
-  look.albedo += d * (kDustAlbedo - look.albedo);
-  const float keep = 1.0F - d * (1.0F - kLeft);
-  look.fine_contrast *= keep;
-  look.coarse_contrast *= keep;
-  look.bump *= keep;
+  appearance.albedo += d * (kDustAlbedo - appearance.albedo);
+  const float keep = 1.0F - d * (1.0F - kResidualContrast);
+  appearance.fine_contrast *= keep;
+  appearance.coarse_contrast *= keep;
+  appearance.bump *= keep;
 }
 
 }  // namespace
 
-GroundLook::GroundLook(const GroundLookConfig& config)
+GroundAppearance::GroundAppearance(const GroundAppearanceConfig& config)
     : config_(config), dust_below_(noise_quantile(config.textureless_fraction)) {}
 
-VertexLook GroundLook::at(double x, double y, const Material& material) const {
+VertexAppearance GroundAppearance::at(double x, double y, const Material& material) const {
   const bool rock = material.rock_id >= 0;
-  VertexLook look = rock ? rock_look(config_.seed, material.rock_id) : soil_look(material.soil);
-  cover(look, rock ? dust_on_rock(material.rock_id) : dust_on_ground(x, y));
-  return look;
+  VertexAppearance appearance = rock ? rock_look(config_.seed, material.rock_id) : soil_look(material.soil);
+  cover(appearance, rock ? dust_on_rock(material.rock_id) : dust_on_ground(x, y));
+  return appearance;
 }
 
-double GroundLook::dust_on_ground(double x, double y) const {
+double GroundAppearance::dust_on_ground(double x, double y) const {
   if (config_.textureless_fraction <= 0.0) return 0.0;
   if (config_.textureless_fraction >= 1.0) return 1.0;
   const double noise = value_noise(hash64(config_.seed, 41), x / kDustPatch_m, y / kDustPatch_m);
@@ -93,7 +93,7 @@ double GroundLook::dust_on_ground(double x, double y) const {
   return smooth(std::clamp((dust_below_ - noise) / kEdge + 0.5, 0.0, 1.0));
 }
 
-double GroundLook::dust_on_rock(int rock_id) const {
+double GroundAppearance::dust_on_rock(int rock_id) const {
   const std::uint64_t h = hash64(hash64(config_.seed, 51), static_cast<std::uint64_t>(rock_id));
   return unit_random(h) < config_.textureless_rock_fraction ? 1.0 : 0.0;
 }

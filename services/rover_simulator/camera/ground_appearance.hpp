@@ -7,7 +7,7 @@
 
 namespace rover {
 
-struct GroundLookConfig {
+struct GroundAppearanceConfig {
   double sun_elevation_rad = 0.7;
   double sun_azimuth_rad = 1.0;             // towards the sun, counter-clockwise from map x
   double sky_light = 0.16;                  // diffuse over direct irradiance, estimated for low atmospheric dust
@@ -17,25 +17,25 @@ struct GroundLookConfig {
 };
 
 // Appearance of one vertex, interpolated between vertices.
-struct VertexLook {
+struct VertexAppearance {
   float albedo = 0.0F;
   float fine_contrast = 0.0F;    // relative, wavelengths below 5 cm
   float coarse_contrast = 0.0F;  // relative, wavelengths above 5 cm
   float bump = 0.0F;             // rms slope of relief below mesh resolution
 };
 
-class GroundLook {
+class GroundAppearance {
  public:
-  explicit GroundLook(const GroundLookConfig& config);
-  VertexLook at(double x, double y, const Material& material) const;
-  const GroundLookConfig& config() const { return config_; }
+  explicit GroundAppearance(const GroundAppearanceConfig& config);
+  VertexAppearance at(double x, double y, const Material& material) const;
+  const GroundAppearanceConfig& config() const { return config_; }
 
  private:
   // Dust cover from 0 to 1; 1 hides all texture.
   double dust_on_ground(double x, double y) const;
   double dust_on_rock(int rock_id) const;
 
-  GroundLookConfig config_;
+  GroundAppearanceConfig config_;
   double dust_below_;  // dust where the noise is below this level
 };
 
