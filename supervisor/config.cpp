@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "common/bus/config.hpp"
+#include "common/bus/navigation_config.hpp"
 #include "common/bus/vehicle_config.hpp"
 
 namespace rover::supervisor {
@@ -20,16 +21,16 @@ std::vector<std::string> split(const std::string& words) {
 using enum State;
 
 constexpr StateSet kMotion = {kDriving, kHazardStop, kRepairing, kSweeping, kFaultStop, kTeleop};
-// All states but BOOT: no row is evaluated before every input has arrived once.
+// All states but BOOT: no row is evaluated before the inputs of inputs_ready() have arrived.
 constexpr StateSet kAlways = {kStandby, kDriving,     kHazardStop, kRepairing, kSweeping,
                               kPaused,  kGoalReached, kFaultStop,  kSafe,      kTeleop};
 
-const std::vector<std::string> kResponses = {"log",  "slow",        "stop", "stop_replan", "restart_service",
-                                             "safe", "stop_retreat"};
+const std::vector<std::string> kResponses = {"log",  "slow",          "stop", "stop_replan", "restart_service",
+                                             "safe", "stop_backtrack"};
 
 void read_armed(const Config& c, MonitorRow& row) {
-  const std::string armed = c.has("armed") ? c.one_of("armed", {"always", "under_way", "motion", "full", "efficient"})
-                                           : std::string("always");
+  const std::string armed =
+      c.has("armed") ? c.one_of("armed", {"always", "drive", "motion", "full", "efficient"}) : std::string("always");
   const bool always = armed == "always" || armed == "efficient";
   row.armed = always ? kAlways : armed == "motion" ? kMotion : kUnderWayOrFaultStop;
   if (armed == "full") row.level = Level::kFull;
@@ -53,12 +54,14 @@ FdirLine read_line(const Config& c, const Vehicle& vehicle) {
   c.read("latched", row.latched);
   const std::string response = c.one_of("response", kResponses);
   row.response = static_cast<Response>(std::find(kResponses.begin(), kResponses.end(), response) - kResponses.begin());
-  if (c.has("back_limit")) row.backtrack_limit = c.number("back_limit", {row.limit, 1e6});
-  if (c.has("back_limit") && row.response != Response::kStopBacktrack) c.fail("back_limit", "belongs to stop_retreat");
+  if (c.has("backtrack_limit")) row.backtrack_limit = c.number("backtrack_limit", {row.limit, 1e6});
+  if (c.has("backtrack_limit") && row.response != Response::kStopBacktrack)
+    c.fail("backtrack_limit", "belongs to stop_backtrack");
   if (row.response == Response::kSlow) row.slow_mps = c.number("slow_mps", {0.01, vehicle.top_speed_mps});
   const bool of_service =
       quantity->expansion == Expansion::kEachRequired || quantity->expansion == Expansion::kEachFull;
-  if (row.response == Response::kRestartService && !of_service) c.fail("response", "no service to start anew");
+  if (row.response == Response::kRestartService && !of_service)
+    c.fail("response", "restart_service needs a quantity of required_services or full_services");
   c.read("stops", row.stops);
   if (!row.stops && row.response != Response::kRestartService) c.fail("stops", "belongs to restart_service");
   read_armed(c, row);
@@ -105,33 +108,54 @@ void apply_row_ages(SupervisorConfig& out) {
 // Applies whatever the response of the row is: without a recent map the rover stops to sweep.
 void apply_terrain_distance(SupervisorConfig& out) {
   for (const FdirLine& line : out.fdir.lines)
-    if (line.quantity == "terrain_way_m")
+    if (line.quantity == "terrain_distance_m")
       out.terrain_max_distance_m = std::min(out.terrain_max_distance_m, line.row.limit);
 }
 
-void read_level(const Config& c, LevelConfig& out) {
-  c.read("window_s", out.window_s, {5.0, 3600.0});
-  c.read("slow_mps", out.slow_mps, {0.0, 1.0});
-  c.read("hazards_per_m", out.hazards_per_m, {0.0, 100.0});
-  c.read("least_hazards", out.min_hazards, {1.0, 1000.0});
-  c.read("easy_difficulty", out.easy_difficulty, {0.0, 1.0});
-  c.read("easy_way_m", out.easy_distance_m, {0.0, 1000.0});
-  c.read("failing_starts", out.failing_starts, {1.0, 100.0});
-  c.read("failing_sweep_s", out.failing_sweep_s, {1.0, 600.0});
+void add_words(Parameters& p, const std::string& key, std::vector<std::string>& words, const std::string& meaning) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
+  p.add(key, text, meaning);
+  words = split(text);
 }
 
-void read_sweep(const Config& c, SupervisorConfig& out) {
-  c.read("known_ahead", out.terrain_known_ahead, {0.01, 1.0});
-  c.read("known_around", out.terrain_known_around, {0.01, 1.0});
-  c.read("patience_s", out.sweep_timeout_s, {1.0, 600.0});
+void add_services(Parameters& p, FdirConfig& c) {
+  add_words(p, "required_services", c.required_services, "the rover stops without one of them");
+  add_words(p, "optional_services", c.optional_services, "the rover drives on without them");
+  add_words(p, "full_services", c.full_services, "also required at the Full level");
 }
 
-void read_hazard_stop(const Config& c, SupervisorConfig& out) {
-  c.read("hazard_m", out.hazard_stop_m, {0.1, 5.0});
-  c.read("unseen_m", out.unseen_stop_m, {0.05, 5.0});
-  c.read("hysteresis_m", out.stop_hysteresis_m, {0.0, 2.0});
-  c.read("standing_speed_mps", out.stationary_speed_mps, {0.001, 0.1});
-  c.read_deg("standing_rate_degps", out.stationary_rate_radps, {0.05, 10.0});
+void add_hazard_stop(Parameters& p, SupervisorConfig& c) {
+  p.add("hazard_stop_m", c.hazard_stop_m, {0.1, 5.0},
+        "stop at this distance to a hazard along the path; at 0.2 m/s reaction takes 0.1 m and braking 0.05 m");
+  p.add("unseen_stop_m", c.unseen_stop_m, {0.05, 5.0}, "the same to unseen ground");
+  p.add("stop_hysteresis_m", c.stop_hysteresis_m, {0.0, 2.0}, "added for resuming, unless the path is new");
+  p.add("stationary_speed_mps", c.stationary_speed_mps, {0.001, 0.1}, "below it and the next the rover is stationary");
+  p.add_deg("stationary_rate_degps", c.stationary_rate_radps, {0.05, 10.0}, "yaw rate");
+}
+
+void add_sweep(Parameters& p, SupervisorConfig& c) {
+  p.add("terrain_known_ahead", c.terrain_known_ahead, {0.01, 1.0},
+        "known fraction of the Full-level map ahead, 1.2 to 3 m; below it the rover stops and sweeps");
+  p.add("terrain_known_around", c.terrain_known_around, {0.01, 1.0},
+        "known fraction on each side, 1.5 to 4 m, that ends a sweep ...");
+  p.add("sweep_timeout_s", c.sweep_timeout_s, {1.0, 600.0}, "... or this time; a full sweep takes 20 s");
+}
+
+void add_level(Parameters p, LevelConfig& c) {
+  p.add("window_s", c.window_s, {5.0, 3600.0}, "driving time over which progress and hazards are measured");
+  p.add("slow_mps", c.slow_mps, {0.0, 1.0}, "lower progress towards the goal: raise");
+  p.add("hazards_per_m", c.hazards_per_m, {0.0, 100.0}, "more hazard stops and repairs: raise");
+  p.add("min_hazards", c.min_hazards, {1, 1000}, "minimum number of them in the window");
+  p.add("easy_difficulty", c.easy_difficulty, {0.0, 1.0}, "lower terrain difficulty ahead ...");
+  p.add("easy_distance_m", c.easy_distance_m, {0.0, 1000.0}, "... over this distance: lower");
+  p.add("failing_starts", c.failing_starts, {1, 100}, "starts of one of full_services within restarts.window_s: lower");
+  p.add("failing_sweep_s", c.failing_sweep_s, {1.0, 600.0}, "sweep without known ground for this long: lower");
+}
+
+void add_restarts(Parameters p, ServiceRestarterConfig& c) {
+  p.add("retry_interval_s", c.retry_interval_s, {1.0, 60.0}, "time until the next attempt to restart it");
+  p.add("window_s", c.window_s, {1.0, 3600.0}, "attempts and starts are counted over it");
 }
 
 void apply_vehicle(const Vehicle& vehicle, SupervisorConfig& out) {
@@ -143,32 +167,33 @@ void apply_vehicle(const Vehicle& vehicle, SupervisorConfig& out) {
 
 }  // namespace
 
-SupervisorConfig load_config(const std::string& config_dir) {
+SupervisorConfig load_config(const std::string& config_dir, ParameterList* list) {
   const Vehicle vehicle = load_vehicle(config_dir);
-  SupervisorConfig out;
-  apply_vehicle(vehicle, out);
-  out.fdir.lines = read_lines(config_dir, vehicle);
-  apply_row_ages(out);
-  apply_terrain_distance(out);
-  const Config config = Config::load(config_dir + "/supervisor.yaml");
-  out.fdir.required_services = split(config.text("required_services"));
-  out.fdir.optional_services = split(config.text("optional_services"));
-  out.fdir.full_services = split(config.text("full_services"));
-  config.read("max_speed_mps", out.max_speed_mps, {0.01, vehicle.top_speed_mps});
-  config.read("teleop_speed_mps", out.teleop_speed_mps, {0.01, vehicle.top_speed_mps});
-  config.read("teleop_max_age_s", out.teleop_max_age_s, {0.1, 5.0});
-  config.read("permit_validity_s", out.permit_validity_s, {0.04, 0.2});
-  config.read("goal_tolerance_m", out.goal_tolerance_m, {0.05, 5.0});
-  read_hazard_stop(config.section("hazard_stop"), out);
-  read_sweep(config.section("sweep"), out);
-  read_level(config.section("level"), out.level);
-  const Config restarts = config.section("restarts");
-  restarts.read("patience_s", out.restarter.retry_interval_s, {1.0, 60.0});
-  restarts.read("window_s", out.restarter.window_s, {1.0, 3600.0});
-  out.derived.start_window_s = out.restarter.window_s;
-  config.section("motors").read("thermal_time_s", out.derived.thermal_time_s, {1.0, 3600.0});
-  config.finish();
-  return out;
+  const NavigationConfig navigation = load_navigation(config_dir);
+  SupervisorConfig c;
+  apply_vehicle(vehicle, c);
+  c.goal_tolerance_m = navigation.goal_tolerance_m;
+  c.teleop_max_age_s = navigation.teleop_max_age_s;
+  Parameters p(config_dir + "/supervisor.yaml",
+               "Supervisor without its fault table (fdir.yaml). Top speed and motor data come from vehicle.yaml, goal "
+               "tolerance and age of operator commands from navigation.yaml.",
+               list);
+  add_services(p, c.fdir);
+  p.add("permit_validity_s", c.permit_validity_s, {0.04, 0.2}, "of DRIVE_PERMIT; without a newer one the rover stops");
+  p.add("teleop_speed_mps", c.teleop_speed_mps, {0.01, vehicle.top_speed_mps}, "speed limit in TELEOP");
+  p.add("motor_thermal_time_s", c.derived.motor_thermal_time_s, {1.0, 3600.0},
+        "time constant of a motor winding (i2t)");
+  add_hazard_stop(p, c);
+  add_sweep(p, c);
+  add_level(p.section("level", "selection of the level on board over a window of driving time"), c.level);
+  add_restarts(p.section("restarts", "restarts of unresponsive services"), c.restarts);
+  p.finish();
+  c.derived.start_window_s = c.restarts.window_s;
+  if (list != nullptr) return c;
+  c.fdir.lines = read_lines(config_dir, vehicle);
+  apply_row_ages(c);
+  apply_terrain_distance(c);
+  return c;
 }
 
 }  // namespace rover::supervisor

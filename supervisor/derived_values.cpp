@@ -16,23 +16,34 @@ double duration_s(bool condition, Utime now, Utime& since) {
 
 DerivedValueTracker::DerivedValueTracker(const DerivedValueConfig& config)
     : config_(config),
-      drive_thermal_(6, MotorThermalModel(config.drive_nominal_a, config.thermal_time_s)),
-      steer_thermal_(4, MotorThermalModel(config.steer_nominal_a, config.thermal_time_s)) {}
+      drive_thermal_(6, MotorThermalModel(config.drive_nominal_a, config.motor_thermal_time_s)),
+      steer_thermal_(4, MotorThermalModel(config.steer_nominal_a, config.motor_thermal_time_s)) {}
 
 void DerivedValueTracker::on_wheels(const WheelReport& wheels) {
-  for (size_t i = 0; i < drive_thermal_.size(); ++i) {
-    drive_thermal_[i].add(wheels.drive_current_a[i], wheels.utime);
-    derived_.drive_i2t_load[i] = drive_thermal_[i].load();
-  }
-  for (size_t i = 0; i < steer_thermal_.size(); ++i) {
-    steer_thermal_[i].add(wheels.steer_current_a[i], wheels.utime);
-    derived_.steer_i2t_load[i] = steer_thermal_[i].load();
-  }
+  heat_.utime = wheels.utime;
+  for (size_t i = 0; i < drive_thermal_.size(); ++i) drive_thermal_[i].add(wheels.drive_current_a[i], wheels.utime);
+  for (size_t i = 0; i < steer_thermal_.size(); ++i) steer_thermal_[i].add(wheels.steer_current_a[i], wheels.utime);
+  set_loads();
+}
+
+void DerivedValueTracker::set_loads() {
+  for (size_t i = 0; i < drive_thermal_.size(); ++i) heat_.drive_i2t_load[i] = drive_thermal_[i].load();
+  for (size_t i = 0; i < steer_thermal_.size(); ++i) heat_.steer_i2t_load[i] = steer_thermal_[i].load();
+  derived_.drive_i2t_load = heat_.drive_i2t_load;
+  derived_.steer_i2t_load = heat_.steer_i2t_load;
+}
+
+void DerivedValueTracker::restore(const MotorHeat& heat, const EventCounters& counters) {
+  heat_.utime = heat.utime;
+  for (size_t i = 0; i < drive_thermal_.size(); ++i) drive_thermal_[i].restore(heat.drive_i2t_load[i], heat.utime);
+  for (size_t i = 0; i < steer_thermal_.size(); ++i) steer_thermal_[i].restore(heat.steer_i2t_load[i], heat.utime);
+  set_loads();
+  counters_ = counters;
 }
 
 void DerivedValueTracker::on_service(const std::string& name, const ServiceReport& before, const ServiceReport& now) {
   newest_report_ = std::max(newest_report_, now.utime);
-  if (before.boot_id > 0 && now.boot_id > before.boot_id) starts_[name].push_back(now.utime);
+  if (before.boot_id > 0 && now.boot_id > before.boot_id) counters_.starts[name].push_back(now.utime);
   // Counters of a new process start at zero.
   const bool same_process = before.utime >= 0 && now.boot_id == before.boot_id;
   if (same_process) losses_.push_back({now.utime, now.received - before.received, now.lost - before.lost});
@@ -44,20 +55,20 @@ void DerivedValueTracker::step(Utime now, const Inputs& inputs, bool permitted) 
   step_losses(now);
   step_starts(now);
   step_motion(now, inputs, permitted);
-  step_fault_stops(inputs);
+  if (std::isfinite(inputs.pose.travelled_m)) travelled_m_ = inputs.pose.travelled_m;
+  step_fault_stops();
 }
 
-void DerivedValueTracker::reset_counters(const Inputs& inputs) {
-  starts_.clear();
+void DerivedValueTracker::reset_counters() {
+  counters_ = {};
   derived_.starts.clear();
-  fault_stops_.clear();
-  step_fault_stops(inputs);
+  step_fault_stops();
 }
 
-void DerivedValueTracker::step_fault_stops(const Inputs& inputs) {
-  std::erase_if(fault_stops_,
-                [&](double at_m) { return inputs.pose.travelled_m - at_m > config_.fault_stop_distance_m; });
-  derived_.fault_stops = static_cast<double>(fault_stops_.size());
+void DerivedValueTracker::step_fault_stops() {
+  std::erase_if(counters_.fault_stops_m,
+                [&](double at_m) { return travelled_m_ - at_m > config_.fault_stop_distance_m; });
+  derived_.fault_stops = static_cast<double>(counters_.fault_stops_m.size());
 }
 
 void DerivedValueTracker::step_losses(Utime now) {
@@ -73,7 +84,7 @@ void DerivedValueTracker::step_losses(Utime now) {
 
 void DerivedValueTracker::step_starts(Utime now) {
   derived_.starts.clear();
-  for (auto& [name, starts] : starts_) {
+  for (auto& [name, starts] : counters_.starts) {
     while (!starts.empty() && now - starts.front() > to_utime(config_.start_window_s)) starts.pop_front();
     derived_.starts[name] = static_cast<int>(starts.size());
   }

@@ -97,12 +97,13 @@ const Fdir::Entry* Fdir::find(const std::string& id) const {
 
 Fdir::Cleared Fdir::clear(const std::string& id, const MonitorContext& context) {
   for (Entry& entry : entries_) {
-    if (entry.monitor.row().id != id || !entry.monitor.active()) continue;
+    if (entry.monitor.row().id != id) continue;
+    if (!entry.monitor.active()) return {};
     const Reading reading = read(entry, context);
-    if (!entry.monitor.unlatch(reading)) return {{}, "the condition still holds"};
+    if (!entry.monitor.unlatch(reading)) return {{}, "the condition is still met"};
     return {{record(entry)}, ""};
   }
-  return {{}, "no such fault stands"};
+  return {{}, "no such fault"};
 }
 
 void Fdir::restore(const std::vector<std::string>& ids) {

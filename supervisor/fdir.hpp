@@ -17,9 +17,12 @@ struct FdirLine {
 
 struct FdirConfig {
   std::vector<FdirLine> lines;
-  std::vector<std::string> required_services;  // the rover stops if one of them is missing
-  std::vector<std::string> optional_services;
-  std::vector<std::string> full_services;  // required at the Full level
+  // The rover stops if one of these is missing.
+  std::vector<std::string> required_services = {"stereo",       "visual_odometry",    "localization", "hazard_detector",
+                                                "path_planner", "trajectory_control", "locomotion"};
+  std::vector<std::string> optional_services = {"recorder", "mission_control", "global_localization"};
+  // Required at the Full level.
+  std::vector<std::string> full_services = {"point_cloud", "pan_tilt", "slam", "traversability"};
 };
 
 struct FaultChange {
@@ -41,7 +44,7 @@ class Fdir {
 
   // Returns raised and cleared faults in table order.
   std::vector<FaultChange> step(const MonitorContext& context, State state, Level level);
-  // Ground command CLEAR_FAULT: the change, or the reason why it was refused.
+  // Ground command CLEAR_FAULT: the change (none if the fault is not active), or the reason why it was refused.
   struct Cleared {
     std::vector<FaultChange> change;
     std::string refusal_reason;
@@ -54,7 +57,7 @@ class Fdir {
   const std::vector<std::string>& active() const { return active_; }
   // Active faults as change records, for periodic publication.
   std::vector<FaultChange> report() const;
-  // True if an active fault has the response stop_retreat.
+  // True if an active fault has the response stop_backtrack.
   bool backtrack_requested() const;
   // First active fault that stops the rover, or that leads to SAFE; null if none.
   const Monitor* first_blocking() const;

@@ -16,11 +16,11 @@ void LevelSelector::reset() {
   easy_distance_m_ = 0.0;
 }
 
-void LevelSelector::step(Utime now, const Inputs& inputs, int hazard_stops, bool under_way) {
-  if (under_way && last_step_ != kNever) time_s_ += std::min(to_seconds(now - last_step_), kSampleS);
+void LevelSelector::step(Utime now, const Inputs& inputs, int hazard_stops, bool drive_in_progress) {
+  if (drive_in_progress && last_step_ != kNever) time_s_ += std::min(to_seconds(now - last_step_), kSampleS);
   last_step_ = now;
   update_terrain(inputs);
-  if (!under_way || !std::isfinite(inputs.planner.goal_distance_m)) return;
+  if (!drive_in_progress || !std::isfinite(inputs.planner.goal_distance_m)) return;
   if (!window_.empty() && time_s_ - window_.back().time_s < kSampleS) return;
   window_.push_back({time_s_, inputs.planner.goal_distance_m, hazard_stops + inputs.planner.replans});
   while (time_s_ - window_.front().time_s > config_.window_s) window_.pop_front();

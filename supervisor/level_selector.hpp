@@ -13,10 +13,10 @@ struct LevelConfig {
   double window_s = 120.0;
   double slow_mps = 0.06;      // lower progress towards the goal raises the level
   double hazards_per_m = 0.5;  // more hazard stops and repairs per metre raise the level
-  double min_hazards = 4;      // minimum number in the window
+  int min_hazards = 4;         // minimum number in the window
   double easy_difficulty = 0.25;
   double easy_distance_m = 8.0;
-  double failing_starts = 2.0;    // starts of one Full-level service within a minute: lower the level
+  int failing_starts = 2;         // starts of one Full-level service within a minute: lower the level
   double failing_sweep_s = 40.0;  // sweep without known ground for that long: lower the level
 };
 
@@ -24,8 +24,8 @@ class LevelSelector {
  public:
   explicit LevelSelector(const LevelConfig& config) : config_(config) {}
 
-  // Each tick. Time and samples accumulate only while `under_way`.
-  void step(Utime now, const Inputs& inputs, int hazard_stops, bool under_way);
+  // Each tick. Time and samples accumulate only while `drive_in_progress`.
+  void step(Utime now, const Inputs& inputs, int hazard_stops, bool drive_in_progress);
   // Clears the windows, after a level change or at the start of a drive.
   void reset();
 
@@ -39,7 +39,7 @@ class LevelSelector {
 
  private:
   struct Sample {
-    double time_s;  // accumulated time under way
+    double time_s;  // accumulated time of driving
     double goal_distance_m;
     int hazards;  // cumulative stops and repairs
   };

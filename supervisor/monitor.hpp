@@ -34,7 +34,7 @@ struct MonitorRow {
   double clear_s = 1.0;  // clears after that time without a bad reading
   bool latched = false;  // cleared only by ground command, or when disarmed
   Response response = Response::kStop;
-  double backtrack_limit = kInfinity;  // stop_retreat: relaxed limit while backtracking, the recovery of that fault
+  double backtrack_limit = kInfinity;  // stop_backtrack: relaxed limit while backtracking, the recovery of that fault
   double slow_mps = kInfinity;         // slow: speed limit
   StateSet armed;
   std::optional<Level> level;  // armed only at that level

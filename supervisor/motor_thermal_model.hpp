@@ -14,15 +14,20 @@ class MotorThermalModel {
   MotorThermalModel(double nominal_a, double time_constant_s)
       : nominal_a_(nominal_a), time_constant_s_(time_constant_s) {}
 
-  // NaN is ignored here; the current row raises on it.
+  // Non-finite currents are ignored here; the current row raises on them.
   void add(double current_a, Utime utime) {
     const double dt_s = utime_ == kNever ? 0.0 : std::clamp(to_seconds(utime - utime_), 0.0, time_constant_s_);
     utime_ = utime;
-    if (std::isnan(current_a)) return;
+    if (!std::isfinite(current_a)) return;
     const double square = current_a * current_a / (nominal_a_ * nominal_a_);
     load_ += (square - load_) * dt_s / time_constant_s_;
   }
   double load() const { return load_; }
+  // After a restart: `load` was reached at `utime`.
+  void restore(double load, Utime utime) {
+    load_ = load;
+    utime_ = utime;
+  }
 
  private:
   double nominal_a_;

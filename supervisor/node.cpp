@@ -48,7 +48,7 @@ SupervisorNode::SupervisorNode(Node& node, const SupervisorConfig& config, Kill 
   subscribe();
   subscribe_vehicle();
   node_.on_step([this](Utime now) { step(now); });
-  node_.on_silence([this] { withdraw_permit(); });
+  node_.on_tick_timeout([this] { withdraw_permit(); });
 }
 
 void SupervisorNode::subscribe() {
@@ -87,7 +87,7 @@ void SupervisorNode::subscribe_vehicle() {
 }
 
 void SupervisorNode::step(Utime now) {
-  checkpoint_.tell();
+  checkpoint_.publish_restored();
   const SupervisorOutput output = supervisor_.step(now);
   drive_permit_t permit = message_of(output.permit);
   node_.publish(channel::kDrivePermit, permit, now);
@@ -151,16 +151,20 @@ void SupervisorNode::restart(const std::string& service) {
 }
 
 void SupervisorNode::restore() {
-  checkpoint_.restore([this](const KeptState::Bytes& bytes) {
+  checkpoint_.restore([this](const CheckpointStore::Bytes& bytes) {
     const auto persistent_state = persistent_state_from(bytes);
     if (persistent_state) supervisor_.restore(*persistent_state);
     return persistent_state.has_value();
   });
 }
 
+// Motor heat changes with every WHEEL_STATE and is saved once per second, everything else at once.
 void SupervisorNode::save() {
   const PersistentState persistent_state = supervisor_.persistent_state();
   if (persistent_state == saved_) return;
+  PersistentState without_heat = persistent_state;
+  without_heat.heat = saved_.heat;
+  if (without_heat == saved_ && !checkpoint_.due()) return;
   if (checkpoint_.save(bytes_of(persistent_state)))
     saved_ = persistent_state;
   else

@@ -4,7 +4,7 @@
 #include <functional>
 #include <map>
 
-#include "common/bus/kept_state.hpp"
+#include "common/bus/checkpoint_store.hpp"
 #include "common/bus/node.hpp"
 #include "supervisor/supervisor.hpp"
 
@@ -31,7 +31,7 @@ class SupervisorNode {
   void restart(const std::string& service);
 
   Node& node_;
-  KeptState checkpoint_;
+  CheckpointStore checkpoint_;
   Kill kill_;
   Pose2 body_odom_{};  // newest pose
   Supervisor supervisor_;

@@ -6,9 +6,9 @@
 namespace rover::supervisor {
 namespace {
 
-// The prediction is pessimistic in tight repairs, so it counts only if the cross track exceeds this share of the
-// corridor half width.
-constexpr double kPredictionMinShare = 0.4;
+// The prediction is pessimistic in tight repairs, so it counts only if the cross track exceeds this fraction
+// of the corridor half width.
+constexpr double kPredictionMinFraction = 0.4;
 
 template <auto Report>
 Reading age(const MonitorContext& context, const Subject&, double limit) {
@@ -69,12 +69,12 @@ Reading corridor_deviation(const MonitorContext& context, const Subject&, double
   return out;
 }
 
-Reading predicted_corridor_share(const MonitorContext& context, const Subject&, double limit) {
+Reading predicted_corridor_ratio(const MonitorContext& context, const Subject&, double limit) {
   const ControlReport& control = context.inputs.control;
   if (control.stale_pose || !(control.corridor_half_width_m > 0.0))
     return flag_reading(false, control.utime, context.utime);
   const double predicted = control.predicted_error_m / control.corridor_half_width_m;
-  const bool deviates = std::abs(control.cross_track_m) > kPredictionMinShare * control.corridor_half_width_m;
+  const bool deviates = std::abs(control.cross_track_m) > kPredictionMinFraction * control.corridor_half_width_m;
   Reading out = above_reading(predicted, limit, control.utime, context.utime);
   if (!deviates && out.condition == Condition::kTrue) out.condition = Condition::kFalse;
   return out;
@@ -164,13 +164,13 @@ Reading service_starts(const MonitorContext& context, const Subject& subject, do
   return above_reading(it == context.derived.starts.end() ? 0 : it->second, limit, context.utime, context.utime);
 }
 
-Reading restart_tries(const MonitorContext& context, const Subject& subject, double limit) {
+Reading restart_attempts(const MonitorContext& context, const Subject& subject, double limit) {
   const auto it = context.derived.restart_attempts.find(subject.service);
   return above_reading(it == context.derived.restart_attempts.end() ? 0 : it->second, limit, context.utime,
                        context.utime);
 }
 
-Reading loss_ratio(const MonitorContext& context, const Subject&, double limit) {
+Reading message_loss_ratio(const MonitorContext& context, const Subject&, double limit) {
   return above_reading(context.derived.loss_ratio, limit, context.derived.lost_utime, context.utime);
 }
 
@@ -184,7 +184,7 @@ using P = PoseReport;
 
 constexpr std::array kQuantities = {
     Quantity{"slip_ratio", kOne, slip_ratio},
-    Quantity{"predicted_corridor_share", kOne, predicted_corridor_share},
+    Quantity{"predicted_corridor_ratio", kOne, predicted_corridor_ratio},
     Quantity{"corridor_deviation", kOne, corridor_deviation},
     Quantity{"roll_deg", kOne, pose_above_deg<&P::roll_rad>},
     Quantity{"pitch_deg", kOne, pose_above_deg<&P::pitch_rad>},
@@ -207,7 +207,7 @@ constexpr std::array kQuantities = {
     Quantity{"planner_age_s", kOne, age<&Inputs::planner>},
     Quantity{"control_age_s", kOne, age<&Inputs::control>},
     Quantity{"motion_command_age_s", kOne, motion_command_age},
-    Quantity{"terrain_way_m", kOne, terrain_distance},
+    Quantity{"terrain_distance_m", kOne, terrain_distance},
     Quantity{"sweep_s", kOne, sweep_time},
     Quantity{"slam_lost", kOne, slam_lost},
     Quantity{"path_mismatch", kOne, path_mismatch},
@@ -218,13 +218,13 @@ constexpr std::array kQuantities = {
     Quantity{"service_fault", kEachRequired, service_status<ServiceStatus::kFault>},
     Quantity{"log_lost", kOne, log_lost},
     Quantity{"starts_per_minute", kEachRequired, service_starts},
-    Quantity{"restart_tries", kEachRequired, restart_tries},
+    Quantity{"restart_attempts", kEachRequired, restart_attempts},
     Quantity{"full_heartbeat_age_s", kEachFull, heartbeat_age},
     Quantity{"full_idle_heartbeat_age_s", kEachFull, optional_heartbeat_age},
     Quantity{"full_service_fault", kEachFull, service_status<ServiceStatus::kFault>},
     Quantity{"full_starts_per_minute", kEachFull, service_starts},
-    Quantity{"full_restart_tries", kEachFull, restart_tries},
-    Quantity{"lost_share", kOne, loss_ratio},
+    Quantity{"full_restart_attempts", kEachFull, restart_attempts},
+    Quantity{"message_loss_ratio", kOne, message_loss_ratio},
     Quantity{"clock_step_s", kOne, derived_above<&DerivedValues::clock_step_s>},
     Quantity{"unpermitted_motion_s", kOne, derived_above<&DerivedValues::unpermitted_s>},
     Quantity{"idle_drive_s", kOne, derived_above<&DerivedValues::idle_s>},

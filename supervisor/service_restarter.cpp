@@ -10,6 +10,8 @@ std::vector<std::string> ServiceRestarter::step(Utime now, const std::vector<std
     std::deque<Utime>& restart_attempts = restart_attempts_[service];
     if (!restart_attempts.empty() && now - restart_attempts.back() < to_utime(config_.retry_interval_s)) continue;
     if (std::find(to_kill.begin(), to_kill.end(), service) != to_kill.end()) continue;
+    while (!restart_attempts.empty() && now - restart_attempts.front() > to_utime(config_.window_s))
+      restart_attempts.pop_front();
     restart_attempts.push_back(now);
     to_kill.push_back(service);
   }

@@ -17,6 +17,8 @@ struct ServiceRestarterConfig {
 
 class ServiceRestarter {
  public:
+  using Attempts = std::map<std::string, std::deque<Utime>>;
+
   explicit ServiceRestarter(const ServiceRestarterConfig& config) : config_(config) {}
 
   // Returns the services to kill now, out of those with an active restart_service fault.
@@ -24,10 +26,12 @@ class ServiceRestarter {
   // Attempts within the window.
   std::map<std::string, int> restart_attempts(Utime now) const;
   void reset() { restart_attempts_.clear(); }
+  const Attempts& attempts() const { return restart_attempts_; }
+  void restore(Attempts attempts) { restart_attempts_ = std::move(attempts); }
 
  private:
   ServiceRestarterConfig config_;
-  std::map<std::string, std::deque<Utime>> restart_attempts_;
+  Attempts restart_attempts_;
 };
 
 }  // namespace rover::supervisor

@@ -130,7 +130,7 @@ constexpr std::array kLevelTransitions = {
 
 constexpr std::array<const char*, kFactCount> kFactNames = {
     "inputs_ready", "pose_fresh", "path_present", "blocking_fault", "safe_fault",    "path_blocked", "path_clear",
-    "standing",     "repairing",  "goal_reached", "level_full",     "terrain_known", "teleop_fresh", "GO",
+    "stationary",   "repairing",  "goal_reached", "level_full",     "terrain_known", "teleop_fresh", "GO",
     "STOP",         "PAUSE",      "RESUME",       "EMERGENCY_STOP", "CLEAR_SAFE",    "TELEOP"};
 constexpr std::array<const char*, 2> kLevelNames = {"EFFICIENT", "FULL"};
 constexpr std::array<const char*, kLevelFactCount> kLevelFactNames = {

@@ -45,7 +45,7 @@ Supervisor::Supervisor(const SupervisorConfig& config)
     : config_(config),
       derived_(config.derived),
       fdir_(config.fdir),
-      restarter_(config.restarter),
+      restarter_(config.restarts),
       level_selector_(config.level) {}
 
 void Supervisor::on_service(const std::string& name, const ServiceReport& report) {
@@ -60,9 +60,12 @@ void Supervisor::on_hazards(const HazardsReport& hazards) {
   inputs_.consecutive_blind_frames = hazards.blind ? inputs_.consecutive_blind_frames + 1 : 0;
 }
 
-// Reverse segments of ordinary manoeuvres do not relax limits: only paths that follow a stop_retreat fault do.
+// Reverse segments of ordinary manoeuvres do not relax limits: only paths that follow a stop_backtrack fault do.
 void Supervisor::on_path(PathLevels path) {
-  if (path.path_id != path_.path_id) backtracking_ = path.reverse && (backtracking_ || fdir_.backtrack_requested());
+  if (path.path_id != path_.path_id) {
+    const bool backtracking = path.reverse && (backtracking_path_id_ >= 0 || fdir_.backtrack_requested());
+    backtracking_path_id_ = backtracking ? path.path_id : -1;
+  }
   path_ = std::move(path);
 }
 
@@ -103,7 +106,8 @@ void Supervisor::begin(Utime now) {
 
 MonitorContext Supervisor::monitor_context(Utime now) const {
   const bool waiting = state_ == kHazardStop || state_ == kRepairing;
-  const bool backtracking = backtracking_ && path_.path_id == inputs_.planner.path_id && state_ != kTeleop;
+  const bool backtracking =
+      backtracking_path_id_ >= 0 && backtracking_path_id_ == inputs_.planner.path_id && state_ != kTeleop;
   return {inputs_,        derived_.values(), now,          stationary(), waiting,
           blocked_in_m(), stop_distance_m(), sweep_s(now), backtracking};
 }
@@ -151,7 +155,7 @@ void Supervisor::full_failing_fact(LevelFactSet& facts, Utime now) {
   const double starts = failing_starts();
   if (starts >= limits.failing_starts)
     return set_level_fact(facts, LevelFact::kFullFailing, true,
-                          {"starts_per_minute", starts, limits.failing_starts, 0.0, 0.0});
+                          {"starts_per_minute", starts, double(limits.failing_starts), 0.0, 0.0});
   set_level_fact(facts, LevelFact::kFullFailing, sweep_s(now) > limits.failing_sweep_s,
                  {"sweep_s", sweep_s(now), limits.failing_sweep_s, 0.0, 0.0});
 }
@@ -308,18 +312,24 @@ CommandAnswer Supervisor::force_level(const GroundCommand& command, Utime now) {
                      command.level == ForcedLevel::kAuto;
   if (!known) return {command.id, false, "no such level"};
   if (command.level == ForcedLevel::kFull && !level_facts(now).has(LevelFact::kFullReady))
-    return {command.id, false, "the services of the Full level are not there"};
+    return {command.id, false, "the services of the Full level are not running"};
   forced_ = command.level;
   return {command.id, true, ""};
 }
 
 CommandAnswer Supervisor::clear_fault(const GroundCommand& command, FactSet& facts, Utime now, SupervisorOutput& out) {
-  // CLEAR_FAULT also resets all counters.
-  derived_.reset_counters(inputs_);
+  // Accepted, it also resets all counters; rows about counters are judged without them.
+  const DerivedValueTracker derived = derived_;
+  const ServiceRestarter restarter = restarter_;
+  derived_.reset_counters();
   restarter_.reset();
   derived_.set_restart_attempts(restarter_.restart_attempts(now));
   Fdir::Cleared cleared = fdir_.clear(command.target, monitor_context(now));
-  if (!cleared.refusal_reason.empty()) return {command.id, false, cleared.refusal_reason};
+  if (!cleared.refusal_reason.empty()) {
+    derived_ = derived;
+    restarter_ = restarter;
+    return {command.id, false, cleared.refusal_reason};
+  }
   out.faults.insert(out.faults.end(), cleared.change.begin(), cleared.change.end());
   fault_facts(facts);
   return {command.id, true, ""};
@@ -331,7 +341,7 @@ void Supervisor::fire(const Transition& row, Utime now, SupervisorOutput& out) {
   if (row.required.has(Fact::kSafeFault)) change.cause = safe_fault_;
   if (state_ == kDriving && row.to == kHazardStop) ++hazard_stops_;
   if (row.to == kHazardStop) blocked_path_id_ = inputs_.planner.path_id;
-  if (row.to == kFaultStop) derived_.on_fault_stop(inputs_.pose.travelled_m);
+  if (row.to == kFaultStop) derived_.on_fault_stop();
   if (state_ == kStandby) level_selector_.reset();
   state_ = row.to;
   since_ = now;
@@ -365,14 +375,28 @@ void Supervisor::restore(const PersistentState& persistent_state) {
   if (state_ == kTeleop) state_ = kStandby;
   level_ = persistent_state.level;
   raised_by_path_ = persistent_state.raised_by_path;
+  path_full_ = persistent_state.path_full;
   forced_ = persistent_state.forced;
   hazard_stops_ = persistent_state.hazard_stops;
+  backtracking_path_id_ = persistent_state.backtracking_path_id;
   fdir_.restore(persistent_state.faults);
+  derived_.restore(persistent_state.heat, persistent_state.counters);
+  restarter_.restore(persistent_state.restart_attempts);
   last_change_ = {persistent_state.state, state_, level_, level_, "supervisor_restarted", {}};
 }
 
 PersistentState Supervisor::persistent_state() const {
-  return {state_, level_, raised_by_path_, forced_, hazard_stops_, fdir_.active()};
+  return {state_,
+          level_,
+          raised_by_path_,
+          path_full_,
+          forced_,
+          hazard_stops_,
+          backtracking_path_id_,
+          fdir_.active(),
+          derived_.counters(),
+          restarter_.attempts(),
+          derived_.heat()};
 }
 
 }  // namespace rover::supervisor

@@ -21,7 +21,7 @@ struct SupervisorConfig {
   FdirConfig fdir;
   DerivedValueConfig derived;
   LevelConfig level;
-  ServiceRestarterConfig restarter;
+  ServiceRestarterConfig restarts;
   double max_speed_mps = 0.2;
   double teleop_speed_mps = 0.1;
   double teleop_max_age_s = 0.5;  // of the newest operator command
@@ -42,7 +42,7 @@ struct SupervisorConfig {
   double stop_hysteresis_m = 0.15;
   double goal_tolerance_m = 0.5;
   double stationary_speed_mps = 0.03;
-  double stationary_rate_radps = 0.03;
+  double stationary_rate_radps = to_rad(1.7);
 };
 
 // Without SET_START_POSE, which localization acknowledges.
@@ -107,14 +107,21 @@ struct SupervisorOutput {
   std::vector<std::string> restarts;  // services to kill so that s6 restarts them
 };
 
-// State that survives a restart of the supervisor.
+// State that survives a restart of the supervisor: what limits motion, and what the operator sees. These start anew,
+// because their inputs refill them: windows of level selection and message loss, N-of-M and persistence of rows,
+// hysteresis, teleoperation.
 struct PersistentState {
   State state = State::kBoot;
   Level level = Level::kEfficient;
   bool raised_by_path = false;
+  bool path_full = false;
   ForcedLevel forced = ForcedLevel::kAuto;
   int hazard_stops = 0;
+  std::int64_t backtracking_path_id = -1;
   std::vector<std::string> faults;
+  EventCounters counters;
+  ServiceRestarter::Attempts restart_attempts;
+  MotorHeat heat;
 
   bool operator==(const PersistentState&) const = default;
 };
@@ -188,7 +195,7 @@ class Supervisor {
   SupervisorConfig config_;
   Inputs inputs_;
   PathLevels path_;
-  bool backtracking_ = false;  // path_ is a reverse path that recovers from a stop_retreat fault
+  std::int64_t backtracking_path_id_ = -1;  // reverse path that recovers from a stop_backtrack fault; -1: none
   std::vector<GroundCommand> commands_;
 
   DerivedValueTracker derived_;

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Drift on recorded and rendered stereo data sets: ./rover import, replay with the services in lockstep, report. Writes
-# test/results/data.md. A data set that is not there is named and left out.
+# test/results/data.md. Missing data sets are reported and skipped.
 # Called by ./rover bench data.
 set -euo pipefail
-[ -z "${ROVER_DATA:-}" ] || ROVER_DATA=$(realpath -m "$ROVER_DATA")  # of the user's folder
+[ -z "${ROVER_DATA:-}" ] || ROVER_DATA=$(realpath -m "$ROVER_DATA")  # relative to the user's folder
 cd "$(dirname "$(readlink -f "$0")")/.."
 BUILD=$1
 OUT=test/results/data.md
@@ -40,7 +40,7 @@ judge rendered "rendered ground, EuRoC layout, raw pictures 512 x 384" "$LOGS/eu
 if [ -d "$DATA/kitti_06_0_50" ]; then
   judge kitti "KITTI 06, pairs 0-50, a car at 12 m/s, 1226 x 370" "$DATA/kitti_06_0_50"
 else
-  skipped="KITTI 06 is left out: $DATA/kitti_06_0_50 is not there."
+  skipped="KITTI 06 is skipped: $DATA/kitti_06_0_50 does not exist."
   echo "skipped: $skipped" >&2
 fi
 {
@@ -49,16 +49,16 @@ fi
   echo "Command: \`./rover bench data\`; commit $(git describe --always --dirty --abbrev=12)."
   [ -z "$skipped" ] || printf '\n%s\n' "$skipped"
   echo
-  echo "Demanded: end error at most 1.0 %, every pair accounted for. *Visual odometry*: its motions put together. *Published"
-  echo "pose*: \`POSE\` of localization at the exposure, so before the pair was seen: it bridges 0.24 s with the last speed, and stands still until the first motion has come."
-  echo "Unaccounted: pairs but the first of which visual odometry said nothing. The error after alignment is that of the"
-  echo "rigid motion that fits best (rms)."
+  echo "Requirement: end error at most 1.0 %, every pair accounted for. *Visual odometry*: its integrated motions. *Published"
+  echo "pose*: \`POSE\` of localization at the exposure, before the pair was processed: it extrapolates 0.24 s with the last speed and is stationary until the first motion."
+  echo "Unaccounted: pairs, except the first, without a visual odometry message. The error after alignment is the rms for the"
+  echo "best rigid motion."
   echo
   echo "| data set | trajectory | pairs | unaccounted | lost | length | end error | error after alignment |"
   echo "|---|---|---|---|---|---|---|---|"
   printf '%s' "$rows"
   echo
-  echo "KITTI's metric, over every stretch of the length:"
+  echo "KITTI metric, over all segments of each length:"
   echo
   echo "| data set | trajectory | 10 m | 20 m | 30 m | 40 m | 50 m | all | rotation |"
   echo "|---|---|---|---|---|---|---|---|---|"

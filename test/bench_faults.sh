@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Two faults of the table, a minute apart, in each of many runs of the default scenario, by seed: which, when, on whom. Writes
+# Two faults of the table, a minute apart, in each of many runs of the default scenario; the seed selects them. Writes
 # test/results/faults.md. Called by ./rover bench faults [--seeds a..b] [--resume] [--jobs N] [--part stack|rendered];
-# the part `stack` is bench_faults_stack.sh, and comes first where none is chosen.
+# part `stack` is bench_faults_stack.sh; without --part both run, stack first.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
 BUILD=$1
@@ -26,7 +26,7 @@ case $part in
   "") test/bench_faults_stack.sh "$BUILD" ;;
   stack) exec test/bench_faults_stack.sh "$BUILD" ;;
   rendered) ;;
-  *) echo "rover bench faults: '$part' is not a part; there are: stack, rendered" >&2 && exit 2 ;;
+  *) echo "rover bench faults: '$part' is not a part; known parts: stack, rendered" >&2 && exit 2 ;;
 esac
 LOGS=$PWD/logs/bench/faults
 ROWS=$LOGS/rows.jsonl
@@ -36,7 +36,7 @@ mkdir -p "$LOGS" test/results
 [ -n "$resume" ] || rm -f "$ROWS"
 touch "$ROWS"
 
-# fault, target, amount ("-": its usual one), duration ("-": none)
+# fault, target, amount ("-": default), duration ("-": none)
 CASES=(
   "kill recorder - -" "kill stereo - -" "kill visual_odometry - -" "kill localization - -" "kill hazard_detector - -"
   "kill path_planner - -" "kill trajectory_control - -" "kill locomotion - -" "kill supervisor - -"
@@ -49,7 +49,7 @@ CASES=(
   "full_disk recorder - 10"
 )
 
-# The runs go through the table once and then begin it anew, so that a fault comes at another time, before or after another.
+# The runs cycle through the table, so that a fault repeats at another time and with another partner.
 case_of() { echo "${CASES[$((($1 - 1) % ${#CASES[@]}))]}"; }
 
 fault_line() {  # AT FAULT TARGET AMOUNT FOR
@@ -59,14 +59,14 @@ fault_line() {  # AT FAULT TARGET AMOUNT FOR
   echo "  - {$keys}"
 }
 
-# Among as many rocks as on the second seed traverse, where a rover without faults reaches its goal: what does not arrive
-# has been stopped by its fault.
+# The rock area of the second seed traverse, where a rover without faults reaches its goal: a run that does not was
+# stopped by its faults.
 ROCK_AREA_K=0.05
 
-scenario_of() {  # SEED: the default scenario with this seed's faults, at times of the seed's
+scenario_of() {  # SEED: the default scenario with the faults and times of this seed
   sed "s/rock_area_k: [0-9.]*/rock_area_k: $ROCK_AREA_K/" config/scenarios/default.yaml
   echo "faults:"
-  set -f  # a target may be a star
+  set -f  # a target may be *
   # shellcheck disable=SC2046
   fault_line $((15 + $1 * 37 % 40)) $(case_of $((2 * $1 - 1)))
   # shellcheck disable=SC2046
@@ -87,7 +87,7 @@ run_one() {  # SEED
   jq -c --arg fault "$fault" --arg commit "$COMMIT" --argjson seed "$seed" \
     '{commit: $commit, seed: $seed, fault: $fault, outcome, collisions, deterministic, duration_s,
       unleased_s: .motion_without_lease_s, rows: [.fdir[].id] | unique, first: (.fdir[0].id // "-"), last: (.fdir[-1].id // "-")}' "$dir/metrics.json" >>"$ROWS"
-  [ "$(jq -r .outcome "$dir/metrics.json")" != goal_reached ] || rm -f "$dir/traverse.lcm"  # else it is looked into
+  [ "$(jq -r .outcome "$dir/metrics.json")" != goal_reached ] || rm -f "$dir/traverse.lcm"  # else keep it for analysis
   echo "seed $seed: $fault: $(jq -r .outcome "$dir/metrics.json")"
 }
 
@@ -103,16 +103,16 @@ wait
   echo
   echo "Command: \`./rover bench faults --seeds $first..$last\`; commit $COMMIT; $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1), $(nproc) cores."
   echo
-  echo "Two faults in each run of the default scenario (rocks of k = $ROCK_AREA_K), a minute apart; the rover is on its own until the end."
+  echo "Two faults in each run of the default scenario (rocks of k = $ROCK_AREA_K), a minute apart, without operator commands."
   echo
   jq -rs --arg commit "$COMMIT" '
     map(select(.commit == $commit)) |
-    "| demand | measured |", "|---|---|",
+    "| requirement | measured |", "|---|---|",
     "| runs; faults in them | \(length); \(2 * length) |",
     "| 0 collisions | \(map(.collisions // 0) | add) |",
-    "| at least 95 % reach the goal without a person | \(map(select(.outcome == "goal_reached")) | length) of \(length) |",
-    "| 0 s of motion without lease, by the truth | \(map(.unleased_s // 0) | add) s |",
-    "", "| seed | faults: which, target, amount, seconds | outcome | first row | last row | collisions | deterministic | s |", "|---|---|---|---|---|---|---|---|",
+    "| at least 95 % reach the goal without an operator | \(map(select(.outcome == "goal_reached")) | length) of \(length) |",
+    "| 0 s of true motion without a lease | \(map(.unleased_s // 0) | add) s |",
+    "", "| seed | faults: type, target, amount, seconds | outcome | first row | last row | collisions | deterministic | s |", "|---|---|---|---|---|---|---|---|",
     (sort_by(.seed)[] | "| \(.seed) | \(.fault) | \(.outcome) | \(.first) | \(.last) | \(.collisions // "-") | \(.deterministic) | \(.duration_s // 0 | round) |")' "$ROWS"
 } >"$OUT"
 cat "$OUT"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Every row of config/fdir.yaml, again and again, on a stack in one process that lives on. Writes
-# test/results/faults_stack.md; the log is kept where a demand is not met. Called by bench_faults.sh: BUILD [SEED].
+# Injects every row of config/fdir.yaml repeatedly into a stack in one long-lived process. Writes
+# test/results/faults_stack.md; keeps the log if a requirement is not met. Called by bench_faults.sh: BUILD [SEED].
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
 BUILD=$1

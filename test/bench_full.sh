@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The Full level and the two levels combined: full_hard with it and at the Efficient level alone, combined_500 and
+# The Full level, alone and combined with the Efficient level: full_hard at both levels, combined_500 and
 # long_drift. Each run is one line of logs/bench/full/rows.jsonl, keyed by commit, scenario, level and seed; --resume keeps
 # those of this commit. Writes test/results/full.md.
 # Called by ./rover bench full: BUILD [--resume] [--jobs N] [--seeds 1..5].
@@ -21,7 +21,7 @@ while [ $# -gt 0 ]; do
       shift
       ;;
     *)
-      echo "bench full: '$1' is not understood; there are: --resume, --jobs N, --seeds A..B" >&2
+      echo "bench full: '$1' is not an option; known options: --resume, --jobs N, --seeds A..B" >&2
       exit 2
       ;;
   esac
@@ -40,7 +40,7 @@ run() {
   rm -rf "$dir"
   "$BUILD/bin/rover_launcher" run "config/scenarios/$1.yaml" --level "$2" --seed "$3" --record reduced --headless \
     --out "$dir" --bus "udpm://239.255.76.67:$4?ttl=0&recv_buf_size=4194304" >"$dir.txt" 2>&1 || status=$?
-  [ -e "$dir/metrics.json" ] || { echo "$1 $2 seed $3: no figures, see $dir.txt" >&2; return; }
+  [ -e "$dir/metrics.json" ] || { echo "$1 $2 seed $3: no metrics, see $dir.txt" >&2; return; }
   jq -c --arg commit "$COMMIT" --arg level "$2" --argjson status $status \
     '.commit = $commit | .level = $level | .exit_status = $status' "$dir/metrics.json" >>"$ROWS"
   echo "$1 $2 seed $3: $(jq -r .outcome "$dir/metrics.json")" >&2
@@ -61,7 +61,7 @@ wanted() {
   echo "combined_500 auto 2"
 }
 
-# Each of the jobs has a port, and so a bus, of its own.
+# Each job has its own port, and so its own bus.
 port=17800
 while read -r scenario level seed; do
   has_row "$scenario" "$level" "$seed" && continue

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Wrong files for each parser of users' files, under the sanitizers, and the table test/results/fuzz.md.
+# Feeds mutated files to each parser of user files, under sanitizers; writes test/results/fuzz.md.
 # Called by ./rover bench fuzz [--seconds N].
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
@@ -9,7 +9,7 @@ if [ "${1:-}" = --seconds ]; then
   shift 2 || true
 fi
 [[ $SECONDS_EACH =~ ^[1-9][0-9]{0,5}$ ]] || { echo "bench fuzz: --seconds: '$SECONDS_EACH' is not a whole number from 1 to 999999" >&2; exit 2; }
-[ $# -eq 0 ] || { echo "bench fuzz: '$1' is not understood; ./rover bench --help tells more" >&2; exit 2; }
+[ $# -eq 0 ] || { echo "bench fuzz: unknown argument '$1'; see ./rover bench --help" >&2; exit 2; }
 
 cmake -S . -B build-address -G Ninja -DROVER_SANITIZE=address >/dev/null
 ninja -C build-address --quiet fuzz_parsers
@@ -23,13 +23,13 @@ status=0
   '"$0" "$1" --seconds "$2" --seed "$3" --findings "$4" >"$5/$1"' \
   "$PROGRAM" {} "$SECONDS_EACH" "$(date +%s)" "$FINDINGS" "$ROWS" || status=1
 {
-  printf '# Wrong files for each parser\n\n'
+  printf '# Mutated files for each parser\n\n'
   printf '`./rover bench fuzz --seconds %s`, commit %s; %s, %s cores; under AddressSanitizer and\n' "$SECONDS_EACH" \
     "$(git describe --always --dirty --abbrev=12)" "$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1)" "$(nproc)"
   printf 'UndefinedBehaviorSanitizer. Each input is a valid file with one to six changes ([test/fuzz](../fuzz/README.md)).\n'
   printf 'A finding is a crash, more than 10 s of CPU time, more than 1 GB, a refusal that is not one line, any other\n'
-  printf 'exception, or an input that is written over.\n\n'
-  printf '| parser | inputs | refused | s | corpus | most memory | slowest input (its number) | findings |\n'
+  printf 'exception, or an overwritten input.\n\n'
+  printf '| parser | inputs | refused | s | corpus | maximum memory | slowest input (its number) | findings |\n'
   printf '|---|---|---|---|---|---|---|---|\n'
   "$PROGRAM" --list | while read -r parser; do cat "$ROWS/$parser"; done
 } >"$OUT.new"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Runs every micro benchmark one after the other and writes test/results/micro.md. Called by ./rover bench micro.
+# Runs all micro benchmarks in sequence and writes test/results/micro.md. Called by ./rover bench micro.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
 BUILD=$1

@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
-# What the page costs: processor time of the whole run of the scenario `default` (simulator and services) without a page
-# (--headless), with one that is served but not open, and with one open in a browser. One run at a time, in turns. The browser's own
-# processor time does not count: it is the operator's machine's. Writes test/results/page.md. Called by ./rover bench page [ROUNDS].
+# CPU time of the page: runs of `default` (simulator and services) without a page (--headless), with a served page, and
+# with the page open in a browser, in turns. The browser's own time does not count: it runs on the operator's machine. Writes test/results/page.md. Called by ./rover bench page [ROUNDS].
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
 BUILD=$1
@@ -27,7 +26,7 @@ open_browser() {
   browser=$!
 }
 
-# Processor seconds of a process so far.
+# CPU seconds used by a process.
 cpu_of() { awk -v hz="$(getconf CLK_TCK)" '{ sub(/.*\) /, ""); print ($12 + $13) / hz }' "/proc/$1/stat" 2>/dev/null || echo 0; }
 
 drive() {  # KIND ROUND ARGS...
@@ -54,18 +53,18 @@ for round in $(seq "$ROUNDS"); do
   drive open "$round"
 done
 
-# In lockstep the other programs do the same work in each run; what differs between two runs of theirs is noise of the machine, larger
-# than what is to be found. So the page's cost is that of its own process against the whole run without a page.
+# In lockstep the other programs do the same work in each run, and their variation is larger than the effect. So the cost
+# is the CPU time of mission_control relative to the whole run without a page.
 jq -rs --arg commit "$(git describe --always --dirty --abbrev=12)" --arg cpu "$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1), $(nproc) cores" '
   def median: sort | .[length / 2 | floor];
   def of($kind; f): map(select(.kind == $kind) | f) | median;
   def r: . * 100 | round / 100;
   of("without"; .services + .simulator) as $whole | of("without"; .own) as $own |
-  "# What the page costs\n\nCommand: `./rover bench page`; commit \($commit); \($cpu). Medians of \(map(select(.kind == "open")) | length) runs of `default`.\n\n" +
-  "| | whole run, CPU s | mission_control, CPU s | more than without, of the whole run |\n|---|---|---|---|\n" +
+  "# CPU cost of the page\n\nCommand: `./rover bench page`; commit \($commit); \($cpu). Medians of \(map(select(.kind == "open")) | length) runs of `default`.\n\n" +
+  "| | whole run, CPU s | mission_control, CPU s | added, of the whole run |\n|---|---|---|---|\n" +
   "| no page (`--headless`) | \($whole | r) | \($own | r) | |\n" +
-  "| served, not open (demand: at most 0.5 %) | \(of("served"; .services + .simulator) | r) | \(of("served"; .own) | r) | \((of("served"; .own) - $own) / $whole * 100 | r) % |\n" +
-  "| open in a browser (demand: at most 5 %) | \(of("open"; .services + .simulator) | r) | \(of("open"; .own) | r) | \((of("open"; .own) - $own) / $whole * 100 | r) % |"
+  "| served, not open (required: at most 0.5 %) | \(of("served"; .services + .simulator) | r) | \(of("served"; .own) | r) | \((of("served"; .own) - $own) / $whole * 100 | r) % |\n" +
+  "| open in a browser (required: at most 5 %) | \(of("open"; .services + .simulator) | r) | \(of("open"; .own) | r) | \((of("open"; .own) - $own) / $whole * 100 | r) % |"
 ' "$LOGS/rows.jsonl" >$OUT.new
 mv $OUT.new $OUT
 cat $OUT

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Every service is killed in turn while the rover drives in real time, and at the end the simulator: how long each is
-# away, and when the wheels are told to stop. Writes test/results/restarts.md.
+# Kills each service in turn while the rover drives in real time, and finally the simulator. Measures restart times and the
+# time until the stop command. Writes test/results/restarts.md.
 # Called by ./rover bench restarts.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
@@ -18,7 +18,7 @@ for seed in 1 2 3; do
     --out "$LOGS/run-$seed" --bus "$bus" >"$LOGS/run-$seed.log" 2>&1 &
   run=$!
   "$BUILD/probes/restart_probe" "$LOGS/run-$seed" "$bus" $ROUNDS | tee -a "$LOGS/rows.jsonl" >&2
-  wait $run || true  # its clock was killed
+  wait $run || true  # its clock master was killed
 done
 
 {
@@ -32,13 +32,13 @@ done
     def missing(k): map(select(.[k] < 0)) | length;
     map(select(.service != "rover_simulator")) as $kills | map(select(.service == "rover_simulator")) as $clock |
     ($kills | map(select(.service == "supervisor"))) as $supervisor |
-    "| demand | measured |", "|---|---|",
+    "| requirement | measured |", "|---|---|",
     "| kills of a service | \($kills | length) |",
-    "| from SIGKILL to the first message of the new process at most 1 s (99 %) | median \($kills | middle("first_message_s")) s, largest \($kills | worst("first_message_s")) s, \($kills | missing("first_message_s")) did not come back |",
-    "| the drive goes on without a person | \($kills | length - ($kills | missing("drives_again_s"))) of \($kills | length), largest \($kills | worst("drives_again_s")) s |",
-    "| supervisor killed: the wheels are told to stop within 0.3 s of message time | largest \($supervisor | worst("stop_begun_s")) s; still commanded after \($supervisor | worst("still_s")) s |",
-    "| simulator killed: no permit after 0.5 s of wall time | largest \($clock | worst("withdrawn_s")) s of \($clock | length) |",
-    "", "| service | kills | first message, median [s] | largest [s] | drives on after, median [s] | largest [s] |", "|---|---|---|---|---|---|",
+    "| from SIGKILL to the first message of the new process at most 1 s (99 %) | median \($kills | middle("first_message_s")) s, maximum \($kills | worst("first_message_s")) s, \($kills | missing("first_message_s")) not restarted |",
+    "| the drive continues without an operator | \($kills | length - ($kills | missing("drives_again_s"))) of \($kills | length), maximum \($kills | worst("drives_again_s")) s |",
+    "| supervisor killed: stop command to the wheels within 0.3 s of message time | maximum \($supervisor | worst("stop_begun_s")) s; stationary by command after \($supervisor | worst("still_s")) s |",
+    "| simulator killed: no permit after 0.5 s of wall time | maximum \($clock | worst("withdrawn_s")) s of \($clock | length) |",
+    "", "| service | kills | first message, median [s] | maximum [s] | drive continues after, median [s] | maximum [s] |", "|---|---|---|---|---|---|",
     ($kills | group_by(.service)[] | "| \(.[0].service) | \(length) | \(middle("first_message_s")) | \(worst("first_message_s")) | \(middle("drives_again_s")) | \(worst("drives_again_s")) |")' "$LOGS/rows.jsonl"
 } >"$OUT"
 cat "$OUT"

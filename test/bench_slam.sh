@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Drift of SLAM on simulated drives, registration of the GA SLAM authors' clouds, time of the updates. Writes
-# test/results/slam.md. The clouds are left out, with a line that says so, where they are not there.
+# SLAM drift on simulated drives, registration of the clouds of the GA SLAM authors, update times. Writes
+# test/results/slam.md. Missing clouds are reported and skipped.
 # Called with the build folder; the programs are built by: cmake --build BUILD --target slam_study slam_bench
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
@@ -16,33 +16,33 @@ mkdir -p test/results
   echo
   echo "## Drift over 100 m of featured terrain"
   echo
-  echo "Gale crater's floor with rocks of k = 8 %, a NavCam cloud each 0.5 m with 0.25 px of noise and holes behind rocks; odometry by a"
-  echo "model (scale, noise of each frame, gyro). Degraded: a fifth of the frames lost and bridged by slipping wheels, more noise. Final"
-  echo "horizontal error over the way. Demanded: median at most 0.5 %, never more than 10 % above odometry's, lower in 9 of 10 when degraded."
+  echo "Gale crater's floor with rocks of k = 8 %, a NavCam cloud every 0.5 m with 0.25 px of noise and occlusions behind rocks; odometry by a"
+  echo "model (scale, noise of each frame, gyro). Degraded: more noise, and a fifth of the frames replaced by slipping wheel odometry. Final"
+  echo "horizontal error over the distance. Required: median at most 0.5 %, at most 10 % above odometry's, lower in 9 of 10 degraded drives."
   echo
   "$STUDY" drift
   echo
   echo "## Flat ground"
   echo
-  echo "A plane without rocks. Demanded: at most 10 % above odometry's."
+  echo "A plane without rocks. Required: at most 10 % above odometry's."
   echo
   "$STUDY" drift --flat
   echo
-  echo "## With a NavCam whose calibration is 0.1 px wrong"
+  echo "## NavCam with a calibration error of 0.1 px"
   echo
   "$STUDY" drift --disparity-offset-px 0.1 --last 4
   echo
   echo "## Recorded clouds"
   echo
-  echo "31 rover clouds of the GA SLAM authors (Teide), without poses. Each is registered to up to four neighbours that share most ground with"
-  echo "it, from 20 starts within 1 m and 5 deg; the first with which it converges is shown, else the best. It converges where all 20 ends lie within 0.5 m of each other. Demanded: 80 % of those with relief"
+  echo "31 rover clouds of the GA SLAM authors (Teide), without poses. Each is registered to up to four neighbours with the largest overlap,"
+  echo "from 20 initial poses within 1 m and 5 deg; shown is the first neighbour with convergence, else the best. Convergence: all 20 results within 0.5 m of each other. Required: 80 % of the clouds with relief"
   echo "(at least 0.1 m rms about their plane)."
   echo
   "$STUDY" teide "$DATA/ga_slam_teide/cloud_sequence" || true
   echo
   echo "## Time"
   echo
-  echo "Gates: 30 ms for a map update, 60 ms for a filter update, on one core."
+  echo "Required: 30 ms for a map update, 60 ms for a filter update, on one core."
   echo
   echo "| benchmark | CPU |"
   echo "|---|---|"

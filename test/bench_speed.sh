@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# How fast the whole stack runs, one run at a time on a machine that does nothing else: the default scenario from the
-# command to its end, a seed traverse against real time, what each service costs, and the same traverse again with a core
-# loaded, which must give the same result. Writes test/results/speed.md.
+# Speed of the whole stack, one run at a time on an idle machine: the default scenario from command to end, the real-time
+# factor and CPU time per service of a seed traverse, and the same traverse with one core loaded, which must give the same
+# result. Writes test/results/speed.md.
 # Called by ./rover bench speed.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
@@ -26,7 +26,7 @@ drive() {
 }
 figure() { jq -r "$2" "$LOGS/$1/metrics.json"; }
 
-# What two runs must have in common, in every digit.
+# Metrics that must be identical in both runs.
 result() { figure "$1" '[.outcome, .final_truth_pose, .replans, .hazard_stops, .driven_length_m, .duration_s, .deterministic] | tostring'; }
 
 drive default default
@@ -40,21 +40,21 @@ drive loaded seed_traverse_1 --seed 1
 same=no
 [ "$(result seed_traverse_1)" != "$(result loaded)" ] || same=yes
 {
-  echo "# How fast it runs"
+  echo "# Speed"
   echo
   echo "Command: \`./rover bench speed\`; commit $(git describe --always --dirty --abbrev=12); $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1), $(nproc) cores."
   echo
-  echo "| demand | measured |"
+  echo "| requirement | measured |"
   echo "|---|---|"
   echo "| first motion within 5 s of the command (\`default\`, built) | $default_motion_s s |"
   echo "| \`default\` at most 120 s, report included | $default_s s, $(figure default .outcome) |"
   echo "| \`seed_traverse_1\` at least 3 times real time | $(figure seed_traverse_1 '.realtime_factor * 100 | round / 100') ($(figure seed_traverse_1 '.sim_s | round') s in $(figure seed_traverse_1 '.wall_s | round') s), $(figure seed_traverse_1 .outcome) |"
   echo "| \`default --realtime\` reaches its goal | $(figure realtime .outcome), $(figure realtime '(.realtime_factor // 0) * 100 | round / 100') times real time |"
-  echo "| \`seed_traverse_1\` again with a core loaded: the same final pose, counts and lengths in every digit | $same ($(figure loaded '.realtime_factor * 100 | round / 100') times real time) |"
+  echo "| \`seed_traverse_1\` again with a core loaded: identical final pose, counts and lengths | $same ($(figure loaded '.realtime_factor * 100 | round / 100') times real time) |"
   echo
-  echo "What each service costs on \`seed_traverse_1\`, seed 1:"
+  echo "CPU time of each service on \`seed_traverse_1\`, seed 1:"
   echo
-  echo "| service | CPU s per metre | CPU share of real time |"
+  echo "| service | CPU s per metre | CPU per simulated time |"
   echo "|---|---|---|"
   figure seed_traverse_1 '.sim_s as $t | .services | to_entries | sort_by(-.value.cpu_s)[] | "| \(.key) | \(.value.cpu_s_per_m * 1000 | round / 1000) | \(.value.cpu_s / $t * 1000 | round / 10) % |"'
 } >$OUT.new

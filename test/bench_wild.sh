@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What users' files and requests did before, and what they do now, as the tests see it: test/results/wild.md.
+# Behaviour of unusual user files and requests, before and now, as tested: test/results/wild.md.
 # Called by ./rover bench wild.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Builds and runs every test; the unit tests also under AddressSanitizer and UndefinedBehaviorSanitizer, and those of them
-# that start threads under ThreadSanitizer, in builds of their own; and the parsers of users' files on wrong ones. `unit`:
-# only the unit tests; `sanitize`: only what runs under the sanitizers. Called by ./rover test.
+# Builds and runs all tests. Unit tests run under AddressSanitizer and UndefinedBehaviorSanitizer, those with threads also
+# under ThreadSanitizer, in separate builds; then the parser fuzzer and the integration tests. `unit`: only the unit tests,
+# without sanitizers; `sanitize`: only the tests under sanitizers; `arm64`: test/arm64.sh. Called by ./rover test.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
 
@@ -32,10 +32,11 @@ case "${1:-all}" in
   all)
     configure_and_build build all
     all_sanitized
-    run_ctest build
+    run_ctest build -LE unit
     ;;
+  arm64) exec test/arm64.sh "${@:2}" ;;
   *)
-    echo "rover test: '$1' is not a part of the tests; there are: unit, sanitize" >&2
+    echo "rover test: '$1' is not a part of the tests; there are: unit, sanitize, arm64" >&2
     exit 2
     ;;
 esac

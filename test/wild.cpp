@@ -7,7 +7,7 @@
 namespace rover {
 namespace {
 
-// Of a table: on one line, and without a sign that would end the cell.
+// Table cell: one line, with escaped separators.
 std::string cell(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
   std::replace(text.begin(), text.end(), '\t', ' ');

@@ -1,12 +1,12 @@
-// Rows of test/results/wild.md: what people's files and requests did before, and what they do now, as the tests see it.
+// Rows of test/results/wild.md: behaviour of unusual files and requests, before and now.
 #pragma once
 
 #include <string>
 
 namespace rover {
 
-// For a test to say once it has seen that all is right. `now` is what was seen: the line of a refusal, or what came
-// out. Kept where ./rover bench wild asks for it (ROVER_WILD_ROWS names the file); nothing otherwise.
+// Call after the checks of a test. `now`: the observed result or refusal. Appends to the file ROVER_WILD_ROWS, which
+// ./rover bench wild sets; else does nothing.
 void wild_row(const std::string& kind, const std::string& input, const std::string& before, const std::string& now);
 
 }  // namespace rover

@@ -28,7 +28,7 @@ rover::Utime clock_now() {
 void drive(example::Driver& driver, double pace) {
   const auto started = Clock::now();
   const rover::Utime first = (clock_now() / rover::kTickUs + 1) * rover::kTickUs;
-  for (rover::Utime t = first; rover::going(); t += rover::kTickUs) {
+  for (rover::Utime t = first; rover::keep_running(); t += rover::kTickUs) {
     const auto due = std::chrono::duration<double>(rover::to_seconds(t - first) / pace);
     std::this_thread::sleep_until(started + std::chrono::duration_cast<Clock::duration>(due));
     driver.tick(t);

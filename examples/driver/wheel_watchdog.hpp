@@ -14,7 +14,7 @@ using rover::Utime;
 class WheelWatchdog {
  public:
   void take(const rover::wheel_command_t& command) { waiting_.push_back(command); }
-  // The command to obey at t; none: wheels at rest, steering as it stands.
+  // The command to obey at t; none: wheels at rest, steering as it is.
   std::optional<rover::wheel_command_t> in_force(Utime t);
   // Whether the newest command has run out: WHEEL_STATE says so.
   bool expired(Utime t) const { return newest_ && newest_->valid_until_utime < t; }

@@ -4,9 +4,9 @@
 namespace rover::global {
 
 struct ScheduleConfig {
-  double first_m = 10.0;
-  double every_m = 20.0;
-  double retry_m = 5.0;
+  double first_interval_m = 10.0;
+  double interval_m = 20.0;
+  double retry_interval_m = 5.0;
 };
 
 class AttemptSchedule {
@@ -17,12 +17,12 @@ class AttemptSchedule {
   bool due(double travelled_m) {
     if (!started_) {
       started_ = true;
-      next_m_ = travelled_m + config_.first_m;
+      next_m_ = travelled_m + config_.first_interval_m;
     }
     return travelled_m >= next_m_;
   }
   void record_attempt(double travelled_m, bool accepted) {
-    next_m_ = travelled_m + (accepted ? config_.every_m : config_.retry_m);
+    next_m_ = travelled_m + (accepted ? config_.interval_m : config_.retry_interval_m);
   }
   // The local map was cleared.
   void restart() { started_ = false; }

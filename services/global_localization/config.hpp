@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "common/core/time.hpp"
+#include "common/bus/parameters.hpp"
 #include "global_localization/attempt_schedule.hpp"
 #include "global_localization/global_localization.hpp"
 
@@ -15,10 +15,10 @@ struct NodeConfig {
   double max_pose_age_s = 0.5;
   double local_cell_m = 0.1;  // cell size of ELEVATION
   double max_jump_m = 0.5;    // position change in odom beyond the distance driven
-  ScheduleConfig schedule;
+  ScheduleConfig attempts;
   GlobalConfig core;
 };
 
-NodeConfig load_config(const std::string& config_dir);
+NodeConfig load_config(const std::string& config_dir, ParameterList* list = nullptr);
 
 }  // namespace rover::global

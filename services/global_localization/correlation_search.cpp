@@ -61,7 +61,7 @@ std::vector<Peak> best_yaws(const OrbitalSection& orbital, const TerrainTemplate
 }  // namespace
 
 std::vector<Peak> find_peaks(const OrbitalSection& orbital, const TerrainTemplate& terrain, const SearchWindow& window,
-                             double apart_m, int max_peaks) {
+                             double min_distance_m, int max_peaks) {
   const int steps = static_cast<int>(std::ceil(window.half_width_m / orbital.field().lattice.cell_m));
   std::vector<Peak> all = best_yaws(orbital, terrain, window, steps);
   std::stable_sort(all.begin(), all.end(), [](const Peak& a, const Peak& b) { return a.score > b.score; });
@@ -69,7 +69,7 @@ std::vector<Peak> find_peaks(const OrbitalSection& orbital, const TerrainTemplat
   for (const Peak& peak : all) {
     if (peak.score <= 0.0 || static_cast<int>(peaks.size()) >= max_peaks) break;
     const bool apart = std::all_of(peaks.begin(), peaks.end(), [&](const Peak& higher) {
-      return (higher.pose.center_map - peak.pose.center_map).norm() > apart_m;
+      return (higher.pose.center_map - peak.pose.center_map).norm() > min_distance_m;
     });
     if (apart) peaks.push_back(peak);
   }

@@ -20,8 +20,8 @@ struct Peak {
   double score = -1.0;  // correlation
 };
 
-// Non-maximum suppression: by decreasing score, each further than `apart_m` from any higher peak.
+// Non-maximum suppression: by decreasing score, each further than `min_distance_m` from any higher peak.
 std::vector<Peak> find_peaks(const OrbitalSection& orbital, const TerrainTemplate& terrain, const SearchWindow& window,
-                             double apart_m, int max_peaks);
+                             double min_distance_m, int max_peaks);
 
 }  // namespace rover::global

@@ -30,10 +30,10 @@ SearchWindow search_window(const SearchConfig& config, const Prior& prior, const
   const double sigma_m = std::sqrt(std::max(prior.cov(0, 0), prior.cov(1, 1))), sigma_rad = std::sqrt(prior.cov(2, 2));
   SearchWindow window;
   window.prior = {transformed(prior.T_map_odom, terrain.center_odom), prior.T_map_odom.yaw_rad};
-  window.half_width_rad = std::clamp(config.sigmas * sigma_rad, config.min_reach_rad, config.max_reach_rad);
+  window.half_width_rad = std::clamp(config.sigmas * sigma_rad, config.min_half_width_rad, config.max_half_width_rad);
   // A yaw error about the rover displaces the template's centre.
   const double arm_m = (terrain.center_odom - prior.p_odom_body).norm();
-  window.half_width_m = std::clamp(config.sigmas * sigma_m, config.min_reach_m, config.max_reach_m) +
+  window.half_width_m = std::clamp(config.sigmas * sigma_m, config.min_half_width_m, config.max_half_width_m) +
                         arm_m * std::sin(window.half_width_rad);
   window.yaw_step_rad = config.yaw_step_rad;
   window.min_overlap = config.min_overlap;
@@ -63,7 +63,8 @@ std::vector<Match> best_matches(const OrbitalSection& orbital, const TerrainTemp
   const int min_compared =
       static_cast<int>(std::ceil(window.min_overlap * static_cast<double>(terrain.samples.size())));
   std::vector<Match> matches;
-  for (const Peak& peak : find_peaks(orbital, terrain, window, config.search.apart_m, config.search.peaks)) {
+  for (const Peak& peak :
+       find_peaks(orbital, terrain, window, config.search.min_peak_distance_m, config.search.max_peaks)) {
     const Match match = refine(orbital, terrain, peak.pose, min_compared, config.refinement);
     if (match.fit.compared >= min_compared) matches.push_back(match);
   }
@@ -71,8 +72,8 @@ std::vector<Match> best_matches(const OrbitalSection& orbital, const TerrainTemp
                    [](const Match& a, const Match& b) { return a.fit.residual_m < b.fit.residual_m; });
   if (!matches.empty()) refine_adjacent_yaws(orbital, terrain, min_compared, config, matches.front());
   const auto same = [&](const Match& other) {
-    const double apart_m = (other.pose.center_map - matches.front().pose.center_map).norm();
-    return apart_m < 0.5 * config.search.apart_m;
+    const double distance_m = (other.pose.center_map - matches.front().pose.center_map).norm();
+    return distance_m < 0.5 * config.search.min_peak_distance_m;
   };
   if (!matches.empty()) matches.erase(std::remove_if(matches.begin() + 1, matches.end(), same), matches.end());
   return matches;
@@ -102,9 +103,9 @@ double normalised_innovation_squared(const SearchConfig& config, const Prior& pr
       transformed(found.T_map_odom, prior.p_odom_body) - transformed(prior.T_map_odom, prior.p_odom_body);
   const Eigen::Vector3d innovation(moved.x(), moved.y(),
                                    wrap_angle(found.T_map_odom.yaw_rad - prior.T_map_odom.yaw_rad));
-  const Eigen::Array3d min_reach(config.min_reach_m, config.min_reach_m, config.min_reach_rad);
+  const Eigen::Array3d min_half_width(config.min_half_width_m, config.min_half_width_m, config.min_half_width_rad);
   Eigen::Matrix3d expected = prior.cov + found.cov;
-  expected.diagonal() = expected.diagonal().array().max((min_reach / config.sigmas).square());
+  expected.diagonal() = expected.diagonal().array().max((min_half_width / config.sigmas).square());
   return innovation.dot(expected.inverse() * innovation);
 }
 
@@ -120,22 +121,22 @@ void GlobalLocalization::add_elevation(const ElevationView& view, const Eigen::V
 Correction GlobalLocalization::correct(const Prior& prior) const {
   Correction out;
   if (!is_valid(prior)) {
-    out.reason = "pose is not usable";
+    out.reason = "invalid pose";
     return out;
   }
   PlaneConfig filter = config_.filter;
   filter.sigma_cells = std::hypot(filter.sigma_cells, config_.map_blur_cells);
   TerrainTemplate terrain = terrain_template(mosaic_.resampled(orbital_.lattice.cell_m), filter);
-  terrain.drift_information = drift_information(terrain, config_.drift, noise_density());
+  terrain.drift_information = drift_information(terrain, config_.height_drift, noise_density());
   out.area_m2 = terrain.area_m2();
   const Eigen::Matrix3d expected =
       covariance_at_body(noise_density() * expected_covariance(terrain), prior.p_odom_body - terrain.center_odom);
   out.expected_sigma_m = largest_sigma(expected);
   out.expected_sigma_rad = std::sqrt(expected(2, 2));
   if (out.area_m2 < config_.acceptance.min_area_m2) {
-    out.reason = "too little ground seen";
+    out.reason = "local map too small";
   } else if (!featured(out)) {
-    out.reason = "ground too even to tell places apart";
+    out.reason = "not enough relief";
   } else {
     match(prior, terrain, out);
   }
@@ -163,7 +164,7 @@ void GlobalLocalization::match(const Prior& prior, const TerrainTemplate& terrai
       orbital_section(window.prior.center_map, std::sqrt(2.0) * window.half_width_m + terrain.radius_m);
   const std::vector<Match> matches = best_matches(orbital, terrain, window, config_);
   if (matches.empty()) {
-    out.reason = "the orbital map does not know this place, or nothing on it is alike";
+    out.reason = "no similar terrain on the orbital map";
     return;
   }
   const Match& best = matches.front();
@@ -183,17 +184,17 @@ void GlobalLocalization::match(const Prior& prior, const TerrainTemplate& terrai
   out.cov = covariance_at_body(cov + distortion, transformed(out.T_map_odom, prior.p_odom_body) - best.pose.center_map);
 
   if (out.score < limits.min_score || out.residual_m > limits.max_residual_m) {
-    out.reason = "no place is alike enough";
+    out.reason = "best match not similar enough";
   } else if (out.residual_m > limits.max_residual_ratio * out.second_residual_m) {
-    out.reason = "another place is almost as alike";
+    out.reason = "ambiguous: second-best match is almost as good";
   } else if (at_border(window, best.pose)) {
     out.reason = "best match at the border of the search window";
   } else if (!(out.sigma_m <= limits.max_sigma_m && cov(2, 2) <= limits.max_sigma_rad * limits.max_sigma_rad)) {
-    out.reason = "the match is not sharp enough";
+    out.reason = "match too uncertain";
   } else if (!(largest_sigma(out.cov) <= limits.max_body_sigma_m)) {
-    out.reason = "too far from the ground that was matched";
+    out.reason = "too far from the matched terrain";
   } else if (normalised_innovation_squared(config_.search, prior, out) > limits.gate_chi2) {
-    out.reason = "further off than the pose's covariance allows";
+    out.reason = "innovation larger than the pose's covariance allows";
   }
 }
 

@@ -15,15 +15,15 @@
 namespace rover::global {
 
 struct SearchConfig {
-  double min_reach_m = 12.0;  // lower bound of the half width: covariances are optimistic after long drives
-  double max_reach_m = 15.0;
-  double min_reach_rad = to_rad(12.0);
-  double max_reach_rad = to_rad(12.0);
+  double min_half_width_m = 12.0;  // lower bound of the half width: covariances are optimistic after long drives
+  double max_half_width_m = 15.0;
+  double min_half_width_rad = to_rad(12.0);
+  double max_half_width_rad = to_rad(12.0);
   double sigmas = 3.0;  // half width in pose standard deviations, clamped to these bounds
   double yaw_step_rad = to_rad(2.0);
   double min_overlap = 0.8;  // fraction of the template with orbital data
-  double apart_m = 4.0;      // minimum distance between two peaks
-  int peaks = 8;             // number of peaks to refine
+  double min_peak_distance_m = 4.0;
+  int max_peaks = 8;  // number of peaks to refine
 };
 
 struct AcceptanceConfig {
@@ -37,7 +37,7 @@ struct AcceptanceConfig {
   double max_sigma_m = 0.4;         // of the match, along the largest principal axis
   double max_sigma_rad = to_rad(1.0);
   double max_body_sigma_m = 1.1;  // of the body, including the lever arm from the matched terrain
-  double gate_chi2 = 16.3;        // normalised innovation squared; prior sigma is at least min_reach / sigmas
+  double gate_chi2 = 16.3;        // normalised innovation squared; prior sigma is at least min_half_width / sigmas
 };
 
 struct GlobalConfig {
@@ -46,14 +46,14 @@ struct GlobalConfig {
   double map_noise_m = 0.1;      // orbital height noise, rms
   double map_noise_cells = 1.0;  // correlation length of that noise
   double map_blur_cells = 0.7;   // Gaussian blur already in the orbital map; the local map gets the same
-  PlaneConfig filter{1.5, 0.5};  // suppresses orbital noise that is correlated between neighbouring cells
-  DriftConfig drift;
+  PlaneConfig filter;            // suppresses orbital noise that is correlated between neighbouring cells
+  DriftConfig height_drift;
   SearchConfig search;
   RefinementConfig refinement;
   AcceptanceConfig acceptance;
   // Distortion of the orbital map, as a shift and a rotation of the matched terrain; part of the covariance.
-  double map_sigma_m = 0.2;
-  double map_sigma_rad = to_rad(0.3);
+  double map_sigma_m = 0.3;
+  double map_sigma_rad = to_rad(1.2);
 };
 
 // Current pose estimate.

@@ -12,7 +12,7 @@
 namespace rover::global {
 
 GlobalLocalizationNode::GlobalLocalizationNode(Node& node, const NodeConfig& config)
-    : node_(node), config_(config), schedule_(config.schedule) {
+    : node_(node), config_(config), schedule_(config.attempts) {
   pose_.header.utime = kNever;
   load_map();
   node_.subscribe<supervisor_state_t>(channel::kState, [this](const supervisor_state_t& message) {
@@ -54,7 +54,7 @@ std::string GlobalLocalizationNode::rejection_reason(const elevation_t& message)
   if (message.header.utime <= last_map_) return "not newer than the last map";
   const std::string fault = fault_of(message);
   if (!fault.empty()) return fault;
-  if (std::abs(message.cell_m - config_.local_cell_m) > 1e-6) return "cells are not of the configured side";
+  if (std::abs(message.cell_m - config_.local_cell_m) > 1e-6) return "cell size differs from local_cell_m";
   return "";
 }
 
@@ -68,7 +68,7 @@ std::optional<Prior> GlobalLocalizationNode::fresh_prior() const {
 void GlobalLocalizationNode::check_for_odometry_jump(const Prior& prior) {
   const double driven_m = std::abs(pose_.travelled_m - last_travelled_m_);
   if (last_position_ && (prior.p_odom_body - *last_position_).norm() > driven_m + config_.max_jump_m) {
-    node_.log("WARN", "ODOMETRY_JUMPED memory of the ground begins anew");
+    node_.log("WARN", "ODOMETRY_JUMPED local map cleared");
     if (core_) core_->clear_local_map();
     schedule_.restart();
   }

@@ -16,7 +16,7 @@ HeightGrid load_orbital_map(const std::string& run_dir) {
   const std::string file = run_dir + "/orbital_map.tif";
   const ElevationRaster raster = read_elevation_map(file).raster;
   if (!(raster.resolution_m >= kFinestM && raster.resolution_m <= kCoarsestM))
-    throw DtmError(file + ": the pixels of the orbital map are not 0.1 to 5 m wide; resample it by gdalwarp -tr");
+    throw DtmError(file + ": orbital pixels must be 0.1 to 5 m wide; resample with gdalwarp -tr");
   HeightGrid grid;
   grid.lattice = {raster.width, raster.height, raster.resolution_m, 0.0, 0.0};
   for (float z : raster.z_m) {

@@ -10,7 +10,7 @@
 namespace rover::global {
 
 struct PlaneConfig {
-  double sigma_cells = 2.0;  // Gaussian standard deviation
+  double sigma_cells = 1.5;  // Gaussian standard deviation
   double min_support = 0.5;  // minimum observed fraction of the Gaussian's weight, and of its spread along each axis
 };
 

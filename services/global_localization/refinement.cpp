@@ -52,14 +52,14 @@ Match refine(const OrbitalSection& orbital, const TerrainTemplate& terrain, cons
              int min_compared, const RefinementConfig& config) {
   Objective f = objective_at(orbital, terrain, start, min_compared);
   const double cell_m = orbital.field().lattice.cell_m;
-  const double reach_m = config.reach_cells * cell_m, reach_yaw_m = config.reach_rad * f.radius_m;
+  const double half_m = config.half_width_cells * cell_m, half_yaw_m = config.half_width_rad * f.radius_m;
   nlopt::opt optimiser(nlopt::LN_BOBYQA, 3);
   optimiser.set_min_objective(&evaluate_objective, &f);
-  optimiser.set_lower_bounds({-reach_m, -reach_m, -reach_yaw_m});
-  optimiser.set_upper_bounds({reach_m, reach_m, reach_yaw_m});
-  optimiser.set_initial_step(0.5 * std::min(cell_m, reach_yaw_m));
+  optimiser.set_lower_bounds({-half_m, -half_m, -half_yaw_m});
+  optimiser.set_upper_bounds({half_m, half_m, half_yaw_m});
+  optimiser.set_initial_step(0.5 * std::min(cell_m, half_yaw_m));
   optimiser.set_xtol_abs(1e-3 * cell_m);
-  optimiser.set_maxeval(config.most_evaluations);
+  optimiser.set_maxeval(config.max_evaluations);
   std::vector<double> x = {0.0, 0.0, 0.0};
   double min_mean_square = 0.0;
   try {

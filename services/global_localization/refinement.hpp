@@ -8,9 +8,9 @@
 namespace rover::global {
 
 struct RefinementConfig {
-  double reach_cells = 3.0;  // bounds around the start
-  double reach_rad = 0.05;
-  int most_evaluations = 150;
+  double half_width_cells = 3.0;  // bounds around the start
+  double half_width_rad = to_rad(3.0);
+  int max_evaluations = 150;
 };
 
 struct Match {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "common/core/time.hpp"
+#include "common/bus/parameters.hpp"
 #include "hazard_detector/hazard_config.hpp"
 
 namespace rover::hazard {
@@ -16,6 +16,6 @@ struct NodeConfig {
 // Written by hazard_calibrate into the config folder. Without it the camera mount in the messages is used.
 inline constexpr char kCalibrationFile[] = "hazard_detector_calibration.yaml";
 
-NodeConfig load_config(const std::string& config_dir);
+NodeConfig load_config(const std::string& config_dir, ParameterList* list = nullptr);
 
 }  // namespace rover::hazard

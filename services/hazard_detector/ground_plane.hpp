@@ -1,5 +1,5 @@
 // Robust ground plane fit: exhaustive (deterministic) search for the plane with most inliers, refined by iteratively
-// reweighted least squares with Tukey weights. Slope and offset at the front axle are bounded, because the rover stands
+// reweighted least squares with Tukey weights. Slope and offset at the front axle are bounded, because the rover is
 // on the ground. Cells below a plane reduce its score, so that the top of a rock is not fitted as ground.
 #pragma once
 

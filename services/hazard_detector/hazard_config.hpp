@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "common/core/frames.hpp"
 #include "hazard_detector/ground_calibration.hpp"
 
 namespace rover::hazard {
@@ -14,25 +15,25 @@ struct GridConfig {
   double half_width_m = 2.0;
 };
 
-// Prior of the ground plane ahead: the rover stands on it, so slope and offset are bounded.
+// Prior of the ground plane ahead: it is under the rover, so slope and offset are bounded.
 struct PlanePrior {
-  double front_axle_x_m = 0.75;   // front axle
-  double max_slope_rad = 0.2094;  // 12 deg, relative to the plane under the rover
-  double max_offset_m = 0.14;     // at the front axle; 10 deg of body pitch cause 0.13
-  double inlier_m = 0.05;         // inlier distance in the search
-  double tukey_m = 0.12;          // Tukey scale: larger residuals have no weight
-  double half_weight_m = 1.0;     // distance ahead of the front axle at which a cell weighs half
-  int min_cells = 40;             // fewer measured cells: the prior is used
+  double front_axle_x_m = 0.75;         // front axle
+  double max_slope_rad = to_rad(12.0);  // relative to the plane under the rover
+  double max_offset_m = 0.14;           // at the front axle; 10 deg of body pitch cause 0.13
+  double inlier_m = 0.05;               // inlier distance in the search
+  double tukey_m = 0.12;                // Tukey scale: larger residuals have no weight
+  double half_weight_m = 1.0;           // distance ahead of the front axle at which a cell weighs half
+  int min_cells = 40;                   // fewer measured cells: the prior is used
 };
 
 // Local ground height relative to the plane; the deviation bound grows with the distance from the front axle.
 struct LocalGroundConfig {
-  double window_m = 0.6;              // half side of the neighbourhood
-  double node_m = 0.3;                // node spacing of the local ground grid
-  double low_quantile = 0.25;         // of the neighbourhood heights: ground under rocks
-  double high_quantile = 0.75;        // ground around holes
-  double max_deviation_m = 0.05;      // at the front axle
-  double max_deviation_per_m = 0.05;  // growth per metre ahead
+  double window_m = 0.6;                // half side of the neighbourhood
+  double node_m = 0.3;                  // node spacing of the local ground grid
+  double low_quantile = 0.25;           // of the neighbourhood heights: ground under rocks
+  double high_quantile = 0.75;          // ground around holes
+  double max_deviation_m = 0.05;        // at the front axle
+  double max_deviation_m_per_m = 0.05;  // growth per metre ahead
   int min_cells = 12;
   double step_radius_m = 0.2;      // obstacle height also counts from the lowest cell within this radius
   double step_tolerance_m = 0.02;  // added to that cell: slope of the ground over that radius
@@ -42,7 +43,7 @@ struct HazardConfig {
   double origin_height_m = 0.62;                 // body origin over flat ground
   std::optional<GroundCalibration> calibration;  // nullopt: use the camera mount
   GridConfig grid;
-  PlanePrior prior;
+  PlanePrior plane;
   LocalGroundConfig local_ground;
   double obstacle_height_m = 0.15;  // T_near: obstacles are higher than this over the local ground
   double hole_depth_m = 0.20;       // T_far: holes are deeper than this

@@ -103,7 +103,7 @@ GroundPlane HazardDetector::fit_plane() const {
       points.push_back({static_cast<float>(shape_.x_m(ix)), static_cast<float>(shape_.y_m(iy)),
                         e.sum_z_m / static_cast<float>(e.measured)});
     }
-  return fit_ground_plane(points, config_.prior);
+  return fit_ground_plane(points, config_.plane);
 }
 
 LocalGround HazardDetector::fit_local_ground(const GroundPlane& plane) const {
@@ -112,11 +112,11 @@ LocalGround HazardDetector::fit_local_ground(const GroundPlane& plane) const {
     for (int ix = 0; ix < shape_.cells_x; ++ix) {
       const size_t i = static_cast<size_t>(shape_.at(ix, iy));
       if (evidence_[i].measured < config_.min_free_samples) continue;
-      const double plane_m = plane.offset_m + plane.slope_x * (shape_.x_m(ix) - config_.prior.front_axle_x_m) +
+      const double plane_m = plane.offset_m + plane.slope_x * (shape_.x_m(ix) - config_.plane.front_axle_x_m) +
                              plane.slope_y * shape_.y_m(iy);
       over_plane[i] = evidence_[i].sum_z_m / static_cast<float>(evidence_[i].measured) - static_cast<float>(plane_m);
     }
-  return estimate_local_ground(over_plane, shape_, config_.local_ground, config_.prior.front_axle_x_m);
+  return estimate_local_ground(over_plane, shape_, config_.local_ground, config_.plane.front_axle_x_m);
 }
 
 // Compares each disparity with d_cal, corrected for the fitted plane, times the limit factors of its cell. Also counts
@@ -124,7 +124,7 @@ LocalGround HazardDetector::fit_local_ground(const GroundPlane& plane) const {
 void HazardDetector::classify_samples(const Disparity& disparity, const GroundPlane& plane, const LocalGround& ground) {
   const StereoCamera& camera = table_->camera();
   const Eigen::Vector3d normal = plane.normal();
-  const Eigen::Vector3d p_plane(config_.prior.front_axle_x_m, 0.0, plane.offset_m - config_.origin_height_m);
+  const Eigen::Vector3d p_plane(config_.plane.front_axle_x_m, 0.0, plane.offset_m - config_.origin_height_m);
   const double height_m = normal.dot(camera.T_body_cam.translation() - p_plane);
   const DisparityPlane fitted = disparity_plane(camera, p_plane, normal);
   const DisparityPlane& flat = table_->flat_ground();

@@ -22,7 +22,7 @@ class LocalGroundBuilder {
  public:
   LocalGroundBuilder(const std::vector<float>& over_plane_m, const GridShape& shape, const LocalGroundConfig& config,
                      double front_axle_x_m)
-      : heights_(over_plane_m), shape_(shape), config_(config), wheel_line_x_m_(front_axle_x_m) {
+      : heights_(over_plane_m), shape_(shape), config_(config), front_axle_x_m_(front_axle_x_m) {
     step_ = std::max(1, static_cast<int>(std::lround(config.node_m / shape.cell_m)));
     radius_ = std::max(1, static_cast<int>(std::lround(config.window_m / shape.cell_m)));
     nodes_x_ = shape.cells_x / step_ + 2;
@@ -55,8 +55,8 @@ class LocalGroundBuilder {
         if (!std::isnan(height)) window_.push_back(height);
       }
     if (static_cast<int>(window_.size()) < config_.min_cells) return {};
-    const double ahead_m = std::max(0.0, shape_.x_m(ix) - wheel_line_x_m_);
-    const float bound = static_cast<float>(config_.max_deviation_m + config_.max_deviation_per_m * ahead_m);
+    const double ahead_m = std::max(0.0, shape_.x_m(ix) - front_axle_x_m_);
+    const float bound = static_cast<float>(config_.max_deviation_m + config_.max_deviation_m_per_m * ahead_m);
     const float low = quantile(window_, config_.low_quantile);
     const float high = quantile(window_, config_.high_quantile);
     return {std::clamp(low, -bound, bound), std::clamp(high, -bound, bound)};
@@ -65,7 +65,7 @@ class LocalGroundBuilder {
   const std::vector<float>& heights_;
   const GridShape& shape_;
   const LocalGroundConfig& config_;
-  double wheel_line_x_m_;
+  double front_axle_x_m_;
   int step_ = 1;
   int radius_ = 1;
   int nodes_x_ = 0;

@@ -1,4 +1,9 @@
 // State that localization needs to continue after a restart of its process.
+//
+// Starts anew, because the rover may have stopped, turned or been moved meanwhile: the slip window, the visual velocity
+// and the standstill timers. Motion records and poses before the restart are gone, so every visual motion and map
+// measurement from before it is rejected, and the time of the newest correction is not needed. The next SLAM_POSE
+// repeats what was pending of the last.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -22,6 +27,14 @@ struct Checkpoint {
   double travelled_m = 0.0;
   Utime newest_visual_utime = kNever;       // of the newest visual motion fused
   std::array<double, 6> drive_angle_rad{};  // NaN without an encoder reading
+  double traction = 1.0;                    // the ground is still the same: scales the wheel distance of the gap
+  double side_slip = 0.0;
+  Eigen::Vector3d smoothing_offset_m = Eigen::Vector3d::Zero();  // published pose minus T_odom_body
+  Eigen::Vector3d smoothing_offset_rad = Eigen::Vector3d::Zero();
+  int consecutive_conflicts = 0;  // a suspect gyro stays suspect
+  // A restart must not extend the time without IMU or the distance without visual odometry.
+  Utime imu_healthy_utime = kNever;
+  double dead_reckoned_m = 0.0;
 };
 
 std::vector<std::uint8_t> to_bytes(const Checkpoint& checkpoint);

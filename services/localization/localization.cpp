@@ -199,9 +199,9 @@ void Localization::integrate_wheels(MotionRecord& record) {
     return;
   }
   record.wheel_turn_rad = {};
-  const bool silent = to_seconds(record.end - newest_wheels_utime_) > config_.wheel_timeout_s;
-  const bool recent_vo =
-      newest_visual_utime_ != kNever && to_seconds(record.end - newest_visual_utime_) < config_.no_odometry_lost_s;
+  const bool silent = to_seconds(record.end - newest_wheels_utime_) > config_.status.wheel_timeout_s;
+  const bool recent_vo = newest_visual_utime_ != kNever &&
+                         to_seconds(record.end - newest_visual_utime_) < config_.status.no_odometry_lost_s;
   if (silent && recent_vo) record.wheel_motion.head<2>() = visual_velocity_mps_.head<2>() * record.dt_s();
 }
 
@@ -221,17 +221,17 @@ void Localization::detect_stationary(MotionRecord& record) {
   for (size_t i = 0; i < steer_at_stop_rad_.size(); ++i)
     moved = moved || std::abs(wrap_angle(record.steer_rad[i] - steer_at_stop_rad_[i])) > kWheelMotionRad;
   const Eigen::Vector3d rate = record.delta_angle_rad / record.dt_s() - predicted_.gyro_bias_radps;
-  if (moved || rate.norm() > config_.stationary_rate_radps) {
+  if (moved || rate.norm() > config_.stationary.rate_radps) {
     turned_since_stop_rad_ = {};
     steer_at_stop_rad_ = record.steer_rad;
     stationary_s_ = settled_s_ = 0.0;
     return;
   }
   stationary_s_ += record.dt_s();
-  const bool rotating = record.fog_valid && std::abs(rate.z()) > config_.settled_rate_radps;
+  const bool rotating = record.fog_valid && std::abs(rate.z()) > config_.stationary.settled_rate_radps;
   settled_s_ = rotating ? 0.0 : settled_s_ + record.dt_s();
-  record.stationary = stationary_s_ >= config_.stationary_after_s;
-  record.settled = record.stationary && settled_s_ >= config_.settled_after_s;
+  record.stationary = stationary_s_ >= config_.stationary.after_s;
+  record.settled = record.stationary && settled_s_ >= config_.stationary.settled_after_s;
 }
 
 void Localization::initialise(const MotionRecord& record) {
@@ -365,21 +365,23 @@ void Localization::update_status(Utime now) {
   const double visual_age = to_seconds(now - std::max(newest_visual_utime_, initialised_utime_));
   const double wheels_age = to_seconds(now - newest_wheels_utime_);
   if (config_.camera_only.enabled) {
-    if (visual_age > config_.no_odometry_lost_s) return set(PoseStatus::kLost, "no visual odometry");
-    if (dead_reckoned_m_ > config_.max_dead_reckoned_m)
+    if (visual_age > config_.status.no_odometry_lost_s) return set(PoseStatus::kLost, "no visual odometry");
+    if (dead_reckoned_m_ > config_.status.max_dead_reckoned_m)
       return set(PoseStatus::kLost, "too far without visual odometry");
     return set(PoseStatus::kOk, {});
   }
   const bool imu_healthy = imu_monitor_.healthy(now);
   if (imu_healthy) imu_healthy_utime_ = now;
-  if (to_seconds(now - imu_healthy_utime_) > config_.imu_lost_s) return set(PoseStatus::kLost, "no IMU for too long");
-  if (dead_reckoned_m_ > config_.max_dead_reckoned_m) return set(PoseStatus::kLost, "too far without visual odometry");
-  if (wheels_age > config_.wheel_timeout_s && visual_age > config_.no_odometry_lost_s)
+  if (to_seconds(now - imu_healthy_utime_) > config_.status.imu_lost_s)
+    return set(PoseStatus::kLost, "no IMU for too long");
+  if (dead_reckoned_m_ > config_.status.max_dead_reckoned_m)
+    return set(PoseStatus::kLost, "too far without visual odometry");
+  if (wheels_age > config_.status.wheel_timeout_s && visual_age > config_.status.no_odometry_lost_s)
     return set(PoseStatus::kLost, "neither wheels nor visual odometry");
   if (!imu_healthy) return set(PoseStatus::kDegraded, imu_monitor_.frozen() ? "IMU frozen" : "no IMU");
   if (gyro_suspect()) return set(PoseStatus::kDegraded, "gyro contradicts visual odometry");
-  if (wheels_age > config_.wheel_timeout_s) return set(PoseStatus::kDegraded, "no wheels");
-  if (visual_age > config_.visual_degraded_s) return set(PoseStatus::kDegraded, "no visual odometry");
+  if (wheels_age > config_.status.wheel_timeout_s) return set(PoseStatus::kDegraded, "no wheels");
+  if (visual_age > config_.status.visual_degraded_s) return set(PoseStatus::kDegraded, "no visual odometry");
   set(PoseStatus::kOk, {});
 }
 
@@ -399,7 +401,7 @@ std::optional<Checkpoint> Localization::checkpoint() const {
   if (!initialised_ || pose_.utime == kNever) return std::nullopt;
   Checkpoint c;
   c.utime = last_record_end_;
-  c.T_odom_body = pose_.T_odom_body;
+  c.T_odom_body = predicted_.T_odom_body;
   c.map_known = map_.known();
   c.T_map_odom = map_.T_map_odom();
   c.gyro_bias_radps = predicted_.gyro_bias_radps;
@@ -409,6 +411,13 @@ std::optional<Checkpoint> Localization::checkpoint() const {
   c.newest_visual_utime = newest_visual_utime_;
   c.drive_angle_rad.fill(kNaN);
   if (last_wheels_) c.drive_angle_rad = last_wheels_->drive_angle_rad;
+  c.traction = slip_.traction();
+  c.side_slip = slip_.side_slip();
+  c.smoothing_offset_m = smoothing_offset_m_;
+  c.smoothing_offset_rad = smoothing_offset_rad_;
+  c.consecutive_conflicts = consecutive_conflicts_;
+  c.imu_healthy_utime = std::min(imu_healthy_utime_, c.utime);
+  c.dead_reckoned_m = dead_reckoned_m_;
   return c;
 }
 
@@ -422,8 +431,14 @@ void Localization::restore(const Checkpoint& c) {
   if (c.map_known) map_.restore(c.T_map_odom);
   travelled_m_ = c.travelled_m;
   newest_visual_utime_ = c.newest_visual_utime;  // a restart alone must not make visual odometry look stale
-  last_chord_end_m_ = c.T_odom_body.translation();
-  last_record_end_ = initialised_utime_ = imu_healthy_utime_ = newest_wheels_utime_ = c.utime;
+  smoothing_offset_m_ = c.smoothing_offset_m;
+  smoothing_offset_rad_ = c.smoothing_offset_rad;
+  last_chord_end_m_ = c.T_odom_body.translation() + c.smoothing_offset_m;
+  last_record_end_ = initialised_utime_ = newest_wheels_utime_ = c.utime;
+  slip_.restore(c.traction, c.side_slip);
+  consecutive_conflicts_ = c.consecutive_conflicts;
+  imu_healthy_utime_ = c.imu_healthy_utime;
+  dead_reckoned_m_ = c.dead_reckoned_m;
   initialised_ = true;
   if (!std::isfinite(c.drive_angle_rad[0])) return;
   last_wheels_ = WheelSample{};

@@ -30,26 +30,34 @@ struct CameraOnlyConfig {
   double pitch_rad = 0.0;
 };
 
+struct StationaryConfig {
+  double rate_radps = to_rad(0.15);           // stationary: body rate below this and wheels still
+  double after_s = 0.4;                       // for this long
+  double settled_after_s = 5.0;               // the body has stopped rocking after this long
+  double settled_rate_radps = to_rad(0.015);  // with the fibre-optic gyro below this (7 sigma of its noise)
+};
+
+struct StatusConfig {
+  double wheel_timeout_s = 0.1;          // wheel encoders count as failed after this long without a sample
+  double visual_degraded_s = 1.5;        // without visual odometry: DEGRADED
+  double max_dead_reckoned_m = 2.0;      // distance without visual odometry; more: LOST
+  double imu_lost_s = 10.0;              // without IMU: LOST
+  double no_odometry_lost_s = 1.0;       // without wheels and visual odometry: LOST
+  int conflicts_until_gyro_suspect = 5;  // consecutive visual motions that contradict the gyro
+};
+
 struct LocalizationConfig {
   FilterConfig filter;
   ImuMonitorConfig imu;
   StaticAlignmentConfig static_alignment;
   MapAlignmentConfig map;
   SlipConfig slip;
-  double history_s = 60.0;                      // maximum age of a visual motion
-  double chain_s = 20.0;                        // longest sequence of visual motions fused as one measurement
-  double wheel_timeout_s = 0.1;                 // wheel encoders count as failed after this silence
-  double visual_degraded_s = 1.5;               // without visual odometry: DEGRADED
-  double max_dead_reckoned_m = 2.0;             // distance without visual odometry: LOST
-  double imu_lost_s = 10.0;                     // without IMU: LOST
-  double no_odometry_lost_s = 1.0;              // without wheels and visual odometry: LOST
-  double stationary_rate_radps = to_rad(0.15);  // stationary: body rate below this and wheels still
-  double stationary_after_s = 0.4;              // for this long
-  double settled_after_s = 5.0;                 // the body has stopped rocking after this long
-  double settled_rate_radps = to_rad(0.015);    // with the fibre-optic gyro below this (7 sigma of its noise)
-  double smoothing_s = 0.4;                     // time constant with which the pose absorbs late updates
-  int conflicts_until_imu_suspect = 5;          // consecutive visual motions that contradict the gyro
-  double max_speed_mps = 20.0;                  // faster visual motions are rejected
+  StationaryConfig stationary;
+  StatusConfig status;
+  double history_s = 60.0;      // maximum age of a visual motion
+  double chain_s = 20.0;        // longest sequence of visual motions fused as one measurement
+  double smoothing_s = 0.4;     // time constant with which the pose absorbs late updates
+  double max_speed_mps = 20.0;  // faster visual motions are rejected
   CameraOnlyConfig camera_only;
 };
 
@@ -110,7 +118,7 @@ class Localization {
   FilterState propagate_to(FilterState state, Utime to) const;
   MotionRecord without_suspect_gyro(const MotionRecord& record) const;
   double traction(const MotionRecord& record) const;
-  bool gyro_suspect() const { return consecutive_conflicts_ >= config_.conflicts_until_imu_suspect; }
+  bool gyro_suspect() const { return consecutive_conflicts_ >= config_.status.conflicts_until_gyro_suspect; }
   std::string_view fuse_visual_motion(const VisualMotion& motion);
   std::optional<FilterState> fuse_chain(const VisualChain& chain);
   void apply_fused_state(const FilterState& fused);

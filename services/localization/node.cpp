@@ -68,7 +68,7 @@ void LocalizationNode::on_ground_command(const ground_command_t& command) {
 }
 
 void LocalizationNode::on_step(Utime now) {
-  checkpoint_.tell();
+  checkpoint_.publish_restored();
   localization_.step(now);
   publish();
   report_status();
@@ -99,7 +99,7 @@ void LocalizationNode::report_status() {
 }
 
 void LocalizationNode::restore() {
-  checkpoint_.restore([this](const KeptState::Bytes& bytes) {
+  checkpoint_.restore([this](const CheckpointStore::Bytes& bytes) {
     const auto checkpoint = from_bytes(bytes);
     if (checkpoint) localization_.restore(*checkpoint);
     return checkpoint.has_value();

@@ -5,7 +5,7 @@
 #include <rover/slam_pose_t.hpp>
 #include <string>
 
-#include "common/bus/kept_state.hpp"
+#include "common/bus/checkpoint_store.hpp"
 #include "common/bus/node.hpp"
 #include "common/core/vehicle.hpp"
 #include "localization/localization.hpp"
@@ -28,7 +28,7 @@ class LocalizationNode {
   void check(const char* channel, std::string_view rejection);
 
   Node& node_;
-  KeptState checkpoint_;
+  CheckpointStore checkpoint_;
   Localization localization_;
   PoseStatus status_ = PoseStatus::kOk;
   std::string reason_;

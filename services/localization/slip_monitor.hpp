@@ -17,7 +17,7 @@ struct SlipConfig {
   double window_s = 5.0;           // HDPR
   double traction_window_s = 2.0;  // for dead reckoning between two visual motions
   double min_wheel_path_m = 0.05;  // less wheel travel in the window gives no slip ratio
-  double min_coverage = 0.5;       // share of the wheel travel that visual odometry must cover
+  double min_coverage = 0.5;       // fraction of the wheel travel that visual odometry must cover
   double max_visual_age_s = 1.0;   // the window ends at the newest visual motion, at most this long ago
 };
 
@@ -44,6 +44,11 @@ class SlipMonitor {
   // Lateral drift to the left per distance rolled, forward or backward, beyond wheel odometry: on a side slope the
   // rover crabs, which wheels cannot measure. 0 if unknown.
   double side_slip() const { return side_slip_; }
+  // The window stays empty.
+  void restore(double traction, double side_slip) {
+    traction_ = traction;
+    side_slip_ = side_slip;
+  }
 
  private:
   struct Interval {

@@ -1,8 +1,9 @@
-// Reads config/locomotion.yaml; keys that are absent keep the defaults of the core.
+// Describes and reads config/locomotion.yaml; geometry and limits come from config/vehicle.yaml.
 #pragma once
 
 #include <string>
 
+#include "common/bus/parameters.hpp"
 #include "locomotion/locomotion.hpp"
 
 namespace rover::locomotion {
@@ -13,6 +14,6 @@ struct NodeConfig {
   double command_validity_s = 0.2;
 };
 
-NodeConfig load_config(const std::string& config_dir);
+NodeConfig load_config(const std::string& config_dir, ParameterList* list = nullptr);
 
 }  // namespace rover::locomotion

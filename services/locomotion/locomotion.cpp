@@ -40,7 +40,7 @@ bool finite(const std::array<double, 4>& values) {
 Locomotion::Locomotion(const LocomotionConfig& config, const Vehicle& vehicle)
     : config_(config),
       vehicle_(vehicle),
-      max_curvature_rate_(config.steering_rate_share * vehicle.steer_rate_radps /
+      max_curvature_rate_(config.steering_rate_ratio * vehicle.steer_rate_radps /
                           max_steering_gradient(vehicle, config.max_curvature_per_m)),
       turn_radius_m_(point_turn_radius_m(vehicle)),
       stall_recovery_(config.stall) {}

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 
+#include "common/core/frames.hpp"
 #include "common/core/lease.hpp"
 #include "common/core/vehicle.hpp"
 #include "common/core/wheel_kinematics.hpp"
@@ -20,15 +21,15 @@ struct LocomotionConfig {
   double wheel_state_max_age_s = 0.2;
   double acceleration_mps2 = 0.118;          // also the deceleration of a commanded stop [HDPR]
   double emergency_deceleration_mps2 = 0.4;  // without a lease: 0.2 m/s to rest in 0.5 s and 0.05 m
-  double steering_rate_share = 0.9;          // of the motor rate, while rolling: margin for tracking
+  double steering_rate_ratio = 0.9;          // of the motor rate, while rolling: margin for tracking
   double max_curvature_per_m = 1.0;
-  double max_turn_rate_radps = 0.25;
-  double alignment_tolerance_rad = 0.052;  // 3 deg: steering aligned, motion may start
-  double steering_slow_rad = 0.07;         // 4 deg of steering error: speed reduced from here
-  double steering_stop_rad = 0.175;        // 10 deg: speed zero
-  double hold_tolerance_rad = 0.026;       // 1.5 deg: deflection of a held wheel ...
-  double hold_delay_s = 1.0;               // ... that for this time resets the held angle to the measured one
-  double curvature_slow_per_m = 0.20;      // same two limits for the curvature error
+  double max_turn_rate_radps = to_rad(14.0);
+  double alignment_tolerance_rad = to_rad(3.0);  // steering aligned, motion may start
+  double steering_slow_rad = to_rad(4.0);        // steering error: speed reduced from here
+  double steering_stop_rad = to_rad(10.0);       // speed zero
+  double hold_tolerance_rad = to_rad(1.5);       // deflection of a held wheel ...
+  double hold_delay_s = 1.0;                     // ... that for this time resets the held angle to the measured one
+  double curvature_slow_per_m = 0.20;            // same two limits for the curvature error
   double curvature_stop_per_m = 1.00;
   StallRecoveryConfig stall;
 };

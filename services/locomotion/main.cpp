@@ -3,8 +3,8 @@
 #include "locomotion/node.hpp"
 
 int main(int argc, char** argv) {
-  return rover::node_main(argc, argv, "locomotion", [](const rover::NodeContext& context) {
-    return std::make_shared<rover::locomotion::LocomotionNode>(context.node,
-                                                               rover::locomotion::load_config(context.config_dir));
+  using namespace rover;
+  return node_main(argc, argv, "locomotion", locomotion::load_config, [](const NodeContext& context) {
+    return std::make_shared<locomotion::LocomotionNode>(context.node, locomotion::load_config(context.config_dir));
   });
 }

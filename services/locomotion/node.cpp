@@ -25,7 +25,7 @@ LocomotionNode::LocomotionNode(Node& node, const NodeConfig& config)
   node_.subscribe<drive_permit_t>(channel::kDrivePermit, [this](const drive_permit_t& m) { permit_ = permit_from(m); });
   node_.subscribe<wheel_state_t>(channel::kWheelState, [this](const wheel_state_t& m) { wheels_ = reading_from(m); });
   node_.on_step([this](Utime now) { step(now); });
-  node_.on_silence([this] { stop(); });
+  node_.on_tick_timeout([this] { stop(); });
 }
 
 void LocomotionNode::step(Utime now) {

@@ -2,11 +2,13 @@
 // the angles it has, which lets the wheel climb or leave the rock. It gives up after max_distance_m.
 #pragma once
 
+#include "common/core/frames.hpp"
+
 namespace rover::locomotion {
 
 struct StallRecoveryConfig {
-  double wait_s = 0.5;                // setpoints reached, wheels not; an unobstructed wheel lags by 0.1 s
-  double max_mean_error_rad = 0.524;  // 30 deg, mean of four: beyond it the wheels would scrub too much
+  double wait_s = 0.5;                       // setpoints reached, wheels not; an unobstructed wheel lags by 0.1 s
+  double max_mean_error_rad = to_rad(30.0);  // mean of four: beyond it the wheels would scrub too much
   double speed_mps = 0.04;
   double max_distance_m = 0.20;  // more than the wheel radius (0.125 m)
 };

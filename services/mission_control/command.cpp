@@ -10,8 +10,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr size_t kLongestName = 64;
-constexpr int kDeepest = 4;
+constexpr size_t kMaxNameLength = 64;
+constexpr int kMaxDepth = 4;
 
 struct Form {
   const char* name;
@@ -36,7 +36,7 @@ constexpr std::array kForms = {Form{"go", CommandKind::kGo, nullptr},
 json object_from(const std::string& text) {
   bool too_deep = false;
   const auto keep = [&](int depth, json::parse_event_t, json&) {
-    too_deep = too_deep || depth > kDeepest;
+    too_deep = too_deep || depth > kMaxDepth;
     return !too_deep;
   };
   json parsed = json::parse(text, keep, false);
@@ -62,17 +62,17 @@ std::optional<Level> level_from(const json& value) {
 bool is_name(const json& value) {
   if (!value.is_string()) return false;
   const auto& text = value.get_ref<const std::string&>();
-  return !text.empty() && text.size() <= kLongestName && std::all_of(text.begin(), text.end(), [](unsigned char c) {
+  return !text.empty() && text.size() <= kMaxNameLength && std::all_of(text.begin(), text.end(), [](unsigned char c) {
     return std::isalnum(c) != 0 || c == '_' || c == '.' || c == '-';
   });
 }
 
 std::string read_points(const json& value, const CommandLimits& limits, std::vector<Eigen::Vector2d>& points) {
-  if (!value.is_array() || value.size() < 2) return "points: a list of at least 2 points [x, y] is expected";
-  if (value.size() > limits.max_points) return "points: more than " + std::to_string(limits.max_points) + " way-points";
+  if (!value.is_array() || value.size() < 2) return "points: a list of at least 2 points [x, y] is required";
+  if (value.size() > limits.max_points) return "points: more than " + std::to_string(limits.max_points) + " waypoints";
   for (const json& point : value) {
     if (!point.is_array() || point.size() != 2 || !point[0].is_number() || !point[1].is_number())
-      return "points: each is [x, y], two numbers";
+      return "points: each point must be [x, y], two numbers";
     const Eigen::Vector2d p(point[0].get<double>(), point[1].get<double>());
     if (!p.allFinite() || p.cwiseAbs().maxCoeff() > limits.max_coordinate_m) return "points: out of range";
     points.push_back(p);
@@ -83,9 +83,9 @@ std::string read_points(const json& value, const CommandLimits& limits, std::vec
 std::string read_path(const json& request, const CommandLimits& limits, Command& command) {
   command.level = Level::kEfficient;
   if (const auto level = request.find("level"); level != request.end()) {
-    const auto wanted = level_from(*level);
-    if (!wanted || *wanted == Level::kAuto) return "level: efficient or full is expected";
-    command.level = *wanted;
+    const auto level_value = level_from(*level);
+    if (!level_value || *level_value == Level::kAuto) return "level: must be efficient or full";
+    command.level = *level_value;
   }
   return read_points(request.at("points"), limits, command.points);
 }
@@ -97,11 +97,11 @@ std::string read_argument(const Form& form, const json& request, const CommandLi
   if (form.kind == CommandKind::kPath) return read_path(request, limits, command);
   if (form.kind == CommandKind::kForceLevel) {
     const auto level = level_from(*value);
-    if (!level) return "level: efficient, full or auto is expected";
+    if (!level) return "level: must be efficient, full or auto";
     command.level = *level;
     return "";
   }
-  if (!is_name(*value)) return std::string(form.argument) + ": not a name";
+  if (!is_name(*value)) return std::string(form.argument) + ": invalid name";
   command.target = value->get<std::string>();
   return "";
 }
@@ -123,9 +123,9 @@ const char* name(Level level) {
 
 ParsedCommand parse_command(const std::string& text, const CommandLimits& limits) {
   const json request = object_from(text);
-  if (request.is_null()) return {std::nullopt, "a JSON object is expected"};
+  if (request.is_null()) return {std::nullopt, "a JSON object is required"};
   const Form* form = find_form(request);
-  if (form == nullptr) return {std::nullopt, "command: not one of those that there are"};
+  if (form == nullptr) return {std::nullopt, "unknown command"};
   Command command;
   command.kind = form->kind;
   std::string error = unknown_key(*form, request);
@@ -138,7 +138,7 @@ ParsedPoints parse_points(const std::string& text, const CommandLimits& limits) 
   const json request = object_from(text);
   ParsedPoints out;
   if (request.is_null() || request.size() != 1 || !request.contains("points")) {
-    out.error = "a JSON object with points is expected";
+    out.error = "a JSON object with points is required";
     return out;
   }
   out.error = read_points(request["points"], limits, out.points);
@@ -155,7 +155,7 @@ std::string description(const Command& command) {
   std::string text = name(command.kind);
   std::replace(text.begin(), text.end(), '_', ' ');
   if (command.kind == CommandKind::kForceLevel) text += std::string(" ") + name(command.level);
-  if (command.kind == CommandKind::kPath) text += " with " + std::to_string(command.points.size()) + " way-points";
+  if (command.kind == CommandKind::kPath) text += " with " + std::to_string(command.points.size()) + " waypoints";
   return command.target.empty() ? text : text + " " + command.target;
 }
 

@@ -28,7 +28,7 @@ struct Command {
   CommandKind kind = CommandKind::kStop;
   Level level = Level::kAuto;           // kForceLevel; kPath: level of all points, kEfficient or kFull
   std::string target;                   // kClearFault: the fault's id; kKill, kHang: the service
-  std::vector<Eigen::Vector2d> points;  // kPath: way-points in map coordinates [m]
+  std::vector<Eigen::Vector2d> points;  // kPath: waypoints in map coordinates [m]
 };
 
 struct CommandLimits {

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "common/bus/config.hpp"
+#include "common/bus/navigation_config.hpp"
 #include "common/bus/vehicle_config.hpp"
 #include "common/core/path_limits.hpp"
 
@@ -80,58 +81,54 @@ MissionPlan load_mission_plan(const std::string& config_dir) {
 namespace mission {
 namespace {
 
-OperatorPathConfig read_drawn_path(const Config& config) {
-  OperatorPathConfig path;
-  config.read("corridor_half_width_m", path.corridor_half_width_m, {0.1, 50});
-  config.read("goal_tolerance_m", path.goal_tolerance_m, {0.01, 10});
-  config.read("longest_m", path.max_length_m, {1, 1e5});
-  config.read_deg("warn_slope_deg", path.slope.warn_rad, {0, 90});
-  config.read_deg("most_slope_deg", path.slope.max_rad, {0, 90});
-  if (path.slope.max_rad < path.slope.warn_rad) config.fail("most_slope_deg", "is below warn_slope_deg");
-  return path;
+void share(const NavigationConfig& navigation, OperatorPathConfig& path) {
+  path.corridor_half_width_m = navigation.corridor_half_width_m;
+  path.goal_tolerance_m = navigation.goal_tolerance_m;
+  path.slope = {navigation.steep_slope_rad, navigation.max_slope_rad};
 }
 
 }  // namespace
 
-PageConfig load_page_config(const std::string& config_dir) {
-  const Config config = Config::load(config_dir + "/mission_control.yaml");
+PageConfig load_config(const std::string& config_dir, ParameterList* list) {
   PageConfig page;
   std::string token_file;
-  config.read("page", page.served);
-  config.read("address", page.guard.address);
-  config.read("port", page.guard.port, {1, 65535});
-  config.read("most_pages", page.max_pages, {1, 64});
-  config.read("token_file", token_file);
-  page.path = read_drawn_path(config.section("path"));
-  config.finish();
+  Parameters p(config_dir + "/mission_control.yaml", "Ground station and its web page, http://ADDRESS:PORT.", list);
+  if (list == nullptr) share(load_navigation(config_dir), page.path);
+  p.add("page", page.served, "false: only the commands of the mission plan (./rover run --headless)");
+  p.add("address", page.guard.address, "any other address than the loopback requires token_file");
+  p.add("port", page.guard.port, {1, 65535}, "TCP port");
+  p.add("token_file", token_file,
+        "file of mode 0600 with at least 16 characters; open the page once as /?token=... to log in");
+  p.add("max_pages", page.max_pages, {1, 64}, "pages open at the same time");
+  p.section("path", "drawn or loaded by the operator")
+      .add("max_length_m", page.path.max_length_m, {1, 1e5}, "longer paths are refused");
+  p.finish();
   if (!page.served) return page;
-  if (!token_file.empty())
-    page.guard.token = load_token(token_file);
-  else if (!is_loopback(page.guard.address))
-    config.fail("address", page.guard.address +
-                               " can be reached from elsewhere: token_file has to name a file of mode "
-                               "0600 with a token in it");
+  if (!token_file.empty()) page.guard.token = load_token(token_file);
+  p.check(!page.guard.token.empty() || is_loopback(page.guard.address), "address",
+          page.guard.address + " is reachable from other machines: token_file must name a file of mode 0600 that " +
+              "contains a token");
   return page;
 }
 
 std::string load_token(const std::string& file) {
-  constexpr size_t kShortest = 16;
+  constexpr size_t kMinLength = 16;
   struct stat status {};
   if (stat(file.c_str(), &status) != 0) throw ConfigError(file + ": cannot be read");
   if ((status.st_mode & 0777) != 0600)
-    throw ConfigError(file + ": others may read the token. Mend it with: chmod 600 " + file);
+    throw ConfigError(file + ": the token is readable by others. Fix: chmod 600 " + file);
   std::ifstream in(file);
   std::string token;
   in >> token;
-  if (token.size() < kShortest)
-    throw ConfigError(file + ": a token of at least 16 characters is expected. Make one with: openssl rand -hex 16");
+  if (token.size() < kMinLength)
+    throw ConfigError(file + ": a token of at least 16 characters is required. Create one: openssl rand -hex 16");
   if (token.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_") != std::string::npos)
-    throw ConfigError(file + ": a token holds letters, digits, - and _ alone");
+    throw ConfigError(file + ": a token may contain only letters, digits, - and _");
   return token;
 }
 
 nlohmann::json page_setup(const std::string& config_dir, const Vehicle& vehicle) {
-  const Config coverage = Config::load(config_dir + "/hazard_detector.yaml").section("coverage");
+  const NavigationConfig navigation = load_navigation(config_dir);
   return {{"vehicle",
            {{"half_length_m", vehicle.body_half_length_m},
             {"half_width_m", vehicle.body_half_width_m},
@@ -144,8 +141,7 @@ nlohmann::json page_setup(const std::string& config_dir, const Vehicle& vehicle)
             {"top_speed_mps", vehicle.top_speed_mps}}},
           {"gauges", gauge_limits(config_dir, vehicle)},
           {"navcam", navcam_view(config_dir, vehicle)},
-          {"roi",
-           {{"near_m", coverage.number("roi_near_m", {0, 100})}, {"far_m", coverage.number("roi_far_m", {0, 100})}}}};
+          {"roi", {{"near_m", navigation.hazard_roi_near_m}, {"far_m", navigation.hazard_roi_far_m}}}};
 }
 
 }  // namespace mission

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "common/bus/parameters.hpp"
 #include "common/core/vehicle.hpp"
 #include "mission_control/command.hpp"
 #include "mission_control/ground_map.hpp"
@@ -41,7 +42,7 @@ struct PageConfig {
 };
 
 // Throws ConfigError if a non-loopback address has no token file.
-PageConfig load_page_config(const std::string& config_dir);
+PageConfig load_config(const std::string& config_dir, ParameterList* list = nullptr);
 // Reads the token. Throws ConfigError if others can read the file (mode not 0600) or the token is too short.
 std::string load_token(const std::string& file);
 

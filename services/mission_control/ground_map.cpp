@@ -20,11 +20,11 @@ struct ColourStop {
 };
 
 // Green, yellow, orange, red; transparent on flat ground.
-cv::Vec4b slope_colour(double share) {
+cv::Vec4b slope_colour(double ratio) {
   static const std::array<ColourStop, 5> kStops = {
       ColourStop{0.0, {120, 170, 60, 0}}, ColourStop{0.3, {110, 190, 90, 90}}, ColourStop{0.6, {60, 200, 235, 150}},
       ColourStop{1.0, {40, 110, 245, 185}}, ColourStop{1.6, {60, 40, 200, 210}}};
-  const double at = std::clamp(share, 0.0, kStops.back().at);
+  const double at = std::clamp(ratio, 0.0, kStops.back().at);
   for (size_t i = 1; i < kStops.size(); ++i) {
     if (at > kStops[i].at) continue;
     const double u = (at - kStops[i - 1].at) / (kStops[i].at - kStops[i - 1].at);
@@ -35,8 +35,8 @@ cv::Vec4b slope_colour(double share) {
 
 cv::Vec4b class_colour(double slope_rad, const SlopeLimits& limits) {
   if (slope_rad > limits.max_rad) return {70, 60, 225, 190};
-  if (slope_rad > limits.warn_rad) return {50, 150, 245, 160};
-  if (slope_rad > 0.5 * limits.warn_rad) return {80, 215, 235, 110};
+  if (slope_rad > limits.steep_rad) return {50, 150, 245, 160};
+  if (slope_rad > 0.5 * limits.steep_rad) return {80, 215, 235, 110};
   return {130, 190, 80, 70};
 }
 

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "common/core/frames.hpp"
+
 namespace rover::mission {
 
 // Heights; origin at the lower left corner, rows ordered south to north.
@@ -17,8 +19,8 @@ struct GroundHeights {
 };
 
 struct SlopeLimits {
-  double warn_rad = 0.17;
-  double max_rad = 0.26;
+  double steep_rad = to_rad(10.0);  // warned of
+  double max_rad = to_rad(15.0);    // impassable
 };
 
 struct PathCheck {

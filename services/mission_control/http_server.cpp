@@ -262,14 +262,14 @@ net::awaitable<void> HttpServer::Impl::read_more(Connection& client, RequestPars
   client.received_any = true;
   if (error)
     parser.end(client.late ? RequestCheck{408, "the request took too long"}
-                           : RequestCheck{400, "the request is cut short"});
+                           : RequestCheck{400, "the request is incomplete"});
   else
     parser.feed({bytes.data(), count});
 }
 
 net::awaitable<Response> HttpServer::Impl::handle(const Request& request) {
   const auto found = routes_.find(request.method + " " + request.path);
-  if (found == routes_.end()) co_return refusal({404, "nothing is here"});
+  if (found == routes_.end()) co_return refusal({404, "not found"});
   const Route& route = found->second;
   const auto run = [&]() -> net::awaitable<Response> { co_return route.handler(request); };
   net::thread_pool& threads = route.work == Work::kBlocking ? blocking_pool_ : short_pool_;
@@ -288,7 +288,7 @@ net::awaitable<void> HttpServer::Impl::send(Connection& client, const Response& 
 }
 
 net::awaitable<void> HttpServer::Impl::stream(Connection& client, const std::function<Content()>& next) {
-  static constexpr std::string_view kStillThere = ":\n\n";  // SSE comment; detects a closed connection
+  static constexpr std::string_view kKeepAlive = ":\n\n";  // SSE comment; detects a closed connection
   while (!stopping_) {
     Content text = next();
     if (text.bytes.empty()) {
@@ -299,7 +299,7 @@ net::awaitable<void> HttpServer::Impl::stream(Connection& client, const std::fun
       text = next();
     }
     client.set_deadline(limits_.text_time);
-    co_await net::async_write(client.socket, net::buffer(text.bytes.empty() ? kStillThere : text.bytes),
+    co_await net::async_write(client.socket, net::buffer(text.bytes.empty() ? kKeepAlive : text.bytes),
                               net::use_awaitable);
   }
 }

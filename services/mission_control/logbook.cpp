@@ -9,9 +9,9 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kTrendS = 120.0;
-constexpr size_t kMostEvents = 400;
-constexpr size_t kMostPoints = 20'000;
+constexpr double kTrendWindowS = 120.0;
+constexpr size_t kMaxEvents = 400;
+constexpr size_t kMaxPoints = 20'000;
 constexpr std::array kTones = {"info", "good", "warn", "bad"};
 
 json to_json(const Event& event) {
@@ -49,7 +49,7 @@ std::vector<float> floats_from(const std::vector<std::uint8_t>& bytes) {
 
 void Logbook::add_event(double t_s, Tone tone, const std::string& kind, const std::string& text) {
   events_.push_back({newest_event() + 1, t_s, tone, kind, text});
-  if (events_.size() > kMostEvents) events_.pop_front();
+  if (events_.size() > kMaxEvents) events_.pop_front();
 }
 
 void Logbook::add_track_point(double x_m, double y_m) {
@@ -61,7 +61,7 @@ void Logbook::add_track_point(double x_m, double y_m) {
   }
   track_.push_back(static_cast<float>(x_m));
   track_.push_back(static_cast<float>(y_m));
-  if (track_.size() > 2 * kMostPoints) decimate_track();
+  if (track_.size() > 2 * kMaxPoints) decimate_track();
 }
 
 // Drops every second point and doubles the spacing of later points.
@@ -74,7 +74,7 @@ void Logbook::decimate_track() {
 
 void Logbook::sample(const TrendSample& sample) {
   trend_.push_back(sample);
-  while (trend_.front().t_s < sample.t_s - kTrendS) trend_.pop_front();
+  while (trend_.front().t_s < sample.t_s - kTrendWindowS) trend_.pop_front();
 }
 
 void Logbook::set_path(std::int64_t id, const GlobalPath& path) {

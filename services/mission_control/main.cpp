@@ -17,7 +17,7 @@ PageContext page_context(const NodeContext& context) {
   const Vehicle vehicle = load_vehicle(context.config_dir);
   PageContext page;
   page.run_dir = run_dir;
-  page.run_name = run_dir.empty() ? "by hand" : std::filesystem::path(run_dir).filename().string();
+  page.run_name = run_dir.empty() ? "manual" : std::filesystem::path(run_dir).filename().string();
   page.allow_injection = context.node.options().allow_injection;
   for (const std::string& name : service_names(true))
     if (run_dir.empty() || keeps_service(run_dir, name)) page.services.push_back(name);
@@ -47,7 +47,7 @@ struct MissionControl {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return node_main(argc, argv, "mission_control", [](const NodeContext& context) {
-    return std::make_shared<MissionControl>(context, load_page_config(context.config_dir));
+  return node_main(argc, argv, "mission_control", mission::load_config, [](const NodeContext& context) {
+    return std::make_shared<MissionControl>(context, load_config(context.config_dir));
   });
 }

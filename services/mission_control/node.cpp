@@ -6,6 +6,7 @@
 
 #include "common/bus/convert.hpp"
 #include "common/bus/state_names.hpp"
+#include "mission_control/view.hpp"
 
 namespace rover {
 namespace {
@@ -15,7 +16,6 @@ using mission::Tone;
 
 constexpr std::int64_t kCommandsPerBoot = 100'000;  // keeps the ids of two processes apart
 constexpr std::int64_t kMaxBoots = 1'000'000'000;   // keeps ids exact in JavaScript numbers
-constexpr Utime kHeartbeatTimeoutUs = 1'000'000;    // a heartbeat comes five times a second
 constexpr Utime kTrackPeriodUs = 5'000'000;
 constexpr Utime kTrendPeriodUs = 1'000'000;
 constexpr Utime kHeartbeatCheckPeriodUs = 200'000;
@@ -98,9 +98,7 @@ Tone tone_of(std::int8_t state) {
 }
 
 std::string mission_step_name(MissionStep mission_step) {
-  return mission_step == MissionStep::kStartPose ? "start pose"
-         : mission_step == MissionStep::kPath    ? "path of the mission"
-                                                 : "go";
+  return mission_step == MissionStep::kStartPose ? "start pose" : mission_step == MissionStep::kPath ? "path" : "go";
 }
 
 }  // namespace
@@ -138,8 +136,8 @@ void MissionControlNode::add_event(Tone tone, const std::string& kind, const std
 void MissionControlNode::on_ack(const command_ack_t& ack) {
   const bool accepted = ack.accepted != 0;
   if (const auto mission_step = sequence_.current(); sequence_.acknowledge(ack.command_id, accepted, ack.reason)) {
-    node_.log(accepted ? "INFO" : "WARN",
-              "ORDER id=" + std::to_string(ack.command_id) + (accepted ? " accepted" : " refused: " + ack.reason));
+    node_.log(accepted ? "INFO" : "WARN", "PLAN_COMMAND id=" + std::to_string(ack.command_id) +
+                                              (accepted ? " accepted" : " refused: " + ack.reason));
     if (accepted) add_event(Tone::kInfo, "command", "mission plan: " + mission_step_name(mission_step) + " accepted");
   } else if (const auto command = shared_->commands.acknowledge(ack.command_id, accepted, ack.reason)) {
     add_event(accepted ? Tone::kInfo : Tone::kWarn, "command",
@@ -168,24 +166,24 @@ void MissionControlNode::on_state(const supervisor_state_t& state) {
 }
 
 void MissionControlNode::on_fault(const fault_t& fault) {
-  const bool standing = fault.standing == 1;
+  const bool active = fault.active == 1;
   bool& known = faults_[fault.id];
-  if (standing == known) return;  // repeated
-  known = standing;
+  if (active == known) return;  // repeated
+  known = active;
   std::ostringstream text;
   text.precision(3);
-  text << fault.id << (standing ? " raised" : " cleared");
-  if (standing && std::isfinite(fault.value)) text << " (" << fault.value << ", limit " << fault.limit << ")";
+  text << fault.id << (active ? " raised" : " cleared");
+  if (active && std::isfinite(fault.value)) text << " (" << fault.value << ", limit " << fault.limit << ")";
   const bool serious = fault.response != fault_t::LOG && fault.response != fault_t::SLOW;
-  add_event(!standing ? Tone::kGood : serious ? Tone::kBad : Tone::kWarn, "fault", text.str());
+  add_event(!active ? Tone::kGood : serious ? Tone::kBad : Tone::kWarn, "fault", text.str());
 }
 
 void MissionControlNode::on_heartbeat(const heartbeat_t& heartbeat) {
   ServiceLiveness& liveness = liveness_[heartbeat.service];
   if (liveness.last_heartbeat != kNever && heartbeat.header.boot_id != liveness.boot_id)
-    add_event(Tone::kGood, "service", heartbeat.service + " is back after a restart");
+    add_event(Tone::kGood, "service", heartbeat.service + " restarted");
   else if (liveness.timed_out)
-    add_event(Tone::kGood, "service", heartbeat.service + " is heard again");
+    add_event(Tone::kGood, "service", heartbeat.service + " sends heartbeats again");
   liveness = {heartbeat.header.boot_id, heartbeat.header.utime, false};
 }
 
@@ -193,7 +191,7 @@ void MissionControlNode::on_path(const path_t& path) {
   if (path.path_id == path_id_) return;
   path_id_ = path.path_id;
   if (path.kind == path_t::REPAIR) add_event(Tone::kInfo, "path", "path repaired around hazards");
-  if (path.kind == path_t::RETREAT) add_event(Tone::kWarn, "path", "backwards along the driven track");
+  if (path.kind == path_t::BACKTRACK) add_event(Tone::kWarn, "path", "backtracking along the driven track");
 }
 
 // Before the start pose is accepted the rover's position in map is undefined.
@@ -215,7 +213,7 @@ void MissionControlNode::sample(Utime now) {
 }
 
 void MissionControlNode::step(Utime now) {
-  checkpoint_.tell();
+  checkpoint_.publish_restored();
   shared_->now_s = to_seconds(now);
   while (const auto waiting = shared_->commands.next()) send(*waiting);
   if (const auto issued = sequence_.step(now, standby_, next_command_id_)) {
@@ -232,9 +230,9 @@ void MissionControlNode::step(Utime now) {
 
 void MissionControlNode::check_heartbeats(Utime now) {
   for (auto& [name, liveness] : liveness_) {
-    if (liveness.timed_out || now - liveness.last_heartbeat < kHeartbeatTimeoutUs) continue;
+    if (liveness.timed_out || now - liveness.last_heartbeat < mission::kHeartbeatTimeoutUs) continue;
     liveness.timed_out = true;
-    add_event(Tone::kBad, "service", name + " is silent");
+    add_event(Tone::kBad, "service", name + ": heartbeat timeout");
   }
 }
 
@@ -242,7 +240,7 @@ void MissionControlNode::report_status() {
   if (!sequence_.refusal().empty())
     node_.set_status(heartbeat_t::DEGRADED, sequence_.refusal());
   else if (!shared_->page_is_served)
-    node_.set_status(heartbeat_t::DEGRADED, "the page's address is taken");
+    node_.set_status(heartbeat_t::DEGRADED, "the page's address is in use");
   else
     node_.set_status(heartbeat_t::OK, "");
 }
@@ -306,7 +304,7 @@ void MissionControlNode::publish_path(std::int64_t command_id, const GlobalPath&
 
 // Checkpoint layout: plan progress, next command id, logbook.
 void MissionControlNode::restore() {
-  checkpoint_.restore([this](const KeptState::Bytes& bytes) {
+  checkpoint_.restore([this](const CheckpointStore::Bytes& bytes) {
     std::int64_t head[2];
     if (bytes.size() < sizeof head) return false;
     std::memcpy(head, bytes.data(), sizeof head);
@@ -321,7 +319,7 @@ void MissionControlNode::restore() {
 void MissionControlNode::save(Utime now) {
   if (!checkpoint_.due() || (!changed_ && now < track_saved_ + kTrackPeriodUs)) return;
   const std::int64_t head[2] = {sequence_.progress(), next_command_id_};
-  KeptState::Bytes bytes(sizeof head);
+  CheckpointStore::Bytes bytes(sizeof head);
   std::memcpy(bytes.data(), head, sizeof head);
   const auto book = shared_->book.with([](const mission::Logbook& b) { return b.save(); });
   bytes.insert(bytes.end(), book.begin(), book.end());

@@ -14,7 +14,7 @@
 #include <rover/slip_t.hpp>
 #include <rover/supervisor_state_t.hpp>
 
-#include "common/bus/kept_state.hpp"
+#include "common/bus/checkpoint_store.hpp"
 #include "common/bus/node.hpp"
 #include "mission_control/config.hpp"
 #include "mission_control/shared_state.hpp"
@@ -57,7 +57,7 @@ class MissionControlNode {
   void save(Utime now);
 
   Node& node_;
-  KeptState checkpoint_;
+  CheckpointStore checkpoint_;
   MissionPlan plan_;
   std::shared_ptr<mission::SharedState> shared_;
   mission::OperatorPathConfig path_config_;

@@ -63,7 +63,7 @@ std::string content_of(const std::string& file) {
 
 // Exchanges the token in the URL for a cookie.
 Response exchange_token(const std::string& token, const Request& request) {
-  if (!same_secret(request.param("token"), token)) return refusal({401, "not the token"});
+  if (!same_secret(request.param("token"), token)) return refusal({401, "wrong token"});
   return {
       303, "", {}, {{"Location", "/"}, {"Set-Cookie", "rover_token=" + token + "; HttpOnly; SameSite=Strict; Path=/"}}};
 }
@@ -115,7 +115,7 @@ void PageServer::add_files() {
   for (const LibraryFile& file : library_files()) {
     server_.get("/lib" + file.path, [&file](const Request&) -> Response {
       std::string content = content_of(file.file);
-      if (content.empty()) return refusal({404, file.file + " is missing: ./rover build installs it"});
+      if (content.empty()) return refusal({404, file.file + " is missing; ./rover build installs it"});
       return {200, file.type, Content::of(std::move(content))};
     });
   }
@@ -142,12 +142,12 @@ void PageServer::add_pictures() {
   for (const std::string name : {"hazards", "traversability", "elevation"})
     server_.get("/layer/" + name + ".png", [this, name](const Request&) {
       const auto content = subscriber_.with([&](const TelemetryStore& store) { return store.grid(name); });
-      return content ? picture(images_.grid(name, *content), "image/png") : refusal({404, "not heard yet"});
+      return content ? picture(images_.grid(name, *content), "image/png") : refusal({404, "not received yet"});
     });
   for (const std::string name : {"loccam", "navcam"})
     server_.get("/camera/" + name + ".jpg", [this, name](const Request&) {
       const auto image = subscriber_.with([&](const TelemetryStore& store) { return store.image(name); });
-      return image ? picture(images_.camera(name, *image), "image/jpeg") : refusal({404, "not heard yet"});
+      return image ? picture(images_.camera(name, *image), "image/jpeg") : refusal({404, "not received yet"});
     });
   for (const std::string name : {"relief", "slope", "difficulty"})
     server_.get("/map/" + name, [this, name](const Request&) {
@@ -174,10 +174,10 @@ nlohmann::json PageServer::setup() {
           ? json()
           : json{{"width_m", map->width_m()}, {"height_m", map->height_m()}, {"resolution_m", map->resolution_m()}};
   out["path"] = {{"corridor_half_width_m", config_.path.corridor_half_width_m},
-                 {"warn_slope_deg", std::round(1e6 * to_deg(config_.path.slope.warn_rad)) * 1e-6},
-                 {"most_slope_deg", std::round(1e6 * to_deg(config_.path.slope.max_rad)) * 1e-6},
-                 {"longest_m", config_.path.max_length_m},
-                 {"most_points", config_.path.limits.max_points}};
+                 {"steep_slope_deg", std::round(1e6 * to_deg(config_.path.slope.steep_rad)) * 1e-6},
+                 {"max_slope_deg", std::round(1e6 * to_deg(config_.path.slope.max_rad)) * 1e-6},
+                 {"max_length_m", config_.path.max_length_m},
+                 {"max_points", config_.path.limits.max_points}};
   return out;
 }
 
@@ -235,16 +235,16 @@ Response PageServer::submit(const Command& command) {
 
 Response PageServer::inject(const Command& command) {
   if (!context_.allow_injection)
-    return refusal({403, "this run was started without injection: ./rover run --allow-injection"});
+    return refusal({403, "fault injection is disabled; start with ./rover run --allow-injection"});
   const auto& names = context_.services;
   if (std::find(names.begin(), names.end(), command.target) == names.end())
     return refusal({422, command.target + " is not a service"});
   const bool done = context_.inject(command.target, command.kind);
   shared_.book.with([&](Logbook& book) {
     book.add_event(shared_.now_s, done ? Tone::kWarn : Tone::kInfo, "command",
-                   description(command) + (done ? " done" : " was not possible"));
+                   description(command) + (done ? " done" : " failed"));
   });
-  if (!done) return refusal({409, "not possible: s6 does not keep this service"});
+  if (!done) return refusal({409, "not possible: s6 does not supervise this service"});
   return ok({{"accepted", true}, {"reason", ""}});
 }
 
@@ -255,11 +255,11 @@ std::string PageServer::path_problem(const Command& command) {
   const PathCheck found = map->check(command.points);
   if (!found.inside) return "the path leaves the map";
   char text[96];
-  std::snprintf(text, sizeof text, "the path is %.0f m long, more than %.0f m", found.length_m,
+  std::snprintf(text, sizeof text, "the path is %.0f m long; the limit is %.0f m", found.length_m,
                 config_.path.max_length_m);
   if (found.length_m > config_.path.max_length_m) return text;
-  std::snprintf(text, sizeof text, "slope of %.1f deg on the path, more than %.1f deg", to_deg(found.max_slope_rad),
-                to_deg(config_.path.slope.max_rad));
+  std::snprintf(text, sizeof text, "the path has a slope of %.1f deg; the limit is %.1f deg",
+                to_deg(found.max_slope_rad), to_deg(config_.path.slope.max_rad));
   return found.passable ? "" : text;
 }
 

@@ -21,10 +21,10 @@ bool host_is_ours(const GuardConfig& config, const std::string& host) {
 }
 
 RequestCheck check_state_change(const RequestFacts& request) {
-  if (request.origin != "http://" + request.host) return {403, "not from this page (Origin)"};
+  if (request.origin != "http://" + request.host) return {403, "the request comes from another page (Origin)"};
   if (!request.fetch_site.empty() && request.fetch_site != "same-origin")
-    return {403, "not from this page (Sec-Fetch-Site)"};
-  if (request.content_type.rfind("application/json", 0) != 0) return {415, "application/json is expected"};
+    return {403, "the request comes from another page (Sec-Fetch-Site)"};
+  if (request.content_type.rfind("application/json", 0) != 0) return {415, "Content-Type must be application/json"};
   return {};
 }
 
@@ -37,12 +37,12 @@ bool is_loopback(const std::string& address) {
 }
 
 RequestCheck check_request(const GuardConfig& config, const RequestFacts& request) {
-  if (!host_is_ours(config, request.host)) return {403, "not the address of this page (Host)"};
+  if (!host_is_ours(config, request.host)) return {403, "Host is not the address of this page"};
   if (!config.token.empty() && !same_secret(request.token, config.token))
-    return {401, "a token is needed: open the page once as /?token=..."};
+    return {401, "a token is required; open the page once as /?token=..."};
   if (request.method == "GET") return {};
   if (request.method == "POST") return check_state_change(request);
-  return {405, "GET and POST alone"};
+  return {405, "only GET and POST are supported"};
 }
 
 RequestFacts facts_of(const Request& request) {

@@ -12,7 +12,7 @@ namespace {
 namespace http = boost::beast::http;
 
 // Shortest end of a chunked body. Beast 1.74 aborts on fewer bytes at a time (boostorg/beast pull request 2861).
-constexpr size_t kShortestChunked = 5;
+constexpr size_t kMinChunkedBytes = 5;
 
 std::string text_of(boost::beast::string_view text) {
   return {text.data(), text.size()};
@@ -56,7 +56,7 @@ bool read_target(std::string_view target, Request& request) {
 RequestCheck verdict_on(const boost::system::error_code& error) {
   if (error == http::error::header_limit) return {431, "the header is too long"};
   if (error == http::error::body_limit) return {413, "the body is too long"};
-  return {400, "not a request: " + error.message()};
+  return {400, "invalid request: " + error.message()};
 }
 
 }  // namespace
@@ -93,7 +93,7 @@ RequestParser::State RequestParser::end(RequestCheck why) {
 bool RequestParser::advance() {
   auto& [parser, pending, header_bytes, body_bytes] = *parsing_;
   const bool in_header = state_ == State::kHeader;
-  if (pending.size() < (!in_header && parser.chunked() ? kShortestChunked : 1)) return false;
+  if (pending.size() < (!in_header && parser.chunked() ? kMinChunkedBytes : 1)) return false;
   boost::system::error_code error;
   const size_t taken = parser.put(boost::asio::buffer(pending), error);
   pending.erase(0, taken);
@@ -111,7 +111,7 @@ bool RequestParser::add_header(bool more_expected) {
     return refuse({431, "the header is too long"});
   if (!parsing_->parser.is_header_done()) return true;
   if (RequestCheck problem = header_problem(); problem.status != 200) return refuse(std::move(problem));
-  if (!read_header()) return refuse({400, "the address has a wrong escape"});
+  if (!read_header()) return refuse({400, "the address has an invalid escape"});
   state_ = State::kBody;
   parsing_->parser.eager(true);
   return !take_whole();
@@ -135,16 +135,16 @@ RequestCheck RequestParser::header_problem() const {
   const auto& message = parsing_->parser.get();
   const auto lengths = message.count(http::field::content_length);
   const auto encodings = message.count(http::field::transfer_encoding);
-  if (message.version() != 11) return {400, "HTTP/1.1 is expected"};
+  if (message.version() != 11) return {400, "HTTP/1.1 is required"};
   if (message.target().size() > limits_.target_bytes) return {414, "the address is too long"};
-  if (message.target().empty() || message.target()[0] != '/') return {400, "an address from / on is expected"};
-  if (message.count(http::field::host) != 1) return {400, "one Host is expected"};
+  if (message.target().empty() || message.target()[0] != '/') return {400, "the address must begin with /"};
+  if (message.count(http::field::host) != 1) return {400, "exactly one Host is required"};
   if (lengths + encodings > 1 || message[http::field::content_length].find(',') != std::string_view::npos)
     return {400, "the length of the body is given twice"};
   if (encodings == 1 && !boost::beast::iequals(message[http::field::transfer_encoding], "chunked"))
-    return {400, "chunked is the only encoding of a body that is understood"};
+    return {400, "chunked is the only supported encoding of a body"};
   if (message.count(http::field::expect) > 0 && !boost::beast::iequals(message[http::field::expect], "100-continue"))
-    return {417, "100-continue is the only expectation that is understood"};
+    return {417, "100-continue is the only supported expectation"};
   return {};
 }
 

@@ -29,7 +29,7 @@ void RunMap::read() {
   try {
     const std::string file = run_dir_ + "/orbital_map.tif";
     ElevationMap map = read_elevation_map(file);
-    demand_no_voids(map, file);
+    require_no_voids(map, file);
     ElevationRaster& raster = map.raster;
     map_ = std::make_unique<GroundMap>(
         GroundHeights{raster.width, raster.height, raster.resolution_m, std::move(raster.z_m)}, limits_,

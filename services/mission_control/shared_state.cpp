@@ -10,7 +10,7 @@ constexpr size_t kMaxPending = 16;
 CommandReply CommandQueue::submit(const Command& command, std::chrono::milliseconds timeout) {
   std::unique_lock lock(mutex_);
   if (entries_.size() >= kMaxPending && !stops(command.kind))
-    return {CommandReply::Outcome::kBusy, -1, "too many commands wait"};
+    return {CommandReply::Outcome::kBusy, -1, "too many commands are pending"};
   const std::int64_t ticket = next_ticket_++;
   entries_[ticket].command = command;
   changed_.wait_for(lock, timeout, [&] { return entries_[ticket].answer.has_value(); });
@@ -25,11 +25,11 @@ CommandReply CommandQueue::take_reply(std::int64_t ticket) {
     return answer;
   }
   entry.caller_gone = true;
-  if (entry.sent) return {CommandReply::Outcome::kNoReply, entry.command_id, "given, but not answered"};
+  if (entry.sent) return {CommandReply::Outcome::kNoReply, entry.command_id, "sent, but not acknowledged"};
   if (stops(entry.command.kind))
-    return {CommandReply::Outcome::kClockStopped, -1, "the rover's time stands still; it waits"};
+    return {CommandReply::Outcome::kClockStopped, -1, "the rover's clock has stopped; the command stays queued"};
   entries_.erase(ticket);
-  return {CommandReply::Outcome::kClockStopped, -1, "the rover's time stands still; withdrawn"};
+  return {CommandReply::Outcome::kClockStopped, -1, "the rover's clock has stopped; the command was withdrawn"};
 }
 
 std::optional<CommandQueue::Pending> CommandQueue::next() {

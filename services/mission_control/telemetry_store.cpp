@@ -12,18 +12,15 @@ namespace {
 
 constexpr Utime kRateWindow = 3'000'000;
 constexpr double kCpuWindowS = 3.0;
-constexpr double kHeartbeatTimeoutS = 1.0;  // a heartbeat comes five times a second
 constexpr double kStartupGraceS = 2.0;
 constexpr Utime kPoseHistory = 4'000'000;
 constexpr size_t kImagesKept = 8;  // the hazard grid arrives about one image later
 constexpr Utime kHazardsTimeout = 1'500'000;
-constexpr int kLargestGrid = 2048;
-constexpr std::int64_t kMaxCountedBoots = 100'000;  // larger boot ids are clock values of processes started by hand
-
-const std::array kResponses = {"log", "slow", "stop", "stop and replan", "restart service", "safe", "stop and retreat"};
+constexpr int kMaxGridCells = 2048;                 // per side
+constexpr std::int64_t kMaxCountedBoots = 100'000;  // larger boot ids are clock values of processes started manually
 
 bool is_valid_grid(int nx, int ny, size_t size, double cell_m) {
-  return nx > 0 && ny > 0 && nx <= kLargestGrid && ny <= kLargestGrid && size == static_cast<size_t>(nx) * ny &&
+  return nx > 0 && ny > 0 && nx <= kMaxGridCells && ny <= kMaxGridCells && size == static_cast<size_t>(nx) * ny &&
          cell_m > 0.0 && cell_m < 10.0;
 }
 
@@ -67,11 +64,10 @@ void TelemetryStore::add(const supervisor_state_t& m) {
 }
 
 void TelemetryStore::add(const fault_t& m) {
-  const auto response = static_cast<size_t>(m.response);
-  if (m.standing == 0)
+  if (m.active == 0)
     view_.faults.erase(m.id);
   else
-    view_.faults[m.id] = {m.value, m.limit, response < kResponses.size() ? kResponses[response] : "?"};
+    view_.faults[m.id] = {m.value, m.limit, response_name(m.response)};
 }
 
 void TelemetryStore::add(const drive_permit_t& m) {
@@ -193,12 +189,12 @@ void TelemetryStore::add_navcam(const image_t& message) {
 void TelemetryStore::select_loccam_image() {
   if (loccam_.empty()) return;
   const auto grid = view_.grids.find("hazards");
-  const Utime judged = grid == view_.grids.end() ? kNever : grid->second.utime;
+  const Utime analysed = grid == view_.grids.end() ? kNever : grid->second.utime;
   const auto same =
-      std::find_if(loccam_.begin(), loccam_.end(), [&](const auto& i) { return i->header.utime == judged; });
+      std::find_if(loccam_.begin(), loccam_.end(), [&](const auto& i) { return i->header.utime == analysed; });
   if (same != loccam_.end())
     show("loccam", *same);
-  else if (loccam_.back()->header.utime - judged > kHazardsTimeout)
+  else if (loccam_.back()->header.utime - analysed > kHazardsTimeout)
     show("loccam", loccam_.back());
 }
 
@@ -238,7 +234,7 @@ ServiceView TelemetryStore::view_of(const ServiceRecord& record) const {
   const auto& [wall_0, cpu_0] = record.cpu.front();
   const auto& [wall_1, cpu_1] = record.cpu.back();
   if (wall_1 - wall_0 > 0.3) out.cpu_percent = 100.0 * (cpu_1 - cpu_0) / (wall_1 - wall_0);
-  const bool lost = out.age_s > kHeartbeatTimeoutS || !process_alive(record.pid);
+  const bool lost = out.age_s > to_seconds(kHeartbeatTimeoutUs) || !process_alive(record.pid);
   out.health = lost                                     ? Health::kLost
                : record.status == heartbeat_t::OK       ? Health::kOk
                : record.status == heartbeat_t::DEGRADED ? Health::kDegraded
@@ -249,7 +245,7 @@ ServiceView TelemetryStore::view_of(const ServiceRecord& record) const {
 View TelemetryStore::view(double wall_s) {
   if (!ticks_.empty()) {
     const double span_s = wall_s - ticks_.front().second;
-    view_.silence_s = wall_s - ticks_.back().second;
+    view_.tick_age_s = wall_s - ticks_.back().second;
     view_.realtime_factor = span_s > 0.5 ? to_seconds(ticks_.back().first - ticks_.front().first) / span_s : kNaN;
   }
   for (const auto& [name, record] : services_) view_.services[name] = view_of(record);

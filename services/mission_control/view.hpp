@@ -68,6 +68,9 @@ struct MotionView {
   std::array<double, 4> steer_rad = {0, 0, 0, 0};
 };
 
+// Heartbeats come five times a second; a service without one for this long counts as lost.
+constexpr Utime kHeartbeatTimeoutUs = 1'000'000;
+
 // kWaiting: just subscribed. kLost: no process, or heartbeat timeout.
 enum class Health { kOk, kDegraded, kFault, kLost, kWaiting };
 
@@ -118,8 +121,8 @@ struct PanTiltView {
 
 struct TerrainView {
   Utime utime = kNever;
-  double difficulty = kNaN;   // of the ground ahead
-  double known_share = kNaN;  // of the map's cells
+  double difficulty = kNaN;      // of the ground ahead
+  double known_fraction = kNaN;  // of the map's cells
 };
 
 struct SlamView {
@@ -146,7 +149,7 @@ struct TruthView {
 struct View {
   Utime now = kNever;  // newest TICK
   double realtime_factor = kNaN;
-  double silence_s = kNaN;  // wall time since that TICK
+  double tick_age_s = kNaN;  // wall time since that TICK
   StateView state;
   std::map<std::string, FaultView> faults;
   PermitView permit;

@@ -105,7 +105,7 @@ json of(const TerrainView& t, Utime now) {
   if (t.utime == kNever) return nullptr;
   return {{"age_s", since(t.utime, now)},
           {"difficulty", rounded(t.difficulty, 0.01)},
-          {"known", rounded(t.known_share, 0.01)}};
+          {"known", rounded(t.known_fraction, 0.01)}};
 }
 
 json of(const SlamView& s, Utime now) {
@@ -179,7 +179,7 @@ std::string text_of(const json& value) {
 std::string to_json(const View& v, const BookView& book) {
   const json out = {{"t_s", v.now == kNever ? json() : json(rounded(to_seconds(v.now), 0.01))},
                     {"rate", rounded(v.realtime_factor, 0.01)},
-                    {"silence_s", rounded(v.silence_s, 0.1)},
+                    {"tick_age_s", rounded(v.tick_age_s, 0.1)},
                     {"state", of(v.state, v.faults, v.now)},
                     {"permit", of(v.permit)},
                     {"pose", of(v.pose, v.now)},

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "common/bus/config.hpp"
 #include "common/bus/vehicle_config.hpp"
 
 namespace rover::gaze {
@@ -14,44 +13,47 @@ CameraMount mount_of(const Vehicle& vehicle, const StereoRig& navcam) {
           vehicle.pan_tilt->p_body_axes.x()};
 }
 
-void read_ahead(const Config& yaml, LookAheadConfig& ahead) {
-  yaml.read("distance_m", ahead.distance_m, {0.5, 20.0});
-  yaml.read_deg("pan_max_deg", ahead.pan_max_rad, {0.0, 120.0});
-  yaml.read("near_m", ahead.near_m, {0.5, 10.0});
-  yaml.read("far_m", ahead.far_m, {1.0, 50.0});
-  if (ahead.far_m <= ahead.near_m) yaml.fail("far_m", "must be beyond near_m");
+void add_ahead(Parameters p, LookAheadConfig& c) {
+  p.add("distance_m", c.distance_m, {0.5, 20.0}, "of the lookahead point along the path");
+  p.add_deg("pan_max_deg", c.pan_max_rad, {0.0, 120.0}, "to either side");
+  p.add("near_m", c.near_m, {0.5, 10.0}, "start of the ground to be seen, from the camera");
+  p.add("far_m", c.far_m, {1.0, 50.0}, "its end");
+  p.check(c.far_m > c.near_m, "far_m", "must be beyond near_m");
 }
 
-void read_sweep(const Config& yaml, SweepConfig& sweep) {
-  yaml.read_deg("pan_max_deg", sweep.pan_max_rad, {0.0, 180.0});
-  yaml.read_deg("pan_step_deg", sweep.pan_step_rad, {5.0, 90.0});
-  double far_deg = to_deg(sweep.tilts_rad.front()), near_deg = to_deg(sweep.tilts_rad.back());
-  yaml.read("far_tilt_deg", far_deg, {-45.0, 90.0});
-  yaml.read("near_tilt_deg", near_deg, {-45.0, 90.0});
-  sweep.tilts_rad = {to_rad(far_deg), to_rad(near_deg)};
+void add_sweep(Parameters p, SweepConfig& c) {
+  p.add_deg("pan_max_deg", c.pan_max_rad, {0.0, 180.0},
+            "81 deg to either side with half of the field of view of 43 deg");
+  p.add_deg("pan_step_deg", c.pan_step_rad, {5.0, 90.0}, "at 1.3 m both cameras see 25 deg");
+  p.add_deg("far_tilt_deg", c.far_tilt_rad, {-45.0, 90.0}, "sees ground from 1.7 m in front of the camera");
+  p.add_deg("near_tilt_deg", c.near_tilt_rad, {-45.0, 90.0}, "sees 0.7 to 2.4 m");
 }
 
 }  // namespace
 
-NodeConfig load_config(const std::string& config_dir) {
+NodeConfig load_config(const std::string& config_dir, ParameterList* list) {
   NodeConfig config;
+  PanTiltConfig& c = config.core;
   const Vehicle vehicle = load_vehicle(config_dir);
   if (!vehicle.pan_tilt) throw ConfigError(config_dir + "/vehicle.yaml: pan_tilt: missing, there is nothing to turn");
   config.unit = *vehicle.pan_tilt;
   config.mount = mount_of(vehicle, load_stereo_rig(config_dir, "navcam"));
-  const Config yaml = Config::load(config_dir + "/pan_tilt.yaml");
-  yaml.read("max_state_age_s", config.max_state_age_s, {0.2, 10.0});
-  yaml.read("max_pose_age_s", config.core.max_pose_age_s, {0.05, 10.0});
-  yaml.read("image_way_m", config.core.image_distance_m, {0.05, 10.0});
-  yaml.read_deg("image_turn_deg", config.core.image_turn_rad, {1.0, 180.0});
-  yaml.read_deg("glance_deg", config.core.glance_rad, {0.0, 120.0});
-  yaml.read("stuck_s", config.core.stuck_s, {0.0, 100.0});
-  yaml.read("dwell_s", config.core.dwell_s, {0.02, 5.0});
-  yaml.read("arrival_slack_s", config.core.arrival_margin_s, {0.1, 60.0});
-  yaml.read_deg("arrival_deg", config.core.arrival_rad, {0.01, 10.0});
-  read_ahead(yaml.section("ahead"), config.core.ahead);
-  read_sweep(yaml.section("sweep"), config.core.sweep);
-  yaml.finish();
+  Parameters p(config_dir + "/pan_tilt.yaml",
+               "Gaze control of the NavCam at the Full level. Axes, limits and rate of the unit: vehicle.yaml; camera: "
+               "cameras.yaml.",
+               list);
+  p.add("max_state_age_s", config.max_state_age_s, {0.2, 10.0}, "of the supervisor's STATE; older: idle");
+  p.add("max_pose_age_s", c.max_pose_age_s, {0.05, 10.0}, "older: no images ahead");
+  p.add("image_distance_m", c.image_distance_m, {0.05, 10.0}, "distance between images ahead");
+  p.add_deg("image_turn_deg", c.image_turn_rad, {1.0, 180.0}, "or turn of the rover or of the view");
+  p.add_deg("glance_deg", c.glance_rad, {0.0, 120.0}, "pan of every second image ahead, alternating sides; 0: none");
+  p.add("stuck_s", c.stuck_s, {0.0, 100.0}, "stopped by hazards for so long: one sweep");
+  p.add("dwell_s", c.dwell_s, {0.02, 5.0}, "from arrival to the end of the exposure");
+  p.add("arrival_margin_s", c.arrival_margin_s, {0.1, 60.0}, "beyond the longest move: unit timed out");
+  p.add_deg("arrival_deg", c.arrival_rad, {0.01, 10.0}, "the unit has arrived within this angle");
+  add_ahead(p.section("ahead", "view along the path"), c.ahead);
+  add_sweep(p.section("sweep", "ten views in about 16 s"), c.sweep);
+  p.finish();
   return config;
 }
 

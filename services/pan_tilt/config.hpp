@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "common/bus/parameters.hpp"
 #include "pan_tilt/pan_tilt.hpp"
 
 namespace rover::gaze {
@@ -14,6 +15,6 @@ struct NodeConfig {
   double max_state_age_s = 1.0;  // of the supervisor's STATE; older: idle
 };
 
-NodeConfig load_config(const std::string& config_dir);
+NodeConfig load_config(const std::string& config_dir, ParameterList* list = nullptr);
 
 }  // namespace rover::gaze

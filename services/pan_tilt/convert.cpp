@@ -9,7 +9,7 @@ namespace rover::gaze {
 std::optional<Path> path_from(const path_t& message) {
   if (message.frame != path_t::ODOM || message.point_count < 2) return std::nullopt;
   // Backing up runs over known ground, and the camera cannot turn that far.
-  if (message.kind == path_t::RETREAT) return Path{};
+  if (message.kind == path_t::BACKTRACK) return Path{};
   Path path;
   for (size_t i = 0; i < message.x_m.size(); ++i) {
     path.emplace_back(message.x_m[i], message.y_m[i]);

@@ -9,7 +9,7 @@ namespace {
 constexpr double kMinTargetDistanceM = 0.5;  // a nearer target has no meaningful direction
 
 // Parameter 0 .. 1 of the point on segment a-b nearest to `position`.
-double projection_share(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& position) {
+double projection_fraction(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& position) {
   const double squared = (b - a).squaredNorm();
   return squared > 0.0 ? std::clamp((position - a).dot(b - a) / squared, 0.0, 1.0) : 0.0;
 }
@@ -27,7 +27,7 @@ Eigen::Vector2d lookahead_point(const Path& path, const Eigen::Vector2d& positio
   size_t segment = 0;
   Eigen::Vector2d point = path.front();
   for (size_t i = 0; i + 1 < path.size(); ++i) {
-    const Eigen::Vector2d p = path[i] + projection_share(path[i], path[i + 1], position) * (path[i + 1] - path[i]);
+    const Eigen::Vector2d p = path[i] + projection_fraction(path[i], path[i + 1], position) * (path[i + 1] - path[i]);
     if ((p - position).norm() >= (point - position).norm()) continue;
     point = p;
     segment = i;

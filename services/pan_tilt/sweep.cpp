@@ -1,6 +1,7 @@
 #include "pan_tilt/sweep.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace rover::gaze {
@@ -18,7 +19,7 @@ std::vector<double> pans(const SweepConfig& config) {
 
 std::vector<Gaze> sweep_views(const SweepConfig& config) {
   std::vector<Gaze> views;
-  std::vector<double> tilts = config.tilts_rad;
+  std::array tilts = {config.far_tilt_rad, config.near_tilt_rad};
   for (const double pan : pans(config)) {
     for (const double tilt : tilts) views.push_back({pan, tilt});
     std::reverse(tilts.begin(), tilts.end());

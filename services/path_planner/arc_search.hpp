@@ -22,7 +22,7 @@ struct ArcSearchConfig {
   double curvature_cost = 0.3;       // per metre, at the largest curvature
   double bend_cost_m = 0.15;         // for a change of curvature by the largest
   double turn_cost_m = 3.0;          // a point turn takes about 15 s, in which the rover could drive 3 m
-  double turn_cost_per_rad_m = 0.5;
+  double turn_cost_per_rad_m = 1.0;
   double turn_bend_cost_m = 1.0;  // more, where the wheels come from or go to the largest curvature: 5 s of steering
   double unseen_way_cost = 2.0;   // per metre beyond sure_m over ground that would not be seen in time
   double greed = 1.3;             // weight of what is left against what was done

@@ -18,7 +18,7 @@ std::int8_t kind_of(PathKind kind) {
     case PathKind::kRepair:
       return path_t::REPAIR;
     case PathKind::kRetreat:
-      return path_t::RETREAT;
+      return path_t::BACKTRACK;
     case PathKind::kContinuous:
       return path_t::CONTINUOUS;
   }
@@ -71,7 +71,7 @@ std::string global_path_from(const path_t& message, GlobalPath& path) {
   path.points.clear();
   for (size_t i = 0; i < count; ++i) {
     if (message.level[i] != path_t::EFFICIENT && message.level[i] != path_t::FULL)
-      return "point " + std::to_string(i) + " of the path asks for an unknown level";
+      return "point " + std::to_string(i) + " of the path has an unknown level";
     path.points.push_back({{message.x_m[i], message.y_m[i]}, kNaN, message.level[i]});
   }
   return path.fault();

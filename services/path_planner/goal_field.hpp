@@ -12,13 +12,13 @@
 namespace rover::planning {
 
 struct GoalFieldConfig {
-  double horizon_m = 8.0;        // of the goal line, along the global path
-  double max_deviation_m = 8.0;  // from the global path
-  double return_way_m = 8.0;     // past the goal line, on which a plan's offset from the global path is taken out
-  double heading_cost_m = 0.8;   // per radian between a plan's end and the global path
-  double goal_miss_cost = 3.0;   // per metre that a plan ends off the goal
-  double unknown_cost = 1.0;     // per metre more
-  double difficulty_cost = 1.5;  // per metre more, on ground that is barely passable
+  double horizon_m = 8.0;         // of the goal line, along the global path
+  double max_deviation_m = 20.0;  // from the global path
+  double return_way_m = 8.0;      // past the goal line, on which a plan's offset from the global path is taken out
+  double heading_cost_m = 0.8;    // per radian between a plan's end and the global path
+  double goal_miss_cost = 3.0;    // per metre that a plan ends off the goal
+  double unknown_cost = 1.0;      // per metre more
+  double difficulty_cost = 1.5;   // per metre more, on ground that is barely passable
   double doubt_from = 0.7;  // difficulty beyond which a rock may prove a hazard from near; slopes that are driven ...
   double doubt_cost = 4.0;  // ... stay below. Per metre more, on ground that is barely passable
   double risk_distance_m = 0.6;  // clearance below which ground costs more

@@ -60,9 +60,9 @@ int HazardGrid::at(double x_m, double y_m) const {
 }
 
 std::string HazardGrid::fault() const {
-  if (cells_x <= 0 || cells_y <= 0 || cells_x > kMostCells / cells_y) return "grid has no sensible size";
+  if (cells_x <= 0 || cells_y <= 0 || cells_x > kMostCells / cells_y) return "grid size out of range";
   if (cells.size() != static_cast<size_t>(cells_x) * static_cast<size_t>(cells_y))
-    return "grid size contradicts itself";
+    return "grid size does not match its cells";
   if (!(cell_m >= 0.01 && cell_m <= 1.0)) return "cell size out of range";
   if (!std::isfinite(origin_x_m) || !std::isfinite(origin_y_m)) return "grid origin is not finite";
   if (std::any_of(cells.begin(), cells.end(), [](std::uint8_t c) { return c > kMargin; })) return "unknown cell value";

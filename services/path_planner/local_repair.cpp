@@ -63,11 +63,11 @@ const char* text_of(RepairStatus status) {
     case RepairStatus::kFound:
       return "repair found";
     case RepairStatus::kNoTarget:
-      return "the global path is blocked as far as known";
+      return "the known part of the global path is blocked";
     case RepairStatus::kNoWay:
-      return "hazards leave no way to the global path";
+      return "hazards block every path to the global path";
     case RepairStatus::kUnseen:
-      return "no way to the global path over ground that is seen in time";
+      return "unseen ground blocks every path to the global path";
   }
   return "";
 }

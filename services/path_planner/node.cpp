@@ -39,7 +39,7 @@ const char* text_of(PathKind kind) {
     case PathKind::kRepair:
       return "REPAIR";
     case PathKind::kRetreat:
-      return "RETREAT";
+      return "BACKTRACK";
     case PathKind::kContinuous:
       return "CONTINUOUS";
   }
@@ -50,7 +50,7 @@ const char* text_of(PathKind kind) {
 
 PathPlannerNode::PathPlannerNode(Node& node, const PathPlannerConfig& config)
     : node_(node),
-      kept_(node),
+      checkpoint_(node),
       path_latency_(std::max<Utime>(0, to_utime(config.release_latency_s) - kTickUs)),
       planner_(config, node.options().boot_id * kPathsPerBoot,
                std::make_shared<PlanBeside>(
@@ -66,7 +66,7 @@ PathPlannerNode::PathPlannerNode(Node& node, const PathPlannerConfig& config)
                                     [this](const ground_command_t& m) { on_ground_command(m); });
   node_.subscribe<fault_t>(channel::kFault, [this](const fault_t& m) { on_fault(m); });
   node_.on_step([this](Utime now) { step(now); });
-  kept_.restore([this](const KeptState::Bytes& bytes) { return planner_.restore(bytes); });
+  checkpoint_.restore([this](const CheckpointStore::Bytes& bytes) { return planner_.restore(bytes); });
 }
 
 void PathPlannerNode::on_global_path(const path_t& message) {
@@ -111,13 +111,13 @@ void PathPlannerNode::on_state(const supervisor_state_t& message) {
 // Standing faults are repeated: one that is older than the path is not about it, unless it stands on although the path
 // should have ended it.
 void PathPlannerNode::on_fault(const fault_t& message) {
-  if (message.response == fault_t::STOP_RETREAT && !message.standing) planner_.want_retreat(false);
+  if (message.response == fault_t::STOP_BACKTRACK && !message.active) planner_.want_retreat(false);
   const bool of_this_path = message.visible_utime > told_at_ || message.header.utime > told_at_ + kFaultClearsUs;
-  if (!message.standing || !of_this_path) return;
+  if (!message.active || !of_this_path) return;
   if (message.response == fault_t::STOP_REPLAN) planner_.request_replan();
   const Utime since = std::max(message.visible_utime, waits_since_);
   const bool lasts = waits_since_ != kNever && message.header.utime > since + kRetreatPatienceUs;
-  if (message.response == fault_t::STOP_RETREAT && lasts) planner_.want_retreat(true);
+  if (message.response == fault_t::STOP_BACKTRACK && lasts) planner_.want_retreat(true);
 }
 
 void PathPlannerNode::on_ground_command(const ground_command_t& message) {
@@ -130,7 +130,7 @@ void PathPlannerNode::on_ground_command(const ground_command_t& message) {
 }
 
 void PathPlannerNode::step(Utime now) {
-  kept_.tell();
+  checkpoint_.publish_restored();
   const PlannerOutput output = planner_.step(now);
   if (output.path) tell_path(*output.path);
   if (output.status.path_id == path_.path_id) repeat_path(now, output.path.has_value());
@@ -138,7 +138,7 @@ void PathPlannerNode::step(Utime now) {
   status_to(output.status, status);
   node_.publish(channel::kPlannerStatus, status, now);
   report(output.status);
-  if (kept_.due() || output.path) kept_.save(planner_.save());
+  if (checkpoint_.due() || output.path) checkpoint_.save(planner_.save());
 }
 
 void PathPlannerNode::repeat_path(Utime now, bool at_once) {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "common/bus/kept_state.hpp"
+#include "common/bus/checkpoint_store.hpp"
 #include "common/bus/node.hpp"
 #include "path_planner/path_planner.hpp"
 
@@ -34,7 +34,7 @@ class PathPlannerNode {
   void report(const PlannerStatus& status);
 
   Node& node_;
-  KeptState kept_;
+  CheckpointStore checkpoint_;
   Utime path_latency_;
   PathPlanner planner_;
   path_t path_{};  // the newest; no points: none

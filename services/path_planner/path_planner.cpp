@@ -540,7 +540,7 @@ PlannerStatus PathPlanner::status(Utime now) const {
     status.corridor_offset_m = distance(global_odom_.point_at(global_progress_m_), position(rover()));
   if (active_.route.empty()) {
     status.state = PlannerState::kNoPath;
-    status.text = std::string("no way to the global path: ") + text_of(last_repair_.status);
+    status.text = std::string("cannot reach the global path: ") + text_of(last_repair_.status);
     return status;
   }
   status.path_id = active_.id;
@@ -548,7 +548,7 @@ PlannerStatus PathPlanner::status(Utime now) const {
   const bool off_plan = active_.kind == PathKind::kRepair || active_.kind == PathKind::kRetreat;
   status.state = off_plan ? PlannerState::kRepairing : PlannerState::kFollowing;
   if (leads_to_goal() && short_of_goal_m() > global_->goal_tolerance_m)
-    status.text = "the goal is not free: the path ends beside it";
+    status.text = "the goal is blocked: the path ends beside it";
   describe_block(status);
   return status;
 }

@@ -17,9 +17,9 @@ std::uint8_t TraversabilityGrid::at(Point2 p) const {
 }
 
 std::string TraversabilityGrid::fault() const {
-  if (cells_x <= 0 || cells_y <= 0 || cells_x > kMostMapCells / cells_y) return "grid has no sensible size";
+  if (cells_x <= 0 || cells_y <= 0 || cells_x > kMostMapCells / cells_y) return "grid size out of range";
   if (cells.size() != static_cast<size_t>(cells_x) * static_cast<size_t>(cells_y))
-    return "grid size contradicts itself";
+    return "grid size does not match its cells";
   if (!(cell_m >= 0.01 && cell_m <= 1.0)) return "cell size out of range";
   if (!std::isfinite(origin_x_m) || !std::isfinite(origin_y_m)) return "grid origin is not finite";
   return "";

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "common/core/time.hpp"
+#include "common/bus/parameters.hpp"
 #include "point_cloud/point_cloud.hpp"
 
 namespace rover::cloud {
@@ -16,6 +16,6 @@ struct NodeConfig {
   Utime latency_us = 200'000;
 };
 
-NodeConfig load_config(const std::string& config_dir);
+NodeConfig load_config(const std::string& config_dir, ParameterList* list = nullptr);
 
 }  // namespace rover::cloud

@@ -33,7 +33,7 @@ std::optional<CloudResult> PointCloud::step(const GrayImage& left, const GrayIma
   if (!stereo) return std::nullopt;
   CloudResult result;
   result.valid_fraction = valid_fraction(stereo->disparity);
-  remove_foreground_fattening(stereo->disparity, config_.fattening);
+  remove_foreground_fattening(stereo->disparity, config_.foreground_fattening);
   result.cloud = filter_cloud(triangulate(stereo->disparity, tilted.stereo.camera()), config_.filter);
   result.T_body_cam = T_body_navcam(unit_, rig_.T_body_left, pan_rad, tilt_rad) * tilted.T_left_rectified;
   return result;

@@ -16,14 +16,15 @@
 namespace rover::cloud {
 
 struct PointCloudConfig {
-  stereo::MatcherConfig matcher{.residual_min_px = -40, .residual_count_px = 128};
-  double tilt_step_rad = 0.0873;  // the matcher's ground plane follows the tilt in such steps
+  stereo::MatcherConfig matcher{
+      .residual_min_px = -40, .residual_count_px = 128, .speckle_px = 200, .speckle_step_px16 = 3};
+  double tilt_step_rad = to_rad(5.0);  // the matcher's ground plane follows the tilt in such steps
   double min_depth_m = 0.8;
-  double max_depth_m = 12.0;
+  double max_depth_m = 10.0;
   double sigma_disparity_px = 0.25;  // calibration error 0.2 px rms, matching 0.1 px
   double sigma_floor_m = 0.005;
   double point_spacing_m = 0.02;  // minimum distance of pixels on a fronto-parallel surface
-  FatteningConfig fattening;
+  FatteningConfig foreground_fattening;
   FilterConfig filter;
 };
 

@@ -1,9 +1,9 @@
 // config/recorder.yaml.
 #pragma once
 
-#include <cstdint>
 #include <string>
 
+#include "common/bus/parameters.hpp"
 #include "recorder/keep_policy.hpp"
 
 namespace rover::recorder {
@@ -15,6 +15,6 @@ struct RecorderConfig {
   double min_free_gb = 0.2;        // stops recording below this, to leave space for the services' text logs
 };
 
-RecorderConfig load_config(const std::string& file);
+RecorderConfig load_config(const std::string& config_dir, ParameterList* list = nullptr);
 
 }  // namespace rover::recorder

@@ -42,7 +42,7 @@ bool TriggerFinder::is_trigger(const RawMessage& raw) {
   }
   if (raw.channel == channel::kFault) {
     fault_t fault{};
-    return decode(raw, fault) && fault.standing != 0;
+    return decode(raw, fault) && fault.active != 0;
   }
   return false;
 }

@@ -11,9 +11,9 @@ namespace rover::recorder {
 
 struct KeepConfig {
   bool reduced = false;
-  double before_s = 2.0;  // images kept before a trigger: five LocCam frames
-  double after_s = 1.0;
-  int every = 50;  // also keep every n-th frame
+  double images_before_s = 2.0;  // images kept before a trigger: five LocCam frames
+  double images_after_s = 1.0;
+  int image_interval = 50;  // also keep every n-th frame
   std::set<std::string> bulk_channels;
 };
 

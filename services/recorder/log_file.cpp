@@ -23,7 +23,7 @@ struct IntactPart {
 IntactPart scan_part(const std::string& path) {
   IntactPart intact;
   EventLogReader reader(path);
-  if (!reader.begins_as_log()) throw ConfigError(path + ": is no log; it is not written over, move it away");
+  if (!reader.begins_as_log()) throw ConfigError(path + ": is not a log and is not overwritten; move it away");
   for (LogEvent event; reader.next(event);) intact = {intact.events + 1, event.end, event.time};
   return intact;
 }

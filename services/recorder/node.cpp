@@ -13,8 +13,9 @@ RecorderNode::RecorderNode(Node& node, const RecorderConfig& config, const std::
     : node_(node), config_(config), log_path_(log_path), free_bytes_(std::move(free_bytes)), policy_(config.keep) {
   const double free_gb = static_cast<double>(free_bytes_()) / kBytesPerGb;
   if (free_gb < config_.min_free_start_gb)
-    throw ConfigError(log_path + ": " + std::to_string(free_gb) + " GB free on the disk, min_free_start_gb asks for " +
-                      std::to_string(config_.min_free_start_gb));
+    throw ConfigError(
+        log_path + ": " + std::to_string(free_gb) +
+        " GB of disk space are free, less than min_free_start_gb = " + std::to_string(config_.min_free_start_gb));
   open_log();
   node_.subscribe_raw([this](const RawMessage& raw) { add(raw); }, find_channel_type);
   node_.on_injection([this](const injection_t& injection) {
@@ -78,7 +79,7 @@ void RecorderNode::retry_recording(Utime now) {
     return;  // still impossible
   }
   node_.set_status(heartbeat_t::OK, "");
-  node_.log("WARN", "RECORDING goes on after a gap");
+  node_.log("WARN", "RECORDING resumed after a gap");
 }
 
 void RecorderNode::stop_recording(const std::string& why) {
@@ -92,7 +93,7 @@ void RecorderNode::stop_recording(const std::string& why) {
 std::shared_ptr<RecorderNode> make_recorder(Node& node, const std::string& config_dir) {
   const std::string run_dir = node.options().run_dir;
   if (run_dir.empty()) throw ConfigError("--run-dir is required: the log goes there");
-  return std::make_shared<RecorderNode>(node, load_config(config_dir + "/recorder.yaml"), run_dir + "/traverse.lcm",
+  return std::make_shared<RecorderNode>(node, load_config(config_dir), run_dir + "/traverse.lcm",
                                         [run_dir] { return free_disk_bytes(run_dir); });
 }
 

@@ -23,8 +23,9 @@ auto CommandInbox<Command>::take_released(Utime t) -> std::vector<Pending> {
 }
 
 template <class Command>
-void CommandInbox<Command>::inject_faults(const Command& command, Tap& tap, std::vector<Pending>& ready) {
-  for (const Tap::Passed& output : tap.pass(channel_, command.header, encoded(command))) {
+void CommandInbox<Command>::inject_faults(const Command& command, FaultInjector& injector,
+                                          std::vector<Pending>& ready) {
+  for (const FaultInjector::Output& output : injector.apply(channel_, command.header, encoded(command))) {
     Pending next{command.header.release_utime + output.delay, {}, true};
     if (!decode_message(output.bytes.data(), static_cast<int>(output.bytes.size()), next.command)) continue;
     next.command.header = command.header;
@@ -33,11 +34,11 @@ void CommandInbox<Command>::inject_faults(const Command& command, Tap& tap, std:
 }
 
 template <class Command>
-std::optional<Command> CommandInbox<Command>::take(Utime t, Tap* tap) {
+std::optional<Command> CommandInbox<Command>::take(Utime t, FaultInjector* injector) {
   std::vector<Pending> ready;
   for (Pending& pending : take_released(t)) {
-    if (tap != nullptr && !pending.fault_injected)
-      inject_faults(pending.command, *tap, ready);
+    if (injector != nullptr && !pending.fault_injected)
+      inject_faults(pending.command, *injector, ready);
     else
       ready.push_back(std::move(pending));
   }

@@ -1,4 +1,4 @@
-// Queue of actuator commands from one channel, ordered by release time, with optional fault injection (Tap).
+// Queue of actuator commands from one channel, ordered by release time, with optional fault injection (FaultInjector).
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 #include <rover/wheel_command_t.hpp>
 #include <vector>
 
-#include "common/bus/tap.hpp"
+#include "common/bus/fault_injector.hpp"
 
 namespace rover {
 
@@ -18,7 +18,7 @@ class CommandInbox {
 
   void add(const Command& command) { pending_.push_back({command.header.release_utime, command, false}); }
   // The newest command released by t; empty without a new one. Older commands that arrive later are dropped.
-  std::optional<Command> take(Utime t, Tap* tap);
+  std::optional<Command> take(Utime t, FaultInjector* injector);
 
  private:
   struct Pending {
@@ -27,7 +27,7 @@ class CommandInbox {
     bool fault_injected;
   };
   std::vector<Pending> take_released(Utime t);
-  void inject_faults(const Command& command, Tap& tap, std::vector<Pending>& ready);
+  void inject_faults(const Command& command, FaultInjector& injector, std::vector<Pending>& ready);
 
   const char* channel_;
   std::vector<Pending> pending_;

@@ -15,11 +15,11 @@ class FaultScript {
 
   void entered(std::int8_t state) { entered_.insert(state); }
   // Faults that begin now, in the order of the list; each is returned once.
-  std::vector<FaultOrder> take_due(Utime now, double driven_m) {
-    std::vector<FaultOrder> due;
+  std::vector<FaultRequest> take_due(Utime now, double driven_m) {
+    std::vector<FaultRequest> due;
     std::erase_if(waiting_, [&](const ScriptedFault& fault) {
       const bool begins = (fault.at_s && to_seconds(now - start_) >= *fault.at_s) ||
-                          (fault.at_m && driven_m >= *fault.at_m) ||
+                          (fault.after_m && driven_m >= *fault.after_m) ||
                           (fault.at_state && entered_.contains(*fault.at_state));
       if (begins) due.push_back(fault.order);
       return begins;

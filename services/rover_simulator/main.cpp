@@ -66,7 +66,7 @@ int simulate(Arguments& arguments) {
   arguments.options.end.timeout_s = scenario.timeout_s;
   arguments.options.faults = scenario.faults;
   rover::Simulator simulator(arguments.options, rover_and_world, lcm, &reports);
-  const rover::SimulationSummary summary = simulator.run(rover::going);
+  const rover::SimulationSummary summary = simulator.run(rover::keep_running);
   for (const std::string& left : summary.left) std::printf("%s\n", left.c_str());
   if (!arguments.run_dir.empty()) write_summary(arguments.run_dir, summary);
   return 0;

@@ -10,7 +10,7 @@ constexpr Utime kAbsenceAfterHang = 3'000'000;  // includes the time for detecti
 
 }  // namespace
 
-void ProcessFaults::order(const FaultOrder& order) {
+void ProcessFaults::order(const FaultRequest& order) {
   if (order.fault == "hang") {
     pending_.push_back({{order.target, SIGSTOP, kAbsenceAfterHang}});
     return;

@@ -18,7 +18,7 @@ struct ProcessSignal {
 class ProcessFaults {
  public:
   // Faults of FaultTarget::kService.
-  void order(const FaultOrder& order);
+  void order(const FaultRequest& order);
   // Signals to send now. A signal to an absent service waits until it has rejoined.
   std::vector<ProcessSignal> take_due(const Barrier& barrier);
 

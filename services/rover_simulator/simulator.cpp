@@ -185,7 +185,7 @@ bool Simulator::wait_for_start(const std::function<bool()>& running) {
 }
 
 WheelCommand Simulator::command_at(Utime t) {
-  if (auto newest = wheel_commands_.take(t, tap_.get())) command_ = std::move(newest);
+  if (auto newest = wheel_commands_.take(t, injector_.get())) command_ = std::move(newest);
   if (!command_ || command_->valid_until_utime < t || !all_finite(*command_)) return rover_.hold_command();
   return wheel_command_from(*command_);
 }
@@ -220,7 +220,7 @@ void Simulator::publish_sensors(Utime t) {
 
 // A new command replaces the previous one and its image request.
 void Simulator::move_pan_tilt(Utime t) {
-  if (const auto newest = ptu_commands_.take(t, tap_.get())) {
+  if (const auto newest = ptu_commands_.take(t, injector_.get())) {
     rover_.pan_tilt()->command(pan_tilt_command_from(*newest));
     ptu_enabled_ = true;
   }
@@ -337,7 +337,7 @@ void Simulator::publish_tick(Utime t) {
   tick.mode = options_.realtime ? tick_t::REALTIME : tick_t::LOCKSTEP;
   tick.members = members_ = barrier_.admit(t);
   tick.member_count = static_cast<std::int32_t>(tick.members.size());
-  tick.streams = streams_.take_grown();
+  tick.streams = streams_.take_updated();
   const std::vector<stream_seq_t> streams = take_released_streams(t);
   tick.streams.insert(tick.streams.end(), streams.begin(), streams.end());
   std::sort(tick.streams.begin(), tick.streams.end(), [](const stream_seq_t& a, const stream_seq_t& b) {

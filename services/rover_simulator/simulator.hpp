@@ -16,8 +16,8 @@
 #include <string>
 #include <vector>
 
+#include "common/bus/fault_injector.hpp"
 #include "common/bus/streams.hpp"
-#include "common/bus/tap.hpp"
 #include "common/core/barrier.hpp"
 #include "rover_simulator/command_inbox.hpp"
 #include "rover_simulator/fault_script.hpp"
@@ -138,7 +138,7 @@ class Simulator {
   WorldFaults world_faults_;
   SensorFaults sensor_faults_;
   SensorFaultModel sensors_;
-  std::unique_ptr<Tap> tap_;                   // null until the first fault
+  std::unique_ptr<FaultInjector> injector_;    // null until the first fault
   std::vector<injection_t> requested_;         // from others, on INJECT
   std::vector<injection_t> announced_;         // own lasting faults, repeated for restarted processes
   std::vector<std::string> members_;           // of the last tick

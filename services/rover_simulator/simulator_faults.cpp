@@ -19,7 +19,7 @@ using Clock = std::chrono::steady_clock;
 constexpr double kIdleTimeout_s = 10.0;
 constexpr double kMinStepM = 0.01;  // smaller moves are noise of a stationary rover
 
-injection_t injection_of(const FaultOrder& order, std::int64_t id, Utime now) {
+injection_t injection_of(const FaultRequest& order, std::int64_t id, Utime now) {
   injection_t injection{};
   injection.injection_id = id;
   injection.fault = order.fault;
@@ -48,11 +48,11 @@ void Simulator::apply_faults(Utime t, const std::function<bool()>& running) {
 }
 
 void Simulator::begin_scripted(Utime t) {
-  for (const FaultOrder& order : script_.take_due(t, driven_m_)) {
+  for (const FaultRequest& order : script_.take_due(t, driven_m_)) {
     injection_t injection = injection_of(order, ++injections_, t);
     publish(channel::kInject, injection, t, t);
     const FaultKind& kind = *find_fault(order.fault);
-    if (kind.lasts) announced_.push_back(injection);
+    if (kind.has_duration) announced_.push_back(injection);
     if (kind.on == FaultTarget::kService) process_faults_.order(order);
     begin(injection);
   }
@@ -75,8 +75,8 @@ void Simulator::begin(const injection_t& injection) {
               static_cast<long long>(now_), injection.fault.c_str(), injection.target.c_str(), injection.amount, valid);
   std::fflush(stdout);
   if (!valid) return;
-  if (!tap_) tap_ = std::make_unique<Tap>(streams_.publisher());
-  tap_->inject(injection);
+  if (!injector_) injector_ = std::make_unique<FaultInjector>(streams_.publisher());
+  injector_->inject(injection);
   if (kind->on == FaultTarget::kWorld && target_problem(*kind, injection.target, find_channel_type).empty())
     world_faults_.begin(injection, yaw_of(rover_.T_map_body()));
 }

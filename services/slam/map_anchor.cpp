@@ -22,6 +22,12 @@ void MapAnchor::anchor(const Pose2& T_slam_odom) {
   T_map_slam_ = compose(T_map_odom_, between(T_slam_odom, Pose2{}));
 }
 
+void MapAnchor::restore(const State& state) {
+  utime_ = state.utime;
+  T_map_odom_ = state.T_map_odom;
+  T_map_slam_ = state.T_map_slam;
+}
+
 Pose2 MapAnchor::T_map_odom(const Pose2& T_slam_odom) const {
   return compose(*T_map_slam_, T_slam_odom);
 }

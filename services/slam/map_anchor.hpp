@@ -18,17 +18,24 @@ struct AnchorConfig {
 
 class MapAnchor {
  public:
+  // For the checkpoint.
+  struct State {
+    Utime utime = kNever;  // of the newest POSE
+    Pose2 T_map_odom;
+    Pose2 T_map_slam;
+  };
+
   explicit MapAnchor(const AnchorConfig& config) : config_(config) {}
 
   // Call for each POSE. True: map -> odom was changed by an external correction.
   bool add_pose(Utime utime, const Eigen::Isometry3d& T_map_odom, const Eigen::Isometry3d& T_odom_body);
   // Sets T_map_slam so that SLAM agrees with the newest POSE, given the drift `T_slam_odom`.
   void anchor(const Pose2& T_slam_odom);
-  bool anchored() const { return T_map_slam_.has_value(); }
-  // Both require anchored().
+  // Both require an anchor.
   Pose2 T_map_odom(const Pose2& T_slam_odom) const;
   Pose2 T_map_slam() const { return *T_map_slam_; }
-  void restore(const Pose2& T_map_slam) { T_map_slam_ = T_map_slam; }
+  State state() const { return {utime_, T_map_odom_, T_map_slam_.value_or(Pose2{})}; }
+  void restore(const State& state);
 
  private:
   AnchorConfig config_;

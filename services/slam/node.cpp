@@ -22,10 +22,10 @@ SlamNode::SlamNode(Node& node, const NodeConfig& config) : node_(node), checkpoi
   node_.subscribe<pose_t>(channel::kPose, [this](const pose_t& m) { on_pose(m); });
   node_.subscribe_slow<cloud_t>(channel::kCloud, config.latency_us, [this](const cloud_t& m) { on_cloud(m); });
   node_.on_step([this](Utime) {
-    checkpoint_.tell();
+    checkpoint_.publish_restored();
     if (unsaved_ && checkpoint_.due()) unsaved_ = !checkpoint_.save(slam_.save());
   });
-  checkpoint_.restore([this](const KeptState::Bytes& bytes) { return slam_.restore(bytes); });
+  checkpoint_.restore([this](const CheckpointStore::Bytes& bytes) { return slam_.restore(bytes); });
 }
 
 void SlamNode::on_state(const supervisor_state_t& message) {
@@ -40,8 +40,9 @@ void SlamNode::on_pose(const pose_t& message) {
   PoseSample sample = sample_from(message);
   sample.odometry.dead_reckoned_m = dead_reckoned_.add(message);
   poses_.add(sample);
-  if (slam_.add_pose(sample.utime, sample.T_map_odom, sample.odometry.T_odom_body))
-    node_.log("INFO", "ANCHOR map was moved against odom by a correction");
+  if (!slam_.add_pose(sample.utime, sample.T_map_odom, sample.odometry.T_odom_body)) return;
+  unsaved_ = true;
+  node_.log("INFO", "ANCHOR map was moved against odom by a correction");
 }
 
 void SlamNode::on_cloud(const cloud_t& message) {

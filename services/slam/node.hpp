@@ -7,7 +7,7 @@
 #include <rover/supervisor_state_t.hpp>
 #include <string>
 
-#include "common/bus/kept_state.hpp"
+#include "common/bus/checkpoint_store.hpp"
 #include "common/bus/node.hpp"
 #include "slam/config.hpp"
 #include "slam/pose_history.hpp"
@@ -40,12 +40,12 @@ class SlamNode {
   void report_status(Status status);
 
   Node& node_;
-  KeptState checkpoint_;
+  CheckpointStore checkpoint_;
   Slam slam_;
   PoseHistory poses_;
   DeadReckonedDistance dead_reckoned_;
   bool full_level_ = false;
-  bool unsaved_ = false;  // a cloud arrived since the last checkpoint
+  bool unsaved_ = false;  // a cloud or a correction arrived since the last checkpoint
   Status last_status_ = Status::kOk;
 };
 

@@ -1,4 +1,5 @@
-// Checkpoint of SLAM: particles, frames, and the seen map cells after a mask of one bit per cell.
+// Checkpoint of SLAM: particles, frames, and the seen map cells after a mask of one bit per cell. The last POSE shows
+// a correction that came during the restart. A jump candidate starts anew: the next cloud makes it again.
 #include <cmath>
 
 #include "common/core/state_bytes.hpp"
@@ -7,7 +8,7 @@
 namespace rover::slam {
 namespace {
 
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 
 bool is_finite_pose(const Pose2& pose) {
   return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.yaw_rad);
@@ -87,7 +88,7 @@ std::vector<std::uint8_t> Slam::save() const {
   out.put(travelled_m_);
   out.put(anchor_travelled_m_);
   out.put(lost_count_);
-  out.put(anchor_.anchored() ? anchor_.T_map_slam() : Pose2{});
+  out.put(anchor_.state());
   out.put(static_cast<std::uint64_t>(filter_.particles().size()));
   for (const Particle& particle : filter_.particles()) out.put(particle);
   put_map(out, map_.grid());
@@ -106,11 +107,11 @@ bool Slam::restore(const std::vector<std::uint8_t>& bytes) {
   fresh.travelled_m_ = in.get<double>();
   fresh.anchor_travelled_m_ = in.get<double>();
   fresh.lost_count_ = in.get<int>();
-  const auto T_map_slam = in.get<Pose2>();
-  fresh.anchor_.restore(T_map_slam);
+  const auto anchor = in.get<MapAnchor::State>();
+  fresh.anchor_.restore(anchor);
   std::vector<Particle> particles(in.count(sizeof(Particle)));
-  bool valid = !particles.empty() && is_finite_pose(T_map_slam) && is_finite(fresh.previous_.T_odom_body) &&
-               std::isfinite(fresh.z_m_);
+  bool valid = !particles.empty() && is_finite_pose(anchor.T_map_slam) && is_finite_pose(anchor.T_map_odom) &&
+               is_finite(fresh.previous_.T_odom_body) && std::isfinite(fresh.z_m_);
   for (Particle& particle : particles) {
     particle = in.get<Particle>();
     valid = valid && is_finite_pose(particle.pose) && std::isfinite(particle.log_weight);

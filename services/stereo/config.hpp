@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "common/core/time.hpp"
+#include "common/bus/parameters.hpp"
 #include "common/stereo/stereo.hpp"
 
 namespace rover::stereo {
@@ -15,6 +15,6 @@ struct NodeConfig {
   Utime latency_us = 120'000;
 };
 
-NodeConfig load_config(const std::string& config_dir);
+NodeConfig load_config(const std::string& config_dir, ParameterList* list = nullptr);
 
 }  // namespace rover::stereo

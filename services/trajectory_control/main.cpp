@@ -3,8 +3,8 @@
 #include "trajectory_control/node.hpp"
 
 int main(int argc, char** argv) {
-  return rover::node_main(argc, argv, "trajectory_control", [](const rover::NodeContext& context) {
-    return std::make_shared<rover::control::TrajectoryControlNode>(context.node,
-                                                                   rover::control::load_config(context.config_dir));
+  using namespace rover;
+  return node_main(argc, argv, "trajectory_control", control::load_config, [](const NodeContext& context) {
+    return std::make_shared<control::TrajectoryControlNode>(context.node, control::load_config(context.config_dir));
   });
 }

@@ -10,9 +10,9 @@ using Points = std::vector<Eigen::Vector2d>;
 
 constexpr double kMinSpacingM = 1e-3;
 constexpr double kMaxLengthM = 1e5;
-constexpr double kSearchWindowM = 0.5;   // around the arc length of the smoothed curve
-constexpr double kHeadingWeightM = 0.3;  // 1 rad of heading error costs as much as this distance
-constexpr double kCandidateShare = 0.5;  // of the half width: parts this close are candidates
+constexpr double kSearchWindowM = 0.5;      // around the arc length of the smoothed curve
+constexpr double kHeadingWeightM = 0.3;     // 1 rad of heading error costs as much as this distance
+constexpr double kCandidateFraction = 0.5;  // of the half width: parts this close are candidates
 
 Points without_duplicates(const Points& points) {
   Points out;
@@ -249,18 +249,18 @@ PathPosition TrackedPath::locate(const Pose2& pose) const {
   double nearest_m = kInfinity;
   for (const PathSegment& segment : segments_)
     for (const PathSample& sample : segment.samples()) nearest_m = std::min(nearest_m, (sample.p - p).norm());
-  const double candidate_distance_m = std::max(nearest_m, kCandidateShare * corridor_half_width_m_);
+  const double candidate_distance_m = std::max(nearest_m, kCandidateFraction * corridor_half_width_m_);
 
   PathPosition best;
-  double least_cost = kInfinity;
+  double min_cost = kInfinity;
   for (size_t l = 0; l < segments_.size(); ++l) {
     const double step_m = segments_[l].length_m() / static_cast<double>(segments_[l].samples().size() - 1);
     for (const size_t i : local_minima(segments_[l].samples(), p)) {
       const PathSample& sample = segments_[l].samples()[i];
       const double distance_m = (sample.p - p).norm();
       const double cost = std::hypot(distance_m, kHeadingWeightM * wrap_angle(sample.yaw_rad - pose.yaw_rad));
-      if (distance_m > candidate_distance_m || cost >= least_cost) continue;
-      least_cost = cost;
+      if (distance_m > candidate_distance_m || cost >= min_cost) continue;
+      min_cost = cost;
       best = {l, step_m * static_cast<double>(i)};
     }
   }

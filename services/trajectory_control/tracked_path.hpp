@@ -23,12 +23,12 @@ struct PathInput {
 struct TrackedPathConfig {
   double sample_m = 0.05;
   SmootherConfig smoother;
-  double corner_rad = 0.698;  // 40 deg between the chords before and after a point: point turn
+  double corner_rad = to_rad(40.0);  // between the chords before and after a point: point turn
   double corner_chord_m = 0.30;
   double max_curvature_per_m = 1.0;
   double max_curvature_rate = 0.185;  // [1/(m s)], limit of the steering motors
   double cruise_speed_mps = 0.2;
-  double min_speed_mps = 0.06;  // lower bound for slow-down due to curvature changes
+  double min_speed_mps = 0.10;  // lower bound for slow-down due to curvature changes
   double max_wheel_speed_mps = 0.29;
   double outer_wheel_x_m = 0.75;
   double outer_wheel_y_m = 0.41;
@@ -91,7 +91,7 @@ class TrackedPath {
   double corridor_half_width_m() const { return corridor_half_width_m_; }
   double length_m() const { return segments_.back().start_m() + segments_.back().length_m(); }
   const std::vector<PathSegment>& segments() const { return segments_; }
-  // Closest sample to the pose on the whole path. If several parts pass within kCandidateShare of the corridor half
+  // Closest sample to the pose on the whole path. If several parts pass within kCandidateFraction of the corridor half
   // width, the heading selects among their closest samples, so a path that starts with a point turn starts at the
   // rover.
   PathPosition locate(const Pose2& pose) const;

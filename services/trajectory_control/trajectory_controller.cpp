@@ -13,9 +13,9 @@ constexpr double kPredictionStepM = 0.1;
 constexpr double kMinSlipSpeedMps = 0.03;  // below it the direction of motion is noise
 constexpr double kMaxSideSlipRad = 0.35;
 constexpr double kStationaryMps = 0.02;
-constexpr double kSlowMps = 0.1;          // stops within 0.05 m
-constexpr double kStationaryShare = 0.8;  // of the corridor half width
-constexpr double kMinTurnRad = 0.175;     // 10 deg: smaller heading errors do not cause a corridor violation
+constexpr double kSlowMps = 0.1;             // stops within 0.05 m
+constexpr double kStationaryFraction = 0.8;  // of the corridor half width
+constexpr double kMinTurnRad = 0.175;        // 10 deg: smaller heading errors do not cause a corridor violation
 
 Pose2 propagate(const Pose2& pose, double distance_m, double curvature_per_m, double side_slip_rad) {
   const double mid_yaw_rad = pose.yaw_rad + 0.5 * distance_m * curvature_per_m;
@@ -136,12 +136,12 @@ Projection TrajectoryController::advance_on_path(const Pose2& pose) {
 }
 
 // A slow or stationary rover that would leave its corridor on the first arc also turns on the spot, because the
-// supervisor would stop it. If stationary, a margin (kStationaryShare) covers the growth over the first metre.
+// supervisor would stop it. If stationary, a margin (kStationaryFraction) covers the growth over the first metre.
 bool TrajectoryController::update_point_turn(const ControlOutput& out, double forward_mps) {
   const double speed_mps = std::abs(forward_mps);
-  const double width_share = speed_mps < kStationaryMps ? kStationaryShare : 1.0;
+  const double width_fraction = speed_mps < kStationaryMps ? kStationaryFraction : 1.0;
   const bool would_leave_corridor =
-      speed_mps < kSlowMps && out.predicted_corridor_error_m > width_share * out.corridor_half_width_m;
+      speed_mps < kSlowMps && out.predicted_corridor_error_m > width_fraction * out.corridor_half_width_m;
   const double start_rad = would_leave_corridor ? kMinTurnRad : config_.turn_start_rad;
   turning_ = std::abs(out.heading_error_rad) > (turning_ ? config_.turn_stop_rad : start_rad);
   return turning_;

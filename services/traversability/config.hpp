@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "common/core/time.hpp"
+#include "common/bus/parameters.hpp"
 #include "traversability/traversability_config.hpp"
 
 namespace rover::trav {
@@ -15,6 +15,6 @@ struct NodeConfig {
   double max_pose_age_s = 0.5;  // older: difficulty is NaN
 };
 
-NodeConfig load_config(const std::string& config_dir);
+NodeConfig load_config(const std::string& config_dir, ParameterList* list = nullptr);
 
 }  // namespace rover::trav

@@ -48,7 +48,7 @@ double difficulty_ahead(const TraversabilityMap& map, const Pose2& body, const A
       sums.cost += static_cast<double>(map.cells[i]) / kImpassable;
     }
   const double cells = ahead.area_m2() / (shape.cell_m * shape.cell_m);
-  if (sums.known == 0 || sums.known < config.min_known_share * cells) return kNaN;
+  if (sums.known == 0 || sums.known < config.min_known_fraction * cells) return kNaN;
   return std::max<double>(sums.blocked, sums.cost) / sums.known;
 }
 

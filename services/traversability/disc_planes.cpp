@@ -21,7 +21,7 @@ DiscPlanes::DiscPlanes(const GridShape& shape, const PlaneConfig& config)
     half_.push_back(static_cast<int>(std::floor(std::sqrt(r * r - dy * dy))));
     cells += 2 * half_.back() + 1;
   }
-  min_cells_ = std::max(3, static_cast<int>(std::ceil(config.min_share * cells)));
+  min_cells_ = std::max(3, static_cast<int>(std::ceil(config.min_seen_fraction * cells)));
   stride_ = static_cast<std::size_t>(shape.cells_x + 2 * reach_ + 1);
   rows_.resize(static_cast<std::size_t>(shape.cells_y) * kMoments * stride_);
   sums_.resize(static_cast<std::size_t>(shape.cells_x) * kSums);

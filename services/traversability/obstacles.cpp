@@ -68,7 +68,7 @@ class ConnectedRegion {
 std::vector<std::uint8_t> find_obstacles(const TerrainGrid& grid, const DiscPlanes& planes, const Steps& steps,
                                          const TraversabilityConfig& config) {
   const GridShape& shape = grid.shape;
-  const double limit_m = config.step_limit_m(), region_growing_m = config.step.region_growing_m;
+  const double limit_m = config.step_limit_m(), grow_height_m = config.step.grow_height_m;
   std::vector<std::uint8_t> obstacle(shape.size(), 0);
   std::vector<Cell> queue;
   const auto mark = [&](Cell p) {
@@ -84,13 +84,13 @@ std::vector<std::uint8_t> find_obstacles(const TerrainGrid& grid, const DiscPlan
   for (std::size_t k = 0; k < queue.size(); ++k)
     for_each_neighbour(shape, queue[k], [&](Cell q) {
       const std::size_t i = shape.at(q.ix, q.iy);
-      const bool raised = steps.rise_m[i] >= region_growing_m || grid.height_m[i] - planes.at(i).height_m >= limit_m;
+      const bool raised = steps.rise_m[i] >= grow_height_m || grid.height_m[i] - planes.at(i).height_m >= limit_m;
       if (!obstacle[i] && raised) mark(q);
     });
   for (const Cell& p : queue)
     for_each_neighbour(shape, p, [&](Cell q) {
       const std::size_t i = shape.at(q.ix, q.iy);
-      if (steps.raw_rise_m[i] >= region_growing_m) obstacle[i] = 1;
+      if (steps.raw_rise_m[i] >= grow_height_m) obstacle[i] = 1;
     });
   return obstacle;
 }

@@ -45,10 +45,10 @@ class StepFinder {
  public:
   StepFinder(const TerrainGrid& grid, const DiscPlanes& planes, const StepConfig& config)
       : shape_(grid.shape),
-        padded_(grid, std::max(1, static_cast<int>(std::floor(config.reach_m / grid.shape.cell_m + 1e-9)))),
+        padded_(grid, std::max(1, static_cast<int>(std::floor(config.radius_m / grid.shape.cell_m + 1e-9)))),
         slopes_(planes, grid.shape.size()),
         factor_(static_cast<float>(config.significance * config.significance)),
-        reach_cells_(config.reach_m / grid.shape.cell_m) {
+        reach_cells_(config.radius_m / grid.shape.cell_m) {
     steps_.rise_m.assign(shape_.size(), 0.0F);
     steps_.drop_m = steps_.raw_rise_m = steps_.rise_m;
   }

@@ -31,7 +31,7 @@ class CellCost {
     const CostConfig& c = config_.cost;
     const double share = std::pow(slope_rad / c.max_slope_rad, c.slope_exponent) +
                          std::pow(rise_m / config_.step_limit_m(), c.step_exponent) +
-                         std::pow(roughness_m / c.roughness_m, c.roughness_exponent);
+                         std::pow(roughness_m / c.max_roughness_m, c.roughness_exponent);
     return static_cast<std::uint8_t>(std::lround(kMaxCost * std::min(share, 1.0)));
   }
 
@@ -68,7 +68,7 @@ struct TerrainAnalysis {
 }  // namespace
 
 TraversabilityMap compute_traversability(TerrainGrid grid, const TraversabilityConfig& config) {
-  fill_small_holes(grid, config.step.max_sigma_m, config.step.region_growing_m);
+  fill_small_holes(grid, config.step.max_sigma_m, config.step.grow_height_m);
   TerrainAnalysis analysis(grid, config);
   TraversabilityMap map{grid.shape, std::vector<std::uint8_t>(grid.shape.size(), kUnknown), {}};
   const CellCost cell_cost(config);

@@ -3,28 +3,29 @@
 
 #include <algorithm>
 
+#include "common/core/frames.hpp"
 #include "common/core/vehicle.hpp"
 
 namespace rover::trav {
 
 struct PlaneConfig {
-  double radius_m = 0.9;       // of the disc: half the length of the rover
-  double min_share = 0.2;      // of the disc's cells that must be seen; a corner of the seen area has a quarter
-  double min_spread_m = 0.15;  // standard deviation of the cells' positions along the minor axis
+  double radius_m = 0.9;           // of the disc: half the length of the rover
+  double min_seen_fraction = 0.2;  // of the disc's cells that must be seen; a corner of the seen area has a quarter
+  double min_spread_m = 0.15;      // standard deviation of the cells' positions along the minor axis
 };
 
 struct StepConfig {
-  double reach_m = 0.25;            // wheel diameter: a rise within this distance is a step
+  double radius_m = 0.25;           // wheel diameter: a rise within this distance is a step
   double mean_height_ratio = 0.85;  // of a rock's height that remains in the mean heights of cells
-  double region_growing_m = 0.08;   // lower rise threshold for neighbours of an obstacle
+  double grow_height_m = 0.08;      // lower rise threshold for neighbours of an obstacle
   double significance = 3.0;        // standard deviations; smaller differences are noise
   double max_sigma_m = 0.06;        // cells above are unknown
 };
 
 struct CostConfig {
-  double max_slope_rad = 0.3316;  // 19 deg; impassable beyond
-  double roughness_m = 0.12;      // rms about the plane with the maximum cost
-  double slope_exponent = 1.7;    // fits 10/15/25/40 at 0/5/10/15 deg (Azkarate et al. 2020), scaled to the limit
+  double max_slope_rad = to_rad(19.0);  // impassable beyond
+  double max_roughness_m = 0.12;        // rms about the plane with the maximum cost
+  double slope_exponent = 1.7;          // fits 10/15/25/40 at 0/5/10/15 deg (Azkarate et al. 2020), scaled to the limit
   double step_exponent = 3.0;
   double roughness_exponent = 2.0;
 };
@@ -34,8 +35,8 @@ struct AheadConfig {
   double near_m = 1.0;
   double far_m = 6.0;
   double half_width_m = 2.0;
-  double clearance_m = 0.6;      // cells nearer to an obstacle are blocked: half the rover's width plus margin
-  double min_known_share = 0.3;  // of its cells; below: NaN
+  double clearance_m = 0.6;         // cells nearer to an obstacle are blocked: half the rover's width plus margin
+  double min_known_fraction = 0.3;  // of its cells; below: NaN
 };
 
 struct TraversabilityConfig {

@@ -1,8 +1,9 @@
-// Reads config/visual_odometry.yaml.
+// config/visual_odometry.yaml.
 #pragma once
 
 #include <string>
 
+#include "common/bus/parameters.hpp"
 #include "visual_odometry/odometry.hpp"
 
 namespace rover::vo {
@@ -13,6 +14,6 @@ struct NodeConfig {
   double gyro_history_s = 30.0;
 };
 
-NodeConfig load_config(const std::string& config_dir);
+NodeConfig load_config(const std::string& config_dir, ParameterList* list = nullptr);
 
 }  // namespace rover::vo

@@ -3,7 +3,7 @@
 #include "visual_odometry/node.hpp"
 
 int main(int argc, char** argv) {
-  return rover::node_main(argc, argv, "visual_odometry", [](const rover::NodeContext& context) {
+  return rover::node_main(argc, argv, "visual_odometry", rover::vo::load_config, [](const rover::NodeContext& context) {
     return std::make_shared<rover::vo::OdometryNode>(context.node, rover::vo::load_config(context.config_dir));
   });
 }

@@ -53,7 +53,7 @@ Matrix6d rotated(const Matrix6d& cov, const Eigen::Matrix3d& R) {
 
 }  // namespace
 
-Odometry::Odometry(const OdometryConfig& config) : config_(config), offset_(config.offset) {}
+Odometry::Odometry(const OdometryConfig& config) : config_(config), offset_(config.disparity_offset) {}
 
 std::optional<OdometryResult> Odometry::step(const StereoFrame& frame) {
   ROVER_CHECK(frame.utime > newest_utime_, frame.utime, newest_utime_);

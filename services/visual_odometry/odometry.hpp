@@ -35,7 +35,7 @@ struct OdometryConfig {
   StereoMatchConfig stereo;
   TrackerConfig tracker;
   MotionConfig motion;
-  DisparityOffsetConfig offset;
+  DisparityOffsetConfig disparity_offset;
 };
 
 struct StereoFrame {

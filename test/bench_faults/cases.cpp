@@ -20,13 +20,13 @@ const std::vector<std::string> kServices = {"stereo",       "visual_odometry",  
                                             "path_planner", "trajectory_control", "locomotion"};
 const std::vector<std::string> kOptional = {"recorder", "mission_control", "global_localization"};
 const std::vector<std::string> kFull = {"point_cloud", "pan_tilt", "slam", "traversability"};
-constexpr double kQuickRestartS = 0.2;  // as s6 starts a process again
+constexpr double kQuickRestartS = 0.2;  // restart delay of s6
 
 size_t index_of(const std::vector<std::string>& names, Who who) {
   return static_cast<size_t>(std::find(names.begin(), names.end(), who) - names.begin());
 }
 
-// ---- causes by the taps of the nodes, on one channel or field
+// ---- fault injection on one channel or field
 
 Cause tap(const std::string& fault, const std::string& target, double amount, double for_s) {
   return {fault + " " + target, for_s, [=](Hands& h, Who, int) { h.tap(fault, target, amount, for_s); }, nullptr,
@@ -39,8 +39,8 @@ Cause nan(const std::string& field, double for_s) {
   return tap("nan", field, 1.0, for_s);
 }
 
-// Of the streams that come at each tick, which are most of all messages. Of IMU and wheels less: ten in a row are a
-// fault of their own.
+// On the streams of every tick, which are most messages. Fewer of IMU and wheels, because ten consecutive losses are a
+// separate fault.
 Cause losing(double sensors, double decisions, double for_s) {
   return {"messages lost", for_s,
           [=](Hands& h, Who, int) {
@@ -51,9 +51,9 @@ Cause losing(double sensors, double decisions, double for_s) {
           nullptr, nullptr};
 }
 
-// Off the path, and more so ahead.
+// Cross track error, with a larger predicted one.
 Cause straying() {
-  return {"the controller strays", 0.3,
+  return {"cross track error of the controller", 0.3,
           [](Hands& h, Who, int) {
             h.tap("offset", "CONTROL_STATUS.cross_track_m", 0.5, 0.3);
             h.tap("offset", "CONTROL_STATUS.predicted_corridor_error_m", 1.0, 0.3);
@@ -68,28 +68,28 @@ Cause broken(const std::string& text, double longest_s, std::function<void(Broke
           [](Hands& h, Who) { h.rover.broken = {}; }, nullptr};
 }
 Cause drive_current(double current_a, double longest_s) {
-  return broken("a wheel that is hard to turn", longest_s,
+  return broken("high friction of a wheel", longest_s,
                 [=](Broken& b, Who who, int) { b.drive_a[index_of(kDrives, who)] = current_a; });
 }
 Cause steer_current(double current_a, double longest_s) {
-  return broken("a steering that is stuck", longest_s,
+  return broken("stuck steering", longest_s,
                 [=](Broken& b, Who who, int) { b.steer_a[index_of(kSteers, who)] = current_a; });
 }
-// Hot without ever being over the limit for a second.
+// Thermal overload without exceeding the current limit for a second.
 Cause steer_pulses() {
   Cause cause = steer_current(3.0, 6.0);
-  cause.text = "a steering that pulls again and again";
+  cause.text = "repeated steering overload";
   cause.go_on = [](Hands& h, Who who, double age_s) {
     h.rover.broken.steer_a[index_of(kSteers, who)] = std::fmod(age_s, 0.9) < 0.8 ? 3.0 : 0.3;
   };
   return cause;
 }
 Cause roll(double deg) {
-  return broken("ground tilted across", 6.0,
+  return broken("lateral tilt of the ground", 6.0,
                 [=](Broken& b, Who, int turn) { b.roll_rad = to_rad(turn % 2 == 0 ? deg : -deg); });
 }
 Cause pitch(double deg) {
-  return broken("ground tilted along", 6.0,
+  return broken("longitudinal tilt of the ground", 6.0,
                 [=](Broken& b, Who, int turn) { b.pitch_rad = to_rad(turn % 2 == 0 ? deg : -deg); });
 }
 Cause jolt() {
@@ -105,15 +105,15 @@ Cause slip(double ratio) {
   return broken("loose ground", 9.0, [=](Broken& b, Who, int) { b.slip_ratio = ratio; });
 }
 Cause shove() {
-  return broken("a slide to the side", 1.2, [](Broken& b, Who, int turn) { b.shove_mps = turn % 2 == 0 ? 1.2 : -1.2; });
+  return broken("lateral slide", 1.2, [](Broken& b, Who, int turn) { b.shove_mps = turn % 2 == 0 ? 1.2 : -1.2; });
 }
-// The driver takes the commands, and nothing comes of them.
-Cause standing() {
-  return broken("a driver that turns no wheel", 33.0, [](Broken& b, Who, int) { b.stands = true; });
+// The driver accepts commands but does not move the wheels.
+Cause unresponsive_driver() {
+  return broken("driver does not move the wheels", 33.0, [](Broken& b, Who, int) { b.stands = true; });
 }
-// The wheels turn on when the ground has the rover stand.
+// The wheels continue to turn after a stop command.
 Cause runaway() {
-  return {"a driver that does not stop", 6.0,
+  return {"driver does not stop", 6.0,
           [](Hands& h, Who, int) {
             h.rover.broken.runaway_mps = 0.06;
             h.ground.wish(Wish::kStand);
@@ -122,7 +122,7 @@ Cause runaway() {
           [](Hands& h, Who) { h.rover.broken = {}; }, nullptr};
 }
 
-// ---- causes in seeing
+// ---- causes in the cameras
 
 Cause pictures(const std::string& text, std::function<double(int)> share) {
   return {text, 3.0,
@@ -138,7 +138,7 @@ Cause visual_lost(double longest_s) {
 }
 
 Cause slam_lost(double longest_s) {
-  return {"nothing that the map knows", longest_s, [](Hands& h, Who, int) { h.blindness.slam_lost = true; },
+  return {"SLAM lost", longest_s, [](Hands& h, Who, int) { h.blindness.slam_lost = true; },
           [](Hands& h, Who) { h.blindness.slam_lost = false; }, nullptr};
 }
 
@@ -149,7 +149,7 @@ Cause hang(double longest_s) {
           [](Hands& h, Who who) { h.stack.hang(who, false); }, nullptr};
 }
 Cause reports(std::int8_t status, bool for_good) {
-  return {for_good ? "says that it is ill, and kills do not help" : "says that it is ill", for_good ? 20.0 : 2.0,
+  return {for_good ? "reports a fault, persistent after kills" : "reports a fault", for_good ? 20.0 : 2.0,
           [=](Hands& h, Who who, int) {
             h.stack.set_status(who, status);
             h.stack.set_stuck(who, for_good);
@@ -160,18 +160,18 @@ Cause reports(std::int8_t status, bool for_good) {
           },
           nullptr};
 }
-// Ends as soon as it has said that it is there.
+// Exits right after its first heartbeat.
 Cause restart_loop() {
   return {"restart loop", 6.0, [](Hands&, Who, int) {}, nullptr,
           [](Hands& h, Who who, double age_s) {
-            const bool heard = h.now % 400'000 == 40'000;  // heartbeats come every 0.2 s
-            if (heard && age_s < 4.0 && h.stack.runs(who)) h.stack.kill(who, kQuickRestartS);
+            const bool beat_sent = h.now % 400'000 == 40'000;  // heartbeats come every 0.2 s
+            if (beat_sent && age_s < 4.0 && h.stack.runs(who)) h.stack.kill(who, kQuickRestartS);
           }};
 }
 
-// ---- causes that need the ground
+// ---- causes that need the operator
 
-// A path that the controller does not get to hear of.
+// A path that the controller does not receive.
 Cause lost_path() {
   return {"the new path is lost", 2.5,
           [](Hands& h, Who, int) {
@@ -180,26 +180,26 @@ Cause lost_path() {
           },
           nullptr, nullptr};
 }
-// The way is clear, so that the planner finds one, and seems blocked.
+// The path is clear, so that the planner finds one, but is reported as blocked.
 Cause looks_blocked() {
   Cause cause = nan("PLANNER_STATUS.blocked_in_m", 63.0);
   cause.begin = [](Hands& h, Who, int) {
-    h.ground.clear_way();
+    h.ground.clear_path();
     h.tap("nan", "PLANNER_STATUS.blocked_in_m", 1.0, 63.0);
   };
   return cause;
 }
 Cause unreachable_path() {
-  return {"a path that begins out of reach", 40.0, [](Hands& h, Who, int) { h.ground.give_path(25.0); },
+  return {"path starts too far away", 40.0, [](Hands& h, Who, int) { h.ground.give_path(25.0); },
           [](Hands& h, Who) {
             h.ground.forget_path();
             h.ground.command(ground_command_t::STOP);
           },
           nullptr};
 }
-// Six stops, each as soon as the one before is over.
+// Six stops in immediate succession.
 Cause many_stops() {
-  return {"one fault after the other", 16.0, [](Hands&, Who, int) {}, nullptr,
+  return {"successive faults", 16.0, [](Hands&, Who, int) {}, nullptr,
           [](Hands& h, Who, double age_s) {
             if (std::fmod(age_s + 1e-3, 1.8) < 0.02) h.tap("nan", "POSE.velocity_body_mps", 1.0, 0.1);
           }};
@@ -215,13 +215,13 @@ std::vector<Case> of_sensors_and_motors() {
       {"imu_fault",
        {},
        kEver,
-       {broken("the IMU says that it is ill", 0.5, [](Broken& b, Who, int) { b.imu_fault = true; }),
+       {broken("IMU reports a fault", 0.5, [](Broken& b, Who, int) { b.imu_fault = true; }),
         nan("IMU.delta_angle_rad", 0.2), nan("IMU.fog_delta_yaw_rad", 0.2)}},
       {"wheel_state_age", {}, kEver, {drop("WHEEL_STATE", 0.5), tap("delay", "WHEEL_STATE", 0.5, 0.5)}},
       {"wheel_fault",
        {},
        kEver,
-       {broken("the driver says that it is ill", 0.5, [](Broken& b, Who, int) { b.wheel_fault = true; }),
+       {broken("driver reports a fault", 0.5, [](Broken& b, Who, int) { b.wheel_fault = true; }),
         nan("WHEEL_STATE.drive_current_a", 0.2), nan("WHEEL_STATE.steer_current_a", 0.2)}},
       {"drive_current", kDrives, kUnderWay, {drive_current(11.0, 1.0)}},
       {"drive_heat_high", kDrives, kUnderWay, {drive_current(9.9, 10.0)}},
@@ -253,9 +253,12 @@ std::vector<Case> of_pose() {
 std::vector<Case> of_seeing_and_following() {
   return {
       {"hazards_age", {}, kEver, {drop("HAZARDS", 1.8), drop("DISPARITY", 1.8)}},
-      {"hazards_blind", {}, kEver, {pictures("few pixels measured", [](int) { return 0.3; })}},
-      {"stereo_coverage_low", {}, kUnderWay, {pictures("two dim pictures", [](int n) { return n < 2 ? 0.3 : 1.0; })}},
-      {"stereo_coverage", {}, kEver, {pictures("flickering pictures", [](int n) { return n == 2 ? 1.0 : 0.1; })}},
+      {"hazards_blind", {}, kEver, {pictures("few valid pixels", [](int) { return 0.3; })}},
+      {"stereo_coverage_low",
+       {},
+       kUnderWay,
+       {pictures("two images with few valid pixels", [](int n) { return n < 2 ? 0.3 : 1.0; })}},
+      {"stereo_coverage", {}, kEver, {pictures("flickering images", [](int n) { return n == 2 ? 1.0 : 0.1; })}},
       {"planner_age", {}, kEver, {drop("PLANNER_STATUS", 0.6), tap("delay", "PLANNER_STATUS", 0.6, 0.6)}},
       {"control_age", {}, kEver, {drop("CONTROL_STATUS", 0.6), tap("delay", "CONTROL_STATUS", 0.6, 0.6)}},
       {"command_age", {}, kEver, {drop("MOTION_COMMAND", 0.6), tap("delay", "MOTION_COMMAND", 0.6, 0.6)}},
@@ -264,15 +267,15 @@ std::vector<Case> of_seeing_and_following() {
       {"path_mismatch", {}, kUnderWay, {lost_path()}},
       {"no_path", {}, kUnderWay, {unreachable_path()}},
       {"blocked", {}, kUnderWay, {looks_blocked()}},
-      {"idle_drive", {}, kRolling, {standing()}},
+      {"idle_drive", {}, kRolling, {unresponsive_driver()}},
   };
 }
 
-// In the order of the table: at the Full level but for the one of services that idle.
+// In the order of the table; at the Full level except for the row of idle services.
 std::vector<Case> of_the_full_level() {
   return {
-      {"terrain_way", {}, kRolling, {drop("TRAVERSABILITY", 25.0)}, true},
-      {"sweep_in_vain", {}, kRolling, {drop("TRAVERSABILITY", 100.0)}, true},
+      {"terrain_distance", {}, kRolling, {drop("TRAVERSABILITY", 25.0)}, true},
+      {"sweep_timeout", {}, kRolling, {drop("TRAVERSABILITY", 100.0)}, true},
       {"slam_lost", {}, kUnderWay, {slam_lost(8.0)}, true},
       {"full_heartbeat", kFull, kUnderWay, {hang(2.0)}, true},
       {"full_idle_heartbeat", kFull, kEver, {hang(2.0)}},
@@ -293,7 +296,7 @@ std::vector<Case> of_services() {
       {"log_disk",
        {},
        kEver,
-       {{"no space for the log", 1.0, [](Hands& h, Who, int) { h.stack.set_status("recorder", heartbeat_t::DEGRADED); },
+       {{"disk full", 1.0, [](Hands& h, Who, int) { h.stack.set_status("recorder", heartbeat_t::DEGRADED); },
          [](Hands& h, Who) { h.stack.set_status("recorder", heartbeat_t::OK); }, nullptr}}},
       {"message_loss_high", {}, kEver, {losing(0.1, 0.1, 2.0)}},
       {"message_loss", {}, kUnderWay, {losing(0.35, 0.5, 4.5)}},

@@ -1,4 +1,4 @@
-// For each row of config/fdir.yaml: the causes that make its quantity go bad, and when they can.
+// For each row of config/fdir.yaml: causes that make its quantity exceed the limit, and the phases in which they can.
 #pragma once
 
 #include <functional>
@@ -10,20 +10,20 @@
 
 namespace rover::bench_faults {
 
-// One cause, done to the motor or service that `who` names; `turn` counts the injections of the row.
+// One cause, applied to the motor or service `who`; `turn`: number of previous injections of the row.
 struct Cause {
   std::string text;
-  double longest_s;  // ends when the row is raised, or after that time
+  double longest_s;  // ends when the row is raised, at the latest after this time
   std::function<void(Hands&, const std::string& who, int turn)> begin;
-  std::function<void(Hands&, const std::string& who)> end;                  // empty: it ends by itself
+  std::function<void(Hands&, const std::string& who)> end;                  // empty: ends by itself
   std::function<void(Hands&, const std::string& who, double age_s)> go_on;  // each tick; empty: nothing
 };
 
 struct Case {
   std::string row;
-  std::vector<std::string> who;  // the row's motors or services; empty: the row is one
+  std::vector<std::string> who;  // motors or services of the row; empty: none
   std::vector<Phase> phases;
-  std::vector<Cause> causes;  // taken in turn
+  std::vector<Cause> causes;  // used in turn
   bool full = false;          // at the Full level
 };
 

@@ -6,7 +6,7 @@ namespace rover::bench_faults {
 namespace {
 
 constexpr double kTileM = 10.0;
-constexpr double kAbundance = 0.03;  // Golombek's k: a hazard every 30 m of way
+constexpr double kAbundance = 0.03;  // Golombek's k: a hazard every 30 m
 constexpr double kLeastDiameterM = 0.2;
 constexpr double kLaidRadiusM = 0.2;
 constexpr double kLaidHeightM = 0.3;

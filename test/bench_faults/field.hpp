@@ -1,4 +1,4 @@
-// A flat field of rocks without end, the same for the same seed, and rocks that are laid in the rover's way on purpose.
+// An infinite flat field of rocks, reproducible by seed, and rocks placed on the rover's path.
 #pragma once
 
 #include <cstdint>
@@ -17,10 +17,10 @@ class Field {
  public:
   explicit Field(std::uint64_t seed) : seed_(seed) {}
 
-  // A row of rocks across the way ahead.
+  // A row of rocks across the path ahead.
   void lay_rocks(const Pose2& pose, double ahead_m);
-  void take_laid_rocks_away() { laid_.clear(); }
-  // In body axes of the pose, within reach_m of it.
+  void remove_rocks() { laid_.clear(); }
+  // In body axes of the pose, within reach_m.
   std::vector<Rock> around(const Pose2& pose, double reach_m);
 
  private:

@@ -48,7 +48,7 @@ void Ground::step() {
 }
 
 void Ground::clear() {
-  for (const auto& [id, response] : seen_.standing())
+  for (const auto& [id, response] : seen_.active_faults())
     if (response == fault_t::SAFE || id == "no_path" || id == "blocked") command(ground_command_t::CLEAR_FAULT, id);
   if (seen_.state().state == supervisor_state_t::SAFE) command(ground_command_t::CLEAR_SAFE);
 }
@@ -83,7 +83,7 @@ void Ground::drive() {
 }
 
 void Ground::set_start_pose() {
-  field_.take_laid_rocks_away();
+  field_.remove_rocks();
   ground_command_t out{};
   out.command_id = ++command_id_;
   out.kind = ground_command_t::SET_START_POSE;
@@ -112,9 +112,9 @@ void Ground::give_path(double away_m) {
     out.x_m.push_back(at.x_m);
     out.y_m.push_back(at.y_m);
     out.level.push_back(path_t::EFFICIENT);
-    const double way_m = uniform(random_, 5.0, 8.0);
-    at.x_m += way_m * std::cos(at.yaw_rad);
-    at.y_m += way_m * std::sin(at.yaw_rad);
+    const double distance_m = uniform(random_, 5.0, 8.0);
+    at.x_m += distance_m * std::cos(at.yaw_rad);
+    at.y_m += distance_m * std::sin(at.yaw_rad);
     at.yaw_rad += (i % 2 == 0 ? 1.0 : -1.0) * to_rad(uniform(random_, 70.0, 120.0));
   }
   out.point_count = static_cast<std::int32_t>(out.x_m.size());

@@ -1,5 +1,4 @@
-// The operator: gives zigzag paths, one after the other, has the rover go or stand, and clears what the rover may not
-// clear by itself.
+// The operator: sends zigzag paths, start and stop commands, and clears latched faults.
 #pragma once
 
 #include <lcm/lcm-cpp.hpp>
@@ -19,15 +18,15 @@ class Ground {
   Ground(lcm::LCM& bus, const Observer& seen, const StandInRover& rover, Field& field, std::uint64_t seed)
       : bus_(bus), seen_(seen), rover_(rover), field_(field), random_(seed) {}
 
-  // At most one order each half second.
+  // At most one command per 0.5 s.
   void step();
   void set_time(Utime now) { now_ = now; }
   void wish(Wish wish) { wish_ = wish; }
   void command(std::int8_t kind, const std::string& target = "", std::int8_t level = ground_command_t::AUTO);
-  // Begins `away_m` from the rover, to its left.
+  // Starts `away_m` to the left of the rover.
   void give_path(double away_m);
-  void clear_way() { field_.take_laid_rocks_away(); }
-  // The path is of no use any more: the next drive begins with another one.
+  void clear_path() { field_.remove_rocks(); }
+  // Discards the path: the next drive starts with another one.
   void forget_path() { has_path_ = false; }
 
  private:

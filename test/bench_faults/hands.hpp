@@ -1,4 +1,4 @@
-// What an injector can lay its hands on.
+// Everything that an injection can act on.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ class Hands {
   Hands(lcm::LCM& bus, StandInRover& the_rover, Blindness& the_blindness, Stack& the_stack, Ground& the_ground)
       : rover(the_rover), blindness(the_blindness), stack(the_stack), ground(the_ground), bus_(bus) {}
 
-  // INJECT to the taps of all nodes: a fault of channels, from now on.
+  // INJECT to all nodes: a fault of channels, from now on.
   void tap(const std::string& fault, const std::string& target, double amount, double for_s);
 
   StandInRover& rover;
@@ -22,7 +22,7 @@ class Hands {
   Stack& stack;
   Ground& ground;
   Utime now = 0;
-  Utime clock_step = 0;  // by which message time jumps at the next tick
+  Utime clock_step = 0;  // jump of message time at the next tick
 
  private:
   lcm::LCM& bus_;

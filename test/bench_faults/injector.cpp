@@ -6,11 +6,11 @@
 namespace rover::bench_faults {
 namespace {
 
-constexpr double kSettleS = 0.5;  // after the cause, before the stack can be well
+constexpr double kSettleS = 0.5;  // minimum recovery time after the cause
 constexpr double kMostRecoveryS = 150.0;
 constexpr double kLostS = 400.0;
-constexpr double kSeekS = 120.0;   // for a phase, before the ground gives another path
-constexpr double kWayLeftM = 4.0;  // to the goal, so that it is not reached meanwhile
+constexpr double kSeekS = 120.0;   // timeout for a phase, then the operator sends another path
+constexpr double kWayLeftM = 4.0;  // minimum remaining distance, so that the goal is not reached meanwhile
 constexpr double kRockAheadM = 1.55;
 constexpr Utime kRockPeriodUs = 8'000'000;
 
@@ -31,7 +31,7 @@ void Injector::plan(int per_row, size_t most) {
     for (int i = 0; i < per_row; ++i) {
       const size_t turn = static_cast<size_t>(i);
       const size_t phases = what.phases.size();
-      // Each motor or service in another phase the next time.
+      // Rotate motors and services over the phases.
       const std::string who = what.who.empty() ? "" : what.who[(turn + turn / phases) % what.who.size()];
       const Cause& cause = what.causes[turn / phases % what.causes.size()];
       plan_.push_back({&what, &cause, what.phases[turn % phases], who, i});
@@ -45,7 +45,7 @@ void Injector::step(Utime now) {
   if (well()) well_at_ = now;
   if (active_) return watch();
   if (next_ >= plan_.size() || !well()) return;
-  // Of those that are left, the first whose phase it is now; else the next one's phase is sought.
+  // The first remaining injection for the current phase, else wait for the phase of the next one.
   const auto from = plan_.begin() + static_cast<std::ptrdiff_t>(next_);
   const auto fits = std::find_if(from, plan_.end(), [&](const Planned& planned) { return is_time_for(planned); });
   if (fits == plan_.end()) return seek(*from);
@@ -77,7 +77,7 @@ void Injector::seek(const Planned& wanted) {
   seeking_since_ = 0;
 }
 
-// The next drive begins with another path, away from what stands here.
+// The next drive starts with another path, away from the rocks placed here.
 void Injector::leave() {
   hands_.ground.forget_path();
   hands_.ground.command(ground_command_t::STOP);
@@ -105,7 +105,7 @@ void Injector::watch() {
   const Planned& p = *active_;
   const double age_s = to_seconds(hands_.now - begun_at_);
   if (!ended_ && p.cause->go_on) p.cause->go_on(hands_, p.who, age_s);
-  if (!ended_ && (age_s >= p.cause->longest_s || seen_.standing().contains(p.row()))) end();
+  if (!ended_ && (age_s >= p.cause->longest_s || seen_.active_faults().contains(p.row()))) end();
   if (!ended_ || to_seconds(hands_.now - ended_at_) < kSettleS) return;
   const bool late = to_seconds(hands_.now - ended_at_) > kMostRecoveryS;
   if (!well() && !late) return;
@@ -121,7 +121,7 @@ void Injector::watch() {
   note.until_utime = ended_at_;
   log_.note(kInjectionOver, note);
   if (is_before_rocks(p.phase)) leave();
-  // What is counted over a time or a way is forgiven, as an operator does who has seen the fault.
+  // Reset counters over time or distance, as an operator does after a fault.
   hands_.ground.command(ground_command_t::CLEAR_FAULT, p.row());
   active_.reset();
 }
@@ -136,10 +136,10 @@ bool Injector::lost() const {
   return to_seconds(hands_.now - well_at_) > kLostS;
 }
 
-// No row stands, and the supervisor neither waits for services nor for the ground.
+// No active row, and the supervisor waits neither for services nor for the operator.
 bool Injector::well() const {
   const std::int8_t state = seen_.state().state;
-  return seen_.standing().empty() && state != supervisor_state_t::BOOT && state != supervisor_state_t::SAFE &&
+  return seen_.active_faults().empty() && state != supervisor_state_t::BOOT && state != supervisor_state_t::SAFE &&
          state != supervisor_state_t::FAULT_STOP;
 }
 

@@ -1,4 +1,4 @@
-// Waits for the phase, injects a cause, ends it, waits until the stack is well again; then the next.
+// Waits for the phase, injects a cause, ends it, waits until the stack has recovered; repeats.
 #pragma once
 
 #include <optional>
@@ -12,18 +12,18 @@ namespace rover::bench_faults {
 
 class Injector {
  public:
-  // Each row at least `per_row` times, spread over its phases, motors and services; at most `most` in all.
+  // Each row at least `per_row` times, spread over its phases, motors and services; at most `most` in total.
   Injector(const std::vector<Case>& cases, int per_row, size_t most, const Observer& seen, Hands& hands, Field& field,
            Log& log, std::uint64_t seed);
 
   void step(Utime now);
-  // A cause is at work: the ground lets the rover alone.
+  // A cause is active: the operator does not intervene.
   bool injecting() const { return active_ && !ended_; }
   bool done() const { return next_ >= plan_.size() && !active_; }
-  // The stack does not get well any more.
+  // The stack does not recover.
   bool lost() const;
   size_t count() const { return next_; }
-  // Injections after which the stack did not recover by itself or by the ground's usual orders.
+  // Injections after which the stack did not recover, by itself or by the usual commands.
   int stuck() const { return stuck_; }
 
  private:
@@ -53,7 +53,7 @@ class Injector {
   std::vector<Planned> plan_;
   size_t next_ = 0;
   std::optional<Planned> active_;
-  bool ended_ = false;  // the cause of the active one
+  bool ended_ = false;  // the cause of the active injection has ended
   Utime begun_at_ = 0;
   Utime ended_at_ = 0;
   Utime seeking_since_ = 0;

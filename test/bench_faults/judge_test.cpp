@@ -1,4 +1,4 @@
-// A judge that cannot fail is worthless: hand-made logs, each with one thing wrong, and the same without it.
+// Tests the judge with synthetic logs, each with one error, and the same without it.
 #include "test/bench_faults/judge/judge.hpp"
 
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ Settings settings() {
   return out;
 }
 
-// A rover that drives at 0.1 m/s under a permit, tick by tick, and what a supervisor says.
+// A rover that drives at 0.1 m/s with a permit, and the messages of a supervisor.
 class JudgeTest : public testing::Test {
  protected:
   JudgeTest() { say_state(supervisor_state_t::DRIVING); }
@@ -59,10 +59,10 @@ class JudgeTest : public testing::Test {
     message.state = state;
     put(channel::kState, message, now_ + kTickUs);
   }
-  void say_fault(const std::string& id, bool standing = true) {
+  void say_fault(const std::string& id, bool active = true) {
     fault_t message{};
     message.id = id;
-    message.standing = standing ? 1 : 0;
+    message.active = active ? 1 : 0;
     put(channel::kFault, message, now_ + kTickUs);
   }
   void begin(const std::string& id) {
@@ -97,7 +97,7 @@ class JudgeTest : public testing::Test {
   void run(int ticks) {
     for (int i = 0; i < ticks; ++i) tick();
   }
-  // The IMU falls silent; the supervisor says so after so many ticks, and withdraws the permit after so many more.
+  // The IMU stops; the supervisor raises the fault after some ticks and withdraws the permit after some more.
   void silent_imu(int said_after, int withdrawn_after, const std::string& said = "imu_age") {
     run(10);
     begin("imu_age");
@@ -126,7 +126,7 @@ class JudgeTest : public testing::Test {
 };
 
 TEST_F(JudgeTest, PassesAFaultThatIsFoundInTime) {
-  silent_imu(11, 0);  // 0.2 s are over at the eleventh tick
+  silent_imu(11, 0);  // 0.2 s have passed at the eleventh tick
   const Verdict& v = judge_.verdicts().front();
   EXPECT_TRUE(v.detected);
   EXPECT_TRUE(v.named);
@@ -178,7 +178,7 @@ TEST_F(JudgeTest, SeesTheRoverThatRollsOn) {
   run(11);
   say_fault("imu_age");
   permitted_ = false;
-  speed_mps_ = 1.0;  // takes 5 s to come to rest
+  speed_mps_ = 1.0;  // takes 5 s to stop
   run(400);
   EXPECT_GT(finish().still_s.value_or(0.0), 4.0);
 }
@@ -188,7 +188,7 @@ TEST_F(JudgeTest, AFaultOutOfTheBlueIsFalse) {
   say_fault("imu_fault");
   run(10);
   ASSERT_EQ(judge_.false_alarms().size(), 1u);
-  say_fault("imu_fault");  // standing ones are repeated
+  say_fault("imu_fault");  // active ones are repeated
   run(10);
   EXPECT_EQ(judge_.false_alarms().size(), 1u);
 }
@@ -236,7 +236,7 @@ TEST_F(JudgeTest, TheTableSaysWhatIsNotMet) {
   silent_imu(11, 25);
   std::ostringstream table;
   EXPECT_FALSE(write_table({"command", "commit", "machine"}, settings(), judge_, table));
-  EXPECT_NE(table.str().find("| at least 1000 injections that make a fault | 1 of 1 | **no** |"), std::string::npos);
+  EXPECT_NE(table.str().find("| at least 1000 injections that cause a fault | 1 of 1 | **no** |"), std::string::npos);
   EXPECT_NE(table.str().find("| detected 100 % | 1 of 1 | yes |"), std::string::npos);
   EXPECT_NE(table.str().find("p99 at most 50 ms | 560 ms"), std::string::npos);
 }
@@ -249,8 +249,8 @@ TEST_F(JudgeTest, AnInjectionThatMakesNoFaultCountsForNothing) {
   finish();
   std::ostringstream table;
   write_table({"command", "commit", "machine"}, settings(), judge_, table);
-  EXPECT_NE(table.str().find("| at least 1000 injections that make a fault | 0 of 1 |"), std::string::npos);
-  EXPECT_NE(table.str().find("| every row at least 20 times | least 0 | **no** |"), std::string::npos);
+  EXPECT_NE(table.str().find("| at least 1000 injections that cause a fault | 0 of 1 |"), std::string::npos);
+  EXPECT_NE(table.str().find("| every row at least 20 times | minimum 0 | **no** |"), std::string::npos);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 namespace rover::bench_faults {
 namespace {
 
-// Pictures and what is made for the planner alone would fill the disk.
+// Images and the large inputs of the planner would fill the disk.
 const std::set<std::string> kLeftOut = {channel::kDisparity, channel::kDone,         channel::kVo,
                                         channel::kPath,      channel::kServiceState, channel::kWheelCommand};
 

@@ -1,4 +1,4 @@
-// The bench's record as an LCM log: what a judge needs of the bus, and beside it what was injected when.
+// The bench's LCM log: the messages that the judge needs, and the injections.
 #pragma once
 
 #include <lcm/lcm-cpp.hpp>
@@ -10,11 +10,11 @@
 
 namespace rover::bench_faults {
 
-// Of the log alone: injection_t with `target` = the row, `fault` = the cause, header.publisher = the phase. The first
-// is written before the tick at which the cause begins, the second when the stack is well again.
+// Only in the log: injection_t with `target` = the row, `fault` = the cause, header.publisher = the phase. The first
+// is written before the tick at which the cause begins, the second when the stack has recovered.
 inline constexpr char kInjectionBegins[] = "INJECTION_BEGINS";
 inline constexpr char kInjectionOver[] = "INJECTION_OVER";
-// A service is killed on the supervisor's order; injection_t with `target` = the service.
+// The supervisor kills a service; injection_t with `target` = the service.
 inline constexpr char kKillOrdered[] = "KILL_ORDERED";
 
 class Log {

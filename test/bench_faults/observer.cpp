@@ -27,10 +27,10 @@ void Observer::keep(lcm::LCM& bus, const char* channel, Message& newest) {
 }
 
 void Observer::take(const fault_t& fault) {
-  if (fault.standing)
-    standing_[fault.id] = fault.response;
+  if (fault.active)
+    active_[fault.id] = fault.response;
   else
-    standing_.erase(fault.id);
+    active_.erase(fault.id);
 }
 
 std::optional<Phase> Observer::phase() const {

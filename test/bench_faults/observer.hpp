@@ -1,4 +1,4 @@
-// What the bench hears of the stack, to know when to inject and when the stack is well again.
+// Observes the stack to decide when to inject and when the stack has recovered.
 #pragma once
 
 #include <lcm/lcm-cpp.hpp>
@@ -19,12 +19,12 @@ class Observer {
  public:
   explicit Observer(lcm::LCM& bus);
 
-  // What the rover is doing; none in between.
+  // Current phase of the rover; none in transitions.
   std::optional<Phase> phase() const;
   const supervisor_state_t& state() const { return state_; }
   const planner_status_t& planner() const { return planner_; }
-  // Ids of the rows that stand, with their response.
-  const std::map<std::string, std::int8_t>& standing() const { return standing_; }
+  // Ids and responses of the active rows.
+  const std::map<std::string, std::int8_t>& active_faults() const { return active_; }
 
  private:
   template <class Message>
@@ -34,7 +34,7 @@ class Observer {
   supervisor_state_t state_{};
   planner_status_t planner_{};
   control_status_t control_{};
-  std::map<std::string, std::int8_t> standing_;
+  std::map<std::string, std::int8_t> active_;
 };
 
 }  // namespace rover::bench_faults

@@ -1,4 +1,4 @@
-// What the rover is doing when a fault comes.
+// Phase of the drive at an injection.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ enum class Phase : std::int8_t { kStraight, kPointTurn, kHazardStop, kRepair, kS
 inline constexpr std::array<const char*, 5> kPhaseNames = {"straight", "point turn", "hazard stop", "repair",
                                                            "standstill"};
 
-// By the supervisor's state, and while it drives by what planner and controller do; none: of another kind.
+// From the supervisor's state, and while driving from planner and controller; none: any other.
 inline std::optional<Phase> phase_of(std::int8_t state, std::int8_t planner, std::int8_t control) {
   switch (state) {
     case supervisor_state_t::STANDBY:

@@ -1,5 +1,5 @@
-// The services of the stack in one process, as the launcher and s6 keep them on the rover: each can hang, die and come
-// back; all take part in the same ticks on one bus in memory.
+// The services of the stack in one process, in place of launcher and s6: each can hang, die and be restarted; all share
+// the ticks of one in-memory bus.
 #pragma once
 
 #include <functional>
@@ -16,19 +16,19 @@ class Stack {
  public:
   using Factory = std::function<std::shared_ptr<void>(Node& node)>;
 
-  // `run_dir` holds the checkpoints.
+  // `run_dir`: folder of the checkpoints.
   Stack(lcm::LCM& bus, std::string run_dir) : bus_(bus), run_dir_(std::move(run_dir)) {}
 
   void add(const std::string& service, Factory factory);
-  // What has been published before, and then the tick, for all that run.
+  // Delivers the published messages, then the tick, to all running services.
   void tick(Utime now);
 
   void hang(const std::string& service, bool on) { find(service).hangs = on; }
-  // s6 starts it again after that time.
+  // Restarted after this time, as by s6.
   void kill(const std::string& service, double away_s);
-  // What its heartbeats say, over its own word; OK: its own word.
+  // Overrides the status in its heartbeats; OK: no override.
   void set_status(const std::string& service, std::int8_t status);
-  // Kills do not help.
+  // The status persists after a kill.
   void set_stuck(const std::string& service, bool on) { find(service).stuck = on; }
   std::int64_t boots(const std::string& service) { return find(service).boots; }
   bool runs(const std::string& service) { return find(service).node != nullptr; }

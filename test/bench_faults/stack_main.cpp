@@ -1,5 +1,5 @@
-// The in-process part of ./rover bench faults: injects every row of config/fdir.yaml again and again into a stack that
-// lives on, and records it for the judge.
+// Part `stack` of ./rover bench faults: injects every row of config/fdir.yaml repeatedly into one long-lived stack, and
+// records it for the judge.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
@@ -71,7 +71,7 @@ class Bench {
   }
 
  private:
-  static constexpr double kRestartS = 1.0;  // as a lockstep run lets a killed service come back
+  static constexpr double kRestartS = 1.0;  // restart delay in a lockstep run
 
   void add_stand_ins() {
     stack_.add("stereo", [this](Node& n) { return make_stereo(n, rover_, field_, view_, blindness_); });
@@ -154,12 +154,12 @@ class Bench {
 int main(int argc, char** argv) {
   rover::bench_faults::Arguments arguments;
   CLI::App app("injects every row of config/fdir.yaml into a stack in one process");
-  app.add_option("--config", arguments.config, "folder of the configuration")->capture_default_str();
+  app.add_option("--config", arguments.config, "configuration folder")->capture_default_str();
   app.add_option("--out", arguments.out, "folder of the log")->capture_default_str();
   app.add_option("--seed", arguments.seed)->capture_default_str();
   app.add_option("--per-row", arguments.per_row, "injections of each row")->capture_default_str();
-  app.add_option("--rows", arguments.rows, "only these rows, for a closer look")->delimiter(',');
-  app.add_option("--most", arguments.most, "injections in all, at most");
+  app.add_option("--rows", arguments.rows, "only these rows")->delimiter(',');
+  app.add_option("--most", arguments.most, "maximum number of injections");
   CLI11_PARSE(app, argc, argv);
   std::filesystem::remove_all(arguments.out);
   std::filesystem::create_directories(arguments.out);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kTickS = to_seconds(kTickUs);
 constexpr double kGravityMps2 = 3.71;
-constexpr double kGyroNoiseRad = 6.0e-6;  // of one sample
+constexpr double kGyroNoiseRad = 6.0e-6;  // per sample
 constexpr double kForceNoiseMps = 2.0e-4;
 constexpr double kShoveMps2 = 3.0;
 constexpr double kRollingA = 1.2;

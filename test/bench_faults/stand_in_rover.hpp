@@ -1,5 +1,4 @@
-// The vehicle and its sensors in place of the simulator: pure kinematics on ground that can be tilted as a whole, and
-// what can be broken about them.
+// Kinematic replacement of the simulator: vehicle and sensors on ground that can be tilted, with injectable defects.
 #pragma once
 
 #include <array>
@@ -15,17 +14,17 @@
 
 namespace rover::bench_faults {
 
-// What is broken now; as made: nothing.
+// Active defects; default: none.
 struct Broken {
-  bool imu_fault = false;           // by the unit's own word
-  bool wheel_fault = false;         // by the driver's own word
-  std::array<double, 6> drive_a{};  // in place of the motor's current where not 0
+  bool imu_fault = false;           // reported by the unit
+  bool wheel_fault = false;         // reported by the driver
+  std::array<double, 6> drive_a{};  // replaces the motor current if not 0
   std::array<double, 4> steer_a{};
   double slip_ratio = 0.0;
-  double roll_rad = 0.0;   // to which the ground tilts
+  double roll_rad = 0.0;   // tilt of the ground
   double pitch_rad = 0.0;  // positive nose down
   double tilt_radps = 0.35;
-  double shove_mps = 0.0;    // sideways, without the wheels
+  double shove_mps = 0.0;    // sideways motion without the wheels
   double runaway_mps = 0.0;  // the driver turns the wheels without a command
   bool stands = false;       // the driver turns no wheel, whatever the command
 };
@@ -34,7 +33,7 @@ class StandInRover {
  public:
   StandInRover(const Vehicle& vehicle, std::uint64_t seed) : vehicle_(vehicle), rover_(vehicle), random_(seed) {}
 
-  // Moves to `now` under the newest command; a step of the clock moves nothing.
+  // Moves to `now` with the newest command; a jump of the clock causes no motion.
   void step(Utime now);
   void command(const wheel_command_t& command) { command_ = command; }
 

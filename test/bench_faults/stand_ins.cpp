@@ -16,7 +16,7 @@ constexpr Utime kExposurePeriodUs = 400'000;
 constexpr Utime kTerrainPeriodUs = 1'000'000;
 constexpr double kTerrainCellM = 0.1;
 constexpr std::int16_t kTerrainCells = 200;
-constexpr Utime kDisparityLatencyUs = 160'000;  // HAZARDS then are 0.24 s late, as on the whole rover
+constexpr Utime kDisparityLatencyUs = 160'000;  // gives HAZARDS a latency of 0.24 s, as on the rover
 constexpr Utime kVisualLatencyUs = 220'000;
 constexpr double kReachM = 6.0;
 constexpr double kVisualSigmaM = 5e-4;
@@ -100,7 +100,7 @@ std::shared_ptr<void> make_traversability(Node& node) {
     out.cells_x = out.cells_y = kTerrainCells;
     out.size = kTerrainCells * kTerrainCells;
     out.cells.assign(static_cast<size_t>(out.size), traversability_t::FREE);
-    // Cells keep to one grid wherever the rover is.
+    // Cells are aligned to a fixed grid.
     const auto corner = [](double centre_m) {
       return kTerrainCellM * (std::floor(centre_m / kTerrainCellM) - kTerrainCells / 2);
     };

@@ -1,4 +1,4 @@
-// Services in place of those that need pictures, or are no part of this bench: each publishes what it owes the others.
+// Replacements of services that need images or are not tested here: each publishes the messages the others require.
 #pragma once
 
 #include <functional>
@@ -12,9 +12,9 @@
 
 namespace rover::bench_faults {
 
-// What is broken about seeing.
+// Defects of the cameras.
 struct Blindness {
-  // Of the pixels that are measured in the n-th picture since it began; empty: all.
+  // Fraction of valid pixels in the n-th image since the start; empty: all.
   std::function<double(int picture)> share;
   int pictures = 0;
   bool visual_lost = false;
@@ -24,13 +24,13 @@ struct Blindness {
 // DISPARITY of each exposure.
 std::shared_ptr<void> make_stereo(Node& node, const StandInRover& rover, Field& field, const View& view,
                                   Blindness& blindness);
-// VO between exposures, exact but for its stated covariance.
+// Exact VO between exposures, with a covariance.
 std::shared_ptr<void> make_visual_odometry(Node& node, const StandInRover& rover, const Blindness& blindness);
-// SLAM_POSE that agrees with the odometry.
+// SLAM_POSE equal to the odometry.
 std::shared_ptr<void> make_slam(Node& node, const Blindness& blindness);
-// TRAVERSABILITY of easy ground around the newest POSE.
+// TRAVERSABILITY of easy terrain around the newest POSE.
 std::shared_ptr<void> make_traversability(Node& node);
-// Heartbeats alone.
+// Only heartbeats.
 std::shared_ptr<void> make_silent(Node& node);
 
 }  // namespace rover::bench_faults

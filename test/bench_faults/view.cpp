@@ -15,7 +15,7 @@ std::int16_t in_px16(double disparity_px) {
   return static_cast<std::int16_t>(std::max(1.0, std::round(16.0 * disparity_px)));
 }
 
-// Spread evenly and without a pattern over the image.
+// Evenly distributed over the image.
 bool is_measured(size_t pixel, double share) {
   return static_cast<double>((pixel * 2654435761u >> 8) % 1000) < 1000.0 * share;
 }
@@ -40,7 +40,7 @@ Disparity View::look(const std::vector<Rock>& rocks, double share) const {
   return disparity;
 }
 
-// Casts the rays of the rectangle that the rock's bounding box covers in the image.
+// Casts rays in the image rectangle of the rock's bounding box.
 void View::draw(const Rock& rock, Disparity& disparity) const {
   double low_u = camera_.width, high_u = 0.0, low_v = camera_.height, high_v = 0.0;
   for (int corner = 0; corner < 8; ++corner) {

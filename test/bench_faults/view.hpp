@@ -1,5 +1,4 @@
-// What ideal stereo sees of flat ground with rocks: the ground's disparities are always the same, rocks are cast into
-// it.
+// Ideal disparity image of flat ground with rocks: constant ground disparities with ray-cast rocks.
 #pragma once
 
 #include <vector>
@@ -11,10 +10,10 @@ namespace rover::bench_faults {
 
 class View {
  public:
-  // `ground_z_m`: of the ground in body axes.
+  // `ground_z_m`: ground height in body axes.
   View(const StereoCamera& camera, double ground_z_m);
 
-  // Rocks in body axes. `share`: of the pixels that are measured.
+  // Rocks in body axes. `share`: fraction of valid pixels.
   Disparity look(const std::vector<Rock>& rocks, double share) const;
   const StereoCamera& camera() const { return camera_; }
 

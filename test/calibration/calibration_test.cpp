@@ -186,7 +186,7 @@ TEST_F(Calibration, ImplausibleRigIsRefusedInOneLine) {
   says(spoiled("cam1:", "cam2:"), "cam1: missing");
   says(spoiled("cam0:", "cam2:"), "neither a camchain");
   says(spoiled("resolution: [1024, 768]", "resolution: [1024]"), "resolution: 1 numbers instead of 2");
-  says(spoiled("intrinsics: [835", "intrinsics: [x835"), "intrinsics: 'x835' is no number");
+  says(spoiled("intrinsics: [835", "intrinsics: [x835"), "intrinsics: 'x835' is not a number");
   says(spoiled("T_cn_cnm1", "T_other"), "T_cn_cnm1: missing");
   says(refusal({write("broken.yaml", "cam0: [")}), "not valid YAML");
   truth_.T_left_right.translation() *= 1000.0;  // millimetres
@@ -346,7 +346,7 @@ TEST_F(WildCalibration, CameraInfoOfRos) {
   expect("camera_info, left and right exchanged (rtabmap_ros issue 1142)", unknown,
          pair(camera_info(true), camera_info(false)), "exchange left and right");
   expect("camera_info, the right camera's P in both (rtabmap_ros issue 404)", unknown,
-         pair(camera_info(false, "plumb_bob", 0.12), camera_info(true)), "its fourth number has to be 0");
+         pair(camera_info(false, "plumb_bob", 0.12), camera_info(true)), "its fourth number must be 0");
   expect("camera_info of two single cameras", unknown, pair(camera_info(false), camera_info(true, "plumb_bob", 0.0)),
          "calibrate the cameras as a stereo pair");
   expect("camera_info of one camera alone", unknown, outcome({dir_ / "left.yaml"}), "two files");
@@ -373,7 +373,7 @@ TEST_F(WildCalibration, RefusesFilesWithoutStereoCalibration) {
       outcome({write("one.yml",
                      "%YAML:1.0\nimage_width: 640\ncamera_matrix: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n"
                      "   data: [ 5.4e+02, 0., 3.3e+02, 0., 5.4e+02, 1.8e+02, 0., 0., 1. ]\n")}),
-      "one.yml: a calibration of one camera alone");
+      "one.yml: a calibration of only one camera");
   expect("two documents in one file", "the second half ignored",
          outcome({write("two.yaml", kalibr() + "---\n" + kalibr())}), "a second document");
   expect("tabs before the keys", "'not valid YAML'", outcome({write("tabs.yaml", "cam0:\n\tcamera_model: pinhole\n")}),
@@ -384,7 +384,7 @@ TEST_F(WildCalibration, RefusesFilesWithoutStereoCalibration) {
                           std::string text = opencv("%YAML:1.0\n---\n", 5);
                           return text.replace(text.rfind("data: [") + 7, 0, " .Nan, ").replace(0, 0, "");
                         }())}),
-         "is no number");
+         "is not a number");
   truth_.T_left_right.translation() *= 1000.0;
   expect("a baseline of 120, in millimetres", "refused", outcome({write("mm.yaml", kalibr())}), "a baseline of 120");
   truth_.T_left_right.translation() *= -0.001;

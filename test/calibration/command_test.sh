@@ -45,7 +45,7 @@ grep -q "position_m: \[0.4330, 0.0000, -0.1500\], pitch_down_deg: 30.0000" "$WOR
   fail "by the IMU: $(grep left_in_body "$WORK/by_imu.yaml")"
 
 cp "$WORK/cameras.yaml" "$WORK/before.yaml"
-refused "a file that exists" "exists already; it is not replaced" "$WORK/camchain.yaml" --out "$WORK/cameras.yaml"
+refused "a file that exists" "already exists and is not replaced" "$WORK/camchain.yaml" --out "$WORK/cameras.yaml"
 cmp "$WORK/cameras.yaml" "$WORK/before.yaml" || fail "a file was overwritten"
 refused "no file" "none.yaml: no such file" "$WORK/none.yaml"
 sed '/T_cam_imu/d' "$WORK/camchain.yaml" >"$WORK/no_imu.yaml"

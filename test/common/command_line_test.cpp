@@ -1,4 +1,4 @@
-// Values on the command line that the option parser would take for something else.
+// Command-line values that CLI11 alone would misread.
 #include "common/bus/command_line.hpp"
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 namespace rover {
 namespace {
 
-// Options of all types that the commands have; the line of the refusal, or what was taken.
+// Options of all types. Returns the error line, or the parsed value.
 std::string outcome(std::vector<std::string> typed) {
   std::int64_t seed = 0;
   int jobs = 1;

@@ -1,4 +1,4 @@
-// The exact distance transform against brute force.
+// Compares the distance transform with brute force.
 #include "common/core/distance_field.hpp"
 
 #include <gtest/gtest.h>

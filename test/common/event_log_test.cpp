@@ -23,7 +23,7 @@ Bytes slip_bytes() {
   return encoded(message);
 }
 
-// By LCM's own writer.
+// Written by LCM.
 void write_log(const std::string& path, int count, const std::string& channel, Bytes bytes) {
   lcm_eventlog_t* log = lcm_eventlog_create(path.c_str(), "w");
   for (int i = 0; i < count; ++i) {
@@ -75,8 +75,8 @@ TEST_F(EventLog, ReadsWhatLcmWrites) {
     end = event.end;
   });
   EXPECT_EQ(length.records, 3);
-  EXPECT_EQ(length.left_bytes, 0);
-  EXPECT_EQ(length.damages, 0);
+  EXPECT_EQ(length.skipped_bytes, 0);
+  EXPECT_EQ(length.damaged_places, 0);
   EXPECT_EQ(end, static_cast<std::int64_t>(fs::file_size(path_)));
 }
 
@@ -86,8 +86,8 @@ TEST_F(EventLog, ACutAnywhereLeavesWhatIsWholeBeforeIt) {
     fs::resize_file(path_, static_cast<std::uintmax_t>(size));
     const Read r = read(path_);
     EXPECT_EQ(r.length.records, size / kRecord) << size;
-    EXPECT_EQ(r.length.left_bytes, size % kRecord) << size;
-    EXPECT_EQ(r.length.damages, size % kRecord == 0 ? 0 : 1) << size;
+    EXPECT_EQ(r.length.skipped_bytes, size % kRecord) << size;
+    EXPECT_EQ(r.length.damaged_places, size % kRecord == 0 ? 0 : 1) << size;
   }
 }
 
@@ -98,12 +98,12 @@ TEST_F(EventLog, GoesOnBehindADamagedRecord) {
     overwrite(path_, 2 * record + at, "\xff");
     const Read r = read(path_);
     EXPECT_EQ(r.times, (std::vector<Utime>{0, 1000, 3000, 4000})) << at;
-    EXPECT_EQ(r.length.left_bytes, record) << at;
-    EXPECT_EQ(r.length.damages, 1) << at;
+    EXPECT_EQ(r.length.skipped_bytes, record) << at;
+    EXPECT_EQ(r.length.damaged_places, 1) << at;
   }
 }
 
-// What the project does not know cannot be told from a part of itself where no record follows.
+// An unknown message cannot be distinguished from a truncated one if no record follows.
 TEST_F(EventLog, AForeignMessageInFrontOfADamagedRecordIsNotTrusted) {
   write(5);
   overwrite(path_, 2 * kRecord, "\xff");
@@ -115,16 +115,16 @@ TEST_F(EventLog, ForeignBytesBehindAMessageThatDecodesTakeNothingFromIt) {
   std::ofstream(path_, std::ios::app) << "some other text";
   const Read r = read(path_);
   EXPECT_EQ(r.length.records, 2);
-  EXPECT_EQ(r.length.left_bytes, 15);
+  EXPECT_EQ(r.length.skipped_bytes, 15);
 }
 
-// A damaged length may claim what the file holds, and more than LCM ever sends.
+// A damaged length may be up to the file size, and beyond LCM's limit.
 TEST_F(EventLog, WhatAClaimedLengthWouldTakeIsNotRead) {
   const auto record = static_cast<std::int64_t>(28 + 4 + slip_bytes().size());
   for (const std::string length : {"\x7f\xff\xff\xff", "\x0f\xff\xff\xff"}) {
     write_log(path_, 3, "SLIP", slip_bytes());
     overwrite(path_, record + 24, length);
-    fs::resize_file(path_, 300'000'000);  // with a hole, which takes no place on the disk
+    fs::resize_file(path_, 300'000'000);  // a sparse file
     EventLogReader reader(path_);
     LogEvent event;
     EXPECT_TRUE(reader.next(event));
@@ -139,7 +139,7 @@ TEST_F(EventLog, WhatAClaimedLengthWouldTakeIsNotRead) {
 TEST_F(EventLog, PartsAreOneLog) {
   write(3);
   write_log(folder_.file("log-002.lcm"), 2, "DATA", Bytes(10, 1));
-  write_log(folder_.file("log-004.lcm"), 9, "DATA", Bytes(10, 1));  // no part: the third is not there
+  write_log(folder_.file("log-004.lcm"), 9, "DATA", Bytes(10, 1));  // not read, because the third part is missing
   EXPECT_EQ(log_parts(path_), (std::vector<std::string>{path_, folder_.file("log-002.lcm")}));
   EXPECT_EQ(read(path_).length.records, 5);
   EXPECT_EQ(log_part("log.lcm", 17), "log-017.lcm");
@@ -151,7 +151,7 @@ TEST_F(EventLog, WhatIsNoLogIsNamed) {
     for_each_event(folder_.path().string(), [](const LogEvent&) {});
     FAIL();
   } catch (const ConfigError& error) {
-    EXPECT_EQ(std::string(error.what()), folder_.path().string() + ": is no file; a log is read from a file");
+    EXPECT_EQ(std::string(error.what()), folder_.path().string() + ": is not a regular file");
   }
   std::ofstream(path_) << "no log at all";
   EXPECT_EQ(read(path_).length.records, 0);

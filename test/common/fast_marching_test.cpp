@@ -1,4 +1,4 @@
-// Fast marching against exact distances, against its own difference equation and against Dijkstra.
+// Compares fast marching with exact distances, its difference equation, and Dijkstra.
 #include "common/core/fast_marching.hpp"
 
 #include <gtest/gtest.h>
@@ -54,7 +54,7 @@ MarchGrid refined(const MarchGrid& grid, int parts) {
   return fine;
 }
 
-// Steps to every cell within `reach` that no shorter step leads to; the cost is that of the cells passed.
+// Steps to all cells within `reach` that are not multiples of shorter steps; the cost is that of the crossed cells.
 std::vector<double> dijkstra(const MarchGrid& grid, int from, int reach) {
   std::vector<double> best(grid.cost_per_m.size(), kInfinity);
   std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>, std::greater<>> open;
@@ -106,7 +106,7 @@ double worst_error_m(double cell_m) {
 }
 
 TEST(FastMarching, OnEvenGroundTheCostIsTheDistance) {
-  // First order: too long on diagonals, by less than 1.5 cells on a map of 10 m, and by less with smaller cells.
+  // First-order error on diagonals: below 1.5 cells on a map of 10 m, and less with smaller cells.
   const double coarse = worst_error_m(0.1);
   const double fine = worst_error_m(0.05);
   EXPECT_LT(coarse, 0.15);
@@ -123,7 +123,7 @@ TEST(FastMarching, BehindAWallTheWayLeadsRoundItsEnd) {
   MarchGrid grid = even_ground(101, 0.1);
   for (int y = 0; y <= 60; ++y) grid.cost_per_m[cell_at(grid, 50, y)] = kInfinity;
   const std::vector<double> travel = march_all(grid, cell_at(grid, 30, 20));
-  // The shortest way touches the last blocked cell's upper corners, half a cell beside and above its centre.
+  // The shortest path touches the last blocked cell's upper corners, half a cell beside and above its centre.
   for (const auto& [x, y] : {std::pair{70, 20}, std::pair{60, 5}, std::pair{90, 40}}) {
     const double exact = 0.1 * (std::hypot(49.5 - 30.0, 60.5 - 20.0) + 1.0 + std::hypot(x - 50.5, y - 60.5));
     EXPECT_NEAR(travel[cell_at(grid, x, y)], exact, 0.04 * exact) << x << " " << y;
@@ -154,7 +154,7 @@ TEST(FastMarching, ASeedOnImpassableGroundAndNoSeedMarchNowhere) {
   for (const double t : march(grid, {}, -1, kFarBeyond)) EXPECT_EQ(t, kInfinity);
 }
 
-double least_neighbour(const MarchGrid& grid, const std::vector<double>& travel, int x, int y, int dx, int dy) {
+double min_neighbour(const MarchGrid& grid, const std::vector<double>& travel, int x, int y, int dx, int dy) {
   const auto at = [&](int nx, int ny) {
     const bool inside = nx >= 0 && ny >= 0 && nx < grid.width && ny < grid.height;
     return inside ? travel[cell_at(grid, nx, ny)] : kInfinity;
@@ -170,8 +170,8 @@ TEST(FastMarching, EveryCellSolvesTheUpwindEquation) {
     const std::vector<double> travel = march_all(grid, seed);
     for (int i = 0; i < 3600; ++i) {
       if (i == seed || std::isinf(travel[i])) continue;
-      const double a = std::max(0.0, travel[i] - least_neighbour(grid, travel, i % 60, i / 60, 1, 0));
-      const double b = std::max(0.0, travel[i] - least_neighbour(grid, travel, i % 60, i / 60, 0, 1));
+      const double a = std::max(0.0, travel[i] - min_neighbour(grid, travel, i % 60, i / 60, 1, 0));
+      const double b = std::max(0.0, travel[i] - min_neighbour(grid, travel, i % 60, i / 60, 0, 1));
       ASSERT_NEAR(std::hypot(a, b), grid.cell_m * grid.cost_per_m[i], 1e-9) << field << " cell " << i;
     }
   }
@@ -180,15 +180,15 @@ TEST(FastMarching, EveryCellSolvesTheUpwindEquation) {
 TEST(FastMarching, MoreCostNeverMakesAWayCheaperAndScalesIt) {
   std::mt19937_64 random(5);
   const MarchGrid grid = random_ground(50, 0.05, random);
-  MarchGrid dearer = grid;
+  MarchGrid costlier = grid;
   MarchGrid twice = grid;
-  for (double& cost : dearer.cost_per_m) cost += uniform(random, 0.0, 1.0);
+  for (double& cost : costlier.cost_per_m) cost += uniform(random, 0.0, 1.0);
   for (double& cost : twice.cost_per_m) cost *= 2.0;
   const std::vector<double> travel = march_all(grid, 0);
-  const std::vector<double> dear = march_all(dearer, 0);
+  const std::vector<double> costs = march_all(costlier, 0);
   const std::vector<double> doubled = march_all(twice, 0);
   for (size_t i = 0; i < travel.size(); ++i) {
-    EXPECT_GE(dear[i], travel[i]);
+    EXPECT_GE(costs[i], travel[i]);
     EXPECT_EQ(doubled[i], 2.0 * travel[i]);
   }
 }
@@ -198,15 +198,15 @@ TEST(FastMarching, LiesBetweenDijkstraByCellsAndDijkstraOnAFineGrid) {
   for (int field = 0; field < 3; ++field) {
     const MarchGrid grid = random_ground(40, 0.0, random);
     const std::vector<double> travel = march_all(grid, cell_at(grid, 8, 8));
-    // With steps to the four neighbours no way is shorter than the front's.
+    // With 4-neighbour steps no path is shorter than the front's.
     const std::vector<double> by_cells = [&] {
       std::vector<double> best(travel.size(), kInfinity);
       best[cell_at(grid, 8, 8)] = 0.0;
       for (int round = 0; round < 80; ++round)  // Bellman and Ford: enough for 80 steps
         for (int i = 0; i < 1600; ++i)
           best[i] =
-              std::min(best[i], 0.1 * grid.cost_per_m[i] + std::min(least_neighbour(grid, best, i % 40, i / 40, 1, 0),
-                                                                    least_neighbour(grid, best, i % 40, i / 40, 0, 1)));
+              std::min(best[i], 0.1 * grid.cost_per_m[i] + std::min(min_neighbour(grid, best, i % 40, i / 40, 1, 0),
+                                                                    min_neighbour(grid, best, i % 40, i / 40, 0, 1)));
       return best;
     }();
     const MarchGrid fine = refined(grid, 3);
@@ -230,7 +230,7 @@ TEST(FastMarching, SeveralSeedsGiveTheCheapest) {
       march(grid, {{cell_at(grid, 10, 40), 0.0}, {cell_at(grid, 70, 40), 2.0}}, -1, kFarBeyond);
   for (size_t i = 0; i < both.size(); ++i) {
     EXPECT_LE(both[i], std::min(a[i], b[i]) + 1e-9);
-    EXPECT_GE(both[i], std::min(a[i], b[i]) - 0.1);  // less only where the two fronts meet
+    EXPECT_GE(both[i], std::min(a[i], b[i]) - 0.1);  // less only where both fronts meet
   }
 }
 

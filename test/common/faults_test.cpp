@@ -18,9 +18,9 @@ TEST(Faults, HaveOneNameEachAndAUsualAmountInRange) {
   std::set<std::string> names;
   for (const FaultKind& kind : fault_kinds()) {
     EXPECT_TRUE(names.insert(kind.name).second) << kind.name;
-    EXPECT_FALSE(kind.what.empty());
-    if (!std::isnan(kind.usual)) {
-      EXPECT_EQ(amount_problem(kind, kind.usual), "") << kind.name;
+    EXPECT_FALSE(kind.description.empty());
+    if (!std::isnan(kind.default_amount)) {
+      EXPECT_EQ(amount_problem(kind, kind.default_amount), "") << kind.name;
     }
     EXPECT_NE(fault_list().find(kind.name), std::string::npos);
   }
@@ -36,7 +36,7 @@ TEST(Faults, TargetsAreChecked) {
   EXPECT_EQ(problem("nan", "POSE"), "");
   EXPECT_EQ(problem("nan", "POSE.covariance"), "");
   EXPECT_NE(problem("nan", "POSE.speed").find("no field 'speed'"), std::string::npos);
-  EXPECT_NE(problem("offset", "POSE").find("a field is needed"), std::string::npos);
+  EXPECT_NE(problem("offset", "POSE").find("a field is required"), std::string::npos);
   EXPECT_EQ(problem("wheel_jammed", "5"), "");
   EXPECT_NE(problem("wheel_jammed", "6").find("not one of"), std::string::npos);
   EXPECT_EQ(problem("loss", "*"), "");
@@ -49,7 +49,7 @@ TEST(Faults, AmountsAreChecked) {
   EXPECT_NE(amount_problem(*find_fault("kill"), 1.0), "");
 }
 
-// Every field that is offered exists on a channel of its type, and a change of it is seen.
+// Every listed field exists in its channel's type and can be changed.
 TEST(Faults, FieldsBelongToChannels) {
   int channels = 0;
   for (const char* channel : {"POSE", "VO", "IMU", "WHEEL_STATE", "SLIP", "CONTROL_STATUS", "PLANNER_STATUS", "HAZARDS",

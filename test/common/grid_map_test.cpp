@@ -8,7 +8,7 @@
 namespace rover {
 namespace {
 
-// Oracle: a map of cells that keeps only what lies in the window.
+// Oracle: a std::map of cells within the window.
 TEST(GridMap, MovesLikeAWindowOverTheWorld) {
   GridMap<int> grid(16, 0.5, -1);
   std::map<std::pair<int, int>, int> world;

@@ -1,4 +1,4 @@
-// Logs as people have them: several runs in one file, clocks that were set, parts that are missing, and what is no log.
+// Real-world logs: several runs in one file, clock jumps, missing parts, and files that are not logs.
 #include "common/bus/log_runs.hpp"
 
 #include <gmock/gmock.h>
@@ -27,7 +27,7 @@ constexpr char kKind[] = "Logs";
 
 class LogRuns : public testing::Test {
  protected:
-  // IMU and TICK, 20 ms apart; each IMU is released with its TICK, and the last message behind the last TICK.
+  // IMU and TICK, 20 ms apart; each IMU is released with its TICK, and the last message follows the last TICK.
   static void add_run(report::MessageLog& log, Utime first, int ticks) {
     for (int k = 0; k < ticks; ++k) {
       log.put(channel::kImu, imu_t{}, first + k * kTickUs, "world");
@@ -35,7 +35,7 @@ class LogRuns : public testing::Test {
     }
     log.put(channel::kImu, imu_t{}, first + ticks * kTickUs, "world");
   }
-  // A log of its own for each run, put together.
+  // One log per run, concatenated.
   void write_runs(const std::vector<Utime>& first_ticks) {
     std::ofstream all(path_, std::ios::binary);
     for (const Utime first : first_ticks) {
@@ -48,7 +48,7 @@ class LogRuns : public testing::Test {
       fs::remove(one);
     }
   }
-  // The line of the refusal.
+  // The error line.
   std::string refused(const std::string& log, int number = 0) {
     try {
       choose_run(log, number);
@@ -75,7 +75,7 @@ TEST_F(LogRuns, OneRunNeedsNoChoiceAndNoRemark) {
   EXPECT_EQ(run.last_tick, 9 * kTickUs);
   EXPECT_THAT(remarks(run), ElementsAre());
   EXPECT_EQ(choose_run(path_, 1).records, 21);
-  EXPECT_EQ(refused(path_, 2), "log.lcm: holds 1 run, of the message time 1: 0.00 - 0.18 s; there is no --log-run 2");
+  EXPECT_EQ(refused(path_, 2), "log.lcm: contains 1 run, message time 1: 0.00 - 0.18 s; there is no --log-run 2");
 }
 
 TEST_F(LogRuns, LogsThatWerePutTogetherAreSeveralRuns) {
@@ -91,10 +91,9 @@ TEST_F(LogRuns, LogsThatWerePutTogetherAreSeveralRuns) {
     in_all += run.records;
   }
   EXPECT_EQ(in_all, 63);
-  EXPECT_EQ(
-      refused(path_),
-      "log.lcm: holds 3 runs, of the message time 1: 5.00 - 5.18 s, 2: 0.00 - 0.18 s, 3: 0.00 - 0.18 s; choose one "
-      "by --log-run N");
+  EXPECT_EQ(refused(path_),
+            "log.lcm: contains 3 runs, message time 1: 5.00 - 5.18 s, 2: 0.00 - 0.18 s, 3: 0.00 - 0.18 s; choose one "
+            "with --log-run N");
   EXPECT_EQ(remark(choose_run(path_, 2)), "log.lcm: run 2 of 3, message time 0.00 - 0.18 s");
   wild_row(kKind, "logs put together with cat (ZeroCM/zcm #395)", "replay plays the first, export mixes all",
            refused(path_));
@@ -149,7 +148,7 @@ TEST_F(LogRuns, ATickOfAnotherVersionIsNoTick) {
     log.put(channel::kTick, imu_t{}, 0, "world");
   }
   EXPECT_EQ(log_runs(path_).size(), 1U);
-  EXPECT_EQ(remark(choose_run(path_)), "log.lcm: 1 messages on TICK are damaged or of another version's type");
+  EXPECT_EQ(remark(choose_run(path_)), "log.lcm: 1 TICK messages are damaged or of another version");
 }
 
 TEST_F(LogRuns, WithoutTicksALogIsOneRun) {
@@ -165,7 +164,7 @@ TEST_F(LogRuns, WithoutTicksALogIsOneRun) {
 TEST_F(LogRuns, ARunGoesOnInTheNextPart) {
   write_runs({5'000'000, 0});
   const LogRun second = choose_run(path_, 2);
-  // The second part begins in the middle of the second run, behind a part of no bytes.
+  // The second part begins within the second run, after an empty part.
   std::int64_t cut = 0;
   int count = 0;
   for_each_event(second, [&](const LogEvent& event) { cut = ++count == 7 ? event.end : cut; });
@@ -177,7 +176,8 @@ TEST_F(LogRuns, ARunGoesOnInTheNextPart) {
   }
   fs::resize_file(path_, static_cast<std::uintmax_t>(cut));
   EXPECT_EQ(choose_run(path_, 2).records, 7);
-  EXPECT_THAT(remark(choose_run(path_, 2)), HasSubstr("log-002.lcm: this part of the log is missing; those behind it"));
+  EXPECT_THAT(remark(choose_run(path_, 2)),
+              HasSubstr("log-002.lcm: this part of the log is missing; the following parts"));
   wild_row(kKind, "a log of several parts whose second is missing", "read to there in silence",
            remark(choose_run(path_, 2)));
   std::ofstream(folder_.file("log-002.lcm"));
@@ -196,9 +196,9 @@ TEST_F(LogRuns, DamageIsOfTheRunThatItLiesIn) {
   for_each_event(choose_run(path_, 1), [&](const LogEvent& event) { last = event.begin; });
   std::fstream(path_, std::ios::binary | std::ios::in | std::ios::out).seekp(last) << "damage";
   EXPECT_EQ(choose_run(path_, 1).records, 20);
-  EXPECT_GT(choose_run(path_, 1).left_bytes, 0);
+  EXPECT_GT(choose_run(path_, 1).skipped_bytes, 0);
   EXPECT_EQ(choose_run(path_, 2).records, 21);
-  EXPECT_EQ(choose_run(path_, 2).left_bytes, 0);
+  EXPECT_EQ(choose_run(path_, 2).skipped_bytes, 0);
 }
 
 TEST_F(LogRuns, WhatIsNoLogIsNamedInOneLine) {
@@ -210,13 +210,13 @@ TEST_F(LogRuns, WhatIsNoLogIsNamedInOneLine) {
   std::ofstream(folder_.file("empty.lcm"));
   row("an empty file", "no log of a rover", refused(folder_.file("empty.lcm")), "empty.lcm: is empty");
   std::ofstream(folder_.file("text.lcm")) << "no log at all";
-  row("a text", "holds no messages", refused(folder_.file("text.lcm")),
-      "text.lcm: holds no messages; is it an LCM log?");
+  row("a text", "contains no messages", refused(folder_.file("text.lcm")),
+      "text.lcm: contains no messages; is it an LCM log?");
   fs::create_directory(folder_.file("folder"));
   row("a folder without a log", "no such log", refused(folder_.file("folder")), "folder/traverse.lcm: no such log");
   ASSERT_EQ(mkfifo(folder_.file("fifo").c_str(), 0600), 0);
-  row("a FIFO", "no such log", refused(folder_.file("fifo")), "fifo: is no file; a log is read from a file");
-  row("a device", "no such log", refused("/dev/zero"), "/dev/zero: is no file; a log is read from a file");
+  row("a FIFO", "no such log", refused(folder_.file("fifo")), "fifo: is not a regular file");
+  row("a device", "no such log", refused("/dev/zero"), "/dev/zero: is not a regular file");
   EXPECT_EQ(refused(folder_.file("none.lcm")), "none.lcm: no such log");
 }
 

@@ -151,7 +151,7 @@ std::uintmax_t peak_memory_kb() {
   return static_cast<std::uintmax_t>(usage.ru_maxrss);
 }
 
-// lcm-gen's own decoders take the memory for a length before they look whether the bytes are there.
+// lcm-gen's decoders allocate memory for a length before they check the number of bytes.
 TEST(MessageFields, ALengthThatIsClaimedTakesNoMemory) {
   image_t image{};
   image.header = some_header();
@@ -192,7 +192,7 @@ TEST(MessageSchema, EveryTypedChannelHasOne) {
   EXPECT_EQ(find_schema("no_such_t"), nullptr);
 }
 
-// A channel that is in the one file of names and has no type would be left out by every tool.
+// Tools ignore channels without a type.
 TEST(MessageSchema, EveryNamedChannelHasAType) {
   std::ifstream file(ROVER_SOURCE_DIR "/services/common/bus/channels.hpp");
   int found = 0;

@@ -12,7 +12,7 @@
 namespace rover {
 namespace {
 
-// A world of one node: gives ticks, publishes inputs, hears what the node says.
+// Test harness of one node: publishes ticks and inputs, records outputs.
 class NodeTest : public testing::Test {
  protected:
   NodeTest() : bus_("memq://"), world_("world", 1) {
@@ -40,11 +40,11 @@ class NodeTest : public testing::Test {
     return message;
   }
 
-  // Handles until the count of silences grows, or for as long as it never takes.
-  bool falls_silent(Node& node, const int& silences) {
-    const int before = silences;
-    for (int i = 0; i < 50 && silences == before; ++i) node.handle(10);
-    return silences > before;
+  // Handles messages until the number of timeouts increases, at most for a generous time.
+  bool falls_silent(Node& node, const int& timeouts) {
+    const int before = timeouts;
+    for (int i = 0; i < 50 && timeouts == before; ++i) node.handle(10);
+    return timeouts > before;
   }
 
   void tick(Node& node, Utime utime, std::vector<stream_seq_t> streams = {}, std::int8_t mode = tick_t::LOCKSTEP) {
@@ -72,16 +72,16 @@ class NodeTest : public testing::Test {
 
 TEST_F(NodeTest, TicksOfTheClockThatStopAreNoticedOnce) {
   Node node({.name = "node"}, bus_);
-  int silences = 0;
-  node.on_silence([&] { ++silences; });
-  tick(node, 20'000);  // in lockstep the world may think as long as it wants
-  EXPECT_FALSE(falls_silent(node, silences));
+  int timeouts = 0;
+  node.on_tick_timeout([&] { ++timeouts; });
+  tick(node, 20'000);  // in lockstep there is no tick timeout
+  EXPECT_FALSE(falls_silent(node, timeouts));
   for (int round = 1; round <= 2; ++round) {
     tick(node, 20'000 * (round + 1), {}, tick_t::REALTIME);
-    EXPECT_EQ(silences, round - 1);
-    EXPECT_TRUE(falls_silent(node, silences));
-    EXPECT_EQ(silences, round);
-    EXPECT_FALSE(falls_silent(node, silences));
+    EXPECT_EQ(timeouts, round - 1);
+    EXPECT_TRUE(falls_silent(node, timeouts));
+    EXPECT_EQ(timeouts, round);
+    EXPECT_FALSE(falls_silent(node, timeouts));
   }
 }
 
@@ -96,7 +96,7 @@ TEST_F(NodeTest, ATickOfTheClockThatNamesNobodyIsForAll) {
     bus_.publish(channel::kTick, &tick);
     drain(node);
   };
-  nameless_tick(20'000, tick_t::LOCKSTEP);  // there nobody may join unasked
+  nameless_tick(20'000, tick_t::LOCKSTEP);  // in lockstep only listed members take part
   EXPECT_TRUE(steps.empty());
   nameless_tick(40'000, tick_t::REALTIME);
   EXPECT_EQ(steps, std::vector<Utime>{40'000});
@@ -155,9 +155,9 @@ TEST_F(NodeTest, WaitsForWhatTheTickLists) {
   node.subscribe<slip_t>(channel::kSlip, [&](const slip_t& message) { taken.push_back(message.wheel_mps); });
   slip_t first = slip(1.0, 0, 20'000);
   bus_.publish(channel::kSlip, &first);
-  tick(node, 20'000, world_.take_grown());
+  tick(node, 20'000, world_.take_updated());
   slip_t second = slip(2.0, 10, 40'000);
-  tick(node, 40'000, world_.take_grown());
+  tick(node, 40'000, world_.take_updated());
   EXPECT_EQ(taken, std::vector<double>{1.0});
   bus_.publish(channel::kSlip, &second);
   drain(node);
@@ -222,7 +222,7 @@ TEST_F(NodeTest, ADamagedCopyDoesNotStandInForTheMessage) {
   bus_.publish(channel::kSlip, cut.data(), static_cast<unsigned int>(cut.size() - 4));
   bus_.publish(channel::kSlip, &good);
   bus_.publish(channel::kSlip, &next);
-  tick(node, 20'000, world_.take_grown());
+  tick(node, 20'000, world_.take_updated());
   EXPECT_EQ(taken, (std::vector<double>{1.0, 2.0}));
 }
 

@@ -14,7 +14,7 @@ TEST(Process, WhatItComputesIsTold) {
   int rounds = 0;
   for (; rounds < 1'000'000 && process_cpu_s(getpid()) < before + 0.05; ++rounds)
     for (int i = 0; i < 10'000; ++i) sum = sum + std::sqrt(static_cast<double>(i));
-  EXPECT_LT(rounds, 1'000'000) << "computed for long, and nothing was told of it";
+  EXPECT_LT(rounds, 1'000'000) << "computed for long, and nothing was reported";
   EXPECT_GT(rounds, 0);
 }
 

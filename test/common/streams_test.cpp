@@ -57,8 +57,8 @@ TEST(StreamCounter, CountsEachChannelAndListsWhatGrew) {
   counter.next("A", 0, 0);
   EXPECT_EQ(counter.next("A", 0, 0).seq, 2);
   EXPECT_EQ(counter.next("B", 0, 0).seq, 1);
-  EXPECT_EQ(counter.take_grown().size(), 2u);
-  EXPECT_TRUE(counter.take_grown().empty());
+  EXPECT_EQ(counter.take_updated().size(), 2u);
+  EXPECT_TRUE(counter.take_updated().empty());
 }
 
 TEST(Peek, ShortBytesHaveNoHeader) {
@@ -68,7 +68,7 @@ TEST(Peek, ShortBytesHaveNoHeader) {
   EXPECT_FALSE(peek_header(bytes, 12, header));
 }
 
-// Of damaged bytes; whoever takes differences of such times overflows.
+// Times of damaged bytes; their differences would overflow.
 TEST(Peek, TimesAndNumbersBeyondAllAreNoHeader) {
   const auto readable = [](auto change) {
     slip_t message{};

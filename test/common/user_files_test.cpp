@@ -1,4 +1,4 @@
-// Paths as users type them, and outputs that never replace anything.
+// Typed paths, and outputs that never replace existing files.
 #include "common/bus/user_files.hpp"
 
 #include <gtest/gtest.h>
@@ -65,7 +65,7 @@ TEST_F(UserFilesTest, ALinkKeepsItsNameAndAFolderBehindALinkIsFoundThroughIt) {
   fs::create_directories("real/deep");
   fs::create_directory_symlink("real/deep", "link");
   EXPECT_EQ(user_path("link"), (dir_ / "link").string());
-  EXPECT_EQ(user_path("link/.."), (dir_ / "real").string());  // as the kernel goes
+  EXPECT_EQ(user_path("link/.."), (dir_ / "real").string());  // as the kernel resolves it
 }
 
 TEST_F(UserFilesTest, AFolderIsThereWholeOrNotAtAll) {

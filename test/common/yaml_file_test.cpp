@@ -1,4 +1,4 @@
-// YAML as users have it: what a parser would drop, guess or misread is refused in one line.
+// Real-world YAML: anything that a parser would drop, guess or misread is refused in one line.
 #include "common/bus/yaml_file.hpp"
 
 #include <gtest/gtest.h>
@@ -26,10 +26,10 @@ struct StrictCase {
   const char* input;
   const char* text;
   const char* before;
-  const char* line;  // how the refusal begins
+  const char* line;  // start of the error line
 };
 
-// `read` takes `a` out of a file with the text.
+// `read` reads the key `a` from a file with this text.
 void expect_refused(const std::vector<StrictCase>& cases, const std::function<void(const Config&)>& read) {
   for (const StrictCase& c : cases) {
     const std::string error = error_of([&] {

@@ -9,7 +9,7 @@
 
 #include "common/bus/channels.hpp"
 #include "driver/driver.hpp"
-#include "tools/conform/duties.hpp"
+#include "tools/conform/checks.hpp"
 #include "tools/conform/listener.hpp"
 #include "tools/conform/trial_publisher.hpp"
 

@@ -14,7 +14,7 @@ namespace {
 std::vector<std::string> failed(const std::vector<Line>& lines) {
   std::vector<std::string> out;
   for (const Line& line : lines)
-    if (line.verdict == Verdict::kFail) out.push_back(line.duty);
+    if (line.verdict == Verdict::kFail) out.push_back(line.check);
   return out;
 }
 
@@ -22,7 +22,7 @@ TEST(Conform, ExampleDriverPassesEveryRequirement) {
   BrokenDriver driver;
   const std::vector<Line> lines = driver.examine();
   EXPECT_EQ(failures(lines), 0) << table(lines, false);
-  for (const Line& line : lines) EXPECT_EQ(line.verdict, Verdict::kPass) << line.duty << ": " << line.measured;
+  for (const Line& line : lines) EXPECT_EQ(line.verdict, Verdict::kPass) << line.check << ": " << line.measured;
 }
 
 TEST(Conform, NoWheelCommandWithoutMoveOption) {
@@ -42,7 +42,7 @@ TEST(Conform, SilentBusFails) {
 
 struct Fault {
   const char* name;
-  const char* duty;  // the only line to fail
+  const char* check;  // the only line to fail
   void (*breaks)(BrokenDriver&);
 };
 
@@ -264,7 +264,7 @@ TEST_P(BrokenDrivers, FailExactlyTheirLine) {
   BrokenDriver driver;
   GetParam().breaks(driver);
   const std::vector<Line> lines = driver.examine();
-  EXPECT_EQ(failed(lines), std::vector<std::string>{GetParam().duty}) << table(lines, false);
+  EXPECT_EQ(failed(lines), std::vector<std::string>{GetParam().check}) << table(lines, false);
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, BrokenDrivers, testing::ValuesIn(kFaults),
@@ -274,8 +274,8 @@ TEST(Conform, EveryRequirementHasAFailingDriver) {
   BrokenDriver driver;
   for (const Line& line : driver.examine()) {
     const bool covered = std::any_of(std::begin(kFaults), std::end(kFaults),
-                                     [&](const Fault& fault) { return fault.duty == line.duty; });
-    EXPECT_TRUE(covered) << line.duty;
+                                     [&](const Fault& fault) { return fault.check == line.check; });
+    EXPECT_TRUE(covered) << line.check;
   }
 }
 

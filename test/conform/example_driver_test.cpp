@@ -84,9 +84,9 @@ TEST(PlaneRover, DrivesTheCircleOfItsSteering) {
   }
   for (size_t i = 0; i < 6; ++i)
     turn.drive_rate_radps[i] = 0.4 * std::hypot(vehicle.wheel_x_m[i], radius_m - vehicle.wheel_y_m[i]) / radius_m;
-  wheel_command_t standing = turn;
-  std::fill_n(standing.drive_rate_radps, 6, 0.0);
-  for (int i = 0; i < 300; ++i) rover.step(standing, 0.02);
+  wheel_command_t stationary = turn;
+  std::fill_n(stationary.drive_rate_radps, 6, 0.0);
+  for (int i = 0; i < 300; ++i) rover.step(stationary, 0.02);
   EXPECT_NEAR(rover.pose().x_m, 0.0, 1e-9);
   for (int i = 0; i < 1500; ++i) rover.step(turn, 0.02);
   const rover::Pose2 end = rover.pose();

@@ -7,11 +7,11 @@
 namespace rover::fuzz {
 
 std::string bytes_of(const std::filesystem::path& file);
-// The files of corpus/NAME with their names in it, in the order of these.
+// The files of corpus/NAME, sorted by name.
 std::vector<Input> files_of(const std::string& name);
-// All files of the corpus, one of them exchanged for the input.
+// All files of the corpus, with one replaced by the input.
 void lay_out(const std::vector<Input>& corpus, const Input& input, Scratch& scratch);
-// For an input that several readers get: what one refuses goes to the next.
+// Tries several readers in order until one accepts the input.
 template <class Read>
 void read_or_refuse(Read read) {
   try {
@@ -20,7 +20,7 @@ void read_or_refuse(Read read) {
     return;
   }
 }
-// What words mean something to a YAML parser.
+// Tokens of YAML.
 const std::vector<std::string>& yaml_words();
 
 }  // namespace rover::fuzz

@@ -33,7 +33,7 @@ Parser data_set_parser(const std::string& name, std::vector<Input> corpus) {
           [corpus](const Input& input, Scratch& scratch) { run_data_set(corpus, input, scratch); }};
 }
 
-// Each file alone, and beside a whole one.
+// Each file alone, and with a valid second one.
 void run_calibration(const Input& input, Scratch& scratch) {
   const std::string file = scratch.write(input.name, input.bytes);
   calibration::read_calibration({file});

@@ -1,11 +1,11 @@
-// fuzz_parsers PARSER: gives a parser of users' files one wrong file after the other.
+// fuzz_parsers PARSER: feeds mutated files to a parser of user files.
 #include <cstdio>
 
 #include "common/bus/command_line.hpp"
 #include "parsers.hpp"
 
 #ifdef __SANITIZE_ADDRESS__
-// A size that nobody checked is a finding. The memory of a freed block is looked at, but not all of it is kept.
+// Unchecked allocation sizes are findings. The quarantine of freed memory is limited.
 extern "C" const char* __asan_default_options() {
   return "max_allocation_size_mb=1024:quarantine_size_mb=16:detect_leaks=0";
 }

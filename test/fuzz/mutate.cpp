@@ -75,7 +75,7 @@ class Editor {
   }
   void insert(const std::string& text) { bytes_.insert(place(), text); }
 
-  // A field of a binary header, in either order of bytes.
+  // A field of a binary header, in either byte order.
   void set_field() {
     constexpr std::array<std::uint64_t, 10> kValues = {0,          1,          0x7fff,     0xffff,     0x7fffffff,
                                                        0x80000000, 0xffffffff, 0x10000000, 1ULL << 40, ~0ULL};

@@ -22,9 +22,9 @@ namespace {
 
 constexpr std::uint64_t kBatch = 250;
 constexpr size_t kMostFindings = 20;
-constexpr int kFound = 3;  // exit status of a child that says itself what is wrong
+constexpr int kFound = 3;  // exit status of a child that reports a finding
 
-// What a child leaves behind, however it ends.
+// Output files of a child.
 struct Progress {
   std::uint64_t number;
   std::uint64_t refused;
@@ -60,7 +60,7 @@ void set_alarms(double seconds) {
   setitimer(ITIMER_REAL, &wall, nullptr);
 }
 
-// A refusal is one line that can be read.
+// A refusal must be one printable line.
 void check_refusal(const std::string& line, Progress& progress) {
   if (line.empty() || line.size() > 2000 || line.find('\n') != std::string::npos)
     found(progress, "the refusal is not one line: " + line);
@@ -69,7 +69,7 @@ void check_refusal(const std::string& line, Progress& progress) {
 
 void run_one(const Parser& parser, const Campaign& campaign, Scratch& scratch, Progress& progress) {
   const Input input = mutated(parser.corpus, parser.words, campaign.seed, progress.number);
-  set_alarms(campaign.most_cpu_s);
+  set_alarms(campaign.max_cpu_s);
   const double before = cpu_s();
   try {
     parser.run(input, scratch);
@@ -86,7 +86,7 @@ void run_one(const Parser& parser, const Campaign& campaign, Scratch& scratch, P
     progress.worst_number = progress.number;
   }
   progress.memory_mb = std::max(progress.memory_mb, memory_mb());
-  if (progress.memory_mb > campaign.most_memory_mb)
+  if (progress.memory_mb > campaign.max_memory_mb)
     found(progress, "takes " + std::to_string(static_cast<int>(progress.memory_mb)) + " MB");
   if (const std::string name = scratch.changed(); !name.empty()) found(progress, "an input is written over: " + name);
   scratch.remove_results();
@@ -114,7 +114,7 @@ std::string ending(int status, const Progress& progress) {
   return "ends with status " + std::to_string(WEXITSTATUS(status));
 }
 
-// The input, and beside it what the process said (a sanitizer's report).
+// Stores the input and the output of the process (sanitizer report).
 Finding keep(const Parser& parser, const Campaign& campaign, std::uint64_t number, const std::string& what,
              const fs::path& said) {
   fs::create_directories(campaign.findings_dir);

@@ -1,4 +1,4 @@
-// Gives a parser one input after the other, in processes of their own: each crash, hang and waste is one finding.
+// Runs a parser on inputs in child processes. Each crash, timeout and excessive resource use is a finding.
 #pragma once
 
 #include <functional>
@@ -13,7 +13,7 @@ struct Parser {
   std::string name;
   std::vector<Input> corpus;
   std::vector<std::string> words;
-  // Lays the input out as the user would have it, and reads it. May refuse it by ConfigError or DtmError.
+  // Writes the input as files of a user and parses it. May throw ConfigError or DtmError.
   std::function<void(const Input& input, Scratch& scratch)> run;
 };
 
@@ -21,10 +21,10 @@ struct Campaign {
   std::uint64_t seed = 1;
   std::uint64_t first = 0;
   std::uint64_t inputs = std::numeric_limits<std::uint64_t>::max();
-  double seconds = 1e9;      // of wall time; no batch begins later
-  double most_cpu_s = 10.0;  // of one input
-  double most_memory_mb = 1024.0;
-  std::string findings_dir;  // made where there is something to keep
+  double seconds = 1e9;     // wall time; no batch starts later
+  double max_cpu_s = 10.0;  // of one input
+  double max_memory_mb = 1024.0;
+  std::string findings_dir;  // created on the first finding
 };
 
 struct Finding {
@@ -40,7 +40,7 @@ struct Outcome {
   double worst_cpu_s = 0.0;
   std::uint64_t worst_number = 0;
   double worst_memory_mb = 0.0;
-  std::vector<Finding> findings;  // at most 20, then it ends
+  std::vector<Finding> findings;  // stops after 20
 };
 
 Outcome run_inputs(const Parser& parser, const Campaign& campaign);

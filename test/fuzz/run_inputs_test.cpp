@@ -1,4 +1,4 @@
-// The fuzzer itself: what goes wrong in a parser is found, kept, and comes again.
+// Tests the fuzzer: failures of a parser are found, stored and reproducible.
 #include "run_inputs.hpp"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ class RunInputs : public testing::Test {
   }
   ~RunInputs() override { fs::remove_all(dir_); }
 
-  // A parser that is right but for input 7.
+  // A parser that fails only for input 7.
   Outcome with(const std::function<void(Scratch&)>& fault) {
     const auto number = std::make_shared<int>(0);
     Parser parser{"p", {{"f", "seed: 12\nlevel: auto\n"}}, {"---"}, [=](const Input& input, Scratch& scratch) {
@@ -31,8 +31,8 @@ class RunInputs : public testing::Test {
                   }};
     Campaign campaign;
     campaign.inputs = 10;
-    campaign.most_cpu_s = 2.0;
-    campaign.most_memory_mb = 300.0;
+    campaign.max_cpu_s = 2.0;
+    campaign.max_memory_mb = 300.0;
     campaign.findings_dir = dir_ / "findings";
     return run_inputs(parser, campaign);
   }

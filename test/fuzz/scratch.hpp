@@ -1,4 +1,4 @@
-// The folder in which a parser finds its files: what is written there is the user's, and has to stay as it is.
+// Folder with the input files of a parser, which it must not change.
 #pragma once
 
 #include <filesystem>
@@ -10,12 +10,12 @@ namespace rover::fuzz {
 class Scratch {
  public:
   explicit Scratch(const std::filesystem::path& dir);
-  // The file's path. Folders are made.
+  // Path of the file; creates its folders.
   std::string write(const std::string& name, const std::string& bytes);
-  // Of a new folder or file for results.
+  // Path of a new folder or file for results.
   std::string out() const { return (dir_ / "out").string(); }
   std::string dir() const { return dir_.string(); }
-  // The name of a file of the user's that is no longer what was written; empty: none.
+  // Name of a changed input file; empty: none.
   std::string changed() const;
   void remove_results();
 

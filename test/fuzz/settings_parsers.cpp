@@ -29,7 +29,7 @@ void run_scenario(const Input& input, Scratch& scratch) {
 std::vector<Input> settings_corpus() {
   std::vector<Input> corpus;
   for (const char* name : {"bus.yaml", "cameras.yaml", "fdir.yaml", "hazard_detector.yaml", "mission_control.yaml",
-                           "supervisor.yaml", "vehicle.yaml"})
+                           "navigation.yaml", "supervisor.yaml", "vehicle.yaml"})
     corpus.push_back({name, bytes_of(config_file(name))});
   corpus.push_back({"ground.yaml", bytes_of(fs::path(ROVER_SOURCE_DIR) / "examples" / "driver" / "ground.yaml")});
   return corpus;
@@ -43,18 +43,18 @@ void run_settings(const std::vector<Input>& corpus, const Input& input, Scratch&
   load_stereo_rig(dir, "loccam");
   load_stereo_rig(dir, "navcam");
   load_mission_plan(dir);
-  mission::load_page_config(dir);
+  mission::load_config(dir);
   mission::page_setup(dir, vehicle);
   supervisor::load_config(dir);
 }
 
 void run_arguments(const Input& input, Scratch& scratch) {
-  const std::string text = input.bytes.c_str();  // as a program gets it, until the first NUL
+  const std::string text = input.bytes.c_str();  // as program arguments, up to the first NUL
   const fs::path config = fs::path(scratch.out());
   fs::create_directories(config);
   fs::copy_file(config_file("vehicle.yaml"), config / "vehicle.yaml");
   read_or_refuse([&] { apply_setting(text, config); });
-  load_yaml(config / "vehicle.yaml");  // still whole
+  load_yaml(config / "vehicle.yaml");  // must still be valid
   read_or_refuse([&] { parse_seeds(text); });
   read_or_refuse([&] { orbital::parse_place(text, "--start"); });
   read_or_refuse([&] { user_path(text); });

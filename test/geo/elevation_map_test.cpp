@@ -1,4 +1,4 @@
-// Maps in all the ways that users have them, against a known truth: heights are a function of longitude and latitude.
+// Maps in many formats and projections, compared with known heights as a function of longitude and latitude.
 #include "common/geo/elevation_map.hpp"
 
 #include <fmt/format.h>
@@ -44,7 +44,7 @@ struct Truth {
   }
 };
 
-// Pixels of the size about the truth's place; the file's numbers are the height times `factor`.
+// Pixels of this size about the known place; the stored values are the height times `factor`.
 struct Sample {
   std::string name;
   Truth truth;
@@ -53,7 +53,7 @@ struct Sample {
   std::string before;
 };
 
-// Columns and lines go along `along` and `down`, in the units of the projection.
+// Columns run along `along` and lines along `down`, in units of the projection.
 Sample sample(const std::string& name, const Truth& truth, const std::string& reference, Eigen::Vector2d along,
               Eigen::Vector2d down, const std::string& before) {
   Sample s{name, truth, {}, 1.0, before};
@@ -86,8 +86,8 @@ class MapFileTest : public testing::Test {
     return file;
   }
 
-  // Heights, places and sizes of what was read are the truth's. Returns the error that 95 % of the heights keep to; at
-  // the border interpolation has but one side.
+  // Checks heights, positions and size. Returns the 95 % quantile of the height error; at the border interpolation is
+  // one-sided.
   static double expect_true(const ElevationMap& map, const Truth& truth, const std::string& name, bool whole = true) {
     const ElevationRaster& raster = map.raster;
     const Geography geography(raster);
@@ -101,26 +101,26 @@ class MapFileTest : public testing::Test {
         if (std::isfinite(error_m)) errors_m.push_back(error_m);
       }
     std::sort(errors_m.begin(), errors_m.end());
-    const double most_m = errors_m[errors_m.size() * 95 / 100];
-    EXPECT_LT(most_m, 0.05) << name;
+    const double p95_m = errors_m[errors_m.size() * 95 / 100];
+    EXPECT_LT(p95_m, 0.05) << name;
     EXPECT_LT(errors_m.back(), 0.3) << name;
     const Eigen::Vector2d south = geography.to_lon_lat({0.5 * raster.width_m(), 0.0});
     const Eigen::Vector2d north = geography.to_lon_lat({0.5 * raster.width_m(), raster.height_m()});
     EXPECT_NEAR(to_rad((north - south).y()) * truth.radius_m / raster.height_m(), 1.0, 0.012) << name;
-    return most_m;
+    return p95_m;
   }
 
   ElevationMap expect_true_file(const Sample& s, bool converted, bool whole = true) const {
     const ElevationMap map = read_elevation_map(write_sample(s));
     EXPECT_EQ(map.converted, converted) << s.name;
-    const double most_m = expect_true(map, s.truth, s.name, whole);
+    const double p95_m = expect_true(map, s.truth, s.name, whole);
     wild_row("Maps: projections and units", s.name, s.before,
              fmt::format("read as {} x {} pixels of {:.3f} m; 95 % of the heights within {:.2f} m of the truth",
-                         map.raster.width, map.raster.height, map.raster.resolution_m, most_m));
+                         map.raster.width, map.raster.height, map.raster.resolution_m, p95_m));
     return map;
   }
 
-  // One line that starts with the file's name.
+  // One line that starts with the file name.
   std::string refusal(const std::string& file) const {
     try {
       read_elevation_map(file);
@@ -134,7 +134,7 @@ class MapFileTest : public testing::Test {
     return "";
   }
 
-  // The file is refused with a line that says so, and what to do.
+  // The file is refused with one line that contains the remedy.
   void expect_refused(const std::string& what, const std::string& file, const std::string& says,
                       const std::string& before) const {
     const std::string line = refusal(file);
@@ -198,7 +198,7 @@ TEST_F(MapFileTest, AnyDirectionOfPixelsIsBroughtToNorthUp) {
   expect_true_file(sample("columns to the north", mars, plane, {0.0, 2.0}, {2.0, 0.0}, kRefusedBySome), true);
   const ElevationMap turned = expect_true_file(
       sample("turned by 30 deg", mars, plane, {1.732, 1.0}, {1.0, -1.732}, kRefusedBySome), true, false);
-  EXPECT_TRUE(std::isnan(turned.raster.at(0, 0)));  // around it there is none
+  EXPECT_TRUE(std::isnan(turned.raster.at(0, 0)));  // outside of the map
   EXPECT_TRUE(std::isfinite(turned.raster.at(turned.raster.width / 2, turned.raster.height / 2)));
 }
 
@@ -221,9 +221,9 @@ TEST_F(MapFileTest, LatitudeFirstIsNotTakenForLongitude) {
       "</SimpleSource></VRTRasterBand></VRTDataset>",
       s.map.width, s.map.height, t[3], t[5], t[0], t[1]);
   const ElevationMap map = read_elevation_map(folder_.file("first.vrt"));
-  const double most_m = expect_true(map, s.truth, "latitude first");
+  const double p95_m = expect_true(map, s.truth, "latitude first");
   wild_row("Maps: projections and units", "coordinates with latitude first (a VRT's axis mapping)",
-           "right in `plan` alone", fmt::format("right: 95 % of the heights within {:.2f} m of the truth", most_m));
+           "right in `plan` alone", fmt::format("right: 95 % of the heights within {:.2f} m of the truth", p95_m));
 }
 
 TEST_F(MapFileTest, HeightsAreInMetresWhateverTheirUnit) {
@@ -336,7 +336,7 @@ TEST_F(MapFileTest, IntegersAtTheLimitOfTheirTypeAreVoid) {
   for (const auto& [type, value] : cases) {
     MapFile map;
     map.type = type;
-    map.scale = 0.001;  // so that the void is no wall
+    map.scale = 0.001;  // so that the void has no impossible step
     const double number = value;
     write(folder_.file("limit.tif"), map,
           [&](int column, int line) { return column < 20 ? number : 25000.0 + 20.0 * column + 10.0 * line; });
@@ -391,7 +391,7 @@ TEST_F(MapFileTest, WhatIsGuessedToBeVoidIsSaid) {
   EXPECT_NE(read.notes[0].find("1000 pixels of exactly -9999 m"), std::string::npos) << read.notes[0];
   wild_row("Maps: voids", "undeclared -9999", "ground at -9999 m", folder_.short_names(read.notes[0]));
   try {
-    demand_no_voids(read, "guess.tif");
+    require_no_voids(read, "guess.tif");
     ADD_FAILURE();
   } catch (const DtmError& error) {
     EXPECT_NE(
@@ -486,7 +486,7 @@ TEST_F(MapFileTest, BadFilesAreNamed) {
   EXPECT_NE(refusal(folder_.file("empty.tif")).find("no heights"), std::string::npos);
 }
 
-// Found by bench fuzz: GDAL repeats the name of a missing part, with whatever is in it.
+// Found by bench fuzz: GDAL repeats the name of a missing part with any characters in it.
 TEST_F(MapFileTest, ARefusalIsOneLineWhateverGdalSays) {
   std::ofstream(folder_.file("parts.vrt")) << fmt::format(
       "<VRTDataset rasterXSize=\"8\" rasterYSize=\"6\"><SRS>{}</SRS>"
@@ -496,7 +496,7 @@ TEST_F(MapFileTest, ARefusalIsOneLineWhateverGdalSays) {
       "</SimpleSource></VRTRasterBand></VRTDataset>",
       mars_plane(), std::string(3000, 'c'));
   const std::string said = refusal(folder_.file("parts.vrt"));
-  EXPECT_NE(said.find("cut short or damaged"), std::string::npos) << said;
+  EXPECT_NE(said.find("truncated or damaged"), std::string::npos) << said;
   EXPECT_LT(said.size(), 1000u);
   EXPECT_TRUE(std::none_of(said.begin(), said.end(), [](unsigned char c) { return std::iscntrl(c) != 0; })) << said;
 }
@@ -522,7 +522,7 @@ TEST_F(MapFileTest, TheSameFileIsTheSameRasterEachTime) {
   const std::string file = write_sample(sample("degrees", {}, kMars, {2.0 * degree, 0.0}, {0.0, -2.0 * degree}, ""));
   const ElevationRaster first = read_elevation_map(file).raster, again = read_elevation_map(file).raster;
   EXPECT_EQ(first.z_m, again.z_m);
-  // What was converted and written is read as it is.
+  // A converted and written map is read without conversion.
   write_geotiff(folder_.file("map.tif"), first);
   const ElevationMap written = read_elevation_map(folder_.file("map.tif"));
   EXPECT_FALSE(written.converted);

@@ -1,4 +1,4 @@
-// GeoTIFFs that the project writes.
+// GeoTIFFs written by the project.
 #include <gtest/gtest.h>
 
 #include <algorithm>

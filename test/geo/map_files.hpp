@@ -1,4 +1,4 @@
-// Maps as users have them, written by GDAL from a height function.
+// Writes test maps with GDAL from a height function.
 #pragma once
 
 #include <gdal_priv.h>
@@ -20,7 +20,7 @@ const char* const kMars =
     "GEOGCS[\"Mars\",DATUM[\"D_Mars\",SPHEROID[\"Mars\",3396190,0]],PRIMEM[\"Reference meridian\",0],"
     "UNIT[\"degree\",0.0174532925199433]]";
 
-// On Mars, in metres, true to scale at the parallel.
+// On Mars, in metres, with true scale at the parallel.
 inline std::string mars_plane(int true_at_deg = 0, const char* unit = "UNIT[\"metre\",1]") {
   return std::string("PROJCS[\"plane\",") + kMars +
          ",PROJECTION[\"Equirectangular\"],PARAMETER[\"standard_parallel_1\"," + std::to_string(true_at_deg) +
@@ -30,7 +30,7 @@ inline std::string mars_plane(int true_at_deg = 0, const char* unit = "UNIT[\"me
 struct MapFile {
   // All zero: none.
   std::array<double, 6> transform{1000.0, 2.0, 0.0, 5000.0, 0.0, -2.0};
-  std::string reference = mars_plane();  // as OGR takes it from the user
+  std::string reference = mars_plane();  // any format that OGR accepts
   int width = 60;
   int height = 50;
   GDALDataType type = GDT_Float32;
@@ -39,10 +39,10 @@ struct MapFile {
   std::string unit;
   std::optional<double> no_data;
   bool pixel_is_point = false;
-  std::function<void(GDALDataset&)> change;  // what else is done to it before it is filled
+  std::function<void(GDALDataset&)> change;  // further changes before it is filled
 };
 
-// value(column, line): the number in the file, of a pixel's centre, line 0 first.
+// value(column, line): stored value at the pixel centre, line 0 first.
 template <class F>
 void write(const std::string& file, const MapFile& map, F&& value) {
   GDALAllRegister();

@@ -1,4 +1,4 @@
-// What of a raster is ground where the file declares no voids.
+// Detection of voids that the file does not declare.
 #include "common/geo/undeclared_voids.hpp"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ std::int64_t voids_in(const ElevationRaster& raster) {
   return std::count_if(raster.z_m.begin(), raster.z_m.end(), [](float z) { return std::isnan(z); });
 }
 
-// Nothing of it is taken for void.
+// Expects no void.
 void expect_ground(ElevationRaster raster, double pixel_m = 1.0) {
   const std::int64_t before = voids_in(raster);
   const UndeclaredVoids found = remove_undeclared_voids(raster, pixel_m);
@@ -62,20 +62,20 @@ TEST(UndeclaredVoids, SeveralValuesAndScatteredPixelsAreVoid) {
   const UndeclaredVoids found = remove_undeclared_voids(raster, 1.0);
   EXPECT_EQ(found.problem, "");
   EXPECT_EQ(found.plateaus.size(), 2u);
-  EXPECT_GT(found.rests, 20);
+  EXPECT_GT(found.interpolated, 20);
   EXPECT_TRUE(std::all_of(raster.z_m.begin(), raster.z_m.end(),
                           [](float z) { return std::isnan(z) || (z > 1900.0F && z < 2100.0F); }));
 }
 
-// As after a bilinear resampling that did not know of the voids.
+// As after bilinear resampling without void handling.
 TEST(UndeclaredVoids, InterpolatedPixelsAtTheirEdgeAreVoid) {
   ElevationRaster raster = raster_of(80, 60, [](int x, int y) {
-    const double void_share = std::clamp((20.3 + 0.37 * (y % 5) - x), 0.0, 1.0);
-    return void_share * -9999.0 + (1.0 - void_share) * hills(x, y);
+    const double void_fraction = std::clamp((20.3 + 0.37 * (y % 5) - x), 0.0, 1.0);
+    return void_fraction * -9999.0 + (1.0 - void_fraction) * hills(x, y);
   });
   const UndeclaredVoids found = remove_undeclared_voids(raster, 1.0);
   EXPECT_EQ(found.problem, "");
-  EXPECT_GT(found.rests, 40);
+  EXPECT_GT(found.interpolated, 40);
   EXPECT_TRUE(std::all_of(raster.z_m.begin(), raster.z_m.end(),
                           [](float z) { return std::isnan(z) || (z > 1900.0F && z < 2100.0F); }));
 }

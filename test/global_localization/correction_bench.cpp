@@ -65,8 +65,8 @@ struct Trial {
   double yaw_rad;
 };
 
-Trial draw(HashStream& random, double least_m, double most_m) {
-  const double r = random.range(least_m, most_m), a = random.range(-kPi, kPi);
+Trial draw(HashStream& random, double min_m, double max_m) {
+  const double r = random.range(min_m, max_m), a = random.range(-kPi, kPi);
   return {{r * std::cos(a), r * std::sin(a)}, random.range(-kOffsetRad, kOffsetRad)};
 }
 
@@ -113,7 +113,7 @@ struct OrbitalCase {
   GlobalLocalization core;
   MapDistortion distortion;
   Row* row;
-  double least_offset_m, most_offset_m;
+  double min_offset_m, max_offset_m;
   int tries;
 };
 
@@ -132,7 +132,7 @@ void drive_through(const Surface& world, const Line& line, std::uint64_t seed, c
       const Eigen::Isometry2d on_map = c.distortion.rigid(ground) * drive.T_map_odom();
       const int featured = c.row->featured_tries;
       for (int k = 0; k < c.tries; ++k)
-        attempt_once(c.core, drive, draw(random, c.least_offset_m, c.most_offset_m), on_map, *c.row);
+        attempt_once(c.core, drive, draw(random, c.min_offset_m, c.max_offset_m), on_map, *c.row);
       ++c.row->maps;
       if (c.row->featured_tries > featured) ++c.row->featured_maps;
     }

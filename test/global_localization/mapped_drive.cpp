@@ -106,7 +106,7 @@ void MappedDrive::look_along(const Viewpoint& viewpoint, double azimuth_rad) {
 void MappedDrive::measure(const Viewpoint& viewpoint, const Eigen::Vector3d& p_map) {
   const double patch =
       0.5 + 0.5 * std::erf(gradient_noise(seed_ + 9, p_map.x() / 2.5, p_map.y() / 2.5) / std::sqrt(2.0));
-  if (patch < errors_.untextured_share || unit_of(random_()) < errors_.lost_points) return;
+  if (patch < errors_.untextured_fraction || unit_of(random_()) < errors_.lost_points) return;
   const Eigen::Vector3d camera(viewpoint.camera.x(), viewpoint.camera.y(), viewpoint.camera_z);
   Eigen::Vector3d ray = p_map - camera;
   const double d = ray.norm();

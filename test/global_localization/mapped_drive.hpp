@@ -20,7 +20,7 @@ struct DriveErrors {
   double scale_sigma = 0.0015;        // constant scale error of the drive
   double yaw_walk_rad_rtm = 0.00015;
   double height_walk_m_rtm = 0.003;
-  double untextured_share = 0.08;
+  double untextured_fraction = 0.08;
   double lost_points = 0.05;
   double lost_pictures = 0.05;
 };

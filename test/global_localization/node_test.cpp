@@ -58,8 +58,8 @@ class GlobalLocalizationNodeTest : public testing::Test {
   void start(int level = supervisor_state_t::FULL) {
     world_ = std::make_unique<rover::test::OneNodeWorld>("global_localization", dir_.string());
     service_ = make_global_localization(world_->node(), kConfig);
-    world_->hear(channel::kCorrection, corrections_);
-    world_->hear(channel::kHeartbeat, heartbeats_);
+    world_->record(channel::kCorrection, corrections_);
+    world_->record(channel::kHeartbeat, heartbeats_);
     world_->tick(now_);
     set_level(level);
   }
@@ -210,7 +210,7 @@ TEST_F(GlobalLocalizationNodeTest, EmptyMapsAndInvalidPosesGiveNoCorrection) {
     publish_inputs(pose(), message_of(view_of(hills, kTruth, place_, [](int, int) { return false; })));
   }
   ASSERT_GE(corrections_.size(), 1u);
-  EXPECT_EQ(corrections_[0].reason, "too little ground seen");
+  EXPECT_EQ(corrections_[0].reason, "local map too small");
 }
 
 TEST_F(GlobalLocalizationNodeTest, OdometryJumpClearsLocalMap) {
@@ -263,12 +263,11 @@ TEST_F(GlobalLocalizationConfigTest, UnknownKeysAndBadRangesStopStartUp) {
   const fs::path dir = fs::path(testing::TempDir()) / "global_localization_config";
   fs::create_directories(dir);
   const auto write = [&](const std::string& text) { std::ofstream(dir / "global_localization.yaml") << text; };
-  const std::string sections = "tries: {}\nbend: {}\nfilter: {}\nrefinement: {}\nacceptance: {}\n";
-  write(sections + "search: {}\n");
-  EXPECT_DOUBLE_EQ(load_config(dir.string()).core.search.min_reach_m, 12.0);
-  for (const char* bad : {"search: {reach: 3}\n", "search: {min_reach_m: -1}\n", "search: {max_reach_m: 5}\n",
-                          "search: {}\nlatency_s: fast\n", ""}) {
-    write(sections + bad);
+  write("search: {min_half_width_m: 13}\n");
+  EXPECT_DOUBLE_EQ(load_config(dir.string()).core.search.min_half_width_m, 13.0);
+  for (const char* bad : {"search: {half_width: 3}\n", "search: {min_half_width_m: -1}\n",
+                          "search: {max_half_width_m: 5}\n", "latency_s: fast\n"}) {
+    write(bad);
     EXPECT_THROW(load_config(dir.string()), ConfigError) << bad;
   }
 }

@@ -188,7 +188,7 @@ TEST(Refinement, TiltOfLocalMapDoesNotBiasPosition) {
   const auto error_m = [&](const DriftConfig& drift) {
     terrain.drift_information = drift_information(terrain, drift, 0.01 * 0.25);
     const CandidatePose start{terrain.center_odom + Eigen::Vector2d(0.4, -0.3), 0.01};
-    return (refine(orbital, terrain, start, 100, {}).pose.center_map - terrain.center_odom).norm();
+    return (refine(orbital, terrain, start, 100, {3.0, 0.05, 150}).pose.center_map - terrain.center_odom).norm();
   };
   EXPECT_LT(error_m({to_rad(0.04), 0.01}), 0.01);
   EXPECT_GT(error_m({to_rad(1e-4), 1e-5}), 0.02);

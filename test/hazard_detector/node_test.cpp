@@ -29,7 +29,7 @@ disparity_t disparity_of(const synthetic::World& world) {
 class HazardNodeTest : public testing::Test {
  protected:
   HazardNodeTest() : world_("hazard_detector"), detector_(make_hazard_detector(world_.node(), kConfig)) {
-    world_.hear(channel::kHazards, hazards_);
+    world_.record(channel::kHazards, hazards_);
   }
 
   void send_disparity(const disparity_t& message, Utime utime) {
@@ -94,7 +94,7 @@ class HazardConfigTest : public testing::Test {
   HazardConfigTest() : dir_(std::filesystem::path(testing::TempDir()) / "hazard_config") {
     std::filesystem::remove_all(dir_);
     std::filesystem::create_directories(dir_);
-    for (const char* file : {"vehicle.yaml", "hazard_detector.yaml"})
+    for (const char* file : {"vehicle.yaml", "navigation.yaml", "hazard_detector.yaml"})
       std::filesystem::copy_file(kConfig + "/" + file, dir_ / file);
   }
   void write(const std::string& file, const std::string& text) { std::ofstream(dir_ / file) << text; }
@@ -106,7 +106,7 @@ TEST_F(HazardConfigTest, ObstacleThresholdIsTheVehicleHazardHeight) {
   const NodeConfig config = load_config(dir_.string());
   EXPECT_DOUBLE_EQ(config.core.obstacle_height_m, 0.15);
   EXPECT_DOUBLE_EQ(config.core.origin_height_m, 0.62);
-  EXPECT_DOUBLE_EQ(config.core.prior.front_axle_x_m, 0.75);
+  EXPECT_DOUBLE_EQ(config.core.plane.front_axle_x_m, 0.75);
   EXPECT_FALSE(config.core.calibration);
 }
 
@@ -120,9 +120,11 @@ TEST_F(HazardConfigTest, CalibrationFileIsReadIfPresent) {
 }
 
 TEST_F(HazardConfigTest, UnknownKeysAndWrongRangesStopTheStart) {
-  const std::string sections = "grid: {}\nplane: {}\nrelief: {}\n";
-  for (const char* bad : {"limits: {near: 0.1}\ncoverage: {}\n", "limits: {far_m: -1}\ncoverage: {}\n",
-                          "limits: {}\ncoverage: {roi_far_m: 0.3}\n", "limits: {}\n"}) {
+  const std::string sections = "grid: {}\nplane: {}\nlocal_ground: {}\n";
+  write("hazard_detector.yaml", sections);
+  EXPECT_NO_THROW(load_config(dir_.string()));
+  for (const char* bad : {"limits: {hole_depth: 0.1}\n", "limits: {hole_depth_m: -1}\n", "limits: {near_m: 0.1}\n",
+                          "coverage: {min_coverage: 0.0}\n", "relief: {}\n"}) {
     write("hazard_detector.yaml", sections + bad);
     EXPECT_THROW(load_config(dir_.string()), ConfigError) << bad;
   }

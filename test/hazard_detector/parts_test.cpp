@@ -133,7 +133,7 @@ TEST(LocalGroundTest, DeviationFromThePlaneIsBoundedByTheDistance) {
   for (int ix = 0; ix < shape.cells_x; ++ix) {
     const double ahead = std::max(0.0, shape.x_m(ix) + config.node_m - 0.75);
     EXPECT_LE(high.low_m[static_cast<size_t>(shape.at(ix, 10))],
-              config.max_deviation_m + config.max_deviation_per_m * ahead + 1e-6);
+              config.max_deviation_m + config.max_deviation_m_per_m * ahead + 1e-6);
   }
   for (float height : estimate_local_ground(unseen, shape, config, 0.75).low_m) EXPECT_EQ(height, 0.0f);
 }

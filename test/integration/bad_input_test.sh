@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Bad input gives one clear line that names the file and the key, exit status 2, and leaves nothing behind.
+# Bad input: one line with file and key, exit status 2, no files left.
 . "$(dirname "$0")/lib.sh"
 . "$SOURCE/test/wild.sh"
 
-# one_line NAME STATUS PATTERN FILE: the file holds one line, which matches.
+# one_line NAME STATUS PATTERN FILE: the file contains one line, which matches.
 one_line() {
   [ "$2" = 2 ] || fail "$1: exit status $2, said: $(cat "$4")"
   [ "$(wc -l <"$4")" = 1 ] || fail "$1: not one line: $(cat "$4")"
@@ -50,9 +50,9 @@ path "100, 400" "100, 100"
 refused "DTM smaller than the path" "s.yaml:[0-9]+: path.x_m: point 2 lies outside of the elevation model" "$WORK/s.yaml"
 
 path "96.0" "262.0"
-refused "path of one point" "s.yaml:[0-9]+: path.x_m: a path needs two points" "$WORK/s.yaml"
+refused "path of one point" "s.yaml:[0-9]+: path.x_m: a path requires at least two points" "$WORK/s.yaml"
 path "" ""
-refused "path without points" "s.yaml:[0-9]+: path.x_m: a path needs two points" "$WORK/s.yaml"
+refused "path without points" "s.yaml:[0-9]+: path.x_m: a path requires at least two points" "$WORK/s.yaml"
 path "96.0, .nan" "262.0, 262.0"
 refused "NaN in the path" "s.yaml:[0-9]+: path.x_m: not a number" "$WORK/s.yaml"
 path "96.0, 99.0" "262.0, .inf"
@@ -73,7 +73,7 @@ refused "unknown file of --set" "nothing.yaml" config/scenarios/flat.yaml --set 
 refused "--set without a value" "key=value is expected" config/scenarios/flat.yaml --set vehicle
 refused "unknown section of --set" "no section 'motors'" config/scenarios/flat.yaml --set vehicle.motors.count=1
 
-# What only the services read: they end, the launcher tells of one, and nothing of them is left.
+# Values that only services read: the services exit, the launcher reports one error, and no folder is left.
 refused "unknown key of --set" "config/vehicle.yaml:[0-9]+: limits.speed_kmh: unknown key" config/scenarios/flat.yaml \
   --set vehicle.limits.speed_kmh=3
 refused "value out of range" "config/vehicle.yaml:[0-9]+: wheels.radius_m: out of range" config/scenarios/flat.yaml \
@@ -83,7 +83,7 @@ refused "wrong unit of one service" "path_planner: .*config/path_planner.yaml:[0
 refused "unit in a value of one service" "supervisor: .*config/supervisor.yaml:[0-9]+: permit_validity_s: not a number" \
   config/scenarios/flat.yaml --set "supervisor.permit_validity_s=200 ms"
 
-# A goal within its tolerance of the start, or inside of the circle around the start, is reached.
+# A goal within its tolerance of the start, or inside the clear circle around it, is reached.
 for x in 10.3 10.6; do
   sed "s/^  x_m: .*/  x_m: [10.0, $x]/; s/^  y_m: .*/  y_m: [20.0, 20.0]/; /^ \{8\}/d" config/scenarios/flat.yaml >"$WORK/near.yaml"
   drive "$WORK/near" "$WORK/near.yaml" --headless >"$WORK/out.txt" 2>"$WORK/said" || fail "goal at $x m: $(cat "$WORK/said")"
@@ -96,10 +96,10 @@ mkdir "$WORK/out"
 echo mine >"$WORK/out/notes.txt"
 status=0
 "$BUILD/bin/rover_launcher" run config/scenarios/flat.yaml --out "$WORK/out" --bus "$BUS" >/dev/null 2>"$WORK/said" || status=$?
-one_line "run folder in use" $status "$WORK/out: exists already and is not empty" "$WORK/said"
+one_line "run folder in use" $status "$WORK/out: already exists and is not empty" "$WORK/said"
 [ "$(cat "$WORK/out/notes.txt")" = mine ] || fail "a folder in use was changed"
 
-# The report of a run whose log or folder is not whole.
+# The report of a run with a missing or damaged log or folder.
 report_refused() {
   local status=0
   "$BUILD/bin/rover_report" "$2" >/dev/null 2>"$WORK/said" || status=$?
@@ -112,7 +112,7 @@ report_refused "report without log" "$run" "$run/traverse.lcm: no such log"
 : >"$run/traverse.lcm"
 report_refused "report on an empty log" "$run" "$run/traverse.lcm: is empty"
 printf 'no log at all\n' >"$run/traverse.lcm"
-report_refused "report on a foreign file" "$run" "$run/traverse.lcm: holds no messages"
+report_refused "report on a foreign file" "$run" "$run/traverse.lcm: contains no messages"
 
-! pgrep -f ":$PORT[?]" >/dev/null || fail "a process is left: $(pgrep -af ":$PORT[?]")"
+! pgrep -f ":$PORT[?]" >/dev/null || fail "a process is still running: $(pgrep -af ":$PORT[?]")"
 echo "bad input is refused in one line"

@@ -1,8 +1,8 @@
-// Bad messages on every channel that every node subscribes to: each is counted and named, and nothing else changes.
+// Malformed messages on every subscribed channel of every node: each is counted and logged, and nothing else changes.
 //
-// All nodes run together once, in a small world that stands still, and all that they say is kept. Then each node runs
-// alone on what the others said: once as it was, and once with bad copies in front of good messages. The channels come
-// from the node's own heartbeat, so a new subscription is covered from its first day.
+// All nodes run together once with a stationary rover, and all messages are recorded. Then each node runs alone on the
+// recorded inputs: once unchanged, and once with malformed copies before valid messages. The channels come from the
+// node's heartbeat, so new subscriptions are covered automatically.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -61,7 +61,7 @@ namespace fs = std::filesystem;
 
 const std::string kConfig = std::string(ROVER_SOURCE_DIR) + "/config";
 constexpr Utime kStart = 1'000'000;
-constexpr Utime kEnd = kStart + 14'000'000;  // levelled after 10 s of standing; a tick with heartbeats
+constexpr Utime kEnd = kStart + 14'000'000;  // static alignment takes 10 s; a tick with heartbeats
 constexpr Utime kFramePeriod = 400'000;
 constexpr Utime kCameraLatency = 60'000;
 
@@ -69,7 +69,7 @@ using Bytes = std::vector<std::uint8_t>;
 using Factory = std::function<std::shared_ptr<void>(Node&)>;
 
 std::shared_ptr<void> make_test_recorder(Node& node) {
-  return std::make_shared<recorder::RecorderNode>(node, recorder::load_config(kConfig + "/recorder.yaml"),
+  return std::make_shared<recorder::RecorderNode>(node, recorder::load_config(kConfig),
                                                   node.options().run_dir + "/traverse.lcm",
                                                   [] { return std::uintmax_t{100'000'000'000}; });
 }
@@ -83,10 +83,10 @@ MissionPlan plan() {
   return plan;
 }
 
-// Without the rows that are there to raise on bad messages.
+// Without the rows that detect malformed messages.
 supervisor::SupervisorConfig supervisor_config() {
   supervisor::SupervisorConfig config = supervisor::load_config(kConfig);
-  std::erase_if(config.fdir.lines, [](const auto& line) { return line.quantity == "lost_share"; });
+  std::erase_if(config.fdir.lines, [](const auto& line) { return line.quantity == "message_loss_ratio"; });
   return config;
 }
 
@@ -138,7 +138,7 @@ header_t header_of(const Event& event) {
   return header;
 }
 
-// A bus in memory whose whole traffic is kept.
+// An in-memory bus that records all messages.
 class Bus {
  public:
   Bus() : lcm_("memq://") {
@@ -148,7 +148,7 @@ class Bus {
           const auto* begin = static_cast<const std::uint8_t*>(buffer->data);
           events->push_back({channel, {begin, begin + buffer->data_size}});
         },
-        &heard_);
+        &recorded_);
   }
   lcm::LCM& lcm() { return lcm_; }
   void publish(const Event& event) {
@@ -159,14 +159,14 @@ class Bus {
       for (Node* node : nodes) node->handle(0);
     for (Node* node : nodes) node->handle(0);
   }
-  const std::vector<Event>& heard() const { return heard_; }
+  const std::vector<Event>& recorded() const { return recorded_; }
 
  private:
   lcm::LCM lcm_;
-  std::vector<Event> heard_;
+  std::vector<Event> recorded_;
 };
 
-// The sensors of a rover that stands, and the measurements of the Full level, whose services idle.
+// Sensors of a stationary rover, and measurements of the Full level, whose services idle.
 class StandingWorld {
  public:
   explicit StandingWorld(Bus& bus) : bus_(bus), streams_("world", 1) {
@@ -193,7 +193,7 @@ class StandingWorld {
     ptu_state_t unit{};
     send(channel::kPtuState, unit, t, t);
     if ((t - kStart) % kFramePeriod != 0) return;
-    left_.data.back() ^= 1;  // noise: what never changes is a frozen camera's
+    left_.data.back() ^= 1;  // noise: identical images count as a frozen camera
     right_.data.back() ^= 1;
     send(channel::kLocCamLeft, left_, t, t + kCameraLatency);
     send(channel::kLocCamRight, right_, t, t + kCameraLatency);
@@ -242,9 +242,9 @@ class StandingWorld {
 
   void give_tick(Utime t) {
     std::map<std::tuple<std::string, std::string, std::int64_t>, std::int64_t> grown;
-    for (; listed_ < bus_.heard().size(); ++listed_) {
-      const Event& event = bus_.heard()[listed_];
-      if (event.channel == channel::kDone) continue;  // its port is its own on a real bus
+    for (; listed_ < bus_.recorded().size(); ++listed_) {
+      const Event& event = bus_.recorded()[listed_];
+      if (event.channel == channel::kDone) continue;  // uses a separate port on a real bus
       const header_t header = header_of(event);
       grown[{event.channel, header.publisher, header.boot_id}] = header.seq;
     }
@@ -274,7 +274,7 @@ class StandingWorld {
   std::mt19937_64 random_{1};
   image_t left_{}, right_{};
   image_t navcam_left_{}, navcam_right_{};
-  size_t listed_ = 0;  // of what the bus heard, in ticks
+  size_t listed_ = 0;  // of the recorded messages, in ticks
 };
 
 fs::path fresh_folder(const std::string& name) {
@@ -292,7 +292,7 @@ NodeOptions options_of(const std::string& name, const fs::path& run_dir) {
   return options;
 }
 
-// What the whole stack says from the first tick to the last.
+// All messages of the whole stack.
 std::vector<Event> run_together() {
   const fs::path run_dir = fresh_folder("together");
   Bus bus;
@@ -311,13 +311,13 @@ std::vector<Event> run_together() {
     world.give_tick(t);
     bus.drain(nodes);
   }
-  // What answers the last tick reaches no other tick.
-  std::vector<Event> heard = bus.heard();
-  while (heard.back().channel != channel::kTick) heard.pop_back();
-  return heard;
+  // Messages after the last tick belong to no other tick.
+  std::vector<Event> recorded = bus.recorded();
+  while (recorded.back().channel != channel::kTick) recorded.pop_back();
+  return recorded;
 }
 
-// What becomes of the message in bad hands. None of these is one of the channel's type.
+// Malformed copies of the message. None is of the channel's type.
 std::vector<Bytes> bad_copies(const Event& event, const Event& foreign) {
   const Bytes& good = event.bytes;
   const auto body = static_cast<std::ptrdiff_t>(kFingerprintBytes + header_of(event)._getEncodedSizeNoHash());
@@ -326,13 +326,13 @@ std::vector<Bytes> bad_copies(const Event& event, const Event& foreign) {
       Bytes(100, 0xA5),                                       // noise
       {good.begin(), good.begin() + 5},                       // cut in the fingerprint
       {good.begin(), good.begin() + kFingerprintBytes + 20},  // cut in the header
-      {good.begin(), good.begin() + body},                    // nothing but the header
+      {good.begin(), good.begin() + body},                    // only the header
       {good.begin(), good.end() - 1},                         // cut at the end
-      good,                                                   // followed by a byte too many, below
+      good,                                                   // one trailing byte, added below
       foreign.bytes,                                          // of another type
   };
   copies[6].push_back(0);
-  // Every number of the content all ones: lengths of -1. Where there are no lengths this is still a message.
+  // All content bits set: lengths of -1. Without lengths this is still a valid message.
   Bytes damaged = good;
   std::fill(damaged.begin() + body, damaged.end(), std::uint8_t{0xFF});
   const ChannelType* type = find_channel_type(event.channel);
@@ -340,11 +340,11 @@ std::vector<Bytes> bad_copies(const Event& event, const Event& foreign) {
   return copies;
 }
 
-// What a node leaves of a run: its messages in order, its files, and the accounting of its inputs.
+// Results of a node: its messages in order, its files, and its input counters.
 struct Traces {
   std::vector<Event> said;
   std::map<std::string, Bytes> files;
-  std::vector<heartbeat_t> heartbeats;  // without the figures of the process
+  std::vector<heartbeat_t> heartbeats;  // without process figures
   std::string log;
 };
 
@@ -361,7 +361,7 @@ std::map<std::string, Bytes> files_in(const fs::path& dir, const std::string& na
       bytes.assign(std::istreambuf_iterator<char>(in), {});
       continue;
     }
-    // A log without the recorder's own heartbeats, which carry processor times.
+    // The log without the recorder's heartbeats, which contain CPU times.
     for (const recorder::ReadBack& record : recorder::read_back(entry.path())) {
       if (is_own_heartbeat({record.channel, record.bytes}, name)) continue;
       bytes.insert(bytes.end(), record.channel.begin(), record.channel.end());
@@ -371,9 +371,9 @@ std::map<std::string, Bytes> files_in(const fs::path& dir, const std::string& na
   return files;
 }
 
-Traces traces_of(const std::string& name, const std::vector<Event>& heard) {
+Traces traces_of(const std::string& name, const std::vector<Event>& recorded) {
   Traces traces;
-  for (const Event& event : heard) {
+  for (const Event& event : recorded) {
     if (header_of(event).publisher != name) continue;
     if (event.channel != channel::kHeartbeat) {
       traces.said.push_back(event);
@@ -387,10 +387,10 @@ Traces traces_of(const std::string& name, const std::vector<Event>& heard) {
   return traces;
 }
 
-// Counts what was disturbed, by channel.
+// Number of malformed messages by channel.
 using Sent = std::map<std::string, std::int64_t>;
 
-// Publishes bad copies in front of the first messages of each channel, and of some later ones.
+// Publishes malformed copies before the first messages of each channel and some later ones.
 class Disturbance {
  public:
   Disturbance(const std::string& name, std::set<std::string> channels, const std::vector<Event>& all)
@@ -424,7 +424,7 @@ class Disturbance {
   Sent sent_;
 };
 
-// The node alone on what the others said.
+// Runs one node on the recorded messages of the others.
 Traces run_alone(const std::string& name, const std::vector<Event>& all, Disturbance* disturbance) {
   const fs::path run_dir = fresh_folder(name);
   testing::internal::CaptureStdout();
@@ -439,7 +439,7 @@ Traces run_alone(const std::string& name, const std::vector<Event>& all, Disturb
       bus.publish(event);
       if (event.channel == channel::kTick) bus.drain({&node});
     }
-    traces = traces_of(name, bus.heard());
+    traces = traces_of(name, bus.recorded());
   }
   traces.log = testing::internal::GetCapturedStdout();
   traces.files = files_in(run_dir, name);
@@ -461,7 +461,7 @@ class BadMessages : public testing::Test {
 
 class EachNode : public BadMessages, public testing::WithParamInterface<std::string> {};
 
-// The channels of a node's subscriptions, as its heartbeat names them; ".*": all there are.
+// Subscribed channels of a node, from its heartbeat; ".*": all.
 std::set<std::string> inputs_of(const Traces& traces, const std::vector<Event>& all, const std::string& name) {
   std::set<std::string> channels;
   for (const input_health_t& input : traces.heartbeats.back().inputs) {
@@ -527,7 +527,7 @@ TEST_P(EachNode, CountsAndNamesBadMessagesAndNothingElseChanges) {
 INSTANTIATE_TEST_SUITE_P(Stack, EachNode, testing::ValuesIn(names_of_all()),
                          [](const auto& test) { return test.param; });
 
-// What the nodes are given alone has all of a drive in it.
+// The recorded inputs contain all phases of a drive.
 TEST_F(BadMessages, AreSentWhileTheRoverDrives) {
   const auto drives = [](const Event& event) {
     supervisor_state_t state;
@@ -538,7 +538,7 @@ TEST_F(BadMessages, AreSentWhileTheRoverDrives) {
   EXPECT_TRUE(std::any_of(all_.begin(), all_.end(), drives));
 }
 
-// The build says which nodes there are.
+// The list of nodes comes from the build.
 TEST(BadMessagesTable, HoldsEveryNode) {
   std::istringstream built(ROVER_NODES);
   for (std::string name; std::getline(built, name, ',');) EXPECT_TRUE(factories().contains(name)) << name;

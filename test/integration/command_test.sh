@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# ./rover itself: help with an example for each command, completion, and one line that says what to do next for each mistake.
+# The script ./rover: help with an example for each command, completion, and one line with the remedy for each error.
 . "$(dirname "$0")/lib.sh"
 
 rover=$SOURCE/rover
@@ -9,12 +9,12 @@ for command in $commands; do
   "$rover" help "$command" >"$WORK/help"
   grep -q "Example: .*rover" "$WORK/help" || fail "help $command has no example: $(cat "$WORK/help")"
 done
-# These never start a program, whatever stands beside the question.
+# Help never starts a command, whatever its other arguments.
 for command in build jar test lcm-spy completion "bench speed" "bench faults --part stack"; do
   "$rover" $command --help >"$WORK/help"
   grep -q "Example: " "$WORK/help" || fail "$command --help: $(cat "$WORK/help")"
 done
-# The programs know themselves by the name of their command.
+# The programs show the name of their command.
 while read -r command program arguments; do
   "$BUILD/bin/$program" $arguments --help >"$WORK/help"
   grep -q "Example" "$WORK/help" || fail "$program $arguments --help has no example: $(cat "$WORK/help")"
@@ -44,20 +44,20 @@ refused "help on nothing" "'rum' is not a command" "$rover" help rum
 refused "an argument too many" "takes no 'all'" "$rover" build all
 refused "a window without a display" "./rover spy shows the same" env -u DISPLAY "$rover" lcm-spy
 for program in "rover_launcher run" "rover_launcher status" rover_spy rover_report rover_repair rover_orbital_planner; do
-  refused "$program with an unknown option" "./rover .* --help tells more" "$BUILD"/bin/$program --no-such-option
+  refused "$program with an unknown option" "see ./rover .* --help" "$BUILD"/bin/$program --no-such-option
 done
 refused "spy on nothing" "$WORK/none.lcm: no such log" "$BUILD/bin/rover_spy" "$WORK/none.lcm"
 refused "repair of nothing" "$WORK/none.lcm: no such log" "$BUILD/bin/rover_repair" "$WORK/none.lcm"
 refused "report on nothing" "$WORK/none: no such folder" "$BUILD/bin/rover_report" "$WORK/none"
 refused "comparison with nothing" "$WORK/none: no such folder" "$BUILD/bin/rover_report" "$WORK/none" "$WORK/none" --out "$WORK/c.html"
 echo mine >"$WORK/mine.html"
-refused "comparison over a file of mine" "exists already and is no comparison" \
+refused "comparison over a file of mine" "already exists and is not a comparison" \
   "$BUILD/bin/rover_report" "$WORK/none" "$WORK/none" --out "$WORK/mine.html"
 [ "$(cat "$WORK/mine.html")" = mine ] || fail "a file was overwritten"
 [ ! -e "$WORK/c.html" ] || fail "a refused comparison leaves a file"
 
-# completes EXPECTED WORDS...: the last word is the one that is typed.
-cd "$SOURCE"  # files are completed from where the user is
+# completes EXPECTED WORDS...: the last word is being typed.
+cd "$SOURCE"  # files are completed relative to the current folder
 "$rover" completion >"$WORK/completion.bash"
 . "$WORK/completion.bash"
 completes() {
@@ -77,7 +77,7 @@ completes POSE ./rover spy --channel PO
 completes restarts ./rover bench r
 completes sanitize ./rover test ""
 
-# Nothing that only a terminal understands goes into a file.
+# No terminal control codes in a file.
 "$rover" --help >"$WORK/help"
 ! grep -q $'\033' "$WORK/help" || fail "colours in a file"
 echo "help, completion and refusals are in order"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Cores know no middleware, no YAML, no clock and no global randomness; GNC services know no truth and no true world.
+# Cores use no middleware, YAML, clock or global random numbers; GNC services use neither TRUTH nor the simulated world.
 . "$(dirname "$0")/lib.sh"
 
 for core in $(find "$BUILD" -name 'lib*_core.a'); do
@@ -8,22 +8,21 @@ for core in $(find "$BUILD" -name 'lib*_core.a'); do
   [ -z "$bad" ] || fail "$(basename "$core") uses: $bad"
 done
 
-for service in stereo visual_odometry localization hazard_detector path_planner trajectory_control locomotion supervisor \
-  mission_control point_cloud pan_tilt slam traversability global_localization; do
+for service in supervisor $(cd "$SOURCE/services" && ls -- */main.cpp | cut -d/ -f1 | grep -vxE 'rover_simulator|recorder'); do
   program=$BUILD/bin/$service
   [ -x "$program" ] || fail "$service is not built"
   nm -C "$program" >"$WORK/symbols"
   strings "$program" >"$WORK/strings"
   ! grep -qE 'rover::(World|RockField|VehicleSim|TileScene)::' "$WORK/symbols" || fail "$service links the simulated world"
-  # The page of mission_control shows the true world to who asks for it; its node never hears of it (telemetry_subscriber_test).
+  # mission_control's page can show the true world, but its node never receives it (telemetry_subscriber_test).
   [ "$service" = mission_control ] || ! grep -qx TRUTH "$WORK/strings" || fail "$service names the channel TRUTH"
 done
-# Maps are read by common/geo, which knows no simulator.
+# Maps are read by common/geo, which does not use the simulator.
 for program in rover_orbital_planner rover_export; do
   nm -C "$BUILD/bin/$program" >"$WORK/symbols"
   ! grep -qE 'rover::(World|RockField)::' "$WORK/symbols" || fail "$program links the simulated world"
 done
 bad=$(cd "$SOURCE" && grep -rl '#include "rover_simulator/world/' services supervisor |
   grep -vE '^services/(rover_simulator)/' || true)
-[ -z "$bad" ] || fail "these reach into the simulated world: $bad"
-echo "cores and services keep to themselves"
+[ -z "$bad" ] || fail "these use the simulated world: $bad"
+echo "cores and services are separated"

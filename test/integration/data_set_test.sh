@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Stereo data sets of other projects through ./rover import, replay and report: a rendered one in EuRoC's layout with raw,
-# distorted pictures, and, where it is there, the recorded one in KITTI's layout. Every pair is accounted for.
+# Stereo data sets through ./rover import, replay and report: a rendered one in EuRoC layout with distorted images, and,
+# if available, the recorded one in KITTI layout. Every pair is accounted for.
 . "$(dirname "$0")/lib.sh"
 . "$SOURCE/test/wild.sh"
 cd "$SOURCE"
 
-# judged NAME DATA_SET: imports, replays with the services, judges; the figures are $WORK/NAME/metrics.json.
+# judged NAME DATA_SET: imports, replays with the services, makes the report; metrics in $WORK/NAME/metrics.json.
 judged() {
   "$BUILD/bin/rover_import" "$2" --out "$WORK/$1-log/" >"$WORK/out" || fail "$1: import: $(cat "$WORK/out")"
   cp "$WORK/out" "$WORK/$1.said"
@@ -24,7 +24,7 @@ judged() {
   done
   jq -e '.trajectory.visual_odometry.segments[0] | .count > 0 and .translation_percent < 3' "$WORK/$1/metrics.json" \
     >/dev/null || fail "$1: stretches: $(metric "$1" trajectory.visual_odometry.segments)"
-  grep -q "Against the ground truth" "$WORK/$1/report.html" || fail "$1: the report says nothing of it"
+  grep -q "Comparison with the ground truth" "$WORK/$1/report.html" || fail "$1: the report has no comparison with the truth"
   echo "$1: $pairs pairs, end error $(metric "$1" trajectory.visual_odometry.end_error_percent) %"
 }
 metric() { jq -r ".$2" "$WORK/$1/metrics.json"; }
@@ -32,14 +32,14 @@ metric() { jq -r ".$2" "$WORK/$1/metrics.json"; }
 "$BUILD/test/tools/make_euroc_data_set" "$WORK/euroc" 110
 judged rendered "$WORK/euroc"
 
-# Truth begins later and ends earlier than the pictures, as in the real V1_01 and MH_01.
+# The truth begins later and ends earlier than the images, as in V1_01 and MH_01.
 cp -r "$WORK/euroc" "$WORK/cut_set"
 rows=$WORK/cut_set/mav0/state_groundtruth_estimate0/data.csv
 sed -i '2,9d' "$rows"
 head -n -10 "$rows" >"$WORK/rows"
 mv "$WORK/rows" "$rows"
 judged cut "$WORK/cut_set"
-grep -q "left out: 8 pairs before the ground truth begins" "$WORK/cut.said" || fail "cut: $(cat "$WORK/cut.said")"
+grep -q "skipped: 8 pairs before the ground truth begins" "$WORK/cut.said" || fail "cut: $(cat "$WORK/cut.said")"
 wild_row "Data sets" "EuRoC: a rendered drive whose truth begins eight pairs late and ends ten early" "27 % and 35 % of error" \
   "$(metric cut trajectory.visual_odometry.end_error_percent) %, whole $(metric rendered trajectory.visual_odometry.end_error_percent) %"
 
@@ -52,16 +52,16 @@ data=${ROVER_DATA:-$SOURCE/../shared/data}
 if [ -d "$data/kitti_06_0_50" ]; then
   judged kitti "$data/kitti_06_0_50"
 else
-  echo "skipped: $data/kitti_06_0_50 is not there (51 pairs of KITTI's sequence 06; its licence keeps it out of this project)"
+  echo "skipped: $data/kitti_06_0_50 does not exist (51 pairs of KITTI's sequence 06; its licence keeps it out of this project)"
 fi
 if [ -d "$data/euroc_v101_rest" ]; then
   "$BUILD/bin/rover_import" "$data/euroc_v101_rest" --out "$WORK/v101" >"$WORK/said" || fail "V1_01: $(cat "$WORK/said")"
   grep -q "^EuRoC: 19 stereo pairs of 752 x 480 px, 19 with ground truth" "$WORK/said" &&
-    grep -q "left out: 21 pairs before" "$WORK/said" || fail "V1_01: $(cat "$WORK/said")"
+    grep -q "skipped: 21 pairs before" "$WORK/said" || fail "V1_01: $(cat "$WORK/said")"
   wild_row "Data sets" "EuRoC V1_01, the first 40 pairs; truth begins after 1.04 s" "21 pairs at the pose of another" \
-    "$(grep "left out" "$WORK/said")"
+    "$(grep "skipped" "$WORK/said")"
 else
-  echo "skipped: $data/euroc_v101_rest is not there (40 pairs of EuRoC's V1_01)"
+  echo "skipped: $data/euroc_v101_rest does not exist (40 pairs of EuRoC's V1_01)"
 fi
 
 echo "-- bad input"
@@ -70,7 +70,7 @@ code=0
 [ $code = 2 ] && [ "$(wc -l <"$WORK/said")" = 1 ] && [ ! -e "$WORK/new" ] || fail "no folder: $code $(cat "$WORK/said")"
 code=0
 "$BUILD/bin/rover_import" "$WORK/euroc" --out "$WORK/rendered" 2>"$WORK/said" || code=$?
-[ $code = 2 ] && grep -q "exists already and is not empty" "$WORK/said" && [ -s "$WORK/rendered/metrics.json" ] || fail "overwritten: $code"
+[ $code = 2 ] && grep -q "already exists and is not empty" "$WORK/said" && [ -s "$WORK/rendered/metrics.json" ] || fail "overwritten: $code"
 
 echo "-- interrupted"
 for signal in INT TERM KILL; do
@@ -81,7 +81,7 @@ for signal in INT TERM KILL; do
   code=0
   wait $import || code=$?
   if [ $code = 0 ]; then
-    rm -r "$WORK/broken"  # it was faster
+    rm -r "$WORK/broken"  # the import was faster
     continue
   fi
   [ $signal = KILL ] && continue
@@ -89,12 +89,12 @@ for signal in INT TERM KILL; do
     fail "SIG$signal: status $code: $(cat "$WORK/said"; ls -a "$WORK/broken" 2>&1)"
   wild_row "Interruption" "import, SIG$signal" ".unfinished stays, and no other try is taken" "$(sed "s#$WORK/##" "$WORK/said")"
 done
-"$BUILD/bin/rover_import" "$WORK/euroc" --out "$WORK/broken/" >"$WORK/out" || fail "a second try: $(cat "$WORK/out")"
+"$BUILD/bin/rover_import" "$WORK/euroc" --out "$WORK/broken/" >"$WORK/out" || fail "second import: $(cat "$WORK/out")"
 wild_row "Interruption" "import again after SIGKILL, and --out DIR/" "'cannot be made', for ever" "$(sed -n 's#imported: .*/#imported: #p' "$WORK/out")"
 
-echo "-- no room"
+echo "-- full disk"
 code=0
 (trap '' XFSZ; ulimit -f 2000; "$BUILD/bin/rover_import" "$WORK/euroc" --out "$WORK/full") >"$WORK/out" 2>"$WORK/said" || code=$?
-[ $code = 2 ] && [ "$(wc -l <"$WORK/said")" = 1 ] && [ ! -e "$WORK/full" ] || fail "no room: $code $(cat "$WORK/said")"
+[ $code = 2 ] && [ "$(wc -l <"$WORK/said")" = 1 ] && [ ! -e "$WORK/full" ] || fail "full disk: $code $(cat "$WORK/said")"
 wild_row "Disk full" "import" "one line; or a log without its end" "$(sed "s#$WORK/##g" "$WORK/said")"
-echo "data sets of others go through the services"
+echo "data sets are imported and replayed"

@@ -11,12 +11,12 @@ kill $load
 
 for run in alone loaded; do
   [ "$(metric "$WORK/$run" outcome)" = timeout ] || fail "$run: outcome $(metric "$WORK/$run" outcome)"
-  [ "$(metric "$WORK/$run" deterministic)" = true ] || fail "$run: the run calls itself not deterministic"
+  [ "$(metric "$WORK/$run" deterministic)" = true ] || fail "$run: the run is marked as not deterministic"
 done
-[ "$(metric "$WORK/alone" replans)" -gt 0 ] || fail "nothing was in the way"
+[ "$(metric "$WORK/alone" replans)" -gt 0 ] || fail "no obstacle on the path"
 for key in final_truth_pose replans hazard_stops driven_length_m duration_s bus.messages; do
   a=$(metric "$WORK/alone" "$key" | tr -d '\n ')
   b=$(metric "$WORK/loaded" "$key" | tr -d '\n ')
   [ "$a" = "$b" ] || fail "$key differs: $a and $b"
 done
-echo "two runs, one result"
+echo "both runs are identical"

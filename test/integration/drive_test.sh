@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# ./rover drive with the example driver reaches its goal and reports without truth; what is missing is told in one line.
+# ./rover drive with the example driver reaches its goal and reports without ground truth; missing inputs are reported in one line.
 . "$(dirname "$0")/lib.sh"
 cd "$SOURCE"
 
@@ -19,22 +19,22 @@ refused "no configuration" "$WORK/none: no such folder" --config "$WORK/none"
 refused "no map" "map .*none.tif" --ground $GROUND --map "$WORK/none.tif"
 sed 's/y_m: 0.0/y_cm: 0.0/' $GROUND >"$WORK/ground.yaml"
 refused "a wrong key" "$WORK/ground.yaml:[0-9]+: start.y_m" --ground "$WORK/ground.yaml"
-refused "no driver" "no TICK on .* within 2 s. Start the vehicle's driver" --ground $GROUND --patience 2
+refused "no driver" "no TICK on .* within 2 s. Start the vehicle's driver" --ground $GROUND --timeout 2
 
-# At a third of the clock's pace, so that a busy machine keeps up.
+# At a third of real time, so that a loaded machine keeps up.
 "$BUILD/bin/example_driver" --bus "$BUS" --pace 0.33 >"$WORK/driver.txt" &
 driver=$!
 "$BUILD/bin/rover_launcher" drive --headless --until-goal --ground $GROUND --out "$WORK/run" --bus "$BUS" \
   >"$WORK/drive.txt" 2>&1 || fail "the drive ended with $?: $(tail -n 5 "$WORK/drive.txt" "$WORK/run/service_logs/report.log")"
 kill -0 $driver || fail "the driver died"
 [ "$(metric "$WORK/run" outcome)" = goal_reached ] || fail "outcome: $(metric "$WORK/run" outcome)"
-[ "$(metric "$WORK/run" truth)" = false ] || fail "the report knows a truth"
+[ "$(metric "$WORK/run" truth)" = false ] || fail "the report contains ground truth"
 jq -e '.driven_length_m > 5 and .driven_length_m < 8 and .collisions == null' "$WORK/run/metrics.json" >/dev/null ||
   fail "driven: $(metric "$WORK/run" driven_length_m)"
-grep -q "no truth" "$WORK/drive.txt" || fail "said: $(tail -3 "$WORK/drive.txt")"
-grep -q "no truth" "$WORK/run/report.html" || fail "the report does not say that there is no truth"
+grep -q "no ground truth" "$WORK/drive.txt" || fail "said: $(tail -3 "$WORK/drive.txt")"
+grep -q "no ground truth" "$WORK/run/report.html" || fail "the report does not say that there is no truth"
 
-# The driver outlives the stack: Ctrl-C ends the next drive in good order.
+# The driver continues after the stack has ended. Ctrl-C ends the next drive cleanly.
 (exec "$BUILD/bin/rover_launcher" drive --headless --ground $GROUND --out "$WORK/second" --bus "$BUS") >"$WORK/second.txt" 2>&1 &
 second=$!
 until grep -q DRIVING "$WORK/second.txt"; do
@@ -46,7 +46,7 @@ status=0
 wait $second || status=$?
 [ $status = 1 ] || fail "after Ctrl-C: exit status $status"
 [ -s "$WORK/second/report.html" ] || fail "no report after Ctrl-C"
-! pgrep -f "run-dir $WORK" >/dev/null || fail "a service is left"
+! pgrep -f "run-dir $WORK" >/dev/null || fail "a service is still running"
 kill $driver
 wait $driver || true
-echo "a driver's rover drives"
+echo "the rover drives with a driver"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# ./rover export: a run's log as tables, trajectories, tracks on the planet, and MCAP that its publisher's own reader takes
-# (@mcap/core from npm; left out where npm cannot be reached). Bad input gives one line and writes nothing.
+# ./rover export: tables, trajectories, tracks on the planet, and MCAP that the reference reader accepts (@mcap/core from
+# npm; skipped if npm cannot be reached). Bad input gives one line and writes nothing.
 . "$(dirname "$0")/lib.sh"
 cd "$SOURCE"
 
@@ -13,7 +13,7 @@ echo "-- tables"
 ticks=$(($(wc -l <"$out/csv/TICK.csv") - 1))
 poses=$(($(wc -l <"$out/csv/POSE.csv") - 1))
 [ "$ticks" -gt 300 ] && [ $((ticks - poses)) -le 3 ] || fail "$ticks ticks, $poses poses"
-head -1 "$out/csv/POSE.csv" | grep -q "^header.utime,.*,position_odom_body_m\[0\]," || fail "no head"
+head -1 "$out/csv/POSE.csv" | grep -q "^header.utime,.*,position_odom_body_m\[0\]," || fail "no header"
 python3 - "$out/csv" <<'PYTHON' || fail "the tables cannot be read"
 import csv, glob, sys
 for name in glob.glob(sys.argv[1] + "/*.csv"):
@@ -23,7 +23,7 @@ PYTHON
 
 echo "-- trajectories"
 for name in truth estimate odometry; do
-  awk 'NF != 8 || $1 <= last { exit 1 } { last = $1 }' "$out/tum/$name.txt" || fail "$name.txt is no trajectory"
+  awk 'NF != 8 || $1 <= last { exit 1 } { last = $1 }' "$out/tum/$name.txt" || fail "$name.txt is not a trajectory"
 done
 
 echo "-- tracks"
@@ -72,7 +72,7 @@ JS
     "$WORK/counts" >/dev/null || fail "counts: $(cat "$WORK/counts")"
   echo "read by @mcap/core: $(jq add "$WORK/counts") messages"
 else
-  echo "skipped: npm cannot be reached, so no published reader has read the MCAP file"
+  echo "skipped: npm cannot be reached, the MCAP file was not tested with the reference reader"
 fi
 
 echo "-- bad input"
@@ -84,10 +84,10 @@ refused() {
   [ $code = 2 ] && [ "$(wc -l <"$WORK/said")" = 1 ] && grep -q "$pattern" "$WORK/said" || fail "$name: $code: $(cat "$WORK/said")"
 }
 sum=$(find "$out" -type f | sort | xargs cat | sha256sum)
-refused "a folder that is there" "exists already" "$WORK/run"
+refused "a folder that is there" "already exists" "$WORK/run"
 [ "$sum" = "$(find "$out" -type f | sort | xargs cat | sha256sum)" ] || fail "it was written to"
 refused "no log" "no such log" "$WORK/none.lcm"
-refused "a format that is none" "no format 'bag'" "$WORK/run" --format bag --out "$WORK/new"
-refused "a channel that is none" "no channel 'POSES'" "$WORK/run" --channels POSES --out "$WORK/new"
+refused "an unknown format" "no format 'bag'" "$WORK/run" --format bag --out "$WORK/new"
+refused "an unknown channel" "no channel 'POSES'" "$WORK/run" --channels POSES --out "$WORK/new"
 [ ! -e "$WORK/new" ] || fail "something was left"
-echo "a log goes into the formats of others"
+echo "the log is exported to all formats"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# A short drive at the Full level: the level goes up with the path, the NavCam sweeps, maps are made, the goal is reached;
-# replayed, every service says the same again byte by byte. At the Efficient level none of its services runs.
+# A short drive at the Full level: the path raises the level, the NavCam sweeps, maps are made, the goal is reached. In a
+# replay every service publishes identical bytes. At the Efficient level the services of the Full level do not run.
 . "$(dirname "$0")/lib.sh"
 cd "$SOURCE"
 
@@ -13,7 +13,7 @@ drive "$WORK/run" "$WORK/short.yaml" --headless >"$WORK/said" 2>&1 || fail "does
 [ "$(metric "$WORK/run" 'level_switches[0].to')" = FULL ] || fail "the level did not go up"
 [ "$(metric "$WORK/run" 'level_switches[0].reason')" = path_segment ] || fail "not because of the path"
 [ "$(metric "$WORK/run" 'time_in_state_s.SWEEPING > 0')" = true ] || fail "no sweep"
-[ "$(metric "$WORK/run" deterministic)" = true ] || fail "the run calls itself not deterministic"
+[ "$(metric "$WORK/run" deterministic)" = true ] || fail "the run is marked as not deterministic"
 for picture in elevation levels; do [ -s "$WORK/run/$picture.png" ] || fail "no $picture.png"; done
 
 "$BUILD/bin/rover_launcher" replay "$WORK/run" --check --bus "$BUS" --out "$WORK/check" >"$WORK/out" ||
@@ -26,4 +26,4 @@ default_for 21 "$WORK/default.yaml"
 drive "$WORK/efficient" "$WORK/default.yaml" --headless >/dev/null 2>&1 || true
 [ -e "$WORK/efficient/services/stereo" ] || fail "no services"
 [ ! -e "$WORK/efficient/services/slam" ] || fail "slam runs at the Efficient level"
-echo "up to the Full level and to the goal"
+echo "the Full level reaches the goal"

@@ -9,7 +9,7 @@ cp -r "$SOURCE"/{CMakeLists.txt,cmake,lcmtypes,services,supervisor,tools,example
 include_is_refused() {  # FILE INCLUDED
   printf '#include "%s"\n' "$2" >>"$copy/$1"
   ! "$copy/cmake/check_includes.sh" "$copy" >"$WORK/said" 2>&1 || fail "$1 may include $2"
-  grep -q "^$1:[0-9]*: .* may not include $2\$" "$WORK/said" || fail "says not where: $(cat "$WORK/said")"
+  grep -q "^$1:[0-9]*: .* may not include $2\$" "$WORK/said" || fail "no file and line: $(cat "$WORK/said")"
   cp "$SOURCE/$1" "$copy/$1"
 }
 "$copy/cmake/check_includes.sh" "$copy" || fail "the tree itself is refused"
@@ -23,7 +23,7 @@ include_is_refused services/localization/filter.cpp ../supervisor/fdir.hpp
 link_is_refused() {  # FILE LINE MESSAGE
   echo "$2" >>"$copy/$1"
   ! cmake -S "$copy" -B "$WORK/build" -G Ninja >"$WORK/said" 2>&1 || fail "$2 is configured"
-  tr -s ' \n' ' ' <"$WORK/said" | grep -q "$3" || fail "no word of '$3': $(tail -5 "$WORK/said")"
+  tr -s ' \n' ' ' <"$WORK/said" | grep -q "$3" || fail "'$3' is not reported: $(tail -5 "$WORK/said")"
   cp "$SOURCE/$1" "$copy/$1"
 }
 link_is_refused services/slam/CMakeLists.txt 'target_link_libraries(slam_core PUBLIC rover_bus)' \

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# LCM's own tools work on a run: the logger beside the recorder, the player in front of services, the jar for the spy.
+# LCM's own tools work with a run: logger, player with live services, and the jar for the spy.
 . "$(dirname "$0")/lib.sh"
 
 lcm-logger --lcm-url="$BUS" "$WORK/beside.lcm" >/dev/null 2>&1 &

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# ./rover replay --check: every service says again what it said, byte by byte; one flipped input byte is found and the
-# first message that differs is named. Services run live over a log leave a log of their own. Bad input gives one line.
+# ./rover replay --check: every service publishes identical bytes. A flipped input byte is detected, and the first
+# differing message is reported. A replay with live services records a new log. Bad input gives one line.
 . "$(dirname "$0")/lib.sh"
 cd "$SOURCE"
 
@@ -28,9 +28,9 @@ for channel in DISPARITY VO POSE SLIP HAZARDS PLANNER_STATUS MOTION_COMMAND WHEE
 done
 grep -q "times real time" "$WORK/out" || fail "no speed"
 
-echo "-- one flipped byte of a picture"
+echo "-- one flipped byte of an image"
 cp -r "$WORK/run" "$WORK/flipped"
-# The tenth picture of the left camera: its last byte but 100000.
+# The tenth image of the left camera, 100000 bytes before its end.
 python3 - "$WORK/flipped/traverse.lcm" <<'PYTHON'
 import struct, sys
 log = bytearray(open(sys.argv[1], "rb").read())
@@ -53,11 +53,11 @@ code=0
 replay "$WORK/flipped" --check --out "$WORK/check2" >"$WORK/out" || code=$?
 [ $code = 1 ] || fail "a flipped byte: exit status $code: $(cat "$WORK/out")"
 grep -qE "^first difference: (LOCCAM_RECT_LEFT|DISPARITY) of stereo, seq 10, " "$WORK/out" ||
-  fail "names another message: $(cat "$WORK/out")"
+  fail "reports another message: $(cat "$WORK/out")"
 grep -qE "^LOCCAM_RECT_LEFT +stereo +9 identical, then .*data\[" "$WORK/out" || fail "no field: $(cat "$WORK/out")"
-grep -qE "^WHEEL_COMMAND .* [1-9][0-9]* identical" "$WORK/out" || fail "no verdict of the others: $(cat "$WORK/out")"
+grep -qE "^WHEEL_COMMAND .* [1-9][0-9]* identical" "$WORK/out" || fail "no result of the others: $(cat "$WORK/out")"
 
-echo "-- some services live, with another setting, into a log of their own"
+echo "-- some services live, with another setting, recorded in a new log"
 replay "$WORK/run" --services stereo,visual_odometry --speed max --set stereo.matcher.block_px=9 --out "$WORK/live" \
   >"$WORK/out" || fail "live services: $(cat "$WORK/out")"
 code=0
@@ -68,14 +68,14 @@ cmp -s "$WORK/run/traverse.lcm" "$WORK/live/traverse.lcm" && fail "the setting c
 echo "-- bad input"
 refused "no log" "none.lcm: no such log" "$WORK/none.lcm"
 echo "text" >"$WORK/text.lcm"
-refused "no log inside" "holds no messages" "$WORK/text.lcm"
-refused "a service that is none" "no service 'sterio'; there are: " "$WORK/run" --services sterio
-refused "behind the end" "from: behind the end" "$WORK/run" --from 1000
-refused "a speed that is none" "speed fast" "$WORK/run" --speed fast
+refused "no log inside" "contains no messages" "$WORK/text.lcm"
+refused "an unknown service" "no service 'sterio'; known services: " "$WORK/run" --services sterio
+refused "after the end" "from: after the end" "$WORK/run" --from 1000
+refused "an invalid speed" "speed fast" "$WORK/run" --speed fast
 refused "a bad setting" "stereo.yaml:.*block_px" "$WORK/run" --services stereo --set stereo.matcher.block_px=8
 mkdir "$WORK/full" && touch "$WORK/full/file"
 code=0
 replay "$WORK/run" --services stereo --out "$WORK/full" 2>"$WORK/said" || code=$?
-[ $code = 2 ] && grep -q "exists already" "$WORK/said" || fail "a folder that is there: $code $(cat "$WORK/said")"
+[ $code = 2 ] && grep -q "already exists" "$WORK/said" || fail "a folder that is there: $code $(cat "$WORK/said")"
 [ "$(ls "$WORK/full")" = file ] || fail "the folder was written to"
 echo "replay repeats what was recorded"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Two hosts, as network namespaces joined by a cable: the simulator in one, as the vehicle's driver; the stack in the
-# other. TTL 1. The drive reaches its goal; the clocks' offset is measured, and limited.
+# Two hosts, as network namespaces with a virtual cable: the simulator in one, as the vehicle's driver; the stack in the
+# other. TTL 1. The drive reaches its goal, and the clock offset is measured and within its limit.
 #   two_hosts_test.sh [SCENARIO]      default: 6 m on a plane; config/scenarios/default.yaml takes ten minutes
 . "$(dirname "$0")/lib.sh"
 cd "$SOURCE"
@@ -12,8 +12,8 @@ remove_hosts() {
   ip netns del $VEHICLE 2>/dev/null || true
   ip netns del $STACK 2>/dev/null || true
 }
-# on HOST COMMAND...: takes the shell's place. Not `ip netns exec` and `ip -n`, which mount a /sys of the namespace's
-# own: not every container lets them.
+# on HOST COMMAND...: replaces the shell. Not `ip netns exec` or `ip -n`, which mount another /sys: not every container
+# permits that.
 on() { exec nsenter --net="/run/netns/$1" "${@:2}"; }
 trap 'cleanup; remove_hosts' EXIT
 if ! ip netns add $VEHICLE 2>/dev/null || ! ip netns add $STACK 2>/dev/null || ! (on $STACK true) ||
@@ -31,7 +31,7 @@ join $VEHICLE ${CABLE}a 10.77.0.1
 join $STACK ${CABLE}b 10.77.0.2
 BUS="udpm://239.255.76.67:$PORT?ttl=1&recv_buf_size=4194304"
 
-# The ground's side of the scenario, as `./rover run` writes it, and its orbital map.
+# ground.yaml and orbital map of the scenario, as `./rover run` writes them.
 SCENARIO=${1:-$WORK/plane.yaml}
 [ $# -gt 0 ] || cat >"$SCENARIO" <<'TEXT'
 seed: 1
@@ -54,23 +54,23 @@ cp "$WORK/ground/config/ground.yaml" "$WORK/ground/orbital_map.tif" "$WORK/"
 kill -INT $first
 wait $first || true
 
-# Slower than the clock, so that a busy machine keeps up: two cores are two computers here.
+# Slower than real time, so that a loaded machine keeps up.
 PACE=${ROVER_PACE:-0.4}
 on $VEHICLE "$BUILD/bin/rover_simulator" --config config --scenario "$SCENARIO" --bus "$BUS" --realtime \
   --pace $PACE --seed "$(sed -n 's/^seed: *//p' "$SCENARIO")" >"$WORK/vehicle.txt" 2>&1 &
 vehicle=$!
 on $STACK "$BUILD/bin/rover_launcher" drive --headless --until-goal --ground "$WORK/ground.yaml" \
-  --map "$WORK/orbital_map.tif" --out "$WORK/run" --bus "$BUS" --patience 60 >"$WORK/drive.txt" 2>&1 &
+  --map "$WORK/orbital_map.tif" --out "$WORK/run" --bus "$BUS" --timeout 60 >"$WORK/drive.txt" 2>&1 &
 drive=$!
 until grep -q DRIVING "$WORK/drive.txt"; do
   kill -0 $drive 2>/dev/null || fail "the drive ended early: $(tail -5 "$WORK/drive.txt"); $(tail -3 "$WORK/vehicle.txt")"
   sleep 0.2
 done
-# From the stack's host, while it drives: what the driver's clocks are apart from TICK.
+# From the stack's host during the drive: offset of the driver's clocks from TICK.
 (on $STACK "$BUILD/bin/rover_conform" --bus "$BUS" --listen 5) >"$WORK/conform.txt" || true
 grep "  clock  " "$WORK/conform.txt" || fail "no offset was measured: $(cat "$WORK/conform.txt")"
-grep -q "^pass  clock  " "$WORK/conform.txt" || fail "the clocks are apart: $(cat "$WORK/conform.txt")"
-grep -q "^pass  seq  " "$WORK/conform.txt" || fail "messages were lost on the way: $(cat "$WORK/conform.txt")"
+grep -q "^pass  clock  " "$WORK/conform.txt" || fail "clock offset too large: $(cat "$WORK/conform.txt")"
+grep -q "^pass  seq  " "$WORK/conform.txt" || fail "messages were lost: $(cat "$WORK/conform.txt")"
 
 status=0
 wait $drive || status=$?
@@ -81,7 +81,7 @@ tail -2 "$WORK/drive.txt"
 kill $vehicle 2>/dev/null || true
 wait $vehicle || true
 
-# Beyond the cable nothing is heard with the TTL of 0 that is the default.
+# With the default TTL of 0 no message reaches the other host.
 LOCAL="udpm://239.255.76.67:$((PORT + 1))?ttl=0&recv_buf_size=4194304"
 on $VEHICLE "$BUILD/bin/example_driver" --bus "$LOCAL" >/dev/null &
 quiet=$!
@@ -90,4 +90,4 @@ status=0
 [ $status = 2 ] || fail "a bus of TTL 0 crosses the cable: $(cat "$WORK/said")"
 kill $quiet
 wait $quiet || true
-echo "two hosts drive together"
+echo "the drive on two hosts succeeds"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Paths are the user's: of the folder that the user is in, with whatever characters people use, in any order with options;
-# and no text of the user's is ever run by a shell.
+# Paths are relative to the user's folder, may contain any characters, and may precede or follow options. No shell ever
+# interprets text of the user.
 . "$(dirname "$0")/lib.sh"
 . "$SOURCE/test/wild.sh"
 
@@ -13,17 +13,17 @@ six_metres mine.yaml
 logs_before=$(ls "$SOURCE/logs")
 on_bus=(--headless --bus "$BUS")
 
-# The option for settings before the scenario, a slash at the end of the folder.
+# --set before the scenario, a trailing slash after the folder.
 "$rover" run --set path_planner.repair.rejoin_within_m=8 mine.yaml "${on_bus[@]}" --out "out; touch BAD; '/" >said 2>&1 ||
   fail "run: $(cat said)"
 out="$home/out; touch BAD; '"
 [ -s "$out/report.html" ] || fail "no report: $(cat said)"
-grep -qF "report: $out/report.html" said || fail "run does not say where the report is: $(cat said)"
+grep -qF "report: $out/report.html" said || fail "run does not print the path of the report: $(cat said)"
 wild_row "Names and shells" "run --out \"y'; touch BAD; '/\"" "the command in the name was run" "$(tail -1 said | sed "s#$WORK##")"
 wild_row "Options" "run --set a.b=1 SCENARIO.yaml" "'--set SCENARIO.yaml: file.key=value is expected'" "$(tail -2 said | head -1)"
 [ -z "$(find "$WORK" -name BAD -not -path "$home")" ] || fail "a name was run: $(find "$WORK" -name BAD)"
 
-# Every command from here, by relative names, with and without a slash.
+# Every command with relative paths, with and without a trailing slash.
 cd "$home"
 "$rover" report "$(basename "$out")/" >said || fail "report: $(cat said)"
 "$rover" report "$(basename "$out")" "./$(basename "$out")" --out both.html >said || fail "comparison: $(cat said)"
@@ -43,7 +43,7 @@ wild_row "Paths" "relative names from a folder other than the checkout: run, rep
   "not found, or results in the checkout" "all found, all results in that folder"
 [ "$(ls "$SOURCE/logs")" = "$logs_before" ] || fail "something was left in the checkout's logs"
 
-# Outputs never replace anything.
+# Outputs never replace existing files.
 kept() { # NAME FILE COMMAND...
   local name=$1 file=$2 before status=0
   shift 2
@@ -71,16 +71,16 @@ ln -s "$home/foreign/report.html" both2.html
 kept "a comparison through a link to a file of the user's" foreign/report.html \
   "$rover" report "$(basename "$out")" "$(basename "$out")" --out both2.html
 
-# The home folder, where the shell leaves it as it is.
+# A tilde that the shell does not expand.
 HOME=$home "$rover" report '--out=~/both3.html' "$(basename "$out")" "$(basename "$out")" >said || fail "tilde: $(cat said)"
 [ -s both3.html ] || fail "no home folder: $(cat said)"
 wild_row "Paths" "--out=~/NAME" "a folder called ~" "the home folder"
 
-# Names that are no text at all.
+# Names that are not valid UTF-8.
 cp mine.yaml $'caf\xe9.yaml'
-"$rover" run $'caf\xe9.yaml' "${on_bus[@]}" --set rover=1 >said 2>&1 && fail "an unknown file of --set is taken"
-"$rover" run $'caf\xe9.yaml' "${on_bus[@]}" --out $'out\xe9' >said 2>&1 || fail "bytes that are no UTF-8: $(cat said)"
-[ -s $'out\xe9/report.html' ] || fail "no report for bytes that are no UTF-8: $(cat said)"
+"$rover" run $'caf\xe9.yaml' "${on_bus[@]}" --set rover=1 >said 2>&1 && fail "an unknown file of --set is accepted"
+"$rover" run $'caf\xe9.yaml' "${on_bus[@]}" --out $'out\xe9' >said 2>&1 || fail "invalid UTF-8: $(cat said)"
+[ -s $'out\xe9/report.html' ] || fail "no report for invalid UTF-8: $(cat said)"
 wild_row "Paths" "a scenario and a folder whose names are Latin-1, not UTF-8" "terminated by an exception" "$(tail -2 said | head -1)"
 [ -z "$(find "$WORK" -name BAD -not -path "$home")" ] || fail "a name was run: $(find "$WORK" -name BAD)"
-echo "all paths are the user's"
+echo "all paths are relative to the user's folder"

@@ -39,8 +39,8 @@ class ImportTest : public testing::Test {
     write_text(data_ / "calib.txt", "P0: 700 0 32 0 0 701 24 0 0 0 1 0\nP1: 700 0 32 -350 0 701 24 0 0 0 1 0\n");
     write_text(data_ / "poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0 0 1 0 0 0 0 1 1\n1 0 0 1 0 1 0 0 0 0 1 1\n");
   }
-  // The left camera is 0.1 m up in sensors whose z points where it looks; the right one 0.11 m beside it. Truth is
-  // given 5 ms before and after the second picture.
+  // Sensor frame with z along the optical axis; the left camera is 0.1 m above its origin, the right one 0.11 m beside
+  // it. The truth is given 5 ms before and after the second image.
   void make_euroc() {
     const auto sensor = [](const std::string& x) {
       return "sensor_type: camera\nT_BS:\n  cols: 4\n  rows: 4\n  data: [1, 0, 0, " + x +

@@ -30,7 +30,7 @@ std::string text_of(const fs::path& file) {
 class ExportTest : public testing::Test {
  protected:
   ExportTest() { const replay::MadeLog log(log_, 20); }
-  // The line of the refusal.
+  // The error line.
   std::string refused(ExportOptions options) {
     try {
       export_log(options);
@@ -73,14 +73,14 @@ TEST_F(ExportTest, CountsUndecodableMessages) {
     log.writeEvent(&event);
   }
   const auto lines = export_log({.log = log_, .out = out_, .formats = {"csv"}});
-  EXPECT_EQ(lines.front(), "IMU: 1 messages do not decode; left out");
+  EXPECT_EQ(lines.front(), "IMU: 1 messages do not decode; skipped");
 }
 
 TEST_F(ExportTest, NeverMixesTwoRuns) {
   { const replay::MadeLog second(log_, 5, "a"); }
   const std::string said = folder_.short_names(refused({.log = log_, .out = out_}));
   EXPECT_EQ(said,
-            "made.lcm: holds 2 runs, of the message time 1: 1.00 - 1.38 s, 2: 1.00 - 1.08 s; choose one by "
+            "made.lcm: contains 2 runs, message time 1: 1.00 - 1.38 s, 2: 1.00 - 1.08 s; choose one with "
             "--log-run N");
   EXPECT_FALSE(fs::exists(out_));
   wild_row("Logs", "export of two runs in one file", "one trajectory of both, whose times fall", said);
@@ -106,12 +106,13 @@ TEST_F(ExportTest, NonMonotonicPosesWithoutTicksAreReported) {
     for (const Utime t : {0, 20'000, 40'000, 0, 20'000}) log.put(channel::kPose, pose, t, "localization");
   }
   const auto lines = export_log({.log = log_, .out = out_, .formats = {"tum"}});
-  const std::string line = "tum/estimate.txt: time falls at 1 of its lines; without TICK the log tells of no runs";
+  const std::string line =
+      "tum/estimate.txt: time decreases at 1 of its lines; without TICK the runs of the log cannot be separated";
   EXPECT_NE(std::find(lines.begin(), lines.end(), line), lines.end());
   wild_row("Logs", "export of two runs in one file that holds no TICK (rpg_dvs_ros #57)", "nothing is said", line);
 }
 
-// Names that lead elsewhere, in other alphabets, and very many of them.
+// Channel names with path separators, in other alphabets, and in large number.
 TEST_F(ExportTest, ChannelNamesNeverBecomePaths) {
   const auto outside = [&] { return std::distance(fs::recursive_directory_iterator(folder_.path()), {}); };
   const auto before = outside();
@@ -126,7 +127,7 @@ TEST_F(ExportTest, ChannelNamesNeverBecomePaths) {
   }
   const auto lines = export_log({.log = log_, .out = out_, .formats = {"csv"}});
   EXPECT_EQ(lines.front(),
-            "100 messages on channels that are not the project's; left out: ../../escaped, /camera/left, "
+            "100 messages on unknown channels; skipped: ../../escaped, /camera/left, "
             "10, 11, 12 ...");
   EXPECT_EQ(outside() - before, 2 + 3) << "the folder, csv, and a table for each channel of the project";
   wild_row("Logs",
@@ -145,7 +146,7 @@ TEST_F(ExportTest, FullDiskPrintsOneLineAndLeavesNothing) {
   }
 }
 
-// In a process of its own, which ends as the command does.
+// In a child process that exits like the command.
 int export_in_child(const ExportOptions& options, int signal) {
   const pid_t child = fork();
   if (child == 0) {
@@ -166,7 +167,7 @@ int export_in_child(const ExportOptions& options, int signal) {
 TEST_F(ExportTest, InterruptedExportLeavesNothingAndCanBeRepeated) {
   EXPECT_EQ(export_in_child({.log = log_, .out = out_}, SIGINT), 2);
   EXPECT_FALSE(fs::exists(out_));
-  fs::create_directories(fs::path(out_) / ".unfinished" / "csv");  // what SIGKILL leaves
+  fs::create_directories(fs::path(out_) / ".unfinished" / "csv");  // remains after SIGKILL
   std::ofstream(fs::path(out_) / ".unfinished" / "csv" / "SLIP.csv") << "half";
   export_log({.log = log_, .out = user_path(out_ + "/"), .formats = {"csv"}});
   EXPECT_TRUE(fs::exists(fs::path(out_) / "csv" / "SLIP.csv"));
@@ -180,11 +181,11 @@ TEST_F(ExportTest, BadInputPrintsOneLineAndLeavesNothing) {
   EXPECT_NE(refused({.log = log_, .out = out_, .formats = {"rosbag"}}).find("no format 'rosbag'"), std::string::npos);
   EXPECT_NE(refused({.log = log_, .out = out_, .channels = {"IMV"}}).find("no channel 'IMV'"), std::string::npos);
   std::ofstream(folder_.file("text.lcm")) << "this is no log of a rover, and it is longer than a header of one\n";
-  EXPECT_NE(refused({.log = folder_.file("text.lcm"), .out = out_}).find("holds no messages"), std::string::npos);
+  EXPECT_NE(refused({.log = folder_.file("text.lcm"), .out = out_}).find("contains no messages"), std::string::npos);
   EXPECT_FALSE(fs::exists(out_));
   fs::create_directory(out_);
   std::ofstream(fs::path(out_) / "notes.txt") << "mine";
-  EXPECT_NE(refused({.log = log_, .out = out_}).find("exists already"), std::string::npos);
+  EXPECT_NE(refused({.log = log_, .out = out_}).find("already exists"), std::string::npos);
   EXPECT_EQ(text_of(fs::path(out_) / "notes.txt"), "mine");
 }
 

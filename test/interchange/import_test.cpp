@@ -42,7 +42,7 @@ TEST_F(ImportTest, EurocPairsHaveEqualTimeAndInterpolatedTruth) {
   const StereoDataSet set = read_stereo_data_set(data_.string(), "", 10.0);
   EXPECT_EQ(set.layout, "EuRoC");
   ASSERT_EQ(set.pairs.size(), 2U);
-  EXPECT_EQ(set.left_out.at(kWithoutPartner), 1);
+  EXPECT_EQ(set.skipped.at(kWithoutPartner), 1);
   EXPECT_EQ(set.pairs[1].since_first, 50'000);
   EXPECT_NEAR(set.rig.T_left_right.translation().x(), 0.11, 1e-12);
   EXPECT_EQ(set.rig.left.distortion[0], -0.28);
@@ -109,10 +109,10 @@ TEST_F(ImportTest, BadInputPrintsOneLineAndLeavesNothing) {
   expect_refused("two cameras, P0 and P1");
   make_kitti();
   write_text(data_ / "poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n");
-  expect_refused("poses.txt: 1 rows for the pictures 0 to 2");
+  expect_refused("poses.txt: 1 rows for the images 0 to 2");
   make_kitti();
   write_text(data_ / "image_1" / "000001.png", "no picture");
-  expect_refused("000001.png: no picture");
+  expect_refused("000001.png: not a readable image");
   write_picture(data_ / "image_1" / "000001.png", 1, 32, 48);
   expect_refused("the first picture has 64 x 48");
 }
@@ -120,7 +120,7 @@ TEST_F(ImportTest, BadInputPrintsOneLineAndLeavesNothing) {
 TEST_F(ImportTest, BadEurocInputPrintsOneLineAndLeavesNothing) {
   make_euroc();
   write_text(data_ / "mav0/cam1/data.csv", "#timestamp [ns],filename\nsoon,a.png\n");
-  expect_refused("cam1/data.csv:2: 'soon' is no time");
+  expect_refused("cam1/data.csv:2: 'soon' is not a time");
   make_euroc();
   write_text(data_ / "mav0/cam0/sensor.yaml", "camera_model: omni\n");
   expect_refused("camera_model");
@@ -130,13 +130,13 @@ TEST_F(ImportTest, RefusesImagesLargerThanAMessage) {
   make_kitti();
   for (const char* camera : {"image_0", "image_1"})
     for (int i = 0; i < 3; ++i) write_picture(data_ / camera / ("00000" + std::to_string(i) + ".png"), 9, 1000, 600);
-  expect_refused("600000 px, a message holds 500000");
+  expect_refused("600000 px, a message holds at most 500000");
 }
 
 TEST_F(ImportTest, OverwritesNothing) {
   make_kitti();
   write_text(out_ / "mine", "mine");
-  EXPECT_NE(refusal(options()).find("exists already"), std::string::npos);
+  EXPECT_NE(refusal(options()).find("already exists"), std::string::npos);
   EXPECT_EQ(std::distance(fs::directory_iterator(out_), fs::directory_iterator()), 1);
 }
 

@@ -28,15 +28,15 @@ class WildImport : public ImportTest {
     for (int i = first; i <= last; ++i) names.push_back(fmt::format(fmt::runtime(format), i));
     return names;
   }
-  // "5 pairs, from 000010.png at 10 m; left out: ...", or the refusal.
+  // "5 pairs, from 000010.png at 10 m; skipped: ...", or the refusal.
   std::string outcome() {
     try {
       const StereoDataSet set = read_stereo_data_set(data_.string(), "", 10.0);
       const StereoPair& first = set.pairs.front();
       std::string text = fmt::format("{} pairs, from {}", set.pairs.size(), fs::path(first.left).filename().string());
       if (first.T_map_body) text += fmt::format(" at {:.0f} m", first.T_map_body->translation().x());
-      for (const auto& [what, count] : set.left_out)
-        if (count > 0) text += fmt::format("; left out: {} {}", count, what);
+      for (const auto& [what, count] : set.skipped)
+        if (count > 0) text += fmt::format("; skipped: {} {}", count, what);
       for (const std::string& note : set.notes) text += "; " + note;
       return text;
     } catch (const ConfigError& error) {
@@ -91,7 +91,7 @@ TEST_F(WildImport, KittisPosesAndTimesAreThoseOfTheNumbers) {
   expect("KITTI: the first ten pictures and poses cut away", "taken", "5 pairs, from 000010.png at 0 m");
   write_text(data_ / "poses.txt", poses(7));
   expect("KITTI: seven poses for the pictures 10 to 14", "poses given to the wrong pictures",
-         "poses.txt: 7 rows for the pictures 10 to 14");
+         "poses.txt: 7 rows for the images 10 to 14");
   write_text(data_ / "poses.txt", poses(4));
   expect("KITTI: fewer poses than pictures", "refused", "poses.txt: 4 rows");
   write_text(data_ / "poses.txt", poses(20));
@@ -105,7 +105,7 @@ TEST_F(WildImport, OtherFilesAreSkippedAndCounted) {
   write_text(data_ / "image_1" / ".DS_Store", "of another system");
   write_text(data_ / "image_0" / "Thumbs.db", "of another system");
   expect("KITTI: ._x.png, .DS_Store and Thumbs.db of other systems", "taken for a picture; pairs shifted",
-         "4 pairs, from 000000.png; left out: 1 files that are neither PNG nor JPEG; left out: 2 hidden files");
+         "4 pairs, from 000000.png; skipped: 1 files that are neither PNG nor JPEG; skipped: 2 hidden files");
   fs::remove(data_ / "image_1" / "000002.png");
   expect("KITTI: a right picture is missing", "left out", "1 pictures without a partner");
   fs::rename(data_ / "image_0" / "000003.png", data_ / "image_0" / "000003.PNG");
@@ -131,19 +131,18 @@ TEST_F(WildImport, KittisFilesAreReadLineByLine) {
   with("times.txt", "1317376155000\n1317376255000\n1317376355000\n");
   expect("KITTI: times in milliseconds", "endless ticks written", "times.txt:1: one time in seconds");
   with("times.txt", "2011-09-26 13:02:25.964\n");
-  expect("KITTI: times of the raw layout", "'0 times for 3 pictures'", "times.txt:1: '2011-09-26' is no number");
+  expect("KITTI: times of the raw layout", "'0 times for 3 pictures'", "times.txt:1: '2011-09-26' is not a number");
   with("times.txt", "0\n0.1\nnan\n");
   expect("KITTI: a time that is not a number", "'2 times for 3 pictures'", "times.txt:3: one time in seconds");
   with("poses.txt", "\xef\xbb\xbf" + std::string(kIdentity) + "0\r\n" + kIdentity + "1\r\n" + kIdentity + "2\r\n");
   expect("KITTI: poses with the mark of UTF-8 and CRLF", "refused", "3 pairs, from 000000.png at 0 m");
   with("poses.txt", poses(1) + "nan nan nan nan nan nan nan nan nan nan nan nan\n" + kIdentity + "2\n");
-  expect("KITTI: a row of NaN among the poses", "refused",
-         "left out: 1 rows of the ground truth that are not a number");
+  expect("KITTI: a row of NaN among the poses", "refused", "skipped: 1 rows of the ground truth that are not a number");
   with("poses.txt", "0.0 1 2 3 0 0 0 1\n");
   expect("KITTI: poses in the format of TUM (evo issue 218)", "'not twelve numbers'",
          "poses.txt:1: 8 columns; the twelve");
   with("poses.txt", poses(2) + "2 0 0 0 0 2 0 0 0 0 2 0\n");
-  expect("KITTI: poses with a scale", "taken", "poses.txt:3: no rotation");
+  expect("KITTI: poses with a scale", "taken", "poses.txt:3: the left 3 x 3");
   const char* row = "700 0 32 0 0 701 24 0 0 0 1 0\n";
   with("calib.txt",
        std::string("Tr: 0 -1 0 0 0 0 -1 0 1 0 0 0\nP0: ") + row + "P1: 700 0 32 -350 0 701 24 0 0 0 1 0\n");
@@ -163,9 +162,9 @@ TEST_F(WildImport, KittisRawLayoutIsRefusedByName) {
 TEST_F(WildImport, EurocsTimes) {
   make_lists({"1000000000", "1050000000", "1100000000"}, {"1000001000", "1049998000", "1100000000"});
   expect("EuRoC: left and right differ by a microsecond or two", "no pair",
-         "3 pairs, from a.png; the two pictures of a pair are up to 2 us apart");
+         "3 pairs, from a.png; the two images of a pair are up to 2 us apart");
   make_lists({"1000000000", "1050000000", "1100000000"}, {"1025000000", "1075000000", "1125000000"});
-  expect("EuRoC: the cameras expose in turn", "no pair", "0 pairs; left out: 6 pictures without a partner");
+  expect("EuRoC: the cameras expose in turn", "no pair", "0 pairs; skipped: 6 pictures without a partner");
   make_lists({"0", "1403636579763555584", "1403636579813555584"}, {"0", "1403636579763555584", "1403636579813555584"});
   expect("EuRoC: a first stamp of 0", "endless ticks written", "cam0/data.csv:3: 1403636579.76");
   make_lists({"1403636579763555584", "1403723079763555584"}, {"1403636579763555584", "1403723079763555584"});
@@ -175,7 +174,7 @@ TEST_F(WildImport, EurocsTimes) {
          "cam0/data.csv: a picture every 0.000050 s");
   make_lists({"1403636579.763", "1403636579.813"}, {"1403636579.763", "1403636579.813"});
   expect("EuRoC: stamps in seconds (evo issue 329)", "'no time in nanoseconds'",
-         "data.csv:2: '1403636579.763' is no time in nano");
+         "data.csv:2: '1403636579.763' is not a time in nano");
 }
 
 TEST_F(WildImport, EurocsTables) {
@@ -193,7 +192,7 @@ TEST_F(WildImport, EurocsTables) {
   write_text(data_ / "mav0/cam1/data.csv", "1000000000,a.png\n1050000000,b.png\n1100000000,gone.png\n");
   write_text(data_ / "mav0/cam0/data.csv", "1000000000,a.png\n1050000000,b.png\n1100000000,c.png\n");
   expect("EuRoC: pictures of the list that are not there", "refused in the middle",
-         "left out: 1 pairs of which a picture is not there");
+         "skipped: 1 pairs with a missing image file");
 }
 
 TEST_F(WildImport, EurocsTruth) {
@@ -207,21 +206,21 @@ TEST_F(WildImport, EurocsTruth) {
          "3 pairs, from b.png");
   const StereoDataSet set = read_stereo_data_set(data_.string(), "", 10.0);
   EXPECT_EQ(set.pairs.front().since_first, 0);
-  EXPECT_EQ(set.left_out.at("pairs before the ground truth begins"), 1);
+  EXPECT_EQ(set.skipped.at("pairs before the ground truth begins"), 1);
   EXPECT_FALSE(set.pairs.back().T_map_body.has_value());
   EXPECT_NEAR(set.pairs.front().T_map_body->linear()(2, 2), 1.0, 1e-9) << "level at the first truth";
   expect("EuRoC: a comma at the end of each row (evo issue 159)", "taken", "from b.png");
   write_text(truth_file(), "1000000000,1,2,3,1,0,0,0\n1050000000,nan,nan,nan,1,0,0,0\n1100000000,1,2,4,1,0,0,0\n");
   expect("EuRoC: rows of NaN in the truth", "refused without a line",
-         "left out: 1 rows of the ground truth that are not a number");
+         "skipped: 1 rows of the ground truth that are not a number");
   write_text(truth_file(), "1000000000,1,2,3,0.5,0,0,0\n");
   expect("EuRoC: a quaternion that is not of length one", "refused without a line",
-         "data.csv:1: qw, qx, qy, qz are no unit");
+         "data.csv:1: qw, qx, qy, qz are not a unit");
   write_text(truth_file(), "#t, x, y, z, qx, qy, qz, qw\n1000000000,1,2,3,0,0,0,1\n");
   expect("EuRoC: columns qx qy qz qw", before, "the columns time, x, y, z, qw, qx, qy, qz are expected");
   write_text(truth_file(), "1403636580,1,2,3,1,0,0,0\n1403636581,1,2,3,1,0,0,0\n");
   expect("EuRoC: truth in seconds, pictures in nanoseconds (evo issue 12)", "imported without truth",
-         "no picture is of a time with truth");
+         "no image is within the time of the ground truth");
 }
 
 TEST_F(WildImport, EurocsCameras) {
@@ -253,7 +252,7 @@ TEST_F(WildImport, RefusesImagesOfWrongSize) {
   make_kitti();
   write_text(data_ / "calib.txt", "P0: 700 0 62 0 0 701 44 0 0 0 1 0\nP1: 700 0 62 -350 0 701 44 0 0 0 1 0\n");
   expect_said("KITTI: pictures of half the size of the calibration's", "taken", import_says(),
-              "that of pictures of another size?");
+              "is it for another image size?");
   make_kitti();
   const fs::path cut = data_ / "image_1/000001.png";
   fs::resize_file(cut, fs::file_size(cut) - 20);
@@ -263,7 +262,7 @@ TEST_F(WildImport, RefusesImagesOfWrongSize) {
   for (const char* folder : {"image_0", "image_1"}) write_picture(data_ / folder / "000001.JPG", 7);
   fs::resize_file(data_ / "image_1/000001.JPG", fs::file_size(data_ / "image_1/000001.JPG") - 20);
   expect_said("a JPEG that is cut short", "taken, its lower half grey", import_says(),
-              "000001.JPG: the picture is cut short");
+              "000001.JPG: the image is truncated");
   for (const char* folder : {"image_0", "image_1"}) fs::remove(data_ / folder / "000001.JPG");
   make_kitti();
   write_text(data_ / "image_0/000001.png", "");
@@ -275,7 +274,7 @@ TEST_F(WildImport, OutputIsCompleteOrAbsent) {
   make_kitti();
   ImportOptions asked = options();
   asked.out = data_.string();
-  expect_said("import DATA --out DATA", "refused", refusal(asked), "exists already and is not empty");
+  expect_said("import DATA --out DATA", "refused", refusal(asked), "already exists and is not empty");
   fs::create_directories(out_ / ".unfinished/config");
   write_text(out_ / ".unfinished/traverse.lcm", "of a try that was killed");
   const std::string last = import_data_set(options()).back();

@@ -1,4 +1,4 @@
-// Found by the fuzzer: a name that no file system takes.
+// Found by the fuzzer: a name that is too long for any file system.
 #include <gtest/gtest.h>
 
 #include <filesystem>

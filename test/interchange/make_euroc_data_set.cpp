@@ -1,7 +1,7 @@
-// Not a test: make_euroc_data_set DIR PAIRS [equidistant]: a drive over rendered ground in EuRoC's layout, with raw,
-// distorted pictures.
+// Tool, not a test: make_euroc_data_set DIR PAIRS [equidistant] writes a drive over rendered ground in EuRoC layout,
+// with distorted images.
 //
-// The sensors' frame is not the rover's body: it is turned and moved against it, as in the real data sets.
+// The sensor frame is rotated and translated relative to the body, as in the real data sets.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -20,12 +20,12 @@ constexpr std::int64_t kFirstNs = 1'403'636'579'763'555'584;
 constexpr std::int64_t kPeriodNs = 100'000'000;
 constexpr double kStepM = 0.12;  // 1.2 m/s: six times the rover's top speed
 
-// The sensors in the body.
+// Pose of the sensors in the body.
 Eigen::Isometry3d T_body_sensors() {
   return rover::make_pose(rover::rotation_from_rpy(0.3, -1.2, 2.0), {0.1, -0.05, 0.2});
 }
 
-// The surface's long waves, without its rocks: a body does not jump onto them.
+// The smooth part of the surface, without rocks.
 double ride_height_m(double x, double y) {
   return 0.25 * std::sin(0.2 * x) * std::cos(0.23 * y) + 0.68;
 }

@@ -1,4 +1,4 @@
-// The file's structure, record by record. A published reader reads it in test/integration/export_test.sh.
+// Structure of the file, record by record. test/integration/export_test.sh uses the reference reader.
 #include "tools/interchange/mcap_writer.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What ./rover drive makes of what it hears: a driver's silent channels and clocks, the goal, the order to stop.
+// DriveWatch: missing channels and clock offsets of a driver, the goal, the stop command.
 #include "tools/launcher/drive_watch.hpp"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ class DriveWatchTest : public testing::Test {
     bus_.publish(channel, &message);
     hear();
   }
-  // Four seconds of a driver.
+  // Four seconds of driver messages.
   void drive(const std::function<void(Utime)>& sensors) {
     for (Utime t = kTickUs; t <= 200 * kTickUs; t += kTickUs) {
       sensors(t);
@@ -61,50 +61,50 @@ class DriveWatchTest : public testing::Test {
   DriveWatch watch_{bus_};
 };
 
-TEST_F(DriveWatchTest, AWholeDriverIsNoProblem) {
-  EXPECT_FALSE(watch_.ticks_heard());
+TEST_F(DriveWatchTest, CompleteDriverHasNoProblem) {
+  EXPECT_FALSE(watch_.ticks_received());
   drive([this](Utime t) { all_sensors(t, 0); });
-  EXPECT_TRUE(watch_.ticks_heard());
+  EXPECT_TRUE(watch_.ticks_received());
   EXPECT_EQ(watch_.driver_problem(), "");
 }
 
-TEST_F(DriveWatchTest, SilentChannelsAreNamed) {
+TEST_F(DriveWatchTest, MissingChannelsAreReported) {
   drive([this](Utime t) { say<imu_t>(channel::kImu, t); });
   const std::string problem = watch_.driver_problem();
   EXPECT_NE(problem.find("not WHEEL_STATE, LOCCAM_LEFT, LOCCAM_RIGHT"), std::string::npos) << problem;
 }
 
-TEST_F(DriveWatchTest, ClocksThatAreApartAreMeasured) {
+TEST_F(DriveWatchTest, ClockLagIsReported) {
   drive([this](Utime t) { all_sensors(t, 500'000); });
   const std::string problem = watch_.driver_problem();
   EXPECT_NE(problem.find("IMU comes 480 ms behind TICK"), std::string::npos) << problem;
 }
 
-TEST_F(DriveWatchTest, AClockThatIsAheadToo) {
+TEST_F(DriveWatchTest, ClockLeadIsReported) {
   drive([this](Utime t) { all_sensors(t, -500'000); });
   const std::string problem = watch_.driver_problem();
   EXPECT_NE(problem.find("IMU comes 520 ms ahead of TICK"), std::string::npos) << problem;
 }
 
-TEST_F(DriveWatchTest, TheGoalCountsWhenTheRoverRestsThere) {
+TEST_F(DriveWatchTest, GoalRequiresStationaryRover) {
   state(supervisor_state_t::GOAL_REACHED, 9);
-  EXPECT_FALSE(watch_.rests_at_goal());
+  EXPECT_FALSE(watch_.stationary_at_goal());
   state(supervisor_state_t::DRIVING, 1);  // to another goal
   state(supervisor_state_t::GOAL_REACHED, 9);
-  EXPECT_FALSE(watch_.rests_at_goal());
+  EXPECT_FALSE(watch_.stationary_at_goal());
   state(supervisor_state_t::GOAL_REACHED, 1);
-  EXPECT_TRUE(watch_.rests_at_goal());
+  EXPECT_TRUE(watch_.stationary_at_goal());
 }
 
-TEST_F(DriveWatchTest, AnOrderToStopEndsTheDriveAtTheGoalAlone) {
+TEST_F(DriveWatchTest, StopEndsTheDriveOnlyAtTheGoal) {
   state(supervisor_state_t::DRIVING, 1);
   order(ground_command_t::STOP);
-  EXPECT_FALSE(watch_.stop_ordered());
+  EXPECT_FALSE(watch_.stop_commanded());
   state(supervisor_state_t::GOAL_REACHED, 1);
   order(ground_command_t::GO);
-  EXPECT_FALSE(watch_.stop_ordered());
+  EXPECT_FALSE(watch_.stop_commanded());
   order(ground_command_t::STOP);
-  EXPECT_TRUE(watch_.stop_ordered());
+  EXPECT_TRUE(watch_.stop_commanded());
 }
 
 }  // namespace

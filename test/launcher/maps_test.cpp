@@ -1,5 +1,4 @@
-// Maps and paths of the user's in ./rover run and ./rover drive: in metres for all that read the run's folder, or
-// refused.
+// User maps and paths in ./rover run and ./rover drive: converted to metres in the run folder, or refused.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -67,7 +66,7 @@ class UsersMaps : public testing::Test {
     return arguments;
   }
 
-  // One line; nothing is left.
+  // One line; no folder remains.
   template <class Make>
   std::string refusal(Make&& make) const {
     std::string line;
@@ -85,7 +84,7 @@ class UsersMaps : public testing::Test {
   testing_support::TempFolder folder_;
 };
 
-TEST_F(UsersMaps, DriveGivesAllReadersTheMapInMetres) {
+TEST_F(UsersMaps, DriveWritesTheMapInMetres) {
   for (const char* name : {"degrees.tif", "mercator.tif"}) {
     const RunFolder run = make_drive_folder(drive_with(name));
     const ElevationMap given = read_elevation_map(run.dir + "/orbital_map.tif");
@@ -100,7 +99,7 @@ TEST_F(UsersMaps, DriveGivesAllReadersTheMapInMetres) {
   }
 }
 
-TEST_F(UsersMaps, RunTakesTheSameMaps) {
+TEST_F(UsersMaps, RunAcceptsTheSameMaps) {
   for (const char* name : {"degrees.tif", "mercator.tif"}) {
     const RunFolder run = make_run_folder(run_with(name));
     EXPECT_NEAR(read_elevation_map(run.dir + "/orbital_map.tif").raster.resolution_m, 1.0, 0.01) << name;
@@ -111,7 +110,7 @@ TEST_F(UsersMaps, RunTakesTheSameMaps) {
   }
 }
 
-TEST_F(UsersMaps, GroundIsDemandedEverywhere) {
+TEST_F(UsersMaps, VoidsAreRefused) {
   const std::string by_drive = refusal([&] { make_drive_folder(drive_with("void.tif")); });
   const std::string by_run = refusal([&] { make_run_folder(run_with("void.tif")); });
   for (const std::string& line : {by_drive, by_run}) {
@@ -123,7 +122,7 @@ TEST_F(UsersMaps, GroundIsDemandedEverywhere) {
   }
 }
 
-TEST_F(UsersMaps, AGlobeIsRefusedInTermsOfTheUsersMap) {
+TEST_F(UsersMaps, GlobeIsRefusedWithTheUsersFileName) {
   for (const std::string& line : {refusal([&] { make_drive_folder(drive_with("globe.tif")); }),
                                   refusal([&] { make_run_folder(run_with("globe.tif")); })}) {
     EXPECT_NE(line.find("globe.tif: too wide"), std::string::npos) << line;
@@ -131,7 +130,7 @@ TEST_F(UsersMaps, AGlobeIsRefusedInTermsOfTheUsersMap) {
   }
 }
 
-TEST_F(UsersMaps, APathOfNoLengthIsRefused) {
+TEST_F(UsersMaps, PathWithoutLengthIsRefused) {
   struct Case {
     const char* x_m;
     const char* y_m;
@@ -141,7 +140,7 @@ TEST_F(UsersMaps, APathOfNoLengthIsRefused) {
   const Case cases[] = {
       {"10, 10", "20, 20", "points 1 and 2 are the same", "refused"},
       {"10, 10, 40", "20, 20, 20", "points 1 and 2 are the same", "refused"},
-      {"10", "20", "two points or more", "refused"},
+      {"10", "20", "at least two points", "refused"},
       {"10, 10.05", "20, 20", "path is shorter than 0.1 m", "the rover stood in STANDBY until the timeout"}};
   for (const Case& c : cases) {
     const std::string line = refusal([&] { make_run_folder(run_with("degrees.tif", c.x_m, c.y_m)); });

@@ -1,4 +1,4 @@
-// Settings and seeds as users type them.
+// --set and --seeds.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -41,10 +41,10 @@ class SettingTest : public testing::Test {
 struct Case {
   std::string typed;
   const char* before;
-  const char* now;  // part of the line
+  const char* now;  // part of the error line
 };
 
-TEST_F(SettingTest, WhatIsNoSettingIsRefusedInOneLine) {
+TEST_F(SettingTest, InvalidSettingIsRefusedInOneLine) {
   const std::string before = limit();
   std::string long_file(300, 'v'), long_list(100'000, '1');
   long_file += ".key=1";
@@ -81,7 +81,7 @@ TEST_F(SettingTest, WhatIsNoSettingIsRefusedInOneLine) {
   }
 }
 
-TEST_F(SettingTest, AValueIsWrittenAsItIsTyped) {
+TEST_F(SettingTest, ValueIsWrittenAsTyped) {
   EXPECT_EQ(refusal("vehicle.limits.top_speed_mps=0.125"), "");
   EXPECT_EQ(limit(), "0.125");
   EXPECT_EQ(refusal("vehicle.limits.top_speed_mps=012"), "");

@@ -17,6 +17,13 @@ Checkpoint sample() {
   c.travelled_m = 42.5;
   c.newest_visual_utime = 1'234'567;
   c.drive_angle_rad = {1, 2, 3, 4, 5, 6};
+  c.traction = 0.6;
+  c.side_slip = -0.05;
+  c.smoothing_offset_m = {0.01, -0.02, 0.03};
+  c.smoothing_offset_rad = {0.001, 0.002, -0.003};
+  c.consecutive_conflicts = 7;
+  c.imu_healthy_utime = 123'456'000'000;
+  c.dead_reckoned_m = 1.5;
   return c;
 }
 
@@ -33,6 +40,13 @@ TEST(Checkpoint, RoundTrip) {
   EXPECT_EQ(back->travelled_m, 42.5);
   EXPECT_EQ(back->newest_visual_utime, 1'234'567);
   EXPECT_EQ(back->drive_angle_rad, sample().drive_angle_rad);
+  EXPECT_EQ(back->traction, 0.6);
+  EXPECT_EQ(back->side_slip, -0.05);
+  EXPECT_EQ(back->smoothing_offset_m, sample().smoothing_offset_m);
+  EXPECT_EQ(back->smoothing_offset_rad, sample().smoothing_offset_rad);
+  EXPECT_EQ(back->consecutive_conflicts, 7);
+  EXPECT_EQ(back->imu_healthy_utime, 123'456'000'000);
+  EXPECT_EQ(back->dead_reckoned_m, 1.5);
 }
 
 TEST(Checkpoint, RejectsInvalidBytes) {
@@ -49,6 +63,9 @@ TEST(Checkpoint, RejectsInvalidBytes) {
   Checkpoint early = sample();
   early.newest_visual_utime = early.utime + 1;
   EXPECT_FALSE(from_bytes(to_bytes(early)).has_value()) << "future odometry would look fresh";
+  Checkpoint unknown_traction = sample();
+  unknown_traction.traction = kNaN;
+  EXPECT_FALSE(from_bytes(to_bytes(unknown_traction)).has_value());
 }
 
 }  // namespace

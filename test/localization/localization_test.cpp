@@ -58,7 +58,7 @@ TEST(Localization, CameraOnlyModeTracksCarAt12MetresPerSecond) {
   LocalizationConfig config;
   config.camera_only = {true, 0.02, -0.03};
   config.filter.no_gyro_noise_rad_rts = 10.0;
-  config.max_dead_reckoned_m = 50.0;
+  config.status.max_dead_reckoned_m = 50.0;
   SyntheticDrive drive(config, 2);
   drive.imu_on = drive.wheels_on = drive.rolling_ground = false;
   drive.command = [](double t) { return Twist{12.0, 0.1 * std::sin(0.5 * t)}; };
@@ -527,6 +527,87 @@ TEST(Localization, ContinuesFromCheckpoint) {
   EXPECT_GT(after.travelled_m, before.travelled_m + 1.0);
   EXPECT_LT((after.T_map_odom.matrix() - before.T_map_odom.matrix()).norm(), 1e-12);
   EXPECT_LT(position_error(drive), 0.05);
+}
+
+// A process that continues from the checkpoint of the running one at once, for the same inputs.
+void restart(SyntheticDrive& drive) {
+  const auto checkpoint = from_bytes(to_bytes(*drive.localization.checkpoint()));
+  ASSERT_TRUE(checkpoint.has_value());
+  drive.localization = Localization(short_alignment({}), test_vehicle());
+  drive.localization.restore(*checkpoint);
+}
+
+TEST(Localization, RestoredCheckpointKeepsTractionAndSideSlip) {
+  SyntheticDrive uninterrupted({}, 21);
+  SyntheticDrive restarted({}, 21);
+  for (SyntheticDrive* drive : {&uninterrupted, &restarted}) {
+    drive->command = [](double t) { return t < 1.5 ? Twist{} : Twist{0.2, 0.0}; };
+    drive->slip = [](double) { return 0.4; };
+    // On a side slope the rover crabs to the left.
+    drive->corrupt_visual = [](VisualMotion& m) { m.T_prev_cur.translation().y() += 0.005; };
+    drive->align_and_start();
+    drive->run(15.0);
+    drive->visual_on = false;
+    drive->run(0.5);
+  }
+  const double travelled_m = restarted.localization.pose().travelled_m;
+  restart(restarted);
+  uninterrupted.run(4.0);
+  restarted.run(4.0);
+  const PoseEstimate& expected = uninterrupted.localization.pose();
+  const PoseEstimate& pose = restarted.localization.pose();
+  ASSERT_GT(expected.travelled_m, travelled_m + 0.4);
+  EXPECT_LT((pose.T_odom_body.translation() - expected.T_odom_body.translation()).norm(), 1e-6);
+  EXPECT_LT((pose.velocity_body_mps - expected.velocity_body_mps).norm(), 1e-9);
+  EXPECT_LT(log_so3(pose.T_odom_body.linear().transpose() * expected.T_odom_body.linear()).norm(), 1e-6);
+  EXPECT_LT((pose.cov - expected.cov).norm(), 1e-6 * expected.cov.norm());
+  EXPECT_FALSE(restarted.localization.slip().valid) << "the window starts anew";
+}
+
+TEST(Localization, SuspectGyroStaysSuspectAfterRestart) {
+  SyntheticDrive drive({}, 22);
+  drive.command = arc;
+  drive.align_and_start();
+  drive.run(10.0);
+  drive.corrupt_imu = [](ImuSample& s) { s.fog_delta_yaw_rad += 0.1 * s.dt_s; };
+  drive.run(20.0);
+  ASSERT_EQ(drive.localization.pose().reason, "gyro contradicts visual odometry");
+  restart(drive);
+  drive.run(1.0, [&] { EXPECT_EQ(drive.localization.pose().reason, "gyro contradicts visual odometry"); });
+  EXPECT_EQ(drive.localization.pose().status, PoseStatus::kDegraded);
+}
+
+TEST(Localization, RestartExtendsNeitherDeadReckoningNorTimeWithoutImu) {
+  for (const bool imu : {true, false}) {
+    SyntheticDrive drive({}, 23);
+    drive.command = arc;
+    drive.align_and_start();
+    drive.run(10.0);
+    (imu ? drive.visual_on : drive.imu_on) = false;
+    drive.run(15.0);
+    const std::string_view reason = imu ? "too far without visual odometry" : "no IMU for too long";
+    ASSERT_EQ(drive.localization.pose().reason, reason);
+    restart(drive);
+    drive.run(0.5, [&] { EXPECT_EQ(drive.localization.pose().reason, reason); });
+  }
+}
+
+TEST(Localization, SlamPoseOlderThanCorrectionIsRejectedAfterRestart) {
+  SyntheticDrive drive({}, 24);
+  drive.command = arc;
+  drive.align_and_start(0.5, 0.05);
+  drive.run(10.0);
+  MapMeasurement m;
+  m.utime = drive.localization.pose().utime - 400'000;
+  m.T_map_odom = planar(drive.localization.pose().T_map_odom);
+  m.cov = Vector3d(0.04, 0.04, 1e-4).asDiagonal();
+  MapMeasurement slam_pose = m;
+  slam_pose.utime -= 100'000;
+  ASSERT_EQ(drive.localization.apply_correction(m), "");
+  restart(drive);
+  drive.run(0.1);
+  EXPECT_NE(drive.localization.add_slam_pose(slam_pose), "");
+  EXPECT_NE(drive.localization.apply_correction(m), "") << "the same correction again";
 }
 
 TEST(Localization, SameInputsGiveSameBytes) {

@@ -32,9 +32,9 @@ LocalizationConfig short_alignment() {
 class LocalizationNodeTest : public testing::Test {
  protected:
   LocalizationNodeTest() : world_("localization"), node_(world_.node(), short_alignment(), load_vehicle(kConfig)) {
-    world_.hear(channel::kPose, poses_);
-    world_.hear(channel::kSlip, slips_);
-    world_.hear(channel::kCommandAck, acks_);
+    world_.record(channel::kPose, poses_);
+    world_.record(channel::kSlip, slips_);
+    world_.record(channel::kCommandAck, acks_);
   }
 
   void run(double seconds, double speed_mps = 0.0) {
@@ -137,8 +137,8 @@ class Process {
         now_(now),
         angle_(angle),
         node_({.name = "localization", .boot_id = boot_id, .run_dir = folder}, bus_) {
-    hear(channel::kPose, poses);
-    hear(channel::kServiceState, states);
+    record(channel::kPose, poses);
+    record(channel::kServiceState, states);
     service_ = std::make_unique<LocalizationNode>(node_, short_alignment(), load_vehicle(kConfig));
   }
 
@@ -157,7 +157,7 @@ class Process {
       tick.header = world_.next(channel::kTick, now_, now_);
       tick.members = {"localization"};
       tick.member_count = 1;
-      tick.streams = world_.take_grown();
+      tick.streams = world_.take_updated();
       tick.stream_count = static_cast<std::int32_t>(tick.streams.size());
       bus_.publish(channel::kTick, &tick);
       while (bus_.handleTimeout(0) > 0) node_.handle(0);
@@ -177,7 +177,7 @@ class Process {
 
  private:
   template <class Message>
-  void hear(const char* channel, std::vector<Message>& out) {
+  void record(const char* channel, std::vector<Message>& out) {
     bus_.subscribeFunction(
         channel,
         +[](const lcm::ReceiveBuffer* buffer, const std::string&, std::vector<Message>* messages) {
@@ -228,9 +228,9 @@ TEST(LocalizationConfigFile, MatchesDefaults) {
   EXPECT_EQ(file.filter.visual_cov_factor, defaults.filter.visual_cov_factor);
   EXPECT_EQ(file.filter.fog_bias_sigma_radps, defaults.filter.fog_bias_sigma_radps);
   EXPECT_EQ(file.static_alignment.duration_s, defaults.static_alignment.duration_s);
-  EXPECT_EQ(file.stationary_rate_radps, defaults.stationary_rate_radps);
+  EXPECT_EQ(file.stationary.rate_radps, defaults.stationary.rate_radps);
   EXPECT_EQ(file.slip.window_s, defaults.slip.window_s);
-  EXPECT_EQ(file.max_dead_reckoned_m, defaults.max_dead_reckoned_m);
+  EXPECT_EQ(file.status.max_dead_reckoned_m, defaults.status.max_dead_reckoned_m);
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ def drive(page, second, url, run, pictures):
     page.click("tr[data-service=stereo] td.inject button")
     wait_for("a killed service is red", lambda: page.service("stereo") == "lost")
     wait_for("and green again", lambda: page.service("stereo") == "ok")
-    wait_for("and it is noted", lambda: any("stereo is back" in e for e in page.events()))
+    wait_for("and it is noted", lambda: any("stereo restarted" in e for e in page.events()))
 
     driven = page.number("driven")
     kill_service(run, "mission_control")
@@ -63,9 +63,9 @@ def drive(page, second, url, run, pictures):
 
     page.click(".stop")
     wait_for("stop stops", lambda: page.text("state") == "STANDBY" and page.text("permit") == "no permit")
-    wait_for("and the rover stands", lambda: abs(page.number("speed")) < 0.01)
+    wait_for("and the rover is stationary", lambda: abs(page.number("speed")) < 0.01)
     wait_for("the second page sees it", lambda: second.text("state") == "STANDBY")
-    standing = page.number("driven")
+    stopped_at = page.number("driven")
 
     page.click("#draw")
     for x, y in [(.60, .50), (.68, .52), (.76, .50)]:
@@ -78,7 +78,7 @@ def drive(page, second, url, run, pictures):
     wait_for("and is the way to go now", lambda: page.number("togo") < 30.0)
     check("but does not move the rover by itself", page.text("state") == "STANDBY")
     page.click("[data-command=go]")
-    wait_for("it is driven", lambda: page.number("driven") > standing + 2.0)
+    wait_for("it is driven", lambda: page.number("driven") > stopped_at + 2.0)
 
     moving = page.number("driven")
     headers = {"Origin": "http://evil.example", "Sec-Fetch-Site": "cross-site"}

@@ -24,20 +24,31 @@ class PageConfigTest : public testing::Test {
   }
 
   PageConfig load(const std::string& address, const std::string& token, const std::string& more = "") const {
+    std::filesystem::copy_file(ROVER_SOURCE_DIR "/config/navigation.yaml", folder_.file("navigation.yaml"),
+                               std::filesystem::copy_options::overwrite_existing);
     std::ofstream(folder_.file("mission_control.yaml"))
         << "address: " << address << "\ntoken_file: \"" << token << "\"\npath: {}\n"
         << more;
-    return load_page_config(folder_.path());
+    return load_config(folder_.path());
   }
 
   testing_support::TempFolder folder_;
 };
 
 TEST_F(PageConfigTest, DefaultIsLoopbackWithoutToken) {
-  const PageConfig config = load_page_config(ROVER_SOURCE_DIR "/config");
+  const PageConfig config = load_config(ROVER_SOURCE_DIR "/config");
   EXPECT_TRUE(config.served);
   EXPECT_TRUE(is_loopback(config.guard.address));
   EXPECT_TRUE(config.guard.token.empty());
+}
+
+TEST_F(PageConfigTest, LimitsOfDrawnPathsAreThoseOfNavigation) {
+  load("127.0.0.1", "");
+  std::ofstream(folder_.file("navigation.yaml")) << "max_slope_deg: 12.0\ncorridor_half_width_m: 2.0\n";
+  const OperatorPathConfig path = load_config(folder_.path()).path;
+  EXPECT_EQ(path.slope.max_rad, to_rad(12.0));
+  EXPECT_EQ(path.slope.steep_rad, to_rad(10.0));
+  EXPECT_EQ(path.corridor_half_width_m, 2.0);
 }
 
 TEST_F(PageConfigTest, RefusesMissionPathOfZeroLength) {

@@ -40,7 +40,7 @@ TEST(GroundMap, RefusesSteepSlopeAnywhereOnPath) {
   const GroundMap map = ramp(0.3);
   EXPECT_TRUE(map.check({{5, 5}, {35, 5}}).passable);
   EXPECT_FALSE(map.check({{5, 5}, {60, 5}, {5, 20}}).passable);
-  EXPECT_FALSE(map.check({{5, 5}, {60, 5}}).passable) << "across a cliff between two way-points";
+  EXPECT_FALSE(map.check({{5, 5}, {60, 5}}).passable) << "across a cliff between two waypoints";
 }
 
 TEST(GroundMap, RefusesPointsOutsideMap) {

@@ -75,10 +75,10 @@ image_t picture(int width, int height, int horizon, Utime now) {
 MadeUpDrive::MadeUpDrive(lcm::LCM& bus, std::vector<std::string> services)
     : bus_(bus), services_(std::move(services)), world_(rocky_world()) {}
 
-Pose2 MadeUpDrive::pose_at(double way_m) {
-  const double yaw = 0.35 + 0.45 * std::sin(0.12 * way_m);
+Pose2 MadeUpDrive::pose_at(double distance_m) {
+  const double yaw = 0.35 + 0.45 * std::sin(0.12 * distance_m);
   double x = 14.0, y = 20.0;
-  for (double s = 0.0; s < way_m; s += 0.05) {
+  for (double s = 0.0; s < distance_m; s += 0.05) {
     const double along = 0.35 + 0.45 * std::sin(0.12 * s);
     x += 0.05 * std::cos(along);
     y += 0.05 * std::sin(along);
@@ -86,7 +86,7 @@ Pose2 MadeUpDrive::pose_at(double way_m) {
   return {x, y, yaw};
 }
 
-double MadeUpDrive::way_m(Utime now) const {
+double MadeUpDrive::distance_m(Utime now) const {
   return std::min(kWholeM, kAheadM + kSpeedMps * to_seconds(now));
 }
 
@@ -98,7 +98,7 @@ void MadeUpDrive::publish(const char* channel, Message message, Utime utime) {
 }
 
 void MadeUpDrive::say(Utime now) {
-  travelled_m_ = way_m(now);
+  travelled_m_ = distance_m(now);
   publish(channel::kTick, tick_t{}, now);
   say_motion(now);
   if (each(now, 200'000)) say_supervision(now);

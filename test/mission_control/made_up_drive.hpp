@@ -22,7 +22,7 @@ class MadeUpDrive {
   // The terrain of the drive.
   const World& world() const { return world_; }
   // The driven path in map.
-  static Pose2 pose_at(double way_m);
+  static Pose2 pose_at(double distance_m);
 
  private:
   template <class Message>
@@ -36,7 +36,7 @@ class MadeUpDrive {
   void say_slam(Utime now);
   elevation_t elevation() const;
   bool seen(double x_m, double y_m) const;
-  double way_m(Utime now) const;
+  double distance_m(Utime now) const;
 
   lcm::LCM& bus_;
   std::vector<std::string> services_;

@@ -143,11 +143,11 @@ TEST_F(MissionControlTest, RefusalReportsReason) {
   Command command;
   command.kind = CommandKind::kClearFault;
   command.target = "no_path";
-  const CommandReply answer = operate(command, false, "does not stand");
+  const CommandReply answer = operate(command, false, "no such fault is active");
   EXPECT_EQ(answer.outcome, CommandReply::Outcome::kRefused);
-  EXPECT_EQ(answer.reason, "does not stand");
+  EXPECT_EQ(answer.reason, "no such fault is active");
   EXPECT_EQ(commands_->back().target, "no_path");
-  EXPECT_TRUE(noted("clear fault no_path refused: does not stand"));
+  EXPECT_TRUE(noted("clear fault no_path refused: no such fault is active"));
 }
 
 TEST_F(MissionControlTest, MissingReplyIsReported) {
@@ -162,7 +162,7 @@ TEST_F(MissionControlTest, ForcedLevelIsStored) {
   Command command;
   command.kind = CommandKind::kForceLevel;
   command.level = mission::Level::kFull;
-  operate(command, false, "the services of the Full level are not there");
+  operate(command, false, "the services of the Full level are not running");
   EXPECT_EQ(shared_->book.with([](const auto& book) { return book.forced(); }), mission::Level::kAuto);
   operate(command, true);
   EXPECT_EQ(commands_->back().level, +ground_command_t::FULL);
@@ -204,7 +204,7 @@ TEST_F(MissionControlTest, LogbookRecordsEvents) {
   EXPECT_TRUE(noted("HAZARD_STOP: path_blocked"));
   fault_t fault{};
   fault.id = "slip";
-  fault.standing = 1;
+  fault.active = 1;
   fault.response = fault_t::STOP;
   world_.send(channel::kFault, fault, "supervisor");
   tick(2);
@@ -213,7 +213,7 @@ TEST_F(MissionControlTest, LogbookRecordsEvents) {
   heartbeat.service = "stereo";
   world_.send(channel::kHeartbeat, heartbeat, "stereo");
   tick(100);
-  EXPECT_TRUE(noted("stereo is silent"));
+  EXPECT_TRUE(noted("stereo: heartbeat timeout"));
 }
 
 // The folder outlives the service that writes into it.

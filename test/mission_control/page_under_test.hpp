@@ -14,7 +14,7 @@
 
 namespace rover::mission::test {
 
-// A page served on a port of its own; the thread that stands in for the node accepts all and keeps what it was given.
+// A page served on a port of its own; the thread that replaces the node accepts all and keeps what it was given.
 class TestServer {
  public:
   explicit TestServer(std::function<void(PageConfig&, PageContext&)> change = {});

@@ -65,16 +65,30 @@ TEST(CommandQueue, LateReplyReturnsItsCommand) {
   EXPECT_TRUE(commands.acknowledge(5, true, ""));
 }
 
-TEST(CommandQueue, FullQueueIsBusy) {
+TEST(CommandQueue, FullQueueRefusesCommandsButTakesStop) {
   CommandQueue commands;
   std::vector<std::thread> pages;
   std::atomic<int> busy = 0;
   for (int i = 0; i < 24; ++i)
     pages.emplace_back([&] {
-      if (commands.submit(command(CommandKind::kGo), 1s).outcome == CommandReply::Outcome::kBusy) ++busy;
+      if (commands.submit(command(CommandKind::kGo), 20s).outcome == CommandReply::Outcome::kBusy) ++busy;
     });
+  while (busy < 8) std::this_thread::yield();
+  EXPECT_EQ(commands.submit(command(CommandKind::kGo), 10ms).outcome, CommandReply::Outcome::kBusy);
+  for (const CommandKind kind : {CommandKind::kStop, CommandKind::kPause, CommandKind::kEmergencyStop})
+    EXPECT_EQ(commands.submit(command(kind), 10ms).outcome, CommandReply::Outcome::kClockStopped) << name(kind);
+  std::map<CommandKind, int> queued;
+  for (std::int64_t id = 1; const auto pending = commands.next(); ++id) {
+    ++queued[pending->command.kind];
+    commands.set_command_id(pending->ticket, id);
+    commands.acknowledge(id, true, "");
+  }
   for (std::thread& page : pages) page.join();
   EXPECT_EQ(busy, 8);
+  EXPECT_EQ(queued, (std::map<CommandKind, int>{{CommandKind::kGo, 16},
+                                                {CommandKind::kStop, 1},
+                                                {CommandKind::kPause, 1},
+                                                {CommandKind::kEmergencyStop, 1}}));
 }
 
 }  // namespace

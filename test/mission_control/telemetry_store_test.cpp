@@ -185,7 +185,7 @@ TEST(TelemetryStore, FullLevelServicesAreStored) {
   EXPECT_EQ(view.slam.status, 1);
   EXPECT_EQ(view.slam.particles, 80);
   EXPECT_EQ(view.terrain.difficulty, 0.3);
-  EXPECT_DOUBLE_EQ(view.terrain.known_share, 0.25);
+  EXPECT_DOUBLE_EQ(view.terrain.known_fraction, 0.25);
 }
 
 TEST(TelemetryStore, CorrectionReportsShiftOfRoverNotOfOdomOrigin) {

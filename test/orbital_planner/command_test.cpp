@@ -217,8 +217,7 @@ TEST_F(PlanCommand, BadInputPrintsOneLineAndExits2) {
       {folder_.file("nowhere.tif") + " --start 60,270 --goal 120,60", "nowhere.tif: has no georeference"},
       {kGale + " --start -3,270 --goal 120,60", "--start -3,270: lies outside of the map"},
       {kGale + " --start 60,270 --goal 400,60", "--goal 400,60: lies outside of the map"},
-      {folder_.file("split.tif") + " --start 100.5,270 --goal 120,60",
-       "--start 100.5,270: lies where the map has no data"},
+      {folder_.file("split.tif") + " --start 100.5,270 --goal 120,60", "--start 100.5,270: has no map data"},
       {folder_.file("split.tif") + " --start 60,270 --goal 200,270", "--goal 200,270: cannot be reached"},
       {kGale + " --start 60,270 --via 180,300 --goal 120,60", "--via 180,300: lies 1.0 m from an obstacle"},
       {kGale + " --start 60:270 --goal 120,60", "--start '60:270': two numbers"},
@@ -262,8 +261,7 @@ TEST_F(PlanCommand, PathNeverCrossesVoidCells) {
     testing_support::write(folder_.file("west.tif"), map, [&](int x, int y) {
       return x < 50 ? c.value : (2000.0 + 0.03 * x + 2.0 * std::sin(y / 20.0)) / c.scale;
     });
-    const std::string line =
-        refusal("west.tif --start 20,50 --goal 170,50", "--start 20,50: lies where the map has no data");
+    const std::string line = refusal("west.tif --start 20,50 --goal 170,50", "--start 20,50: has no map data");
     EXPECT_EQ(execute("west.tif --start 70,50 --goal 170,50").first, 0) << c.name;
     std::filesystem::remove_all(folder_.file("out"));
     wild_row("Maps: voids", c.name, "`plan` gave a 150 m EFFICIENT path over nothing, exit status 0", line);
@@ -331,7 +329,7 @@ TEST_F(PlanCommand, PathsAreTheUsersAndViaLeavesTheMapAlone) {
 
 TEST_F(PlanCommand, AMapOnNoPlanetIsPlannedInMetres) {
   write_geotiff(folder_.file("plane.tif"), plane_raster(60.0, 40.0, 1.0, 0.05, 0.0));
-  refusal("plane.tif --lonlat --start 1,1 --goal 2,2", "plane.tif lies on no planet");
+  refusal("plane.tif --lonlat --start 1,1 --goal 2,2", "plane.tif has no planet");
   ASSERT_EQ(execute("plane.tif --start 10,20 --goal 50,20").first, 0);
   const nlohmann::json geojson = nlohmann::json::parse(text_of(folder_.file("out/path.geojson")));
   const auto& coordinates = geojson["features"][0]["geometry"]["coordinates"];
@@ -357,12 +355,15 @@ TEST_F(PlanCommand, AReprojectedMapIsGivenToTheRoverWithThePath) {
 }
 
 TEST_F(PlanCommand, AWrongConfigurationIsNamed) {
-  const std::string good = text_of(kSource + "/config/orbital_planner.yaml");
-  const auto complaint = [&](const std::string& from, const std::string& to) {
-    std::string text = good;
+  const std::string shared = text_of(kSource + "/config/navigation.yaml");
+  const auto complaint = [&](const std::string& from, const std::string& to,
+                             const std::string& name = "orbital_planner") {
+    std::ofstream(folder_.file("navigation.yaml")) << shared;
+    std::ofstream(folder_.file("orbital_planner.yaml")) << text_of(kSource + "/config/orbital_planner.yaml");
+    std::string text = text_of(kSource + "/config/" + name + ".yaml");
     const size_t at = text.find(from);
     EXPECT_NE(at, std::string::npos) << from;
-    std::ofstream(folder_.file("orbital_planner.yaml")) << text.replace(at, from.size(), to);
+    std::ofstream(folder_.file(name + ".yaml")) << text.replace(at, from.size(), to);
     Arguments wrong = arguments();
     wrong.config_dir = folder_.path();
     wrong.out = folder_.file(std::to_string(std::hash<std::string>{}(to)));
@@ -376,9 +377,11 @@ TEST_F(PlanCommand, AWrongConfigurationIsNamed) {
   EXPECT_EQ(complaint("window_m: 5.0", "window_m: 5.0"), "");
   EXPECT_NE(complaint("window_m: 5.0", "windows_m: 5.0").find("terrain.windows_m: unknown key"), std::string::npos);
   EXPECT_NE(complaint("window_m: 5.0", "window_m: .nan").find("terrain.window_m"), std::string::npos);
-  EXPECT_NE(complaint("efficient_below: 0.40", "efficient_below: 0.70").find("efficient_below"), std::string::npos);
+  EXPECT_NE(complaint("efficient_below: 0.4", "efficient_below: 0.7").find("efficient_below"), std::string::npos);
   EXPECT_NE(complaint("risk_distance_m: 6.0", "risk_distance_m: 1.0").find("risk_distance_m"), std::string::npos);
-  EXPECT_NE(complaint("steep_deg: 10.0", "steep_deg: 20.0").find("steep_deg"), std::string::npos);
+  EXPECT_NE(complaint("sloping_deg: 5.0", "sloping_deg: 20.0").find("sloping_deg"), std::string::npos);
+  EXPECT_NE(complaint("goal_tolerance_m: 0.5", "steep_slope_deg: 20.0", "navigation").find("steep_slope_deg"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ TEST(Levels, FullBeginsAheadOfTheHardGround) {
 TEST(Levels, HysteresisKeepsLevelBetweenThresholds) {
   const auto ramp = [](double length_m) { return length_m < 100 ? length_m / 100.0 : 2.0 - length_m / 100.0; };
   LevelConfig config;
-  config.lead_m = 0.0;
+  config.lead_distance_m = 0.0;
   // Up beyond 0.55 at 56 m; down again below 0.40, at 160 m, and not at 145 m already.
   EXPECT_EQ(levels_of(201, ramp, config), run(56, 104, 41));
   config.efficient_below = config.full_above;
@@ -61,7 +61,7 @@ TEST(Levels, HysteresisKeepsLevelBetweenThresholds) {
 TEST(Levels, DifficultyNearThresholdDoesNotOscillate) {
   const auto about = [](double length_m) { return 0.55 + 0.1 * std::sin(length_m); };
   LevelConfig config;
-  config.lead_m = config.least_stretch_m = 0.0;
+  config.lead_distance_m = config.min_segment_length_m = 0.0;
   const std::string levels = levels_of(200, about, config);
   int switches = 0;
   for (size_t i = 1; i < levels.size(); ++i) switches += levels[i] != levels[i - 1];

@@ -24,7 +24,7 @@ double far_north(const Plan& plan) {
 
 double largest_slope_deg(const Plan& plan) {
   double most = 0.0;
-  for (const PathSegment& s : plan.segments) most = std::max(most, to_deg(s.most_slope_rad));
+  for (const PathSegment& s : plan.segments) most = std::max(most, to_deg(s.max_slope_rad));
   return most;
 }
 
@@ -106,7 +106,7 @@ TEST(OrbitalPlanner, HardTerrainOnPathIsFull) {
   EXPECT_EQ(result.segments[2].level, Level::kEfficient);
   EXPECT_NEAR(result.line[result.segments[1].first].x(), 57.0, 4.0);
   EXPECT_NEAR(result.line[result.segments[1].last].x(), 111.0, 4.0);
-  EXPECT_NEAR(to_deg(result.segments[1].most_slope_rad), 12.0, 0.1);
+  EXPECT_NEAR(to_deg(result.segments[1].max_slope_rad), 12.0, 0.1);
 }
 
 TEST(OrbitalPlanner, WaypointsArePassedInTheirOrder) {

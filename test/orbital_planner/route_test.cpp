@@ -61,15 +61,15 @@ TEST(MinimumCostPath, TouchesEndOfWall) {
 }
 
 TEST(MinimumCostPath, CrossesCostlyStripOnlyIfCheaperThanDetour) {
-  for (const auto& [dear, crosses] : {std::pair{1.5, true}, std::pair{30.0, false}}) {
+  for (const auto& [cost_factor, crosses] : {std::pair{1.5, true}, std::pair{30.0, false}}) {
     MarchGrid grid = even_grid(80, 60);
     for (int y = 0; y < 50; ++y)
-      for (int x = 38; x < 42; ++x) cost(grid, x, y) = dear;
+      for (int x = 38; x < 42; ++x) cost(grid, x, y) = cost_factor;
     const std::optional<Line> line = minimum_cost_path(grid, {20.5, 20.5}, {60.5, 20.5});
     ASSERT_TRUE(line);
     const bool crossed =
         std::any_of(line->begin(), line->end(), [&](const Vector2d& p) { return cost_at(grid, p) > 1.2; });
-    EXPECT_EQ(crossed, crosses) << dear;
+    EXPECT_EQ(crossed, crosses) << cost_factor;
   }
 }
 
@@ -106,7 +106,7 @@ TEST(MinimumCostPath, BetweenScatteredObstaclesItNeverEntersOne) {
     ++found;
     expect_open(grid, *line);
     expect_open(grid, resampled(*line, 1.5, grid));
-    expect_open(grid, rounded(resampled(*line, 1.5, grid), grid, {}));
+    expect_open(grid, smoothed(resampled(*line, 1.5, grid), grid, {}));
   }
   EXPECT_GT(found, 20);
 }
@@ -141,7 +141,7 @@ TEST(Resampled, PointsLieEvenlyOnTheLine) {
 
 TEST(Rounded, CornerBecomesDrivableBend) {
   const MarchGrid grid = even_grid(60, 60);
-  const Line line = rounded(resampled({{5.5, 5.5}, {45.5, 5.5}, {45.5, 45.5}}, 1.5, grid), grid, {});
+  const Line line = smoothed(resampled({{5.5, 5.5}, {45.5, 5.5}, {45.5, 45.5}}, 1.5, grid), grid, {});
   EXPECT_EQ(line.front(), Vector2d(5.5, 5.5));
   EXPECT_EQ(line.back(), Vector2d(45.5, 45.5));
   double nearest = kInfinity;

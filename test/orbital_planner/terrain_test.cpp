@@ -83,7 +83,7 @@ TEST(Terrain, TooFewHeightsMakeCellUnknown) {
   const TerrainLayers layers =
       analyse(map_of(21, 21, 1.0, [](double x, double) { return static_cast<int>(x) % 3 == 0 ? 1.0F : kVoid; }), {});
   for (TerrainClass c : layers.terrain_class) EXPECT_EQ(c, TerrainClass::kUnknown);
-  EXPECT_NEAR(class_shares(layers)[0], 1.0, 1e-9);
+  EXPECT_NEAR(class_fractions(layers)[0], 1.0, 1e-9);
 }
 
 TEST(TravelCost, FollowsSlopeCostTable) {
@@ -97,7 +97,7 @@ TEST(TravelCost, FollowsSlopeCostTable) {
 
 TEST(TravelCost, KeepsClearanceFromVoidsAndBorder) {
   TerrainConfig whole;
-  whole.least_known = 0.3;  // in a corner a third of the square is within the map
+  whole.min_known_fraction = 0.3;  // in a corner a third of the square is within the map
   const TerrainLayers layers =
       analyse(map_of(41, 41, 1.0, [](double x, double y) { return x == 20.5 && y == 20.5 ? kVoid : 0.0F; }), whole);
   const CostConfig config{3.0, 6.0, 1.0, 1.0};

@@ -65,7 +65,7 @@ class Driver {
     done.tick_utime = t;
     done.promise_utime = kNever;
     done.pid = getpid();
-    done.streams = streams_.take_grown();
+    done.streams = streams_.take_updated();
     done.stream_count = static_cast<std::int32_t>(done.streams.size());
     done.header = reports_.next(channel::kDone, t, t + kTickUs);
     bus_.publish(channel::kDone, &done);

@@ -21,7 +21,7 @@ const std::string kConfig = std::string(ROVER_SOURCE_DIR) + "/config";
 class PanTiltNodeTest : public testing::Test {
  protected:
   PanTiltNodeTest() : world_("pan_tilt"), service_(make_pan_tilt(world_.node(), kConfig)) {
-    world_.hear(channel::kPtuCommand, commands_);
+    world_.record(channel::kPtuCommand, commands_);
   }
 
   void send_state(std::int8_t level, std::int8_t state) {
@@ -89,7 +89,7 @@ TEST_F(PanTiltNodeTest, LooksIntoBendButStraightAheadWhileBackingUp) {
   drive(0.2, supervisor_state_t::FULL);
   ASSERT_EQ(commands_.size(), 1u);
   EXPECT_GT(commands_[0].pan_rad, to_rad(40.0));
-  send_path({0.0, -5.0}, {0.0, 0.0}, path_t::RETREAT);
+  send_path({0.0, -5.0}, {0.0, 0.0}, path_t::BACKTRACK);
   drive(3.0, supervisor_state_t::FULL);
   ASSERT_GE(commands_.size(), 2u);
   EXPECT_EQ(commands_[1].pan_rad, 0.0);
@@ -150,8 +150,8 @@ TEST(PanTiltConfigTest, UnknownKeysAndBadRangesThrow) {
   std::filesystem::create_directories(dir);
   for (const char* file : {"vehicle.yaml", "cameras.yaml"})
     std::filesystem::copy_file(kConfig + "/" + file, dir / file);
-  for (const char* text : {"ahead: {}\nsweep: {pans: 3}\n", "image_way_m: -1\nahead: {}\nsweep: {}\n", "ahead: {}\n",
-                           "ahead: {near_m: 5, far_m: 4}\nsweep: {}\n"}) {
+  for (const char* text : {"ahead: {}\nsweep: {pans: 3}\n", "image_distance_m: -1\nahead: {}\nsweep: {}\n",
+                           "no_such_key: 0.5\n", "ahead: {near_m: 5, far_m: 4}\nsweep: {}\n"}) {
     std::ofstream(dir / "pan_tilt.yaml") << text;
     EXPECT_THROW(load_config(dir.string()), ConfigError) << text;
   }

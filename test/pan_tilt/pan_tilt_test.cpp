@@ -75,7 +75,7 @@ TEST_F(PanTiltTest, ImageAtOnceAndThenEachHalfMetre) {
     EXPECT_NEAR(to_seconds(images_[i].requested - images_[i - 1].requested), 2.5, 0.05);
   take_image_count();
   run(Task::kAhead, 30.0);
-  EXPECT_EQ(take_image_count(), 0u) << "standing";
+  EXPECT_EQ(take_image_count(), 0u) << "stationary";
 }
 
 TEST_F(PanTiltTest, EverySecondImageGlancesToAlternatingSides) {

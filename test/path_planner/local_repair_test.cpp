@@ -62,7 +62,7 @@ TEST(LocalRepair, EnclosedByHazardsThereIsNoWayAndNoPath) {
     const RepairResult result = plan(field_with(box(half_m)));
     EXPECT_EQ(result.status, RepairStatus::kNoWay) << half_m;
     EXPECT_TRUE(result.poses.empty());
-    EXPECT_STREQ(text_of(result.status), "hazards leave no way to the global path");
+    EXPECT_STREQ(text_of(result.status), "hazards block every path to the global path");
   }
 }
 

@@ -200,7 +200,7 @@ TEST_F(PlannerNodeTest, AFaultThatStandsOnAsksForAPathAgain) {
   tick(3);
   fault_t fault{};
   fault.response = fault_t::STOP_REPLAN;
-  fault.standing = 1;
+  fault.active = 1;
   fault.visible_utime = world_.now;
   const auto seconds_with_fault = [&](int seconds) {
     for (int i = 0; i < 5 * seconds; ++i) {
@@ -226,8 +226,8 @@ TEST_F(PlannerNodeTest, AFaultThatLastsLeadsBack) {
     tick(5);
   }
   fault_t fault{};
-  fault.response = fault_t::STOP_RETREAT;
-  fault.standing = 1;
+  fault.response = fault_t::STOP_BACKTRACK;
+  fault.active = 1;
   fault.visible_utime = world_.now;
   supervisor_state_t state{};
   const auto kind_after = [&](int seconds, std::int8_t rover_state) {
@@ -244,7 +244,7 @@ TEST_F(PlannerNodeTest, AFaultThatLastsLeadsBack) {
   EXPECT_EQ(kind_after(9, supervisor_state_t::FAULT_STOP), +path_t::GLOBAL) << "long since raised, waited for briefly";
   fault.visible_utime = world_.now;
   EXPECT_EQ(kind_after(9, supervisor_state_t::PAUSED), +path_t::GLOBAL) << "raised anew";
-  EXPECT_EQ(kind_after(3, supervisor_state_t::PAUSED), +path_t::RETREAT);
+  EXPECT_EQ(kind_after(3, supervisor_state_t::PAUSED), +path_t::BACKTRACK);
 }
 
 TEST_F(PlannerNodeTest, UnusableMessagesAreCountedAndChangeNothing) {

@@ -244,7 +244,7 @@ TEST(PathPlanner, EnclosedByRocksItSaysThatThereIsNoWay) {
   EXPECT_EQ(out.status.state, PlannerState::kNoPath);
   EXPECT_EQ(out.status.block_kind, BlockKind::kHazard);
   EXPECT_LT(out.status.blocked_in_m, 0.6);
-  EXPECT_EQ(out.status.text, "hazards leave no way to the global path");
+  EXPECT_EQ(out.status.text, "hazards block every path to the global path");
   const size_t before = rig.paths.size();
   rig.look(10);
   EXPECT_EQ(rig.paths.size(), before) << "no path through rocks";
@@ -260,7 +260,7 @@ TEST(PathPlanner, ASearchThatTakesMoreThanAFramesShareGoesOnAtTheNext) {
   look_around(rig, 1);
   const PlannerOutput out = rig.look(20);
   EXPECT_EQ(out.status.state, PlannerState::kNoPath);
-  EXPECT_EQ(out.status.text, "hazards leave no way to the global path");
+  EXPECT_EQ(out.status.text, "hazards block every path to the global path");
 }
 
 // A rover that knows no ground but that under it: it stands, waits some frames, finds no way and says so.
@@ -276,7 +276,7 @@ TEST(PathPlanner, StandingBeforeUnseenGroundItSaysThatThereIsNoWay) {
   const size_t before = rig.paths.size();
   out = rig.look(12);
   EXPECT_EQ(out.status.state, PlannerState::kNoPath);
-  EXPECT_EQ(out.status.text, "no way to the global path over ground that is seen in time");
+  EXPECT_EQ(out.status.text, "unseen ground blocks every path to the global path");
   EXPECT_EQ(out.status.replans, 0);
   EXPECT_EQ(rig.paths.size(), before);
   rig.planner.set_start_area({0.0, 0.0}, 2.0, rig.now);
@@ -337,7 +337,7 @@ TEST(PathPlanner, AGoalUnderARockIsReachedBesideIt) {
     out = rig.look(6);
   }
   EXPECT_LT(out.status.goal_distance_m, 0.1);
-  EXPECT_EQ(out.status.text, "the goal is not free: the path ends beside it");
+  EXPECT_EQ(out.status.text, "the goal is blocked: the path ends beside it");
   EXPECT_LT(distance(position(rig.odom), on_goal.p), 1.3);
   EXPECT_GT(clearance_m(testing_support::planner_config().footprint, rig.odom, rig.rocks), 0.0);
 }

@@ -110,6 +110,11 @@ PathPlannerConfig planner_config() {
   config.footprint = {0.875, 0.47};
   config.repair.footprint = config.footprint;
   config.ground_z_m = 0.0;
+  config.goal_tolerance_m = 0.4;
+  config.turn_threshold_rad = 0.7;
+  config.turn_stop_rad = 0.035;
+  config.repair.search.turn_cost_per_rad_m = 0.5;
+  config.full.goal.max_deviation_m = 8.0;
   return config;
 }
 

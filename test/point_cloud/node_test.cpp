@@ -34,7 +34,7 @@ class PointCloudNodeTest : public testing::Test {
         service_(make_point_cloud(world_.node(), kConfig)),
         left_(message_of(image_pair().left)),
         right_(message_of(image_pair().right)) {
-    world_.hear(channel::kCloud, clouds_);
+    world_.record(channel::kCloud, clouds_);
   }
 
   void send_state(Utime utime, bool moving = false, double pan_rad = to_rad(30.0)) {
@@ -153,14 +153,12 @@ TEST(PointCloudConfigTest, UnknownKeysBadRangesAndVehicleWithoutUnitThrow) {
   std::filesystem::create_directories(dir);
   for (const char* file : {"vehicle.yaml", "cameras.yaml"})
     std::filesystem::copy_file(kConfig + "/" + file, dir / file);
-  for (const char* text :
-       {"matcher: {}\nrims: {}\nfilter: {voxel: 1}\n", "matcher: {block_px: 4}\nrims: {}\nfilter: {}\n",
-        "max_depth_m: 1\nmin_depth_m: 2\nmatcher: {}\nrims: {}\nfilter: {}\n", "matcher: {}\nrims: {}\n",
-        "matcher: {}\nrims: {width_px: -1}\nfilter: {}\n", "matcher: {}\nfilter: {}\n"}) {
+  for (const char* text : {"filter: {voxel: 1}\n", "matcher: {block_px: 4}\n", "max_depth_m: 1\nmin_depth_m: 2\n",
+                           "foreground_fattening: {width_px: -1}\n", "rims: {}\n", "sample_m: 0.02\n"}) {
     std::ofstream(dir / "point_cloud.yaml") << text;
     EXPECT_THROW(load_config(dir.string()), ConfigError) << text;
   }
-  std::ofstream(dir / "point_cloud.yaml") << "matcher: {}\nrims: {}\nfilter: {}\n";
+  std::ofstream(dir / "point_cloud.yaml") << "matcher: {}\nforeground_fattening: {}\nfilter: {}\n";
   EXPECT_NO_THROW(load_config(dir.string()));
   std::ifstream shipped(dir / "vehicle.yaml");
   std::stringstream text;

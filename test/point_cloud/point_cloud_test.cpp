@@ -8,7 +8,7 @@ namespace rover::cloud {
 namespace {
 
 PointCloud make_cloud() {
-  return PointCloud({}, navcam_rig(), navcam_unit(), kGroundBelow);
+  return PointCloud({.max_depth_m = 12.0}, navcam_rig(), navcam_unit(), kGroundBelow);
 }
 
 CloudResult cloud_of(const synthetic::World& world, double pan_rad, double tilt_rad) {
@@ -80,7 +80,7 @@ TEST(PointCloud, MeasuresRocksAndSlopes) {
 double farthest_behind_m(int rim_px) {
   constexpr double kFarM = 8.0;
   PointCloudConfig config;
-  config.fattening.width_px = rim_px;
+  config.foreground_fattening.width_px = rim_px;
   double farthest_m = 0.0;
   for (const auto& [height_m, box] : {std::pair{0.3, true}, {0.5, false}}) {
     synthetic::World world;

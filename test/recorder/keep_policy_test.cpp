@@ -19,9 +19,9 @@ Event image(Utime utime, std::int64_t seq) {
 KeepConfig reduced() {
   KeepConfig config;
   config.reduced = true;
-  config.before_s = 2.0;
-  config.after_s = 1.0;
-  config.every = 50;
+  config.images_before_s = 2.0;
+  config.images_after_s = 1.0;
+  config.image_interval = 50;
   config.bulk_channels = {"LOCCAM_LEFT"};
   return config;
 }

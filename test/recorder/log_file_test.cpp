@@ -145,7 +145,7 @@ TEST_F(LogFileTest, DoesNotOverwriteOtherFiles) {
   } catch (const ConfigError& error) {
     said = error.what();
   }
-  EXPECT_EQ(said, path_ + ": is no log; it is not written over, move it away");
+  EXPECT_EQ(said, path_ + ": is not a log and is not overwritten; move it away");
   EXPECT_EQ(std::filesystem::file_size(path_), 17U);
   wild_row("Outputs", "a recorder whose traverse.lcm is a file of the user's", "cut to nothing",
            "log_file_test.lcm" + said.substr(path_.size()));

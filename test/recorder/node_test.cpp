@@ -22,8 +22,8 @@ constexpr std::uintmax_t kPlenty = 100'000'000'000;
 RecorderConfig config(bool reduced = false) {
   RecorderConfig c;
   c.keep.reduced = reduced;
-  c.keep.before_s = 1.0;
-  c.keep.after_s = 0.5;
+  c.keep.images_before_s = 1.0;
+  c.keep.images_after_s = 0.5;
   c.keep.bulk_channels = {channel::kLocCamLeft};
   return c;
 }

@@ -70,7 +70,7 @@ TEST_F(Repair, TruncatedLogEndsAtLastCompleteMessage) {
   write(log_, 5);
   fs::resize_file(log_, 5 * kRecord - 1);
   const std::string before = content(log_);
-  EXPECT_THAT(done({.log = log_}), HasSubstr("4 messages kept, 131 bytes at 1 place left out"));
+  EXPECT_THAT(done({.log = log_}), HasSubstr("4 messages kept, 131 bytes at 1 place skipped"));
   EXPECT_EQ(content(log_), before) << "the damaged log stays as it is";
   EXPECT_EQ(content(repaired_), before.substr(0, 4 * kRecord));
   EXPECT_EQ(read_back(repaired_).size(), 4U);
@@ -99,7 +99,7 @@ TEST_F(Repair, RepairsInPlaceOnlyOnRequest) {
 
 TEST_F(Repair, ValidLogIsUnchanged) {
   write(log_, 5);
-  EXPECT_THAT(done({.log = folder_.path()}), HasSubstr("whole, 5 messages"));
+  EXPECT_THAT(done({.log = folder_.path()}), HasSubstr("intact, 5 messages"));
   EXPECT_FALSE(fs::exists(repaired_));
 }
 
@@ -108,7 +108,7 @@ TEST_F(Repair, PartsAreRepairedSeparately) {
   write(folder_.file("traverse-002.lcm"), 3);
   fs::resize_file(folder_.file("traverse-002.lcm"), 3 * kRecord - 1);
   const std::string said = done({.log = log_});
-  EXPECT_THAT(said, HasSubstr("traverse.lcm: whole, 5 messages"));
+  EXPECT_THAT(said, HasSubstr("traverse.lcm: intact, 5 messages"));
   EXPECT_THAT(said, HasSubstr("traverse-002.repaired.lcm: 2 messages kept"));
 }
 
@@ -116,7 +116,7 @@ TEST_F(Repair, NothingIsOverwritten) {
   write(log_, 5);
   fs::resize_file(log_, 5 * kRecord - 1);
   std::ofstream(repaired_) << "mine";
-  EXPECT_EQ(refusal({.log = log_}), repaired_ + ": exists already; remove it, or name another with --out");
+  EXPECT_EQ(refusal({.log = log_}), repaired_ + ": already exists; remove it, or choose another file with --out");
   EXPECT_EQ(content(repaired_), "mine");
 }
 
@@ -155,9 +155,9 @@ TEST_F(Repair, EmptyPartIsUnchanged) {
   std::ofstream(folder_.file("traverse-003.lcm")) << "a page of something else";
   const std::string said = folder_.short_names(done({.log = log_}));
   EXPECT_EQ(said,
-            "traverse.repaired.lcm: 4 messages kept, 131 bytes at 1 place left out\n"
-            "traverse-002.lcm: whole, 0 messages; nothing to do\n"
-            "traverse-003.lcm: holds no whole message; left as it is\n");
+            "traverse.repaired.lcm: 4 messages kept, 131 bytes at 1 place skipped\n"
+            "traverse-002.lcm: intact, 0 messages; nothing to do\n"
+            "traverse-003.lcm: contains no intact message; not changed\n");
   wild_row("Logs", "repair of a log whose second part is empty", "holds no whole record; is it an LCM log?", said);
 }
 
@@ -176,14 +176,14 @@ TEST_F(Repair, ReportsSeveralRunsInLog) {
     LogFile log(log_);
     for (const Utime t : {20'000, 40'000, 20'000}) ASSERT_TRUE(log.write(tick(t)));
   }
-  EXPECT_THAT(done({.log = log_}), HasSubstr("holds 2 runs; replay, export, report and spy take one of them"));
+  EXPECT_THAT(done({.log = log_}), HasSubstr("contains 2 runs; select one in replay, export, report and spy"));
 }
 
 TEST_F(Repair, BadInputIsNamed) {
   EXPECT_EQ(refusal({.log = "/nowhere.lcm"}), "/nowhere.lcm: no such log");
   std::ofstream(log_) << "no log at all";
-  EXPECT_EQ(refusal({.log = log_}), log_ + ": holds no whole record; is it an LCM log?");
-  EXPECT_EQ(refusal({.log = log_, .in_place = true}), log_ + ": holds no whole record; is it an LCM log?");
+  EXPECT_EQ(refusal({.log = log_}), log_ + ": contains no intact record; is it an LCM log?");
+  EXPECT_EQ(refusal({.log = log_, .in_place = true}), log_ + ": contains no intact record; is it an LCM log?");
   EXPECT_EQ(content(log_), "no log at all");
   fs::remove(log_);
   write(log_, 2);

@@ -83,7 +83,7 @@ struct Heard {
 
 Heard play_alone(RecordedLog& log, const PlayerOptions& options, PlayerHooks hooks = {}) {
   lcm::LCM bus("memq://");
-  Heard heard;
+  Heard received;
   bus.subscribeFunction(
       ".*",
       +[](const lcm::ReceiveBuffer* buffer, const std::string& channel, Heard* out) {
@@ -92,29 +92,30 @@ Heard play_alone(RecordedLog& log, const PlayerOptions& options, PlayerHooks hoo
         if (channel == channel::kTick && decode_message(buffer->data, static_cast<int>(buffer->data_size), tick))
           out->ticks.push_back(tick.header.utime);
       },
-      &heard);
+      &received);
   Player player(options, log, bus, bus, nullptr);
   player.play(hooks);
   while (bus.handleTimeout(0) > 0) {
   }
-  return heard;
+  return received;
 }
 
 TEST_F(PlayerTest, WithoutLiveServicesMessagesAreAsRecorded) {
   RecordedLog log(path_);
-  const Heard heard = play_alone(log, {.speed = 0.0});
-  ASSERT_EQ(heard.channels.size(), 3 * 200 - 1U);
-  EXPECT_EQ(heard.channels[2], channel::kImu);
-  EXPECT_EQ(heard.channels[3], channel::kSlip);
-  EXPECT_EQ(heard.channels[4], channel::kTick);
-  EXPECT_EQ(heard.ticks, log.ticks());
+  const Heard received = play_alone(log, {.speed = 0.0});
+  ASSERT_EQ(received.channels.size(), 3 * 200 - 1U);
+  EXPECT_EQ(received.channels[2], channel::kImu);
+  EXPECT_EQ(received.channels[3], channel::kSlip);
+  EXPECT_EQ(received.channels[4], channel::kTick);
+  EXPECT_EQ(received.ticks, log.ticks());
 }
 
 TEST_F(PlayerTest, PlaysFromAndUntil) {
   RecordedLog log(path_);
-  const Heard heard = play_alone(log, {.speed = 0.0, .from = MadeLog::tick_time(50), .until = MadeLog::tick_time(60)});
-  ASSERT_EQ(heard.ticks.size(), 11U);
-  EXPECT_EQ(heard.ticks.front(), MadeLog::tick_time(50));
+  const Heard received =
+      play_alone(log, {.speed = 0.0, .from = MadeLog::tick_time(50), .until = MadeLog::tick_time(60)});
+  ASSERT_EQ(received.ticks.size(), 11U);
+  EXPECT_EQ(received.ticks.front(), MadeLog::tick_time(50));
 }
 
 // Paced by the clock: without the jump this test would take days.

@@ -76,8 +76,8 @@ TEST_F(RecordedLogTest, TruncatedLogEndsAtLastCompleteTick) {
   std::filesystem::resize_file(path, std::filesystem::file_size(path) - 10);
   const RecordedLog log(path);
   EXPECT_EQ(log.ticks().size(), 4U);
-  EXPECT_GT(log.run().left_bytes, 0);
-  EXPECT_EQ(log.left_messages(), 2) << "behind the last whole tick";
+  EXPECT_GT(log.run().skipped_bytes, 0);
+  EXPECT_EQ(log.skipped_messages(), 2) << "behind the last whole tick";
 }
 
 TEST_F(RecordedLogTest, ContinuesInNextPart) {
@@ -102,7 +102,7 @@ TEST_F(RecordedLogTest, ContinuesInNextPart) {
   }
   RecordedLog log(path);
   EXPECT_EQ(log.ticks().size(), 6U);
-  EXPECT_EQ(log.run().left_bytes, 0);
+  EXPECT_EQ(log.run().skipped_bytes, 0);
   for (int k = 1; k <= 6; ++k) EXPECT_EQ(log.next()->tick, MadeLog::tick_time(k));
   log.seek(MadeLog::tick_time(5));
   EXPECT_EQ(log.next()->messages.size(), 2U);
@@ -114,8 +114,8 @@ TEST_F(RecordedLogTest, LogOfSeveralRunsIsPlayedByRun) {
   const std::string path = made(5);
   { const MadeLog second(path, 3, "a"); }
   EXPECT_EQ(refusal(path),
-            "made.lcm: holds 2 runs, of the message time 1: 1.00 - 1.08 s, 2: 1.00 - 1.04 s; choose one "
-            "by --log-run N");
+            "made.lcm: contains 2 runs, message time 1: 1.00 - 1.08 s, 2: 1.00 - 1.04 s; choose one "
+            "with --log-run N");
   wild_row("Logs", "replay of two runs in one file", "the second is left out without a word", refusal(path));
   RecordedLog log(path, 2);
   EXPECT_EQ(log.ticks().size(), 3U);
@@ -153,7 +153,7 @@ TEST_F(RecordedLogTest, CountsMessagesThatCannotBeSent) {
   { const MadeLog later(path, 4, "a", 1, 3 * kTickUs); }
   RecordedLog log(path);
   EXPECT_EQ(log.ticks().size(), 7U);
-  EXPECT_EQ(log.left_messages(), 1);
+  EXPECT_EQ(log.skipped_messages(), 1);
   log.seek(MadeLog::tick_time(4));
   EXPECT_EQ(log.next()->messages.front().channel, "/foreign");
 }

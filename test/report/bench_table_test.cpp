@@ -74,8 +74,8 @@ TEST(BenchTable, EachMetricFailsItsOwnRequirement) {
     std::vector<BenchRow> rows = full_bench();
     for (BenchRow& row : rows) faults[i](row);
     const std::vector<Gate> gates = seed_gates(rows);
-    EXPECT_FALSE(gates[i].met) << gates[i].demand;
-    EXPECT_EQ(met(gates), static_cast<int>(gates.size()) - 1) << gates[i].demand;
+    EXPECT_FALSE(gates[i].met) << gates[i].requirement;
+    EXPECT_EQ(met(gates), static_cast<int>(gates.size()) - 1) << gates[i].requirement;
   }
 }
 

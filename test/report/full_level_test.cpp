@@ -86,11 +86,11 @@ TEST(Estimate, ErrorsCountFromTheBeginAndFromTheFirstAcceptedCorrection) {
   for (PoseSample& pose : run.poses) pose.T_map_odom.translation().y() = pose.t_s < 100.0 ? 2.0 : 0.3;
   Metrics m = figures(run);
   EXPECT_NEAR(m.estimate_error_max_m, 2.0, 1e-9);
-  EXPECT_TRUE(std::isnan(m.fixed_error_max_m));
+  EXPECT_TRUE(std::isnan(m.corrected_error_max_m));
   run.corrections = {{40.0, false, {}, 41.0, "flat"}, {98.0, true, {0.0, 0.3, 0.0}, 99.9}};
   m = figures(run);
   EXPECT_NEAR(m.estimate_error_max_m, 2.0, 1e-9);
-  EXPECT_NEAR(m.fixed_error_max_m, 0.3, 1e-9);
+  EXPECT_NEAR(m.corrected_error_max_m, 0.3, 1e-9);
   EXPECT_EQ(m.global_corrections[0].reason, "flat");
 }
 
@@ -113,7 +113,7 @@ TEST(Levels, DistanceTimeAndCpuPerLevel) {
   ASSERT_EQ(m.level_switches.size(), 1u);
   EXPECT_NEAR(m.level_switches[0].at_m, 10.0, 0.06);
   EXPECT_EQ(switch_text(m.level_switches[0]),
-            "EFFICIENT to FULL: slow_progress, effective_speed_mps 0.05 against 0.06");
+            "EFFICIENT to FULL: slow_progress, effective_speed_mps 0.05, threshold 0.06");
 }
 
 // 20 m along x at 0.2 m/s from 5 s on; at 10 m the level changes to Full, with maps and SLAM poses from then on.
@@ -193,7 +193,7 @@ TEST_F(FullLogTest, FiguresFromTheLog) {
   const RunEvaluation evaluation = evaluate(run, RunInfo{}, Footprint{}, std::nullopt);
   const nlohmann::ordered_json m = metrics_json(evaluation.metrics);
   EXPECT_NEAR(m["slam_drift_percent"], 0.5, 0.01);
-  EXPECT_NEAR(m["levels"]["FULL"]["way_m"], 10.0, 0.2);
+  EXPECT_NEAR(m["levels"]["FULL"]["travelled_m"], 10.0, 0.2);
   ASSERT_EQ(m["level_switches"].size(), 1u);
   EXPECT_EQ(m["level_switches"][0]["to"], "FULL");
   EXPECT_EQ(m["level_switches"][0]["reason"], "many_hazards");
@@ -204,11 +204,11 @@ TEST_F(FullLogTest, FiguresFromTheLog) {
   for (const auto& correction : m["global_corrections"]) {
     if (correction["accepted"] != true) continue;
     ++accepted;
-    EXPECT_NEAR(correction["fix_m"], 0.1, 1e-9);
+    EXPECT_NEAR(correction["correction_error_m"], 0.1, 1e-9);
     EXPECT_EQ(correction["after_m"], 0.0) << "POSE says that localization did not take it";
   }
   EXPECT_EQ(accepted, 1);
-  EXPECT_EQ(m["fixed_error_max_m"], 0.0);
+  EXPECT_EQ(m["corrected_error_max_m"], 0.0);
 }
 
 TEST_F(FullLogTest, PicturesShowMapTracksAndReasons) {
@@ -222,7 +222,7 @@ TEST_F(FullLogTest, PicturesShowMapTracksAndReasons) {
   EXPECT_NE(elevation.find("SLAM"), std::string::npos);
   EXPECT_NE(elevation.find("0.00 to 0.00 m"), std::string::npos);
   const std::string levels = draw_levels(scene);
-  EXPECT_NE(levels.find("EFFICIENT to FULL: many_hazards, hazards_per_m 0.8 against 0.5"), std::string::npos);
+  EXPECT_NE(levels.find("EFFICIENT to FULL: many_hazards, hazards_per_m 0.8, threshold 0.5"), std::string::npos);
   write_png(elevation, 1.0, dir_ + "/elevation.png");
   write_png(levels, 1.0, dir_ + "/levels.png");
   EXPECT_GT(std::filesystem::file_size(dir_ + "/elevation.png"), 10'000u);

@@ -132,9 +132,9 @@ TEST(Metrics, CorrectionErrorUsesTruthAtMapTime) {
   ASSERT_EQ(m.global_corrections.size(), 2u);
   EXPECT_NEAR(m.global_corrections[0].before_m, 2.0, 1e-9);
   EXPECT_NEAR(m.global_corrections[0].after_m, 0.4, 1e-9) << "what localization made of the fix";
-  EXPECT_NEAR(m.global_corrections[0].fix_m, 0.1, 1e-9);
+  EXPECT_NEAR(m.global_corrections[0].correction_error_m, 0.1, 1e-9);
   EXPECT_NEAR(m.global_corrections[1].after_m, 0.4, 1e-9);
-  EXPECT_TRUE(std::isnan(m.global_corrections[1].fix_m));
+  EXPECT_TRUE(std::isnan(m.global_corrections[1].correction_error_m));
 }
 
 TEST(Metrics, ServiceMetricsSumOverRestarts) {

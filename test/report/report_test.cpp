@@ -112,7 +112,7 @@ TEST_F(ReportTest, MetricNamesAreStable) {
                            "slam_drift_percent",
                            "final_error_m",
                            "estimate_error_max_m",
-                           "fixed_error_max_m",
+                           "corrected_error_max_m",
                            "global_corrections",
                            "levels",
                            "rocks_encountered",
@@ -206,7 +206,7 @@ TEST_F(ReportTest, WithoutTruthReportUsesEstimate) {
   fs::remove_all(other);
   fs::create_directories(other);
   copy_without_truth(dir_ + "/traverse.lcm", other + "/traverse.lcm");
-  EXPECT_THAT(make_report(other, kConfig), testing::HasSubstr("no truth"));
+  EXPECT_THAT(make_report(other, kConfig), testing::HasSubstr("no ground truth"));
   const nlohmann::json m = nlohmann::json::parse(read_file(other + "/metrics.json"));
   EXPECT_EQ(m["truth"], false);
   EXPECT_EQ(m["outcome"], "goal_reached");
@@ -216,7 +216,7 @@ TEST_F(ReportTest, WithoutTruthReportUsesEstimate) {
   for (const char* key : {"collisions", "odometry_drift_percent", "final_error_m", "truth_deviation_max_m",
                           "final_truth_pose", "motion_without_lease_s", "mean_slip"})
     EXPECT_TRUE(m[key].is_null()) << key;
-  EXPECT_THAT(read_file(other + "/report.html"), testing::HasSubstr("no truth"));
+  EXPECT_THAT(read_file(other + "/report.html"), testing::HasSubstr("no ground truth"));
   EXPECT_THAT(read_file(other + "/report.html"), testing::Not(testing::HasSubstr("true track")));
   EXPECT_THAT(read_file(other + "/report.html"), testing::Not(testing::HasSubstr("Odometry drift [m]")));
   EXPECT_THAT(read_file(dir_ + "/report.html"), testing::HasSubstr("Odometry drift [m]"));
@@ -234,7 +234,7 @@ TEST_F(ReportTest, TruncatedLogLosesOnlyItsEnd) {
     print_remarks(log);
     const RunRecord run = read_log(log);
     const std::string said = testing::internal::GetCapturedStderr();
-    EXPECT_EQ(said.rfind(cut + ": cut short", 0), 0u) << said;
+    EXPECT_EQ(said.rfind(cut + ": truncated", 0), 0u) << said;
     EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
     EXPECT_LE(run.truth.size(), whole.truth.size());
     EXPECT_GT(run.truth.size(), whole.truth.size() - 400);
@@ -261,7 +261,7 @@ TEST_F(ReportTest, EvaluatesSelectedRunOfLog) {
   } catch (const ConfigError& error) {
     said = folder.short_names(error.what());
   }
-  EXPECT_THAT(said, testing::HasSubstr("two/traverse.lcm: holds 2 runs, of the message time 1: "));
+  EXPECT_THAT(said, testing::HasSubstr("two/traverse.lcm: contains 2 runs, message time 1: "));
   wild_row("Logs", "report of two runs in one file", "one drive of both, whose times fall", said);
   testing::internal::CaptureStderr();
   make_report(other, kConfig, 2);

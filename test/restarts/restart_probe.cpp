@@ -1,5 +1,5 @@
-// Kills the services of a run in real time, one after the other while the rover drives, and measures on the bus how
-// long each is away; at the end the simulator, whose ticks are the rover's clock. One line of JSON for each kill.
+// Kills the services of a real-time run one after the other while the rover drives, and measures their restart times on
+// the bus; finally the simulator, the clock master. One line of JSON per kill.
 //   restart_probe RUN_DIR BUS_URL ROUNDS
 #include <signal.h>
 
@@ -26,19 +26,19 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Wall = Clock::time_point;
 
-constexpr double kSteadyS = 13.0;   // of driving before each kill: five stops in ten metres would end the drive
-constexpr double kMostS = 30.0;     // for a service to come back and the drive to go on
-constexpr double kGiveUpS = 120.0;  // without motion the run is over
+constexpr double kSteadyS = 13.0;   // driving time before each kill: five stops within ten metres would end the drive
+constexpr double kTimeoutS = 30.0;  // timeout for the restart and for driving again
+constexpr double kGiveUpS = 120.0;  // without motion the run has ended
 constexpr double kTurningRadps = 0.5;
 
 double seconds(Wall from, Wall to) {
   return std::chrono::duration<double>(to - from).count();
 }
 
-// What has been heard of the rover.
-class Ear {
+// Newest messages of the rover.
+class Subscriber {
  public:
-  explicit Ear(lcm::LCM& bus) : bus_(bus) { bus.subscribe(".*", &Ear::hear, this); }
+  explicit Subscriber(lcm::LCM& bus) : bus_(bus) { bus.subscribe(".*", &Subscriber::receive, this); }
 
   bool listen() { return bus_.handleTimeout(20) >= 0; }
   int pid(const std::string& service) const { return pids_.contains(service) ? pids_.at(service) : 0; }
@@ -46,11 +46,11 @@ class Ear {
   bool permitted() const { return permitted_; }
   double wheel_radps() const { return wheel_radps_; }
   Utime wheel_utime() const { return wheel_utime_; }
-  // Wall time since the rover drives, 0 while it does not.
+  // Wall time since the rover started to drive; 0 while it does not.
   double driving_s() const { return driving_ ? seconds(driving_since_, Clock::now()) : 0.0; }
 
  private:
-  void hear(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
+  void receive(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
     header_t header{};
     if (!peek_header(buffer->data, static_cast<int>(buffer->data_size), header)) return;
     boots_[header.publisher] = std::max(boots_[header.publisher], header.boot_id);
@@ -83,35 +83,35 @@ class Ear {
   Wall driving_since_;
 };
 
-bool wait_until_driving(Ear& ear) {
+bool wait_until_driving(Subscriber& subscriber) {
   for (const Wall begin = Clock::now(); seconds(begin, Clock::now()) < kGiveUpS;) {
-    if (!ear.listen()) return false;
-    if (std::min(ear.driving_s(), seconds(begin, Clock::now())) > kSteadyS) return true;
+    if (!subscriber.listen()) return false;
+    if (std::min(subscriber.driving_s(), seconds(begin, Clock::now())) > kSteadyS) return true;
   }
   return false;
 }
 
-// Message time from the kill to the wheels' command falling, and to its being zero; -1: it did not.
+// Message time from the kill until the wheel command decreases, and until it is zero; -1: never.
 struct Stop {
   double begun_s = -1.0;
   double still_s = -1.0;
 };
 
-nlohmann::json kill_and_measure(Ear& ear, const std::string& service) {
-  const std::int64_t boot_before = ear.boot(service);
-  const Utime utime = ear.wheel_utime();
-  const double rate_before = ear.wheel_radps();
+nlohmann::json kill_and_measure(Subscriber& subscriber, const std::string& service) {
+  const std::int64_t boot_before = subscriber.boot(service);
+  const Utime utime = subscriber.wheel_utime();
+  const double rate_before = subscriber.wheel_radps();
   const Wall killed = Clock::now();
-  kill(ear.pid(service), SIGKILL);
+  kill(subscriber.pid(service), SIGKILL);
   double first_message_s = -1.0, drives_again_s = -1.0;
   Stop stop;
-  while (seconds(killed, Clock::now()) < kMostS && drives_again_s < 0.0 && ear.listen()) {
+  while (seconds(killed, Clock::now()) < kTimeoutS && drives_again_s < 0.0 && subscriber.listen()) {
     const double since_s = seconds(killed, Clock::now());
-    if (first_message_s < 0.0 && ear.boot(service) > boot_before) first_message_s = since_s;
-    const double command_s = to_seconds(ear.wheel_utime() - utime);
-    if (stop.begun_s < 0.0 && ear.wheel_radps() < 0.9 * rate_before) stop.begun_s = command_s;
-    if (stop.still_s < 0.0 && ear.wheel_radps() < 1e-3) stop.still_s = command_s;
-    if (first_message_s >= 0.0 && ear.driving_s() > 0.5) drives_again_s = since_s - 0.5;
+    if (first_message_s < 0.0 && subscriber.boot(service) > boot_before) first_message_s = since_s;
+    const double command_s = to_seconds(subscriber.wheel_utime() - utime);
+    if (stop.begun_s < 0.0 && subscriber.wheel_radps() < 0.9 * rate_before) stop.begun_s = command_s;
+    if (stop.still_s < 0.0 && subscriber.wheel_radps() < 1e-3) stop.still_s = command_s;
+    if (first_message_s >= 0.0 && subscriber.driving_s() > 0.5) drives_again_s = since_s - 0.5;
   }
   return {{"service", service},
           {"first_message_s", first_message_s},
@@ -120,27 +120,27 @@ nlohmann::json kill_and_measure(Ear& ear, const std::string& service) {
           {"drives_again_s", drives_again_s}};
 }
 
-// The clock dies: wall time until no permit is given any more.
-nlohmann::json kill_simulator(Ear& ear, const std::string& run_dir) {
+// Kills the clock master. Returns the wall time until the permit is withdrawn.
+nlohmann::json kill_simulator(Subscriber& subscriber, const std::string& run_dir) {
   const Wall killed = Clock::now();
   const bool done = kill_service(run_dir, "rover_simulator");
   double withdrawn_s = -1.0;
-  while (done && withdrawn_s < 0.0 && seconds(killed, Clock::now()) < 5.0 && ear.listen())
-    if (!ear.permitted()) withdrawn_s = seconds(killed, Clock::now());
+  while (done && withdrawn_s < 0.0 && seconds(killed, Clock::now()) < 5.0 && subscriber.listen())
+    if (!subscriber.permitted()) withdrawn_s = seconds(killed, Clock::now());
   return {{"service", "rover_simulator"}, {"withdrawn_s", withdrawn_s}};
 }
 
 int probe(const std::string& run_dir, const std::string& url, int rounds) {
   lcm::LCM bus(url);
   if (!bus.good()) return 1;
-  Ear ear(bus);
+  Subscriber subscriber(bus);
   for (int round = 0; round < rounds; ++round)
     for (const char* service : kServiceNames) {
-      if (!wait_until_driving(ear)) return 0;  // the goal, most likely
-      std::printf("%s\n", kill_and_measure(ear, service).dump().c_str());
+      if (!wait_until_driving(subscriber)) return 0;  // the goal, most likely
+      std::printf("%s\n", kill_and_measure(subscriber, service).dump().c_str());
       std::fflush(stdout);
     }
-  if (wait_until_driving(ear)) std::printf("%s\n", kill_simulator(ear, run_dir).dump().c_str());
+  if (wait_until_driving(subscriber)) std::printf("%s\n", kill_simulator(subscriber, run_dir).dump().c_str());
   return 0;
 }
 

@@ -191,9 +191,9 @@ TEST(StereoOnRenderedImages, ImagesMatchGeometryWithinHundredthsOfPixel) {
     const Eigen::Vector2d step = 0.3 * Eigen::Vector2d::Unit(axis);
     const double before = mismatch(camera, pair, ranges, -step);
     const double after = mismatch(camera, pair, ranges, step);
-    const double least_at_px = 0.5 * 0.3 * (before - after) / (before - 2.0 * here + after);
+    const double minimum_px = 0.5 * 0.3 * (before - after) / (before - 2.0 * here + after);
     EXPECT_GT(std::min(before, after), here);
-    EXPECT_LT(std::abs(least_at_px), 0.03) << axis;
+    EXPECT_LT(std::abs(minimum_px), 0.03) << axis;
   }
 }
 

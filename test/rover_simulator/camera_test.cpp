@@ -247,15 +247,15 @@ TEST(TileScene, MemoryIsBoundedOnLongTraverse) {
   config.fine_radius_m = 1.0;
   config.middle_radius_m = 4.0;
   TileScene scene(surface, config);
-  size_t most_early = 0;
-  size_t most_late = 0;
+  size_t peak_early = 0;
+  size_t peak_late = 0;
   for (double x = 0.0; x <= 200.0; x += 2.0) {
     scene.focus(x, 0.3 * x);
-    size_t& most = x < 60.0 ? most_early : most_late;
+    size_t& most = x < 60.0 ? peak_early : peak_late;
     most = std::max(most, scene.memory_bytes());
   }
-  EXPECT_LT(most_late, 1.2 * static_cast<double>(most_early));
-  EXPECT_LT(most_late, 150e6);
+  EXPECT_LT(peak_late, 1.2 * static_cast<double>(peak_early));
+  EXPECT_LT(peak_late, 150e6);
 }
 
 }  // namespace

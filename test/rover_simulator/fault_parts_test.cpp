@@ -17,14 +17,14 @@ TEST(FaultScript, TriggersEachFaultOnceByTimeDistanceOrState) {
   std::vector<ScriptedFault> faults(3);
   faults[0].order.fault = "by_time";
   faults[0].at_s = 2.0;
-  faults[1].order.fault = "by_way";
-  faults[1].at_m = 1.0;
+  faults[1].order.fault = "by_distance";
+  faults[1].after_m = 1.0;
   faults[2].order.fault = "by_state";
   faults[2].at_state = std::int8_t{2};
   FaultScript script(faults, kScriptStart);
   EXPECT_TRUE(script.take_due(kScriptStart + 1'980'000, 0.9).empty());
   EXPECT_EQ(script.take_due(kScriptStart + 2'000'000, 0.9).at(0).fault, "by_time");
-  EXPECT_EQ(script.take_due(kScriptStart + 2'020'000, 1.0).at(0).fault, "by_way");
+  EXPECT_EQ(script.take_due(kScriptStart + 2'020'000, 1.0).at(0).fault, "by_distance");
   script.entered(1);
   EXPECT_TRUE(script.take_due(kScriptStart + 2'040'000, 2.0).empty());
   script.entered(2);
@@ -84,19 +84,19 @@ TEST(CommandInbox, ReturnsNewestReleasedCommand) {
 }
 
 TEST(CommandInbox, DropsDelayedCommandsOlderThanTheLast) {
-  Tap tap("rover_simulator");
+  FaultInjector injector("rover_simulator");
   injection_t delay{};
   delay.fault = "delay";
   delay.target = "WHEEL_COMMAND";
   delay.amount = 0.1;
   delay.until_utime = kTickUs;
-  ASSERT_TRUE(tap.inject(delay));
+  ASSERT_TRUE(injector.inject(delay));
   CommandInbox<wheel_command_t> inbox(channel::kWheelCommand);
   inbox.add(command(1, kTickUs));
   inbox.add(command(2, 3 * kTickUs));
-  EXPECT_FALSE(inbox.take(2 * kTickUs, &tap));
-  EXPECT_EQ(inbox.take(4 * kTickUs, &tap)->header.seq, 2);
-  EXPECT_FALSE(inbox.take(20 * kTickUs, &tap));
+  EXPECT_FALSE(inbox.take(2 * kTickUs, &injector));
+  EXPECT_EQ(inbox.take(4 * kTickUs, &injector)->header.seq, 2);
+  EXPECT_FALSE(inbox.take(20 * kTickUs, &injector));
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ TEST(WheelContact, ForceIsVerticalOnLevelGround) {
   EXPECT_NEAR(contact.load_n, 62.0, 8.0);  // 3 mm deep
   EXPECT_NEAR(contact.normal.z(), 1.0, 1e-3);
   EXPECT_NEAR(contact.sinkage_m, 0.003, 2e-4);
-  EXPECT_EQ(contact.soil_share[1], 1.0);
+  EXPECT_EQ(contact.soil_fraction[1], 1.0);
   EXPECT_EQ(contact_at(level, {5.0, 5.0, 0.126}).load_n, 0.0);
 }
 
@@ -66,7 +66,7 @@ struct Crossing {
   double climb_m = 0.0;
   bool across = false;
   Collision collision = Collision::kNone;
-  double least_clearance_m = 1.0;
+  double min_clearance_m = 1.0;
 };
 
 Crossing cross(const std::function<double(double, double)>& feature, double seconds) {
@@ -77,7 +77,7 @@ Crossing cross(const std::function<double(double, double)>& feature, double seco
     sim.advance(0.02, straight(0.1));
     const VehicleTruth& truth = sim.truth();
     crossing.climb_m = std::max(crossing.climb_m, truth.climb_m);
-    crossing.least_clearance_m = std::min(crossing.least_clearance_m, truth.clearance_m);
+    crossing.min_clearance_m = std::min(crossing.min_clearance_m, truth.clearance_m);
     if (truth.collision != Collision::kNone) crossing.collision = truth.collision;
     EXPECT_TRUE(is_finite(truth.T_map_body));
     EXPECT_LT(truth.velocity_map_mps.norm(), 1.0);
@@ -109,7 +109,7 @@ TEST(VehicleClimb, RockUnderBellyIsCollision) {
   const Crossing crossing =
       cross([](double x, double y) { return std::clamp(3.0 * (0.2 - std::hypot(x - 1.5, y)), 0.0, 0.35); }, 20.0);
   EXPECT_EQ(crossing.collision, Collision::kBodyContact);
-  EXPECT_LT(crossing.least_clearance_m, 0.0);
+  EXPECT_LT(crossing.min_clearance_m, 0.0);
   EXPECT_EQ(crossing.climb_m, 0.0);
 }
 
@@ -117,7 +117,7 @@ TEST(VehicleClimb, StoneBetweenWheelsReducesClearance) {
   const Crossing crossing =
       cross([](double x, double y) { return std::clamp(3.0 * (0.1 - std::hypot(x - 1.5, y)), 0.0, 0.15); }, 20.0);
   EXPECT_EQ(crossing.collision, Collision::kNone);
-  EXPECT_NEAR(crossing.least_clearance_m, 0.147, 0.01);
+  EXPECT_NEAR(crossing.min_clearance_m, 0.147, 0.01);
 }
 
 TEST(VehicleClimb, DrivingIntoWallIsCollision) {

@@ -238,7 +238,7 @@ TEST_F(ScenarioFile, ReadsFaults) {
   write(kPlane +
         "faults:\n"
         "  - {fault: kill, target: stereo, at_s: 5}\n"
-        "  - {fault: offset, target: POSE.travelled_m, amount: 2, at_m: 1.5, for_s: 3}\n"
+        "  - {fault: offset, target: POSE.travelled_m, amount: 2, after_m: 1.5, for_s: 3}\n"
         "  - {fault: imu_dead, at_state: DRIVING}\n");
   const std::vector<ScriptedFault> faults = load_scenario(file()).faults;
   ASSERT_EQ(faults.size(), 3u);
@@ -246,10 +246,10 @@ TEST_F(ScenarioFile, ReadsFaults) {
   EXPECT_EQ(faults[0].at_s, 5.0);
   EXPECT_EQ(faults[1].order.amount, 2.0);
   EXPECT_EQ(faults[1].order.for_s, 3.0);
-  EXPECT_EQ(faults[1].at_m, 1.5);
+  EXPECT_EQ(faults[1].after_m, 1.5);
   EXPECT_EQ(faults[2].order.target, "imu");
   EXPECT_EQ(faults[2].at_state, std::int8_t{2});
-  EXPECT_FALSE(faults[2].at_s || faults[2].at_m);
+  EXPECT_FALSE(faults[2].at_s || faults[2].after_m);
 }
 
 TEST_F(ScenarioFile, InvalidFaultErrorNamesKey) {
@@ -258,7 +258,7 @@ TEST_F(ScenarioFile, InvalidFaultErrorNamesKey) {
       {"{fault: kill, target: radio, at_s: 1}", "faults[0].target: 'radio' is not a service"},
       {"{fault: kill, at_s: 1}", "faults[0].target: missing"},
       {"{fault: kill, target: stereo}", "faults[0].at_s: missing"},
-      {"{fault: kill, target: stereo, at_s: 1, at_m: 2}", "faults[0].at_m: a fault begins once"},
+      {"{fault: kill, target: stereo, at_s: 1, after_m: 2}", "faults[0].after_m: only one trigger is allowed"},
       {"{fault: kill, target: stereo, at_s: -1}", "faults[0].at_s: out of range"},
       {"{fault: kill, target: stereo, at_state: ASLEEP}", "faults[0].at_state: 'ASLEEP'"},
       {"{fault: kill, target: stereo, at_s: 1, amount: 2}", "faults[0].amount: kill takes no amount"},

@@ -37,9 +37,9 @@ class SlamNodeTest : public testing::Test {
  protected:
   explicit SlamNodeTest(const std::string& run_dir = "")
       : world_("slam", run_dir), slam_(make_slam(world_.node(), kConfig)) {
-    world_.hear(channel::kElevation, elevations_);
-    world_.hear(channel::kSlamPose, poses_);
-    world_.hear(channel::kServiceState, states_);
+    world_.record(channel::kElevation, elevations_);
+    world_.record(channel::kSlamPose, poses_);
+    world_.record(channel::kServiceState, states_);
   }
 
   void set_level(std::int8_t level) {
@@ -235,14 +235,12 @@ TEST_F(SlamRestartTest, SecondProcessRestoresMap) {
 TEST(SlamConfigTest, UnknownKeysAndBadRangesThrow) {
   const auto dir = std::filesystem::path(testing::TempDir()) / "slam_config";
   std::filesystem::create_directories(dir);
-  const std::string rest = "match: {}\nmotion: {}\nattitude: {}\njump: {}\ndrift: {}\nanchor: {}\n";
   const auto write = [&](const std::string& text) { std::ofstream(dir / "slam.yaml") << text; };
-  write("seed: 3\nmap: {}\nfilter: {}\n" + rest);
+  write("seed: 3\n");
   EXPECT_EQ(load_config(dir.string()).core.seed, 3u);
-  for (const char* bad :
-       {"seed: 3\nmap: {cell: 0.1}\nfilter: {}\n", "seed: 3\nmap: {cell_m: -1}\nfilter: {}\n", "map: {}\nfilter: {}\n",
-        "seed: 3\nmap: {}\nfilter: {min_particles: 300, max_particles: 200}\n"}) {
-    write(bad + rest);
+  for (const char* bad : {"map: {cell: 0.1}\n", "map: {cell_m: -1}\n", "match: {blur_m: 0.01}\n",
+                          "filter: {min_particles: 300, max_particles: 200}\n"}) {
+    write(bad);
     EXPECT_THROW(load_config(dir.string()), ConfigError) << bad;
   }
 }

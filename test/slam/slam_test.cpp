@@ -188,6 +188,35 @@ TEST(Slam, RestoredCheckpointContinuesIdentically) {
   EXPECT_EQ(other.save(), drive.slam().save());
 }
 
+TEST(Slam, CorrectionDuringRestartIsAdopted) {
+  for (const double correction_m : {0.0, 1.0}) {
+    Drive drive({});
+    const auto body = [&] { return upright(drive.odometry(), kOriginHeightM); };
+    drive.slam().add_pose(1, upright({100, 50, 0.5}, 0.0), body());
+    drive.look();
+    drive.step({0.5, 0, 0.02}, {0.505, 0, 0.02});
+    drive.slam().add_pose(drive.now(), upright({100, 50, 0.5}, 0.0), body());
+    Slam other({});
+    ASSERT_TRUE(other.restore(drive.slam().save()));
+    const Eigen::Isometry3d T_map_odom = upright({100 + correction_m, 50, 0.5}, 0.0);
+    for (Slam* slam : {&drive.slam(), &other})
+      EXPECT_EQ(slam->add_pose(drive.now() + 1'000'000, T_map_odom, body()), correction_m > 0.0);
+    EXPECT_EQ(other.save(), drive.slam().save());
+  }
+}
+
+TEST(Slam, JumpSeenBeforeRestartIsConfirmedByTwoCloudsAfterIt) {
+  Drive drive({});
+  drive.look();
+  for (int i = 0; i < 3; ++i) drive.step({0.5, 0, 0}, {0.5, 0, 0});
+  const Odometry elsewhere{upright({50, 0, 0}, kOriginHeightM), 0.0, 0.0};
+  EXPECT_FALSE(drive.slam().step(drive.view(), elsewhere).rejection.empty());
+  Slam other({});
+  ASSERT_TRUE(other.restore(drive.slam().save()));
+  EXPECT_FALSE(other.step(drive.view(), elsewhere).rejection.empty());
+  EXPECT_TRUE(other.step(drive.view(), elsewhere).rejection.empty());
+}
+
 TEST(Slam, BrokenCheckpointIsRejectedWithoutSideEffects) {
   Drive drive({});
   drive.look();
@@ -197,6 +226,9 @@ TEST(Slam, BrokenCheckpointIsRejectedWithoutSideEffects) {
     EXPECT_FALSE(other.restore({bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(length)}));
     EXPECT_FALSE(other.running());
   }
+  auto old_version = bytes;
+  old_version[0] = 1;
+  EXPECT_FALSE(other.restore(old_version));
   SlamConfig config;
   config.map.cells = 100;
   Slam smaller(config);

@@ -106,9 +106,9 @@ OdometryModel nominal_odometry() {
 OdometryModel degraded_odometry() {
   OdometryModel model;
   model.scale_sigma = 0.006;
-  model.step_share = 0.03;
+  model.step_sigma_ratio = 0.03;
   model.yaw_rad_per_sqrt_m = to_rad(0.01);
-  model.lost_share = 0.2;
+  model.lost_fraction = 0.2;
   return model;
 }
 
@@ -129,13 +129,13 @@ OdometryTrack simulated_odometry(const std::vector<Station>& drive, const Odomet
       const int frames = std::max(1, static_cast<int>(std::lround(length / kFrameM)));
       Eigen::Vector3d moved = Eigen::Vector3d::Zero();
       for (int k = 0; k < frames; ++k) {
-        const bool lost = random.unit() < model.lost_share;
+        const bool lost = random.unit() < model.lost_fraction;
         const double slip = lost ? model.slip_mean + model.slip_sigma * random.gauss() : 0.0;
-        const double share = model.step_share * random.gauss();
-        const double aside = model.step_share * random.gauss();
+        const double share = model.step_sigma_ratio * random.gauss();
+        const double aside = model.step_sigma_ratio * random.gauss();
         const Eigen::Vector3d part = motion.translation() / frames;
         moved += part * (scale + share + slip) + part.norm() * aside * Eigen::Vector3d::UnitY();
-        const double sigma = part.norm() * (lost ? model.slip_mean + model.slip_sigma : model.step_share);
+        const double sigma = part.norm() * (lost ? model.slip_mean + model.slip_sigma : model.step_sigma_ratio);
         variance += sigma * sigma;
         dead_reckoned_m += lost ? part.norm() : 0.0;
       }

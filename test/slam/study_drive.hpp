@@ -27,10 +27,10 @@ std::vector<Station> simulated_drive(const DriveConfig& config, const std::strin
 
 struct OdometryModel {
   double scale_sigma = 0.003;                  // constant over a drive
-  double step_share = 0.004;                   // of the motion between two frames, random
+  double step_sigma_ratio = 0.004;             // of the motion between two frames, random
   double yaw_rad_per_sqrt_m = to_rad(0.005);   // fibre-optic gyro (localization.yaml: 1e-5 rad/sqrt(s)) with bias
   double tilt_rad = 0.001;                     // slowly varying error of roll and pitch
-  double lost_share = 0.0;                     // share of frames without visual odometry
+  double lost_fraction = 0.0;                  // share of frames without visual odometry
   double slip_mean = 0.05, slip_sigma = 0.06;  // of the wheels in those frames
 };
 OdometryModel nominal_odometry();

@@ -195,7 +195,7 @@ std::string failure_reason(const Convergence& v) {
   if (v.relief_m < kMinReliefM) return "no relief";
   if (v.overlap < kMinOverlap) return "no neighbour has seen the same ground";
   if (v.spread_m == kInfinity) return "too few common patches";
-  return v.converged() ? "" : "several places fit alike";
+  return v.converged() ? "" : "several places fit equally well";
 }
 
 }  // namespace

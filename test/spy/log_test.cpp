@@ -90,10 +90,9 @@ TEST_F(SpyOnLog, DamagedLogIsShownWithWarning) {
 TEST_F(SpyOnLog, SelectsOneOfSeveralRuns) {
   add_run(30);
   EXPECT_EQ(spy_with({.log = log_}), 2);
-  EXPECT_EQ(
-      folder_.short_names(errors_),
-      "traverse.lcm: holds 2 runs, of the message time 1: 0.00 - 1.98 s, 2: 0.00 - 0.58 s; choose one by --log-run "
-      "N\n");
+  EXPECT_EQ(folder_.short_names(errors_),
+            "traverse.lcm: contains 2 runs, message time 1: 0.00 - 1.98 s, 2: 0.00 - 0.58 s; choose one with --log-run "
+            "N\n");
   wild_row("Logs", "spy on logs put together with cat", "dies of heap corruption", folder_.short_names(errors_));
   ASSERT_EQ(spy_with({.log = log_, .log_run = 2, .json = true}), 0);
   const auto json = nlohmann::json::parse(out_);
@@ -139,15 +138,15 @@ TEST_F(SpyOnLog, BadInputPrintsOneLineAndExits2) {
     EXPECT_EQ(out_, "");
   };
   refused({.log = "/nowhere.lcm"}, "/nowhere.lcm: no such log");
-  refused({.log = log_, .channels = {"POZE"}}, "there is no channel POZE; heard: SLIP TICK");
+  refused({.log = log_, .channels = {"POZE"}}, "there is no channel POZE; received: SLIP TICK");
   std::ofstream(folder_.file("text")) << "no log at all";
-  refused({.log = folder_.file("text")}, "holds no messages");
+  refused({.log = folder_.file("text")}, "contains no messages");
   refused({.target = {.run = "/nowhere"}}, "/nowhere: no such run folder");
 }
 
 TEST_F(SpyOnLog, KnownChannelWithoutMessagesExits1) {
   EXPECT_EQ(spy_with({.log = log_, .channels = {"POSE"}}), 1);
-  EXPECT_THAT(errors_, testing::HasSubstr("no message on POSE; heard: SLIP TICK"));
+  EXPECT_THAT(errors_, testing::HasSubstr("no message on POSE; received: SLIP TICK"));
 }
 
 }  // namespace

@@ -53,8 +53,8 @@ class World {
   std::map<std::string, std::int64_t> boot_;
 };
 
-FaultReport fault(const std::string& id, Utime utime, bool standing) {
-  return {utime, id, "TRUE", "STOP", 3.0, 2.0, utime, standing};
+FaultReport fault(const std::string& id, Utime utime, bool active) {
+  return {utime, id, "TRUE", "STOP", 3.0, 2.0, utime, active};
 }
 
 StateReport state(Utime utime, std::vector<std::string> faults) {

@@ -22,7 +22,7 @@ Json document(const Snapshot& snapshot) {
 TEST(StatusJson, KeysKeepTheirNamesAndOrder) {
   const Json json = document(example_status());
   EXPECT_EQ(keys_of(json), (std::vector<std::string>{"state", "level", "services", "faults", "channels", "state_for_s",
-                                                     "because", "permit", "hazard_stops", "clock", "run", "bus"}));
+                                                     "transition", "permit", "hazard_stops", "clock", "run", "bus"}));
   EXPECT_EQ(keys_of(json["services"]),
             (std::vector<std::string>{"locomotion", "recorder", "rover_simulator", "stereo", "visual_odometry"}));
   EXPECT_EQ(keys_of(json["services"]["rover_simulator"]),
@@ -48,7 +48,7 @@ TEST(StatusJson, NumbersAreNumbers) {
   EXPECT_EQ(json["channels"]["SLIP"]["hz"], 10.0);
   EXPECT_EQ(json["channels"]["SLIP"]["gaps"], 2);
   EXPECT_EQ(json["faults"][0]["value"], 3.52);
-  EXPECT_EQ(json["because"]["threshold"], 1.0);
+  EXPECT_EQ(json["transition"]["threshold"], 1.0);
 }
 
 TEST(StatusJson, UnknownValuesAreNull) {

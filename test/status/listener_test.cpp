@@ -75,7 +75,7 @@ TEST_F(Bus, StateFaultPermitAndHeartbeatAreRead) {
   fault.limit = 0.8;
   fault.condition = fault_t::TRUE_;
   fault.response = fault_t::STOP_REPLAN;
-  fault.standing = 1;
+  fault.active = 1;
   publish(channel::kFault, fault, 4'000'000);
   drive_permit_t permit{};
   permit.reason = "FAULT_STOP";

@@ -16,7 +16,7 @@ const char* const kScreen =
 message time 83.42 s   3.41 times real time   384 messages/s   1.19 MB/s
 
 FAULT_STOP   EFFICIENT   for 2.50 s   may not drive: FAULT_STOP   1 hazard stop
-  because: heartbeat.stereo   heartbeat_age_s 1.02, threshold 1
+  cause: heartbeat.stereo   heartbeat_age_s 1.02, threshold 1
 
 FAULT                                  VALUE       LIMIT     FOR s  IS       RESPONSE
 heartbeat.stereo                        3.52           1      2.50  STALE    STOP
@@ -98,9 +98,9 @@ TEST(Screen, CountsTruncatedRows) {
 
 TEST(Screen, ScreenShowsMissingTicksAndServices) {
   const std::string silent = screen(Snapshot{}, {});
-  EXPECT_NE(silent.find("no TICK heard"), std::string::npos);
-  EXPECT_NE(silent.find("no STATE heard"), std::string::npos);
-  EXPECT_EQ(silent.find("no fault stands"), std::string::npos);
+  EXPECT_NE(silent.find("no TICK received"), std::string::npos);
+  EXPECT_NE(silent.find("no STATE received"), std::string::npos);
+  EXPECT_EQ(silent.find("no active faults"), std::string::npos);
   Snapshot stalled = example_status();
   stalled.tick_silence_s = 7.2;
   EXPECT_NE(screen(stalled, {}).find("no TICK for 7.2 s"), std::string::npos);

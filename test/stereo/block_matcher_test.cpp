@@ -112,7 +112,7 @@ double agreement(const cv::Mat& own, const cv::Mat& opencv) {
   return agree / static_cast<double>(own.total());
 }
 
-double valid_share(const cv::Mat& residual) {
+double valid_fraction(const cv::Mat& residual) {
   return cv::countNonZero(residual != BlockMatcher::kInvalid) / static_cast<double>(residual.total());
 }
 
@@ -123,7 +123,7 @@ TEST(BlockMatcherTest, CostsTextureUniquenessAndSubpixelMatchStereoBM) {
     pair.right_valid.setTo(255);
     const cv::Mat own = own_residual(pair);
     EXPECT_EQ(agreement(own, opencv_residual(pair)), 1.0) << pair.name;
-    EXPECT_GT(valid_share(own), 0.3) << pair.name;
+    EXPECT_GT(valid_fraction(own), 0.3) << pair.name;
   }
 }
 

@@ -29,9 +29,9 @@ class StereoNodeTest : public testing::Test {
     right_ = message_of(pair.right);
     left_.exposure_s = 0.004F;
     right_.exposure_s = 0.005F;
-    world_.hear(channel::kDisparity, disparities_);
-    world_.hear(channel::kLocCamRectLeft, rect_left_);
-    world_.hear(channel::kLocCamRectRight, rect_right_);
+    world_.record(channel::kDisparity, disparities_);
+    world_.record(channel::kLocCamRectLeft, rect_left_);
+    world_.record(channel::kLocCamRectRight, rect_right_);
   }
 
   test::OneNodeWorld world_;

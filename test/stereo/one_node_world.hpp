@@ -16,7 +16,7 @@ class OneNodeWorld {
   // `run_dir`: folder of the node's checkpoint; empty: no checkpoint.
   explicit OneNodeWorld(const std::string& service, const std::string& run_dir = "")
       : bus_("memq://"), world_("world", 1), node_({.name = service, .run_dir = run_dir}, bus_) {
-    hear(channel::kHeartbeat, heartbeats_);
+    record(channel::kHeartbeat, heartbeats_);
   }
 
   Node& node() { return node_; }
@@ -24,7 +24,7 @@ class OneNodeWorld {
 
   // Collects what the node publishes on the channel.
   template <class Message>
-  void hear(const std::string& channel, std::vector<Message>& out) {
+  void record(const std::string& channel, std::vector<Message>& out) {
     bus_.subscribeFunction(
         channel,
         +[](const lcm::ReceiveBuffer* buffer, const std::string&, std::vector<Message>* messages) {
@@ -47,7 +47,7 @@ class OneNodeWorld {
     tick.mode = tick_t::LOCKSTEP;
     tick.members = {node_.options().name};
     tick.member_count = 1;
-    tick.streams = world_.take_grown();
+    tick.streams = world_.take_updated();
     tick.stream_count = static_cast<std::int32_t>(tick.streams.size());
     bus_.publish(channel::kTick, &tick);
     while (bus_.handleTimeout(0) > 0) node_.handle(0);

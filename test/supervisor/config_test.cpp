@@ -60,13 +60,13 @@ TEST_F(ConfigTest, UnknownQuantityIsReportedWithFileAndLine) {
   }
 }
 
-TEST_F(ConfigTest, BackLimitMustNotBeLowerThanLimit) {
-  EXPECT_NO_THROW(load_with("back_limit: 23.0", "back_limit: 20.0"));
-  EXPECT_THROW(load_with("back_limit: 20.0", "back_limit: 19.0"), ConfigError);
+TEST_F(ConfigTest, BacktrackLimitMustNotBeLowerThanLimit) {
+  EXPECT_NO_THROW(load_with("backtrack_limit: 23.0", "backtrack_limit: 20.0"));
+  EXPECT_THROW(load_with("backtrack_limit: 20.0", "backtrack_limit: 19.0"), ConfigError);
 }
 
-TEST_F(ConfigTest, BackLimitIsOnlyForStopRetreatRows) {
-  EXPECT_THROW(load_with("limit: 35.0, n: 3", "limit: 35.0, back_limit: 38.0, n: 3"), ConfigError);
+TEST_F(ConfigTest, BacktrackLimitIsOnlyForStopBacktrackRows) {
+  EXPECT_THROW(load_with("limit: 35.0, n: 3", "limit: 35.0, backtrack_limit: 38.0, n: 3"), ConfigError);
 }
 
 TEST_F(ConfigTest, SlowRowsNeedAValidSpeed) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <rover/command_ack_t.hpp>
 #include <rover/control_status_t.hpp>
 #include <rover/drive_permit_t.hpp>
@@ -14,9 +15,11 @@
 #include <rover/supervisor_state_t.hpp>
 #include <rover/wheel_state_t.hpp>
 
+#include "common/bus/checkpoint.hpp"
 #include "common/bus/convert.hpp"
 #include "supervisor/config.hpp"
 #include "supervisor/convert.hpp"
+#include "supervisor/persistent_state_codec.hpp"
 #include "test/trajectory_control/bus_world.hpp"
 
 namespace rover::supervisor {
@@ -135,6 +138,56 @@ TEST(Convert, UnknownStatusCountsAsBad) {
   pose_t pose{};
   pose.status = pose_t::UNINITIALISED;
   EXPECT_FALSE(report_from(pose).usable);
+}
+
+TEST(SupervisorCheckpoint, MotorHeatIsSavedEachSecond) {
+  const std::string dir = testing::TempDir() + "/supervisor_checkpoint_test";
+  std::filesystem::remove_all(dir);
+  std::filesystem::create_directories(dir);
+  test::BusWorld world;
+  Node node({.name = "supervisor", .run_dir = dir}, world.bus);
+  const SupervisorNode service(node, load_config(ROVER_SOURCE_DIR "/config"), [](const std::string&) { return false; });
+  wheel_state_t wheels{};
+  wheels.drive_current_a[2] = 4.0;
+  for (int i = 0; i < 175; ++i) {
+    world.send(channel::kWheelState, wheels);
+    world.tick(node);
+  }
+  const auto bytes = load_checkpoint(dir, "supervisor");
+  ASSERT_TRUE(bytes);
+  const auto state = persistent_state_from(*bytes);
+  ASSERT_TRUE(state);
+  EXPECT_GE(state->heat.utime, world.now - 1'100'000);
+  EXPECT_LE(state->heat.utime, world.now);
+  EXPECT_NEAR(state->heat.drive_i2t_load[2], 0.064, 0.02);  // after 2.5 to 3.5 s at 4 A
+  std::filesystem::remove_all(dir);
+}
+
+TEST(PersistentStateCodec, AllOfItIsRestored) {
+  PersistentState state;
+  state.state = State::kPaused;
+  state.level = Level::kFull;
+  state.raised_by_path = state.path_full = true;
+  state.forced = ForcedLevel::kFull;
+  state.hazard_stops = 3;
+  state.backtracking_path_id = 7;
+  state.faults = {"roll", "starts.stereo"};
+  state.counters = {{{"stereo", {1'000'000, 2'000'000}}}, {1.25, 3.5}};
+  state.restart_attempts = {{"slam", {3'000'000}}};
+  state.heat = {4'000'000, {0.1, 0.2, 0.3, 0.4, 0.5, 0.6}, {1.1, 1.2, 1.3, 1.4}};
+  EXPECT_EQ(persistent_state_from(bytes_of(state)), state);
+}
+
+TEST(PersistentStateCodec, OtherVersionsAndDamagedTextsAreRefused) {
+  const std::vector<std::uint8_t> bytes = bytes_of({});
+  const std::string text(bytes.begin(), bytes.end());
+  const auto read = [](const std::string& json) { return persistent_state_from({json.begin(), json.end()}); };
+  ASSERT_TRUE(read(text));
+  const size_t version = text.find("\"version\":2");
+  ASSERT_NE(version, std::string::npos);
+  EXPECT_FALSE(read(std::string(text).replace(version, 11, "\"version\":1")));
+  EXPECT_FALSE(read(R"({"state":2,"level":0,"raised_by_path":false,"forced":2,"hazard_stops":0,"faults":[]})"));
+  EXPECT_FALSE(read(text.substr(0, text.size() / 2)));
 }
 
 }  // namespace

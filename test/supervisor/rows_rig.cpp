@@ -105,7 +105,7 @@ void RowsRig::send_heartbeats() {
 void RowsRig::record_changes() {
   for (; recorded_ < faults_->size(); ++recorded_) {
     const fault_t& fault = (*faults_)[recorded_];
-    const bool raised = fault.standing == 1;
+    const bool raised = fault.active == 1;
     if (raised ? !active_.insert(fault.id).second : active_.erase(fault.id) == 0) continue;
     changes_.push_back({fault.id, raised, ticks_, fault.condition, fault.first == 1});
   }

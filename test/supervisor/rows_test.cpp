@@ -172,8 +172,8 @@ std::vector<RowCase> perception_cases() {
 // Rows of the Full level.
 std::vector<RowCase> full_cases() {
   return {
-      silence("terrain_way", channel::kTraversability, 10.0),
-      {"sweep_in_vain", "", [](RowsRig& rig) { rig.terrain.cells = {traversability_t::UNKNOWN}; },
+      silence("terrain_distance", channel::kTraversability, 10.0),
+      {"sweep_timeout", "", [](RowsRig& rig) { rig.terrain.cells = {traversability_t::UNKNOWN}; },
        [](RowsRig& rig) { rig.terrain.cells = {traversability_t::FREE}; }, 70.0, 2.0, false, "fault"},
       {"slam_lost", "", [](RowsRig& rig) { rig.slam.status = slam_pose_t::LOST; },
        [](RowsRig& rig) { rig.slam.status = slam_pose_t::OK; }, 8.0},

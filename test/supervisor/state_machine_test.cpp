@@ -174,16 +174,16 @@ TEST(StateMachine, MatchesAReferenceImplementation) {
     if (facts.has_any(kCommandFacts) || facts.has(F::kSafeFault)) return;
     int steps = 0;
     const State settled = settle(s, facts, steps);
-    const bool under_way = s == kDriving || s == kHazardStop || s == kRepairing;
-    if (under_way && facts.has(F::kBlockingFault)) {
+    const bool in_drive = s == kDriving || s == kHazardStop || s == kRepairing;
+    if (in_drive && facts.has(F::kBlockingFault)) {
       ASSERT_EQ(settled, kFaultStop);
-    } else if (under_way && facts.has(F::kGoalReached)) {
+    } else if (in_drive && facts.has(F::kGoalReached)) {
       ASSERT_EQ(settled, State::kGoalReached);
-    } else if (under_way && facts.has(F::kLevelFull) && !facts.has(F::kTerrainKnown)) {
+    } else if (in_drive && facts.has(F::kLevelFull) && !facts.has(F::kTerrainKnown)) {
       ASSERT_EQ(settled, kSweeping);
-    } else if (under_way && facts.has(F::kPathBlocked)) {
+    } else if (in_drive && facts.has(F::kPathBlocked)) {
       ASSERT_TRUE(settled == kHazardStop || settled == kRepairing);
-    } else if (under_way && facts.has(F::kPathClear)) {
+    } else if (in_drive && facts.has(F::kPathClear)) {
       ASSERT_EQ(settled, kDriving);
     } else if (s == kPaused || s == State::kGoalReached || s == kStandby || s == kSafe) {
       ASSERT_EQ(settled, s);

@@ -70,6 +70,22 @@ class SupervisorTest : public testing::Test {
     EXPECT_EQ(out_.answers.at(0).id, command_id_);
     return out_.answers.at(0);
   }
+  void restart_supervisor() {
+    const PersistentState persistent_state = supervisor_.persistent_state();
+    supervisor_ = Supervisor(config_);
+    supervisor_.restore(persistent_state);
+    EXPECT_EQ(supervisor_.persistent_state().heat, persistent_state.heat);
+    EXPECT_EQ(supervisor_.persistent_state().counters, persistent_state.counters);
+    tick();
+    EXPECT_FALSE(out_.permit.granted);
+  }
+  void restart_services(int times) {
+    for (int i = 0; i < times; ++i) {
+      ++services_["hazard_detector"].boot_id;
+      services_["hazard_detector"].received = 0;
+      run(2.0);
+    }
+  }
   void start_driving() {
     run(2.0);
     ASSERT_EQ(supervisor_.state(), State::kStandby);
@@ -702,11 +718,7 @@ TEST_F(SupervisorTest, SilentServiceIsRestartedThreeTimesThenSafe) {
 
 TEST_F(SupervisorTest, RepeatedServiceStartsLeadToSafe) {
   start_driving();
-  for (int i = 0; i < 4; ++i) {
-    ++services_["hazard_detector"].boot_id;
-    services_["hazard_detector"].received = 0;
-    run(2.0);
-  }
+  restart_services(4);
   EXPECT_EQ(supervisor_.state(), State::kSafe);
   EXPECT_EQ(changes_.back().cause, "starts.hazard_detector");
   EXPECT_FALSE(command(CommandKind::kClearSafe).accepted);  // the fault is still active
@@ -784,15 +796,119 @@ TEST_F(SupervisorTest, RestartKeepsLatchedFaults) {
   planner_.blocked_in_m = 0.4;
   run(21.0);
   ASSERT_EQ(supervisor_.active_faults(), std::vector<std::string>{"no_path"});
-  const PersistentState persistent_state = supervisor_.persistent_state();
-  supervisor_ = Supervisor(config_);
-  supervisor_.restore(persistent_state);
+  restart_supervisor();
   planner_ = clear_path();
   run(5.0);
   EXPECT_EQ(supervisor_.state(), State::kFaultStop);  // still latched after the restart
   EXPECT_TRUE(command(CommandKind::kClearFault, "no_path").accepted);
   EXPECT_EQ(supervisor_.state(), State::kDriving);
   EXPECT_TRUE(restarts_.empty());
+}
+
+// At 4 A a cold winding takes 84 s to the limit of drive_heat.
+TEST_F(SupervisorTest, RestartKeepsMotorHeat) {
+  start_driving();
+  wheels_.drive_current_a[0] = 4.0;
+  run(60.0);
+  ASSERT_TRUE(out_.permit.granted);
+  restart_supervisor();
+  EXPECT_LE(time_to_permit(), 2.0);
+  EXPECT_LE(time_to_withdrawal(60.0), 30.0);
+  EXPECT_EQ(changes_.back().cause, "drive_heat.FL");
+}
+
+TEST_F(SupervisorTest, InfiniteCurrentDoesNotEndTheHeatModel) {
+  wheels_.drive_current_a[0] = kInfinity;
+  run(1.0);
+  EXPECT_EQ(supervisor_.persistent_state().heat.drive_i2t_load[0], 0.0);
+}
+
+TEST_F(SupervisorTest, RestartKeepsTheBacktrackLimit) {
+  start_driving();
+  pose_.roll_rad = to_rad(-20.5);
+  time_to_withdrawal();
+  PathLevels back;
+  back.path_id = planner_.path_id = control_.path_id = 2;
+  back.reverse = true;
+  supervisor_.on_path(back);
+  time_to_permit();
+  run(3.0);
+  const std::vector<std::string> slow = {"roll_high", "roll_steep"};
+  ASSERT_EQ(supervisor_.active_faults(), slow);
+  restart_supervisor();
+  run(1.0);
+  supervisor_.on_path(back);  // repeated each second
+  run(3.0);
+  EXPECT_TRUE(out_.permit.granted);
+  EXPECT_EQ(supervisor_.active_faults(), slow);
+  pose_.roll_rad = to_rad(-23.5);
+  EXPECT_LE(time_to_withdrawal(), 0.1);
+  EXPECT_EQ(changes_.back().evidence.threshold, 23.0);
+}
+
+TEST_F(SupervisorTest, RestartKeepsTheCountOfServiceStarts) {
+  start_driving();
+  restart_services(2);
+  restart_supervisor();
+  run(1.0);
+  restart_services(2);
+  EXPECT_EQ(supervisor_.state(), State::kSafe);
+  EXPECT_EQ(changes_.back().cause, "starts.hazard_detector");
+}
+
+TEST_F(SupervisorTest, RestartKeepsTheCountOfRestartAttempts) {
+  start_driving();
+  dead_service_ = "stereo";
+  run(6.5);
+  ASSERT_EQ(restarts_.size(), 2u);
+  restart_supervisor();
+  run(11.0);
+  EXPECT_EQ(supervisor_.state(), State::kSafe);
+  EXPECT_EQ(changes_.back().cause, "restart_failed.stereo");
+  EXPECT_EQ(restarts_.size(), 4u);
+}
+
+TEST_F(SupervisorTest, RestartKeepsTheCountOfFaultStops) {
+  start_driving();
+  const auto fault_stops = [&](int times) {
+    for (int i = 0; i < times; ++i) {
+      pose_usable_ = false;
+      pose_.travelled_m = i % 2 == 0 ? kNaN : 0.0;  // an invalid odometer is not counted as a position
+      run(0.5);
+      pose_usable_ = true;
+      pose_.travelled_m = 0.0;
+      run(2.0);
+    }
+  };
+  fault_stops(3);
+  EXPECT_EQ(supervisor_.persistent_state().counters.fault_stops_m, (std::deque<double>(3, 0.0)));
+  restart_supervisor();
+  run(3.0);
+  fault_stops(3);
+  EXPECT_EQ(supervisor_.state(), State::kSafe);
+  EXPECT_EQ(changes_.back().cause, "fault_stops");
+}
+
+TEST_F(SupervisorTest, RefusedClearFaultKeepsTheCounters) {
+  start_driving();
+  restart_services(3);
+  planner_.state = PlannerState::kNoPath;
+  planner_.blocked_in_m = 0.4;
+  run(21.0);
+  EXPECT_FALSE(command(CommandKind::kClearFault, "no_path").accepted);
+  EXPECT_FALSE(command(CommandKind::kClearFault, "unknown").accepted);
+  restart_services(1);
+  EXPECT_EQ(supervisor_.state(), State::kSafe);
+  EXPECT_EQ(changes_.back().cause, "starts.hazard_detector");
+}
+
+TEST_F(SupervisorTest, ClearFaultOfAnInactiveFaultResetsTheCounters) {
+  start_driving();
+  restart_services(3);
+  EXPECT_TRUE(command(CommandKind::kClearFault, "starts.hazard_detector").accepted);
+  EXPECT_TRUE(out_.faults.empty());
+  restart_services(3);
+  EXPECT_NE(supervisor_.state(), State::kSafe);
 }
 
 TEST_F(SupervisorTest, RestartResumesTheStateWhenInputsAreHealthy) {
@@ -898,6 +1014,18 @@ TEST_F(LevelTest, PathSegmentsRaiseAndLower) {
   EXPECT_EQ(last_level_change()->cause, "path_segment");
   drive(70.0, 0.15);
   EXPECT_EQ(supervisor_.level(), Level::kEfficient);
+}
+
+TEST_F(LevelTest, RestartKeepsTheLevelOfThePath) {
+  begin();
+  supervisor_.on_path({1, {0.0}, {Level::kFull}});
+  drive(2.0, 0.15);
+  ASSERT_EQ(supervisor_.level(), Level::kFull);
+  changes_.clear();
+  restart_supervisor();
+  drive(1.0, 0.15);  // the path is repeated each second
+  EXPECT_EQ(supervisor_.level(), Level::kFull);
+  EXPECT_EQ(last_level_change(), nullptr);
 }
 
 // Continuous planning publishes a new path each second; the controller reports it one tick later.
@@ -1022,7 +1150,7 @@ TEST_F(LevelTest, FailedSweepStopsIfThePathRequiresFull) {
   known_ = {0.9, 0.9};
   drive(10.0, 0.15);
   EXPECT_FALSE(out_.permit.granted);  // latched
-  EXPECT_TRUE(command(CommandKind::kClearFault, "sweep_in_vain").accepted);
+  EXPECT_TRUE(command(CommandKind::kClearFault, "sweep_timeout").accepted);
   drive(2.0, 0.15);
   EXPECT_TRUE(out_.permit.granted);
 }

@@ -13,12 +13,19 @@ PathInput input(std::vector<Eigen::Vector2d> points, double corridor_half_width_
   return {1, corridor_half_width_m, std::move(points)};
 }
 
+// A lower bound below the configured one: the steering rate limits the speed in more places.
+TrackedPathConfig slow_config() {
+  TrackedPathConfig config;
+  config.min_speed_mps = 0.06;
+  return config;
+}
+
 TrackedPath tracked(std::vector<Eigen::Vector2d> points, double corridor_half_width_m = 0.75) {
-  return TrackedPath::build(input(std::move(points), corridor_half_width_m), TrackedPathConfig{}).value();
+  return TrackedPath::build(input(std::move(points), corridor_half_width_m), slow_config()).value();
 }
 
 TEST(TrackedPath, RejectsInvalidPaths) {
-  const TrackedPathConfig config;
+  const TrackedPathConfig config = slow_config();
   EXPECT_FALSE(TrackedPath::build(input({}), config));
   EXPECT_FALSE(TrackedPath::build(input({{1.0, 1.0}}), config));
   EXPECT_FALSE(TrackedPath::build(input({{1.0, 1.0}, {1.0, 1.0}}), config));
@@ -62,7 +69,7 @@ TEST(TrackedPath, IsSplitAtSharpCornersOnly) {
 }
 
 TEST(TrackedPath, SpeedIsZeroAtSegmentEndsAndRespectsTheDeceleration) {
-  const TrackedPathConfig config;
+  const TrackedPathConfig config = slow_config();
   const TrackedPath path = tracked({{0, 0}, {4, 0}, {4, 4}});
   for (const PathSegment& segment : path.segments()) {
     EXPECT_EQ(segment.samples().back().speed_mps, 0.0);
@@ -76,7 +83,7 @@ TEST(TrackedPath, SpeedIsZeroAtSegmentEndsAndRespectsTheDeceleration) {
 }
 
 TEST(TrackedPath, OuterWheelSpeedIsLimited) {
-  TrackedPathConfig config;
+  TrackedPathConfig config = slow_config();
   config.max_wheel_speed_mps = 0.22;
   const TrackedPath path = TrackedPath::build(input(test::polyline({{0.8, 6.0}})), config).value();
   const PathSample middle = path.segments()[0].at(3.0);
@@ -84,7 +91,7 @@ TEST(TrackedPath, OuterWheelSpeedIsLimited) {
 }
 
 TEST(TrackedPath, SteeringRateCanFollowTheCurvatureAtTheProfileSpeed) {
-  const TrackedPathConfig config;
+  const TrackedPathConfig config = slow_config();
   const TrackedPath path = tracked(test::polyline(test::seed_traverse()));
   const PathSegment& segment = path.segments()[0];
   for (double s = 0.2; s < segment.length_m() - 0.3; s += 0.05) {

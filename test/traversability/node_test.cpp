@@ -47,7 +47,7 @@ pose_t pose_at(double x_m, double y_m, double yaw_rad) {
 class TraversabilityNodeTest : public testing::Test {
  protected:
   TraversabilityNodeTest() : world_("traversability"), service_(make_traversability(world_.node(), kConfig)) {
-    world_.hear(channel::kTraversability, outputs_);
+    world_.record(channel::kTraversability, outputs_);
     world_.tick(now_);
   }
 
@@ -186,7 +186,7 @@ TEST_F(TraversabilityConfigTest, ShippedFileEqualsDefaultsAndVehicleSetsLimits) 
   EXPECT_EQ(file.hazard_height_m, 0.15);
   EXPECT_EQ(file.belly_clearance_m, 0.30);
   EXPECT_NEAR(file.footprint_m2, defaults.footprint_m2, 1e-9);
-  EXPECT_NEAR(file.cost.max_slope_rad, defaults.cost.max_slope_rad, 1e-4);
+  EXPECT_EQ(file.cost.max_slope_rad, defaults.cost.max_slope_rad);
   EXPECT_EQ(file.step.max_sigma_m, defaults.step.max_sigma_m);
   EXPECT_EQ(file.step.mean_height_ratio, defaults.step.mean_height_ratio);
   EXPECT_EQ(file.plane.radius_m, defaults.plane.radius_m);
@@ -197,8 +197,8 @@ TEST_F(TraversabilityConfigTest, UnknownKeysAndBadRangesThrow) {
   const std::string sections = "plane: {}\nstep: {}\ncost: {}\n";
   write(sections + "ahead: {}\n");
   EXPECT_NO_THROW(load_config(dir_.string()));
-  for (const char* bad : {"ahead: {far: 3.0}\n", "ahead: {far_m: 0.9}\n", "ahead: {clearance_m: -1}\n", "\n",
-                          "ahead: {}\nlatency_s: 9.0\n"}) {
+  for (const char* bad : {"ahead: {far: 3.0}\n", "ahead: {far_m: 0.9}\n", "ahead: {clearance_m: -1}\n",
+                          "ahead: {no_such_key: 0.3}\n", "ahead: {}\nlatency_s: 9.0\n"}) {
     write(sections + bad);
     EXPECT_THROW(load_config(dir_.string()), ConfigError) << bad;
   }

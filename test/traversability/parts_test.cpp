@@ -70,7 +70,7 @@ TEST(DiscPlanesTest, LineOfCellsHasNoPlane) {
   const TerrainGrid grid = synthetic_terrain([](double, double) { return 0.0; }, {.cells = 40});
   std::vector<std::uint8_t> mask(grid.shape.size(), 0);
   for (int ix = 0; ix < 40; ++ix) mask[grid.shape.at(ix, 20)] = mask[grid.shape.at(ix, 21)] = 1;
-  DiscPlanes planes(grid.shape, {.min_share = 0.05});
+  DiscPlanes planes(grid.shape, {.min_seen_fraction = 0.05});
   planes.fit(grid.height_m, mask);
   EXPECT_GT(planes.count(grid.shape.at(20, 20)), 30);
   EXPECT_TRUE(std::isnan(planes.at(grid.shape.at(20, 20)).slope_x));

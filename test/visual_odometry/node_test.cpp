@@ -18,7 +18,7 @@ const std::string kConfig = std::string(ROVER_SOURCE_DIR) + "/config";
 class OdometryNodeTest : public testing::Test {
  protected:
   OdometryNodeTest() : world_("visual_odometry"), node_(world_.node(), load_config(kConfig)), ground_(1) {
-    world_.hear(channel::kVo, motions_);
+    world_.record(channel::kVo, motions_);
   }
 
   void send_pair(const Isometry3d& pose, Utime utime) {
@@ -118,7 +118,7 @@ TEST(OdometryConfigFile, MatchesDefaults) {
   const NodeConfig file = load_config(kConfig);
   const NodeConfig defaults;
   EXPECT_EQ(file.odometry.min_inliers, defaults.odometry.min_inliers);
-  EXPECT_EQ(file.odometry.offset.information_factor, defaults.odometry.offset.information_factor);
+  EXPECT_EQ(file.odometry.disparity_offset.information_factor, defaults.odometry.disparity_offset.information_factor);
   EXPECT_EQ(file.odometry.motion.pixel_sigma_px, defaults.odometry.motion.pixel_sigma_px);
   EXPECT_EQ(file.latency_s, defaults.latency_s);
 }

@@ -254,7 +254,7 @@ TEST(Odometry, EstimatesDisparityOffsetWhileDriving) {
   double drift[2];
   for (const bool enabled : {false, true}) {
     OdometryConfig config;
-    config.offset.information_factor = enabled ? 0.1 : 0.0;
+    config.disparity_offset.information_factor = enabled ? 0.1 : 0.0;
     Drive drive(17, config);
     drive.ground.right_shift_px = 0.3;  // measured disparities are 0.3 px too small
     for (int i = 0; i <= 60; ++i) drive.drive_to(along_arc(0.08 * i));

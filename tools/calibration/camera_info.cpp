@@ -46,11 +46,11 @@ StereoCalibration read_camera_info(const ToolFile& left, const ToolFile& right) 
   out.height = left.size_px(left.name_of({"image_height", "height"}));
   if (right.size_px(right.name_of({"image_width", "width"})) != out.width ||
       right.size_px(right.name_of({"image_height", "height"})) != out.height)
-    right.fail("image_width", "the size of the pictures differs from that of " + left.file());
+    right.fail("image_width", "the image size differs from that of " + left.file());
   const double left_m = offset_m(left);
   const double baseline_m = offset_m(right) - left_m;
   const bool apart = std::abs(baseline_m) > 1e-4;
-  if (left_m != 0.0 && !apart) left.fail(left.name_of(kP), "is the right camera's: its fourth number has to be 0");
+  if (left_m != 0.0 && !apart) left.fail(left.name_of(kP), "is the right camera's: its fourth number must be 0");
   if (!apart)
     right.fail(right.name_of(kP), "the fourth number, -f * baseline, is 0: calibrate the cameras as a stereo pair");
   const Eigen::Matrix3d R_rect_left = rectification(left);

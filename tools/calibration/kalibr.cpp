@@ -41,7 +41,7 @@ StereoCalibration read_kalibr(const ToolFile& file) {
   if (left.has("resolution")) {
     const std::vector<double> size = left.numbers("resolution", 2);
     if (right.numbers("resolution", 2) != size) right.fail("resolution", "differs between the cameras");
-    if (size[0] < 1 || size[0] > 8192 || size[1] < 1 || size[1] > 8192) left.fail("resolution", "no size of a picture");
+    if (size[0] < 1 || size[0] > 8192 || size[1] < 1 || size[1] > 8192) left.fail("resolution", "not an image size");
     out.width = static_cast<int>(size[0]);
     out.height = static_cast<int>(size[1]);
   }

@@ -49,7 +49,7 @@ void set_size(const Arguments& arguments, StereoCalibration& calibration) {
     calibration.height = arguments.size[1];
   }
   if (calibration.width <= 0 || calibration.height <= 0)
-    throw ConfigError(arguments.files.front() + ": holds no size of the pictures; give it by --size WIDTH HEIGHT");
+    throw ConfigError(arguments.files.front() + ": contains no image size; set it with --size WIDTH HEIGHT");
 }
 
 void write_text(const std::string& file, const std::string& text) {
@@ -98,29 +98,30 @@ int main(int argc, char** argv) {
       "--imu-rpy 0 0 0 --out "
       "my_config/cameras.yaml");
   app.name("./rover calibration");
-  app.add_option("files", arguments.files, "calibration files; of camera_info the left one first")
+  app.add_option("files", arguments.files, "calibration files; for camera_info the left camera first")
       ->required()
       ->transform(is_user_path());
-  app.add_option("--camera", arguments.camera, "whose section")
+  app.add_option("--camera", arguments.camera, "section to write")
       ->check(CLI::IsMember({"loccam", "navcam"}))
       ->capture_default_str();
-  app.add_option("--model", arguments.model, "of the lenses, where OpenCV's files do not tell")
+  app.add_option("--model", arguments.model, "lens model, if OpenCV's files do not specify it")
       ->check(CLI::IsMember({"radtan", "equidistant"}));
-  app.add_option("--config", arguments.config_dir, "folder of the configuration that it is based on")
+  app.add_option("--config", arguments.config_dir, "configuration folder with the other cameras and mounts")
       ->transform(is_user_path())
       ->capture_default_str();
-  repeatable(app.add_option("--size", arguments.size, "width and height of the pictures [px], where the file has none"))
-      ->expected(2);
+  repeatable(app.add_option("--size", arguments.size, "image width and height [px], if not in the file"))->expected(2);
   CLI::Option* mount =
       repeatable(app.add_option(
                      "--mount", arguments.mount,
                      "left camera in body: x y z [m], pitch down, roll, yaw [deg]; default: as in the configuration"))
           ->expected(6);
-  repeatable(app.add_option("--imu-rpy", arguments.imu_rpy,
-                            "mount by the IMU: its roll, pitch, yaw in body [deg]; its position is vehicle.yaml's"))
+  repeatable(
+      app.add_option(
+          "--imu-rpy", arguments.imu_rpy,
+          "mount from the calibrated IMU: roll, pitch, yaw of the IMU in body [deg]; its position is in vehicle.yaml"))
       ->expected(3)
       ->excludes(mount);
-  app.add_option("--out", arguments.out, "new file; default: the terminal")->transform(is_user_path());
+  app.add_option("--out", arguments.out, "output file; default: standard output")->transform(is_user_path());
   try {
     rover::parse_arguments(app, argc, argv);
   } catch (const CLI::ParseError& error) {

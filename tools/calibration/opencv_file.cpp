@@ -40,7 +40,7 @@ PinholeCamera camera(const std::vector<ToolFile>& files, const Names& m, const N
   const ToolFile& file = holding(files, d);
   const std::string key = file.name_of(d);
   if (model.empty() && file.numbers(key).size() == 4)
-    file.fail(key, "k1 k2 p1 p2, or k1 k2 k3 k4 of a fisheye? Say it by --model radtan or --model equidistant");
+    file.fail(key, "k1 k2 p1 p2, or k1 k2 k3 k4 of a fisheye? Set it with --model radtan or --model equidistant");
   file.set_lens(out, model.empty() ? "radtan" : model, key);
   return out;
 }

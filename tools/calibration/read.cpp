@@ -30,7 +30,7 @@ void check(const StereoCalibration& c, const std::string& file) {
 StereoCalibration read_by_keys(const std::vector<ToolFile>& files, const std::string& model) {
   const ToolFile& first = files.front();
   if (first.has("cam0") || is_camera_info(first)) {
-    if (!model.empty()) throw ConfigError(first.file() + ": names its model itself; leave out --model");
+    if (!model.empty()) throw ConfigError(first.file() + ": specifies its own model; omit --model");
     const size_t count = first.has("cam0") ? 1 : 2;
     if (files.size() > count) throw ConfigError(files[count].file() + ": one file too many");
     if (count == 1) return read_kalibr(first);
@@ -42,7 +42,7 @@ StereoCalibration read_by_keys(const std::vector<ToolFile>& files, const std::st
   for (const ToolFile& file : files) {
     if (is_opencv_stereo(file)) continue;
     if (file.has("camera_matrix"))
-      throw ConfigError(file.file() + ": a calibration of one camera alone; calibrate both as a stereo pair");
+      throw ConfigError(file.file() + ": a calibration of only one camera; calibrate both as a stereo pair");
     throw ConfigError(file.file() +
                       ": neither a camchain of Kalibr's (cam0, cam1), nor OpenCV's M1 D1 M2 D2 R T, nor ROS's "
                       "camera_info (camera_matrix, distortion_model, projection_matrix)");

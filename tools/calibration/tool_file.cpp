@@ -31,7 +31,7 @@ void append_numbers(const YAML::Node& node, std::vector<double>& values) {
     return;
   }
   const auto number = node.IsScalar() ? parse_number(node.Scalar()) : std::nullopt;
-  if (!number) throw ConfigError(node.IsScalar() ? "'" + node.Scalar() + "' is no number" : "no list of numbers");
+  if (!number) throw ConfigError(node.IsScalar() ? "'" + node.Scalar() + "' is not a number" : "not a list of numbers");
   values.push_back(*number);
 }
 
@@ -45,7 +45,7 @@ ToolFile ToolFile::load(const std::string& file) {
   const size_t begin = text.find_first_not_of(" \t\r\n");
   const bool xml = begin != std::string::npos && text[begin] == '<';
   ToolFile root(xml ? parse_opencv_xml(text, file) : parse_foreign_yaml(text, file), file, "");
-  if (!root.node_.IsMap()) throw ConfigError(file + ": no calibration: keys with values are expected");
+  if (!root.node_.IsMap()) throw ConfigError(file + ": not a calibration: keys with values are expected");
   return root;
 }
 
@@ -86,7 +86,7 @@ std::vector<double> ToolFile::numbers(const std::string& key) const {
   YAML::Node node = required(key);
   if (node.IsMap() && node["data"]) node.reset(node["data"]);
   std::vector<double> values;
-  if (!node.IsSequence()) fail(key, "no list of numbers");
+  if (!node.IsSequence()) fail(key, "not a list of numbers");
   try {
     append_numbers(node, values);
   } catch (const ConfigError& error) {
@@ -104,7 +104,7 @@ std::vector<double> ToolFile::numbers(const std::string& key, size_t count) cons
 int ToolFile::size_px(const std::string& key) const {
   if (!has(key)) return 0;
   const auto number = parse_number(text(key));
-  if (!number || *number < 1 || *number > 8192 || *number != std::floor(*number)) fail(key, "no size of a picture");
+  if (!number || *number < 1 || *number > 8192 || *number != std::floor(*number)) fail(key, "not an image size");
   return static_cast<int>(*number);
 }
 
@@ -115,7 +115,7 @@ Eigen::Isometry3d ToolFile::pose(const std::string& key) const {
   if (!T.matrix().row(3).isApprox(Eigen::RowVector4d(0, 0, 0, 1), 1e-6)) fail(key, "the last row is not 0 0 0 1");
   if ((T.linear() * T.linear().transpose() - Eigen::Matrix3d::Identity()).norm() > 1e-3 ||
       T.linear().determinant() < 0.0)
-    fail(key, "no rotation in the upper left 3 x 3");
+    fail(key, "the upper left 3 x 3 is not a rotation");
   return T;
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr size_t kMaxImages = 4;  // of each side: enough for one pair
 
-ReceivedImage image_heard(const image_t& message, const Stamp& stamp, bool keep) {
+ReceivedImage received_image(const image_t& message, const Stamp& stamp, bool keep) {
   ReceivedImage out{stamp, message.width, message.height, message.encoding == image_t::MONO8, message.size, {}};
   if (keep) out.image = image_from(message);
   return out;
@@ -88,7 +88,7 @@ void Listener::receive(const wheel_state_t& message, const Stamp& stamp, const s
 
 void Listener::receive(const image_t& message, const Stamp& stamp, const std::string& channel) {
   auto& side = channel == channel::kLocCamLeft ? received_.left : received_.right;
-  side.push_back(image_heard(message, stamp, side.size() < kMaxImages));
+  side.push_back(received_image(message, stamp, side.size() < kMaxImages));
 }
 
 Received Listener::take() {

@@ -26,26 +26,27 @@ struct Arguments {
   std::string bus;
   bool move = false;
   double listen_s = 10.0;
-  double patience_s = 10.0;
+  double timeout_s = 10.0;
 };
 
-class Examination {
+class ConformanceTest {
  public:
-  Examination(const Arguments& arguments, const StereoRig& loccam, lcm::LCM& lcm)
+  ConformanceTest(const Arguments& arguments, const StereoRig& loccam, lcm::LCM& lcm)
       : arguments_(arguments), loccam_(loccam), lcm_(lcm), listener_(lcm, wall_s) {}
 
   std::vector<Line> run() {
     wait_for_driver();
-    std::printf("listening for %.0f s; the rover has to stand still\n", arguments_.listen_s);
+    std::printf("listening for %.0f s; the rover must be stationary\n", arguments_.listen_s);
     std::fflush(stdout);
     listener_.take();
     handle_until([this] { return listened_s() >= arguments_.listen_s; });
     const Received at_rest = listener_.take();
     if (at_rest.stack && arguments_.move)
-      throw ConfigError("conform: the stack runs on this bus; stop ./rover drive before --move");
+      throw ConfigError("conform: the stack is running on this bus; stop ./rover drive before --move");
     std::vector<Line> lines = check_time(at_rest);
-    add(lines, at_rest.stack ? std::vector{skipped("contents, commands", "the stack runs: the rover may drive", "")}
-                             : check_content(at_rest, loccam_));
+    add(lines, at_rest.stack
+                   ? std::vector{skipped("contents, commands", "the stack is running: the rover may drive", "")}
+                   : check_content(at_rest, loccam_));
     if (!at_rest.stack) add(lines, trial());
     return lines;
   }
@@ -66,28 +67,28 @@ class Examination {
   void handle_until(Over over) {
     Utime last = listener_.now();
     double since = wall_s();
-    while (going() && !over()) {
+    while (keep_running() && !over()) {
       lcm_.handleTimeout(20);
       if (listener_.now() != last) {
         last = listener_.now();
         since = wall_s();
       }
-      if (wall_s() - since > arguments_.patience_s) return;
+      if (wall_s() - since > arguments_.timeout_s) return;
     }
-    if (!going()) throw ConfigError("conform: interrupted");
+    if (!keep_running()) throw ConfigError("conform: interrupted");
   }
 
   void wait_for_driver() {
     const double begun = wall_s();
-    handle_until([&] { return listener_.now() != kNever || wall_s() - begun > arguments_.patience_s; });
+    handle_until([&] { return listener_.now() != kNever || wall_s() - begun > arguments_.timeout_s; });
     if (listener_.now() != kNever) return;
-    throw ConfigError("conform: no TICK within " + std::to_string(static_cast<int>(arguments_.patience_s)) +
+    throw ConfigError("conform: no TICK within " + std::to_string(static_cast<int>(arguments_.timeout_s)) +
                       " s. Start the driver (to try it out: build/bin/example_driver), on the same bus");
   }
 
   void warn() {
     std::printf(
-        "WARNING: the rover is going to roll about 0.4 m forward in 5 s. Lift its wheels or clear the way; "
+        "WARNING: the rover will move about 0.4 m forward in 5 s. Lift its wheels or clear its path; "
         "Ctrl-C stops.\n");
     std::fflush(stdout);
     const Utime from = listener_.now();
@@ -118,14 +119,14 @@ int examine(const Arguments& arguments) {
   const StereoRig loccam = load_stereo_rig(arguments.config_dir, "loccam");
   lcm::LCM lcm(bus);
   if (!lcm.good()) throw ConfigError("bus: cannot join " + bus);
-  Examination examination(arguments, loccam, lcm);
+  ConformanceTest examination(arguments, loccam, lcm);
   const std::vector<Line> lines = examination.run();
   std::printf("%s", table(lines, isatty(STDOUT_FILENO) == 1).c_str());
   const int failed = failures(lines);
   if (failed > 0)
-    std::printf("%d of %zu duties are not met; docs/drivers.md explains each\n", failed, lines.size());
+    std::printf("%d of %zu requirements are not met; see docs/drivers.md\n", failed, lines.size());
   else
-    std::printf("the driver does its duties%s\n", arguments.move ? "" : "; with --move also those of its wheels");
+    std::printf("the driver meets all requirements%s\n", arguments.move ? "" : " (those of its wheels require --move)");
   return failed > 0 ? 1 : 0;
 }
 
@@ -134,14 +135,14 @@ int examine(const Arguments& arguments) {
 int main(int argc, char** argv) {
   Arguments arguments;
   CLI::App app(
-      "./rover conform: does a running driver do its duties (docs/drivers.md)?\n"
+      "./rover conform: checks a running driver against the requirements of docs/drivers.md.\n"
       "Example: ./rover conform --move");
   app.name("./rover conform");
-  app.add_option("--config", arguments.config_dir, "folder of the configuration: cameras.yaml, bus.yaml")
+  app.add_option("--config", arguments.config_dir, "configuration folder (cameras.yaml, bus.yaml)")
       ->transform(is_user_path())
       ->capture_default_str();
   app.add_option("--bus", arguments.bus, "LCM URL instead of the one in bus.yaml")->check(is_bus_url());
-  app.add_flag("--move", arguments.move, "also give commands: the rover rolls about 0.4 m");
+  app.add_flag("--move", arguments.move, "also send commands: the rover moves about 0.4 m");
   app.add_option("--listen", arguments.listen_s, "seconds to listen")
       ->check(CLI::Range(2.0, 600.0))
       ->capture_default_str();

@@ -17,16 +17,16 @@ std::string word(Verdict verdict, bool colours) {
 }  // namespace
 
 std::string table(const std::vector<Line>& lines, bool colours) {
-  size_t duty = 0;
+  size_t check = 0;
   size_t measured = 0;
   for (const Line& l : lines) {
-    duty = std::max(duty, l.duty.size());
+    check = std::max(check, l.check.size());
     measured = std::max(measured, std::min<size_t>(l.measured.size(), 60));
   }
   std::string out;
   for (const Line& l : lines)
-    out += fmt::format("{}  {:<{}}  {:<{}}  {}\n", word(l.verdict, colours), l.duty, duty, l.measured, measured,
-                       l.demand.empty() ? "" : "demand: " + l.demand);
+    out += fmt::format("{}  {:<{}}  {:<{}}  {}\n", word(l.verdict, colours), l.check, check, l.measured, measured,
+                       l.requirement.empty() ? "" : "required: " + l.requirement);
   return out;
 }
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/conform/duties.hpp"
+#include "tools/conform/checks.hpp"
 
 namespace rover::conform {
 

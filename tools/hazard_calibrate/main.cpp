@@ -38,8 +38,8 @@ CalibrationFrames read_frames(const std::string& file) {
     else
       ++skipped;
   }
-  if (frames.frames() == 0) throw ConfigError(file + ": holds no usable DISPARITY");
-  if (skipped > 0) std::cerr << file << ": " << skipped << " unusable DISPARITY left out\n";
+  if (frames.frames() == 0) throw ConfigError(file + ": contains no usable DISPARITY");
+  if (skipped > 0) std::cerr << file << ": " << skipped << " unusable DISPARITY messages skipped\n";
   return frames;
 }
 

@@ -26,7 +26,7 @@ struct Listed {
 std::int64_t time_of(const TextRows& rows) {
   const std::string_view time = rows.cells().front();
   const auto ns = parse_whole_number(time);
-  if (!ns || *ns < 0) rows.fail("'" + std::string(time.substr(0, 40)) + "' is no time in nanoseconds");
+  if (!ns || *ns < 0) rows.fail("'" + std::string(time.substr(0, 40)) + "' is not a time in nanoseconds");
   return *ns;
 }
 
@@ -56,7 +56,7 @@ Eigen::Isometry3d read_T_BS(const Config& sensor) {
   Eigen::Isometry3d T;
   for (int i = 0; i < 16; ++i) T.matrix()(i / 4, i % 4) = values[static_cast<size_t>(i)];
   if (!(T.linear() * T.linear().transpose()).isIdentity(1e-3) || T.linear().determinant() < 0.0)
-    T_BS.fail("data", "is no rigid motion");
+    T_BS.fail("data", "is not a rigid motion");
   T.linear() = Eigen::Quaterniond(T.linear()).normalized().toRotationMatrix();
   return T;
 }
@@ -108,7 +108,7 @@ void check_head(const TextRows& rows) {
     rows.fail("the columns time, x, y, z, qw, qx, qy, qz are expected, in this order");
 }
 
-std::vector<TruthRow> read_truth(const fs::path& dir, std::map<std::string, int>& left_out) {
+std::vector<TruthRow> read_truth(const fs::path& dir, std::map<std::string, int>& skipped) {
   std::vector<TruthRow> truth;
   if (!fs::exists(dir / "data.csv")) return truth;
   TextRows rows((dir / "data.csv").string(), ',');
@@ -116,15 +116,15 @@ std::vector<TruthRow> read_truth(const fs::path& dir, std::map<std::string, int>
     check_head(rows);
     if (rows.cells().size() < 8) rows.fail("too few columns; time, x, y, z, qw, qx, qy, qz are expected");
     const std::int64_t time_ns = time_of(rows);
-    if (!truth.empty() && time_ns <= truth.back().time_ns) rows.fail("times do not rise");
+    if (!truth.empty() && time_ns <= truth.back().time_ns) rows.fail("times do not increase");
     Eigen::Matrix<double, 7, 1> v;
     for (int i = 0; i < 7; ++i) v[i] = rows.number(static_cast<size_t>(i) + 1);
     if (!v.allFinite()) {
-      ++left_out[kNoNumbers];
+      ++skipped[kNoNumbers];
       continue;
     }
     const Eigen::Quaterniond q(v[3], v[4], v[5], v[6]);
-    if (std::abs(q.norm() - 1.0) > 1e-2) rows.fail("qw, qx, qy, qz are no unit quaternion");
+    if (std::abs(q.norm() - 1.0) > 1e-2) rows.fail("qw, qx, qy, qz are not a unit quaternion");
     truth.push_back({time_ns, make_pose(q.normalized().toRotationMatrix(), v.head<3>())});
   }
   return truth;
@@ -143,25 +143,25 @@ std::optional<Eigen::Isometry3d> truth_at(const std::vector<TruthRow>& truth, st
 }
 
 // Pairs images with nearly equal times.
-std::int64_t most_apart_ns(const PictureList& lefts) {
+std::int64_t max_gap_ns(const PictureList& lefts) {
   return std::min<std::int64_t>(1'000'000, lefts.interval_ns / 20);
 }
 
 void pair_up(const PictureList& lefts, const PictureList& rights, StereoDataSet& set,
              std::vector<std::int64_t>& times_ns) {
-  const std::int64_t most_ns = most_apart_ns(lefts);
+  const std::int64_t max_ns = max_gap_ns(lefts);
   std::int64_t widest_ns = 0;
   auto right = rights.pictures.begin();
   for (const Listed& left : lefts.pictures) {
-    while (right != rights.pictures.end() && right->time_ns < left.time_ns - most_ns)
-      ++right, ++set.left_out[kWithoutPartner];
-    if (right == rights.pictures.end() || right->time_ns > left.time_ns + most_ns) {
-      ++set.left_out[kWithoutPartner];
+    while (right != rights.pictures.end() && right->time_ns < left.time_ns - max_ns)
+      ++right, ++set.skipped[kWithoutPartner];
+    if (right == rights.pictures.end() || right->time_ns > left.time_ns + max_ns) {
+      ++set.skipped[kWithoutPartner];
       continue;
     }
     const Listed& partner = *right++;
     if (!fs::exists(left.picture) || !fs::exists(partner.picture)) {
-      ++set.left_out["pairs of which a picture is not there"];
+      ++set.skipped["pairs with a missing image file"];
       continue;
     }
     widest_ns = std::max(widest_ns, std::abs(partner.time_ns - left.time_ns));
@@ -169,14 +169,13 @@ void pair_up(const PictureList& lefts, const PictureList& rights, StereoDataSet&
     set.pairs.push_back(
         {(left.time_ns - times_ns.front()) / 1000, left.picture.string(), partner.picture.string(), {}});
   }
-  set.left_out[kWithoutPartner] += static_cast<int>(rights.pictures.end() - right);
+  set.skipped[kWithoutPartner] += static_cast<int>(rights.pictures.end() - right);
   if (widest_ns > 0)
-    set.notes.push_back("the two pictures of a pair are up to " + std::to_string((widest_ns + 999) / 1000) +
-                        " us apart");
+    set.notes.push_back("the two images of a pair are up to " + std::to_string((widest_ns + 999) / 1000) + " us apart");
 }
 
 void add_truth(const fs::path& dir, const std::vector<std::int64_t>& times_ns, StereoDataSet& set) {
-  const std::vector<TruthRow> truth = read_truth(dir, set.left_out);
+  const std::vector<TruthRow> truth = read_truth(dir, set.skipped);
   const Eigen::Isometry3d T_sensors_body = set.rig.T_body_left * T_body_left_camera().inverse();
   bool any = false;
   for (size_t i = 0; i < set.pairs.size(); ++i)
@@ -186,7 +185,8 @@ void add_truth(const fs::path& dir, const std::vector<std::int64_t>& times_ns, S
     }
   if (!truth.empty() && !set.pairs.empty() && !any)
     throw ConfigError((dir / "data.csv").string() + ": from " + std::to_string(truth.front().time_ns) + " to " +
-                      std::to_string(truth.back().time_ns) + " ns, no picture is of a time with truth; they begin at " +
+                      std::to_string(truth.back().time_ns) +
+                      " ns, no image is within the time of the ground truth; the images begin at " +
                       std::to_string(times_ns.front()) + " ns");
 }
 

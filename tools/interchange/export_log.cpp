@@ -33,19 +33,19 @@ namespace fs = std::filesystem;
 
 constexpr double kTrackStepM = 0.05;
 
-void demand_written(const std::ofstream& file, const fs::path& path) {
+void require_written(const std::ofstream& file, const fs::path& path) {
   if (!file) throw ConfigError(path.string() + ": cannot be written; is the disk full?");
 }
 
 std::ofstream open_file(const fs::path& path) {
   std::ofstream file(path, std::ios::binary);
-  demand_written(file, path);
+  require_written(file, path);
   return file;
 }
 
 void close_file(std::ofstream& file, const fs::path& path) {
   file.close();
-  demand_written(file, path);
+  require_written(file, path);
 }
 
 template <class Message>
@@ -67,7 +67,7 @@ class CsvExport {
       write_csv_header(table.file, table.columns);
     }
     write_csv_row(table.file, table.columns, fields);
-    demand_written(table.file, file_of(event.channel));
+    require_written(table.file, file_of(event.channel));
   }
   void finish() {
     for (auto& [channel, table] : tables_) close_file(table.file, file_of(channel));
@@ -184,7 +184,7 @@ void write_trajectories(const fs::path& dir, const Tracks& tracks, std::vector<s
   for (const auto& [name, trajectory] : {std::pair{"truth", &tracks.truth}, std::pair{"estimate", &tracks.estimate},
                                          std::pair{"odometry", &tracks.odometry}}) {
     if (trajectory->empty()) {
-      lines.push_back(std::string("tum/") + name + ".txt: the log has no such poses; not written");
+      lines.push_back(std::string("tum/") + name + ".txt: not written, the log has no such poses");
       continue;
     }
     const fs::path path = dir / (std::string(name) + ".txt");
@@ -192,8 +192,8 @@ void write_trajectories(const fs::path& dir, const Tracks& tracks, std::vector<s
     write_tum(file, *trajectory);
     close_file(file, path);
     if (const size_t falls = time_falls(*trajectory); falls > 0)
-      lines.push_back(std::string("tum/") + name + ".txt: time falls at " + std::to_string(falls) +
-                      " of its lines; without TICK the log tells of no runs");
+      lines.push_back(std::string("tum/") + name + ".txt: time decreases at " + std::to_string(falls) +
+                      " of its lines; without TICK the runs of the log cannot be separated");
   }
 }
 
@@ -204,7 +204,7 @@ class LeftOut {
   std::vector<std::string> lines() const {
     std::vector<std::string> lines;
     for (const auto& [channel, count] : damaged_)
-      lines.push_back(channel + ": " + std::to_string(count) + " messages do not decode; left out");
+      lines.push_back(channel + ": " + std::to_string(count) + " messages do not decode; skipped");
     if (!foreign_.empty()) lines.push_back(foreign_line());
     return lines;
   }
@@ -219,7 +219,7 @@ class LeftOut {
       count += messages;
       if (++named <= kMost) names += (named == 1 ? "" : ", ") + status::printable(channel);
     }
-    return std::to_string(count) + " messages on channels that are not the project's; left out: " + names +
+    return std::to_string(count) + " messages on unknown channels; skipped: " + names +
            (foreign_.size() > kMost ? " ..." : "");
   }
 
@@ -232,13 +232,13 @@ struct Exports {
   std::optional<CsvExport> csv;
   std::optional<McapExport> mcap;
   TrackExport tracks;
-  LeftOut left_out;
+  LeftOut skipped;
   std::int64_t taken = 0;
 
   void add(const LogEvent& event) {
     header_t header{};
     const auto fields = decode_fields(event.channel, event.data, event.size);
-    if (!fields || !peek_header(event.data, event.size, header)) return left_out.add(event.channel);
+    if (!fields || !peek_header(event.data, event.size, header)) return skipped.add(event.channel);
     ++taken;
     if (csv) csv->add(event, *fields);
     if (mcap) mcap->add(event, header, *fields);
@@ -256,12 +256,12 @@ std::vector<std::string> write_all(const ExportOptions& options, const LogRun& r
   if (wants("csv")) exports.csv.emplace(dir / "csv");
   if (wants("mcap")) exports.mcap.emplace(dir / "traverse.mcap");
   for_each_event(run, [&](const LogEvent& event) {
-    if (!going()) throw ConfigError("./rover export: interrupted; nothing is kept");
+    if (!keep_running()) throw ConfigError("./rover export: interrupted; nothing is kept");
     if (options.channels.empty() || options.channels.contains(event.channel)) exports.add(event);
   });
   if (exports.taken == 0)
-    throw ConfigError(run.log + ": holds no messages of a rover" +
-                      (options.channels.empty() ? "" : " on the channels asked for"));
+    throw ConfigError(run.log + ": contains no messages of a rover" +
+                      (options.channels.empty() ? "" : " on the requested channels"));
   exports.finish();
   std::vector<std::string> lines = remarks(run);
   if (wants("tum")) write_trajectories(dir / "tum", exports.tracks.tracks(), lines);
@@ -270,7 +270,7 @@ std::vector<std::string> write_all(const ExportOptions& options, const LogRun& r
     file << geojson(exports.tracks.tracks(), planet_of(run.log), kTrackStepM);
     close_file(file, dir / "tracks.geojson");
   }
-  for (std::string& line : exports.left_out.lines()) lines.push_back(std::move(line));
+  for (std::string& line : exports.skipped.lines()) lines.push_back(std::move(line));
   lines.push_back(std::to_string(exports.taken) + " messages");
   return lines;
 }
@@ -287,7 +287,7 @@ fs::path target_of(const ExportOptions& options, const fs::path& log) {
 std::vector<std::string> export_log(const ExportOptions& options) {
   for (const std::string& format : options.formats)
     if (!kExportFormats.contains(format))
-      throw ConfigError("--format: no format '" + format + "'; there are: csv, geojson, mcap, tum");
+      throw ConfigError("--format: no format '" + format + "'; known formats: csv, geojson, mcap, tum");
   for (const std::string& channel : options.channels)
     if (find_channel_type(channel) == nullptr) throw ConfigError("--channels: no channel '" + channel + "'");
   const LogRun run = choose_run(options.log, options.log_run);

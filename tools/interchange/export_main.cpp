@@ -13,14 +13,12 @@ int main(int argc, char** argv) {
       "./rover export: a log as CSV tables, TUM trajectories, GeoJSON tracks and MCAP. Example:\n"
       "./rover export logs/RUN --format tum,mcap");
   app.name("./rover export");
-  app.add_option("log", options.log, "an LCM log, or the folder of a run")
-      ->required()
-      ->transform(rover::is_user_path());
+  app.add_option("log", options.log, "log file or run folder")->required()->transform(rover::is_user_path());
   rover::add_log_run(app, options.log_run);
   app.add_option("--out", options.out, "folder, new or empty; default: export beside the log")
       ->transform(rover::is_user_path());
   rover::repeatable(app.add_option("--format", formats, "of csv, tum, geojson, mcap; default: all"))->delimiter(',');
-  rover::repeatable(app.add_option("--channels", channels, "these alone; default: all"))->delimiter(',');
+  rover::repeatable(app.add_option("--channels", channels, "only these channels; default: all"))->delimiter(',');
   try {
     rover::parse_arguments(app, argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -104,7 +104,7 @@ void write_log(const StereoDataSet& set, const std::string& path, const std::str
   const Utime last = kFirstPair + set.pairs.back().since_first + kAfterLast;
   auto pair = set.pairs.begin();
   for (Utime t = kFirstTick; t <= last; t += kTickUs) {
-    if (!going()) throw Interrupted("interrupted; nothing is left of " + name);
+    if (!keep_running()) throw Interrupted("interrupted; removed " + name);
     if (t == kStartPose)
       log.write(channel::kGroundCommand,
                 start_command(set.pairs.front().T_map_body.value_or(Eigen::Isometry3d::Identity())), t);
@@ -182,10 +182,10 @@ void write_configuration(const ImportOptions& options, const StereoDataSet& set,
   });
   change_yaml(dir / "localization.yaml", [&](YAML::Node& localization) {
     localization["max_speed_mps"] = options.max_speed_mps;
-    localization["cameras_alone"]["enabled"] = true;
+    localization["camera_only"]["enabled"] = true;
     localization["smoothing_s"] = 0.02;
-    localization["filter"]["blind_rate_radps"] = 10.0;  // no IMU: rotation is known from images only
-    localization["status"]["blind_distance_m"] = 100.0;
+    localization["filter"]["no_gyro_noise_rad_rts"] = 10.0;  // no IMU: rotation is known from images only
+    localization["status"]["max_dead_reckoned_m"] = 100.0;
   });
 }
 
@@ -203,7 +203,7 @@ void check_principal_point(const PinholeCamera& camera, const StereoRig& rig, co
   if (!in_the_middle(camera.cx_px, rig.width) || !in_the_middle(camera.cy_px, rig.height))
     throw ConfigError(picture + ": " + size_text(rig.width, rig.height) +
                       " px, but the calibration has its principal point at " + std::to_string(camera.cx_px) + ", " +
-                      std::to_string(camera.cy_px) + ": is it that of pictures of another size?");
+                      std::to_string(camera.cy_px) + ": is it for another image size?");
 }
 
 void set_size(StereoDataSet& set) {
@@ -212,12 +212,12 @@ void set_size(StereoDataSet& set) {
   StereoRig& rig = set.rig;
   if (rig.width != 0 && (rig.width != first.width || rig.height != first.height))
     throw ConfigError(file + ": " + size_text(first.width, first.height) +
-                      " px, the calibration is that of pictures of " + size_text(rig.width, rig.height));
+                      " px, but the calibration is for images of " + size_text(rig.width, rig.height));
   rig.width = first.width;
   rig.height = first.height;
   if (first.data.size() > kMaxMessageBytes)
-    throw ConfigError(file + ": " + std::to_string(first.data.size()) + " px, a message holds " +
-                      std::to_string(kMaxMessageBytes) + ": make the pictures and the calibration smaller");
+    throw ConfigError(file + ": " + std::to_string(first.data.size()) + " px, a message holds at most " +
+                      std::to_string(kMaxMessageBytes) + ": scale the images and the calibration down");
   check_principal_point(rig.left, rig, file);
   check_principal_point(rig.right, rig, file);
 }
@@ -230,8 +230,8 @@ void check_space(const StereoDataSet& set, const fs::path& dir) {
       2 * set.pairs.size() * static_cast<size_t>(set.rig.width) * set.rig.height + ticks * kTickBytes;
   const std::uintmax_t available = fs::space(dir).available;
   if (bytes > available)
-    throw ConfigError(dir.parent_path().string() + ": the log takes " + std::to_string(bytes >> 20) +
-                      " MB, there is room for " + std::to_string(available >> 20) + " MB");
+    throw ConfigError(dir.parent_path().string() + ": the log needs " + std::to_string(bytes >> 20) +
+                      " MB, but the free space is " + std::to_string(available >> 20) + " MB");
 }
 
 std::vector<std::string> summary(const StereoDataSet& set, const std::string& out) {
@@ -240,8 +240,8 @@ std::vector<std::string> summary(const StereoDataSet& set, const std::string& ou
   std::vector<std::string> lines = {set.layout + ": " + std::to_string(set.pairs.size()) + " stereo pairs of " +
                                     size_text(set.rig.width, set.rig.height) + " px, " + std::to_string(with_truth) +
                                     " with ground truth"};
-  for (const auto& [what, count] : set.left_out)
-    if (count > 0) lines.push_back("left out: " + std::to_string(count) + " " + what);
+  for (const auto& [what, count] : set.skipped)
+    if (count > 0) lines.push_back("skipped: " + std::to_string(count) + " " + what);
   for (const std::string& note : set.notes) lines.push_back("note: " + note);
   lines.push_back("imported: " + out);
   lines.push_back("next: ./rover replay " + out + " --services stereo,visual_odometry,localization --speed max");

@@ -14,20 +14,20 @@ int main(int argc, char** argv) {
       "./rover import: a stereo data set in KITTI's or EuRoC's layout as the log of a run. Example:\n"
       "./rover import kitti/sequences/06 --poses kitti/poses/06.txt --out logs/kitti06");
   app.name("./rover import");
-  app.add_option("data_set", options.data_set, "its folder")->required()->transform(rover::is_user_path());
-  app.add_option("--out", options.out, "folder of the run, new; default: the project's logs/<name of the data set>")
+  app.add_option("data_set", options.data_set, "folder of the data set")->required()->transform(rover::is_user_path());
+  app.add_option("--out", options.out, "new run folder; default: logs/<name of the data set>")
       ->transform(rover::is_user_path());
   app.add_option("--poses", options.poses, "KITTI: ground truth; default: poses.txt in the folder")
       ->transform(rover::is_user_path());
-  app.add_option("--rate", options.rate_hz, "KITTI: pairs a second, where there is no times.txt")
+  app.add_option("--rate", options.rate_hz, "KITTI without times.txt: pairs per second")
       ->check(CLI::Range(0.1, 1000.0))
       ->capture_default_str();
-  app.add_option("--max-disparity", options.max_disparity_px, "of the nearest things [px], a multiple of 16")
+  app.add_option("--max-disparity", options.max_disparity_px, "maximum disparity [px], a multiple of 16")
       ->capture_default_str();
-  app.add_option("--max-speed", options.max_speed_mps, "a faster motion is nonsense [m/s]")
+  app.add_option("--max-speed", options.max_speed_mps, "maximum plausible speed [m/s]")
       ->check(CLI::Range(0.1, 200.0))
       ->capture_default_str();
-  app.add_option("--config", options.config_dir, "configuration that is adapted")
+  app.add_option("--config", options.config_dir, "configuration to adapt")
       ->transform(rover::is_user_path())
       ->capture_default_str();
   try {

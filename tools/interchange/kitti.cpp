@@ -58,7 +58,7 @@ StereoRig rig_from(const fs::path& file) {
   rig.right = pinhole(P[1]);
   for (const Matrix34d& p : P)
     if (!(p(0, 0) >= 10.0 && p(1, 1) >= 10.0 && p(0, 2) > 0.0 && p(1, 2) > 0.0))
-      throw ConfigError(file.string() + ": P0 and P1 are no projections of cameras, f 0 cx tx 0 f cy 0 0 0 1 0");
+      throw ConfigError(file.string() + ": P0 and P1 are not camera projections, f 0 cx tx 0 f cy 0 0 0 1 0");
   rig.T_left_right.translation() = Eigen::Vector3d((P[0](0, 3) - P[1](0, 3)) / P[1](0, 0), 0.0, 0.0);
   const std::string problem = problem_of_pair(rig.T_left_right);
   if (!problem.empty()) throw ConfigError(file.string() + ": " + problem);
@@ -72,8 +72,8 @@ std::int64_t first_number(const fs::path& file, size_t rows, const Pictures& pic
   const auto count = static_cast<std::int64_t>(rows);
   if (count > last) return 0;
   if (count == last - first + 1) return first;
-  throw ConfigError(file.string() + ": " + std::to_string(count) + " rows for the pictures " + std::to_string(first) +
-                    " to " + std::to_string(last) + "; a row for each of them, or for each from 0 on, is expected");
+  throw ConfigError(file.string() + ": " + std::to_string(count) + " rows for the images " + std::to_string(first) +
+                    " to " + std::to_string(last) + "; one row for each of them, or for each from 0 on, is expected");
 }
 
 // Image number to time [ns].
@@ -107,7 +107,7 @@ std::map<std::int64_t, std::int64_t> read_times(const fs::path& file, const Pict
 
 // Image number to pose; rows with NaN are skipped.
 std::map<std::int64_t, Eigen::Isometry3d> read_truth(const fs::path& file, const Pictures& pictures,
-                                                     std::map<std::string, int>& left_out) {
+                                                     std::map<std::string, int>& skipped) {
   TextRows rows(file.string(), ' ');
   std::vector<std::optional<Eigen::Isometry3d>> poses;
   while (rows.next()) {
@@ -116,7 +116,7 @@ std::map<std::int64_t, Eigen::Isometry3d> read_truth(const fs::path& file, const
     if (!m.allFinite()) continue;
     const Eigen::Matrix3d R = m.leftCols<3>();
     if ((R * R.transpose() - Eigen::Matrix3d::Identity()).norm() > 1e-2 || R.determinant() < 0.0)
-      rows.fail("no rotation in the left 3 x 3 of the matrix");
+      rows.fail("the left 3 x 3 of the matrix is not a rotation");
     // Seven digits only: re-orthonormalise.
     poses.back() = make_pose(Eigen::Quaterniond(R).normalized().toRotationMatrix(), m.col(3));
   }
@@ -127,7 +127,7 @@ std::map<std::int64_t, Eigen::Isometry3d> read_truth(const fs::path& file, const
     if (const auto& pose = poses[static_cast<size_t>(number - first)])
       truth[number] = *pose;
     else
-      ++left_out[kNoNumbers];
+      ++skipped[kNoNumbers];
   }
   return truth;
 }
@@ -141,17 +141,17 @@ StereoDataSet read_kitti(const std::string& dir, const std::string& poses, doubl
   set.name = fs::absolute(root).lexically_normal().filename().string();
   set.rig = rig_from(root / "calib.txt");
   set.rig.T_body_left = T_body_left_camera();
-  const Pictures left = numbered_pictures(first_folder(root, {"image_0", "image_l"}), set.left_out);
-  Pictures right = numbered_pictures(first_folder(root, {"image_1", "image_r"}), set.left_out);
+  const Pictures left = numbered_pictures(first_folder(root, {"image_0", "image_l"}), set.skipped);
+  Pictures right = numbered_pictures(first_folder(root, {"image_1", "image_r"}), set.skipped);
   const auto times_ns = read_times(root / "times.txt", left, rate_hz);
   const fs::path pose_file = poses.empty() ? root / "poses.txt" : fs::path(poses);
   std::map<std::int64_t, Eigen::Isometry3d> truth;
-  if (!poses.empty() || fs::exists(pose_file)) truth = read_truth(pose_file, left, set.left_out);
+  if (!poses.empty() || fs::exists(pose_file)) truth = read_truth(pose_file, left, set.skipped);
   std::optional<std::int64_t> first_ns;
   for (const auto& [number, picture] : left) {
     const auto partner = right.extract(number);
     if (partner.empty()) {
-      ++set.left_out[kWithoutPartner];
+      ++set.skipped[kWithoutPartner];
       continue;
     }
     if (!first_ns) first_ns = times_ns.at(number);
@@ -161,7 +161,7 @@ StereoDataSet read_kitti(const std::string& dir, const std::string& poses, doubl
       pair.T_map_body = T_body_left_camera() * pose->second * T_body_left_camera().inverse();
     set.pairs.push_back(std::move(pair));
   }
-  set.left_out[kWithoutPartner] += static_cast<int>(right.size());
+  set.skipped[kWithoutPartner] += static_cast<int>(right.size());
   return set;
 }
 

@@ -20,7 +20,7 @@ std::int64_t number_of(const fs::path& file) {
   const std::string name = file.stem().string();
   const size_t last = name.find_last_of("0123456789");
   if (last == std::string::npos)
-    throw ConfigError(file.string() + ": no number in the name; pictures are put in the order of their numbers");
+    throw ConfigError(file.string() + ": no number in the name; images are sorted by their numbers");
   const size_t before = name.find_last_not_of("0123456789", last);
   const size_t first = before == std::string::npos ? 0 : before + 1;
   std::int64_t number = 0;
@@ -31,15 +31,15 @@ std::int64_t number_of(const fs::path& file) {
 
 }  // namespace
 
-std::map<std::int64_t, fs::path> numbered_pictures(const fs::path& dir, std::map<std::string, int>& left_out) {
+std::map<std::int64_t, fs::path> numbered_pictures(const fs::path& dir, std::map<std::string, int>& skipped) {
   std::map<std::int64_t, fs::path> pictures;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(dir, error)) {
     const fs::path& file = entry.path();
     if (file.filename().string().starts_with(".")) {
-      ++left_out["hidden files"];
+      ++skipped["hidden files"];
     } else if (!is_picture(file)) {
-      ++left_out["files that are neither PNG nor JPEG"];
+      ++skipped["files that are neither PNG nor JPEG"];
     } else if (const auto [there, is_new] = pictures.emplace(number_of(file), file); !is_new) {
       throw ConfigError(file.string() + ": has the number of " + there->second.filename().string() +
                         "; which one is the picture?");

@@ -14,18 +14,18 @@ namespace {
 constexpr size_t kMaxPictureBytes = 64 << 20;
 
 // Suppresses warnings of the PNG and JPEG libraries on stderr.
-class Silence {
+class SuppressStderr {
  public:
-  Silence() : stderr_(dup(STDERR_FILENO)), nowhere_(open("/dev/null", O_WRONLY | O_CLOEXEC)) {
+  SuppressStderr() : stderr_(dup(STDERR_FILENO)), nowhere_(open("/dev/null", O_WRONLY | O_CLOEXEC)) {
     dup2(nowhere_, STDERR_FILENO);
   }
-  ~Silence() {
+  ~SuppressStderr() {
     dup2(stderr_, STDERR_FILENO);
     close(stderr_);
     close(nowhere_);
   }
-  Silence(const Silence&) = delete;
-  Silence& operator=(const Silence&) = delete;
+  SuppressStderr(const SuppressStderr&) = delete;
+  SuppressStderr& operator=(const SuppressStderr&) = delete;
 
  private:
   int stderr_;
@@ -40,7 +40,7 @@ bool is_whole(const std::string& bytes) {
 }
 
 cv::Mat decode(const std::string& bytes) {
-  const Silence silence;
+  const SuppressStderr suppressed;
   const cv::Mat view(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<char*>(bytes.data()));
   try {
     return cv::imdecode(view, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
@@ -53,10 +53,10 @@ cv::Mat decode(const std::string& bytes) {
 
 GrayImage read_picture(const std::string& file) {
   const std::string bytes = read_text(file, kMaxPictureBytes);
-  if (bytes.empty()) throw ConfigError(file + ": empty; no picture");
+  if (bytes.empty()) throw ConfigError(file + ": empty file");
   const cv::Mat picture = decode(bytes);
-  if (picture.empty()) throw ConfigError(file + ": no picture that can be read");
-  if (!is_whole(bytes)) throw ConfigError(file + ": the picture is cut short; its end is missing");
+  if (picture.empty()) throw ConfigError(file + ": not a readable image");
+  if (!is_whole(bytes)) throw ConfigError(file + ": the image is truncated");
   GrayImage image(picture.cols, picture.rows);
   picture.copyTo(cv::Mat(picture.rows, picture.cols, CV_8UC1, image.data.data()));
   return image;

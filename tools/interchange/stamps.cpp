@@ -20,7 +20,7 @@ std::string seconds(std::int64_t ns) {
 void Stamps::add(std::int64_t time_ns, const std::function<void(const std::string&)>& fail) {
   if (!times_ns_.empty()) {
     const std::int64_t before_ns = times_ns_.back();
-    if (time_ns <= before_ns) fail("times do not rise");
+    if (time_ns <= before_ns) fail("times do not increase");
     if (time_ns - before_ns > kMaxStampGapNs)
       fail(seconds(time_ns - before_ns) + " after the picture before; at most 60 s are expected");
   }

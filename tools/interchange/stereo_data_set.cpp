@@ -19,7 +19,7 @@ void start_at_truth(StereoDataSet& set) {
                                   [](const StereoPair& pair) { return pair.T_map_body.has_value(); });
   if (begin == set.pairs.end()) return;
   if (begin != set.pairs.begin())
-    set.left_out["pairs before the ground truth begins"] = static_cast<int>(begin - set.pairs.begin());
+    set.skipped["pairs before the ground truth begins"] = static_cast<int>(begin - set.pairs.begin());
   const Utime first_time = begin->since_first;
   set.pairs.erase(set.pairs.begin(), begin);
   for (StereoPair& pair : set.pairs) pair.since_first -= first_time;
@@ -44,8 +44,8 @@ namespace {
 
 std::string counts(const StereoDataSet& set) {
   std::string text;
-  for (const auto& [what, count] : set.left_out)
-    if (count > 0) text += (text.empty() ? "; left out: " : ", ") + std::to_string(count) + " " + what;
+  for (const auto& [what, count] : set.skipped)
+    if (count > 0) text += (text.empty() ? "; skipped: " : ", ") + std::to_string(count) + " " + what;
   return text;
 }
 

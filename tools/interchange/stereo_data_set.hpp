@@ -23,8 +23,8 @@ struct StereoDataSet {
   std::string name;
   StereoRig rig;  // width and height 0 if not in the calibration
   std::vector<StereoPair> pairs;
-  std::map<std::string, int> left_out;  // reason and count
-  std::vector<std::string> notes;       // further information for the user
+  std::map<std::string, int> skipped;  // reason and count
+  std::vector<std::string> notes;      // further information for the user
 };
 
 inline constexpr const char* kWithoutPartner = "pictures without a partner";

@@ -63,7 +63,7 @@ double TextRows::number(size_t cell) const {
   const std::string_view text = cells_[cell];
   if (text == "nan" || text == "NaN" || text == "-nan") return kNaN;
   const auto value = parse_number(text);
-  if (!value) fail("'" + std::string(text.substr(0, 40)) + "' is no number");
+  if (!value) fail("'" + std::string(text.substr(0, 40)) + "' is not a number");
   return *value;
 }
 

@@ -26,13 +26,13 @@ std::string commit_of(const std::string& source_dir) {
 }
 
 std::vector<std::int64_t> parse_seeds(const std::string& text) {
-  constexpr std::int64_t kMostSeeds = 10'000;
+  constexpr std::int64_t kMaxSeeds = 10'000;
   std::vector<std::int64_t> seeds;
   const size_t dots = text.find("..");
   if (dots != std::string::npos) {
     const auto first = parse_whole_number(text.substr(0, dots));
     const auto last = parse_whole_number(text.substr(dots + 2));
-    if (first && last && *first >= 0 && *last >= *first && *last - *first < kMostSeeds)
+    if (first && last && *first >= 0 && *last >= *first && *last - *first < kMaxSeeds)
       for (std::int64_t seed = *first; seed <= *last; ++seed) seeds.push_back(seed);
   } else {
     std::istringstream items(text + ",");

@@ -8,8 +8,8 @@
 namespace rover {
 
 struct RunArguments {
-  std::string source_dir = ".";  // holds config/ and logs/
-  std::string bin_dir;           // holds the services' executables
+  std::string source_dir = ".";  // contains config/ and logs/
+  std::string bin_dir;           // contains the services' executables
   std::string scenario;          // file; empty for run(): config/scenarios/default.yaml
   std::int64_t seed = -1;        // -1: the scenario's own
   std::string level;             // efficient, auto or full; empty: the scenario's own
@@ -19,7 +19,7 @@ struct RunArguments {
   std::string record;            // full or reduced; empty: of config/recorder.yaml
   bool headless = false;
   bool realtime = false;
-  bool allow_injection = false;  // services obey ./rover inject; a scenario with faults asks for it by itself
+  bool allow_injection = false;  // enables ./rover inject; implied by a scenario with faults
   bool quiet = false;            // no progress (benches)
 };
 

@@ -17,9 +17,9 @@ namespace rover {
 namespace fs = std::filesystem;
 namespace {
 
-// The least number of repairs with which a run counts: fewer means that the rocks were not in the way.
-const std::map<std::string, int> kLeastRepairs = {{"seed_traverse_1", 5}, {"seed_traverse_2", 8}};
-// Seeds beyond those asked for that may take the place of runs that do not count.
+// Minimum number of repairs of a valid run. With fewer, too few rocks blocked the path.
+const std::map<std::string, int> kMinRepairs = {{"seed_traverse_1", 5}, {"seed_traverse_2", 8}};
+// Additional seeds that may replace invalid runs.
 constexpr int kSpareSeeds = 10;
 constexpr int kFirstBenchPort = 17'700;
 
@@ -28,7 +28,7 @@ struct Job {
   std::int64_t seed;
 };
 
-// Rows of one suite and commit: one JSON object a line, appended as runs end, so that a bench can go on later.
+// Rows of one suite and commit: one JSON object per line, appended after each run, so that a bench can be resumed.
 class Rows {
  public:
   Rows(const std::string& file, std::string commit, bool resume) : file_(file), commit_(std::move(commit)) {
@@ -65,9 +65,9 @@ class Rows {
 };
 
 bool counts(const nlohmann::json& row) {
-  const auto least = kLeastRepairs.find(row.value("scenario", ""));
-  if (least == kLeastRepairs.end() || row.value("outcome", "") != "goal_reached") return true;
-  return row.contains("replans") && row["replans"].is_number() && row["replans"].get<int>() >= least->second;
+  const auto minimum = kMinRepairs.find(row.value("scenario", ""));
+  if (minimum == kMinRepairs.end() || row.value("outcome", "") != "goal_reached") return true;
+  return row.contains("replans") && row["replans"].is_number() && row["replans"].get<int>() >= minimum->second;
 }
 
 std::string out_dir(const BenchArguments& arguments, const Job& job) {
@@ -97,7 +97,7 @@ nlohmann::json row_of(const Job& job, const std::string& dir, int exit_status) {
   return row;
 }
 
-// Runs jobs in child processes, `jobs` at a time, in the order given.
+// Runs the jobs in order in child processes, at most `jobs` in parallel.
 void run_jobs(const BenchArguments& arguments, const std::vector<Job>& jobs, Rows& rows) {
   std::map<pid_t, std::pair<Job, int>> running;  // job and slot
   std::vector<int> free_slots;
@@ -134,10 +134,10 @@ void run_jobs(const BenchArguments& arguments, const std::vector<Job>& jobs, Row
 int bench(const BenchArguments& arguments) {
   if (arguments.suite != "seed")
     throw ConfigError("bench: no suite '" + arguments.suite +
-                      "'; there are: seed, full, slam, correction, speed, micro, faults, restarts, page, data");
+                      "'; known suites: seed, full, slam, correction, speed, micro, faults, restarts, page, data");
   Rows rows(arguments.run.source_dir + "/logs/bench/" + arguments.suite + "/rows.jsonl",
             commit_of(arguments.run.source_dir), arguments.resume);
-  for (const auto& [scenario, least] : kLeastRepairs) {
+  for (const auto& [scenario, minimum] : kMinRepairs) {
     std::vector<std::int64_t> seeds = arguments.seeds;
     size_t wanted = seeds.size();
     for (int spare = 0; spare <= kSpareSeeds; ++spare) {

@@ -23,8 +23,8 @@
 namespace rover {
 namespace {
 
-// What went wrong before the drive began: exit status 2, and no folder is left.
-struct NotBegun {
+// Error before the drive started: exit status 2, and the folder is removed.
+struct NotStarted {
   std::string why;
 };
 
@@ -39,65 +39,65 @@ std::vector<ServiceCommand> service_commands(const DriveArguments& arguments) {
 }
 
 void check_machine(const DriveArguments& arguments, const RunFolder& folder, const BusLock& lock) try {
-  demand_programs(services_of(arguments), arguments.bin_dir);
-  demand_bus(folder.bus_url, lock);
+  require_programs(services_of(arguments), arguments.bin_dir);
+  require_usable_bus(folder.bus_url, lock);
 } catch (const ConfigError& error) {
-  throw NotBegun{error.what()};
+  throw NotStarted{error.what()};
 }
 
-// The first service that ended for good; waits a while for its last words.
+// The first service that failed; waits for its last log line.
 class FailureWatch {
  public:
   explicit FailureWatch(std::string run_dir) : run_dir_(std::move(run_dir)) {}
   std::optional<std::string> look() {
-    constexpr int kSilentLooks = 100;
+    constexpr int kMaxEmptyLooks = 100;
     const auto failed = failed_services(run_dir_);
-    if (failed.empty() || (failed.front().said.empty() && ++silent_looks_ <= kSilentLooks)) return {};
+    if (failed.empty() || (failed.front().last_log_line.empty() && ++empty_looks_ <= kMaxEmptyLooks)) return {};
     return failed.front().line();
   }
 
  private:
   std::string run_dir_;
-  int silent_looks_ = 0;
+  int empty_looks_ = 0;
 };
 
 void handle_for(lcm::LCM& lcm, std::chrono::milliseconds period) {
   const auto until = std::chrono::steady_clock::now() + period;
-  for (auto left = period; left.count() > 0 && going();
+  for (auto left = period; left.count() > 0 && keep_running();
        left = std::chrono::duration_cast<std::chrono::milliseconds>(until - std::chrono::steady_clock::now()))
     lcm.handleTimeout(static_cast<int>(left.count()));
 }
 
-// Returns where the drive is over; throws NotBegun or ConfigError.
-void attend(const DriveArguments& arguments, const RunFolder& folder, S6Session& session) {
-  constexpr double kTicksLostS = 2.0;
+// Returns at the end of the drive; throws NotStarted or ConfigError.
+void supervise(const DriveArguments& arguments, const RunFolder& folder, S6Session& session) {
+  constexpr double kTickTimeoutS = 2.0;
   lcm::LCM lcm(folder.bus_url);
   DriveWatch watch(lcm);
   Progress progress(lcm, true);
   FailureWatch failures(folder.dir);
-  bool told_of_silence = false;
-  while (going()) {
+  bool timeout_reported = false;
+  while (keep_running()) {
     handle_for(lcm, std::chrono::milliseconds(100));
     progress.show();
     if (const auto failure = failures.look()) {
       if (progress.started()) throw ConfigError(*failure);
-      throw NotBegun{*failure};
+      throw NotStarted{*failure};
     }
     if (!session.running()) throw std::runtime_error("s6-svscan has ended; see " + folder.dir + "/service_logs/s6.log");
-    if (!watch.ticks_heard() && watch.silence_s() > arguments.patience_s)
-      throw NotBegun{"drive: no TICK on " + folder.bus_url + " within " +
-                     std::to_string(static_cast<int>(arguments.patience_s)) +
-                     " s. Start the vehicle's driver on this bus (to try it out: build/bin/example_driver); "
-                     "./rover conform checks it"};
-    if (const std::string problem = watch.driver_problem(); !problem.empty()) throw NotBegun{"drive: " + problem};
-    const bool silent = watch.ticks_heard() && watch.silence_s() > kTicksLostS;
-    if (silent && !told_of_silence) std::printf("\nno TICK any more: the rover's time stands still\n");
-    told_of_silence = silent;
+    if (!watch.ticks_received() && watch.tick_age_s() > arguments.timeout_s)
+      throw NotStarted{"drive: no TICK on " + folder.bus_url + " within " +
+                       std::to_string(static_cast<int>(arguments.timeout_s)) +
+                       " s. Start the vehicle's driver on this bus (to try it out: build/bin/example_driver); "
+                       "./rover conform checks it"};
+    if (const std::string problem = watch.driver_problem(); !problem.empty()) throw NotStarted{"drive: " + problem};
+    const bool silent = watch.ticks_received() && watch.tick_age_s() > kTickTimeoutS;
+    if (silent && !timeout_reported) std::printf("\nno TICK: message time has stopped\n");
+    timeout_reported = silent;
     if (progress.supervisor_hangs()) {
       kill_service(folder.dir, "supervisor");
       progress.supervisor_killed();
     }
-    if (watch.rests_at_goal() && (arguments.until_goal || watch.stop_ordered())) break;
+    if (watch.stationary_at_goal() && (arguments.until_goal || watch.stop_commanded())) break;
   }
   progress.finish();
 }
@@ -110,7 +110,7 @@ int report(const DriveArguments& arguments, const RunFolder& folder) {
   const bool truth = metrics.value("truth", false);
   std::printf("%s: %.1f m driven for %.1f m planned in %.0f s, %.0f repairs, %.0f hazard stops%s\n", outcome.c_str(),
               number("driven_length_m"), number("planned_length_m"), number("duration_s"), number("replans"),
-              number("hazard_stops"), truth ? "" : "; no truth: by the rover's own estimate");
+              number("hazard_stops"), truth ? "" : "; no ground truth: evaluated with the rover's own estimate");
   std::printf("report: %s/report.html\n", folder.dir.c_str());
   return outcome == "goal_reached" ? 0 : 1;
 }
@@ -125,13 +125,13 @@ int drive_in(const DriveArguments& arguments, const RunFolder& folder) {
   write_s6_tree(folder.dir, service_commands(arguments), false);
   {
     S6Session session(folder, arguments.bin_dir);
-    attend(arguments, folder, session);
+    supervise(arguments, folder, session);
     session.stop();
   }
   write_json(folder.dir + "/run.json", {{"scenario", "drive"},
                                         {"commit", commit_of(arguments.source_dir)},
                                         {"realtime", true},
-                                        {"interrupted", !going()},
+                                        {"interrupted", !keep_running()},
                                         {"outcome", "stopped"}});
   return report(arguments, folder);
 }
@@ -144,11 +144,11 @@ int drive(const DriveArguments& arguments) {
   try {
     check_machine(arguments, folder, lock);
     return drive_in(arguments, folder);
-  } catch (const NotBegun& problem) {
+  } catch (const NotStarted& problem) {
     remove_run_folder(folder);
     std::fprintf(stderr, "%s\n", in_users_files(problem.why, folder, arguments).c_str());
     return 2;
-  } catch (const ConfigError& error) {  // a service that met it only after the drive had begun
+  } catch (const ConfigError& error) {  // of a service, after the drive has started
     std::fprintf(stderr, "%s\n", in_users_files(error.what(), folder, arguments).c_str());
     return 2;
   } catch (const std::exception& error) {

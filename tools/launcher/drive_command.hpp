@@ -7,8 +7,8 @@
 namespace rover {
 
 struct DriveArguments {
-  std::string source_dir = ".";     // holds config/ and logs/
-  std::string bin_dir;              // holds the services' executables
+  std::string source_dir = ".";     // contains config/ and logs/
+  std::string bin_dir;              // contains the services' executables
   std::string config_dir;           // empty: source_dir/config
   std::string ground;               // start pose and path; empty: config_dir/ground.yaml
   std::string map;                  // orbital map; empty: none
@@ -17,7 +17,7 @@ struct DriveArguments {
   std::string record;               // full or reduced; empty: of recorder.yaml
   std::string level = "efficient";  // or auto: with the services of the Full level
   std::vector<std::string> set;     // file.key.key=value
-  double patience_s = 20.0;         // for the driver's first TICK
+  double timeout_s = 20.0;          // for the driver's first TICK
   bool headless = false;
   bool until_goal = false;
 };

@@ -23,14 +23,13 @@ void check_inputs(const DriveArguments& arguments) {
   if (!fs::is_directory(config_dir)) throw ConfigError(config_dir + ": no such folder");
   const std::string ground = ground_of(arguments);
   if (!fs::is_regular_file(ground))
-    throw ConfigError(ground +
-                      ": no such file. It says where the rover stands and where it shall go; begin with a copy of " +
-                      "examples/driver/ground.yaml, and name it by --ground");
+    throw ConfigError(ground + ": no such file. It contains the start pose and the path; start from a copy of " +
+                      "examples/driver/ground.yaml and select it with --ground");
 }
 
 ElevationMap read_map(const std::string& file) try {
   ElevationMap map = read_elevation_map(file);
-  demand_no_voids(map, file);
+  require_no_voids(map, file);
   return map;
 } catch (const DtmError& error) {
   throw ConfigError("--map " + std::string(error.what()));

@@ -16,16 +16,16 @@ class DriveWatch {
  public:
   explicit DriveWatch(lcm::LCM& lcm);
 
-  bool ticks_heard() const { return ticks_heard_; }
+  bool ticks_received() const { return ticks_received_; }
   // Checked once, after 3 s of ticks: silent channels, or clock offsets from TICK. Empty if not checked yet or no
   // problem.
   std::string driver_problem();
   // At the goal for one second of message time, so that the log contains it.
-  bool rests_at_goal() const { return states_at_goal_ >= 10; }
+  bool stationary_at_goal() const { return states_at_goal_ >= 10; }
   // True after STOP at the goal. Elsewhere STOP only stops the rover.
-  bool stop_ordered() const { return stop_ordered_; }
+  bool stop_commanded() const { return stop_commanded_; }
   // Wall time since the last tick, or since the start.
-  double silence_s() const { return std::chrono::duration<double>(Clock::now() - ticked_).count(); }
+  double tick_age_s() const { return std::chrono::duration<double>(Clock::now() - ticked_).count(); }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -34,9 +34,9 @@ class DriveWatch {
   void on_command(const ground_command_t& command);
 
   std::optional<conform::Listener> driver_;  // until checked
-  bool ticks_heard_ = false;
+  bool ticks_received_ = false;
   int states_at_goal_ = 0;
-  bool stop_ordered_ = false;
+  bool stop_commanded_ = false;
   Clock::time_point ticked_ = Clock::now();
 };
 

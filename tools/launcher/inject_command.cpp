@@ -26,22 +26,22 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-FaultOrder order_of(const InjectArguments& arguments, const FaultKind& kind) {
-  FaultOrder order{arguments.fault, arguments.target, arguments.amount};
-  if (order.target.empty() && kind.targets.size() == 1) order.target = kind.targets.front();
-  if (order.target.empty())
-    throw ConfigError("inject " + kind.name + ": a target is needed; see ./rover inject --list");
-  if (std::string problem = target_problem(kind, order.target, find_channel_type); !problem.empty())
+FaultRequest request_of(const InjectArguments& arguments, const FaultKind& kind) {
+  FaultRequest request{arguments.fault, arguments.target, arguments.amount};
+  if (request.target.empty() && kind.targets.size() == 1) request.target = kind.targets.front();
+  if (request.target.empty())
+    throw ConfigError("inject " + kind.name + ": a target is required; see ./rover inject --list");
+  if (std::string problem = target_problem(kind, request.target, find_channel_type); !problem.empty())
     throw ConfigError("inject " + kind.name + ": " + problem);
-  if (std::isnan(order.amount)) order.amount = kind.usual;
-  if (std::isnan(order.amount)) throw ConfigError("inject " + kind.name + ": --amount is needed, in " + kind.unit);
-  if (std::string problem = amount_problem(kind, order.amount); !problem.empty())
+  if (std::isnan(request.amount)) request.amount = kind.default_amount;
+  if (std::isnan(request.amount)) throw ConfigError("inject " + kind.name + ": --amount is required, in " + kind.unit);
+  if (std::string problem = amount_problem(kind, request.amount); !problem.empty())
     throw ConfigError("inject " + kind.name + ": --amount: " + problem);
-  if (std::isnan(arguments.for_s)) return order;
-  if (!kind.lasts) throw ConfigError("inject " + kind.name + ": --for: it takes no duration");
+  if (std::isnan(arguments.for_s)) return request;
+  if (!kind.has_duration) throw ConfigError("inject " + kind.name + ": --for: this fault has no duration");
   if (!(arguments.for_s > 0.0 && arguments.for_s < 1e6)) throw ConfigError("inject: --for: out of range (0, 1e6) s");
-  order.for_s = arguments.for_s;
-  return order;
+  request.for_s = arguments.for_s;
+  return request;
 }
 
 struct LiveRun {
@@ -52,7 +52,7 @@ struct LiveRun {
 
 std::string newest_live(const std::string& logs) {
   const auto newest = status::newest_running(logs);
-  if (!newest) throw ConfigError("inject: no run is under way in " + logs + "; name one by --run");
+  if (!newest) throw ConfigError("inject: no run is active in " + logs + "; select one with --run");
   return *newest;
 }
 
@@ -61,7 +61,7 @@ LiveRun find_run(const InjectArguments& arguments) {
   std::ifstream in(dir / "launch.json");
   const auto facts = nlohmann::json::parse(in, nullptr, false);
   if (!facts.is_object() || !status::is_running(dir))
-    throw ConfigError("inject: " + dir.string() + ": no run is under way there");
+    throw ConfigError("inject: " + dir.string() + ": no run is active there");
   const LiveRun run{fs::absolute(dir), facts.value("bus", ""), facts.value("allow_injection", false)};
   if (!run.allow_injection)
     throw ConfigError("inject: " + run.dir +
@@ -71,31 +71,31 @@ LiveRun find_run(const InjectArguments& arguments) {
 
 void signal_through_s6(const LiveRun& run, const std::string& service, const char* option) {
   if (!keeps_service(run.dir, service)) throw ConfigError("inject: this run has no service " + service);
-  if (!control_service(run.dir, service, option)) throw ConfigError("inject: s6-svc has failed on " + service);
+  if (!control_service(run.dir, service, option)) throw ConfigError("inject: s6-svc failed on " + service);
 }
 
 int pid_of(const LiveRun& run, const std::string& service) {
-  const auto said = output_of({"s6-svstat", "-o", "pid", run.dir + "/services/" + service});
-  return said ? std::atoi(said->c_str()) : -1;
+  const auto output = output_of({"s6-svstat", "-o", "pid", run.dir + "/services/" + service});
+  return output ? std::atoi(output->c_str()) : -1;
 }
 
 // Each kill waits for a new process, which s6 starts after up to 1 s.
-void kill_again_and_again(const LiveRun& run, const std::string& service, int times) {
-  constexpr auto kPatience = std::chrono::seconds(20);
+void kill_repeatedly(const LiveRun& run, const std::string& service, int times) {
+  constexpr auto kTimeout = std::chrono::seconds(20);
   for (int i = 0; i < times; ++i) {
-    const int struck = pid_of(run, service);
+    const int killed_pid = pid_of(run, service);
     signal_through_s6(run, service, "-k");
-    const auto until = Clock::now() + kPatience;
-    for (int pid = struck; i + 1 < times && (pid == struck || pid <= 0); pid = pid_of(run, service)) {
-      if (Clock::now() > until) throw ConfigError("inject: " + service + " does not come back");
+    const auto until = Clock::now() + kTimeout;
+    for (int pid = killed_pid; i + 1 < times && (pid == killed_pid || pid <= 0); pid = pid_of(run, service)) {
+      if (Clock::now() > until) throw ConfigError("inject: " + service + " was not restarted");
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
     }
   }
 }
 
-void strike_process(const LiveRun& run, const FaultOrder& order) {
-  if (order.fault == "hang") return signal_through_s6(run, order.target, "-p");
-  kill_again_and_again(run, order.target, order.fault == "restart_loop" ? static_cast<int>(order.amount) : 1);
+void inject_process_fault(const LiveRun& run, const FaultRequest& request) {
+  if (request.fault == "hang") return signal_through_s6(run, request.target, "-p");
+  kill_repeatedly(run, request.target, request.fault == "restart_loop" ? static_cast<int>(request.amount) : 1);
 }
 
 // Message time of the next tick on the bus.
@@ -114,7 +114,7 @@ Utime listen_for_time(lcm::LCM& bus) {
   return now;
 }
 
-void publish_injection(const LiveRun& run, const FaultOrder& order) {
+void publish_injection(const LiveRun& run, const FaultRequest& request) {
   lcm::LCM bus(run.bus);
   if (!bus.good()) throw ConfigError("bus: cannot join " + run.bus);
   const Utime now = listen_for_time(bus);
@@ -127,11 +127,12 @@ void publish_injection(const LiveRun& run, const FaultOrder& order) {
   injection.header.seq = 1;
   injection.header.publisher = "inject";
   injection.header.boot_id = injection.injection_id = id;
-  injection.fault = order.fault;
-  injection.target = order.target;
-  injection.amount = order.amount;
+  injection.fault = request.fault;
+  injection.target = request.target;
+  injection.amount = request.amount;
   injection.from_utime = now;
-  injection.until_utime = std::isfinite(order.for_s) ? now + to_utime(order.for_s) : std::numeric_limits<Utime>::max();
+  injection.until_utime =
+      std::isfinite(request.for_s) ? now + to_utime(request.for_s) : std::numeric_limits<Utime>::max();
   if (bus.publish(channel::kInject, &injection) != 0) throw ConfigError("bus: cannot send on " + run.bus);
 }
 
@@ -143,16 +144,15 @@ int inject(const InjectArguments& arguments) {
     return 0;
   }
   const FaultKind* kind = find_fault(arguments.fault);
-  if (arguments.fault.empty()) throw ConfigError("inject: which fault? ./rover inject --list names them");
-  if (kind == nullptr)
-    throw ConfigError("inject: '" + arguments.fault + "' is not a fault; ./rover inject --list names them");
-  const FaultOrder order = order_of(arguments, *kind);
+  if (arguments.fault.empty()) throw ConfigError("inject: no fault given; see ./rover inject --list");
+  if (kind == nullptr) throw ConfigError("inject: '" + arguments.fault + "' is not a fault; see ./rover inject --list");
+  const FaultRequest request = request_of(arguments, *kind);
   const LiveRun run = find_run(arguments);
   if (kind->on == FaultTarget::kService)
-    strike_process(run, order);
+    inject_process_fault(run, request);
   else
-    publish_injection(run, order);
-  std::printf("injected %s on %s in %s\n", order.fault.c_str(), order.target.c_str(), run.dir.c_str());
+    publish_injection(run, request);
+  std::printf("injected %s on %s in %s\n", request.fault.c_str(), request.target.c_str(), run.dir.c_str());
   return 0;
 }
 

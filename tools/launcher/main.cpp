@@ -29,20 +29,20 @@ void add_run_options(CLI::App& command, rover::RunArguments& run) {
 
 void add_status_options(CLI::App& command, rover::status::StatusArguments& status) {
   CLI::Option* json = command.add_flag("--json", status.json, "one JSON document");
-  command.add_flag("--watch", status.watch, "again each second, until Ctrl-C")->excludes(json);
-  command.add_option("--run", status.target.run, "folder of the run; default: the newest in logs/ that runs")
+  command.add_flag("--watch", status.watch, "repeat every second until Ctrl-C")->excludes(json);
+  command.add_option("--run", status.target.run, "run folder; default: the newest running one in logs/")
       ->transform(rover::is_user_path());
-  command.add_option("--bus", status.target.bus, "LCM URL; default: the run's. Without a run: the bus alone")
-      ->check(rover::is_bus_url());
+  command.add_option("--bus", status.target.bus, "LCM URL; default: that of the run")->check(rover::is_bus_url());
 }
 
 CLI::App* add_inject_command(CLI::App& app, rover::InjectArguments& inject) {
-  CLI::App* command = app.add_subcommand("inject", "do a fault to a running system. Example: ./rover inject drop VO");
+  CLI::App* command =
+      app.add_subcommand("inject", "inject a fault into a running system. Example: ./rover inject drop VO");
   command->add_option("fault", inject.fault, "one of --list");
   command->add_option("target", inject.target, "service, CHANNEL, CHANNEL.field, wheel ...; see --list");
-  command->add_option("--amount", inject.amount, "in the fault's unit; default: its usual one");
+  command->add_option("--amount", inject.amount, "in the fault's unit; default: see --list");
   command->add_option("--for", inject.for_s, "duration in seconds of message time; default: until the end");
-  command->add_option("--run", inject.run_dir, "the run's folder; default: the newest that runs")
+  command->add_option("--run", inject.run_dir, "run folder; default: the newest running one")
       ->transform(rover::is_user_path());
   command->add_flag("--list", inject.list, "list the faults");
   inject.source_dir = rover::project_dir();
@@ -52,22 +52,22 @@ CLI::App* add_inject_command(CLI::App& app, rover::InjectArguments& inject) {
 CLI::App* add_replay_command(CLI::App& app, rover::ReplayArguments& replay) {
   CLI::App* command = app.add_subcommand(
       "replay", "play a log back. Example: ./rover replay logs/RUN --services stereo,visual_odometry --speed 2");
-  command->add_option("log", replay.log, "an LCM log, or the folder of a run")
-      ->required()
-      ->transform(rover::is_user_path());
+  command->add_option("log", replay.log, "log file or run folder")->required()->transform(rover::is_user_path());
   rover::add_log_run(*command, replay.log_run);
   rover::repeatable(command->add_option("--services", replay.services,
-                                        "run live; what they said in the log is muted; all: every one"))
+                                        "services to run live; their logged messages are muted; all: every service"))
       ->delimiter(',');
   CLI::Option* check =
-      command->add_flag("--check", replay.check, "compare what the services say with the log, byte by byte");
+      command->add_flag("--check", replay.check, "compare the services' messages with the log, byte by byte");
   command->add_option("--from", replay.from_s, "begin at this message time [s]")
       ->check(rover::not_negative())
       ->excludes(check);
   command->add_option("--until", replay.until_s, "end at this message time [s]")->check(rover::not_negative());
   command->add_option("--speed", replay.speed, "times real time, or max")->excludes(check)->capture_default_str();
-  command->add_flag("--loop", replay.loop, "again and again, until q or Ctrl-C")->excludes(check);
-  command->add_option("--config", replay.config_dir, "configuration; default: that beside the log, or the project's")
+  command->add_flag("--loop", replay.loop, "repeat until q or Ctrl-C")->excludes(check);
+  command
+      ->add_option("--config", replay.config_dir,
+                   "configuration folder; default: that of the log's run, else the project's")
       ->transform(rover::is_user_path());
   rover::repeatable(
       command->add_option("--set", replay.run.set, "set a value of the configuration: file.key=value, repeatable"));
@@ -79,7 +79,7 @@ CLI::App* add_replay_command(CLI::App& app, rover::ReplayArguments& replay) {
 
 CLI::App* add_drive_command(CLI::App& app, rover::DriveArguments& drive) {
   CLI::App* command = app.add_subcommand(
-      "drive", "the stack for a vehicle's drivers. Example: ./rover drive --ground ground.yaml --map map.tif");
+      "drive", "run the stack with a vehicle's drivers. Example: ./rover drive --ground ground.yaml --map map.tif");
   command->add_option("--config", drive.config_dir, "folder of the configuration; default: config")
       ->transform(rover::is_user_path());
   command->add_option("--ground", drive.ground, "start pose and path; default: ground.yaml of the configuration")
@@ -90,14 +90,14 @@ CLI::App* add_drive_command(CLI::App& app, rover::DriveArguments& drive) {
   command->add_option("--out", drive.out, "folder of the run; default: logs/<time>-drive")
       ->transform(rover::is_user_path());
   command->add_option("--record", drive.record, "full or reduced")->check(CLI::IsMember({"full", "reduced"}));
-  command->add_option("--patience", drive.patience_s, "seconds to wait for the driver's first TICK")
+  command->add_option("--timeout", drive.timeout_s, "timeout for the driver's first TICK [s]")
       ->check(CLI::Range(1.0, 3600.0))
       ->capture_default_str();
-  command->add_option("--level", drive.level, "autonomy level: efficient, or auto: up to Full where it is needed")
+  command->add_option("--level", drive.level, "autonomy level: efficient, or auto: Full where required")
       ->check(CLI::IsMember({"auto", "efficient"}))
       ->capture_default_str();
   command->add_flag("--headless", drive.headless, "no page");
-  command->add_flag("--until-goal", drive.until_goal, "end at the goal, without an order to stop");
+  command->add_flag("--until-goal", drive.until_goal, "end at the goal without a stop command");
   rover::repeatable(
       command->add_option("--set", drive.set, "set a value of the configuration: file.key=value, repeatable"));
   return command;
@@ -109,8 +109,8 @@ int main(int argc, char** argv) {
   CLI::App app("./rover: guidance, navigation and control of a planetary rover");
   app.name("./rover");
   app.require_subcommand(1);
-  bool tell_needs = false;  // for the script ./rover, which builds the needed programs
-  app.add_flag("--needs-full-level", tell_needs)->group("");
+  bool print_needs = false;  // for the script ./rover, which builds the needed programs
+  app.add_flag("--needs-full-level", print_needs)->group("");
   rover::RunArguments run;
   run.source_dir = rover::project_dir();
   run.bin_dir = std::filesystem::canonical("/proc/self/exe").parent_path();
@@ -125,7 +125,7 @@ int main(int argc, char** argv) {
   run_command->add_option("--bus", run.bus, "LCM URL; default: of config/bus.yaml")->check(rover::is_bus_url());
   run_command->add_option("--record", run.record, "full or reduced")->check(CLI::IsMember({"full", "reduced"}));
   run_command->add_flag("--headless", run.headless, "no page");
-  run_command->add_flag("--allow-injection", run.allow_injection, "let ./rover inject do faults to this run");
+  run_command->add_flag("--allow-injection", run.allow_injection, "allow ./rover inject in this run");
   run_command->add_flag("--realtime", run.realtime, "pace by the clock instead of lockstep");
   add_run_options(*run_command, run);
 
@@ -135,13 +135,12 @@ int main(int argc, char** argv) {
   bench_command->add_option("suite", bench.suite, "seed: both seed traverses")->capture_default_str();
   bench_command->add_option("--seeds", seeds, "a range like 1..10 or a list like 1,4,7")->capture_default_str();
   bench_command->add_flag("--resume", bench.resume, "keep the rows that this commit already has");
-  bench_command->add_option("--jobs", bench.jobs, "runs at a time")->check(CLI::Range(1, 64))->capture_default_str();
+  bench_command->add_option("--jobs", bench.jobs, "parallel runs")->check(CLI::Range(1, 64))->capture_default_str();
   add_run_options(*bench_command, run);
 
   rover::status::StatusArguments status;
   status.target.logs_dir = run.source_dir + "/logs";
-  CLI::App* status_command =
-      app.add_subcommand("status", "what the running rover does. Example: ./rover status --watch");
+  CLI::App* status_command = app.add_subcommand("status", "status of a running rover. Example: ./rover status --watch");
   add_status_options(*status_command, status);
 
   rover::InjectArguments inject;
@@ -163,7 +162,7 @@ int main(int argc, char** argv) {
     return rover::end_of_parse(app, error);
   }
   try {
-    if (tell_needs) {
+    if (print_needs) {
       const bool full = (run_command->parsed() && rover::needs_full_level(run)) ||
                         (drive_command->parsed() && rover::needs_full_level(drive)) ||
                         (replay_command->parsed() && rover::needs_full_level(replay));

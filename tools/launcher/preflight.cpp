@@ -55,10 +55,10 @@ std::vector<std::string> bus_problems(const std::string& bus_url) {
     problems.push_back(
         "bus: the kernel allows receive buffers of " + std::to_string(allowed) + " bytes, " +
         std::to_string(address->receive_buffer) +
-        " are needed. Mend it with: sudo sysctl -w net.core.rmem_max=" + std::to_string(address->receive_buffer));
+        " are required. Fix it with: sudo sysctl -w net.core.rmem_max=" + std::to_string(address->receive_buffer));
   if (!can_send_multicast(*address))
     problems.push_back("bus: no route for multicast to " + address->group +
-                       ". Mend it with: sudo ip link set lo multicast on && sudo ip route add 224.0.0.0/4 dev lo");
+                       ". Fix it with: sudo ip link set lo multicast on && sudo ip route add 224.0.0.0/4 dev lo");
   return problems;
 }
 
@@ -76,18 +76,18 @@ BusLock::~BusLock() {
   if (fd_ >= 0) close(fd_);
 }
 
-void demand_programs(const std::vector<std::string>& services, const std::string& bin_dir) {
+void require_programs(const std::vector<std::string>& services, const std::string& bin_dir) {
   for (const std::string& service : services)
     if (!std::filesystem::exists(bin_dir + "/" + service))
-      throw ConfigError(service + " is not built; ./rover build builds everything");
+      throw ConfigError(service + " is not built; build it with ./rover build");
 }
 
-void demand_bus(const std::string& bus_url, const BusLock& lock) {
+void require_usable_bus(const std::string& bus_url, const BusLock& lock) {
   std::string lines;
   for (const std::string& problem : bus_problems(bus_url)) lines += (lines.empty() ? "" : "\n") + problem;
   if (!lines.empty()) throw ConfigError(lines);
   if (!lock.held())
-    throw ConfigError("bus: another rover runs on " + bus_url + ". Stop it, or give this one a bus: --bus udpm://...");
+    throw ConfigError("bus: another rover runs on " + bus_url + ". Stop it, or choose another bus: --bus udpm://...");
 }
 
 std::string page_line(const std::string& config_dir) try {
@@ -101,8 +101,8 @@ std::string page_line(const std::string& config_dir) try {
   if (!served) return "";
   const std::string at = "http://" + address + ":" + std::to_string(port);
   if (!is_taken(address, port)) return "page: " + at;
-  return "page: " + at +
-         " is taken; this run has no page. Another one: --set mission_control.port=" + std::to_string(port + 1);
+  return "page: " + at + " is in use; this run has no page. Choose another port: --set  mission_control.port=" +
+         std::to_string(port + 1);
 } catch (const ConfigError&) {
   return "";  // the service reports the error and the run ends
 }

@@ -23,10 +23,10 @@ class BusLock {
 };
 
 // Throws ConfigError if a service is not built.
-void demand_programs(const std::vector<std::string>& services, const std::string& bin_dir);
+void require_programs(const std::vector<std::string>& services, const std::string& bin_dir);
 
 // Throws ConfigError, one line per problem, if the bus is unusable or locked by another rover.
-void demand_bus(const std::string& bus_url, const BusLock& lock);
+void require_usable_bus(const std::string& bus_url, const BusLock& lock);
 
 // One line with the page's address; empty without a page. A used port disables the page, not the run.
 std::string page_line(const std::string& config_dir);

@@ -55,7 +55,7 @@ std::string Progress::line() const {
   char text[256];
   std::snprintf(
       text, sizeof text,
-      "%7.1f m driven  %6.1f m to go  %5.2f m/s  %-12s %-9s  %2d repairs  %2d hazard stops  %4.1fx  end in %s",
+      "%7.1f m driven  %6.1f m remaining  %5.2f m/s  %-12s %-9s  %2d repairs  %2d hazard stops  %4.1fx  end in %s",
       pose_.travelled_m, planner_.goal_distance_m, speed, state_name(state_.state).c_str(),
       level_name(state_.level).c_str(), planner_.replans, state_.hazard_stops, factor, expected);
   return text;

@@ -29,13 +29,13 @@ namespace {
 
 using replay::RecordedLog;
 
-// What is asked for, looked through before anything starts.
+// Validated arguments.
 struct Plan {
   std::string log_file;
   std::string log_dir;
-  std::string name;  // of the log's folder or file
+  std::string name;  // name of the log's folder or file
   std::string config_from;
-  std::string bus_url;  // where no service is live
+  std::string bus_url;  // used without live services
   std::vector<std::string> live;
   bool records = false;
   bool injects = false;
@@ -46,11 +46,11 @@ std::string config_from(const ReplayArguments& arguments, const std::string& log
   const std::string own = log_dir + "/config";
   std::string dir = arguments.config_dir;
   if (dir.empty()) dir = fs::exists(own + "/vehicle.yaml") ? own : arguments.run.source_dir + "/config";
-  if (!fs::is_regular_file(dir + "/bus.yaml")) throw ConfigError(dir + ": holds no configuration (bus.yaml)");
+  if (!fs::is_regular_file(dir + "/bus.yaml")) throw ConfigError(dir + ": contains no configuration (bus.yaml)");
   return dir;
 }
 
-std::vector<std::string> speaking_services(const RecordedLog& log) {
+std::vector<std::string> publishing_services(const RecordedLog& log) {
   std::vector<std::string> names;
   for (const std::string& name : service_names(true))
     if (name != "recorder" && name != "mission_control" && !replay::boots_of(log, name).empty()) names.push_back(name);
@@ -60,8 +60,9 @@ std::vector<std::string> speaking_services(const RecordedLog& log) {
 std::vector<std::string> live_services(const ReplayArguments& arguments, const RecordedLog& log) {
   const bool all = arguments.services == std::vector<std::string>{"all"};
   if (all || (arguments.check && arguments.services.empty())) {
-    const std::vector<std::string> names = speaking_services(log);
-    if (names.empty()) throw ConfigError(arguments.log + ": no service speaks in it; name some by --services");
+    const std::vector<std::string> names = publishing_services(log);
+    if (names.empty())
+      throw ConfigError(arguments.log + ": contains no messages of services; select some with --services");
     return names;
   }
   std::vector<std::string> names;
@@ -70,7 +71,7 @@ std::vector<std::string> live_services(const ReplayArguments& arguments, const R
     if (std::find(services.begin(), services.end(), name) == services.end()) {
       std::string known;
       for (const std::string& service : services) known += (known.empty() ? "" : ", ") + service;
-      throw ConfigError("--services: no service '" + name + "'; there are: " + known);
+      throw ConfigError("--services: no service '" + name + "'; known services: " + known);
     }
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
@@ -92,12 +93,12 @@ void set_range(const ReplayArguments& arguments, const RecordedLog& log, replay:
                             std::to_string(to_seconds(last)) + " s of message time";
   if (arguments.from_s >= 0.0) player.from = to_utime(arguments.from_s);
   if (arguments.until_s >= 0.0) player.until = to_utime(arguments.until_s);
-  if (player.from > last) throw ConfigError("--from: behind the end" + there);
+  if (player.from > last) throw ConfigError("--from: after the end" + there);
   if (player.until != kNever && player.until < std::max(first, player.from))
     throw ConfigError("--until: before the beginning" + there);
 }
 
-// A service that was started anew holds what its first process did not: it is compared until that one's last word.
+// A restarted service has another state, so it is compared only until the last message of its first process.
 void end_at_restarts(const std::vector<std::string>& live, const RecordedLog& log, replay::PlayerOptions& player) {
   for (const std::string& name : live) {
     const auto boots = replay::boots_of(log, name);
@@ -105,18 +106,18 @@ void end_at_restarts(const std::vector<std::string>& live, const RecordedLog& lo
     const Utime end = boots.begin()->second;
     if (player.until != kNever && player.until <= end) continue;
     player.until = end;
-    std::printf("%s was started anew in the log: checked until %.2f s\n", name.c_str(), to_seconds(end));
+    std::printf("%s was restarted in the log: checked until %.2f s\n", name.c_str(), to_seconds(end));
   }
   if (player.until != kNever && player.until < log.ticks().front())
     throw ConfigError("the log begins with a restart: nothing of it can be checked");
 }
 
-// A log without its images gives services nothing to work on.
-void demand_whole_streams(const std::string& file, const RecordedLog& log) {
+// Without its images a log cannot be recomputed.
+void require_whole_streams(const std::string& file, const RecordedLog& log) {
   for (const replay::RecordedStream& stream : log.streams()) {
-    const std::int64_t said = stream.last_seq - stream.first_seq + 1;
-    if (stream.count < said / 2)
-      throw ConfigError(file + ": holds " + std::to_string(stream.count) + " of " + std::to_string(said) +
+    const std::int64_t published = stream.last_seq - stream.first_seq + 1;
+    if (stream.count < published / 2)
+      throw ConfigError(file + ": contains " + std::to_string(stream.count) + " of " + std::to_string(published) +
                         " messages of " + stream.channel + " (recorded reduced): it cannot be checked");
   }
 }
@@ -141,7 +142,7 @@ Plan make_plan(const ReplayArguments& arguments, const RecordedLog& log) {
   plan.player.speed = arguments.check ? 0.0 : speed_of(arguments.speed);
   set_range(arguments, log, plan.player);
   if (!arguments.check) return plan;
-  demand_whole_streams(log_file, log);
+  require_whole_streams(log_file, log);
   end_at_restarts(plan.live, log, plan.player);
   return plan;
 }
@@ -152,7 +153,7 @@ std::vector<ServiceCommand> service_commands(const Plan& plan) {
   return commands;
 }
 
-// Headers bear the number of the start: each service continues the count that its first process in the log has.
+// Headers contain the boot number: each service starts with that of its first process in the log.
 void set_boots(const Plan& plan, const RecordedLog& log, const RunFolder& folder) {
   for (const std::string& name : plan.live) {
     const auto boots = replay::boots_of(log, name);
@@ -160,7 +161,7 @@ void set_boots(const Plan& plan, const RecordedLog& log, const RunFolder& folder
   }
 }
 
-// One line kept up to date on a terminal; elsewhere silence.
+// A progress line on a terminal, else nothing.
 class Display {
  public:
   Display(Utime last, bool can_go_back)
@@ -187,7 +188,7 @@ class Display {
   Clock::time_point shown_{};
 };
 
-// Ends the replay where a service has ended for good.
+// Ends the replay if a service has failed.
 class Watch {
  public:
   explicit Watch(std::string dir) : dir_(std::move(dir)) {}
@@ -206,20 +207,20 @@ class Watch {
 };
 
 replay::PlayResult play_once(const Plan& plan, RecordedLog& log, const std::string& bus_url, Watch& watch,
-                             const replay::Keyboard& keyboard, replay::Comparison* judge) {
+                             const replay::Keyboard& keyboard, replay::Comparison* comparison) {
   lcm::LCM bus(bus_url);
   lcm::LCM reports(reports_url(bus_url));
   if (!bus.good() || !reports.good()) throw ConfigError("bus: cannot join " + bus_url);
   Display display(log.ticks().back(), plan.live.empty());
   replay::PlayerHooks hooks;
-  hooks.running = [&] { return going() && watch.fine(); };
+  hooks.running = [&] { return keep_running() && watch.fine(); };
   hooks.key = [&] { return keyboard.take(); };
   hooks.show = [&](Utime now, const replay::Pacer& pacer) { display.show(now, pacer); };
-  replay::Player player(plan.player, log, bus, reports, judge);
+  replay::Player player(plan.player, log, bus, reports, comparison);
   return player.play(hooks);
 }
 
-// For ./rover report: the facts of the recorded run, and what the replay adds.
+// For ./rover report: metadata of the recorded run and of the replay.
 void write_run_json(const Plan& plan, const RunArguments& arguments, const RunFolder& folder,
                     const replay::PlayResult& played) {
   std::ifstream in(plan.log_dir + "/run.json");
@@ -234,8 +235,8 @@ void write_run_json(const Plan& plan, const RunArguments& arguments, const RunFo
   write_json(folder.dir + "/run.json", facts);
 }
 
-int tell_verdict(const Plan& plan, replay::Comparison& judge, const replay::PlayResult& played) {
-  const auto verdicts = judge.finish(played.last);
+int print_verdict(const Plan& plan, replay::Comparison& comparison, const replay::PlayResult& played) {
+  const auto verdicts = comparison.finish(played.last);
   std::printf("%s", replay::comparison_table(verdicts, replay::field_difference).c_str());
   std::int64_t identical = 0;
   for (const auto& verdict : verdicts) identical += verdict.identical;
@@ -252,28 +253,28 @@ int tell_verdict(const Plan& plan, replay::Comparison& judge, const replay::Play
   return first || played.quit || identical == 0 ? 1 : 0;
 }
 
-// Services over the log, once. Exit status; `quit`: by the user.
+// Plays the log once with live services. Returns the exit status; `quit`: by the user.
 int play_live(const ReplayArguments& arguments, const Plan& plan, RecordedLog& log, const replay::Keyboard& keyboard,
               bool& quit) {
   const RunFolder folder = make_replay_folder(arguments.run, plan.name, plan.config_from, plan.log_dir);
   write_json(folder.dir + "/launch.json", {{"bus", folder.bus_url}, {"allow_injection", plan.injects}});
   write_s6_tree(folder.dir, service_commands(plan), plan.injects);
   set_boots(plan, log, folder);
-  replay::Comparison judge;
+  replay::Comparison comparison;
   replay::PlayResult played;
   Watch watch(folder.dir);
   std::string gone;
   {
     S6Session session(folder, arguments.run.bin_dir);
     try {
-      played = play_once(plan, log, folder.bus_url, watch, keyboard, arguments.check ? &judge : nullptr);
+      played = play_once(plan, log, folder.bus_url, watch, keyboard, arguments.check ? &comparison : nullptr);
     } catch (const replay::ServiceGone& error) {
       gone = error.what();
     }
     session.stop();
   }
   quit = played.quit;
-  // Read again: what a service has said is there when its logger has ended.
+  // Read again: the log of a service is complete when its logger has ended.
   if (const auto all = failed_services(folder.dir); !all.empty()) {
     remove_run_folder(folder);
     throw ConfigError(in_users_files(all.front().line(), folder, plan.config_from));
@@ -283,7 +284,7 @@ int play_live(const ReplayArguments& arguments, const Plan& plan, RecordedLog& l
     return 1;
   }
   int status = 0;
-  if (arguments.check) status = tell_verdict(plan, judge, played);
+  if (arguments.check) status = print_verdict(plan, comparison, played);
   if (plan.records) write_run_json(plan, arguments.run, folder, played);
   if (plan.records)
     std::printf("recorded: %s\n", folder.dir.c_str());
@@ -293,8 +294,8 @@ int play_live(const ReplayArguments& arguments, const Plan& plan, RecordedLog& l
 }
 
 int play_log_alone(const Plan& plan, RecordedLog& log, const replay::Keyboard& keyboard, bool& quit) {
-  Watch nobody("");
-  quit = play_once(plan, log, plan.bus_url, nobody, keyboard, nullptr).quit;
+  Watch no_services("");
+  quit = play_once(plan, log, plan.bus_url, no_services, keyboard, nullptr).quit;
   return 0;
 }
 
@@ -303,18 +304,18 @@ int play_log_alone(const Plan& plan, RecordedLog& log, const replay::Keyboard& k
 int replay_log(const ReplayArguments& arguments) {
   RecordedLog log(arguments.log, arguments.log_run);
   print_remarks(log.run());
-  if (log.left_messages() > 0)
-    std::fprintf(
-        stderr,
-        "%s: %lld messages are not played: behind the last TICK, or on channels with longer names than LCM sends\n",
-        log.run().log.c_str(), static_cast<long long>(log.left_messages()));
+  if (log.skipped_messages() > 0)
+    std::fprintf(stderr,
+                 "%s: %lld messages are not played: after the last TICK, or on channels with too long names for LCM\n",
+                 log.run().log.c_str(), static_cast<long long>(log.skipped_messages()));
   const Plan plan = make_plan(arguments, log);
   if (arguments.check && log.by_the_clock())
-    std::fprintf(stderr, "%s: this run followed the clock; in lockstep its services may say other things\n",
+    std::fprintf(stderr,
+                 "%s: this run was paced by the clock; in lockstep its services may publish different messages\n",
                  plan.log_file.c_str());
-  demand_programs(plan.live, arguments.run.bin_dir);
+  require_programs(plan.live, arguments.run.bin_dir);
   const BusLock lock(plan.bus_url);
-  demand_bus(plan.bus_url, lock);
+  require_usable_bus(plan.bus_url, lock);
   catch_interrupts();
   const replay::Keyboard keyboard;
   bool quit = false;

@@ -41,16 +41,16 @@ std::vector<ServiceCommand> service_commands(const RunArguments& arguments, cons
   return commands;
 }
 
-enum class End { kOver, kFailed, kNeverBegun };
+enum class End { kOver, kFailed, kNotStarted };
 
 End wait_for_end(const RunArguments& arguments, const RunFolder& folder, S6Session& session) {
   lcm::LCM lcm(folder.bus_url);
   Progress progress(lcm, !arguments.quiet);
   const std::string end_file = folder.dir + "/simulation.json";
   // On a busy machine a service may end before its logger has started.
-  constexpr int kSilentLooks = 100;
-  int silent_looks = 0;
-  while (going()) {
+  constexpr int kMaxEmptyLooks = 100;
+  int empty_looks = 0;
+  while (keep_running()) {
     lcm.handleTimeout(100);
     progress.show();
     if (progress.supervisor_hangs()) {
@@ -59,8 +59,8 @@ End wait_for_end(const RunArguments& arguments, const RunFolder& folder, S6Sessi
     }
     if (fs::exists(end_file)) break;
     const auto failed = failed_services(folder.dir);
-    if (!failed.empty() && (!failed.front().said.empty() || ++silent_looks > kSilentLooks))
-      return progress.started() ? End::kFailed : End::kNeverBegun;
+    if (!failed.empty() && (!failed.front().last_log_line.empty() || ++empty_looks > kMaxEmptyLooks))
+      return progress.started() ? End::kFailed : End::kNotStarted;
     if (!session.running()) {
       std::fprintf(stderr, "s6-svscan has ended; see %s/service_logs/s6.log\n", folder.dir.c_str());
       return End::kFailed;
@@ -71,7 +71,7 @@ End wait_for_end(const RunArguments& arguments, const RunFolder& folder, S6Sessi
 }
 
 // Several services may fail on the same value; report one.
-void tell(const FailedService& failed, const RunArguments& arguments, const RunFolder& folder) {
+void report_failure(const FailedService& failed, const RunArguments& arguments, const RunFolder& folder) {
   std::fprintf(stderr, "%s\n", in_users_files(failed.line(), folder, arguments.source_dir + "/config").c_str());
 }
 
@@ -82,7 +82,7 @@ void write_run_json(const RunArguments& arguments, const RunFolder& folder) {
                                 {"commit", commit_of(arguments.source_dir)},
                                 {"level", folder.level},
                                 {"realtime", arguments.realtime},
-                                {"interrupted", !going()}};
+                                {"interrupted", !keep_running()}};
   write_json(folder.dir + "/run.json", facts);
 }
 
@@ -119,8 +119,8 @@ RunResult run(const RunArguments& given) {
   }
   const BusLock lock(folder.bus_url);
   try {
-    demand_programs(services_of(folder), arguments.bin_dir);
-    demand_bus(folder.bus_url, lock);
+    require_programs(services_of(folder), arguments.bin_dir);
+    require_usable_bus(folder.bus_url, lock);
   } catch (const ConfigError& error) {
     std::fprintf(stderr, "%s\n", error.what());
     remove_run_folder(folder);
@@ -143,8 +143,8 @@ RunResult run(const RunArguments& given) {
   }
   if (end != End::kOver) {
     const auto failed = failed_services(folder.dir);
-    if (!failed.empty()) tell(failed.front(), arguments, folder);
-    if (end == End::kNeverBegun) {
+    if (!failed.empty()) report_failure(failed.front(), arguments, folder);
+    if (end == End::kNotStarted) {
       remove_run_folder(folder);
       result.dir.clear();
     }

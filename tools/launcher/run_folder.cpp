@@ -122,7 +122,7 @@ void apply_setting(const std::string& setting, const std::string& config_dir) {
   const size_t equals = setting.find('=');
   const std::vector<std::string> keys = keys_of(setting.substr(0, equals));
   if (equals == std::string::npos || equals + 1 == setting.size() || keys.size() < 2)
-    throw ConfigError("--set " + setting + ": file.key=value is expected, as in path_planner.margin_m=0.2");
+    throw ConfigError("--set " + setting + ": file.key=value is expected, as in path_planner.clearance.normal_m=0.2");
   const fs::path file = fs::path(config_dir) / (keys.front() + ".yaml");
   std::error_code ignored;  // name too long
   if (!fs::exists(file, ignored))
@@ -143,10 +143,10 @@ void create_folders(const std::string& run_dir) {
   const fs::path dir(run_dir);
   std::error_code error;
   if (fs::exists(dir) && !fs::is_empty(dir, error))
-    throw ConfigError(dir.string() + ": exists already and is not empty");
+    throw ConfigError(dir.string() + ": already exists and is not empty");
   fs::create_directories(dir / "config", error);
   fs::create_directories(dir / "service_logs", error);
-  if (error) throw ConfigError(dir.string() + ": cannot be made: " + error.message());
+  if (error) throw ConfigError(dir.string() + ": cannot be created: " + error.message());
 }
 
 RunFolder make_run_folder(const RunArguments& arguments) {

@@ -99,8 +99,8 @@ bool S6Session::running() {
 void S6Session::stop() {
   if (pid_ <= 0) return;
   kill(pid_, SIGTERM);
-  constexpr int kPatienceMs = 10'000;
-  for (int waited = 0; waited < kPatienceMs; waited += 10) {
+  constexpr int kTimeoutMs = 10'000;
+  for (int waited = 0; waited < kTimeoutMs; waited += 10) {
     if (waitpid(pid_, nullptr, WNOHANG) != 0) {
       pid_ = -1;
       return;
@@ -121,7 +121,7 @@ std::vector<FailedService> failed_services(const std::string& run_dir) {
     failed.push_back({name, last_line(fs::path(run_dir) / "service_logs" / name / "current")});
   }
   std::sort(failed.begin(), failed.end(), [](const FailedService& a, const FailedService& b) {
-    return std::pair(a.said.empty(), a.name) < std::pair(b.said.empty(), b.name);
+    return std::pair(a.last_log_line.empty(), a.name) < std::pair(b.last_log_line.empty(), b.name);
   });
   return failed;
 }

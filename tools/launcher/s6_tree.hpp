@@ -36,8 +36,8 @@ class S6Session {
 // A service that failed and is not restarted.
 struct FailedService {
   std::string name;
-  std::string said;  // last line of its log; empty until the logger has written it
-  std::string line() const { return said.empty() ? name + ": ended with exit status 2" : said; }
+  std::string last_log_line;  // last line of its log; empty until the logger has written it
+  std::string line() const { return last_log_line.empty() ? name + ": ended with exit status 2" : last_log_line; }
 };
 // Services with a log line first, then by name.
 std::vector<FailedService> failed_services(const std::string& run_dir);

@@ -41,18 +41,18 @@ Line on_map(const std::vector<Place>& places, const Geography& geography, bool l
   return line;
 }
 
-// The goal is at the start already: no plan.
+// Refuses a goal that is at the start already.
 void check_distances(const std::vector<Place>& places, const Line& waypoints, double goal_tolerance_m) {
   for (size_t i = 1; i < waypoints.size(); ++i)
     if (const double distance_m = (waypoints[i] - waypoints[i - 1]).norm(); distance_m <= goal_tolerance_m)
       throw ConfigError(
-          fmt::format("{} {},{}: lies {:.2f} m from {} before it; more than {} m are needed (path.goal_tolerance_m)",
+          fmt::format("{} {},{}: lies {:.2f} m from {} before it; more than {} m are required (goal_tolerance_m of "
+                      "navigation.yaml)",
                       places[i].option, places[i].given.x(), places[i].given.y(), distance_m, places[i - 1].option,
                       goal_tolerance_m));
 }
 
-std::string what_is_wrong(const Plan& plan, const ElevationMap& map, const Line& waypoints,
-                          const PlannerConfig& config) {
+std::string problem_of(const Plan& plan, const ElevationMap& map, const Line& waypoints, const PlannerConfig& config) {
   switch (plan.status) {
     case PlanStatus::kPlanned:
       return "";
@@ -61,12 +61,12 @@ std::string what_is_wrong(const Plan& plan, const ElevationMap& map, const Line&
                          waypoints[plan.waypoint].x(), waypoints[plan.waypoint].y(), map.raster.width_m(),
                          map.raster.height_m());
     case PlanStatus::kNoData:
-      return "lies where the map has no data";
+      return "has no map data";
     case PlanStatus::kNotClear:
-      return fmt::format("lies {:.1f} m from an obstacle or unknown ground; {:.1f} m are needed (cost.clearance_m)",
+      return fmt::format("lies {:.1f} m from an obstacle or unknown ground; {:.1f} m are required (cost.clearance_m)",
                          plan.obstacle_distance_m, config.cost.clearance_m);
     case PlanStatus::kUnreachable:
-      return "cannot be reached: no way over ground within the limits leads there";
+      return "cannot be reached: no traversable path leads there";
   }
   return "";
 }
@@ -76,24 +76,24 @@ void check(const Plan& plan, const std::vector<Place>& places, const ElevationMa
   if (plan.status == PlanStatus::kPlanned) return;
   const Place& place = places[plan.waypoint];
   throw ConfigError(fmt::format("{} {},{}: {}", place.option, place.given.x(), place.given.y(),
-                                what_is_wrong(plan, map, waypoints, config)));
+                                problem_of(plan, map, waypoints, config)));
 }
 
 std::string summary(const Plan& plan, const Line& waypoints, const ElevationMap& map, const std::string& out) {
   std::string text;
   for (const std::string& note : map.notes) text += note + "\n";
-  if (map.converted) text += fmt::format("{}/map.tif is the orbital map in whose frame the path is\n", out);
+  if (map.converted) text += fmt::format("{}/map.tif is the orbital map that defines the frame of the path\n", out);
   text += "terrain:";
-  const auto shares = class_shares(plan.terrain);
-  for (size_t i = 0; i < shares.size(); ++i)
-    text += fmt::format(" {} {:.1f} %", name_of(static_cast<TerrainClass>(i)), 100.0 * shares[i]);
+  const auto fractions = class_fractions(plan.terrain);
+  for (size_t i = 0; i < fractions.size(); ++i)
+    text += fmt::format(" {} {:.1f} %", name_of(static_cast<TerrainClass>(i)), 100.0 * fractions[i]);
   double straight_m = 0.0;
   for (size_t i = 1; i < waypoints.size(); ++i) straight_m += (waypoints[i] - waypoints[i - 1]).norm();
-  text += fmt::format("\npath: {:.1f} m in {} points, {:.1f} m straight, as costly as {:.0f} m of level ground\n",
+  text += fmt::format("\npath: {:.1f} m in {} points, straight line {:.1f} m, cost of {:.0f} m of level ground\n",
                       plan.length_m, plan.line.size(), straight_m, plan.cost_m);
   for (const PathSegment& s : plan.segments)
     text += fmt::format("  {:9} {:6.1f} m  difficulty {:.2f}  slopes to {:.1f} deg\n", name_of(s.level), s.length_m,
-                        s.mean_difficulty, to_deg(s.most_slope_rad));
+                        s.mean_difficulty, to_deg(s.max_slope_rad));
   return text + fmt::format("{}: path.geojson path.yaml path.lcm path.png terrain.tif\n", out);
 }
 
@@ -106,7 +106,7 @@ Eigen::Vector2d parse_place(const std::string& text, const std::string& option) 
   const bool comma = first.ec == std::errc() && first.ptr != end && *first.ptr == ',';
   const auto second = comma ? std::from_chars(first.ptr + 1, end, place.y()) : first;
   if (!comma || second.ec != std::errc() || second.ptr != end || !place.allFinite())
-    throw ConfigError(option + " '" + text + "': two numbers X,Y are expected, without blanks");
+    throw ConfigError(option + " '" + text + "': two numbers X,Y without blanks are required");
   return place;
 }
 
@@ -125,8 +125,7 @@ std::string run(const Arguments& arguments) {
   const ElevationMap map = read_elevation_map(arguments.map);
   const Geography geography(map.raster);
   if (arguments.lon_lat && !geography.is_known())
-    throw ConfigError("--lonlat: " + arguments.map +
-                      " lies on no planet; give X,Y in metres from its lower left corner");
+    throw ConfigError("--lonlat: " + arguments.map + " has no planet; give X,Y in metres from its lower left corner");
   const Line waypoints = on_map(places, geography, arguments.lon_lat);
   check_distances(places, waypoints, config.terms.goal_tolerance_m);
   const Plan result = plan(map.raster, waypoints, config.planner);

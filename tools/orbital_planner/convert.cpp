@@ -54,7 +54,7 @@ json segment_feature(const Plan& plan, const PathSegment& segment, const ToLonLa
            {{"level", name_of(segment.level)},
             {"length_m", rounded_to(segment.length_m, 1e-3)},
             {"mean_difficulty", rounded_to(segment.mean_difficulty, 1e-3)},
-            {"most_slope_deg", rounded_to(to_deg(segment.most_slope_rad), 1e-2)},
+            {"max_slope_deg", rounded_to(to_deg(segment.max_slope_rad), 1e-2)},
             {"map_xy_m", map_xy}}}};
 }
 

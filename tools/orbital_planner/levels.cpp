@@ -48,25 +48,25 @@ std::vector<HardSegment> hard_segments(const std::vector<double>& arc_m, const s
 }
 
 void lengthen(HardSegment& segment, double length_m, const LevelConfig& config) {
-  segment.from_m = std::max(0.0, segment.from_m - config.lead_m);
-  const double missing = config.least_stretch_m - (segment.to_m - segment.from_m);
+  segment.from_m = std::max(0.0, segment.from_m - config.lead_distance_m);
+  const double missing = config.min_segment_length_m - (segment.to_m - segment.from_m);
   if (missing <= 0.0) return;
   segment.from_m = std::max(0.0, segment.from_m - 0.5 * missing);
-  segment.to_m = std::min(length_m, segment.from_m + config.least_stretch_m);
-  segment.from_m = std::max(0.0, segment.to_m - config.least_stretch_m);
+  segment.to_m = std::min(length_m, segment.from_m + config.min_segment_length_m);
+  segment.from_m = std::max(0.0, segment.to_m - config.min_segment_length_m);
 }
 
 // Merges Full segments if the Efficient gap between them, or at an end, is shorter than the minimum.
-std::vector<HardSegment> merged(const std::vector<HardSegment>& segments, double length_m, double least_m) {
+std::vector<HardSegment> merged(const std::vector<HardSegment>& segments, double length_m, double min_length_m) {
   std::vector<HardSegment> all;
   for (const HardSegment& s : segments) {
-    if (!all.empty() && s.from_m - all.back().to_m < least_m)
+    if (!all.empty() && s.from_m - all.back().to_m < min_length_m)
       all.back() = {std::min(all.back().from_m, s.from_m), std::max(all.back().to_m, s.to_m)};
     else
       all.push_back(s);
   }
-  if (!all.empty() && all.front().from_m < least_m) all.front().from_m = 0.0;
-  if (!all.empty() && length_m - all.back().to_m < least_m) all.back().to_m = length_m;
+  if (!all.empty() && all.front().from_m < min_length_m) all.front().from_m = 0.0;
+  if (!all.empty() && length_m - all.back().to_m < min_length_m) all.back().to_m = length_m;
   return all;
 }
 
@@ -75,13 +75,13 @@ std::vector<HardSegment> merged(const std::vector<HardSegment>& segments, double
 std::vector<double> difficulty_along(const Line& line, const TerrainLayers& layers, const LevelConfig& config) {
   std::vector<double> at(line.size()), mean(line.size());
   std::transform(line.begin(), line.end(), at.begin(),
-                 [&](const Eigen::Vector2d& p) { return difficulty_at(p, layers, config.corridor_m); });
+                 [&](const Eigen::Vector2d& p) { return difficulty_at(p, layers, config.corridor_half_width_m); });
   const std::vector<double> arc_m = arc_lengths_m(line);
   for (size_t i = 0; i < line.size(); ++i) {
     double sum = 0.0;
     int count = 0;
     for (size_t k = 0; k < line.size(); ++k)
-      if (std::abs(arc_m[k] - arc_m[i]) <= 0.5 * config.mean_over_m) sum += at[k], ++count;
+      if (std::abs(arc_m[k] - arc_m[i]) <= 0.5 * config.averaging_distance_m) sum += at[k], ++count;
     mean[i] = sum / count;
   }
   return mean;
@@ -92,7 +92,7 @@ std::vector<Level> levels_along(const Line& line, const std::vector<double>& dif
   std::vector<HardSegment> segments = hard_segments(arc_m, difficulty, config);
   for (HardSegment& segment : segments) lengthen(segment, arc_m.back(), config);
   std::vector<Level> levels(line.size(), Level::kEfficient);
-  for (const HardSegment& s : merged(segments, arc_m.back(), config.least_stretch_m))
+  for (const HardSegment& s : merged(segments, arc_m.back(), config.min_segment_length_m))
     for (size_t i = 0; i + 1 < line.size(); ++i)
       if (arc_m[i + 1] > s.from_m && arc_m[i] < s.to_m) levels[i] = Level::kFull;
   if (levels.size() > 1) levels.back() = levels[levels.size() - 2];

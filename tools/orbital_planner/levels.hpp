@@ -13,12 +13,12 @@ namespace rover::orbital {
 enum class Level : std::int8_t { kEfficient = 0, kFull = 1 };
 
 struct LevelConfig {
-  double full_above = 0.55;       // difficulty: enter Full above this
-  double efficient_below = 0.40;  // leave Full below this
-  double mean_over_m = 8.0;       // arc length of the moving average
-  double corridor_m = 1.5;        // half width of the corridor in which the rover may drive
-  double lead_m = 4.0;            // Full starts this much earlier, to fill its map first
-  double least_stretch_m = 20.0;  // shorter Efficient segments become Full, shorter Full ones are lengthened
+  double full_above = 0.55;            // difficulty: enter Full above this
+  double efficient_below = 0.40;       // leave Full below this
+  double averaging_distance_m = 8.0;   // arc length of the moving average
+  double corridor_half_width_m = 1.5;  // the rover may drive anywhere in the corridor
+  double lead_distance_m = 4.0;        // Full starts this much earlier, to fill its map first
+  double min_segment_length_m = 20.0;  // shorter Efficient segments become Full, shorter Full ones are lengthened
 };
 
 // Mean difficulty of the corridor at each point of the line.

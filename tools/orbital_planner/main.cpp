@@ -5,25 +5,36 @@
 
 #include "common/bus/command_line.hpp"
 #include "tools/orbital_planner/command.hpp"
+#include "tools/orbital_planner/config.hpp"
 
 int main(int argc, char** argv) {
   rover::orbital::Arguments arguments;
   CLI::App app(
-      "The globally best path on an orbital map, with the level of autonomy of each stretch.\n"
+      "Globally optimal path on an orbital map, with the level of autonomy of each segment.\n"
       "Example: ./rover plan config/terrain/gale/gale_hirise_dtm_1m_348x337.tif --start 96,262 --goal 118,255");
   app.name("./rover plan");
   app.add_option("map", arguments.map, "elevation model with georeference, any format that GDAL reads")
       ->required()
       ->transform(rover::is_user_path());
   app.add_option("--start", arguments.start, "X,Y in metres from the map's lower left corner")->required();
-  rover::repeatable(app.add_option("--via", arguments.via, "a place to pass by on the way, repeatable"));
+  rover::repeatable(app.add_option("--via", arguments.via, "an intermediate waypoint, repeatable"));
   app.add_option("--goal", arguments.goal, "as --start")->required();
   app.add_flag("--lonlat", arguments.lon_lat, "places are LONGITUDE,LATITUDE in degrees instead (--start=-9.5,4.1)");
   app.add_option("--out", arguments.out, "folder for the results, new or empty; default: logs/<time>-plan-<map>")
       ->transform(rover::is_user_path());
-  app.add_option("--config", arguments.config_dir, "folder with orbital_planner.yaml")
+  app.add_option("--config", arguments.config_dir, "folder with orbital_planner.yaml and navigation.yaml")
       ->capture_default_str()
       ->transform(rover::is_user_path());
+  const auto print_parameters = [&](const std::string& format) {
+    rover::ParameterList list;
+    rover::orbital::load_config(arguments.config_dir, &list);
+    std::fputs(rover::to_format(list, format).c_str(), stdout);
+    throw CLI::Success();
+  };
+  app.add_option_function<std::string>("--parameters", print_parameters,
+                                       "print all parameters with their defaults and exit")
+      ->check(CLI::IsMember({"text", "yaml", "markdown"}))
+      ->trigger_on_parse();
   try {
     rover::parse_arguments(app, argc, argv);
   } catch (const CLI::ParseError& error) {

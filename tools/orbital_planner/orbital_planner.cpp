@@ -41,9 +41,9 @@ bool connect_waypoints(const Line& waypoints, const MarchGrid& grid, Plan& plan)
 }
 
 // Smoothing moves points together in bends: resample.
-Line drivable(const Line& way, const MarchGrid& grid, const RouteConfig& config) {
+Line drivable(const Line& line, const MarchGrid& grid, const RouteConfig& config) {
   const double spacing = config.point_spacing_m;
-  return resampled(rounded(resampled(way, spacing, grid), grid, config), spacing, grid);
+  return resampled(smoothed(resampled(line, spacing, grid), grid, config), spacing, grid);
 }
 
 double slope_at(const TerrainLayers& terrain, const MarchGrid& grid, const Eigen::Vector2d& p) {
@@ -55,7 +55,7 @@ PathSegment make_segment(const Plan& plan, const MarchGrid& grid, size_t first, 
   s.length_m = length_m(std::span(plan.line).subspan(first, last - first + 1));
   for (size_t i = first; i <= last; ++i) {
     s.mean_difficulty += plan.difficulty[i] / static_cast<double>(last - first + 1);
-    s.most_slope_rad = std::max(s.most_slope_rad, slope_at(plan.terrain, grid, plan.line[i]));
+    s.max_slope_rad = std::max(s.max_slope_rad, slope_at(plan.terrain, grid, plan.line[i]));
   }
   return s;
 }

@@ -24,7 +24,7 @@ struct PathSegment {
   Level level = Level::kEfficient;
   double length_m = 0.0;
   double mean_difficulty = 0.0;
-  double most_slope_rad = 0.0;
+  double max_slope_rad = 0.0;
 };
 
 enum class PlanStatus : std::int8_t {

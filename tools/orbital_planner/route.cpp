@@ -26,8 +26,8 @@ class Descent {
   Line walk(const Vector2d& start, const Vector2d& goal) const {
     Line line{start};
     // The path does not revisit cells, so this bound only stops an endless loop.
-    const size_t most = 8 * travel_.size() + 16;
-    while (!arrives(line.back(), goal) && line.size() < most) step(line);
+    const size_t max_points = 8 * travel_.size() + 16;
+    while (!arrives(line.back(), goal) && line.size() < max_points) step(line);
     line.push_back(goal);
     return line;
   }
@@ -46,9 +46,9 @@ class Descent {
   void step(Line& line) const {
     const Vector2d p = line.back();
     const int cell = cell_at(grid_, p);
-    const Vector2d fall = fall_at(p);
-    if (fall.norm() > 0.0) {
-      const Vector2d q = p + kDescentStep * grid_.cell_m * fall.normalized();
+    const Vector2d descent = descent_at(p);
+    if (descent.norm() > 0.0) {
+      const Vector2d q = p + kDescentStep * grid_.cell_m * descent.normalized();
       if (is_open(grid_, p, q) && falls(p, cell, q, cell_at(grid_, q))) return line.push_back(q);
     }
     line.push_back(center_of(grid_, cell));
@@ -93,15 +93,15 @@ class Descent {
     return weights > 0.0 ? sum / weights : kInfinity;
   }
 
-  Vector2d fall_at(const Vector2d& p) const {
+  Vector2d descent_at(const Vector2d& p) const {
     Vector2d sum = Vector2d::Zero();
     for (const Corner& c : corners(p))
-      if (std::isfinite(travel(c.x, c.y))) sum += c.weight * Vector2d(fall_along(c, 1, 0), fall_along(c, 0, 1));
+      if (std::isfinite(travel(c.x, c.y))) sum += c.weight * Vector2d(descent_along(c, 1, 0), descent_along(c, 0, 1));
     return sum;
   }
 
   // Upwind difference, as in the fast marching update.
-  double fall_along(const Corner& c, int dx, int dy) const {
+  double descent_along(const Corner& c, int dx, int dy) const {
     const double here = travel(c.x, c.y);
     const double behind = travel(c.x - dx, c.y - dy), ahead = travel(c.x + dx, c.y + dy);
     if (std::min(behind, ahead) >= here) return 0.0;
@@ -161,8 +161,8 @@ Line resampled(const Line& line, double spacing_m, const MarchGrid& grid) {
       ++next;
     }
     const double piece = (line[next] - line[next - 1]).norm();
-    const double share = piece > 0.0 ? std::min(1.0, (wanted - passed) / piece) : 0.0;
-    const Vector2d p = k == parts ? line.back() : Vector2d(line[next - 1] + (line[next] - line[next - 1]) * share);
+    const double fraction = piece > 0.0 ? std::min(1.0, (wanted - passed) / piece) : 0.0;
+    const Vector2d p = k == parts ? line.back() : Vector2d(line[next - 1] + (line[next] - line[next - 1]) * fraction);
     // The chord is blocked: use the line's own vertices.
     if (!is_open(grid, points.back(), p)) points.insert(points.end(), line.begin() + first, line.begin() + next);
     points.push_back(p);
@@ -170,9 +170,9 @@ Line resampled(const Line& line, double spacing_m, const MarchGrid& grid) {
   return points;
 }
 
-Line rounded(Line line, const MarchGrid& grid, const RouteConfig& config) {
+Line smoothed(Line line, const MarchGrid& grid, const RouteConfig& config) {
   // A step with weight 1/2 is a binomial filter of variance 1/2 spacing^2 along the line.
-  const double sigma_points = config.rounding_m / config.point_spacing_m;
+  const double sigma_points = config.smoothing_sigma_m / config.point_spacing_m;
   const int rounds = static_cast<int>(std::ceil(2.0 * sigma_points * sigma_points));
   for (int round = 0; round < rounds; ++round) {
     const Line before = line;

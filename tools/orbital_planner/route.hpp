@@ -14,7 +14,7 @@ using Line = std::vector<Eigen::Vector2d>;  // map coordinates [m]
 
 struct RouteConfig {
   double point_spacing_m = 1.5;
-  double rounding_m = 3.0;  // standard deviation of the smoothing along the line
+  double smoothing_sigma_m = 3.0;  // along the line
 };
 
 // Cell index of a map point, -1 outside.
@@ -31,6 +31,6 @@ double length_m(std::span<const Eigen::Vector2d> line);
 // Equidistant points; keeps both ends. Where the chord between two points is blocked, keeps the line's own vertices.
 Line resampled(const Line& line, double spacing_m, const MarchGrid& grid);
 // Laplacian smoothing with fixed ends; a point stays if the line would cross a cell that is not traversable.
-Line rounded(Line line, const MarchGrid& grid, const RouteConfig& config);
+Line smoothed(Line line, const MarchGrid& grid, const RouteConfig& config);
 
 }  // namespace rover::orbital

@@ -43,23 +43,23 @@ class Window {
   Window(const ElevationRaster& map, const TerrainConfig& config)
       : map_(map),
         half_width_(std::max(1, static_cast<int>(std::lround(0.5 * config.window_m / map.resolution_m - 0.5)))),
-        least_(config.least_known * (2 * half_width_ + 1) * (2 * half_width_ + 1)) {}
+        min_known_(config.min_known_fraction * (2 * half_width_ + 1) * (2 * half_width_ + 1)) {}
 
   std::optional<Plane> plane_at(int column, int row) const {
     const float middle = map_.at(column, row);
     if (!std::isfinite(middle)) return std::nullopt;
     Moments moments;
     for_known(column, row, half_width_, [&](int dx, int dy, float z) { moments.add(dx, dy, z - middle); });
-    return moments.n < least_ ? std::nullopt : moments.plane();
+    return moments.n < min_known_ ? std::nullopt : moments.plane();
   }
 
   double step_m(int column, int row, const Plane& plane) const {
     const float middle = map_.at(column, row);
-    double most = 0.0;
+    double largest = 0.0;
     for_known(column, row, 1, [&](int dx, int dy, float z) {
-      most = std::max(most, std::abs(z - middle - plane.gradient_x * dx - plane.gradient_y * dy));
+      largest = std::max(largest, std::abs(z - middle - plane.gradient_x * dx - plane.gradient_y * dy));
     });
-    return most;
+    return largest;
   }
 
  private:
@@ -72,11 +72,11 @@ class Window {
 
   const ElevationRaster& map_;
   int half_width_;
-  double least_;
+  double min_known_;
 };
 
 TerrainClass classify(double slope_rad, double roughness_m, double step_m, const TerrainConfig& config) {
-  if (slope_rad > config.most_slope_rad || roughness_m > config.most_roughness_m || step_m > config.most_step_m)
+  if (slope_rad > config.max_slope_rad || roughness_m > config.max_roughness_m || step_m > config.max_step_m)
     return TerrainClass::kObstacle;
   if (slope_rad > config.steep_rad) return TerrainClass::kSteep;
   if (roughness_m > config.rough_m) return TerrainClass::kRough;
@@ -90,7 +90,7 @@ void classify_cell(const Window& window, int column, int row, const TerrainConfi
   const double slope = std::atan(std::hypot(plane->gradient_x, plane->gradient_y) / layers.cell_m);
   const double step = window.step_m(column, row, *plane);
   const double worst =
-      std::max({slope / config.most_slope_rad, plane->rms_m / config.most_roughness_m, step / config.most_step_m});
+      std::max({slope / config.max_slope_rad, plane->rms_m / config.max_roughness_m, step / config.max_step_m});
   layers.slope_rad[i] = static_cast<float>(slope);
   layers.roughness_m[i] = static_cast<float>(plane->rms_m);
   layers.step_m[i] = static_cast<float>(step);
@@ -120,11 +120,11 @@ TerrainLayers analyse(const ElevationRaster& map, const TerrainConfig& config) {
   return layers;
 }
 
-std::array<double, kTerrainClasses> class_shares(const TerrainLayers& layers) {
-  std::array<double, kTerrainClasses> shares{};
+std::array<double, kTerrainClasses> class_fractions(const TerrainLayers& layers) {
+  std::array<double, kTerrainClasses> fractions{};
   for (TerrainClass c : layers.terrain_class)
-    shares[static_cast<size_t>(c)] += 1.0 / static_cast<double>(layers.terrain_class.size());
-  return shares;
+    fractions[static_cast<size_t>(c)] += 1.0 / static_cast<double>(layers.terrain_class.size());
+  return fractions;
 }
 
 }  // namespace rover::orbital

@@ -16,14 +16,14 @@ constexpr size_t kTerrainClasses = 6;
 const char* name_of(TerrainClass c);
 
 struct TerrainConfig {
-  double window_m = 5.0;     // side of the plane's square: wide enough to average the noise of an orbital map
-  double least_known = 0.5;  // minimum fraction of the square with heights, else the cell is unknown
+  double window_m = 5.0;            // side of the plane's square: wide enough to average the noise of an orbital map
+  double min_known_fraction = 0.5;  // fraction of the square with heights, else the cell is unknown
   double sloping_rad = to_rad(5.0);
   double steep_rad = to_rad(10.0);
-  double most_slope_rad = to_rad(15.0);  // an obstacle above (HDPR)
+  double max_slope_rad = to_rad(15.0);  // an obstacle above (HDPR)
   double rough_m = 0.15;
-  double most_roughness_m = 0.30;  // an obstacle above
-  double most_step_m = 0.40;       // an obstacle above: boulders and edges beyond the map noise
+  double max_roughness_m = 0.30;  // an obstacle above
+  double max_step_m = 0.40;       // an obstacle above: boulders and edges beyond the map noise
 };
 
 // Row by row from the south, as the elevation model. NaN if the class is unknown.
@@ -41,6 +41,6 @@ struct TerrainLayers {
 TerrainLayers analyse(const ElevationRaster& map, const TerrainConfig& config);
 
 // Fraction of each class in the map.
-std::array<double, kTerrainClasses> class_shares(const TerrainLayers& layers);
+std::array<double, kTerrainClasses> class_fractions(const TerrainLayers& layers);
 
 }  // namespace rover::orbital

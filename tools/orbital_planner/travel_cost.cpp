@@ -25,7 +25,7 @@ std::vector<double> distance_to_closed(const TerrainLayers& layers) {
   return distance;
 }
 
-double risk_share(double distance_m, const CostConfig& config) {
+double risk_factor(double distance_m, const CostConfig& config) {
   if (distance_m >= config.risk_distance_m) return 0.0;
   return config.risk_cost * (config.risk_distance_m - distance_m) / (config.risk_distance_m - config.clearance_m);
 }
@@ -35,10 +35,10 @@ double risk_share(double distance_m, const CostConfig& config) {
 double slope_cost(double slope_rad) {
   static constexpr std::array<double, 4> kCost = {1.0, 1.5, 2.5, 4.0};
   constexpr double kStepRad = to_rad(5.0);
-  const double place = slope_rad / kStepRad;
+  const double position = slope_rad / kStepRad;
   // Linear extrapolation beyond the table's end, if the configuration allows steeper ground.
-  const size_t i = std::min(static_cast<size_t>(place), kCost.size() - 2);
-  return kCost[i] + (place - static_cast<double>(i)) * (kCost[i + 1] - kCost[i]);
+  const size_t i = std::min(static_cast<size_t>(position), kCost.size() - 2);
+  return kCost[i] + (position - static_cast<double>(i)) * (kCost[i + 1] - kCost[i]);
 }
 
 CostMap travel_cost(const TerrainLayers& layers, const CostConfig& config) {
@@ -47,7 +47,7 @@ CostMap travel_cost(const TerrainLayers& layers, const CostConfig& config) {
   for (size_t i = 0; i < layers.terrain_class.size(); ++i) {
     const double distance = map.obstacle_distance_m[i];
     if (distance == 0.0 || distance < config.clearance_m) continue;
-    map.grid.cost_per_m[i] = slope_cost(layers.slope_rad[i]) * (1.0 + risk_share(distance, config)) +
+    map.grid.cost_per_m[i] = slope_cost(layers.slope_rad[i]) * (1.0 + risk_factor(distance, config)) +
                              config.difficulty_cost * layers.difficulty[i];
   }
   return map;

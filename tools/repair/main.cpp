@@ -9,13 +9,11 @@
 int main(int argc, char** argv) {
   rover::recorder::RepairArguments repair;
   CLI::App app(
-      "Keeps every whole message of a log that was cut or damaged, and leaves out the rest. The log itself stays as "
-      "it\n"
-      "is unless --in-place is given.\n"
+      "Copies every intact message of a truncated or damaged log. The log is not changed unless --in-place is given.\n"
       "Example: ./rover repair logs/RUN/traverse.lcm");
   app.name("./rover repair");
-  app.add_option("log", repair.log, "a log, or a run's folder")->required()->transform(rover::is_user_path());
-  CLI::Option* out = app.add_option("--out", repair.out, "the whole log; default: NAME.repaired.lcm beside it")
+  app.add_option("log", repair.log, "log file or run folder")->required()->transform(rover::is_user_path());
+  CLI::Option* out = app.add_option("--out", repair.out, "output file; default: NAME.repaired.lcm beside the log")
                          ->transform(rover::is_user_path());
   app.add_flag("--in-place", repair.in_place, "replace the damaged log")->excludes(out);
   try {

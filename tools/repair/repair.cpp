@@ -32,7 +32,7 @@ struct Scan {
   std::string path;
   std::vector<Piece> pieces;
   LogLength length;
-  bool whole() const { return length.left_bytes == 0; }
+  bool whole() const { return length.skipped_bytes == 0; }
   std::int64_t kept_bytes() const {
     std::int64_t sum = 0;
     for (const Piece& piece : pieces) sum += piece.end - piece.begin;
@@ -60,7 +60,7 @@ void copy_piece(std::ifstream& in, std::ofstream& out, const Piece& piece) {
   std::array<char, 1 << 16> buffer{};
   in.seekg(piece.begin);
   for (std::int64_t left = piece.end - piece.begin; left > 0 && in && out;) {
-    if (!going()) throw ConfigError("./rover repair: interrupted; nothing is kept");
+    if (!keep_running()) throw ConfigError("./rover repair: interrupted; nothing is kept");
     const auto chunk = std::min<std::int64_t>(left, static_cast<std::int64_t>(buffer.size()));
     in.read(buffer.data(), chunk);
     out.write(buffer.data(), in.gcount());
@@ -78,7 +78,7 @@ void copy_pieces(const Scan& damaged, const std::string& to) {
 }
 
 void check_target(const Scan& damaged, const std::string& to) {
-  if (fs::exists(to)) throw ConfigError(to + ": exists already; remove it, or name another with --out");
+  if (fs::exists(to)) throw ConfigError(to + ": already exists; remove it, or choose another file with --out");
   const fs::path folder = fs::absolute(to).parent_path();
   if (!fs::is_directory(folder)) throw ConfigError(folder.string() + ": no such folder");
   const std::uintmax_t free_bytes = free_disk_bytes(folder);
@@ -97,20 +97,20 @@ std::string target_of(const Scan& part, const RepairArguments& arguments) {
 void check(const std::vector<Scan>& scans, const RepairArguments& arguments) {
   const auto has_none = [](const Scan& part) { return part.pieces.empty(); };
   if (std::all_of(scans.begin(), scans.end(), has_none))
-    throw ConfigError(scans.front().path + ": holds no whole record; is it an LCM log?");
+    throw ConfigError(scans.front().path + ": contains no intact record; is it an LCM log?");
   for (const Scan& part : scans)
     if (!part.whole() && !has_none(part)) check_target(part, target_of(part, arguments));
   if (!arguments.out.empty() && scans.size() > 1)
     throw ConfigError(arguments.out + ": the log has " + std::to_string(scans.size()) +
-                      " parts; without --out each is written beside the damaged one");
+                      " parts; without --out each is written beside the damaged part");
   const fs::path folder = fs::absolute(scans.front().path).parent_path();
   if (arguments.in_place && status::is_running(folder))
-    throw ConfigError(folder.string() + ": the run still records; stop it first");
+    throw ConfigError(folder.string() + ": the run is still being recorded; stop it first");
 }
 
 std::string repair_part(const Scan& part, const RepairArguments& arguments) {
-  if (part.whole()) return fmt::format("{}: whole, {} messages; nothing to do", part.path, part.length.records);
-  if (part.pieces.empty()) return fmt::format("{}: holds no whole message; left as it is", part.path);
+  if (part.whole()) return fmt::format("{}: intact, {} messages; nothing to do", part.path, part.length.records);
+  if (part.pieces.empty()) return fmt::format("{}: contains no intact message; not changed", part.path);
   std::string to = target_of(part, arguments);
   NewFile whole(to);
   copy_pieces(part, whole.path());
@@ -121,8 +121,8 @@ std::string repair_part(const Scan& part, const RepairArguments& arguments) {
   } else {
     whole.keep();
   }
-  return fmt::format("{}: {} messages kept, {} bytes at {} place{} left out", to, part.length.records,
-                     part.length.left_bytes, part.length.damages, part.length.damages == 1 ? "" : "s");
+  return fmt::format("{}: {} messages kept, {} bytes at {} place{} skipped", to, part.length.records,
+                     part.length.skipped_bytes, part.length.damaged_places, part.length.damaged_places == 1 ? "" : "s");
 }
 
 }  // namespace
@@ -134,7 +134,7 @@ void repair(const RepairArguments& arguments) {
   check(scans, arguments);
   for (const Scan& part : scans) std::printf("%s\n", repair_part(part, arguments).c_str());
   if (const size_t runs = log_runs(log).size(); runs > 1)
-    std::printf("%s: holds %zu runs; replay, export, report and spy take one of them by --log-run N\n", log.c_str(),
+    std::printf("%s: contains %zu runs; select one in replay, export, report and spy with --log-run N\n", log.c_str(),
                 runs);
 }
 

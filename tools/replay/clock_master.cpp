@@ -48,8 +48,7 @@ void ClockMaster::wait(const Missing& missing, const Running& running) {
     for (const std::string& name : names) {
       const int pid = barrier_.pid_of(name);
       if (pid > 0 && !process_alive(pid)) throw ServiceGone(name + " has died");
-      if (since_s(started) > kTimeout_s)
-        throw ServiceGone(name + (pid > 0 ? " does not answer any more" : " did not start"));
+      if (since_s(started) > kTimeout_s) throw ServiceGone(name + (pid > 0 ? " stopped responding" : " did not start"));
     }
     if (last_tick_.empty() || since_s(started) - repeated_at_s < kRepeatTick_s) continue;
     repeated_at_s = since_s(started);

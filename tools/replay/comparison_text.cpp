@@ -21,9 +21,9 @@ std::string byte_text(const Bytes& recorded, const Bytes& live) {
 std::string what_differs(const Difference& difference, NameField name_field) {
   switch (difference.kind) {
     case Difference::Kind::kMissingLive:
-      return "in the log, not said now";
+      return "in the log, not published now";
     case Difference::Kind::kNotInLog:
-      return "said now, not in the log";
+      return "published now, not in the log";
     case Difference::Kind::kContent:
       break;
   }

@@ -46,8 +46,8 @@ void note(std::map<StreamKey, RecordedStream>& streams, const LogMessage& messag
 RecordedLog::RecordedLog(const std::string& log_or_run, int log_run)
     : run_(choose_run(log_or_run, log_run)), parts_(log_parts(run_.log)) {
   if (run_.last_tick == kNever)
-    throw ConfigError(run_.log + ": no log of a rover: it holds no TICK" +
-                      (run_.bad_ticks > 0 ? " of this version's type" : ""));
+    throw ConfigError(run_.log + ": not a log of a rover: it contains no TICK" +
+                      (run_.bad_ticks > 0 ? " of this version" : ""));
   scan();
   seek(ticks_.front());
 }

@@ -48,7 +48,7 @@ class RecordedLog {
   // True if ticks were paced by the wall clock; such a run is not reproducible.
   bool by_the_clock() const { return by_the_clock_; }
   // Messages in no group: after the last tick, or on channels whose names LCM cannot send.
-  std::int64_t left_messages() const { return left_messages_; }
+  std::int64_t skipped_messages() const { return left_messages_; }
 
   // The group of the next tick; empty at the end.
   std::optional<TickGroup> next();

@@ -29,7 +29,7 @@ int main(int argc, char** argv) {
     if (!folder.empty()) std::filesystem::create_directories(folder);
     write_file(out_file, bench_table(context, rows));
     for (const Gate& gate : seed_gates(newest_rows(rows)))
-      std::printf("%-7s %s: %s\n", gate.met ? "met" : "NOT MET", gate.demand.c_str(), gate.measured.c_str());
+      std::printf("%-7s %s: %s\n", gate.met ? "met" : "NOT MET", gate.requirement.c_str(), gate.measured.c_str());
   } catch (const std::exception& error) {
     std::fprintf(stderr, "rover_bench_table: %s\n", error.what());
     return 2;

@@ -13,7 +13,7 @@ namespace {
 constexpr int kRunsOfEach = 10;
 
 struct PaperTraverse {
-  int least_repairs;
+  int min_repairs;
   const char* planned;
   const char* driven;
   const char* ratio;
@@ -56,9 +56,9 @@ Rows counted(const Rows& rows) {
 }
 
 // An unknown (NaN) metric never meets a requirement.
-Gate all_gate(const Rows& rows, const std::string& demand, int decimals, const RowFigure& figure,
+Gate all_gate(const Rows& rows, const std::string& requirement, int decimals, const RowFigure& figure,
               const std::function<bool(const BenchRow&, double)>& met) {
-  Gate gate{demand, "", !rows.empty()};
+  Gate gate{requirement, "", !rows.empty()};
   double worst = -kInfinity;
   int failed = 0;
   for (const BenchRow& row : rows) {
@@ -68,22 +68,23 @@ Gate all_gate(const Rows& rows, const std::string& demand, int decimals, const R
     if (std::isfinite(value)) worst = std::max(worst, value);
   }
   gate.met = gate.met && failed == 0;
-  gate.measured = fmt::format("largest {}{}", decimal(worst, decimals),
+  gate.measured = fmt::format("maximum {}{}", decimal(worst, decimals),
                               failed > 0 ? fmt::format(", {} of {} runs fail", failed, rows.size()) : "");
   return gate;
 }
 
-Gate median_gate(const Rows& rows, const std::string& demand, int decimals, const RowFigure& figure, double most) {
+Gate median_gate(const Rows& rows, const std::string& requirement, int decimals, const RowFigure& figure, double most) {
   const double value = median(values(rows, figure));
-  return {demand, decimal(value, decimals), value <= most};
+  return {requirement, decimal(value, decimals), value <= most};
 }
 
-Gate least_gate(const Rows& rows, const std::string& demand, int decimals, const RowFigure& figure, double least) {
+Gate min_gate(const Rows& rows, const std::string& requirement, int decimals, const RowFigure& figure, double minimum) {
   const std::vector<double> all = values(rows, figure);
-  const bool met = !all.empty() && std::all_of(all.begin(), all.end(), [least](double v) { return v >= least; });
+  const bool met = !all.empty() && std::all_of(all.begin(), all.end(), [minimum](double v) { return v >= minimum; });
   double lowest = kInfinity;
   for (const double v : all) lowest = std::fmin(lowest, v);
-  return {demand, fmt::format("least {}, median {}", decimal(lowest, decimals), decimal(median(all), decimals)), met};
+  return {requirement, fmt::format("minimum {}, median {}", decimal(lowest, decimals), decimal(median(all), decimals)),
+          met};
 }
 
 double sum(const Rows& rows, const RowFigure& figure) {
@@ -105,7 +106,8 @@ std::string row_line(const BenchRow& row) {
 
 constexpr char kHead[] =
     "| scenario | seed | outcome | planned [m] | driven [m] | ratio | repairs | hazard stops | collisions | rocks "
-    "missed / met | false stops | drift [%] | cross-track rms [m] | final error [m] | speed [m/h] | duty | x real time "
+    "missed / encountered | false stops | drift [%] | cross-track rms [m] | final error [m] | speed [m/h] | duty | x "
+    "real time "
     "| deterministic |\n"
     "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
 
@@ -158,7 +160,7 @@ std::string paper_table(const Rows& runs) {
                            decimal(sum(runs, [](const BenchRow& r) { return r.replans; }), 0));
 }
 
-// Time shares that limit the duty cycle, and losses by point turns and slow ground while driving.
+// Time in each state, which limits the duty cycle, and losses by point turns and slow ground while driving.
 std::string time_lines(const Rows& runs) {
   std::map<std::string, double> spent;
   double total = 0.0;
@@ -170,23 +172,23 @@ std::string time_lines(const Rows& runs) {
     for (const auto& [state, seconds] : row.time_in_state_s) spent[state] += seconds;
   }
   if (total <= 0.0) return "";
-  std::string out = "\nWhere the time goes:";
+  std::string out = "\nTime by state:";
   for (const auto& [state, seconds] : spent)
     if (seconds > 0.0) out += fmt::format(" {} {} %,", state, decimal(100.0 * seconds / total, 1));
-  return out + fmt::format(" of it in point turns {} %.\n", decimal(100.0 * turning / total, 1));
+  return out + fmt::format(" of which point turns {} %.\n", decimal(100.0 * turning / total, 1));
 }
 
 }  // namespace
 
-int least_repairs(const std::string& scenario) {
+int min_repairs(const std::string& scenario) {
   const auto it = kPaper.find(scenario);
-  return it == kPaper.end() ? 0 : it->second.least_repairs;
+  return it == kPaper.end() ? 0 : it->second.min_repairs;
 }
 
 bool counts(const BenchRow& row) {
   // A failed run always counts, however few repairs it has.
   const bool failed = row.outcome != "goal_reached" || !(row.collisions == 0.0) || !(row.rocks_missed == 0.0);
-  return failed || row.replans >= least_repairs(row.scenario);
+  return failed || row.replans >= min_repairs(row.scenario);
 }
 
 double median(std::vector<double> values) {
@@ -213,7 +215,7 @@ std::vector<Gate> seed_gates(const std::vector<BenchRow>& all) {
       rows, "0 rocks missed", 0, [](const BenchRow& r) { return r.rocks_missed; },
       [](const BenchRow&, double v) { return v == 0.0; }));
   gates.push_back(all_gate(
-      rows, "no row of the table of faults raised", 0, [](const BenchRow& r) { return r.faults; },
+      rows, "no fault raised", 0, [](const BenchRow& r) { return r.faults; },
       [](const BenchRow&, double v) { return v == 0.0; }));
   gates.push_back(median_gate(
       rows, "median path ratio at most 1.12", 3, [](const BenchRow& r) { return r.path_ratio; }, 1.12));
@@ -225,7 +227,7 @@ std::vector<Gate> seed_gates(const std::vector<BenchRow>& all) {
   gates.push_back(all_gate(
       rows, "final error at most 2 % of the length", 2, [](const BenchRow& r) { return r.final_error_m; },
       [](const BenchRow& r, double v) { return v <= 0.02 * r.planned_length_m; }));
-  gates.push_back(least_gate(
+  gates.push_back(min_gate(
       rows, "duty at least 0.75, stops included", 3, [](const BenchRow& r) { return r.duty; }, 0.75));
   const bool deterministic =
       !rows.empty() && std::all_of(rows.begin(), rows.end(), [](const BenchRow& r) { return r.deterministic; });
@@ -248,16 +250,16 @@ std::string bench_table(const BenchContext& context, const std::vector<BenchRow>
   std::string out =
       fmt::format("# Bench `{}`\n\n- commit: `{}`\n- machine: {}, {} cores\n- command: `{}`\n\n", context.suite,
                   rows.empty() ? "none" : rows.front().commit, context.cpu_model, context.cores, context.command);
-  out += "## Demands\n\n| demand | measured | met |\n|---|---|---|\n";
+  out += "## Requirements\n\n| requirement | measured | met |\n|---|---|---|\n";
   for (const Gate& gate : seed_gates(rows))
-    out += fmt::format("| {} | {} | {} |\n", gate.demand, gate.measured, gate.met ? "yes" : "**no**");
+    out += fmt::format("| {} | {} | {} |\n", gate.requirement, gate.measured, gate.met ? "yes" : "**no**");
   out += fmt::format("\nMean speed, median: {} m/h.\n",
                      decimal(median(values(runs, [](const BenchRow& r) { return r.mean_speed_m_per_h; })), 0));
   out += time_lines(runs);
   out +=
       "\nRuns share the machine when there is more than one at a time; real time is measured by `./rover bench "
       "speed`.\n";
-  out += "\n## Beside the paper\n\n" + paper_table(runs) + "\n## Runs\n\n" + kHead;
+  out += "\n## Comparison with the paper\n\n" + paper_table(runs) + "\n## Runs\n\n" + kHead;
   for (const BenchRow& row : runs) out += row_line(row);
   for (const auto& [scenario, paper] : kPaper) out += median_line(scenario, of_scenario(runs, scenario));
   std::string others;
@@ -267,7 +269,7 @@ std::string bench_table(const BenchContext& context, const std::vector<BenchRow>
   }
   if (!others.empty())
     out +=
-        "\n## Not counted\n\nReached the goal with fewer repairs than asked for (first traverse 5, second 8), or "
+        "\n## Not counted\n\nReached the goal with fewer repairs than required (first traverse 5, second 8), or "
         "beyond the first ten that count.\n\n" +
         std::string(kHead) + others;
   return out;

@@ -46,13 +46,13 @@ struct BenchContext {
 };
 
 // A successful run with fewer repairs met too few rocks to count.
-int least_repairs(const std::string& scenario);
+int min_repairs(const std::string& scenario);
 bool counts(const BenchRow& row);
 // NaN for an empty list; the mean of the middle two for an even number.
 double median(std::vector<double> values);
 
 struct Gate {
-  std::string demand;
+  std::string requirement;
   std::string measured;
   bool met = false;
 };

@@ -19,7 +19,7 @@ struct Wanted {
   std::optional<CameraView> view;
 };
 
-bool take_image(const LogEvent& event, Wanted& wanted) {
+bool read_image(const LogEvent& event, Wanted& wanted) {
   image_t image;
   if (!find_channel_type(event.channel)->decodes(event.data, event.size)) return false;
   if (!decode_message(event.data, event.size, image) || image.encoding != image_t::MONO8) return false;
@@ -33,9 +33,9 @@ bool take_image(const LogEvent& event, Wanted& wanted) {
 
 void take(const LogEvent& event, Wanted& wanted) {
   if (event.channel == channel::kLocCamRectLeft) {
-    wanted.rectified = take_image(event, wanted) || wanted.rectified;
+    wanted.rectified = read_image(event, wanted) || wanted.rectified;
   } else if (event.channel == channel::kLocCamLeft && !wanted.rectified) {
-    take_image(event, wanted);
+    read_image(event, wanted);
   } else if (event.channel == channel::kDisparity) {
     disparity_t disparity;
     if (find_channel_type(event.channel)->decodes(event.data, event.size) &&

@@ -12,7 +12,7 @@
 namespace rover::report {
 namespace {
 
-enum class Better { kLess, kMore, kNeither };
+enum class Better { kLower, kHigher, kNeither };
 
 struct Figure {
   const char* what;
@@ -30,35 +30,35 @@ double known(const std::optional<int>& value) {
 const Figure kFigures[] = {
     {"Planned path", "m", 1, Better::kNeither, [](const Metrics& m) { return m.planned_length_m; }},
     {"Driven", "m", 1, Better::kNeither, [](const Metrics& m) { return m.driven_length_m; }},
-    {"Driven / planned", "", 3, Better::kLess, [](const Metrics& m) { return m.path_ratio; }},
-    {"Duration of the drive", "s", 0, Better::kLess, [](const Metrics& m) { return m.duration_s; }},
-    {"Duty: driven / (0.2 m/s x time)", "%", 1, Better::kMore, [](const Metrics& m) { return 100.0 * m.duty; }},
-    {"Time in point turns", "s", 1, Better::kLess, [](const Metrics& m) { return m.point_turn_s; }},
-    {"Repairs", "", 0, Better::kLess, [](const Metrics& m) { return 1.0 * m.replans; }},
-    {"Hazard stops", "", 0, Better::kLess, [](const Metrics& m) { return 1.0 * m.hazard_stops; }},
-    {"Stops or repairs without a cause", "", 0, Better::kLess, [](const Metrics& m) { return known(m.false_stops); }},
-    {"Collisions", "", 0, Better::kLess, [](const Metrics& m) { return 1.0 * m.collisions; }},
-    {"Least clearance", "m", 2, Better::kMore, [](const Metrics& m) { return m.min_clearance_m; }},
-    {"Rocks met", "", 0, Better::kNeither, [](const Metrics& m) { return known(m.rocks_encountered); }},
-    {"Rocks missed", "", 0, Better::kLess, [](const Metrics& m) { return known(m.rocks_missed); }},
-    {"Cross-track error, rms", "m", 3, Better::kLess, [](const Metrics& m) { return m.cross_track_rms_m; }},
-    {"Cross-track error, largest", "m", 3, Better::kLess, [](const Metrics& m) { return m.cross_track_max_m; }},
-    {"True distance from the followed path, largest", "m", 3, Better::kLess,
+    {"Driven / planned", "", 3, Better::kLower, [](const Metrics& m) { return m.path_ratio; }},
+    {"Duration of the drive", "s", 0, Better::kLower, [](const Metrics& m) { return m.duration_s; }},
+    {"Duty: driven / (0.2 m/s x time)", "%", 1, Better::kHigher, [](const Metrics& m) { return 100.0 * m.duty; }},
+    {"Time in point turns", "s", 1, Better::kLower, [](const Metrics& m) { return m.point_turn_s; }},
+    {"Repairs", "", 0, Better::kLower, [](const Metrics& m) { return 1.0 * m.replans; }},
+    {"Hazard stops", "", 0, Better::kLower, [](const Metrics& m) { return 1.0 * m.hazard_stops; }},
+    {"False stops or repairs", "", 0, Better::kLower, [](const Metrics& m) { return known(m.false_stops); }},
+    {"Collisions", "", 0, Better::kLower, [](const Metrics& m) { return 1.0 * m.collisions; }},
+    {"Minimum clearance", "m", 2, Better::kHigher, [](const Metrics& m) { return m.min_clearance_m; }},
+    {"Rocks encountered", "", 0, Better::kNeither, [](const Metrics& m) { return known(m.rocks_encountered); }},
+    {"Rocks missed", "", 0, Better::kLower, [](const Metrics& m) { return known(m.rocks_missed); }},
+    {"Cross-track error, rms", "m", 3, Better::kLower, [](const Metrics& m) { return m.cross_track_rms_m; }},
+    {"Cross-track error, maximum", "m", 3, Better::kLower, [](const Metrics& m) { return m.cross_track_max_m; }},
+    {"True distance from the followed path, maximum", "m", 3, Better::kLower,
      [](const Metrics& m) { return m.truth_deviation_max_m; }},
-    {"Odometry drift", "%", 2, Better::kLess, [](const Metrics& m) { return m.odometry_drift_percent; }},
-    {"From the goal, truly", "m", 2, Better::kLess, [](const Metrics& m) { return m.final_error_m; }},
-    {"Roll, largest", "deg", 1, Better::kLess, [](const Metrics& m) { return m.max_roll_deg; }},
-    {"Pitch, largest", "deg", 1, Better::kLess, [](const Metrics& m) { return m.max_pitch_deg; }},
-    {"Wheel slip, mean", "%", 1, Better::kLess, [](const Metrics& m) { return 100.0 * m.mean_slip; }},
-    {"Drive current, mean", "A", 2, Better::kLess, [](const Metrics& m) { return m.mean_abs_current_a; }},
-    {"Faults raised", "", 0, Better::kLess, [](const Metrics& m) { return 1.0 * static_cast<double>(m.fdir.size()); }},
-    {"Bus messages lost", "", 0, Better::kLess, [](const Metrics& m) { return static_cast<double>(m.bus_lost); }},
-    {"Times real time", "", 2, Better::kMore, [](const Metrics& m) { return m.realtime_factor; }},
+    {"Odometry drift", "%", 2, Better::kLower, [](const Metrics& m) { return m.odometry_drift_percent; }},
+    {"True distance to the goal", "m", 2, Better::kLower, [](const Metrics& m) { return m.final_error_m; }},
+    {"Roll, maximum", "deg", 1, Better::kLower, [](const Metrics& m) { return m.max_roll_deg; }},
+    {"Pitch, maximum", "deg", 1, Better::kLower, [](const Metrics& m) { return m.max_pitch_deg; }},
+    {"Wheel slip, mean", "%", 1, Better::kLower, [](const Metrics& m) { return 100.0 * m.mean_slip; }},
+    {"Drive current, mean", "A", 2, Better::kLower, [](const Metrics& m) { return m.mean_abs_current_a; }},
+    {"Faults raised", "", 0, Better::kLower, [](const Metrics& m) { return 1.0 * static_cast<double>(m.fdir.size()); }},
+    {"Bus messages lost", "", 0, Better::kLower, [](const Metrics& m) { return static_cast<double>(m.bus_lost); }},
+    {"Times real time", "", 2, Better::kHigher, [](const Metrics& m) { return m.realtime_factor; }},
 };
 
 const char* mark(Better better, double mine, double other) {
   if (better == Better::kNeither || !std::isfinite(mine) || !std::isfinite(other) || mine == other) return "";
-  return (mine < other) == (better == Better::kLess) ? " better" : "";
+  return (mine < other) == (better == Better::kLower) ? " better" : "";
 }
 
 // Equal when both print the same digits.
@@ -84,7 +84,7 @@ std::string title_of(const ComparedRun& run) {
 
 std::string figures_section(const ComparedRun& a, const ComparedRun& b) {
   std::string out = fmt::format(
-      "<h2>Figures</h2><table><tr><th></th><th class=\"n\">A: {}</th><th class=\"n\">B: {}</th><th class=\"n\">B - "
+      "<h2>Metrics</h2><table><tr><th></th><th class=\"n\">A: {}</th><th class=\"n\">B: {}</th><th class=\"n\">B - "
       "A</th></tr>\n",
       escaped(a.name), escaped(b.name));
   for (const Figure& figure : kFigures) out += figure_row(figure, a.metrics, b.metrics);
@@ -115,14 +115,15 @@ std::string compared_services(const ComparedRun& a, const ComparedRun& b) {
 
 // Do not list the points of long paths.
 std::string shortened(const std::string& text) {
-  constexpr size_t kLongest = 90;
-  return text.size() <= kLongest ? text : fmt::format("{} ... ({} characters)", text.substr(0, kLongest), text.size());
+  constexpr size_t kMaxLength = 90;
+  return text.size() <= kMaxLength ? text
+                                   : fmt::format("{} ... ({} characters)", text.substr(0, kMaxLength), text.size());
 }
 
 std::string differences_section(const std::vector<ConfigDifference>& differences) {
-  if (differences.empty()) return "<h2>Configuration</h2><p>The same in both.</p>\n";
+  if (differences.empty()) return "<h2>Configuration</h2><p>No differences.</p>\n";
   std::string out =
-      "<h2>Configuration: what differs</h2><table class=\"thirds\"><tr><th>file: key</th><th>A</th><th>B</th></tr>\n";
+      "<h2>Configuration differences</h2><table class=\"thirds\"><tr><th>file: key</th><th>A</th><th>B</th></tr>\n";
   for (const ConfigDifference& d : differences)
     out += fmt::format("<tr><td>{}</td><td><code>{}</code></td><td><code>{}</code></td></tr>\n", escaped(d.key),
                        escaped(shortened(d.a)), escaped(shortened(d.b)));
@@ -145,10 +146,10 @@ std::string pair(const std::string& of_a, const std::string& of_b) {
 
 std::string compare_html(const ComparedRun& a, const ComparedRun& b,
                          const std::vector<ConfigDifference>& configuration) {
-  std::string body = "<h1>Two runs side by side</h1><div class=\"pair\">" + title_of(a) + title_of(b) + "</div>\n";
+  std::string body = "<h1>Comparison of two runs</h1><div class=\"pair\">" + title_of(a) + title_of(b) + "</div>\n";
   body += layered_maps(pair(a.pictures.map, b.pictures.map));
   body += figures_section(a, b) + compared_services(a, b);
-  body += "<h2>Over the distance driven, in metres</h2><section class=\"plots\">\n";
+  body += "<h2>Over driven distance [m]</h2><section class=\"plots\">\n";
   for (size_t i = 0; i < std::min(a.pictures.plots.size(), b.pictures.plots.size()); ++i)
     body += pair(a.pictures.plots[i], b.pictures.plots[i]);
   body += pair(a.pictures.states, b.pictures.states) + "</section>\n" + differences_section(configuration);

@@ -20,7 +20,7 @@ std::string name_of(const std::string& dir) {
 void check_target(const std::string& file) {
   if (!fs::exists(file)) return;
   if (!fs::is_regular_file(file) || read_file(file).find("<title>Compared: ") == std::string::npos)
-    throw ConfigError(file + ": exists already and is no comparison; name another with --out");
+    throw ConfigError(file + ": already exists and is not a comparison page; choose another file with --out");
 }
 
 ComparedRun compared(const std::string& name, const Study& study) {

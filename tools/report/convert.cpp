@@ -24,7 +24,7 @@ Following following_of(std::int8_t state) {
 }
 
 std::string response_name(std::int8_t response) {
-  static const std::array kNames = {"log", "slow", "stop", "stop_replan", "restart_service", "safe", "stop_retreat"};
+  static const std::array kNames = {"log", "slow", "stop", "stop_replan", "restart_service", "safe", "stop_backtrack"};
   const auto index = static_cast<size_t>(response);
   return index < kNames.size() ? kNames[index] : "unknown";
 }
@@ -112,8 +112,8 @@ PlannerSample planner_from(const planner_status_t& message) {
 }
 
 FaultRecord fault_from(const fault_t& message) {
-  return {to_seconds(message.visible_utime), message.id,           message.value, message.limit,
-          response_name(message.response),   message.standing != 0};
+  return {to_seconds(message.visible_utime), message.id,         message.value, message.limit,
+          response_name(message.response),   message.active != 0};
 }
 
 CorrectionRecord correction_from(const correction_t& message) {

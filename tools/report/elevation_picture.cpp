@@ -101,7 +101,7 @@ void draw_colour_bar(Svg& svg, const MapView& view, const HeightRange& range) {
   svg.jpeg(x, y, kWidth, kHeight, jpeg_of(bar, kMapQuality));
   svg.text(x, y + 30.0, "0", 12, "");
   svg.text(x + kWidth, y + 30.0, fmt::format("{:.1f} m", range.high - range.low), 12, "", Anchor::kEnd);
-  svg.text(x + 0.5 * kWidth, y + 30.0, "height mapped", 12, "", Anchor::kMiddle);
+  svg.text(x + 0.5 * kWidth, y + 30.0, "mapped height", 12, "", Anchor::kMiddle);
 }
 
 void draw_corrections(Svg& svg, const MapView& view, const Scene& scene) {

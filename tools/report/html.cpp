@@ -15,7 +15,7 @@ namespace rover::report {
 namespace {
 
 std::string header(const Metrics& m) {
-  const char* whose = has_truth(m) ? "" : " &middot; no truth: by the rover's own estimate";
+  const char* whose = has_truth(m) ? "" : " &middot; no ground truth: evaluated with the rover's own estimate";
   return fmt::format(
       "<header><div><h1>Traverse: {}</h1><div class=\"meta\">{}</div></div>"
       "<div class=\"badge {}\">{}</div></header>\n",
@@ -35,15 +35,14 @@ std::string cards(const Metrics& m) {
   out += card(shown(m.duration_s, 0, "s"), fmt::format("{} times real time", shown(m.realtime_factor, 1)));
   out += card(std::to_string(m.replans), fmt::format("repairs; hazard stops: {}", m.hazard_stops));
   out += card(has_truth(m) ? std::to_string(m.collisions) : "n/a",
-              fmt::format("collisions, least clearance {}", shown(m.min_clearance_m, 2, "m")),
+              fmt::format("collisions, minimum clearance {}", shown(m.min_clearance_m, 2, "m")),
               verdict(has_truth(m), m.collisions == 0));
-  out += card(shown(m.rocks_missed), fmt::format("rocks missed of {} met", shown(m.rocks_encountered)),
+  out += card(shown(m.rocks_missed), fmt::format("rocks missed of {} encountered", shown(m.rocks_encountered)),
               verdict(m.rocks_missed.has_value(), m.rocks_missed == 0));
-  out += card(shown(m.false_stops), "stops or repairs without a cause",
-              verdict(m.false_stops.has_value(), m.false_stops == 0));
+  out += card(shown(m.false_stops), "false stops or repairs", verdict(m.false_stops.has_value(), m.false_stops == 0));
   out += card(shown(m.odometry_drift_percent, 2, "%"), "odometry drift",
               verdict(std::isfinite(m.odometry_drift_percent), m.odometry_drift_percent <= 1.0));
-  out += card(shown(m.final_error_m, 2, "m"), "from the goal, truly");
+  out += card(shown(m.final_error_m, 2, "m"), "true distance to the goal");
   return out + "</section>\n";
 }
 
@@ -54,7 +53,7 @@ struct Comparison {
   std::string best;
 };
 
-double largest_after_fix_m(const Metrics& m) {
+double max_corrected_error_m(const Metrics& m) {
   double largest = kNaN;
   for (const CorrectionFigure& correction : m.global_corrections)
     if (correction.accepted) largest = std::fmax(largest, correction.after_m);
@@ -79,12 +78,13 @@ std::string comparison_table(const Metrics& m) {
   };
   if (std::isfinite(m.slam_drift_percent))
     rows.push_back({"SLAM drift", shown(m.slam_drift_percent, 2, "%"), "0.8 %", ""});
-  const double fixed_m = largest_after_fix_m(m);
+  const double fixed_m = max_corrected_error_m(m);
   if (std::isfinite(fixed_m))
-    rows.push_back({"Error after a global correction, largest", shown(fixed_m, 2, "m"), "below 0.5 m", "0.25 m"});
+    rows.push_back({"Maximum error after a global correction", shown(fixed_m, 2, "m"), "below 0.5 m", "0.25 m"});
   std::string out =
-      "<h2>Beside the paper</h2><table><tr><th></th><th class=\"n\">this run</th><th class=\"n\">paper's field "
-      "test</th><th class=\"n\">best known elsewhere</th></tr>\n";
+      "<h2>Comparison with the paper</h2><table><tr><th></th><th class=\"n\">this run</th><th class=\"n\">paper's "
+      "field "
+      "test</th><th class=\"n\">best published</th></tr>\n";
   for (const Comparison& row : rows)
     out += fmt::format(
         "<tr><td>{}</td><td class=\"n\"><b>{}</b></td><td class=\"n\">{}</td><td class=\"n\">{}</td></tr>\n", row.what,
@@ -96,21 +96,22 @@ std::string comparison_table(const Metrics& m) {
 
 std::string figures_table(const Metrics& m) {
   const std::vector<std::pair<std::string, std::string>> rows = {
-      {"Cross-track error, largest", shown(m.cross_track_max_m, 3, "m")},
-      {"True distance from the followed path, largest", shown(m.truth_deviation_max_m, 3, "m")},
-      {"Odometry error, largest", shown(m.odometry_drift_max_m, 3, "m")},
-      {"Estimate against truth at the end, in map", shown(m.final_estimate_error_m, 3, "m")},
-      {"Roll: largest, rms", shown(m.max_roll_deg, 1) + ", " + shown(m.rms_roll_deg, 1, "deg")},
-      {"Pitch: largest, rms", shown(m.max_pitch_deg, 1) + ", " + shown(m.rms_pitch_deg, 1, "deg")},
+      {"Cross-track error, maximum", shown(m.cross_track_max_m, 3, "m")},
+      {"True distance from the followed path, maximum", shown(m.truth_deviation_max_m, 3, "m")},
+      {"Odometry error, maximum", shown(m.odometry_drift_max_m, 3, "m")},
+      {"Final error of the estimate, in map", shown(m.final_estimate_error_m, 3, "m")},
+      {"Roll: maximum, rms", shown(m.max_roll_deg, 1) + ", " + shown(m.rms_roll_deg, 1, "deg")},
+      {"Pitch: maximum, rms", shown(m.max_pitch_deg, 1) + ", " + shown(m.rms_pitch_deg, 1, "deg")},
       {"Wheel slip, mean", shown(100.0 * m.mean_slip, 1, "%")},
-      {"Drive current: mean, largest", shown(m.mean_abs_current_a, 2) + ", " + shown(m.max_current_a, 2, "A")},
+      {"Drive current: mean, maximum", shown(m.mean_abs_current_a, 2) + ", " + shown(m.max_current_a, 2, "A")},
       {"Time in point turns", shown(m.point_turn_s, 1, "s")},
       {"Stereo coverage of the region of interest, mean", shown(100.0 * m.hazard_coverage_mean, 1, "%")},
-      {"Hazard maps, blind ones", fmt::format("{}, {}", m.hazard_frames, m.hazard_frames_blind)},
-      {"Odometry frames, lost ones", fmt::format("{}, {}", m.vo_frames, m.vo_lost)},
-      {"Hazard rocks met, detected, missed",
+      {"Hazard maps: total, without coverage",
+       fmt::format("{}, {}", m.hazard_frames, m.hazard_frames_without_coverage)},
+      {"Odometry frames: total, lost", fmt::format("{}, {}", m.vo_frames, m.vo_lost)},
+      {"Hazard rocks: encountered, detected, missed",
        shown(m.rocks_encountered) + ", " + shown(m.rocks_detected) + ", " + shown(m.rocks_missed)},
-      {"Bus messages, lost", fmt::format("{}, {}", m.bus.messages, m.bus_lost)},
+      {"Bus messages: total, lost", fmt::format("{}, {}", m.bus.messages, m.bus_lost)},
       {"Bus volume", shown(static_cast<double>(m.bus.bytes) / 1e6, 0, "MB")},
       {"Damaged records in the log", std::to_string(m.bus.damaged_events)},
   };
@@ -119,20 +120,20 @@ std::string figures_table(const Metrics& m) {
   for (size_t i = 0; i < rows.size(); ++i)
     (2 * i < rows.size() ? left : right) +=
         fmt::format("<tr><td>{}</td><td class=\"n\">{}</td></tr>\n", rows[i].first, rows[i].second);
-  return "<h2>Further figures</h2><div class=\"two\"><table>" + left + "</table><table>" + right + "</table></div>\n";
+  return "<h2>More metrics</h2><div class=\"two\"><table>" + left + "</table><table>" + right + "</table></div>\n";
 }
 
 std::string corrections_table(const Metrics& m) {
   if (m.global_corrections.empty()) return "";
   std::string out =
       "<table><tr><th class=\"n\">time [s]</th><th>global correction</th><th class=\"n\">error before [m]</th>"
-      "<th class=\"n\">after [m]</th><th class=\"n\">of the fix alone [m]</th><th>why not</th></tr>\n";
+      "<th class=\"n\">after [m]</th><th class=\"n\">of the correction itself [m]</th><th>reason</th></tr>\n";
   for (const CorrectionFigure& c : m.global_corrections)
     out += fmt::format(
         "<tr><td class=\"n\">{:.1f}</td><td class=\"{}\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>"
         "<td class=\"n\">{}</td><td>{}</td></tr>\n",
         c.t_s - m.window.begin_s, c.accepted ? "good" : "", c.accepted ? "accepted" : "abstained", shown(c.before_m, 2),
-        shown(c.after_m, 2), shown(c.fix_m, 2), escaped(c.reason));
+        shown(c.after_m, 2), shown(c.correction_error_m, 2), escaped(c.reason));
   return out + "</table>\n";
 }
 
@@ -142,24 +143,22 @@ std::string full_section(const Metrics& m, const Pictures& pictures) {
   std::string out = "<h2>Levels of autonomy</h2>\n<figure>" + pictures.levels + "</figure>\n";
   if (!pictures.elevation.empty())
     out += fmt::format(
-        "<h2>Ground mapped</h2><p class=\"meta\">Heights by the NavCam along the track, over the orbital map. Drift of "
-        "SLAM's "
-        "own poses {}, of the odometry {}; largest error of the estimate {}, since the first correction {}.</p>\n"
+        "<h2>Mapped terrain</h2><p class=\"meta\">Elevation map of the NavCam along the track, over the orbital map. "
+        "Drift: SLAM {}, odometry {}. Maximum error of the estimate: {}, after the first correction {}.</p>\n"
         "<figure>{}</figure>\n",
         shown(m.slam_drift_percent, 2, "%"), shown(m.odometry_drift_percent, 2, "%"),
-        shown(m.estimate_error_max_m, 2, "m"), shown(m.fixed_error_max_m, 2, "m"), pictures.elevation);
+        shown(m.estimate_error_max_m, 2, "m"), shown(m.corrected_error_max_m, 2, "m"), pictures.elevation);
   return out + corrections_table(m);
 }
 
 std::string events_section(const Scene& scene, const Pictures& pictures) {
   const std::vector<Incident>& incidents = scene.evaluation.incidents;
   std::string out = "<h2>Stops and repairs</h2>\n";
-  if (incidents.empty()) return out + "<p>None: nothing stood in the way.</p>\n";
+  if (incidents.empty()) return out + "<p>None.</p>\n";
   out +=
-      "<p class=\"meta\">Each seen from above at the moment of the event, on the true ground: the path followed until "
-      "then (white), the repaired one (violet), the hazard cells that caused it (red), the track driven (blue). Below, "
-      "what "
-      "the LocCam saw then, with the hazard cells of that exposure.</p>"
+      "<p class=\"meta\">Each event from above, on the true terrain: previous path (white), repaired path (violet), "
+      "hazard cells that caused it (red), driven track (blue). Below: the LocCam image with the hazard cells of that "
+      "exposure.</p>"
       "<div class=\"gallery\">\n";
   for (size_t i = 0; i < pictures.incidents.size(); ++i)
     out +=
@@ -173,8 +172,8 @@ std::string events_section(const Scene& scene, const Pictures& pictures) {
   for (size_t i = 0; i < incidents.size(); ++i) {
     const Incident& incident = incidents[i];
     const bool evaluated = scene.world.has_value() || incident.unseen;
-    const std::string cause = incident.unseen ? "ground not seen"
-                              : !evaluated    ? "not judged"
+    const std::string cause = incident.unseen ? "unobserved ground"
+                              : !evaluated    ? "not evaluated"
                               : incident.real ? "real"
                                               : "none";
     out += fmt::format(
@@ -199,46 +198,44 @@ std::string faults_section(const Metrics& m) {
   return out + "</table>\n";
 }
 
-struct Happening {
+struct Event {
   double t_s;
   std::string kind;
   std::string text;
 };
 
 // State changes, faults and corrections in chronological order.
-std::vector<Happening> happenings(const RunRecord& run) {
-  std::vector<Happening> all;
+std::vector<Event> events_of(const RunRecord& run) {
+  std::vector<Event> all;
   bool full = false;
   for (const StateChange& change : run.states) {
-    std::string text = state_name(change.state) + (change.cause.empty() ? "" : ", because: " + change.cause);
+    std::string text = state_name(change.state) + (change.cause.empty() ? "" : ", cause: " + change.cause);
     if (change.full != full) text += change.full ? "; level FULL" : "; level EFFICIENT";
     full = change.full;
     all.push_back({change.t_s, "state", text});
   }
   for (const FaultRecord& fault : run.faults) {
-    const std::string what = fault.standing
-                                 ? fmt::format(" raised: {} beyond {}", shown(fault.value, 3), shown(fault.limit, 3))
-                                 : " cleared";
+    const std::string what =
+        fault.active ? fmt::format(" raised: {}, limit {}", shown(fault.value, 3), shown(fault.limit, 3)) : " cleared";
     all.push_back({fault.t_s, "fault", fault.id + what});
   }
   for (const CorrectionRecord& correction : run.corrections)
-    all.push_back({correction.t_s, "correction", correction.accepted ? "accepted" : "not accepted"});
-  std::stable_sort(all.begin(), all.end(), [](const Happening& a, const Happening& b) { return a.t_s < b.t_s; });
+    all.push_back({correction.t_s, "correction", correction.accepted ? "accepted" : "rejected"});
+  std::stable_sort(all.begin(), all.end(), [](const Event& a, const Event& b) { return a.t_s < b.t_s; });
   return all;
 }
 
-std::string happenings_section(const Scene& scene) {
-  const std::vector<Happening> all = happenings(scene.run);
+std::string events_section(const Scene& scene) {
+  const std::vector<Event> all = events_of(scene.run);
   if (all.empty()) return "";
   const double begin_s = scene.evaluation.metrics.window.begin_s;
   std::string out = fmt::format(
       "<h2>Events</h2><details{}><summary>{} changes of state, faults and corrections</summary><table><tr><th "
       "class=\"n\">time [s]</th><th></th><th>event</th></tr>\n",
       all.size() <= 30 ? " open" : "", all.size());
-  for (const Happening& happening : all)
-    out += fmt::format("<tr><td class=\"n\">{:.2f}</td><td class=\"{}\">{}</td><td>{}</td></tr>\n",
-                       happening.t_s - begin_s, happening.kind == "fault" ? "bad" : "", happening.kind,
-                       escaped(happening.text));
+  for (const Event& event : all)
+    out += fmt::format("<tr><td class=\"n\">{:.2f}</td><td class=\"{}\">{}</td><td>{}</td></tr>\n", event.t_s - begin_s,
+                       event.kind == "fault" ? "bad" : "", event.kind, escaped(event.text));
   return out + "</table></details>\n";
 }
 
@@ -252,7 +249,7 @@ std::string services_section(const Metrics& m) {
   double largest = 0.0;
   for (const auto& [name, s] : m.services) largest = std::max(largest, s.cpu_s / m.duration_s);
   std::string out =
-      "<h2>Services</h2><table><tr><th>service</th><th class=\"n\">CPU [s]</th><th class=\"n\">of the drive's "
+      "<h2>Services</h2><table><tr><th>service</th><th class=\"n\">CPU [s]</th><th class=\"n\">of drive "
       "time</th><th class=\"n\">CPU per metre [s/m]</th><th class=\"n\">memory [MB]</th><th class=\"n\">step, "
       "median [ms]</th><th class=\"n\">step, p99 [ms]</th><th class=\"n\">restarts</th></tr>\n";
   for (const auto& [name, s] : m.services)
@@ -280,10 +277,10 @@ std::string report_html(const Scene& scene, const Pictures& pictures,
   const Metrics& m = scene.evaluation.metrics;
   std::string body = header(m) + cards(m) + layered_maps(pictures.map);
   body += full_section(m, pictures) + trajectory_section(m) + comparison_table(m) + events_section(scene, pictures);
-  body += "<h2>Over the distance driven, in metres</h2><section class=\"plots\">\n";
+  body += "<h2>Over driven distance [m]</h2><section class=\"plots\">\n";
   for (const std::string& plot : pictures.plots) body += plot;
   body += pictures.states + "</section>\n";
-  body += figures_table(m) + happenings_section(scene) + faults_section(m) + services_section(m) +
+  body += figures_table(m) + events_section(scene) + faults_section(m) + services_section(m) +
           configuration_section(configuration);
   return document("Traverse: " + m.info.scenario, body);
 }

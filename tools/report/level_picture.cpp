@@ -122,15 +122,15 @@ class Strip {
   void draw_axis(Svg& svg) const {
     const std::string label = fmt::format("fill:{}", palette::kMuted);
     svg.text(left_, top_ - 10.0,
-             "Effective speed over the newest minute [m/s], stops (red) and repairs (violet), by metres driven", 14,
+             "Effective speed over the last minute [m/s], stops (red) and repairs (violet), over driven distance", 14,
              "font-weight:600");
     for (double mps = 0.0; mps <= scene_.footprint.top_speed_mps + 1e-9; mps += 0.05) {
       svg.line(left_, y(mps), left_ + width_, y(mps), fmt::format("stroke:{};stroke-width:1", palette::kFaint));
       svg.text(left_ - 6.0, y(mps) + 4.0, fmt::format("{:.2f}", mps), 11.5, label, Anchor::kEnd);
     }
     const Axis ticks = round_axis(0.0, std::max(1.0, scene_.evaluation.metrics.driven_length_m), 10);
-    for (double way = 0.0; x(way) <= left_ + width_ + 0.5; way += ticks.step)
-      svg.text(x(way), top_ + kStrip + 16.0, number_text(way), 11.5, label, Anchor::kMiddle);
+    for (double distance_m = 0.0; x(distance_m) <= left_ + width_ + 0.5; distance_m += ticks.step)
+      svg.text(x(distance_m), top_ + kStrip + 16.0, number_text(distance_m), 11.5, label, Anchor::kMiddle);
   }
 
   const Scene& scene_;
@@ -166,7 +166,7 @@ void list_switches(Svg& svg, const Metrics& m, double left, double top) {
 std::string switch_text(const LevelSwitch& change) {
   std::string text = fmt::format("{}: {}", change.to_full ? "EFFICIENT to FULL" : "FULL to EFFICIENT", change.reason);
   if (!change.quantity.empty())
-    text += fmt::format(", {} {:.2g} against {:.2g}", change.quantity, change.value, change.threshold);
+    text += fmt::format(", {} {:.2g}, threshold {:.2g}", change.quantity, change.value, change.threshold);
   return text;
 }
 

@@ -9,7 +9,7 @@ namespace rover::report {
 
 // SVG document; empty if the run never used nor requested the Full level.
 std::string draw_levels(const Scene& scene);
-// "EFFICIENT to FULL: slow_progress, effective_speed_mps 0.05 against 0.06"
+// "EFFICIENT to FULL: slow_progress, effective_speed_mps 0.05, threshold 0.06"
 std::string switch_text(const LevelSwitch& change);
 
 }  // namespace rover::report

@@ -109,7 +109,7 @@ class Reader {
   // Active faults are repeated; reports of one row differ in the time at which the fault became visible.
   void add_fault(const FaultRecord& fault) {
     const bool known = std::any_of(run_.faults.begin(), run_.faults.end(), [&](const FaultRecord& before) {
-      return before.id == fault.id && before.t_s == fault.t_s && before.standing == fault.standing;
+      return before.id == fault.id && before.t_s == fault.t_s && before.active == fault.active;
     });
     if (!known) run_.faults.push_back(fault);
   }
@@ -150,7 +150,7 @@ class Reader {
 RunRecord read_log(const LogRun& run, std::optional<double> run_s) {
   Reader reader(run_s ? to_utime(*run_s - kUncountedS) : std::numeric_limits<Utime>::max());
   for_each_event(run, [&](const LogEvent& event) { reader.add(event); });
-  if (run.left_bytes > 0) reader.count_damaged();
+  if (run.skipped_bytes > 0) reader.count_damaged();
   return reader.finish();
 }
 

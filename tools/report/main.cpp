@@ -13,20 +13,21 @@ int main(int argc, char** argv) {
   std::string config_dir = rover::project_dir() + "/config";
   std::string out;
   CLI::App app(
-      "One run: makes its metrics.json, report.html, traverse.svg and traverse.png again. Two: compares them in one "
-      "page.\n"
+      "Evaluates a run: metrics.json, report.html, traverse.svg and traverse.png in its folder. Two runs: compares "
+      "them "
+      "on one page.\n"
       "Examples: ./rover report logs/RUN       ./rover report logs/RUN_A logs/RUN_B");
   app.name("./rover report");
-  app.add_option("run_dir", run_dirs, "the run's folder, or two")
+  app.add_option("run_dir", run_dirs, "run folder, or two of them")
       ->required()
       ->expected(1, 2)
       ->transform(rover::is_user_path());
-  rover::repeatable(app.add_option("--log-run", log_runs,
-                                   "of a log that holds several runs: the first is 1; of two folders one for each"))
+  rover::repeatable(
+      app.add_option("--log-run", log_runs, "number of the run in a log of several runs, from 1; one for each folder"))
       ->check(CLI::Range(1, 1'000'000));
-  app.add_option("--out", out, "of a comparison; default: compare-A-B.html in the current folder")
+  app.add_option("--out", out, "comparison page; default: compare-A-B.html in the current folder")
       ->transform(rover::is_user_path());
-  app.add_option("--config", config_dir, "vehicle of a run whose folder holds no configuration")
+  app.add_option("--config", config_dir, "configuration of the vehicle, if the run folder has none")
       ->transform(rover::is_user_path())
       ->capture_default_str();
   try {
@@ -35,7 +36,8 @@ int main(int argc, char** argv) {
     return rover::end_of_parse(app, error);
   }
   if (run_dirs.size() == 1 && !out.empty()) {
-    std::fprintf(stderr, "rover_report: --out is for a comparison; the report of one run goes into its folder\n");
+    std::fprintf(stderr,
+                 "rover_report: --out is only for a comparison; the report of one run is written into its folder\n");
     return 2;
   }
   log_runs.resize(run_dirs.size());

@@ -22,7 +22,7 @@ void check_targets(const std::string& dir) {
        {"metrics.json", "traverse.svg", "traverse.png", "elevation.png", "levels.png", "report.html"}) {
     const fs::path file = fs::path(dir) / name;
     if (fs::is_symlink(file) || (fs::exists(file) && !made_before))
-      throw ConfigError(file.string() + ": exists already and is no report's; move it away");
+      throw ConfigError(file.string() + ": already exists and is not part of a report; move it away");
   }
 }
 
@@ -42,7 +42,7 @@ std::string write_report(const Study& study) {
   write_file(folder.dir + "/report.html", report_html(study.scene(), pictures, configuration_texts(folder)));
   return fmt::format("{}: {}, {:.1f} m driven of {:.1f} m planned, {} repairs, {}", folder.dir, m.outcome,
                      m.driven_length_m, m.planned_length_m, m.replans,
-                     has_truth(m) ? fmt::format("{} collisions", m.collisions) : "no truth");
+                     has_truth(m) ? fmt::format("{} collisions", m.collisions) : "no ground truth");
 }
 
 std::string make_report(const std::string& run_dir, const std::string& default_config_dir, int log_run) {

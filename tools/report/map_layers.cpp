@@ -34,7 +34,7 @@ MapView map_view(const Scene& scene) {
   const Box lines = bounds({true_line(scene), planned_line(scene)});
   const double margin = std::max(3.0, 0.06 * std::max(lines.width_m(), lines.height_m()));
   MapView view;
-  view.box = with_aspect(lines.grown(margin), 0.36, 0.95);
+  view.box = with_aspect(lines.expanded(margin), 0.36, 0.95);
   view.left = kMapAxis + 8.0;
   view.top = 8.0;
   view.px_per_m = (kMapWidth - view.left - 8.0) / view.box.width_m();
@@ -81,9 +81,9 @@ Box bounds(const std::vector<Points>& lines) {
   return box.x0_m <= box.x1_m ? box : Box{0.0, 0.0, 1.0, 1.0};
 }
 
-Box with_aspect(Box box, double least, double most) {
-  const double grow_y = 0.5 * std::max(0.0, least * box.width_m() - box.height_m());
-  const double grow_x = 0.5 * std::max(0.0, box.height_m() / most - box.width_m());
+Box with_aspect(Box box, double min_ratio, double max_ratio) {
+  const double grow_y = 0.5 * std::max(0.0, min_ratio * box.width_m() - box.height_m());
+  const double grow_x = 0.5 * std::max(0.0, box.height_m() / max_ratio - box.width_m());
   return {box.x0_m - grow_x, box.y0_m - grow_y, box.x1_m + grow_x, box.y1_m + grow_y};
 }
 
@@ -93,7 +93,7 @@ void draw_rocks(Svg& svg, const MapView& view, const Scene& scene, RockStyle sty
   std::string hazards;
   for (const Rock& rock : scene.world->rocks) {
     const Eigen::Vector2d p(rock.x_m, rock.y_m);
-    if (rock.height_m < kPebbleM || !view.box.grown(rock.radius_m).contains(p)) continue;
+    if (rock.height_m < kPebbleM || !view.box.expanded(rock.radius_m).contains(p)) continue;
     (rock.height_m >= kHazardRockM ? hazards : pebbles) += circle_path(view.px(p), rock.radius_m * view.px_per_m);
   }
   if (style == RockStyle::kFilled) {
@@ -172,13 +172,13 @@ void draw_north(Svg& svg, const MapView& view) {
 
 std::string incident_title(const Scene& scene, size_t index) {
   const Incident& incident = scene.evaluation.incidents[index];
-  std::string title = incident.stopped ? "stop" : "repair under way";
+  std::string title = incident.stopped ? "stop" : "repair while driving";
   if (incident.stopped && incident.replanned) title = "stop and repair";
-  if (incident.unseen) return title + ", ground not seen";
+  if (incident.unseen) return title + ", unobserved ground";
   if (!scene.world) return title;
   if (incident.tallest_rock_m >= kRealRockM)
     return title + fmt::format(", rock {:.2f} m tall", incident.tallest_rock_m);
-  return title + (incident.real ? ", step or hole" : ", nothing there");
+  return title + (incident.real ? ", step or hole" : ", false detection");
 }
 
 }  // namespace rover::report

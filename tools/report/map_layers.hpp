@@ -33,7 +33,7 @@ void draw_axes(Svg& svg, const MapView& view);
 std::string stroke(const char* colour, double width, const std::string& more = "");
 
 // Grows the box until height / width is in the range.
-Box with_aspect(Box box, double least, double most);
+Box with_aspect(Box box, double min_ratio, double max_ratio);
 Box bounds(const std::vector<Points>& lines);
 
 enum class RockStyle { kFilled, kOutlined };  // kOutlined: over a picture that shows the rocks

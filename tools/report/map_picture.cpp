@@ -140,7 +140,7 @@ void draw_legend(Svg& svg, double left, double top, double right, bool has_truth
       {"repaired path", 130, 38, bar(stroke(palette::kRepair, 2.4))},
       {"detected hazard", 132, 24, square(palette::kHazard)},
       {"detected hole", 118, 24, square(palette::kHole)},
-      {"rock 0.15 m and taller", 176, 24, disc(fmt::format("fill:{};stroke:#fff", palette::kRock))},
+      {"rock of 0.15 m or more", 176, 24, disc(fmt::format("fill:{};stroke:#fff", palette::kRock))},
       {"lower rock", 94, 24, disc(fmt::format("fill:{};fill-opacity:.35", palette::kPebble))},
       {"repair", 66, 24, disc(fmt::format("fill:#fff;stroke:{};stroke-width:2", palette::kRepair))},
       {"hazard stop", 100, 24, disc(fmt::format("fill:#fff;stroke:{};stroke-width:2", palette::kBad))},
@@ -192,7 +192,7 @@ std::string draw_incident(const Scene& scene, size_t index) {
   const Pose2 pose = truth.planar_at(incident.t_s);
   const Eigen::Vector2d middle = transform(pose, {1.3, 0.0});
   MapView view;
-  view.box = Box{middle.x(), middle.y(), middle.x(), middle.y()}.grown(0.5 * kBoxM);
+  view.box = Box{middle.x(), middle.y(), middle.x(), middle.y()}.expanded(0.5 * kBoxM);
   view.top = 26.0;
   view.px_per_m = kSide / kBoxM;
   Svg svg(kSide, kSide + view.top);

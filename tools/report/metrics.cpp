@@ -170,7 +170,7 @@ void evaluate_estimate(const RunRecord& run, const TrueTrack& truth, Metrics& m)
     const Eigen::Vector3d p = (pose.T_map_odom * pose.T_odom_body).translation();
     const double error_m = (p - truth.at(pose.t_s).translation()).head<2>().norm();
     m.estimate_error_max_m = std::fmax(m.estimate_error_max_m, error_m);
-    if (pose.t_s >= fixed_s) m.fixed_error_max_m = std::fmax(m.fixed_error_max_m, error_m);
+    if (pose.t_s >= fixed_s) m.corrected_error_max_m = std::fmax(m.corrected_error_max_m, error_m);
   }
 }
 
@@ -236,7 +236,7 @@ void evaluate_corrections(const RunRecord& run, const TrueTrack& truth, Metrics&
         // In a damaged log the release may precede the map or all poses.
         const double taken_s = std::max(correction.t_s, correction.released_s + kCorrectionDelayS);
         figure.after_m = error_m(newest(run.poses, taken_s)->T_map_odom);
-        figure.fix_m = (transform(correction.T_map_odom, in_odom) - p).norm();
+        figure.correction_error_m = (transform(correction.T_map_odom, in_odom) - p).norm();
       }
     }
     m.global_corrections.push_back(figure);
@@ -295,7 +295,7 @@ void evaluate_sensing(const RunRecord& run, Metrics& m) {
   for (const HazardMap& map : run.hazards) {
     if (!m.window.contains(map.t_s)) continue;
     ++m.hazard_frames;
-    m.hazard_frames_blind += map.blind ? 1 : 0;
+    m.hazard_frames_without_coverage += map.blind ? 1 : 0;
     coverage.add(map.coverage);
   }
   m.hazard_coverage_mean = coverage.mean();
@@ -349,12 +349,12 @@ RunEvaluation evaluate(const RunRecord& run, const RunInfo& info, const Footprin
   evaluate_services(run, m);
   evaluate_sensing(run, m);
   std::copy_if(run.faults.begin(), run.faults.end(), std::back_inserter(m.fdir),
-               [](const FaultRecord& fault) { return fault.standing; });
+               [](const FaultRecord& fault) { return fault.active; });
   m.bus = run.bus;
   if (info.sim_s && info.wall_s && *info.wall_s > 0.0) m.realtime_factor = *info.sim_s / *info.wall_s;
   evaluation.incidents = evaluate_stops(run, truth, m.window, footprint, world.value_or(TrueWorld{}));
-  m.unseen_stops = static_cast<int>(std::count_if(evaluation.incidents.begin(), evaluation.incidents.end(),
-                                                  [](const Incident& incident) { return incident.unseen; }));
+  m.unobserved_stops = static_cast<int>(std::count_if(evaluation.incidents.begin(), evaluation.incidents.end(),
+                                                      [](const Incident& incident) { return incident.unseen; }));
   if (world) evaluate_world(run, truth, footprint, *world, evaluation);
   m.outcome = outcome_of(run, m);
   return evaluation;

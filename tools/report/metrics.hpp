@@ -34,8 +34,8 @@ struct LevelFigures {
 struct CorrectionFigure {
   double t_s = 0.0;
   double before_m = kNaN;
-  double after_m = kNaN;  // of the estimate after localization applied it
-  double fix_m = kNaN;    // of the correction itself; NaN if rejected
+  double after_m = kNaN;             // of the estimate after localization applied it
+  double correction_error_m = kNaN;  // of the correction itself; NaN if rejected
   bool accepted = false;
   std::string reason;  // reason of the rejection
 };
@@ -81,7 +81,7 @@ struct Metrics {
   double odometry_drift_max_m = kNaN;
   double slam_drift_percent = kNaN;      // SLAM's own poses, aligned at the first one
   double estimate_error_max_m = kNaN;    // of the pose in map
-  double fixed_error_max_m = kNaN;       // the same, after the first accepted correction
+  double corrected_error_max_m = kNaN;   // the same, after the first accepted correction
   double final_error_m = kNaN;           // true final position to the goal
   double final_estimate_error_m = kNaN;  // estimated to true final position, in map
   std::vector<CorrectionFigure> global_corrections;
@@ -89,7 +89,7 @@ struct Metrics {
   std::optional<int> rocks_detected;  // among those encountered
   std::optional<int> rocks_missed;
   std::optional<int> false_stops;
-  int unseen_stops = 0;
+  int unobserved_stops = 0;
   std::vector<FaultRecord> fdir;         // each raised fault
   double motion_without_lease_s = kNaN;  // true motion after the permit expired, beyond the stopping time
   std::map<std::string, ServiceFigures> services;
@@ -103,7 +103,7 @@ struct Metrics {
   std::map<std::string, double> time_in_state_s;
   double point_turn_s = 0.0;
   int hazard_frames = 0;
-  int hazard_frames_blind = 0;
+  int hazard_frames_without_coverage = 0;
   double hazard_coverage_mean = kNaN;
   int vo_frames = 0;
   int vo_lost = 0;

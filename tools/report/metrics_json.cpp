@@ -51,7 +51,7 @@ Json switches_json(const Metrics& m) {
 }
 
 Json level_json(const LevelFigures& level) {
-  return {{"way_m", level.travelled_m}, {"time_s", level.time_s}, {"hazard_stops", level.hazard_stops}};
+  return {{"travelled_m", level.travelled_m}, {"time_s", level.time_s}, {"hazard_stops", level.hazard_stops}};
 }
 
 Json corrections_json(const Metrics& m) {
@@ -60,7 +60,7 @@ Json corrections_json(const Metrics& m) {
     list.push_back({{"t_s", correction.t_s},
                     {"before_m", number(correction.before_m)},
                     {"after_m", number(correction.after_m)},
-                    {"fix_m", number(correction.fix_m)},
+                    {"correction_error_m", number(correction.correction_error_m)},
                     {"accepted", correction.accepted},
                     {"reason", text(correction.reason)}});
   return list;
@@ -154,7 +154,7 @@ void add_accuracy(const Metrics& m, Json& json) {
   json["odometry_drift_max_m"] = number(m.odometry_drift_max_m);
   json["slam_drift_percent"] = number(m.slam_drift_percent);
   json["estimate_error_max_m"] = number(m.estimate_error_max_m);
-  json["fixed_error_max_m"] = number(m.fixed_error_max_m);
+  json["corrected_error_max_m"] = number(m.corrected_error_max_m);
   json["final_error_m"] = number(m.final_error_m);
   json["final_estimate_error_m"] = number(m.final_estimate_error_m);
   json["global_corrections"] = corrections_json(m);
@@ -168,9 +168,9 @@ void add_hazards(const Metrics& m, Json& json) {
   json["rocks_detected"] = optional(m.rocks_detected);
   json["rocks_missed"] = optional(m.rocks_missed);
   json["false_stops"] = optional(m.false_stops);
-  json["unseen_stops"] = m.unseen_stops;
+  json["unobserved_stops"] = m.unobserved_stops;
   json["hazard_frames"] = m.hazard_frames;
-  json["hazard_frames_blind"] = m.hazard_frames_blind;
+  json["hazard_frames_without_coverage"] = m.hazard_frames_without_coverage;
   json["hazard_coverage_mean"] = number(m.hazard_coverage_mean);
   json["vo_frames"] = m.vo_frames;
   json["vo_lost"] = m.vo_lost;

@@ -28,7 +28,7 @@ RunRecord with_estimate_for_truth(const RunRecord& run) {
 void leave_out_truth_figures(Metrics& m) {
   m.min_clearance_m = m.motion_without_lease_s = kNaN;
   m.truth_deviation_max_m = m.odometry_drift_percent = m.odometry_drift_max_m = m.slam_drift_percent = kNaN;
-  m.estimate_error_max_m = m.fixed_error_max_m = kNaN;
+  m.estimate_error_max_m = m.corrected_error_max_m = kNaN;
   m.final_error_m = m.final_estimate_error_m = kNaN;
   m.final_truth_pose.reset();
   m.rocks_encountered.reset();
@@ -36,7 +36,7 @@ void leave_out_truth_figures(Metrics& m) {
   m.rocks_missed.reset();
   m.false_stops.reset();
   for (CorrectionFigure& correction : m.global_corrections)
-    correction.before_m = correction.after_m = correction.fix_m = kNaN;
+    correction.before_m = correction.after_m = correction.correction_error_m = kNaN;
 }
 
 }  // namespace rover::report

@@ -73,7 +73,7 @@ Footprint footprint_of(const std::string& config_dir) {
 }  // namespace
 
 RunFolder open_run_folder(const std::string& dir, const std::string& default_config_dir) {
-  if (fs::is_regular_file(dir)) throw ConfigError(dir + ": is a file; the report is of a run's folder");
+  if (fs::is_regular_file(dir)) throw ConfigError(dir + ": is a file; a run folder is expected");
   if (!fs::is_directory(dir)) throw ConfigError(dir + ": no such folder");
   RunFolder folder;
   folder.dir = dir;

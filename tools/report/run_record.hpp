@@ -1,4 +1,4 @@
-// What the judge knows of a run: the log as plain series, and what the run's folder says of it. Times are message time.
+// Data of a run from its log and folder, as time series. Times are message time.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -79,7 +79,7 @@ struct StateChange {
   State state = State::kBoot;
   bool full = false;
   std::string cause;
-  std::string quantity;  // measured, behind the cause; empty: none
+  std::string quantity;  // quantity of the cause; empty: none
   double value = kNaN;
   double threshold = kNaN;
 };
@@ -93,11 +93,11 @@ struct PathRecord {
 };
 
 struct HazardCell {
-  Eigen::Vector2d p_body;  // middle of the cell, at the exposure
+  Eigen::Vector2d p_body;  // cell centre, at the exposure
   bool hole = false;
 };
 
-// One HAZARDS map: cells seen as obstacle or hole, without margins.
+// One HAZARDS map: cells detected as obstacle or hole, without margins.
 struct HazardMap {
   double t_s = 0.0;  // exposure
   double released_s = 0.0;
@@ -114,7 +114,7 @@ struct PlannerSample {
   int replans = 0;
 };
 
-// A DRIVE_PERMIT that was granted.
+// A granted DRIVE_PERMIT.
 struct PermitSample {
   double released_s = 0.0;
   double until_s = 0.0;
@@ -126,7 +126,7 @@ struct FaultRecord {
   double value = kNaN;
   double limit = kNaN;
   std::string response;
-  bool standing = false;
+  bool active = false;
 };
 
 struct CorrectionRecord {
@@ -134,7 +134,7 @@ struct CorrectionRecord {
   bool accepted = false;
   Pose2 T_map_odom;
   double released_s = kNaN;
-  std::string reason;  // of an abstention
+  std::string reason;  // of a rejection
 };
 
 // Each SLAM_POSE.
@@ -143,7 +143,7 @@ struct SlamSample {
   Pose2 T_map_odom;
 };
 
-// CPU time of a process so far, and its memory.
+// Accumulated CPU time and memory of a process.
 struct HeartbeatSample {
   double t_s = 0.0;
   std::int64_t boot_id = 0;
@@ -160,9 +160,9 @@ struct ServiceRecord {
 };
 
 struct BusRecord {
-  std::int64_t messages = 0;  // published, by their sequence numbers
+  std::int64_t messages = 0;  // published messages, by sequence numbers
   std::int64_t bytes = 0;
-  int damaged_events = 0;  // records of the log that do not decode
+  int damaged_events = 0;  // undecodable records of the log
 };
 
 struct RunRecord {
@@ -198,10 +198,10 @@ struct RunInfo {
   std::optional<double> sim_s;
   std::string outcome_hint;
   std::map<std::string, int> restarts;
-  std::optional<int> data_set_pairs;  // of stereo pictures; empty: no imported data set
+  std::optional<int> data_set_pairs;  // number of stereo pairs; empty: not an imported data set
 };
 
-// The ground that the rover covers, about the body origin, and how high that is above flat ground.
+// Footprint about the body origin, and the origin's height above flat ground.
 struct Footprint {
   double half_length_m = 0.875;
   double half_width_m = 0.47;
@@ -216,7 +216,7 @@ struct Rock {
   double height_m = 0.0;
 };
 
-// The true world around the run, for the judge alone.
+// The true world around the run, only for the evaluation.
 struct TrueWorld {
   std::vector<Rock> rocks;
   std::function<double(double x_m, double y_m)> height_m;  // of the surface; empty: unknown

@@ -23,7 +23,7 @@ Box surroundings(const RunRecord& run) {
   for (const TruthSample& sample : run.truth) track.emplace_back(sample.T_map_body.translation().head<2>());
   std::vector<Points> lines{track};
   for (const PathRecord& path : run.global_paths) lines.push_back(path.points);
-  return bounds(lines).grown(kAroundM);
+  return bounds(lines).expanded(kAroundM);
 }
 
 std::vector<std::string> draw_cameras(const Study& study) {

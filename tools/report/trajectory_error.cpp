@@ -10,10 +10,10 @@ namespace {
 using Eigen::Isometry3d;
 
 std::vector<double> arc_lengths_m(const std::vector<PosePair>& poses) {
-  std::vector<double> way = {0.0};
+  std::vector<double> arc_m = {0.0};
   for (size_t i = 1; i < poses.size(); ++i)
-    way.push_back(way.back() + (poses[i].truth.translation() - poses[i - 1].truth.translation()).norm());
-  return way;
+    arc_m.push_back(arc_m.back() + (poses[i].truth.translation() - poses[i - 1].truth.translation()).norm());
+  return arc_m;
 }
 
 // Relative pose error from i to j, in the frame of j.
@@ -41,14 +41,14 @@ class Mean {
 
 void evaluate_segments(const std::vector<PosePair>& poses, const std::vector<double>& lengths_m,
                        TrajectoryError& error) {
-  const std::vector<double> way = arc_lengths_m(poses);
+  const std::vector<double> arc_m = arc_lengths_m(poses);
   Mean all;
   for (const double length_m : lengths_m) {
     Mean mean;
     for (size_t i = 0; i < poses.size(); ++i) {
-      const auto end = std::lower_bound(way.begin(), way.end(), way[i] + length_m);
-      if (end == way.end()) break;
-      const Isometry3d off = motion_error(poses[i], poses[static_cast<size_t>(end - way.begin())]);
+      const auto end = std::lower_bound(arc_m.begin(), arc_m.end(), arc_m[i] + length_m);
+      if (end == arc_m.end()) break;
+      const Isometry3d off = motion_error(poses[i], poses[static_cast<size_t>(end - arc_m.begin())]);
       const double percent = 100.0 * off.translation().norm() / length_m;
       const double deg_per_m = to_deg(log_so3(off.linear()).norm()) / length_m;
       mean.add(percent, deg_per_m);

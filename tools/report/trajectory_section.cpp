@@ -25,16 +25,17 @@ std::string row(const char* name, const TrajectoryError& error) {
 std::string trajectory_section(const Metrics& m) {
   if (!m.info.data_set_pairs) return {};
   std::string out =
-      "<h2>Against the ground truth</h2><table><tr><th></th><th class=\"n\">poses</th><th class=\"n\">end "
+      "<h2>Comparison with the ground truth</h2><table><tr><th></th><th class=\"n\">poses</th><th class=\"n\">end "
       "error</th><th class=\"n\">after alignment, rms</th>";
   for (const SegmentError& s : m.visual_odometry.segments)
     out += fmt::format("<th class=\"n\">{:.0f} m</th>", s.length_m);
-  out += "<th class=\"n\">all stretches</th><th class=\"n\">rotation</th></tr>\n";
+  out += "<th class=\"n\">all segments</th><th class=\"n\">rotation</th></tr>\n";
   out += row("visual odometry", m.visual_odometry) + row("published pose", m.published_pose);
-  return out + fmt::format(
-                   "</table><p class=\"meta\">{} stereo pairs; visual odometry spoke of {} motions between them, {} of "
-                   "them lost. Stretches by KITTI's metric.</p>\n",
-                   *m.info.data_set_pairs, m.vo_frames, m.vo_lost);
+  return out +
+         fmt::format(
+             "</table><p class=\"meta\">{} stereo pairs; visual odometry published {} motions between them, {} of "
+             "them lost. Segment errors by the KITTI metric.</p>\n",
+             *m.info.data_set_pairs, m.vo_frames, m.vo_lost);
 }
 
 }  // namespace rover::report

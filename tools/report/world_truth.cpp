@@ -24,13 +24,13 @@ TrueWorld true_world(const RunFolder& folder, const Box& around) {
 
 std::optional<TrueWorld> load_true_world(const RunFolder& folder, const Box& around) {
   if (folder.scenario.empty() || !folder.info.seed) {
-    std::fprintf(stderr, "%s: no scenario or no seed: rocks are not judged\n", folder.dir.c_str());
+    std::fprintf(stderr, "%s: no scenario or no seed: rocks are not evaluated\n", folder.dir.c_str());
     return std::nullopt;
   }
   try {
     return true_world(folder, around);
   } catch (const std::runtime_error& error) {
-    std::fprintf(stderr, "%s: rocks are not judged\n", error.what());
+    std::fprintf(stderr, "%s: rocks are not evaluated\n", error.what());
     return std::nullopt;
   }
 }
@@ -39,11 +39,11 @@ HeightRaster load_orbital_map(const RunFolder& folder) {
   if (folder.orbital_map.empty()) return {};
   try {
     ElevationMap map = read_elevation_map(folder.orbital_map);
-    demand_no_voids(map, folder.orbital_map);
+    require_no_voids(map, folder.orbital_map);
     ElevationRaster& raster = map.raster;
     return {raster.width, raster.height, raster.resolution_m, std::move(raster.z_m)};
   } catch (const DtmError& error) {
-    std::fprintf(stderr, "%s: the map has no relief\n", error.what());
+    std::fprintf(stderr, "%s: the map has no hill shading\n", error.what());
     return {};
   }
 }

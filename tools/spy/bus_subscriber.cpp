@@ -36,7 +36,7 @@ void BusSubscriber::listen(int timeout_ms) {
   for (lcm::LCM* lcm : {&bus_, &reports_}) {
     int handled = 1;
     while (handled > 0) handled = lcm->handleTimeout(0);
-    if (handled < 0 && going()) throw ConfigError("bus: " + url_ + " has failed");
+    if (handled < 0 && keep_running()) throw ConfigError("bus: " + url_ + " has failed");
   }
 }
 

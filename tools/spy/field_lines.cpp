@@ -55,7 +55,7 @@ void add_messages(const std::string& indent, const Field& field, std::vector<std
     add_lines(indent + "  ", messages[i], out);
   }
   if (messages.size() > kLineMessages || messages.empty())
-    out.push_back(line(indent, field, fmt::format("({} in all)", messages.size())));
+    out.push_back(line(indent, field, fmt::format("({} in total)", messages.size())));
 }
 
 void add_lines(const std::string& indent, const Fields& fields, std::vector<std::string>& out) {

@@ -14,14 +14,14 @@ int main(int argc, char** argv) {
       "Shows every channel of the bus, or of a log: rate, age, gaps, volume and fields.\n"
       "Examples: ./rover spy --channel POSE       ./rover spy logs/RUN/traverse.lcm");
   app.name("./rover spy");
-  app.add_option("log", spy.log, "a log, or a run's folder; default: the bus of the run that runs")
+  app.add_option("log", spy.log, "log file or run folder; default: the bus of the running run")
       ->transform(rover::is_user_path());
   rover::add_log_run(app, spy.log_run);
-  rover::repeatable(app.add_option("--channel", channels, "with all fields; repeatable"));
-  app.add_flag("--once", spy.once, "listen for a moment, show, and end");
-  app.add_option("--for", spy.for_s, "end after so many seconds")->check(CLI::Range(0.1, 1e6));
-  app.add_flag("--json", spy.json, "one JSON document, after a moment or after --for");
-  app.add_option("--run", spy.target.run, "folder of the run; default: the newest in logs/ that runs")
+  rover::repeatable(app.add_option("--channel", channels, "show all fields of this channel; repeatable"));
+  app.add_flag("--once", spy.once, "listen for 1.2 s, print once and exit");
+  app.add_option("--for", spy.for_s, "stop after this many seconds")->check(CLI::Range(0.1, 1e6));
+  app.add_flag("--json", spy.json, "print one JSON document, after 1.2 s or after --for");
+  app.add_option("--run", spy.target.run, "run folder; default: the newest running one in logs/")
       ->transform(rover::is_user_path());
   app.add_option("--bus", spy.target.bus, "LCM URL; default: the run's")->check(rover::is_bus_url());
   try {

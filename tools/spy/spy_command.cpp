@@ -42,13 +42,14 @@ std::string names_of(const TrafficStatistics& statistics) {
 int report_missing(const TrafficStatistics& statistics, const std::string& source,
                    const std::set<std::string>& chosen) {
   if (statistics.channels.empty()) {
-    std::fprintf(stderr, "%s: nothing was heard. Is a rover running there? ./rover status tells\n", source.c_str());
+    std::fprintf(stderr, "%s: no messages received. Is a rover running on this bus? See ./rover status\n",
+                 source.c_str());
     return 1;
   }
   for (const std::string& channel : chosen) {
     if (statistics.channels.contains(channel)) continue;
     const bool known = find_channel_type(channel) != nullptr;
-    std::fprintf(stderr, "%s: %s %s; heard:%s\n", source.c_str(), known ? "no message on" : "there is no channel",
+    std::fprintf(stderr, "%s: %s %s; received:%s\n", source.c_str(), known ? "no message on" : "there is no channel",
                  status::printable(channel).c_str(), names_of(statistics).c_str());
     return known ? 1 : 2;
   }
@@ -81,7 +82,7 @@ int spy_on_log(const SpyArguments& arguments) {
 
 // Handles messages until end_s, Ctrl-C or the end of the run.
 void listen_until(BusSubscriber& subscriber, double end_s) {
-  while (going() && wall_s() < end_s)
+  while (keep_running() && wall_s() < end_s)
     subscriber.listen(std::clamp(static_cast<int>((end_s - wall_s()) * 1e3), 1, kPollMs));
 }
 
@@ -90,7 +91,7 @@ int watch(BusSubscriber& subscriber, Traffic& traffic, const status::Target& tar
   const auto over = [&] { return !target.run_dir.empty() && !status::is_running(target.run_dir); };
   {
     status::Terminal terminal;
-    while (going() && wall_s() < end_s && !over()) {
+    while (keep_running() && wall_s() < end_s && !over()) {
       listen_until(subscriber, std::min(end_s, wall_s() + kRefreshS));
       const status::ScreenOptions options = status::on_terminal() ? terminal.options() : everything();
       terminal.redraw(table(traffic.statistics(wall_s()), target.bus_url, arguments.channels, options));

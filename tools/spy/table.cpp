@@ -77,7 +77,7 @@ std::string table(const TrafficStatistics& statistics, const std::string& source
   if (lines.size() > options.rows) {
     const size_t more = lines.size() - options.rows + 1;
     lines.resize(options.rows - 1);
-    lines.push_back({{fmt::format("and {} more lines: a higher terminal, or --once, shows all", more)}});
+    lines.push_back({{fmt::format("and {} more lines; enlarge the terminal or use --once", more)}});
   }
   std::string out;
   for (const Line& line : lines) out += rendered(line, options.columns, options.colours) + "\n";

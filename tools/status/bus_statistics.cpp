@@ -41,7 +41,7 @@ Snapshot BusStatistics::snapshot(const std::map<std::string, ProcessFigures>& pr
   Snapshot out;
   out.now = clock_.now();
   out.realtime_factor = window.wall_s > 0.0 ? window.message_s / window.wall_s : kNaN;
-  out.tick_silence_s = clock_.silence_s(wall_s);
+  out.tick_silence_s = clock_.tick_age_s(wall_s);
   out.state = state_;
   if (state_) out.state_for_s = clock_.age_s(state_->since);
   out.permit = permit_;

@@ -8,7 +8,6 @@ namespace rover::status {
 namespace {
 
 constexpr std::array kConditions = {"FALSE", "TRUE", "STALE", "INVALID"};
-constexpr std::array kResponses = {"LOG", "SLOW", "STOP", "STOP_REPLAN", "RESTART_SERVICE", "SAFE", "STOP_RETREAT"};
 
 template <size_t N>
 std::string name_of(const std::array<const char*, N>& names, std::int8_t value) {
@@ -78,11 +77,11 @@ FaultReport report_from(const fault_t& message) {
   out.utime = message.header.utime;
   out.id = message.id;
   out.condition = name_of(kConditions, message.condition);
-  out.response = name_of(kResponses, message.response);
+  out.response = response_name(message.response);
   out.value = message.value;
   out.limit = message.limit;
   out.visible = message.visible_utime;
-  out.active = message.standing == 1;
+  out.active = message.active == 1;
   return out;
 }
 

@@ -40,7 +40,7 @@ Listener::Listener(lcm::LCM& lcm, BusStatistics& statistics, std::function<doubl
 }
 
 void Listener::receive(const std::string& channel, const void* data, int size) {
-  // Skip LCM's self test, and DONE where it shares the bus.
+  // Skip LCM's self test, and DONE if it shares the bus.
   if (channel == "LCM_SELF_TEST" || channel == channel::kDone) return;
   header_t header{};
   if (!right_type(channel, data, size) || !peek_header(data, size, header) || !dispatch(channel, header, data, size))
@@ -63,11 +63,11 @@ bool Listener::dispatch(const std::string& channel, const header_t& header, cons
   return true;
 }
 
-bool Listener::listen_until(double wall_s, const std::function<bool()>& going) {
+bool Listener::listen_until(double wall_s, const std::function<bool()>& running) {
   constexpr int kLongestMs = 50;
-  for (double left_s = wall_s - wall_s_(); left_s > 0.0 && going(); left_s = wall_s - wall_s_()) {
+  for (double left_s = wall_s - wall_s_(); left_s > 0.0 && running(); left_s = wall_s - wall_s_()) {
     const int wait_ms = std::clamp(static_cast<int>(left_s * 1e3), 1, kLongestMs);
-    if (lcm_.handleTimeout(wait_ms) < 0 && going()) return false;
+    if (lcm_.handleTimeout(wait_ms) < 0 && running()) return false;
   }
   return true;
 }

@@ -16,8 +16,8 @@ class Listener {
   Listener(const Listener&) = delete;
   Listener& operator=(const Listener&) = delete;
 
-  // Handles messages until wall_s or until `going` is false. Returns false if the bus fails.
-  bool listen_until(double wall_s, const std::function<bool()>& going);
+  // Handles messages until wall_s or until `running` is false. Returns false if the bus fails.
+  bool listen_until(double wall_s, const std::function<bool()>& running);
 
  private:
   void receive(const std::string& channel, const void* data, int size);

@@ -22,7 +22,7 @@ class MessageClock {
   Utime now() const { return ticks_.empty() ? kNever : ticks_.back().utime; }
   // At most the last 5 s of message time. Wall time continues if ticks stop.
   Window window(double wall_s) const;
-  double silence_s(double wall_s) const { return ticks_.empty() ? kNaN : wall_s - ticks_.back().wall_s; }
+  double tick_age_s(double wall_s) const { return ticks_.empty() ? kNaN : wall_s - ticks_.back().wall_s; }
   // Age in message time; NaN if unknown.
   double age_s(Utime utime) const;
 

@@ -25,7 +25,7 @@ std::string last_part(const std::string& dir) {
 }
 
 Line clock_line(const Snapshot& s) {
-  if (s.now == kNever) return {{"no TICK heard: the bus is silent", Colour::kRed}};
+  if (s.now == kNever) return {{"no TICK received: no messages on the bus", Colour::kRed}};
   double messages = 0.0;
   double bytes = 0.0;
   for (const auto& [name, channel] : s.channels) {
@@ -41,13 +41,13 @@ Line clock_line(const Snapshot& s) {
 
 void add_title(const Snapshot& s, Lines& out) {
   out.push_back({{"rover ", Colour::kPlain},
-                 {s.run_dir.empty() ? "(no run: the bus alone)" : printable(last_part(s.run_dir)), Colour::kBold},
+                 {s.run_dir.empty() ? "(no run, only a bus)" : printable(last_part(s.run_dir)), Colour::kBold},
                  {"   " + printable(s.bus_url)}});
   out.push_back(clock_line(s));
 }
 
 Line cause_line(const StateReport& state) {
-  std::string text = "  because: " + (state.cause.empty() ? "-" : printable(state.cause));
+  std::string text = "  cause: " + (state.cause.empty() ? "-" : printable(state.cause));
   if (!state.quantity.empty())
     text += "   " + printable(state.quantity) + " " + brief(state.value) + ", threshold " + brief(state.threshold);
   return {{text}};
@@ -56,11 +56,11 @@ Line cause_line(const StateReport& state) {
 void add_state(const Snapshot& s, Lines& out) {
   out.emplace_back();
   if (!s.state) {
-    out.push_back({{"no STATE heard: the supervisor is silent", Colour::kRed}});
+    out.push_back({{"no STATE received from the supervisor", Colour::kRed}});
     return;
   }
   const StateReport& state = *s.state;
-  std::string permit = "no permit heard";
+  std::string permit = "no permit received";
   if (s.permit) permit = s.permit->granted ? "may drive" : "may not drive: " + printable(s.permit->reason);
   out.push_back({{state.state, colour_of_state(state.state)},
                  {"   " + state.level + "   for " + fixed(s.state_for_s, 2) + " s   " + permit + "   " +
@@ -79,7 +79,7 @@ void add_faults(const Snapshot& s, Lines& out) {
   if (!s.state && s.faults.empty()) return;  // without STATE the list of faults is unknown, not empty
   out.emplace_back();
   if (s.faults.empty()) {
-    out.push_back({{"no fault stands"}});
+    out.push_back({{"no active faults"}});
     return;
   }
   out.push_back({{left("FAULT", 32) + right("VALUE", 12) + right("LIMIT", 12) + right("FOR s", 10) + "  " +

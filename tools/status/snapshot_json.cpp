@@ -91,7 +91,7 @@ Json to_json(const Snapshot& s) {
   for (const FaultStatus& fault : s.faults) out["faults"].push_back(fault_json(fault));
   for (const auto& [name, channel] : s.channels) out["channels"][name] = channel_json(channel);
   out["state_for_s"] = number(s.state_for_s);
-  out["because"] = s.state ? cause_json(*s.state) : Json(nullptr);
+  out["transition"] = s.state ? cause_json(*s.state) : Json(nullptr);
   out["permit"] = s.permit ? permit_json(*s.permit) : Json(nullptr);
   out["hazard_stops"] = s.state ? Json(s.state->hazard_stops) : Json(nullptr);
   out["clock"] = clock_json(s);

@@ -37,7 +37,7 @@ class Observer {
         processes_(target.run_dir) {}
 
   void listen(double seconds) {
-    if (!listener_.listen_until(wall_s() + seconds, going))
+    if (!listener_.listen_until(wall_s() + seconds, keep_running))
       throw ConfigError("bus: " + target_.bus_url + " has failed");
     processes_.sample(statistics_.pids(), wall_s());
   }
@@ -66,12 +66,12 @@ int watch(Observer& observer) {
   catch_interrupts();
   {
     Terminal terminal;
-    while (going() && !observer.over()) {
+    while (keep_running() && !observer.over()) {
       terminal.redraw(screen(observer.snapshot(), terminal.options()));
       observer.listen(kRefreshS);
     }
   }
-  if (going()) std::printf("the run is over\n");
+  if (keep_running()) std::printf("the run is over\n");
   return 0;
 }
 
@@ -88,7 +88,7 @@ int show_status(const StatusArguments& arguments) {
   for (int more = 0; more < kMoreRefreshes && lacks_figures(observer.snapshot()); ++more) observer.listen(kRefreshS);
   const Snapshot snapshot = observer.snapshot();
   if (target->run_dir.empty() && snapshot.channels.empty()) {
-    std::fprintf(stderr, "no rover runs: nothing was heard on %s\n", target->bus_url.c_str());
+    std::fprintf(stderr, "no rover is running: no messages received on %s\n", target->bus_url.c_str());
     return 1;
   }
   if (arguments.json) {

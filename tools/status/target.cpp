@@ -24,11 +24,12 @@ std::optional<Target> find_target(const TargetArguments& arguments) {
   }
   if (arguments.run.empty() && !arguments.bus.empty()) return Target{"", arguments.bus};
   if (arguments.run.empty()) {
-    std::fprintf(stderr,
-                 "no rover runs: no services are kept in %s. Start one with ./rover run, or name a bus: --bus\n",
-                 arguments.logs_dir.c_str());
+    std::fprintf(
+        stderr,
+        "no rover is running: no running services in %s. Start one with ./rover run, or select a bus with --bus\n",
+        arguments.logs_dir.c_str());
   } else {
-    std::fprintf(stderr, "%s: no services run there\n", arguments.run.c_str());
+    std::fprintf(stderr, "%s: no services are running\n", arguments.run.c_str());
   }
   return std::nullopt;
 }

@@ -1,4 +1,4 @@
-// The type that each channel carries, for those who take messages without knowing them.
+// The message type of each channel.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +14,9 @@ struct ChannelType {
   bool (*decodes)(const void* data, int size);
 };
 
-// Null where the channel is not one of channels.hpp.
+// Null for channels that are not in channels.hpp.
 const ChannelType* find_channel_type(const std::string& channel);
-// Those that have a type, by name.
+// All channels with a type, sorted by name.
 std::vector<std::string> typed_channels();
 using FindChannelType = decltype(&find_channel_type);
 

@@ -1,4 +1,4 @@
-// Every channel of the bus, once. The message type stands beside it.
+// All channels of the bus with their message types.
 #pragma once
 
 namespace rover::channel {

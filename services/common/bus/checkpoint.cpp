@@ -16,7 +16,7 @@ struct FileHead {
   std::uint64_t checksum;
 };
 
-// FNV-1a: tells a torn or overwritten file from a whole one.
+// FNV-1a: detects truncated and overwritten files.
 std::uint64_t checksum(const std::vector<std::uint8_t>& bytes) {
   std::uint64_t hash = 0xcbf29ce484222325u;
   for (const std::uint8_t byte : bytes) hash = (hash ^ byte) * 0x100000001b3u;
@@ -47,8 +47,8 @@ std::optional<std::vector<std::uint8_t>> load_checkpoint(const std::string& run_
   std::ifstream file(path_of(run_dir, name), std::ios::binary);
   FileHead head{};
   if (!file.read(reinterpret_cast<char*>(&head), sizeof head) || head.magic != kMagic) return std::nullopt;
-  constexpr std::uint64_t kLargest = 64u << 20;
-  if (head.size > kLargest) return std::nullopt;
+  constexpr std::uint64_t kMaxBytes = 64u << 20;
+  if (head.size > kMaxBytes) return std::nullopt;
   std::vector<std::uint8_t> bytes(head.size);
   if (!file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size())))
     return std::nullopt;

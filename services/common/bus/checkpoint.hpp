@@ -8,10 +8,10 @@
 
 namespace rover {
 
-// Writes beside the old one and renames, so that a reader finds the old or the new, never half. False where the disk
-// does not take it (the old one then stays).
+// Writes a new file and renames it, so a reader never finds a partial one. False if the disk refuses; the old one
+// remains.
 bool save_checkpoint(const std::string& run_dir, const std::string& name, const std::vector<std::uint8_t>& bytes);
-// Empty where there is none, or where it is damaged (length or checksum).
+// Empty if absent or damaged (length or checksum).
 std::optional<std::vector<std::uint8_t>> load_checkpoint(const std::string& run_dir, const std::string& name);
 
 }  // namespace rover

@@ -14,7 +14,7 @@ extern char** environ;
 namespace rover {
 namespace {
 
-// Of the child's files, set up before it starts.
+// File redirections of a child process.
 class FileActions {
  public:
   FileActions() { posix_spawn_file_actions_init(&actions_); }

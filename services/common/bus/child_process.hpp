@@ -1,4 +1,4 @@
-// Programs started by their argument vectors, so that no shell ever reads a text of the user's.
+// Starts programs without a shell, so that text of the user is never interpreted.
 #pragma once
 
 #include <optional>
@@ -7,11 +7,11 @@
 
 namespace rover {
 
-// What it prints; nothing where it cannot be started or ends with another status than 0.
+// Its standard output; nothing if it cannot be started or its exit status is not 0.
 std::optional<std::string> output_of(const std::vector<std::string>& command);
-// Its exit status, -1 where it cannot be started or is killed. What it prints, errors included, goes into the file.
+// Its exit status; -1 if it cannot be started or is killed. Its output, errors included, goes into the file.
 int run_into(const std::string& log_file, const std::vector<std::string>& command);
-// Its exit status as above; it prints where this program does.
+// The same, with the output of this program.
 int run_program(const std::vector<std::string>& command);
 
 }  // namespace rover

@@ -1,4 +1,4 @@
-// What the arguments of all commands have in common.
+// Shared parsing of command-line arguments.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -12,7 +12,7 @@
 
 namespace rover {
 
-// For options whose values are paths of the user's.
+// For options whose value is a path.
 inline CLI::Validator is_user_path() {
   const auto change = [](std::string& typed) -> std::string {
     try {
@@ -25,7 +25,7 @@ inline CLI::Validator is_user_path() {
   return CLI::Validator(change, "PATH");
 }
 
-// For options whose values are buses.
+// For options whose value is a bus.
 inline CLI::Validator is_bus_url() {
   return CLI::Validator([](std::string& url) { return bus_url_problem(url); }, "URL");
 }
@@ -37,12 +37,12 @@ inline CLI::Validator not_negative() {
   return CLI::Validator(problem, "");
 }
 
-// Makes an option for lists take one value each time that it is given: what follows it is not its own.
+// A list option takes one value each time it is given, so that it does not consume positional arguments.
 inline CLI::Option* repeatable(CLI::Option* option) {
   return option->allow_extra_args(false);
 }
 
-// The library takes 012 for ten, saturates 1e20, and leaves nan within every range.
+// CLI11 reads 012 as octal, saturates 1e20, and accepts nan in every range.
 inline std::string problem_of_value(const std::string& type, const std::string& value) {
   const auto whole = parse_whole_number(value);
   if (type.starts_with("INT") && !whole)
@@ -57,31 +57,30 @@ inline std::string problem_of_value(const std::string& type, const std::string& 
 inline void check_values(CLI::App& app) {
   for (CLI::Option* option : app.get_options()) {
     const std::string type = option->get_type_name();
-    // A transformation comes before the library's own checks.
+    // Transformations run before CLI11's own checks.
     option->transform(CLI::Validator([type](std::string& value) { return problem_of_value(type, value); }, ""));
   }
   for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) check_values(*command);
 }
 
-// Instead of app.parse: numbers are those of core/decimal.hpp and no text is empty, in all options and commands.
+// Replaces app.parse: numbers follow core/decimal.hpp, and empty texts are errors.
 inline void parse_arguments(CLI::App& app, int argc, char** argv) {
   check_values(app);
   app.parse(argc, argv);
 }
 
-// The same for every command that reads a log.
+// Option of every command that reads a log.
 inline CLI::Option* add_log_run(CLI::App& app, int& number) {
-  return app.add_option("--log-run", number, "of a log that holds several runs: the first is 1")
+  return app.add_option("--log-run", number, "number of the run in a log of several runs, from 1")
       ->check(CLI::Range(1, 1'000'000));
 }
 
-// Exit status: 0 where help was asked for, else 2 with one line that says where to find it.
+// Exit status: 0 if --help was given, else 2 with one line that refers to it.
 inline int end_of_parse(const CLI::App& app, const CLI::ParseError& error) {
   if (error.get_exit_code() == 0) return app.exit(error);
   std::string command = app.get_name();
   for (const CLI::App* sub : app.get_subcommands()) command += " " + sub->get_name();
-  std::fprintf(stderr, "%s: %s; %s --help tells more\n", command.c_str(), one_line(error.what()).c_str(),
-               command.c_str());
+  std::fprintf(stderr, "%s: %s; see %s --help\n", command.c_str(), one_line(error.what()).c_str(), command.c_str());
   return 2;
 }
 

@@ -34,9 +34,9 @@ const YAML::Node& checked_map(const YAML::Node& node, const std::string& file) {
 
 // As it is written, short enough for a line.
 std::string shown(const YAML::Node& node) {
-  constexpr size_t kMost = 60;
+  constexpr size_t kMax = 60;
   std::string text = node.Scalar();
-  if (text.size() > kMost) text.replace(kMost, std::string::npos, "...");
+  if (text.size() > kMax) text.replace(kMax, std::string::npos, "...");
   const std::string quote = is_plain(node) ? "'" : "\"";
   return quote + text + quote;
 }

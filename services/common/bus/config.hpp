@@ -13,7 +13,7 @@
 
 namespace rover {
 
-// Without control characters, and shortened in the middle where it is longer than 2000 bytes.
+// Without control characters, and truncated in the middle beyond 2000 bytes.
 std::string one_line(std::string text);
 
 // One line of printable text, whatever of the user's it quotes.

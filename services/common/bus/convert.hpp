@@ -1,4 +1,4 @@
-// Between message arrays and core types.
+// Conversion between message arrays and core types.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -18,11 +18,11 @@ void pose_to(const Eigen::Isometry3d& T, double position_m[3], double quat_wxyz[
 Matrix6d matrix6_from(const double values[36]);
 void matrix6_to(const Matrix6d& m, double values[36]);
 
-// Empty image where the message contradicts itself (size, encoding).
+// Empty image if the message is inconsistent (size, encoding).
 GrayImage image_from(const image_t& message);
 void image_to(const GrayImage& image, image_t& message);
 
-// Empty disparity where the message contradicts itself.
+// Empty disparity if the message is inconsistent.
 Disparity disparity_from(const disparity_t& message);
 StereoCamera camera_from(const disparity_t& message);
 void disparity_to(const Disparity& disparity, const StereoCamera& camera, disparity_t& message);

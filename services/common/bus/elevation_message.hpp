@@ -1,4 +1,4 @@
-// What every consumer of ELEVATION asks of it first.
+// Validity check for every consumer of ELEVATION.
 #pragma once
 
 #include <rover/elevation_t.hpp>
@@ -6,7 +6,7 @@
 
 namespace rover {
 
-// What is wrong with the message; empty: nothing. Single cells may be NaN.
+// Error text; empty if the message is valid. Single cells may be NaN.
 std::string fault_of(const elevation_t& message);
 
 }  // namespace rover

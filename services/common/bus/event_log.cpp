@@ -17,8 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array<std::uint8_t, 4> kSync = {0xED, 0xA1, 0xDA, 0x01};
-constexpr int kLongestChannel = 999;               // LCM's reader takes no longer ones
-constexpr std::int64_t kLongestMessage = 1 << 28;  // LCM sends no longer ones
+constexpr int kMaxChannelLength = 999;              // limit of LCM's reader
+constexpr std::int64_t kMaxMessageBytes = 1 << 28;  // limit of LCM's publisher
 constexpr Utime kLatest = Utime{1} << 53;
 
 std::int64_t big_endian(const std::uint8_t* bytes, int count) {
@@ -32,16 +32,16 @@ bool begins_with_sync(const std::vector<std::uint8_t>& bytes) {
   return std::equal(bytes.begin(), bytes.begin() + static_cast<long>(count), kSync.begin());
 }
 
-void demand_file(const std::string& path) {
+void require_file(const std::string& path) {
   std::error_code error;
   if (!fs::exists(path, error)) throw ConfigError(path + ": no such log");
-  if (!fs::is_regular_file(path, error)) throw ConfigError(path + ": is no file; a log is read from a file");
+  if (!fs::is_regular_file(path, error)) throw ConfigError(path + ": is not a regular file");
 }
 
 }  // namespace
 
 EventLogReader::EventLogReader(const std::string& path) : file_(nullptr, &fclose) {
-  demand_file(path);
+  require_file(path);
   file_.reset(fopen(path.c_str(), "rb"));
   if (!file_) throw ConfigError(path + ": cannot be read");
   size_ = static_cast<std::int64_t>(fs::file_size(path));
@@ -70,19 +70,20 @@ bool EventLogReader::next(LogEvent& event) {
       ++length_.records;
       return true;
     }
-    length_.damages += in_damage_ ? 0 : 1;
+    length_.damaged_places += in_damage_ ? 0 : 1;
     in_damage_ = true;
     if (!find_next_head()) break;
   }
   return false;
 }
 
-// Its lengths are right where the next record begins at its end, or where its message decodes.
+// The lengths are correct if the next record begins at the end, or if the message decodes.
 bool EventLogReader::read_record(LogEvent& event) {
   if (head_.size() < kHeadBytes || !begins_with_sync(head_)) return false;
   const std::int64_t channel_size = big_endian(&head_[20], 4);
   const std::int64_t data_size = big_endian(&head_[24], 4);
-  if (channel_size < 1 || channel_size > kLongestChannel || data_size < 0 || data_size > kLongestMessage) return false;
+  if (channel_size < 1 || channel_size > kMaxChannelLength || data_size < 0 || data_size > kMaxMessageBytes)
+    return false;
   const std::int64_t end = at_ + static_cast<std::int64_t>(kHeadBytes) + channel_size + data_size;
   if (end > size_) return false;
   const bool followed = record_begins_at(end);
@@ -103,7 +104,7 @@ bool EventLogReader::read_record(LogEvent& event) {
   return true;
 }
 
-// At the end of a cut file a part of the word is all there is.
+// A truncated file may end within the sync word.
 bool EventLogReader::record_begins_at(std::int64_t offset) const {
   std::vector<std::uint8_t> word(kSync.size());
   word.resize(static_cast<size_t>(std::max<ssize_t>(0, pread(fileno(file_.get()), word.data(), word.size(), offset))));
@@ -120,20 +121,20 @@ bool EventLogReader::find_next_head() {
     const auto found = std::search(chunk.begin(), end, kSync.begin(), kSync.end());
     if (found == end) continue;
     const std::int64_t next = from + (found - chunk.begin());
-    length_.left_bytes += next - at_;
+    length_.skipped_bytes += next - at_;
     seek(next);
     return true;
   }
-  length_.left_bytes += size_ - at_;
+  length_.skipped_bytes += size_ - at_;
   at_ = size_;
   return false;
 }
 
 std::string log_file(const std::string& log_or_run) {
-  std::error_code error;  // a folder above that cannot be entered: the file is not there then
+  std::error_code error;  // if a parent folder cannot be entered, the file counts as absent
   const bool is_folder = fs::is_directory(log_or_run, error);
   const std::string file = is_folder ? (fs::path(log_or_run) / "traverse.lcm").string() : log_or_run;
-  demand_file(file);
+  require_file(file);
   return file;
 }
 
@@ -158,8 +159,8 @@ LogLength for_each_event(const std::string& path, const std::function<void(const
     EventLogReader reader(part);
     for (LogEvent event; reader.next(event);) take(event);
     sum.records += reader.length().records;
-    sum.left_bytes += reader.length().left_bytes;
-    sum.damages += reader.length().damages;
+    sum.skipped_bytes += reader.length().skipped_bytes;
+    sum.damaged_places += reader.length().damaged_places;
   }
   return sum;
 }

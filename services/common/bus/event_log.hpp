@@ -1,4 +1,4 @@
-// Reads LCM event logs: whole, cut, damaged, and those that the recorder has split into parts.
+// Reads LCM event logs, also truncated, damaged, or split into parts by the recorder.
 #pragma once
 
 #include <cstdint>
@@ -14,29 +14,29 @@ namespace rover {
 
 struct LogEvent {
   std::string channel;
-  const std::uint8_t* data = nullptr;  // until the next event is read
+  const std::uint8_t* data = nullptr;  // valid until the next event is read
   int size = 0;
-  Utime time = 0;          // of the record; damaged ones are kept within +-2^53
+  Utime time = 0;          // of the record, clamped to +-2^53
   std::int64_t begin = 0;  // of its record in the file [bytes]
   std::int64_t end = 0;
 };
 
 struct LogLength {
-  std::int64_t records = 0;     // whole ones
-  std::int64_t left_bytes = 0;  // that belong to none of them
-  int damages = 0;              // places where such bytes lie
+  std::int64_t records = 0;        // intact records
+  std::int64_t skipped_bytes = 0;  // outside of intact records
+  int damaged_places = 0;          // number of skipped ranges
 };
 
-// One file, record by record. What is between two whole records, and behind the last one, is passed over.
+// Reads one file record by record and skips bytes that belong to no intact record.
 class EventLogReader {
  public:
-  // Throws ConfigError where there is no such file.
+  // Throws ConfigError if there is no such file.
   explicit EventLogReader(const std::string& path);
   // False at the end of the file.
   bool next(LogEvent& event);
-  // Before the first record is read: whether the file is empty or begins with a record, whole or cut.
+  // Before the first read: whether the file is empty or begins with a record, intact or truncated.
   bool begins_as_log() const;
-  // Goes on at this byte.
+  // Continues at this byte.
   void seek(std::int64_t offset);
   const LogLength& length() const { return length_; }
   std::int64_t size() const { return size_; }  // of the file [bytes]
@@ -50,21 +50,21 @@ class EventLogReader {
 
   std::unique_ptr<FILE, int (*)(FILE*)> file_;
   std::int64_t size_ = 0;
-  std::int64_t at_ = 0;  // of the head
+  std::int64_t at_ = 0;  // of the record header
   std::vector<std::uint8_t> head_;
   std::vector<std::uint8_t> body_;
   bool in_damage_ = false;
   LogLength length_;
 };
 
-// The file, and "NAME-002.lcm", "NAME-003.lcm" ... beside "NAME.lcm" as far as they go.
+// The file and its existing further parts: "NAME.lcm", "NAME-002.lcm", "NAME-003.lcm" ...
 std::vector<std::string> log_parts(const std::string& path);
 std::string log_part(const std::string& path, int number);  // from 1
 
-// The file that is meant by a log or by the folder of a run. Throws ConfigError with one line where there is none.
+// The log file of a log or of the folder of a run. Throws ConfigError with one line if there is none.
 std::string log_file(const std::string& log_or_run);
 
-// Calls `take` for each whole record of all parts. Throws ConfigError where there is no log.
+// Calls `take` for each intact record of all parts. Throws ConfigError if there is no log.
 LogLength for_each_event(const std::string& path, const std::function<void(const LogEvent&)>& take);
 
 }  // namespace rover

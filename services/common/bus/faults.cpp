@@ -16,40 +16,47 @@ namespace {
 using enum FaultTarget;
 
 constexpr Range kNone{0.0, 0.0};
-constexpr Range kShare{0.0, 1.0};
-constexpr double kMust = std::numeric_limits<double>::quiet_NaN();
+constexpr Range kFraction{0.0, 1.0};
+constexpr double kRequired = std::numeric_limits<double>::quiet_NaN();
 const std::vector<std::string> kWheels = {"0", "1", "2", "3", "4", "5"};
 
 const std::vector<std::string> kLenses = {"left", "right", "both", "navcam_left", "navcam_right", "navcam"};
 
 const std::vector<FaultKind>& table() {
   static const std::vector<FaultKind> kTable = {
-      {"kill", kService, {}, "", kNone, 0.0, false, "ends the process at once; s6 starts it again"},
-      {"hang", kService, {}, "", kNone, 0.0, false, "stops the process where it stands (SIGSTOP)"},
-      {"restart_loop", kService, {}, "times", {2, 20}, 3.0, false, "ends the process again each time it is back"},
-      {"slow", kSlow, {}, "s", {0.02, 10}, 0.5, true, "all that the service publishes comes later"},
-      {"drop", kChannel, {}, "share", kShare, 1.0, true, "messages are lost"},
-      {"delay", kChannel, {}, "s", {0.02, 60}, 0.5, true, "messages come later"},
-      {"duplicate", kChannel, {}, "share", kShare, 1.0, true, "messages come twice"},
-      {"reorder", kChannel, {}, "share", kShare, 0.3, true, "messages come after those that follow them"},
-      {"corrupt", kChannel, {}, "share", kShare, 1.0, true, "one bit of a message is flipped"},
-      {"freeze", kChannel, {}, "", kNone, 0.0, true, "the first message's content comes again and again"},
-      {"nan", kField, {}, "share", kShare, 1.0, true, "numbers become NaN"},
-      {"offset", kField, {}, "field's unit", {-1e6, 1e6}, kMust, true, "is added to one field's numbers"},
-      {"loss", kBus, {"*"}, "share", {0.01, 0.5}, 0.1, true, "messages of all channels are lost"},
-      {"camera_blind", kWorld, kLenses, "", kNone, 0.0, true, "black pictures; both: of the LocCam"},
-      {"camera_frozen", kWorld, kLenses, "", kNone, 0.0, true, "the same picture again and again"},
-      {"camera_rows", kWorld, kLenses, "px", {-50, 50}, 3.0, true, "pictures shifted downwards"},
-      {"camera_columns", kWorld, kLenses, "px", {-50, 50}, 3.0, true, "shifted to the right"},
+      {"kill", kService, {}, "", kNone, 0.0, false, "kills the process; s6 restarts it"},
+      {"hang", kService, {}, "", kNone, 0.0, false, "stops the process (SIGSTOP)"},
+      {"restart_loop", kService, {}, "times", {2, 20}, 3.0, false, "kills the process again after each restart"},
+      {"slow", kSlow, {}, "s", {0.02, 10}, 0.5, true, "all messages of the service are delayed"},
+      {"drop", kChannel, {}, "fraction", kFraction, 1.0, true, "messages are lost"},
+      {"delay", kChannel, {}, "s", {0.02, 60}, 0.5, true, "messages are delayed"},
+      {"duplicate", kChannel, {}, "fraction", kFraction, 1.0, true, "messages are received twice"},
+      {"reorder", kChannel, {}, "fraction", kFraction, 0.3, true, "messages are received after later ones"},
+      {"corrupt", kChannel, {}, "fraction", kFraction, 1.0, true, "one bit of a message is flipped"},
+      {"freeze", kChannel, {}, "", kNone, 0.0, true, "the content of the first message is repeated"},
+      {"nan", kField, {}, "fraction", kFraction, 1.0, true, "values become NaN"},
+      {"offset", kField, {}, "field's unit", {-1e6, 1e6}, kRequired, true, "added to the values of one field"},
+      {"loss", kBus, {"*"}, "fraction", {0.01, 0.5}, 0.1, true, "messages of all channels are lost"},
+      {"camera_blind", kWorld, kLenses, "", kNone, 0.0, true, "black images; both: of the LocCam"},
+      {"camera_frozen", kWorld, kLenses, "", kNone, 0.0, true, "the same image is repeated"},
+      {"camera_rows", kWorld, kLenses, "px", {-50, 50}, 3.0, true, "images shifted downwards"},
+      {"camera_columns", kWorld, kLenses, "px", {-50, 50}, 3.0, true, "images shifted to the right"},
       {"imu_dead", kWorld, {"imu"}, "", kNone, 0.0, true, "no IMU messages"},
       {"gyro_bias", kWorld, {"imu"}, "rad/s", {-2, 2}, 0.05, true, "on the yaw rate, fibre-optic gyro included"},
       {"accel_bias", kWorld, {"imu"}, "m/s2", {-20, 20}, 0.5, true, "on the forward acceleration"},
-      {"encoder_stuck", kWorld, kWheels, "", kNone, 0.0, true, "the wheel's encoder stands still"},
+      {"encoder_stuck", kWorld, kWheels, "", kNone, 0.0, true, "the wheel's encoder reports no motion"},
       {"wheel_jammed", kWorld, kWheels, "", kNone, 0.0, true, "the wheel does not turn; its motor stalls"},
-      {"loose_sand", kWorld, {"ground"}, "", kNone, 0.0, true, "all wheels stand on loose sand"},
-      {"tilt_roll", kWorld, {"ground"}, "deg", {-60, 60}, kMust, true, "gravity as on a slope across the heading"},
-      {"tilt_pitch", kWorld, {"ground"}, "deg", {-60, 60}, kMust, true, "gravity as on a slope along it, nose down"},
-      {"clock_step", kWorld, {"clock"}, "s", {0.02, 3600}, kMust, false, "message time jumps ahead once"},
+      {"loose_sand", kWorld, {"ground"}, "", kNone, 0.0, true, "loose sand under all wheels"},
+      {"tilt_roll", kWorld, {"ground"}, "deg", {-60, 60}, kRequired, true, "gravity as on a slope across the heading"},
+      {"tilt_pitch",
+       kWorld,
+       {"ground"},
+       "deg",
+       {-60, 60},
+       kRequired,
+       true,
+       "gravity as on a slope along it, nose down"},
+      {"clock_step", kWorld, {"clock"}, "s", {0.02, 3600}, kRequired, false, "message time jumps ahead once"},
       {"full_disk", kRecorder, {"recorder"}, "", kNone, 0.0, true, "the recorder finds no space"},
   };
   return kTable;
@@ -77,20 +84,20 @@ std::string service_problem(const std::string& target) {
   return "'" + target + "' is not a service; there are " + joined(names);
 }
 
-// TICK, DONE and INJECT are the machinery itself.
+// Faults on TICK, DONE and INJECT would stop the simulation or the injection itself.
 std::string channel_problem(const std::string& channel, FindChannelType types) {
-  static const std::set<std::string> kNotTapped = {channel::kTick, channel::kDone, channel::kInject};
+  static const std::set<std::string> kExcluded = {channel::kTick, channel::kDone, channel::kInject};
   if (types(channel) == nullptr) return "'" + channel + "' is not a channel";
-  return kNotTapped.contains(channel) ? "no fault can be put on " + channel : "";
+  return kExcluded.contains(channel) ? "no fault can be put on " + channel : "";
 }
 
 std::string field_problem(const FaultKind& kind, const std::string& target, FindChannelType types) {
   const FieldTarget at = split_field(target);
   if (std::string problem = channel_problem(at.channel, types); !problem.empty()) return problem;
   const std::vector<std::string> fields = fields_of(at.channel);
-  if (fields.empty()) return at.channel + " has no numbers that " + kind.name + " knows";
+  if (fields.empty()) return at.channel + " has no fields for the fault " + kind.name;
   if (at.field.empty())
-    return kind.name == "offset" ? "a field is needed, as in " + at.channel + "." + fields.front() : "";
+    return kind.name == "offset" ? "a field is required, for example " + at.channel + "." + fields.front() : "";
   if (std::find(fields.begin(), fields.end(), at.field) != fields.end()) return "";
   return at.channel + " has no field '" + at.field + "'; there are " + joined(fields);
 }
@@ -143,11 +150,11 @@ std::string fault_list() {
     std::ostringstream amount;
     if (!kind.unit.empty()) {
       amount << kind.amount.min << ".." << kind.amount.max << " " << kind.unit;
-      if (std::isfinite(kind.usual)) amount << " (" << kind.usual << ")";
+      if (std::isfinite(kind.default_amount)) amount << " (" << kind.default_amount << ")";
     }
     char line[256];
     std::snprintf(line, sizeof line, "%-15s %-16s %-28s %s\n", kind.name.c_str(), usual_target(kind).c_str(),
-                  amount.str().c_str(), kind.what.c_str());
+                  amount.str().c_str(), kind.description.c_str());
     text += line;
   }
   return text;

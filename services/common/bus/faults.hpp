@@ -1,4 +1,4 @@
-// Every fault that can be injected, once: what it is done to, what its amount means, who carries it out.
+// Table of all faults that can be injected: target, unit and range of the amount, and who carries it out.
 #pragma once
 
 #include <limits>
@@ -12,10 +12,10 @@ namespace rover {
 
 enum class FaultTarget {
   kService,  // a process by its service's name; carried out by the simulator or through s6
-  kSlow,     // a service whose messages come late; carried out by the taps of all who take them
-  kChannel,  // CHANNEL; carried out by the tap of each node that takes it
-  kField,    // CHANNEL or CHANNEL.field, numbers with a point; by the taps
-  kBus,      // all inputs of all nodes; by the taps
+  kSlow,     // a service whose messages are delayed; by the fault injectors of their subscribers
+  kChannel,  // CHANNEL; by the fault injectors of its subscribers
+  kField,    // CHANNEL or CHANNEL.field (floating point); by the fault injectors
+  kBus,      // all inputs of all nodes; by the fault injectors
   kWorld,    // sensors, vehicle and clock; carried out by the simulator
   kRecorder
 };
@@ -23,31 +23,31 @@ enum class FaultTarget {
 struct FaultKind {
   std::string name;
   FaultTarget on;
-  std::vector<std::string> targets;  // the possible ones; empty: as FaultTarget says. A single one need not be named.
-  std::string unit;                  // of the amount; empty: none is taken
+  std::vector<std::string> targets;  // allowed targets; empty: by FaultTarget. A single one is the default.
+  std::string unit;                  // of the amount; empty: no amount
   Range amount;
-  double usual;  // amount where none is given; NaN: it must be
-  bool lasts;    // takes a duration
-  std::string what;
+  double default_amount;  // NaN: the amount is required
+  bool has_duration;      // accepts a duration
+  std::string description;
 };
 
 const std::vector<FaultKind>& fault_kinds();
-// Null where there is none of the name.
+// Null if there is no such fault.
 const FaultKind* find_fault(const std::string& name);
 std::string fault_names();
 
-// A fault that is asked for.
-struct FaultOrder {
+// A requested fault.
+struct FaultRequest {
   std::string fault;
   std::string target;
   double amount = 0.0;
   double for_s = std::numeric_limits<double>::infinity();
 };
 
-// What is wrong with the target, in words; empty where nothing is. The types are handed in, as for Node::subscribe_raw.
+// Error text; empty if the target is valid. `types`: as for Node::subscribe_raw.
 std::string target_problem(const FaultKind& kind, const std::string& target, FindChannelType types);
 std::string amount_problem(const FaultKind& kind, double amount);
-// The table as text, one fault a line.
+// The table as text, one fault per line.
 std::string fault_list();
 
 }  // namespace rover

@@ -164,7 +164,7 @@ Bytes edit_in(const std::string& field, const Change& change, Bytes bytes) {
       for (auto& number : value) number = change(number);
     }
   });
-  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));  // numbers alone changed: the same length
+  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));  // only numbers changed, so the length is the same
   return bytes;
 }
 

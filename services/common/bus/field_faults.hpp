@@ -1,4 +1,4 @@
-// Changes single numbers of encoded messages, by the field's name in the .lcm file.
+// Changes values of encoded messages by the field's name in the .lcm file.
 #pragma once
 
 #include <cstdint>
@@ -15,9 +15,9 @@ struct FieldTarget {
 };
 FieldTarget split_field(const std::string& target);
 
-// The fields with a point that can be changed on the channel; empty where there are none.
+// The floating-point fields of the channel that can be changed.
 std::vector<std::string> fields_of(const std::string& channel);
-// The message with each number of the fields changed; as it was where it is not a message of the channel's type.
+// Applies the change to each value of the fields. Messages of another type remain unchanged.
 std::vector<std::uint8_t> change_fields(const FieldTarget& at, const std::function<double(double)>& change,
                                         std::vector<std::uint8_t> bytes);
 

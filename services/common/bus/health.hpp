@@ -1,4 +1,4 @@
-// What the operating system says of this process, and how long its main step takes: for heartbeats only.
+// Resource use of this process and durations of its main step, for heartbeats.
 #pragma once
 
 #include <chrono>
@@ -14,7 +14,7 @@ class StepTimer {
  public:
   void begin() { start_ = std::chrono::steady_clock::now(); }
   void end();
-  // Quantile q in [0, 1] in milliseconds, 0 where nothing was measured.
+  // Quantile q in [0, 1] in milliseconds; 0 without measurements.
   double quantile_ms(double q) const;
 
  private:

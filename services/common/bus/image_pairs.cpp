@@ -12,12 +12,12 @@ ImagePairs::ImagePairs(Node& node, const Source& source, std::function<void(cons
       left_{source.left_channel},
       right_{source.right_channel} {
   node_.subscribe_slow<image_t>(left_.channel, source.latency,
-                                [this](const image_t& message) { take(left_, right_, message); });
+                                [this](const image_t& message) { add_image(left_, right_, message); });
   node_.subscribe_slow<image_t>(right_.channel, source.latency,
-                                [this](const image_t& message) { take(right_, left_, message); });
+                                [this](const image_t& message) { add_image(right_, left_, message); });
 }
 
-void ImagePairs::take(Slot& own, Slot& other, const image_t& message) {
+void ImagePairs::add_image(Slot& own, Slot& other, const image_t& message) {
   GrayImage image = image_from(message);
   if (image.width != width_ || image.height != height_) {
     node_.reject(own.channel, "size or encoding is not the rig's");
@@ -39,11 +39,11 @@ void ImagePairs::drop_unpaired(Slot& slot) {
 
 void ImagePairs::complete(Utime utime) {
   ImagePair pair{utime, std::move(left_.image), std::move(right_.image), left_.exposure_s, right_.exposure_s};
-  pair.frozen = pair.left.data == left_.before.data || pair.right.data == right_.before.data;
+  pair.frozen = pair.left.data == left_.previous.data || pair.right.data == right_.previous.data;
   handler_(pair);
   left_.utime = right_.utime = kNever;
-  left_.before = std::move(pair.left);
-  right_.before = std::move(pair.right);
+  left_.previous = std::move(pair.left);
+  right_.previous = std::move(pair.right);
 }
 
 }  // namespace rover

@@ -1,4 +1,4 @@
-// The two streams of a stereo camera as pairs: by exposure, of the rig's size, and told whether a camera has looked.
+// Pairs the two streams of a stereo camera by exposure time, checks their size, and detects a frozen camera.
 #pragma once
 
 #include <functional>
@@ -16,8 +16,7 @@ struct ImagePair {
   GrayImage right;
   float left_exposure_s = 0.0F;
   float right_exposure_s = 0.0F;
-  // A picture is to the last bit the one of the pair before. Noise never repeats, so that camera has not looked, and
-  // what has moved would be taken for standing.
+  // An image equals the previous one bit by bit. Sensor noise never repeats, so the camera is frozen.
   bool frozen = false;
 };
 
@@ -28,9 +27,9 @@ class ImagePairs {
     std::string right_channel;
     int width = 0;
     int height = 0;
-    Utime latency = 0;  // of the work on a pair
+    Utime latency = 0;  // of processing a pair
   };
-  // Subscribes; images that contradict the size or have no partner of the same utime are rejected.
+  // Subscribes. Images of another size, or without a partner of the same utime, are rejected.
   ImagePairs(Node& node, const Source& source, std::function<void(const ImagePair&)> handler);
   ImagePairs(const ImagePairs&) = delete;
   ImagePairs& operator=(const ImagePairs&) = delete;
@@ -41,11 +40,11 @@ class ImagePairs {
     std::string channel;
     Utime utime = kNever;  // kNever: empty
     GrayImage image;
-    GrayImage before;  // of the last pair
+    GrayImage previous;
     float exposure_s = 0.0F;
   };
 
-  void take(Slot& own, Slot& other, const image_t& message);
+  void add_image(Slot& own, Slot& other, const image_t& message);
   void drop_unpaired(Slot& slot);
   void complete(Utime utime);
 

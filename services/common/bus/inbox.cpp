@@ -44,8 +44,8 @@ struct Inbox::Subscription {
   }
 };
 
-Inbox::Inbox(lcm::LCM& lcm, std::unique_ptr<Tap> tap, bool allow_injection, EventLog log)
-    : lcm_(lcm), tap_(std::move(tap)), allow_injection_(allow_injection), log_(std::move(log)) {}
+Inbox::Inbox(lcm::LCM& lcm, std::unique_ptr<FaultInjector> injector, bool allow_injection, EventLog log)
+    : lcm_(lcm), injector_(std::move(injector)), allow_injection_(allow_injection), log_(std::move(log)) {}
 
 Inbox::~Inbox() {
   for (const auto& subscription : subscriptions_) lcm_.unsubscribe(subscription->on_bus);
@@ -69,9 +69,9 @@ void Inbox::add(const std::string& channel, std::int64_t fingerprint, Utime slow
   added.on_bus->setQueueCapacity(0);
 }
 
-// A message is noted in the ledger only when all of it is sound: a damaged copy must not stand in for the sound one.
+// Only undamaged messages enter the ledger, so that a damaged copy cannot replace the undamaged one.
 void Inbox::receive(const lcm::ReceiveBuffer* buffer, const std::string& channel, Subscription& subscription) {
-  // LCM's own, at each start of a process; and reports to the clock master, where they share the bus.
+  // LCM's self test at each start of a process, and reports to the clock master if they share the bus.
   if (channel == "LCM_SELF_TEST" || channel == channel::kDone) return;
   const int size = static_cast<int>(buffer->data_size);
   const auto* begin = static_cast<const std::uint8_t*>(buffer->data);
@@ -85,16 +85,15 @@ void Inbox::receive(const lcm::ReceiveBuffer* buffer, const std::string& channel
   if (!pending.deliver) return drop("truncated or damaged");
   if (pending.header.seq <= 0) return drop("no sequence number");
   const bool raw = subscription.types != nullptr;
-  // Where injection is allowed the raw subscription is the second to take INJECT, and not the one that keeps the
-  // ledger.
-  const bool second = raw && tap_ && allow_injection_ && channel == channel::kInject;
+  // If injection is allowed, INJECT has two subscriptions, and the raw one must not use the ledger again.
+  const bool second = raw && injector_ && allow_injection_ && channel == channel::kInject;
   if (!second && !ledger_.arrived(channel, pending.header)) {
     ++subscription.health.out_of_order;
     return;
   }
-  if (tap_ && tap_->mutes(channel)) return;
+  if (injector_ && injector_->mutes(channel)) return;
   pending.channel = channel;
-  if (tap_ && !raw) pending.bytes.assign(begin, begin + size);
+  if (injector_ && !raw) pending.bytes.assign(begin, begin + size);
   enqueue(subscription, std::move(pending), 0);
 }
 
@@ -123,11 +122,11 @@ std::vector<Inbox::Pending> Inbox::take_released(Utime until) {
     };
     return key(a) < key(b);
   });
-  return tap_ ? through_tap(std::move(released)) : released;
+  return injector_ ? apply_injections(std::move(released)) : released;
 }
 
-// Injections first: they hold for what is taken with them.
-std::vector<Inbox::Pending> Inbox::through_tap(std::vector<Pending> released) {
+// Injections first: they apply to the messages released with them.
+std::vector<Inbox::Pending> Inbox::apply_injections(std::vector<Pending> released) {
   std::vector<Pending> others;
   for (Pending& pending : released) {
     if (pending.subscription->channel == channel::kInject)
@@ -140,25 +139,24 @@ std::vector<Inbox::Pending> Inbox::through_tap(std::vector<Pending> released) {
     if (pending.bytes.empty())
       passed.push_back(std::move(pending));
     else
-      tap_one(std::move(pending), passed);
+      inject_faults(std::move(pending), passed);
   }
   return passed;
 }
 
-// A bus with check sums hands on no damaged header, so damage there is malformed input like any other: taken at its
-// word it would end the stream for good.
-void Inbox::tap_one(Pending pending, std::vector<Pending>& passed) {
+// A fault that changed the header makes the message malformed: a wrong seq or boot_id would end the stream.
+void Inbox::inject_faults(Pending pending, std::vector<Pending>& passed) {
   const auto identity = [](const header_t& h) { return std::tie(h.publisher, h.boot_id, h.seq, h.release_utime); };
-  for (Tap::Passed& through : tap_->pass(pending.channel, pending.header, std::move(pending.bytes))) {
-    Pending tapped{pending.release, pending.slow, pending.subscription, pending.channel, pending.header};
+  for (FaultInjector::Output& result : injector_->apply(pending.channel, pending.header, std::move(pending.bytes))) {
+    Pending output{pending.release, pending.slow, pending.subscription, pending.channel, pending.header};
     header_t header{};
-    const bool readable = peek_header(through.bytes.data(), static_cast<int>(through.bytes.size()), header);
+    const bool readable = peek_header(result.bytes.data(), static_cast<int>(result.bytes.size()), header);
     if (readable && identity(header) == identity(pending.header))
-      tapped.deliver = tapped.subscription->decode({tapped.channel, header, std::move(through.bytes)});
-    if (through.delay > 0)
-      enqueue(*pending.subscription, std::move(tapped), through.delay);
+      output.deliver = output.subscription->decode({output.channel, header, std::move(result.bytes)});
+    if (result.delay > 0)
+      enqueue(*pending.subscription, std::move(output), result.delay);
     else
-      passed.push_back(std::move(tapped));
+      passed.push_back(std::move(output));
   }
 }
 

@@ -1,5 +1,4 @@
-// What a node receives: decoded, checked for damage, loss and order, passed through the tap, and held until its
-// release.
+// A node's received messages: decoded, checked for damage, loss and order, and held until their release time.
 #pragma once
 
 #include <functional>
@@ -13,20 +12,20 @@
 #include <vector>
 
 #include "common/bus/channel_types.hpp"
+#include "common/bus/fault_injector.hpp"
 #include "common/bus/streams.hpp"
-#include "common/bus/tap.hpp"
 #include "common/core/time.hpp"
 
 namespace rover {
 
-// One message as it lies on the bus, for those who do not decode it.
+// An undecoded message.
 struct RawMessage {
   std::string channel;
   header_t header{};
   std::vector<std::uint8_t> bytes;
 };
 
-// Writes one line on the service's log.
+// Writes one line to the service's log.
 using EventLog = std::function<void(const char* level, const std::string& event)>;
 
 class Inbox {
@@ -43,52 +42,52 @@ class Inbox {
     Subscription* subscription = nullptr;
     std::string channel;
     header_t header{};
-    Deliver deliver;                  // empty: the tap has damaged it
-    std::vector<std::uint8_t> bytes;  // for the tap, empty if it does not see them
+    Deliver deliver;                  // empty: damaged by the fault injector
+    std::vector<std::uint8_t> bytes;  // for the fault injector; empty if not needed
   };
 
-  // tap: null if there is no injection and nothing is muted. The bus outlives the inbox.
-  Inbox(lcm::LCM& lcm, std::unique_ptr<Tap> tap, bool allow_injection, EventLog log);
+  // injector: null without injection and muted channels. The bus outlives the inbox.
+  Inbox(lcm::LCM& lcm, std::unique_ptr<FaultInjector> injector, bool allow_injection, EventLog log);
   ~Inbox();
   Inbox(const Inbox&) = delete;
   Inbox& operator=(const Inbox&) = delete;
 
-  // slow: how long the node is silent after it has begun on such a message; 0: not at all. types: for all channels at
-  // once (".*"), each checked by its own type; null: by the fingerprint.
+  // slow: the node publishes nothing for this long after it began to process such a message. types: of a subscription
+  // to all channels (".*"), which checks each by its own type; null: checked by the fingerprint.
   void add(const std::string& channel, std::int64_t fingerprint, Utime slow, Decode decode,
            FindChannelType types = nullptr);
-  // True if the fault is for this node's tap.
-  bool inject(const injection_t& injection) { return tap_->inject(injection); }
+  // True if the fault applies to received messages.
+  bool inject(const injection_t& injection) { return injector_->inject(injection); }
 
-  // Whether the stream is taken here and messages of it up to its seq are still missing.
+  // Whether the stream is subscribed and messages up to its seq are missing.
   bool misses(const stream_seq_t& stream) const;
   bool knows(const stream_seq_t& stream) const { return ledger_.known(stream); }
   void give_up(const stream_seq_t& stream) { ledger_.give_up(stream); }
 
-  // All that is released until then, in the order (release, channel, publisher, boot, seq).
+  // Removes the messages released until then, in the order (release, channel, publisher, boot, seq).
   std::vector<Pending> take_released(Utime until);
   // Calls its handler, unless it is out of order.
   void dispatch(const Pending& pending);
-  // Which messages from before its first tick a restarted process has received depends on how fast it started: it takes
-  // none of them.
+  // A restarted process drops messages from before its first tick, because which of them it received depends on how
+  // fast it started.
   void forget_before(Utime first_tick);
 
   void count_malformed(input_health_t& health, const std::string& channel, const std::string& why);
   // The content of a message was not usable: counts as malformed.
   void reject(const std::string& channel, const std::string& why);
-  // Null if the channel is not taken.
+  // Null if the channel is not subscribed.
   const input_health_t* health(const std::string& channel) const;
   std::vector<input_health_t> health() const;
 
  private:
   void receive(const lcm::ReceiveBuffer* buffer, const std::string& channel, Subscription& subscription);
   void enqueue(Subscription& subscription, Pending pending, Utime delay);
-  std::vector<Pending> through_tap(std::vector<Pending> released);
-  void tap_one(Pending pending, std::vector<Pending>& passed);
+  std::vector<Pending> apply_injections(std::vector<Pending> released);
+  void inject_faults(Pending pending, std::vector<Pending>& passed);
   static bool in_order(Subscription& subscription, const std::string& channel, const header_t& header);
 
   lcm::LCM& lcm_;
-  std::unique_ptr<Tap> tap_;
+  std::unique_ptr<FaultInjector> injector_;
   bool allow_injection_;
   EventLog log_;
   ArrivalLedger ledger_;

@@ -15,12 +15,12 @@ void interrupt(int) {
 
 void catch_interrupts() {
   struct sigaction action {};
-  action.sa_handler = interrupt;  // without SA_RESTART: what waits is to look up
+  action.sa_handler = interrupt;  // without SA_RESTART: blocking calls return
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
 }
 
-bool going() {
+bool keep_running() {
   return interrupted == 0;
 }
 

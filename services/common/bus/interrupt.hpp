@@ -1,10 +1,10 @@
-// For processes that go on until they are told to end.
+// Clean shutdown at SIGINT and SIGTERM.
 #pragma once
 
 namespace rover {
 
-// From now on SIGINT and SIGTERM end going() and not the process.
+// SIGINT and SIGTERM make keep_running() false instead of ending the process.
 void catch_interrupts();
-bool going();
+bool keep_running();
 
 }  // namespace rover

@@ -9,14 +9,14 @@
 namespace rover {
 namespace {
 
-// Wall time that a lockstep tick waits for messages that are listed but not here: only loss or reordering on the bus
-// makes it wait at all. A stream never seen is given less, because it may be of a process that is not running.
+// Wall time that a lockstep tick waits for listed messages that have not arrived. A stream never received has a
+// shorter timeout, because its process may not be running.
 constexpr auto kTimeout = std::chrono::seconds(2);
 constexpr auto kTimeoutUnknown = std::chrono::milliseconds(50);
-// Wall time without ticks that follow the clock; they come every 20 ms.
-constexpr auto kSilence = std::chrono::milliseconds(300);
+// Wall time without clock-paced ticks, whose period is 20 ms.
+constexpr auto kTickTimeout = std::chrono::milliseconds(300);
 
-// A vehicle's driver need not know who listens: its ticks name nobody and are for all.
+// A vehicle's driver does not know the nodes: ticks without members are for all.
 bool is_for(const std::string& name, const tick_t& tick) {
   if (tick.members.empty() && tick.mode == tick_t::REALTIME) return true;
   return std::find(tick.members.begin(), tick.members.end(), name) != tick.members.end();
@@ -85,12 +85,12 @@ bool Lockstep::holds_all_for(const QueuedTick& queued) {
   return true;
 }
 
-void Lockstep::done(Utime tick, Utime promise, std::vector<stream_seq_t> grown, bool busy) {
+void Lockstep::done(Utime tick, Utime promise, std::vector<stream_seq_t> updated, bool busy) {
   last_done_.tick_utime = tick;
   last_done_.busy = busy ? 1 : 0;
   last_done_.promise_utime = promise;
   last_done_.pid = getpid();
-  last_done_.streams = std::move(grown);
+  last_done_.streams = std::move(updated);
   last_done_.stream_count = static_cast<std::int32_t>(last_done_.streams.size());
   last_done_.header = reports_.next(channel::kDone, tick, std::max(tick, promise));
   report_(last_done_);
@@ -108,8 +108,8 @@ void Lockstep::announce() const {
   report_(hello);
 }
 
-bool Lockstep::fell_silent() {
-  if (!last_tick_wall_ || Clock::now() - *last_tick_wall_ < kSilence) return false;
+bool Lockstep::ticks_timed_out() {
+  if (!last_tick_wall_ || Clock::now() - *last_tick_wall_ < kTickTimeout) return false;
   last_tick_wall_.reset();
   return true;
 }

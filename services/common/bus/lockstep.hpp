@@ -30,15 +30,15 @@ class Lockstep {
 
   // The next tick, once all messages that it lists are in the inbox.
   std::optional<tick_t> next();
-  // The tick is done, or begun (busy); nothing is published that is released before `promise`.
-  void done(Utime tick, Utime promise, std::vector<stream_seq_t> grown, bool busy);
-  // This node is there and waits for ticks.
+  // The tick is done, or begun (busy). The node publishes nothing with a release before `promise`.
+  void done(Utime tick, Utime promise, std::vector<stream_seq_t> updated, bool busy);
+  // Tells the clock master that this node waits for ticks.
   void announce() const;
 
-  // Whether the newest ticks were paced by the clock, not by lockstep.
+  // True if the newest ticks were paced by the clock, not by lockstep.
   bool follows_clock() const { return last_tick_wall_.has_value(); }
-  // True once when ticks that followed the clock have not come for 0.3 s of wall time.
-  bool fell_silent();
+  // True once if clock-paced ticks are missing for 0.3 s of wall time.
+  bool ticks_timed_out();
   const input_health_t& health() const { return health_; }
 
  private:
@@ -55,13 +55,13 @@ class Lockstep {
   Inbox& inbox_;
   Report report_;
   EventLog log_;
-  StreamCounter reports_;  // DONE is not among the streams that it lists
+  StreamCounter reports_;  // DONE does not list itself
   lcm::Subscription* ticks_on_bus_;
   input_health_t health_;
   std::deque<QueuedTick> ticks_;
-  std::optional<Clock::time_point> last_tick_wall_;  // of the clock's ticks, until they fell silent
+  std::optional<Clock::time_point> last_tick_wall_;  // of clock-paced ticks, until they time out
   done_t last_done_{};
-  Utime now_ = kNever;  // of the last tick that was handed out
+  Utime now_ = kNever;  // of the last tick returned by next()
 };
 
 }  // namespace rover

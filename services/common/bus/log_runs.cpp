@@ -18,12 +18,12 @@ namespace {
 
 class RunFinder {
  public:
-  // `left_bytes`: of the log before this record.
-  void add(const LogPlace& place, const LogEvent& event, std::int64_t left_bytes) {
-    const Mark here{place, records_++, left_bytes};
+  // `skipped_bytes`: of the log before this record.
+  void add(const LogPlace& place, const LogEvent& event, std::int64_t skipped_bytes) {
+    const Mark here{place, records_++, skipped_bytes};
     header_t header{};
     if (!peek_header(event.data, event.size, header)) header.release_utime = std::numeric_limits<Utime>::max();
-    // The first record that is released before t is the first one of these that is.
+    // Only records with a new minimum of the release can be the first one released before a tick.
     if (since_tick_.empty() || header.release_utime < since_tick_.back().release)
       since_tick_.push_back({here, header.release_utime});
     if (event.channel != channel::kTick) return;
@@ -35,16 +35,16 @@ class RunFinder {
       ++run_.bad_ticks;
   }
 
-  std::vector<LogRun> finish(const LogPlace& end, std::int64_t left_bytes) {
-    end_run({end, records_, left_bytes});
+  std::vector<LogRun> finish(const LogPlace& end, std::int64_t skipped_bytes) {
+    end_run({end, records_, skipped_bytes});
     return std::move(runs_);
   }
 
  private:
   struct Mark {
     LogPlace place;
-    std::int64_t records = 0;  // before it
-    std::int64_t left_bytes = 0;
+    std::int64_t records = 0;  // before this place
+    std::int64_t skipped_bytes = 0;
   };
   struct Candidate {
     Mark mark;
@@ -74,7 +74,7 @@ class RunFinder {
     run_.begin = begin_.place;
     run_.end = end.place;
     run_.records = end.records - begin_.records;
-    run_.left_bytes = end.left_bytes - begin_.left_bytes;
+    run_.skipped_bytes = end.skipped_bytes - begin_.skipped_bytes;
     runs_.push_back(std::exchange(run_, {}));
     begin_ = end;
   }
@@ -84,7 +84,7 @@ class RunFinder {
   Mark begin_;
   std::int64_t last_seq_ = 0;
   std::int64_t records_ = 0;
-  std::vector<Candidate> since_tick_;  // releases fall from one to the next
+  std::vector<Candidate> since_tick_;  // with decreasing releases
 };
 
 std::string seconds(Utime t) {
@@ -94,12 +94,12 @@ std::string seconds(Utime t) {
 }
 
 std::string list_of(const std::vector<LogRun>& runs) {
-  constexpr size_t kMost = 5;
+  constexpr size_t kMax = 5;
   std::string text;
-  for (size_t i = 0; i < std::min(runs.size(), kMost); ++i)
+  for (size_t i = 0; i < std::min(runs.size(), kMax); ++i)
     text += (i == 0 ? "" : ", ") + std::to_string(i + 1) + ": " + seconds(runs[i].first_tick) + " - " +
             seconds(runs[i].last_tick) + " s";
-  return text + (runs.size() > kMost ? " ..." : "");
+  return text + (runs.size() > kMax ? " ..." : "");
 }
 
 std::vector<std::string> remarks_on_parts(const std::string& log) {
@@ -109,7 +109,7 @@ std::vector<std::string> remarks_on_parts(const std::string& log) {
     if (fs::is_empty(part)) lines.push_back(part + ": this part of the log is empty");
   const int count = static_cast<int>(parts.size());
   if (fs::exists(log_part(log, count + 2)))
-    lines.push_back(log_part(log, count + 1) + ": this part of the log is missing; those behind it are not read");
+    lines.push_back(log_part(log, count + 1) + ": this part of the log is missing; the following parts are not read");
   return lines;
 }
 
@@ -119,22 +119,22 @@ std::vector<LogRun> log_runs(const std::string& log_or_run) {
   const std::string log = log_file(log_or_run);
   const std::vector<std::string> parts = log_parts(log);
   RunFinder finder;
-  std::int64_t left_bytes = 0;
+  std::int64_t skipped_bytes = 0;
   std::int64_t bytes = 0;
   std::int64_t records = 0;
   LogPlace end;
   for (size_t part = 0; part < parts.size(); ++part) {
     EventLogReader reader(parts[part]);
     for (LogEvent event; reader.next(event);)
-      finder.add({part, event.begin}, event, left_bytes + reader.length().left_bytes);
-    left_bytes += reader.length().left_bytes;
+      finder.add({part, event.begin}, event, skipped_bytes + reader.length().skipped_bytes);
+    skipped_bytes += reader.length().skipped_bytes;
     records += reader.length().records;
     bytes += reader.size();
     end = {part, reader.size()};
   }
   if (bytes == 0) throw ConfigError(log + ": is empty");
-  if (records == 0) throw ConfigError(log + ": holds no messages; is it an LCM log?");
-  std::vector<LogRun> runs = finder.finish(end, left_bytes);
+  if (records == 0) throw ConfigError(log + ": contains no messages; is it an LCM log?");
+  std::vector<LogRun> runs = finder.finish(end, skipped_bytes);
   for (size_t i = 0; i < runs.size(); ++i) {
     runs[i].log = log;
     runs[i].number = i + 1;
@@ -148,10 +148,10 @@ LogRun choose_run(const std::string& log_or_run, int number) {
   const bool named = number != 0;
   if (!named && runs.size() == 1) return runs.front();
   if (number >= 1 && static_cast<size_t>(number) <= runs.size()) return runs[static_cast<size_t>(number) - 1];
-  const std::string held = runs.front().log + ": holds " + std::to_string(runs.size()) +
-                           (runs.size() == 1 ? " run" : " runs") + ", of the message time " + list_of(runs);
+  const std::string held = runs.front().log + ": contains " + std::to_string(runs.size()) +
+                           (runs.size() == 1 ? " run" : " runs") + ", message time " + list_of(runs);
   throw ConfigError(held +
-                    (named ? "; there is no --log-run " + std::to_string(number) : "; choose one by --log-run N"));
+                    (named ? "; there is no --log-run " + std::to_string(number) : "; choose one with --log-run N"));
 }
 
 std::vector<std::string> remarks(const LogRun& run) {
@@ -164,10 +164,10 @@ std::vector<std::string> remarks(const LogRun& run) {
                     " s: a clock that was set, or a pause of the recorder");
   if (run.bad_ticks > 0)
     lines.push_back(run.log + ": " + std::to_string(run.bad_ticks) +
-                    " messages on TICK are damaged or of another version's type");
-  if (run.left_bytes > 0)
-    lines.push_back(run.log + ": cut short or damaged: " + std::to_string(run.records) + " messages are whole, " +
-                    std::to_string(run.left_bytes) + " bytes are left out; ./rover repair makes a log without them");
+                    " TICK messages are damaged or of another version");
+  if (run.skipped_bytes > 0)
+    lines.push_back(run.log + ": truncated or damaged: " + std::to_string(run.records) + " messages are intact, " +
+                    std::to_string(run.skipped_bytes) + " bytes are skipped; ./rover repair writes a log without them");
   return lines;
 }
 

@@ -15,7 +15,7 @@
 namespace rover {
 namespace {
 
-// The big-endian bytes of a message. Once it has run out of them it is bad and gives zeros.
+// Reads the big-endian bytes of a message. After the end it is bad and returns zeros.
 class Reader {
  public:
   Reader(const void* data, size_t size) : at_(static_cast<const std::uint8_t*>(data)), left_(size) {}
@@ -76,25 +76,25 @@ class Reader {
 template <class Value, class Read>
 std::vector<Value> read_all(Reader& reader, size_t count, Read read) {
   std::vector<Value> values;
-  // A damaged length ends with the bytes, before it costs memory.
+  // A damaged length fails at the end of the bytes, before it allocates memory.
   for (size_t i = 0; i < count && reader.good(); ++i) values.push_back(read());
   return values;
 }
 
 using Lengths = std::map<std::string, std::int64_t>;  // by the names of the fields that hold them
 
-// Of an array; negative lengths are damage.
+// Number of values; negative lengths count as 0.
 size_t length_of(const FieldSchema::Dimension& dimension, Lengths& lengths, Reader& reader) {
-  constexpr std::int64_t kMost = std::int64_t{1} << 31;
+  constexpr std::int64_t kMax = std::int64_t{1} << 31;
   const std::int64_t length = dimension.length_field.empty() ? dimension.length : lengths[dimension.length_field];
   if (length < 0) reader.fail();
-  return static_cast<size_t>(std::clamp<std::int64_t>(length, 0, kMost));
+  return static_cast<size_t>(std::clamp<std::int64_t>(length, 0, kMax));
 }
 
-// More values than any message has bytes are as good as endless; so the product of the lengths does not overflow.
+// Saturates far above the size of any message, so that the product does not overflow.
 size_t product(size_t count, size_t length) {
-  constexpr size_t kMost = size_t{1} << 32;
-  return std::min(count * length, kMost);
+  constexpr size_t kMax = size_t{1} << 32;
+  return std::min(count * length, kMax);
 }
 
 Fields read_message(Reader& reader, const MessageSchema& schema);
@@ -153,7 +153,7 @@ size_t bytes_of(const std::string& type) {
   return type == "int64_t" || type == "double" ? 8 : 0;
 }
 
-// Goes over a message without building it.
+// Checks a message without building it.
 void pass_message(Reader& reader, const MessageSchema& schema) {
   Lengths lengths;
   for (const FieldSchema& field : schema.fields) {
@@ -243,7 +243,7 @@ std::string text_of(const Field& field, size_t index) {
   if (const auto* integers = std::get_if<Field::Integers>(&field.values)) return std::to_string(integers->at(index));
   if (const auto* bytes = std::get_if<Field::Bytes>(&field.values)) return std::to_string(bytes->at(index));
   const double value = std::get<Field::Reals>(field.values).at(index);
-  if (std::isnan(value)) return "nan";  // without the sign that an x86 gives it
+  if (std::isnan(value)) return "nan";  // without the sign bit, which depends on the processor
   return field.type == "float" ? shortest(static_cast<float>(value)) : shortest(value);
 }
 

@@ -1,4 +1,4 @@
-// Any message as a tree of its fields, for tools that show or export what they do not know by type.
+// Any message as a tree of fields, for tools that do not know its type.
 #pragma once
 
 #include <cstdint>
@@ -30,14 +30,14 @@ struct Field {
   size_t size() const;
 };
 
-// Empty where the bytes are not one whole message of the type that the channel carries, and for unknown channels.
+// Empty for an unknown channel, or if the bytes are not one whole message of its type.
 std::optional<Fields> decode_fields(const std::string& channel, const void* data, int size);
 
-// Whether the bytes are one whole message of the type ("pose_t"), its fingerprint aside. Unlike lcm-gen's decoders it
-// takes no memory for lengths that damaged bytes claim.
+// Whether the bytes, without the fingerprint, are one whole message of the type ("pose_t"). Unlike lcm-gen's decoders
+// it allocates no memory for damaged lengths.
 bool is_whole_message(const std::string& type, const void* data, int size);
 
-// Integers and texts as they are, reals with the fewest digits that read back as the same number. Not for messages.
+// Reals have the fewest digits that round-trip. Not for fields that are messages.
 std::string text_of(const Field& field, size_t index);
 
 // A single number or text of a message: "header.seq", "position_m[0]", "inputs[2].gaps".

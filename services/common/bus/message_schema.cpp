@@ -8,8 +8,9 @@
 // The assembler takes the file's bytes as they are. ROVER_SCHEMA_FILE: what lcm-gen made of all types.
 __asm__(".pushsection .rodata\nrover_schema_begin:\n.incbin \"" ROVER_SCHEMA_FILE
         "\"\nrover_schema_end:\n.byte 0\n.popsection\n");
-extern "C" const char rover_schema_begin[];
-extern "C" const char rover_schema_end[];
+// Hidden: GNU ld for arm64 drops the offset of a local symbol that is reached through the GOT.
+extern "C" [[gnu::visibility("hidden")]] const char rover_schema_begin[];
+extern "C" [[gnu::visibility("hidden")]] const char rover_schema_end[];
 
 namespace rover {
 namespace {

@@ -14,6 +14,15 @@ NavigationConfig load_navigation(const std::string& config_dir, ParameterList* l
   p.add("teleop_max_age_s", c.teleop_max_age_s, {0.1, 5.0}, "the rover stops without a newer TELEOP command");
   p.check(c.point_turn_stop_rad < c.point_turn_start_rad, "point_turn_start_deg",
           "must be larger than point_turn_stop_deg");
+  p.add_deg("steep_slope_deg", c.steep_slope_rad, {0.0, 35.0},
+            "steeper ground on the orbital map is classified as steep, and the page warns of a path over it");
+  p.add_deg("max_slope_deg", c.max_slope_rad, {1.0, 35.0},
+            "steeper ground on the orbital map is an obstacle (HDPR): no path is planned or accepted over it");
+  p.check(c.steep_slope_rad <= c.max_slope_rad, "steep_slope_deg", "must not be larger than max_slope_deg");
+  p.add("hazard_roi_near_m", c.hazard_roi_near_m, {0.0, 10.0},
+        "start of the region of interest of hazard detection, ahead of the camera");
+  p.add("hazard_roi_far_m", c.hazard_roi_far_m, {0.1, 20.0}, "its end");
+  p.check(c.hazard_roi_far_m > c.hazard_roi_near_m, "hazard_roi_far_m", "must be beyond hazard_roi_near_m");
   p.finish();
   return c;
 }

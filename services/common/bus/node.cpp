@@ -13,11 +13,11 @@ namespace {
 
 constexpr Utime kHeartbeatPeriod = 10 * kTickUs;
 
-std::unique_ptr<Tap> tap_for(const NodeOptions& options) {
+std::unique_ptr<FaultInjector> injector_for(const NodeOptions& options) {
   if (!options.allow_injection && options.muted.empty()) return nullptr;
-  auto tap = std::make_unique<Tap>(options.name);
-  for (const std::string& channel : options.muted) tap->mute(channel);
-  return tap;
+  auto injector = std::make_unique<FaultInjector>(options.name);
+  for (const std::string& channel : options.muted) injector->mute(channel);
+  return injector;
 }
 
 }  // namespace
@@ -27,14 +27,14 @@ Node::Node(NodeOptions options, lcm::LCM& lcm, lcm::LCM* reports)
       lcm_(lcm),
       reports_(reports == nullptr ? lcm : *reports),
       streams_(options_.name, options_.boot_id),
-      inbox_(lcm_, tap_for(options_), options_.allow_injection,
+      inbox_(lcm_, injector_for(options_), options_.allow_injection,
              [this](const char* level, const std::string& event) { log(level, event); }),
       lockstep_(
           options_.name, options_.boot_id, lcm_, inbox_,
           [this](const done_t& done) { send(reports_, channel::kDone, done); },
           [this](const char* level, const std::string& event) { log(level, event); }) {
   if (options_.allow_injection)
-    subscribe<injection_t>(channel::kInject, [this](const injection_t& injection) { obey(injection); });
+    subscribe<injection_t>(channel::kInject, [this](const injection_t& injection) { apply_injection(injection); });
 }
 
 void Node::subscribe_raw(std::function<void(const RawMessage&)> handler, FindChannelType types) {
@@ -48,7 +48,7 @@ void Node::subscribe_raw(std::function<void(const RawMessage&)> handler, FindCha
   inbox_.add(".*", 0, 0, decode, types);
 }
 
-void Node::obey(const injection_t& injection) {
+void Node::apply_injection(const injection_t& injection) {
   const bool mine = inbox_.inject(injection);
   if (on_injection_) on_injection_(injection);
   if (mine) log("WARN", "INJECTED fault=" + injection.fault + " target=" + injection.target);
@@ -63,14 +63,14 @@ void Node::process(const tick_t& tick) {
   for (const Inbox::Pending& pending : released) slow = std::max(slow, pending.slow);
   if (slow > 0) {
     promise_ = std::max(promise_, now_ + slow);
-    if (lockstep) lockstep_.done(now_, promise_, streams_.take_grown(), true);
+    if (lockstep) lockstep_.done(now_, promise_, streams_.take_updated(), true);
     timer_.begin();
   }
   for (const Inbox::Pending& pending : released) inbox_.dispatch(pending);
   if (slow > 0) timer_.end();
   if (step_) step_(now_);
   if (now_ % kHeartbeatPeriod == 0) publish_heartbeat();
-  if (lockstep) lockstep_.done(now_, promise_, streams_.take_grown(), false);
+  if (lockstep) lockstep_.done(now_, promise_, streams_.take_updated(), false);
 }
 
 double Node::age_s(const std::string& channel) const {
@@ -112,9 +112,9 @@ void Node::send_bytes(lcm::LCM& lcm, const std::string& channel, const std::vect
 bool Node::handle(int timeout_ms) {
   const int handled = lcm_.handleTimeout(timeout_ms);
   while (const auto tick = lockstep_.next()) process(*tick);
-  if (lockstep_.fell_silent()) {
+  if (lockstep_.ticks_timed_out()) {
     log("WARN", "NO_TICKS");
-    if (silence_) silence_();
+    if (tick_timeout_) tick_timeout_();
   }
   return handled >= 0;
 }

@@ -14,7 +14,7 @@
 namespace rover {
 namespace {
 
-// A damaged length in a message then costs an exception, not the machine's memory.
+// A damaged length in a message then causes an exception instead of exhausting the memory.
 void limit_memory() {
   constexpr rlim_t kLimit = rlim_t{6} << 30;
   const rlimit limit{kLimit, kLimit};
@@ -45,12 +45,12 @@ int node_main(int argc, char** argv, const std::string& service, const ConfigLoa
   std::string bus;
   std::string parameters;
   CLI::App app(service + ": a service of the rover");
-  app.add_option("--config", config_dir, "folder of the configuration")->capture_default_str();
+  app.add_option("--config", config_dir, "configuration folder")->capture_default_str();
   app.add_option("--bus", bus, "LCM URL instead of the one in bus.yaml");
-  app.add_option("--boot-id", options.boot_id, "start number; larger at each start");
-  app.add_option("--run-dir", options.run_dir, "the run's folder, for checkpoints");
-  app.add_flag("--allow-injection", options.allow_injection, "obey INJECT");
-  app.add_option("--mute", options.muted, "channels not to take");
+  app.add_option("--boot-id", options.boot_id, "boot number; larger at each start");
+  app.add_option("--run-dir", options.run_dir, "folder of checkpoints");
+  app.add_flag("--allow-injection", options.allow_injection, "apply the faults of INJECT");
+  app.add_option("--mute", options.muted, "channels to ignore");
   app.add_option("--parameters", parameters, "print all parameters with their defaults and exit")
       ->check(CLI::IsMember({"text", "yaml", "markdown"}));
   try {
@@ -75,7 +75,7 @@ int node_main(int argc, char** argv, const std::string& service, const ConfigLoa
     Node node(options, lcm, parse_udpm(bus) ? &reports : nullptr);
     const std::shared_ptr<void> keep = factory({node, config_dir, lcm});
     node.log("INFO", "STARTED boot=" + std::to_string(options.boot_id));
-    node.run(going);
+    node.run(keep_running);
     node.log("INFO", "STOPPED");
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s: %s\n", service.c_str(), error.what());

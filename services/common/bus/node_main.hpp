@@ -12,11 +12,11 @@
 
 namespace rover {
 
-// What a service is built from.
+// Inputs of a service's constructor.
 struct NodeContext {
   Node& node;
-  std::string config_dir;  // holds vehicle.yaml, <service>.yaml, ...
-  lcm::LCM& lcm;           // the node's; for listeners beside it, in its thread
+  std::string config_dir;  // contains vehicle.yaml, <service>.yaml, ...
+  lcm::LCM& lcm;           // the node's bus, for other subscribers in its thread
 };
 
 // Builds the service on the node and returns the object that keeps it alive.
@@ -28,7 +28,7 @@ using ConfigLoader = std::function<void(const std::string& config_dir, Parameter
 // The bus of config/bus.yaml.
 std::string load_bus_url(const std::string& config_dir);
 
-// A process started by hand is newer than any that was started before it.
+// Larger than the boot number of any process started earlier.
 std::int64_t boot_id_from_clock();
 
 // Exit status 0 at SIGTERM or SIGINT, 2 on bad arguments or configuration.

@@ -105,6 +105,7 @@ std::string unit_of(const std::string& key) {
                                         std::pair{"_m2_per_m", "m²/m"},
                                         std::pair{"_m_per_rad", "m/rad"},
                                         std::pair{"_deg_per_m", "deg/m"},
+                                        std::pair{"_m_per_m", "m/m"},
                                         std::pair{"_rad_rts", "rad/√s"},
                                         std::pair{"_m_rtm", "m/√m"},
                                         std::pair{"_degps2", "deg/s²"},

@@ -1,4 +1,4 @@
-// The services of the stack, each level's in the order of its flow.
+// The services of the stack in the order of the data flow.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@ inline constexpr std::array kServiceNames = {"recorder",        "stereo",       
                                              "hazard_detector", "path_planner",   "trajectory_control", "locomotion",
                                              "supervisor",      "mission_control"};
 
-// Those of the Full level, which run only where the level may go up to it.
+// Services of the Full level. They run only if the level may be Full.
 inline constexpr std::array kFullServiceNames = {"point_cloud", "pan_tilt", "slam", "traversability",
                                                  "global_localization"};
 

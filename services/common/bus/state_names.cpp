@@ -8,6 +8,8 @@ namespace {
 
 constexpr std::array kStateNames = {"BOOT", "STANDBY", "DRIVING",      "HAZARD_STOP", "REPAIRING", "SWEEPING",
                                     "?",    "PAUSED",  "GOAL_REACHED", "FAULT_STOP",  "SAFE",      "TELEOP"};
+constexpr std::array kResponseNames = {"LOG",  "SLOW",          "STOP", "STOP_REPLAN", "RESTART_SERVICE",
+                                       "SAFE", "STOP_BACKTRACK"};
 
 }  // namespace
 
@@ -18,6 +20,11 @@ std::vector<std::string> state_names() {
 std::string state_name(std::int8_t state) {
   const auto index = static_cast<size_t>(state);
   return index < kStateNames.size() ? kStateNames[index] : "?";
+}
+
+std::string response_name(std::int8_t response) {
+  const auto index = static_cast<size_t>(response);
+  return index < kResponseNames.size() ? kResponseNames[index] : "?";
 }
 
 std::string level_name(std::int8_t level) {

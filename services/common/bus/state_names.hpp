@@ -1,4 +1,4 @@
-// The supervisor's states and levels by name, as people read them.
+// Names of the supervisor's states, levels and fault responses.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,10 @@ namespace rover {
 
 // In the order of their values.
 std::vector<std::string> state_names();
-// Of supervisor_state_t; "?" where there is none.
+// Of supervisor_state_t; "?" for an unknown value.
 std::string state_name(std::int8_t state);
 std::string level_name(std::int8_t level);
+// Of fault_t: LOG, SLOW ...; "?" if there is none.
+std::string response_name(std::int8_t response);
 
 }  // namespace rover

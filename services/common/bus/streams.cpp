@@ -3,10 +3,10 @@
 namespace rover {
 namespace {
 
-// Differences of what is in range do not overflow, and doubles hold it exactly.
+// Differences of values in range do not overflow, and doubles represent them exactly.
 bool in_range(std::int64_t value) {
-  constexpr std::int64_t kMost = std::int64_t{1} << 53;
-  return value >= -kMost && value <= kMost;
+  constexpr std::int64_t kMax = std::int64_t{1} << 53;
+  return value >= -kMax && value <= kMax;
 }
 
 }  // namespace
@@ -21,13 +21,13 @@ header_t StreamCounter::next(const std::string& channel, Utime utime, Utime rele
   header.seq = ++last_seq_[channel];
   header.publisher = publisher_;
   header.boot_id = boot_id_;
-  grown_.insert(channel);
+  updated_.insert(channel);
   return header;
 }
 
-std::vector<stream_seq_t> StreamCounter::take_grown() {
+std::vector<stream_seq_t> StreamCounter::take_updated() {
   std::vector<stream_seq_t> streams;
-  for (const std::string& channel : grown_) {
+  for (const std::string& channel : updated_) {
     stream_seq_t stream{};
     stream.channel = channel;
     stream.publisher = publisher_;
@@ -35,7 +35,7 @@ std::vector<stream_seq_t> StreamCounter::take_grown() {
     stream.seq = last_seq_[channel];
     streams.push_back(stream);
   }
-  grown_.clear();
+  updated_.clear();
   return streams;
 }
 
@@ -46,7 +46,7 @@ bool ArrivalLedger::arrived(const std::string& channel, const header_t& header) 
     arrival.first = arrival.contiguous = header.seq;
     return true;
   }
-  if (header.seq < arrival.first) {  // overtaken by the first that came
+  if (header.seq < arrival.first) {  // overtaken by the first received message
     arrival.first = header.seq;
     return true;
   }
@@ -79,7 +79,7 @@ bool peek_header(const void* data, int size, header_t& header) {
   try {
     return header._decodeNoHash(data, kFingerprintBytes, size - kFingerprintBytes) > 0 && in_range(header.utime) &&
            in_range(header.release_utime) && in_range(header.seq) && in_range(header.boot_id);
-  } catch (const std::exception&) {  // lcm-gen's decoders believe the lengths they read
+  } catch (const std::exception&) {  // lcm-gen's decoders trust the lengths they read
     return false;
   }
 }

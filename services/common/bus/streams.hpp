@@ -15,12 +15,12 @@
 
 namespace rover {
 
-// The publishing side: fills headers and lists what grew since the last call.
+// The publishing side: fills headers and lists the streams that published since the last call.
 class StreamCounter {
  public:
   StreamCounter(std::string publisher, std::int64_t boot_id);
   header_t next(const std::string& channel, Utime utime, Utime release);
-  std::vector<stream_seq_t> take_grown();
+  std::vector<stream_seq_t> take_updated();
   const std::string& publisher() const { return publisher_; }
   std::int64_t boot_id() const { return boot_id_; }
 
@@ -28,20 +28,20 @@ class StreamCounter {
   std::string publisher_;
   std::int64_t boot_id_;
   std::map<std::string, std::int64_t> last_seq_;
-  std::set<std::string> grown_;
+  std::set<std::string> updated_;
 };
 
-// The receiving side: which messages have arrived without a hole, counted from the first that came.
+// The receiving side: how far each stream has arrived without a gap, from its first received message.
 class ArrivalLedger {
  public:
   using Key = std::tuple<std::string, std::string, std::int64_t>;  // channel, publisher, boot
 
-  // False where this very message has arrived before.
+  // False for a duplicate.
   bool arrived(const std::string& channel, const header_t& header);
   bool known(const stream_seq_t& stream) const;
-  // Whether everything from the first message that arrived up to stream.seq is here.
+  // Whether all messages up to stream.seq have arrived.
   bool complete(const stream_seq_t& stream) const;
-  // Stops waiting for what is missing up to stream.seq.
+  // Stops waiting for messages up to stream.seq.
   void give_up(const stream_seq_t& stream);
 
  private:
@@ -56,8 +56,8 @@ class ArrivalLedger {
 // In front of every message.
 inline constexpr int kFingerprintBytes = 8;
 
-// Reads the header of any message without knowing its type. False where the bytes are too short for one, or where its
-// times and numbers are beyond 2^53 (285 years in microseconds): those of damaged bytes.
+// Reads the header of any message without knowing its type. False if the bytes are too short, or if a time or number
+// exceeds 2^53 (285 years in microseconds), which only damaged bytes do.
 bool peek_header(const void* data, int size, header_t& header);
 template <class Message>
 std::vector<std::uint8_t> encoded(const Message& message) {
@@ -65,7 +65,7 @@ std::vector<std::uint8_t> encoded(const Message& message) {
   message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
   return bytes;
 }
-// Decodes a whole message. False where it is truncated, of another type or has trailing bytes.
+// False if the message is truncated, of another type or has trailing bytes.
 template <class Message>
 bool decode_message(const void* data, int size, Message& message) {
   try {
@@ -74,7 +74,7 @@ bool decode_message(const void* data, int size, Message& message) {
     return false;
   }
 }
-// The fingerprint in front of a message; 0 where there are too few bytes.
+// Fingerprint of a message; 0 if there are too few bytes.
 std::int64_t peek_fingerprint(const void* data, int size);
 
 }  // namespace rover

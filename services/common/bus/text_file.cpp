@@ -7,15 +7,15 @@
 
 namespace rover {
 
-std::string read_text(const std::string& file, size_t most_bytes) {
+std::string read_text(const std::string& file, size_t max_bytes) {
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
   if (!std::filesystem::exists(status)) throw ConfigError(file + ": no such file");
   if (!std::filesystem::is_regular_file(status)) throw ConfigError(file + ": not a file");
   const auto bytes = std::filesystem::file_size(file, error);
   if (error) throw ConfigError(file + ": " + error.message());
-  if (bytes > most_bytes)
-    throw ConfigError(file + ": " + std::to_string(bytes >> 20) + " MB; at most " + std::to_string(most_bytes >> 20) +
+  if (bytes > max_bytes)
+    throw ConfigError(file + ": " + std::to_string(bytes >> 20) + " MB; at most " + std::to_string(max_bytes >> 20) +
                       " MB are expected here");
   std::string text(bytes, '\0');
   std::ifstream in(file, std::ios::binary);

@@ -1,12 +1,12 @@
-// Text files of the user's, read whole.
+// Reads whole text files of the user.
 #pragma once
 
 #include <string>
 
 namespace rover {
 
-// Without the mark of UTF-8 at its beginning. Throws ConfigError where it is no file (a folder, a pipe), cannot be read
-// or has more than `most_bytes`.
-std::string read_text(const std::string& file, size_t most_bytes);
+// Without a byte order mark. Throws ConfigError if it is not a regular file, cannot be read or has more than
+// `max_bytes`.
+std::string read_text(const std::string& file, size_t max_bytes);
 
 }  // namespace rover

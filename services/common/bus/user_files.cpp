@@ -22,7 +22,7 @@ std::string reason_of(int error) {
   return std::generic_category().message(error);
 }
 
-// A folder of a command that is still at work, or was ended in the middle.
+// True for the remains of an interrupted or running command.
 bool holds_only_unfinished(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder))
     if (entry.path().filename() != kUnfinished) return false;
@@ -52,15 +52,15 @@ std::string user_path(const std::string& typed) {
 NewFolder::NewFolder(const std::string& path) : target_(fs::absolute(path)) {
   std::error_code error;
   target_is_new_ = fs::create_directories(target_, error);
-  if (error) throw ConfigError(target_.string() + ": cannot be made: " + error.message());
+  if (error) throw ConfigError(target_.string() + ": cannot be created: " + error.message());
   try {
     if (!holds_only_unfinished(target_))
-      throw ConfigError(target_.string() + ": exists already and is not empty; name another folder");
+      throw ConfigError(target_.string() + ": already exists and is not empty; choose another folder");
     dir_ = target_ / kUnfinished;
     fs::create_directory(dir_);
     lock_ = open(dir_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC | O_NOFOLLOW);
     if (lock_ < 0 || flock(lock_, LOCK_EX | LOCK_NB) != 0)
-      throw ConfigError(target_.string() + ": another command is writing there");
+      throw ConfigError(target_.string() + ": another command is writing to it");
     for (const auto& left : fs::directory_iterator(dir_)) fs::remove_all(left.path());
   } catch (const fs::filesystem_error& failure) {
     if (lock_ >= 0) close(lock_);
@@ -85,8 +85,7 @@ void NewFolder::keep() {
   try {
     for (const auto& entry : fs::directory_iterator(dir_)) {
       const fs::path to = target_ / entry.path().filename();
-      if (fs::exists(fs::symlink_status(to)))
-        throw ConfigError(to.string() + ": has come there meanwhile; not replaced");
+      if (fs::exists(fs::symlink_status(to))) throw ConfigError(to.string() + ": was created meanwhile; not replaced");
       fs::rename(entry.path(), to);
     }
     fs::remove(dir_);
@@ -99,12 +98,12 @@ void NewFolder::keep() {
 NewFile::NewFile(const std::string& path) : target_(fs::absolute(path).string()) {
   const fs::path target(target_);
   if (fs::exists(fs::symlink_status(target)))
-    throw ConfigError(target_ + ": exists already; it is not replaced, name another file");
+    throw ConfigError(target_ + ": already exists and is not replaced; choose another file");
   if (!fs::is_directory(target.parent_path())) throw ConfigError(target.parent_path().string() + ": no such folder");
   std::string name = (target.parent_path() / ("." + target.filename().string() + ".XXXXXX")).string();
   const int file = mkstemp(name.data());
   if (file < 0) throw ConfigError(target_ + ": cannot be written: " + reason_of(errno));
-  const mode_t mask = umask(0);  // mkstemp's files are the user's alone
+  const mode_t mask = umask(0);  // mkstemp creates files with mode 0600
   umask(mask);
   fchmod(file, 0666 & ~mask);
   close(file);
@@ -116,7 +115,7 @@ NewFile::~NewFile() {
 }
 
 void NewFile::keep() {
-  // In one step, and never over another.
+  // Atomic, and never replaces a file.
   if (renameat2(AT_FDCWD, unfinished_.c_str(), AT_FDCWD, target_.c_str(), RENAME_NOREPLACE) != 0)
     throw ConfigError(target_ + ": cannot be written: " + reason_of(errno));
   unfinished_.clear();

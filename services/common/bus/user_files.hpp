@@ -1,4 +1,4 @@
-// Paths as users type them, and what a command makes: never in place of anything that was there before.
+// Paths of the user, and output files and folders that never replace existing ones.
 #pragma once
 
 #include <filesystem>
@@ -6,27 +6,27 @@
 
 namespace rover {
 
-// The project's folder, which holds config/ and logs/: that of the build folder in which this program lies.
+// The project's folder, which contains config/ and logs/: the parent of this program's build folder.
 std::string project_dir();
 
-// Absolute, from the folder that the user is in; a leading "~" is the home folder; no "." or "..", no slash at the end.
-// The last name stays as it was typed, also where it is a symbolic link.
+// Absolute path without ".", ".." and trailing slash; a leading "~" is the home folder. The last component is not
+// resolved if it is a symbolic link.
 std::string user_path(const std::string& typed);
 
-// A folder that a command makes, whole or not at all.
+// Creates a folder completely or not at all.
 class NewFolder {
  public:
-  // Where `path` is nothing yet, or an empty folder, or holds only what an interrupted command has left. Throws
-  // ConfigError with one line elsewhere.
+  // `path` may be absent, an empty folder, or contain only the remains of an interrupted command. Otherwise throws
+  // ConfigError with one line.
   explicit NewFolder(const std::string& path);
-  // Removes what was not kept.
+  // Removes the folder unless keep() was called.
   ~NewFolder();
   NewFolder(const NewFolder&) = delete;
   NewFolder& operator=(const NewFolder&) = delete;
 
-  // Where to write until then.
+  // Temporary folder to write to.
   const std::filesystem::path& dir() const { return dir_; }
-  // Moves what was written to its place.
+  // Moves the content to its final place.
   void keep();
 
  private:
@@ -36,18 +36,18 @@ class NewFolder {
   int lock_ = -1;
 };
 
-// A file that a command makes, whole or not at all.
+// Creates a file completely or not at all.
 class NewFile {
  public:
-  // Throws ConfigError with one line where there is something already, or no folder for it.
+  // Throws ConfigError with one line if the path exists, or its folder does not.
   explicit NewFile(const std::string& path);
   ~NewFile();
   NewFile(const NewFile&) = delete;
   NewFile& operator=(const NewFile&) = delete;
 
-  // Where to write until then.
+  // Temporary file to write to.
   const std::string& path() const { return unfinished_; }
-  // Gives it its name; throws ConfigError where something has come there meanwhile.
+  // Renames it to its final name. Throws ConfigError if the path exists by now.
   void keep();
 
  private:

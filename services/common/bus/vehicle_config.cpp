@@ -11,7 +11,7 @@ namespace {
 constexpr Range kMetres{0.0, 10.0};
 constexpr Range kSignedMetres{-10.0, 10.0};
 constexpr double kLeastBaselineM = 0.005;
-constexpr double kMostBaselineM = 5.0;
+constexpr double kMaxBaselineM = 5.0;
 
 template <size_t N>
 std::array<double, N> fixed(const Config& config, const std::string& key, Range range) {
@@ -107,9 +107,9 @@ std::string problem_of_pair(const Eigen::Isometry3d& T_left_right) {
   const Eigen::Matrix3d& R = T_left_right.linear();
   if ((R * R.transpose() - Eigen::Matrix3d::Identity()).norm() > 1e-3 || R.determinant() < 0.0)
     return "the rotation between the cameras is no rotation";
-  if (p.norm() < kLeastBaselineM || p.norm() > kMostBaselineM) {
+  if (p.norm() < kLeastBaselineM || p.norm() > kMaxBaselineM) {
     std::ostringstream text;
-    text << "a baseline of " << p.norm() << " m; " << kLeastBaselineM << " to " << kMostBaselineM
+    text << "a baseline of " << p.norm() << " m; " << kLeastBaselineM << " to " << kMaxBaselineM
          << " m are expected (is it in millimetres, or the size of the board's squares?)";
     return text.str();
   }

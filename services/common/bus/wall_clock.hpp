@@ -1,4 +1,4 @@
-// The clock of tools and commands. Services go by message time.
+// Wall clock of the tools. Services use message time.
 #pragma once
 
 #include <chrono>

@@ -14,10 +14,10 @@
 namespace rover {
 namespace {
 
-constexpr size_t kMostBytes = 1 << 20;  // a path of some 50 km
-constexpr size_t kMostLevels = 32;
+constexpr size_t kMaxBytes = 1 << 20;  // a path of some 50 km
+constexpr size_t kMaxLevels = 32;
 
-// The length in bytes of the UTF-8 character at `at`, 0 where there is none.
+// Length in bytes of the UTF-8 character at `at`; 0 if invalid.
 size_t utf8_length(const std::string& text, size_t at) {
   const auto byte = [&](size_t i) { return at + i < text.size() ? static_cast<unsigned char>(text[at + i]) : 0U; };
   const unsigned first = byte(0);
@@ -26,7 +26,7 @@ size_t utf8_length(const std::string& text, size_t at) {
   if (first < 0xc2 || first > 0xf4) return 0;
   for (size_t i = 1; i < length; ++i)
     if ((byte(i) & 0xc0U) != 0x80U) return 0;
-  // Longer than need be, a half of a UTF-16 pair, or beyond the last character.
+  // Overlong encoding, surrogate, or beyond the last code point.
   if ((first == 0xe0 && byte(1) < 0xa0) || (first == 0xed && byte(1) > 0x9f)) return 0;
   if ((first == 0xf0 && byte(1) < 0x90) || (first == 0xf4 && byte(1) > 0x8f)) return 0;
   return length;
@@ -45,7 +45,7 @@ void check_characters(const std::string& text, const std::string& name) {
   }
 }
 
-// Hears the whole file once, before it becomes a tree that no longer shows what was dropped.
+// Checks the parser's events, because yaml-cpp's tree does not show duplicates, anchors and tags.
 class StrictReader : public YAML::EventHandler {
  public:
   explicit StrictReader(const std::string& name) : name_(name) {}
@@ -56,7 +56,7 @@ class StrictReader : public YAML::EventHandler {
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark& mark, YAML::anchor_t) override {
     if (at_key()) fail(mark, "a key has no name");
-    const bool of_key = !levels_.empty() && levels_.back().is_map;  // the parser names the line after it
+    const bool of_key = !levels_.empty() && levels_.back().is_map;  // the parser reports the line after it
     fail(of_key ? levels_.back().key_mark : mark, "no value; 'key: value' is expected, with a blank after the colon");
     finish_value();
   }
@@ -81,7 +81,7 @@ class StrictReader : public YAML::EventHandler {
   }
   void OnMapEnd() override { close(); }
 
-  // Throws ConfigError with the first thing that is not right.
+  // Throws ConfigError with the first error.
   void finish() const {
     if (documents_ == 0) throw ConfigError(name_ + ": empty");
     if (!refusal_.empty()) throw ConfigError(refusal_);
@@ -108,7 +108,7 @@ class StrictReader : public YAML::EventHandler {
     return path;
   }
 
-  // Not thrown yet: what the parser itself finds wrong further on (a bracket that is left open) comes first.
+  // Not thrown yet: a later syntax error (an open bracket) is reported first.
   void fail(const YAML::Mark& mark, const std::string& what) {
     if (!refusal_.empty()) return;
     const std::string at = path();
@@ -134,7 +134,7 @@ class StrictReader : public YAML::EventHandler {
   void open(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor, bool is_map) {
     if (at_key()) fail(mark, "a key that is not a text");
     check_properties(mark, tag, anchor);
-    if (levels_.size() == kMostLevels) fail(mark, "more than " + std::to_string(kMostLevels) + " levels deep");
+    if (levels_.size() == kMaxLevels) fail(mark, "more than " + std::to_string(kMaxLevels) + " levels deep");
     levels_.push_back({is_map});
   }
 
@@ -163,7 +163,7 @@ YAML::Node parse_yaml(const std::string& text, const std::string& name) {
     std::istringstream stream(text);
     YAML::Parser parser(stream);
     StrictReader reader(name);
-    // No further than a second one: the parser gives what it cannot place as documents without end.
+    // Stop at the second document: on some errors the parser produces documents without end.
     if (parser.HandleNextDocument(reader)) parser.HandleNextDocument(reader);
     reader.finish();
     return YAML::Load(text);
@@ -173,7 +173,7 @@ YAML::Node parse_yaml(const std::string& text, const std::string& name) {
 }
 
 YAML::Node load_yaml(const std::string& file) {
-  return parse_yaml(read_text(file, kMostBytes), file);
+  return parse_yaml(read_text(file, kMaxBytes), file);
 }
 
 void write_yaml(const std::string& file, const YAML::Node& node) {

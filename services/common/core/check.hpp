@@ -1,4 +1,4 @@
-// Checks for our own mistakes: always on, they end the process, and the supervisor stops the rover and restarts it.
+// Assertions against programming errors, always on. They abort the process; s6 restarts it.
 #pragma once
 
 #include <sstream>
@@ -17,7 +17,7 @@ std::string values_text(const Values&... values) {
 
 }  // namespace rover
 
-// ROVER_CHECK(condition, values...): prints the values and aborts where the condition does not hold.
+// ROVER_CHECK(condition, values...): prints the values and aborts if the condition is false.
 #define ROVER_CHECK(condition, ...)                                                             \
   do {                                                                                          \
     if (!(condition)) [[unlikely]]                                                              \

@@ -1,4 +1,4 @@
-// Numbers as text, from files and arguments: plain decimal, the same in every place.
+// Parses plain decimal numbers of files and arguments.
 #pragma once
 
 #include <cstdint>
@@ -7,10 +7,10 @@
 
 namespace rover {
 
-// Both take the whole text, with at most one sign; nothing where a part is left over, where the value does not fit, or
-// where a leading zero leaves open whether it is octal.
+// Both parse the whole text, with at most one sign. Nothing if characters remain, the value does not fit, or a leading
+// zero could mean octal.
 
-// 0.5, -3, 1e-3. No hexadecimal; "nan" and "inf" are no numbers.
+// 0.5, -3, 1e-3. No hexadecimal; "nan" and "inf" are not numbers.
 std::optional<double> parse_number(std::string_view text);
 // 42, -7. No fraction, no exponent.
 std::optional<std::int64_t> parse_whole_number(std::string_view text);

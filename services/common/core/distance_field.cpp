@@ -7,7 +7,7 @@
 namespace rover {
 namespace {
 
-constexpr double kFar = 1e12;  // in squared cells: none marked
+constexpr double kFar = 1e12;  // squared cells; no marked cell
 
 // Lower envelope of the parabolas f(q) + (p - q)^2 along one line.
 class LineTransform {

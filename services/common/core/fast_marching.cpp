@@ -22,7 +22,7 @@ class Front {
     std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
   }
 
-  // The next cell of the front, -1 when it has died.
+  // The next cell of the front; -1 if it is empty.
   int accept() {
     while (!heap_.empty()) {
       std::pop_heap(heap_.begin(), heap_.end(), std::greater<>());

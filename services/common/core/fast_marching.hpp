@@ -19,7 +19,7 @@ struct MarchGrid {
 };
 
 // Stops once the front has passed the cell `target` by `beyond` of travel cost (target < 0: marches everywhere).
-// Infinity where the front has not come.
+// Infinity for cells that the front has not reached.
 std::vector<double> march(const MarchGrid& grid, const std::vector<Seed>& seeds, int target, double beyond);
 
 }  // namespace rover

@@ -55,7 +55,7 @@ Eigen::Isometry3d nan_pose();
 Matrix6d nan_cov();
 bool is_finite(const Eigen::Isometry3d& T);
 
-// Between two poses: position linearly, rotation by slerp; u in [0, 1].
+// Position linear, rotation by slerp; u in [0, 1].
 Eigen::Isometry3d interpolate(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, double u);
 
 // Camera axes (z forward, x right, y down) in body axes, for a camera that looks forward, pitched down by the angle.

@@ -1,5 +1,5 @@
-// A robot-centred grid that moves with the rover without copying: storage is circular, cells keep their place in the
-// world, and a move clears only the cells that come into view (as in grid_map and GA SLAM).
+// Robot-centred grid in circular storage: cells keep their place in the world, and a move clears only the cells that
+// enter the grid, without copying (as in grid_map and GA SLAM).
 #pragma once
 
 #include <algorithm>
@@ -55,7 +55,7 @@ class GridMap {
 
   void clear() { std::fill(data_.begin(), data_.end(), empty_); }
 
-  // Moves the grid so that (x, y) lies in its middle; cells that leave are forgotten.
+  // Centres the grid on (x, y). Cells that leave it are lost.
   void move_to(double x_m, double y_m) {
     const CellIndex center = index_of(x_m, y_m);
     const CellIndex target{center.ix - cells_ / 2, center.iy - cells_ / 2};
@@ -80,7 +80,7 @@ class GridMap {
   int wrap(int i) const { return ((i % cells_) + cells_) % cells_; }
   size_t slot(CellIndex i) const { return static_cast<size_t>(wrap(i.iy)) * cells_ + wrap(i.ix); }
 
-  // Clears the columns (or rows) that the move from `from` to `to` gives to new places.
+  // Clears the columns (or rows) that leave the grid in the move from `from` to `to`.
   void clear_leaving(int from, int to, bool columns) {
     const int moved = std::min(std::abs(to - from), cells_);
     const int first = to > from ? from : from + cells_ - moved;

@@ -1,4 +1,4 @@
-// Images, disparities and the rectified stereo camera they belong to.
+// Images, disparity images and the rectified stereo camera.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -21,7 +21,7 @@ struct GrayImage {
   std::uint8_t at(int x, int y) const { return data[static_cast<size_t>(y) * width + x]; }
 };
 
-// Of the left, rectified image, in 1/16 px; kInvalid where stereo found nothing.
+// Of the left, rectified image, in 1/16 px; kInvalid without a match.
 struct Disparity {
   static constexpr std::int16_t kInvalid = -1;
   int width = 0;
@@ -47,7 +47,7 @@ struct StereoCamera {
   double baseline_m = 0.0;
   Eigen::Isometry3d T_body_cam = Eigen::Isometry3d::Identity();
 
-  // The same pictures, wherever it is mounted.
+  // Equal intrinsics and baseline; the mount may differ.
   bool same_optics(const StereoCamera& other) const {
     return width == other.width && height == other.height && focal_px == other.focal_px && cx_px == other.cx_px &&
            cy_px == other.cy_px && baseline_m == other.baseline_m;

@@ -10,7 +10,7 @@
 namespace rover {
 
 struct PanTiltUnit {
-  Eigen::Vector3d p_body_axes = Eigen::Vector3d::Zero();  // where the axes cross [m]
+  Eigen::Vector3d p_body_axes = Eigen::Vector3d::Zero();  // intersection of the axes [m]
   double pan_max_rad = 0.0;                               // to either side
   double tilt_min_rad = 0.0;                              // upwards: negative
   double tilt_max_rad = 0.0;
@@ -20,7 +20,7 @@ struct PanTiltUnit {
   double clamp_tilt(double tilt_rad) const { return std::clamp(tilt_rad, tilt_min_rad, tilt_max_rad); }
 };
 
-// Pose of a camera of the unit, of which `T_body_mount` is the pose at pan and tilt zero.
+// Pose of a camera on the unit; `T_body_mount`: its pose at pan and tilt zero.
 inline Eigen::Isometry3d T_body_navcam(const PanTiltUnit& unit, const Eigen::Isometry3d& T_body_mount, double pan_rad,
                                        double tilt_rad) {
   const Eigen::Isometry3d T_body_turned = make_pose(rotation_from_rpy(0.0, tilt_rad, pan_rad), unit.p_body_axes);

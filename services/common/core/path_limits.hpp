@@ -1,4 +1,4 @@
-// What a global path must keep to, wherever it comes from: the planner on board takes no other.
+// Limits of a global path; the planner on board rejects others.
 #pragma once
 
 #include <cmath>
@@ -16,7 +16,7 @@ inline double path_length_m(const std::vector<double>& x_m, const std::vector<do
   return length_m;
 }
 
-// Empty where there is none.
+// Error text; empty if valid.
 inline std::string path_length_problem(double length_m) {
   if (length_m < kShortestPathM) return "path is shorter than 0.1 m";
   if (length_m > kLongestPathM) return "path is longer than 100 km";

@@ -1,4 +1,4 @@
-// Numbers to bytes and back, for checkpoints.
+// Serialisation of numbers, for checkpoints.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@ class StateReader {
  public:
   explicit StateReader(const std::vector<std::uint8_t>& bytes) : bytes_(bytes) {}
 
-  // Value-initialised past the end, and ok() is false then.
+  // Value-initialised past the end; finished() is false then.
   template <class T>
   T get() {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -40,7 +40,7 @@ class StateReader {
     next_ += sizeof(T);
     return value;
   }
-  // A count of things of at least `each` bytes that still follow.
+  // A count of items of at least `each` bytes, limited by the remaining bytes.
   size_t count(size_t each) {
     const auto n = get<std::uint64_t>();
     if (ok_ && n > (bytes_.size() - next_) / each) ok_ = false;

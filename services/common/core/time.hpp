@@ -1,4 +1,4 @@
-// Message time: microseconds, counted by TICK. Cores know no other clock.
+// Message time in microseconds, advanced by TICK. Cores use no other clock.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// The vehicle's geometry and limits, as config/vehicle.yaml gives them. SI units, radians.
+// Geometry and limits of the vehicle (config/vehicle.yaml). SI units, radians.
 #pragma once
 
 #include <Eigen/Dense>
@@ -41,7 +41,7 @@ struct Vehicle {
   Eigen::Vector3d imu_position_m = Eigen::Vector3d::Zero();
   std::optional<PanTiltUnit> pan_tilt;  // none: no NavCam, and so no Full level
 
-  // Half extents of the ground that wheels and body cover, about the body origin.
+  // Half extents of the footprint of wheels and body, about the body origin.
   double footprint_half_length_m() const {
     double x = body_half_length_m;
     for (double wheel : wheel_x_m) x = std::max(x, std::abs(wheel) + wheel_radius_m);

@@ -1,6 +1,6 @@
 // Inverse kinematics of a double-Ackermann rover: four steered corner wheels, two fixed middle wheels. The contact
-// point (x, y) moves with (v - w y, w x); all wheels share one centre of rotation on the axis of the middle wheels, so
-// none scrubs. Source: Siegwart and Nourbakhsh, Introduction to Autonomous Mobile Robots, ch. 3.
+// point (x, y) moves with (v - w y, w x); all wheels have one centre of rotation on the axis of the middle wheels, so
+// none slips sideways. Source: Siegwart and Nourbakhsh, Introduction to Autonomous Mobile Robots, ch. 3.
 #pragma once
 
 #include <array>

@@ -20,7 +20,7 @@ namespace {
 
 using Dataset = std::unique_ptr<GDALDataset>;
 
-constexpr std::int64_t kMostPixels = 40'000'000;  // planning takes about 60 bytes for each
+constexpr std::int64_t kMaxPixels = 40'000'000;  // planning needs about 60 bytes per pixel
 
 Dataset open_map(const std::string& file, const GdalSession& gdal) {
   std::error_code error;
@@ -28,16 +28,16 @@ Dataset open_map(const std::string& file, const GdalSession& gdal) {
   Dataset dataset(GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
   if (!dataset) throw DtmError(file + ": not a readable map" + gdal.last_error());
   if (dataset->GetRasterCount() < 1)
-    throw DtmError(file + ": holds no map, or several; gdalinfo names them, gdal_translate takes one out");
+    throw DtmError(file + ": contains no map, or several; gdalinfo lists them, gdal_translate extracts one");
   return dataset;
 }
 
 void check_size(const Placement& placement, const TargetGrid& grid, GDALDataset& dataset, const std::string& file) {
   const std::int64_t given = static_cast<std::int64_t>(dataset.GetRasterXSize()) * dataset.GetRasterYSize();
-  if (std::max(given, grid.width * grid.height) > kMostPixels)
+  if (std::max(given, grid.width * grid.height) > kMaxPixels)
     throw DtmError(
         fmt::format("{}: too large ({}); cut out a part of up to {} million pixels (gdal_translate -projwin)", file,
-                    placement.size(), kMostPixels / 1'000'000));
+                    placement.size(), kMaxPixels / 1'000'000));
 }
 
 void remove_voids(const Placement& placement, const std::string& file, ElevationMap& map) {
@@ -45,14 +45,14 @@ void remove_voids(const Placement& placement, const std::string& file, Elevation
   if (!found.problem.empty()) throw DtmError(file + ": " + found.problem);
   for (const auto& plateau : found.plateaus)
     map.notes.push_back(
-        fmt::format("{}: {} pixels of exactly {} m are taken as no data (undeclared; say so by "
+        fmt::format("{}: {} pixels of exactly {} m are treated as no data (undeclared; declare them with "
                     "gdal_edit.py -a_nodata)",
                     file, plateau.pixels, plateau.height_m));
-  map.undeclared_voids = found.rests;
+  map.undeclared_voids = found.interpolated;
   for (const auto& plateau : found.plateaus) map.undeclared_voids += plateau.pixels;
-  if (found.rests > 0)
+  if (found.interpolated > 0)
     map.notes.push_back(
-        fmt::format("{}: {} pixels behind steps that no terrain has are taken as no data", file, found.rests));
+        fmt::format("{}: {} pixels beside impossible steps are treated as no data", file, found.interpolated));
   if (std::none_of(map.raster.z_m.begin(), map.raster.z_m.end(), [](float z) { return std::isfinite(z); }))
     throw DtmError(file + ": has no heights, all of its pixels are no data");
 }
@@ -64,7 +64,7 @@ void place(const TargetGrid& grid, ElevationRaster& raster) {
   raster.projection_wkt = grid.wkt;
 }
 
-// GDAL's view of the heights. Rows run from the last line, so lines are counted from there.
+// GDAL dataset that refers to the raster's memory. Row 0 is the last line of the file.
 Dataset in_memory(GDALDataset& file, ElevationRaster& raster) {
   Dataset dataset(
       GetGDALDriverManager()->GetDriverByName("MEM")->Create("", raster.width, raster.height, 0, GDT_Float32, nullptr));
@@ -90,7 +90,7 @@ Dataset warped(GDALDataset& source, const TargetGrid& grid) {
   const double north_m = grid.south_m + grid.resolution_m * static_cast<double>(grid.height);
   const std::vector<std::string> words = {
       "-of", "MEM", "-t_srs", grid.wkt, "-r", "bilinear", "-ot", "Float32", "-dstnodata", "nan",
-      // Places to a hundredth of a pixel; one thread, for the same bytes each time.
+      // Accuracy of 0.01 pixels; one thread, for reproducible bytes.
       "-et", "0.01", "-wo", "NUM_THREADS=1", "-te", text(grid.west_m), text(grid.south_m), text(east_m), text(north_m),
       "-ts", std::to_string(grid.width), std::to_string(grid.height)};
   CPLStringList list;
@@ -131,7 +131,7 @@ ElevationMap read(const std::string& file) {
   else
     map.raster = reprojected(*dataset, std::move(map.raster), grid, file);
   if (map.converted)
-    map.notes.push_back(fmt::format("{}: converted to metres, north up, {:.4g} m a pixel", file, grid.resolution_m));
+    map.notes.push_back(fmt::format("{}: converted to metres, north up, {:.4g} m per pixel", file, grid.resolution_m));
   return map;
 }
 
@@ -144,12 +144,12 @@ ElevationMap read_elevation_map(const std::string& file) {
     throw;
   } catch (const std::bad_alloc&) {
     throw DtmError(file + ": too large for the memory; cut out a part (gdal_translate -projwin)");
-  } catch (const std::exception& error) {  // a format driver's
+  } catch (const std::exception& error) {  // of a GDAL driver
     throw DtmError(file + ": not a readable map (" + error.what() + ")");
   }
 }
 
-void demand_no_voids(const ElevationMap& map, const std::string& file) {
+void require_no_voids(const ElevationMap& map, const std::string& file) {
   const ElevationRaster& raster = map.raster;
   std::int64_t voids = 0;
   size_t first = 0;

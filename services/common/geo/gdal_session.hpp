@@ -1,4 +1,4 @@
-// GDAL prints its errors on stderr by default; within a session they wait to become the text of an exception.
+// Captures GDAL's errors for exception texts. By default GDAL prints them on stderr.
 #pragma once
 
 #include <cpl_conv.h>

@@ -1,4 +1,4 @@
-// Places on a map as longitude and latitude, through GDAL.
+// Conversion between map coordinates and longitude and latitude, through GDAL.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,9 +14,9 @@ class Geography {
  public:
   explicit Geography(const ElevationRaster& raster);
   ~Geography();
-  // False for a map of a local coordinate system, which lies on no planet: its places are all NaN.
+  // False for a local coordinate system: all conversions are NaN.
   bool is_known() const;
-  // NaN where the projection has no such place.
+  // NaN outside of the projection.
   Eigen::Vector2d to_map(const Eigen::Vector2d& lon_lat_deg) const;
   Eigen::Vector2d to_lon_lat(const Eigen::Vector2d& map_m) const;
 

@@ -7,7 +7,7 @@
 
 namespace rover {
 
-// NaN is its no-data value. Throws DtmError (elevation_map.hpp) where the file cannot be written.
+// NaN is its no-data value. Throws DtmError (elevation_map.hpp) if the file cannot be written.
 void write_geotiff(const std::string& file, const ElevationRaster& raster);
 
 }  // namespace rover

@@ -19,9 +19,9 @@
 namespace rover {
 namespace {
 
-constexpr double kMostHeightM = 1e7;  // more than the radius of any body that a rover drives on
+constexpr double kMaxHeightM = 1e7;  // more than the radius of any solid body of the solar system
 
-// "USSurveyFoot", "US_survey_foot" and "us survey foot" are one.
+// "USSurveyFoot", "US_survey_foot" and "us survey foot" are equal.
 std::string bare(const std::string& text) {
   std::string letters;
   for (const unsigned char c : text)
@@ -66,7 +66,7 @@ std::optional<double> metres_of_unit(const std::string& name) {
   return unit->second;
 }
 
-// By the band's own word, else by the vertical axis of the coordinate system. Negative for depths.
+// From the band's unit, else from the vertical axis of the coordinate system. Negative for depths.
 double metres_of_height(GDALDataset& dataset, GDALRasterBand& band, const std::string& file) {
   const OGRSpatialReference* reference = dataset.GetSpatialRef();
   const bool has_axis = reference != nullptr && reference->IsCompound() != 0;
@@ -77,8 +77,7 @@ double metres_of_height(GDALDataset& dataset, GDALRasterBand& band, const std::s
   if (name.empty()) return up * (has_axis ? reference->GetTargetLinearUnits("VERT_CS") : 1.0);
   const auto metres = metres_of_unit(name);
   if (!metres)
-    throw DtmError(file + ": heights are in '" + name +
-                   "', a unit that is not known; name another by gdal_edit.py -unit");
+    throw DtmError(file + ": heights are in '" + name + "', an unknown unit; set another with gdal_edit.py -unit");
   return up * *metres;
 }
 
@@ -98,19 +97,18 @@ GDALRasterBand& only_band(GDALDataset& dataset, const std::string& file) {
   const std::vector<GDALRasterBand*> bands = bands_of(dataset, false);
   if (bands.size() != 1)
     throw DtmError(file + ": has " + std::to_string(bands.size()) +
-                   " bands of data; one of heights is expected, cut it out by gdal_translate -b NUMBER");
+                   " bands of data; one height band is expected, extract it with gdal_translate -b NUMBER");
   return *bands.front();
 }
 
-void demand_heights(GDALRasterBand& band, const std::string& file) {
+void require_heights(GDALRasterBand& band, const std::string& file) {
   const GDALColorInterp colour = band.GetColorInterpretation();
   const GDALDataType type = band.GetRasterDataType();
   const bool is_coloured = (colour != GCI_GrayIndex && colour != GCI_Undefined) || band.GetColorTable() != nullptr;
   if (is_coloured || type == GDT_Byte)
     throw DtmError(file + ": is a picture (" + GDALGetDataTypeName(type) + ", " +
-                   GDALGetColorInterpretationName(colour) + "); a map of heights is expected, of 16 bits or more");
-  if (GDALDataTypeIsComplex(type) != 0)
-    throw DtmError(file + ": its numbers are complex; a map of heights is expected");
+                   GDALGetColorInterpretationName(colour) + "); a height map of 16 bits or more is expected");
+  if (GDALDataTypeIsComplex(type) != 0) throw DtmError(file + ": has complex values; a height map is expected");
 }
 
 template <class T>
@@ -134,7 +132,7 @@ std::pair<double, double> limits_of(GDALDataType type) {
       return limits<std::int64_t>();
     case GDT_UInt64:
       return limits<std::uint64_t>();
-    default:  // far beyond all heights
+    default:  // beyond any height
       return limits<double>();
   }
 }
@@ -148,18 +146,18 @@ CPLErr read_line(GDALRasterBand& band, int line, std::vector<double>& values) {
 
 HeightBand::HeightBand(GDALDataset& dataset, const std::string& file)
     : file_(file), band_(only_band(dataset, file)), alpha_(alpha_band(dataset)) {
-  demand_heights(band_, file);
+  require_heights(band_, file);
   const double metres = metres_of_height(dataset, band_, file);
   scale_ = band_.GetScale() * metres;
   offset_ = band_.GetOffset() * metres;
   if (!std::isfinite(scale_) || !std::isfinite(offset_) || scale_ == 0.0)
-    throw DtmError(file + ": scale or offset of its heights are no numbers to reckon with");
+    throw DtmError(file + ": scale or offset of its heights is invalid");
   std::tie(lowest_, highest_) = limits_of(band_.GetRasterDataType());
 }
 
 float HeightBand::height_of(double value, bool masked) const {
   const double z_m = scale_ * value + offset_;
-  const bool known = !masked && value > lowest_ && value < highest_ && std::abs(z_m) < kMostHeightM;
+  const bool known = !masked && value > lowest_ && value < highest_ && std::abs(z_m) < kMaxHeightM;
   return known ? static_cast<float>(z_m) : std::numeric_limits<float>::quiet_NaN();
 }
 
@@ -176,7 +174,7 @@ ElevationRaster HeightBand::read() const {
   for (int line = 0; line < raster.height; ++line) {
     CPLErr error = read_line(band_, line, values);
     if (mask != nullptr && error == CE_None) error = read_line(*mask, line, valid);
-    if (error != CE_None) throw DtmError(file_ + ": cut short or damaged" + gdal.last_error());
+    if (error != CE_None) throw DtmError(file_ + ": truncated or damaged" + gdal.last_error());
     for (int column = 0; column < width; ++column)
       raster.at(column, raster.height - 1 - line) = height_of(values[column], valid[column] == 0.0);
   }

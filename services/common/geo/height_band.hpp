@@ -1,4 +1,4 @@
-// The one band of heights of a file, and its numbers as metres.
+// The height band of a file, converted to metres.
 #pragma once
 
 #include <gdal_priv.h>
@@ -11,13 +11,12 @@ namespace rover {
 
 class HeightBand {
  public:
-  // Throws DtmError where there is none, or more than one, or where it is a picture.
+  // Throws DtmError for no band, several bands, or a picture.
   HeightBand(GDALDataset& dataset, const std::string& file);
 
-  // Whether the file's numbers are the heights in metres.
+  // Whether the stored values are metres.
   bool is_metres() const { return scale_ == 1.0 && offset_ == 0.0; }
-  // Row 0 of the raster is the last line; NaN for what the file masks or no number can be. Throws DtmError where it
-  // cannot be read.
+  // Row 0 of the raster is the last line; NaN for masked and invalid values. Throws DtmError if unreadable.
   ElevationRaster read() const;
 
  private:
@@ -25,10 +24,10 @@ class HeightBand {
 
   std::string file_;
   GDALRasterBand& band_;
-  GDALRasterBand* alpha_;  // null: none. GDAL takes it for a mask only where it is of whole numbers
+  GDALRasterBand* alpha_;  // null: none. GDAL uses it as a mask only if it is an integer band
   double scale_ = 1.0;     // metres
   double offset_ = 0.0;
-  double lowest_ = 0.0;  // of the type: a value at its limits is none
+  double lowest_ = 0.0;  // limits of the data type, which count as void
   double highest_ = 0.0;
 };
 

@@ -1,4 +1,4 @@
-// Pictures that go into the report as they are.
+// JPEG encoding for the report and the page.
 #pragma once
 
 #include <cstdint>

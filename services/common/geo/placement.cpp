@@ -15,11 +15,11 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kScaleError = 0.01;  // of the projection's metres against those on the ground
+constexpr double kScaleError = 0.01;  // relative scale error of the projection
 constexpr double kNearlyAll = 0.9;
 constexpr int kPointsPerSide = 33;
-constexpr double kMostCells = 1e9;  // along a side; far more than any map that is read
-// So far out a stereographic projection is wrong by 1 % (its scale is 1 + d^2 / 4 R^2).
+constexpr double kMaxCells = 1e9;  // along a side; more than any accepted map
+// At this distance a stereographic projection has a scale error of 1 % (1 + d^2 / 4 R^2).
 constexpr double kFarthestRadii = 0.2;
 
 struct Rectangle {
@@ -37,7 +37,7 @@ Rectangle around(const std::vector<Side>& sides) {
   return rectangle;
 }
 
-// Each side of the map bounds the axis along which its middle lies farther out.
+// Each side of the map bounds the axis along which its midpoint is farther out.
 Rectangle inside(const std::vector<Side>& sides, const Rectangle& outer) {
   Rectangle inner = outer;
   const Vector2d middle = 0.5 * (outer.low + outer.high), half = 0.5 * (outer.high - outer.low);
@@ -62,20 +62,20 @@ Placement::Placement(GDALDataset& dataset, const std::string& file)
   const bool placed = dataset.GetGeoTransform(transform_.data()) == CE_None &&
                       std::all_of(transform_.begin(), transform_.end(), finite);
   if (!placed && dataset.GetGCPCount() > 0)
-    throw DtmError(file + ": has ground control points instead of a georeference; make a map of it by gdalwarp first");
+    throw DtmError(file + ": has ground control points instead of a georeference; georeference it with gdalwarp first");
   if (!placed || reference == nullptr)
-    throw DtmError(file + ": has no georeference" + (placed ? ", its coordinates have no system" : "") +
+    throw DtmError(file + ": has no georeference" + (placed ? " (no coordinate system)" : "") +
                    "; give it one (gdal_edit.py -a_srs, -a_ullr), as LOCAL_CS[\"site\",UNIT[\"metre\",1]] if it has "
                    "none on a planet");
   reference_ = *reference;
   reference_.StripVertical();
   const bool flat = reference_.IsLocal() || reference_.IsProjected() || reference_.IsGeographic();
-  if (!flat) throw DtmError(file + ": its coordinate system is none of a map; reproject it by gdalwarp -t_srs");
+  if (!flat) throw DtmError(file + ": its coordinate system is not a map projection; reproject it with gdalwarp -t_srs");
   if (is_local() && !is_metric()) throw DtmError(file + ": is not north-up with square pixels; gdalwarp makes it so");
   if (is_local()) return;
   if (const auto geographic = geographic_of(reference_)) to_lon_lat_ = change(reference_, *geographic);
   if (const double area = std::abs(middle_pixel().determinant()); !(area > 0.0 && std::isfinite(area)))
-    throw DtmError(file + ": its projection does not lead to longitude and latitude; reproject it by gdalwarp -t_srs");
+    throw DtmError(file + ": its projection does not lead to longitude and latitude; reproject it with gdalwarp -t_srs");
 }
 
 Vector2d Placement::at(double column, double line) const {
@@ -103,7 +103,7 @@ Eigen::Matrix2d Placement::pixel_at(double column, double line) const {
 bool Placement::is_true_at(double column, double line) const {
   const Eigen::Matrix2d scale = pixel_at(column, line) / transform_[1];
   const Eigen::Matrix2d error = scale.transpose() * scale - Eigen::Matrix2d::Identity();
-  // Not mirrored: columns to the east where lines go to the north.
+  // Not mirrored.
   return (error.cwiseAbs().array() < 2.0 * kScaleError).all() && scale.determinant() > 0.0;
 }
 
@@ -168,7 +168,7 @@ TargetGrid Placement::plane_grid() const {
   const Vector2d middle(0.5 * width_, 0.5 * height_);
   const OGRSpatialReference plane = plane_about(reference_, lon_lat_at(middle.x(), middle.y()));
   const CoordinateChange to_plane = change(reference_, plane);
-  if (!to_plane) throw DtmError(file_ + ": cannot be reprojected to metres; reproject it by gdalwarp -t_srs");
+  if (!to_plane) throw DtmError(file_ + ": cannot be reprojected to metres; reproject it with gdalwarp -t_srs");
   const std::vector<Side> sides = sides_in(*to_plane);
   const Rectangle outer = around(sides), inner = inside(sides, outer);
   const bool is_inside = inner.area() > kNearlyAll * outer.area();
@@ -176,7 +176,7 @@ TargetGrid Placement::plane_grid() const {
   const double resolution_m = std::sqrt(std::abs(middle_pixel().determinant()));
   const auto whole = [&](double m) {
     const double cells = m / resolution_m;
-    return std::clamp(is_inside ? std::floor(cells) : std::ceil(cells), 1.0, kMostCells);
+    return std::clamp(is_inside ? std::floor(cells) : std::ceil(cells), 1.0, kMaxCells);
   };
   const Vector2d cells((chosen.high - chosen.low).unaryExpr(whole));
   const Vector2d corner = 0.5 * (chosen.low + chosen.high - resolution_m * cells);

@@ -1,4 +1,4 @@
-// Where the pixels of a file lie on the ground.
+// Georeference of a file: positions of its pixels on the ground.
 #pragma once
 
 #include <gdal_priv.h>
@@ -23,32 +23,32 @@ struct TargetGrid {
 
 class Placement {
  public:
-  // Throws DtmError where the dataset has no georeference, or one that no grid in metres can be made of.
+  // Throws DtmError without a georeference, or if it cannot be converted to metres.
   Placement(GDALDataset& dataset, const std::string& file);
 
-  // In a coordinate system of its own, on no planet.
+  // A local coordinate system, not on a planet.
   bool is_local() const { return reference_.IsLocal() != 0; }
-  // Whether each pixel is a square of its nominal size on the ground, in metres, with its sides along the axes.
+  // Whether pixels are axis-aligned squares of their nominal size in metres on the ground.
   bool is_metric() const;
-  // Of a pixel in the middle: the greater of its sides on the ground.
+  // Larger side of the central pixel on the ground.
   double pixel_m() const;
   // "400 x 300 pixels, 2.1 x 1.6 km"
   std::string size() const;
-  // The file's own grid where that is metric or local.
+  // The file's own grid, if metric or local.
   TargetGrid own_grid() const;
-  // A grid of about as many pixels in the plane about the middle: inside of the map where that is nearly all of it,
-  // else around it. Throws DtmError where the map is too wide for any plane.
+  // A grid of about as many pixels in a plane about the centre: inside the map if that covers nearly all of it, else
+  // around it. Throws DtmError if the map is too wide for a plane.
   TargetGrid plane_grid() const;
 
  private:
   Eigen::Vector2d at(double column, double line) const;
-  // NaN where the projection leads to none.
+  // NaN if the projection has no inverse there.
   Eigen::Vector2d lon_lat_at(double column, double line) const;
-  // On the ground, for a step of a pixel eastwards and of a pixel northwards on the map.
+  // Ground vectors of one pixel east and one pixel north on the map.
   Eigen::Matrix2d pixel_at(double column, double line) const;
   Eigen::Matrix2d middle_pixel() const { return pixel_at(0.5 * width_, 0.5 * height_); }
   bool is_true_at(double column, double line) const;
-  // Points along the four sides of the map in the plane.
+  // Points along the four sides of the map, in the plane.
   std::vector<std::vector<Eigen::Vector2d>> sides_in(OGRCoordinateTransformation& to_plane) const;
 
   std::string file_;

@@ -10,7 +10,7 @@ cv::Mat heights_in(const HeightRaster& raster, const Box& box, int width_px, int
   cv::flip(south_first, z, 0);
   const double sigma_px = smoothing_m / raster.resolution_m;
   if (sigma_px > 0.0) cv::GaussianBlur(z, z, cv::Size(), sigma_px, sigma_px, cv::BORDER_REPLICATE);
-  // From picture pixels to raster pixels, centres at half integers in both.
+  // From image pixels to raster pixels, centres at half integers in both.
   const double step_m = box.width_m() / width_px;
   cv::Mat map_x(height_px, width_px, CV_32F);
   cv::Mat map_y(height_px, width_px, CV_32F);

@@ -1,4 +1,4 @@
-// A piece of a height raster at the resolution of a picture.
+// Resamples a part of a height raster to the pixels of an image.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -7,7 +7,7 @@
 
 namespace rover {
 
-// Heights [m] as CV_32F, rows from the north; beyond the raster its edge goes on.
+// Heights [m] as CV_32F, rows from the north; the edge is repeated beyond the raster.
 cv::Mat heights_in(const HeightRaster& raster, const Box& box, int width_px, int height_px, double smoothing_m);
 
 }  // namespace rover

@@ -1,4 +1,4 @@
-// Terrain as a shaded picture in the tones of Martian ground.
+// Shaded relief of terrain in the colours of Martian ground.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,7 +8,7 @@
 
 namespace rover {
 
-// A piece of the map frame.
+// A rectangle of the map frame.
 struct Box {
   double x0_m = 0.0;
   double y0_m = 0.0;
@@ -19,7 +19,7 @@ struct Box {
   bool contains(const Eigen::Vector2d& p) const {
     return p.x() >= x0_m && p.x() <= x1_m && p.y() >= y0_m && p.y() <= y1_m;
   }
-  Box grown(double by_m) const { return {x0_m - by_m, y0_m - by_m, x1_m + by_m, y1_m + by_m}; }
+  Box expanded(double by_m) const { return {x0_m - by_m, y0_m - by_m, x1_m + by_m, y1_m + by_m}; }
 };
 
 // Heights on a raster whose lower left corner is the map frame's origin; rows from the south.

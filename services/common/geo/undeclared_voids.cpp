@@ -10,15 +10,15 @@ namespace rover {
 namespace {
 
 constexpr float kVoid = std::numeric_limits<float>::quiet_NaN();
-constexpr double kPossibleStepM = 50.0;       // the highest sheer cliffs that elevation models resolve
+constexpr double kPossibleStepM = 50.0;       // highest vertical cliffs that elevation models resolve
 constexpr double kPossibleStepPixels = 10.0;  // 84 deg
-constexpr double kWallShare = 0.8;            // of a void's border; interpolated pixels there hide some of it
-constexpr double kLargeShare = 0.01;          // of the map
+constexpr double kWallFraction = 0.8;         // of a void's border; interpolated pixels there hide some of it
+constexpr double kLargeFraction = 0.01;       // of the map
 constexpr float kFarApartM = 1000.0F;
-constexpr double kFinestM = 0.25;  // below it noise between neighbours is steep
+constexpr double kMinPixelM = 0.25;  // below it, noise between neighbours looks steep
 constexpr size_t kSteps = 1'000'000;
 
-// f(pixel, neighbour) for each two that share a side.
+// Calls f(pixel, neighbour) for each pair of 4-neighbours.
 template <class F>
 void for_neighbours(const ElevationRaster& raster, F&& f) {
   const size_t width = raster.width;
@@ -37,7 +37,7 @@ void for_neighbours_of(const ElevationRaster& raster, size_t i, F&& f) {
   if (i + width < raster.z_m.size()) f(i + width);
 }
 
-// NaN where there are no neighbours.
+// NaN without neighbours.
 double median_step_m(const ElevationRaster& raster) {
   const size_t stride = raster.z_m.size() / kSteps + 1;
   std::vector<float> steps;
@@ -76,7 +76,7 @@ class Search {
               [](const auto& a, const auto& b) { return a.height_m < b.height_m; });
   }
 
-  void remove_rests(UndeclaredVoids& found) {
+  void remove_interpolated(UndeclaredVoids& found) {
     const std::vector<int> region = label();
     if (regions_.empty()) return;
     mark_walls(region);
@@ -86,32 +86,32 @@ class Search {
     for (const Region& r : regions_) finite += r.pixels;
     for (Region& r : regions_) {
       if (&r == &*ground || !r.at_wall) continue;
-      r.is_rest = static_cast<double>(r.pixels) < kLargeShare * static_cast<double>(finite);
-      if (!r.is_rest && r.distance_m(*ground) > kFarApartM) found.problem = conflict(*ground, r);
+      r.is_interpolated = static_cast<double>(r.pixels) < kLargeFraction * static_cast<double>(finite);
+      if (!r.is_interpolated && r.distance_m(*ground) > kFarApartM) found.problem = conflict(*ground, r);
     }
     for (size_t i = 0; i < z_.size(); ++i)
-      if (region[i] >= 0 && regions_[region[i]].is_rest) ++found.rests, z_[i] = kVoid;
+      if (region[i] >= 0 && regions_[region[i]].is_interpolated) ++found.interpolated, z_[i] = kVoid;
   }
 
  private:
-  // Of all pixels of one height.
+  // Border of all plateaus of one height.
   struct Border {
     std::int64_t walls = 0, others = 0;
-    float beyond = kVoid;  // the height behind the first wall
-    bool varies = false;   // others are there as well, as beside a void; not so beside ground that is a plateau itself
+    float beyond = kVoid;  // height across the first wall
+    bool varies = false;   // several heights across: a void in terrain, not two adjacent plateaus
     bool is_void() const {
-      return varies && static_cast<double>(walls) >= kWallShare * static_cast<double>(walls + others);
+      return varies && static_cast<double>(walls) >= kWallFraction * static_cast<double>(walls + others);
     }
   };
   struct Region {
     std::uint32_t first = 0;
     std::uint32_t pixels = 0;
     float low = 0.0F, high = 0.0F;
-    bool at_wall = false, is_rest = false;
+    bool at_wall = false, is_interpolated = false;
     float distance_m(const Region& other) const { return std::max(low - other.high, other.low - high); }
   };
 
-  // False beside NaN.
+  // False if one is NaN.
   bool is_wall(size_t a, size_t b) const { return std::abs(z_[a] - z_[b]) > possible_step_m_; }
 
   bool is_in_plateau(size_t i) const {
@@ -139,7 +139,7 @@ class Search {
     return borders;
   }
 
-  // The region of each pixel that possible steps join; -1 where it is void.
+  // Region number of each pixel, connected by possible steps; -1 for voids.
   std::vector<int> label() {
     std::vector<int> region(z_.size(), -1);
     std::vector<std::uint32_t> open;
@@ -179,7 +179,7 @@ class Search {
   }
   std::string conflict(const Region& a, const Region& b) const {
     return "heights of " + place(a) + " and of " + place(b) +
-           " lie side by side, and one of them is no ground; name its height by gdal_edit.py -a_nodata";
+           " are adjacent, and one of them is not ground; declare its height with gdal_edit.py -a_nodata";
   }
 
   const ElevationRaster& raster_;
@@ -192,7 +192,7 @@ class Search {
 
 UndeclaredVoids remove_undeclared_voids(ElevationRaster& raster, double pixel_m) {
   UndeclaredVoids found;
-  if (median_step_m(raster) > std::max(pixel_m, kFinestM)) {
+  if (median_step_m(raster) > std::max(pixel_m, kMinPixelM)) {
     found.problem =
         "half of its neighbouring pixels are steeper than 45 deg, as in a picture; a map of heights is expected";
     return found;
@@ -200,7 +200,7 @@ UndeclaredVoids remove_undeclared_voids(ElevationRaster& raster, double pixel_m)
   Search search(raster, pixel_m);
   if (!search.has_walls()) return found;
   search.remove_plateaus(found);
-  search.remove_rests(found);
+  search.remove_interpolated(found);
   return found;
 }
 

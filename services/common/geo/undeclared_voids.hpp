@@ -1,4 +1,4 @@
-// Voids that a file does not declare. Terrain is connected: between neighbouring pixels it steps by kilometres nowhere.
+// Detects voids that a file does not declare, by height steps between neighbouring pixels that terrain cannot have.
 #pragma once
 
 #include <cstdint>
@@ -14,12 +14,12 @@ struct UndeclaredVoids {
     float height_m = 0.0F;
     std::int64_t pixels = 0;
   };
-  std::vector<Plateau> plateaus;  // one exact height, and nearly everywhere along its border a step that no terrain has
-  std::int64_t rests = 0;         // pixels of small regions behind such steps: interpolation between ground and void
-  std::string problem;            // not empty: it cannot be known what is ground; one line
+  std::vector<Plateau> plateaus;  // one exact height, with impossible steps along nearly all of its border
+  std::int64_t interpolated = 0;  // pixels of small regions beside such steps: interpolated between ground and void
+  std::string problem;            // one line; not empty if ground and void cannot be distinguished
 };
 
-// Sets them to NaN. `pixel_m`: the size of a pixel on the ground. Row 0 of the raster is the file's last line.
+// Sets them to NaN. `pixel_m`: pixel size on the ground. Row 0 of the raster is the last line of the file.
 UndeclaredVoids remove_undeclared_voids(ElevationRaster& raster, double pixel_m);
 
 }  // namespace rover

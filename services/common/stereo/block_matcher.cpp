@@ -103,6 +103,18 @@ void check_left_right(const std::uint32_t* left_match, const std::uint32_t* righ
 
 }  // namespace
 
+#ifdef __x86_64__
+#define ROVER_AVX2 gnu::target("avx2"),
+bool BlockMatcher::cpu_has_avx2() {
+  return __builtin_cpu_supports("avx2");
+}
+#else
+#define ROVER_AVX2
+bool BlockMatcher::cpu_has_avx2() {
+  return false;
+}
+#endif
+
 BlockMatcher::BlockMatcher(const MatcherConfig& config, bool avx2) : config_(config), pad_(pad(config)), avx2_(avx2) {
   ROVER_CHECK(config.block_px * config.block_px * 2 * config.prefilter_cap <= UINT16_MAX, config.block_px,
               config.prefilter_cap);
@@ -123,8 +135,8 @@ const cv::Mat& BlockMatcher::match(const cv::Mat& left, const cv::Mat& right, co
 }
 
 // `flatten` compiles all callees for AVX2. target_clones is not used: its ifunc runs before AddressSanitizer is ready.
-[[gnu::target("avx2"), gnu::flatten]] void BlockMatcher::match_avx2(const cv::Mat& left, const cv::Mat& right,
-                                                                    const cv::Mat& right_valid) {
+[[ROVER_AVX2 gnu::flatten]] void BlockMatcher::match_avx2(const cv::Mat& left, const cv::Mat& right,
+                                                          const cv::Mat& right_valid) {
   match_rows(left, right, right_valid);
 }
 

@@ -36,7 +36,7 @@ class BlockMatcher {
 
   explicit BlockMatcher(const MatcherConfig& config, bool avx2 = cpu_has_avx2());
 
-  static bool cpu_has_avx2() { return __builtin_cpu_supports("avx2"); }
+  static bool cpu_has_avx2();  // false if not x86-64
   // Padding that keeps the blocks and search ranges of all pixels inside the image.
   static MatchPad pad(const MatcherConfig& config);
 

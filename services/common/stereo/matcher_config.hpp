@@ -1,11 +1,11 @@
-// Reads the section "matcher" of a service's YAML.
+// The section "matcher" of a service's parameters.
 #pragma once
 
-#include "common/bus/config.hpp"
+#include "common/bus/parameters.hpp"
 #include "common/stereo/block_matcher.hpp"
 
 namespace rover::stereo {
 
-void read_matcher(const Config& yaml, MatcherConfig& matcher);
+void add_matcher(Parameters p, MatcherConfig& c);
 
 }  // namespace rover::stereo

@@ -1,4 +1,4 @@
-// Ties the page together: one stream of views, five a second, handed to the parts that show them.
+// Entry point: receives five views a second and passes them to the parts of the page.
 import { createMap } from "/map.js";
 import { createPanels } from "/panels.js";
 import { createCharts } from "/charts.js";
@@ -30,7 +30,7 @@ function showVeil(text) {
   byId("veil").firstElementChild.textContent = text || "";
 }
 
-// Another run has begun under the same address: everything starts anew.
+// Loads the state of the run; reloads the page if another run uses the same address.
 async function begin() {
   const fresh = await getJson("/api/setup");
   if (setup && fresh.run !== setup.run) return location.reload();
@@ -52,7 +52,7 @@ async function begin() {
   paths = { global: null, local: null };
 }
 
-// What is told by number alone is fetched when the number is new.
+// Fetches events and paths when their sequence number has changed.
 async function fetchNews(view) {
   if (fetching) return;
   fetching = true;
@@ -76,8 +76,8 @@ async function fetchNews(view) {
 
 function show(view) {
   showLink("up", view.book.pages > 1 ? `live · ${view.book.pages} pages` : "live");
-  const stands = view.silence_s === null ? null : view.silence_s > 2.5;
-  showVeil(stands ? `The rover's time stands still since ${view.silence_s.toFixed(0)} s` : "");
+  const stopped = view.tick_age_s !== null && view.tick_age_s > 2.5;
+  showVeil(stopped ? `The rover's clock stopped ${view.tick_age_s.toFixed(0)} s ago` : "");
   parts.map.show(view);
   parts.panels.show(view);
   parts.charts.show(view);
@@ -94,7 +94,7 @@ function openStream() {
   source.onerror = () => {
     source.close();
     showLink("down", "no connection");
-    showVeil("No connection to mission control. Trying again …");
+    showVeil("No connection to mission control. Reconnecting …");
     setTimeout(start, 1000);
   };
 }
@@ -106,7 +106,7 @@ async function start() {
     openStream();
   } catch {
     showLink("down", "no connection");
-    showVeil("No connection to mission control. Trying again …");
+    showVeil("No connection to mission control. Reconnecting …");
     setTimeout(start, 1000);
   }
 }

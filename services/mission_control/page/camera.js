@@ -1,8 +1,8 @@
-// The cameras' pictures; on the LocCam's, what the hazard detector looks at and what it found there.
+// Camera images. The LocCam image shows the hazard detector's region of interest and its hazards.
 const byId = (id) => document.getElementById(id);
 
-// Between points of the body frame and pixels of the rectified camera (z forward, x right, y down).
-function createLens(camera) {
+// Projects points of the body frame into the rectified camera (z forward, x right, y down).
+function createProjection(camera) {
   const R = camera.rotation, t = camera.position_m;
   return {
     camera,
@@ -12,7 +12,7 @@ function createLens(camera) {
       if (c[2] < .05) return null;
       return [camera.cx_px + (camera.focal_px * c[0]) / c[2], camera.cy_px + (camera.focal_px * c[1]) / c[2]];
     },
-    // Row of the ground that lies so far ahead of the camera, in the column u.
+    // Image row, in column u, of the ground at the distance `ahead` from the camera.
     row(u, ahead, ground_z) {
       const a = (u - camera.cx_px) / camera.focal_px, drop = t[2] - ground_z;
       const b = -(drop * (R[0][0] * a + R[0][2]) + ahead * (R[2][0] * a + R[2][2])) / (drop * R[0][1] + ahead * R[2][1]);
@@ -23,7 +23,7 @@ function createLens(camera) {
 
 export function createCamera(setup) {
   const canvas = byId("camera"), context = canvas.getContext("2d");
-  let chosen = "loccam", lens = null, asked = false, shown = { loccam: 0, navcam: 0 }, loading = false, switched = false;
+  let chosen = "loccam", projection = null, requested = false, shown = { loccam: 0, navcam: 0 }, loading = false, switched = false;
   const ground = -setup.vehicle.origin_height_m;
 
   byId("camera-choice").onclick = ({ target }) => {
@@ -33,32 +33,32 @@ export function createCamera(setup) {
     switched = true;
   };
 
-  async function findLens() {
-    if (lens || asked) return;
-    asked = true;
+  async function findProjection() {
+    if (projection || requested) return;
+    requested = true;
     try {
       const response = await fetch("/api/camera");
       const camera = await response.json();
-      if (camera) lens = createLens(camera);
-    } catch { /* asked again */ }
-    setTimeout(() => { asked = false; }, 1000);
+      if (camera) projection = createProjection(camera);
+    } catch { /* retried */ }
+    setTimeout(() => { requested = false; }, 1000);
   }
 
   function drawRegion() {
     const { near_m, far_m } = setup.roi, w = canvas.width, steps = 8;
     context.beginPath();
-    for (let i = 0; i <= steps; i++) context[i ? "lineTo" : "moveTo"]((w * i) / steps, lens.row((w * i) / steps, far_m, ground));
-    for (let i = steps; i >= 0; i--) context.lineTo((w * i) / steps, lens.row((w * i) / steps, near_m, ground));
+    for (let i = 0; i <= steps; i++) context[i ? "lineTo" : "moveTo"]((w * i) / steps, projection.row((w * i) / steps, far_m, ground));
+    for (let i = steps; i >= 0; i--) context.lineTo((w * i) / steps, projection.row((w * i) / steps, near_m, ground));
     context.closePath();
     context.strokeStyle = "#5cc8ffd0";
     context.lineWidth = 1.5;
     context.stroke();
   }
 
-  // On the plane that the hazard detector has fitted to the ground ahead.
+  // Point on the ground plane fitted by the hazard detector.
   const onGround = (grid, x, y) => [x, y, ground - Math.tan(grid.plane[0]) * x + Math.tan(grid.plane[1]) * y];
 
-  // The layer's picture has one pixel a cell, row 0 at the largest y.
+  // The layer image has one pixel per cell; row 0 is the largest y.
   function drawHazards(grid, cells) {
     const size = document.createElement("canvas");
     size.width = grid.nx; size.height = grid.ny;
@@ -70,7 +70,7 @@ export function createCamera(setup) {
         const i = 4 * (v * grid.nx + u);
         const free = data[i + 1] > data[i];
         if (!data[i + 3] || free) continue;
-        const corner = (du, dv) => lens.pixel(onGround(grid, grid.x_m + (u + du) * grid.cell_m, grid.y_m + (grid.ny - v - dv) * grid.cell_m));
+        const corner = (du, dv) => projection.pixel(onGround(grid, grid.x_m + (u + du) * grid.cell_m, grid.y_m + (grid.ny - v - dv) * grid.cell_m));
         const corners = [corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)];
         if (corners.includes(null)) continue;
         context.beginPath();
@@ -95,23 +95,23 @@ export function createCamera(setup) {
     try {
       const [photo, cells] = await Promise.all([
         picture(`/camera/${name}.jpg?seq=${image.seq}`),
-        grid && grid.seq === image.seq && lens ? picture(`/layer/hazards.png?seq=${grid.seq}`) : null,
+        grid && grid.seq === image.seq && projection ? picture(`/layer/hazards.png?seq=${grid.seq}`) : null,
       ]);
       shown[name] = image.seq;
       if (canvas.width !== image.width || canvas.height !== image.height) Object.assign(canvas, { width: image.width, height: image.height });
       context.drawImage(photo, 0, 0, canvas.width, canvas.height);
-      if (name === "loccam" && lens && lens.camera.width === canvas.width) {
+      if (name === "loccam" && projection && projection.camera.width === canvas.width) {
         if (cells) drawHazards(grid, cells);
         drawRegion();
       }
-    } catch { /* the next view brings another */ } finally {
+    } catch { /* retried with the next view */ } finally {
       loading = false;
     }
   }
 
   return {
     show(view) {
-      findLens();
+      findProjection();
       const both = view.images.loccam && view.images.navcam;
       byId("camera-choice").hidden = !both;
       byId("camera-title").hidden = Boolean(both);
@@ -120,7 +120,7 @@ export function createCamera(setup) {
       document.querySelector(".cameras .legend").hidden = chosen !== "loccam";
       byId("camera-title").textContent = chosen === "loccam" ? "LocCam" : "NavCam";
       const image = view.images[chosen];
-      byId("camera-age").textContent = image && Number.isFinite(image.age_s) ? `${image.age_s.toFixed(1)} s old` : "no picture yet";
+      byId("camera-age").textContent = image && Number.isFinite(image.age_s) ? `${image.age_s.toFixed(1)} s old` : "no image yet";
       if (image && image.seq !== shown[chosen] && !loading) load(view, chosen);
     },
   };

@@ -1,4 +1,4 @@
-// What has happened in the last minutes, and the slope along a path that is being drawn.
+// Trends of the last two minutes, and the slope profile of a drawn path.
 const Chart = window.Chart;
 const WINDOW_S = 120;
 const STEP_S = .5;
@@ -48,7 +48,7 @@ export function createCharts(setup) {
   }
 
   return {
-    // One row each second: time, speed, slip, roll, pitch.
+    // One row per second: time, speed, slip, roll, pitch.
     setTrend(rows) {
       for (const graph of [speed, tilt]) for (const set of graph.data.datasets) set.data = [];
       const y = (value) => value ?? NaN;
@@ -66,17 +66,17 @@ export function createCharts(setup) {
       push(speed, view.t_s, [view.pose.speed_mps ?? NaN, view.motion.slip ?? NaN]);
       push(tilt, view.t_s, [deg(view.pose.roll), deg(view.pose.pitch)]);
     },
-    // Null: back to the trends.
+    // Null shows the trends again.
     showProfile(check) {
       for (const id of ["trend-speed-box", "trend-tilt-box"]) document.getElementById(id).hidden = check !== null;
       document.getElementById("profile-box").hidden = check === null;
       if (check === null) return;
-      profile ??= chart("profile", [line("slope °", "#5cc8ff"), line("limit", "#f0616d"), line("warning", "#f2b84b")], { y: axis({ min: 0, suggestedMax: 1.2 * setup.path.most_slope_deg }) });
+      profile ??= chart("profile", [line("slope °", "#5cc8ff"), line("limit", "#f0616d"), line("warning", "#f2b84b")], { y: axis({ min: 0, suggestedMax: 1.2 * setup.path.max_slope_deg }) });
       const end = check.distance_m.at(-1) ?? 1;
       const level = (y) => [{ x: 0, y }, { x: end, y }];
       profile.data.datasets[0].data = check.distance_m.map((x, i) => ({ x, y: check.slope_deg[i] }));
-      profile.data.datasets[1].data = level(setup.path.most_slope_deg);
-      profile.data.datasets[2].data = level(setup.path.warn_slope_deg);
+      profile.data.datasets[1].data = level(setup.path.max_slope_deg);
+      profile.data.datasets[2].data = level(setup.path.steep_slope_deg);
       profile.options.scales.x.max = end;
       Object.assign(profile.options.scales.x.ticks, { stepSize: undefined, maxTicksLimit: 8, callback: (d) => `${+d.toFixed(1)} m` });
       profile.update("none");

@@ -1,4 +1,4 @@
-// The operator's commands: each is answered, and the answer is shown.
+// Sends the operator's commands and shows the replies.
 const byId = (id) => document.getElementById(id);
 const words = (name) => name.replaceAll("_", " ");
 const describe = (c) => [words(c.command), c.level && c.command === "force_level" ? c.level : "", c.service || c.fault || ""].filter(Boolean).join(" ");
@@ -16,8 +16,8 @@ function toast(text, good) {
   setTimeout(() => box.remove(), 4500);
 }
 
-// Way-points of a file: GeoJSON, a JSON list, or lines "x, y". Metres of the map.
-export function readWayPoints(text) {
+// Waypoints from GeoJSON, a JSON list or lines "x, y", in map coordinates [m].
+export function readWaypoints(text) {
   const numbers = (list) => list.map((p) => [Number(p[0]), Number(p[1])]);
   const find = (node) => {
     if (Array.isArray(node)) return numbers(node);
@@ -30,12 +30,12 @@ export function readWayPoints(text) {
   };
   const points = /^\s*[[{]/.test(text) ? find(JSON.parse(text))
     : numbers(text.split("\n").map((row) => row.trim().split(/[,;\s]+/)).filter((row) => row.length >= 2 && !Number.isNaN(Number(row[0]))));
-  if (points.length < 2 || !points.flat().every(Number.isFinite)) throw new Error("at least two way-points x, y are expected");
+  if (points.length < 2 || !points.flat().every(Number.isFinite)) throw new Error("at least two waypoints x, y are required");
   return points;
 }
 
 export function createCommands(setup, map, charts) {
-  async function give(command) {
+  async function send(command) {
     const what = describe(command);
     const note = byId("answer");
     note.className = "note";
@@ -44,7 +44,7 @@ export function createCommands(setup, map, charts) {
     try {
       result = await post("/api/command", command);
     } catch {
-      result = { accepted: false, reason: "no answer: the connection is lost" };
+      result = { accepted: false, reason: "no reply, the connection is lost" };
     }
     const text = result.accepted ? `${what}: accepted` : `${what}: refused, ${words(result.reason || "no reason given")}`;
     note.textContent = text;
@@ -54,12 +54,12 @@ export function createCommands(setup, map, charts) {
   }
 
   for (const button of document.querySelectorAll("[data-command]"))
-    button.addEventListener("click", () => give({ command: button.dataset.command }));
+    button.addEventListener("click", () => send({ command: button.dataset.command }));
   byId("levels").addEventListener("click", ({ target }) => {
-    if (target.dataset.level) give({ command: "force_level", level: target.dataset.level });
+    if (target.dataset.level) send({ command: "force_level", level: target.dataset.level });
   });
 
-  // Drawing a path.
+  // Path drawing.
   const tools = { draw: byId("draw"), load: byId("load"), undo: byId("undo"), send: byId("send"), cancel: byId("cancel") };
   const info = byId("path-info");
   let checked = 0;
@@ -81,7 +81,7 @@ export function createCommands(setup, map, charts) {
   async function check() {
     const number = ++checked, points = map.sketch.points();
     tools.send.disabled = true;
-    if (points.length < 2) return say("Click way-points on the map.");
+    if (points.length < 2) return say("Click waypoints on the map.");
     const found = await post("/api/check", { points });
     if (number !== checked) return;
     map.sketch.draw(found);
@@ -89,16 +89,16 @@ export function createCommands(setup, map, charts) {
     if (!found.inside) return say("The path leaves the map.", "bad");
     charts.showProfile(found);
     const figures = `${found.length_m.toFixed(1)} m, slope up to ${found.max_slope_deg.toFixed(1)}°`;
-    if (!found.passable) return say(`${figures}: more than ${setup.path.most_slope_deg}°.`, "bad");
+    if (!found.passable) return say(`${figures}: the limit is ${setup.path.max_slope_deg}°.`, "bad");
     tools.send.disabled = false;
-    say(figures, found.max_slope_deg > setup.path.warn_slope_deg ? "warn" : "good");
+    say(figures, found.max_slope_deg > setup.path.steep_slope_deg ? "warn" : "good");
   }
 
-  tools.draw.onclick = () => { drawing(true); map.sketch.begin(check); say("Click way-points on the map."); };
+  tools.draw.onclick = () => { drawing(true); map.sketch.begin(check); say("Click waypoints on the map."); };
   tools.undo.onclick = () => map.sketch.undo();
   tools.cancel.onclick = () => drawing(false);
   tools.send.onclick = async () => {
-    const result = await give({ command: "path", points: map.sketch.points() });
+    const result = await send({ command: "path", points: map.sketch.points() });
     if (result.accepted) drawing(false);
   };
   tools.load.onclick = () => byId("file").click();
@@ -107,7 +107,7 @@ export function createCommands(setup, map, charts) {
     target.value = "";
     if (!file) return;
     try {
-      const points = readWayPoints(await file.text());
+      const points = readWaypoints(await file.text());
       drawing(true);
       map.sketch.load(points, check);
     } catch (error) {
@@ -116,7 +116,7 @@ export function createCommands(setup, map, charts) {
   };
 
   return {
-    give,
+    send,
     show(view) {
       byId("clear-safe").hidden = view.state.name !== "SAFE";
       const forced = (view.book.forced || "auto").toLowerCase();

@@ -1,4 +1,4 @@
-// The map in metres: orbital layers, paths, tracks, the rover to scale, and the grids that go with it.
+// Map in metres: orbital layers, paths, tracks, the rover to scale and its grids.
 const L = window.L;
 const at = (x, y) => L.latLng(y, x);
 const compose = (a, b) => {
@@ -9,11 +9,11 @@ const apply = (pose, x, y) => {
   const c = Math.cos(pose[2]), s = Math.sin(pose[2]);
   return [pose[0] + c * x - s * y, pose[1] + s * x + c * y];
 };
-const NAVCAM_REACH_M = 8;
+const NAVCAM_RANGE_M = 8;
 const OLD_MAP_S = 10;
 const finite = (...values) => values.every((v) => Number.isFinite(v));
 
-// A picture whose pixels are cells of a grid that may be turned against the map.
+// Image of a grid; the grid may be rotated in the map.
 const GridLayer = L.Layer.extend({
   initialize(name) { this.name = name; this.seq = 0; },
   onAdd(map) {
@@ -28,9 +28,9 @@ const GridLayer = L.Layer.extend({
     this.image = null;
     map.off("zoom viewreset", this.place, this);
   },
-  // Of a time long gone: what the Full level left behind.
+  // Fades an outdated map of the Full level.
   fade(old) { if (this.image) this.image.classList.toggle("old", old); },
-  // The picture and its place change together.
+  // Image and pose change together.
   set(grid, mapOdom) {
     this.latest = [grid, mapOdom];
     if (!this.image || grid.seq === this.seq || this.loading) return;
@@ -63,7 +63,7 @@ const GridLayer = L.Layer.extend({
   },
 });
 
-// Body and wheels in their true size; an arrow of constant size where they would be too small to see.
+// Body and wheels to scale; an arrow of constant size if they are too small to see.
 class Rover {
   constructor(map, vehicle, style) {
     this.map = map;
@@ -138,7 +138,7 @@ export function createMap(setup, { onTruth }) {
   const control = L.control.layers(null, {}, { collapsed: true }).addTo(map);
   const names = {
     relief: "Relief", slope: "Slope", difficulty: "Difficulty", elevation: "Elevation map", traversability: "Traversability",
-    hazards: "Hazards", navcam: "NavCam's view", global: "Global path", local: "Local path", track: "Driven track", truth: "True pose (simulation)",
+    hazards: "Hazards", navcam: "NavCam field of view", global: "Global path", local: "Local path", track: "Driven track", truth: "True pose (simulation)",
   };
   for (const [key, name] of Object.entries(names))
     if (key === "navcam" ? setup.navcam : setup.map || !["relief", "slope", "difficulty"].includes(key)) control.addOverlay(layers[key], name);
@@ -178,7 +178,7 @@ export function createMap(setup, { onTruth }) {
   map.on("dragstart", () => setFollowing(false));
 
   let globalPath = null;
-  let begun = false;  // the view has gone to the rover
+  let centred = false;  // the view has been centred on the rover
   const trackEnd = { x: NaN, y: NaN };
   let mapOdom = [NaN, NaN, NaN];
   let localPath = null;
@@ -191,15 +191,15 @@ export function createMap(setup, { onTruth }) {
   const widths = () => { if (globalPath) corridor.setStyle({ weight: Math.max(1, 2 * globalPath.corridor_half_width_m * 2 ** map.getZoom()) }); };
   map.on("zoomend", widths);
 
-  // Where the pan-tilt unit has the NavCam look, as far as it sees well.
+  // Field of view of the NavCam, up to its useful range.
   function drawNavCam(view) {
     const n = setup.navcam, p = view.pose, unit = view.pan_tilt;
-    const looks = n && unit && view.state.level === "FULL" && finite(p.x_m, p.y_m, p.yaw, unit.pan);
-    if (!looks) return layers.navcam.setLatLngs([]);
+    const visible = n && unit && view.state.level === "FULL" && finite(p.x_m, p.y_m, p.yaw, unit.pan);
+    if (!visible) return layers.navcam.setLatLngs([]);
     const eye = compose([p.x_m, p.y_m, p.yaw], [n.x_m, n.y_m, unit.pan]), points = [apply(eye, 0, 0)], steps = 6;
     for (let i = -steps; i <= steps; i++) {
       const a = (n.half_width * i) / steps;
-      points.push(apply(eye, NAVCAM_REACH_M * Math.cos(a), NAVCAM_REACH_M * Math.sin(a)));
+      points.push(apply(eye, NAVCAM_RANGE_M * Math.cos(a), NAVCAM_RANGE_M * Math.sin(a)));
     }
     return layers.navcam.setLatLngs(points.map(([x, y]) => at(x, y)));
   }
@@ -209,14 +209,14 @@ export function createMap(setup, { onTruth }) {
     layers.local.setLatLngs(localPath.x_m.map((x, i) => at(...apply(mapOdom, x, localPath.y_m[i]))));
   };
 
-  // Drawing: way-points by clicks, the first leg from the rover.
+  // Drawing: waypoints by clicks; the first segment starts at the rover.
   const sketch = { points: [], on: false, changed: () => {} };
   const sketchLine = L.layerGroup().addTo(map);
-  const slopeColour = (deg) => (deg > setup.path.most_slope_deg ? "#f0616d" : deg > setup.path.warn_slope_deg ? "#f2b84b" : "#4cc38a");
+  const slopeColour = (deg) => (deg > setup.path.max_slope_deg ? "#f0616d" : deg > setup.path.steep_slope_deg ? "#f2b84b" : "#4cc38a");
   function drawSketch(check) {
     sketchLine.clearLayers();
     const line_ = (points, color) => L.polyline(points, { color, weight: 4, interactive: false }).addTo(sketchLine);
-    const whole = wayPoints();
+    const whole = waypoints();
     if (check && check.inside && check.distance_m.length > 1) {
       const along = pointsAlong(whole, check.distance_m);
       for (let i = 1; i < along.length; i++) line_([along[i - 1], along[i]], slopeColour(Math.max(check.slope_deg[i], check.slope_deg[i - 1])));
@@ -228,18 +228,18 @@ export function createMap(setup, { onTruth }) {
   }
   function pointsAlong(points, distances) {
     const out = [];
-    let leg = 0, before = 0, length = Math.hypot(points[1][0] - points[0][0], points[1][1] - points[0][1]);
+    let segment = 0, before = 0, length = Math.hypot(points[1][0] - points[0][0], points[1][1] - points[0][1]);
     for (const d of distances) {
-      while (d > before + length && leg + 2 < points.length) {
-        before += length; leg++;
-        length = Math.hypot(points[leg + 1][0] - points[leg][0], points[leg + 1][1] - points[leg][1]);
+      while (d > before + length && segment + 2 < points.length) {
+        before += length; segment++;
+        length = Math.hypot(points[segment + 1][0] - points[segment][0], points[segment + 1][1] - points[segment][1]);
       }
       const u = length > 0 ? Math.min(1, (d - before) / length) : 0;
-      out.push(at(points[leg][0] + u * (points[leg + 1][0] - points[leg][0]), points[leg][1] + u * (points[leg + 1][1] - points[leg][1])));
+      out.push(at(points[segment][0] + u * (points[segment + 1][0] - points[segment][0]), points[segment][1] + u * (points[segment + 1][1] - points[segment][1])));
     }
     return out;
   }
-  const wayPoints = () => {
+  const waypoints = () => {
     const own = sketch.points;
     if (!sketch.fromRover || !own.length || !rover.pose || !finite(...rover.pose)) return own;
     return [[rover.pose[0], rover.pose[1]], ...own];
@@ -283,8 +283,8 @@ export function createMap(setup, { onTruth }) {
           if (!jump) layers.track.addLatLng(at(p.x_m, p.y_m));
           trackEnd.x = p.x_m; trackEnd.y = p.y_m;
         }
-        if (!begun) {
-          begun = true;
+        if (!centred) {
+          centred = true;
           map.setView(at(p.x_m, p.y_m), map.getSize().x > 600 ? 5 : 4.5, { animate: false });
         } else if (following && !sketch.on) map.panTo(at(p.x_m, p.y_m), { animate: false });
       }
@@ -321,7 +321,7 @@ export function createMap(setup, { onTruth }) {
         map.doubleClickZoom.enable();
         sketchLine.clearLayers();
       },
-      points: wayPoints,
+      points: waypoints,
       draw: drawSketch,
     },
   };

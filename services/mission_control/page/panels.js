@@ -1,4 +1,4 @@
-// Everything in words and numbers: situation, limits, services, events.
+// Panels: situation, limits, services, Full level, events.
 const byId = (id) => document.getElementById(id);
 const fixed = (value, digits, unit = "") => (Number.isFinite(value) ? value.toFixed(digits) + unit : "–");
 const deg = (rad) => (rad * 180) / Math.PI;
@@ -14,9 +14,9 @@ const TONE = {
 };
 const MANY_SERVICES = 13;
 const WHEELS = ["FL", "FR", "ML", "MR", "RL", "RR"];
-const SLAM = ["ok", "no relief", "lost"];
-const looks = (pan) => (Math.abs(pan) < .5 ? "ahead" : `${Math.abs(pan).toFixed(0)}° ${pan > 0 ? "left" : "right"}`);
-const RED_HOLD_MS = 1500;  // long enough to be seen
+const SLAM = ["ok", "unobservable", "lost"];
+const direction = (pan) => (Math.abs(pan) < .5 ? "ahead" : `${Math.abs(pan).toFixed(0)}° ${pan > 0 ? "left" : "right"}`);
+const RED_HOLD_MS = 1500;  // minimum time that a lost service is shown red
 
 function clock(t_s) {
   if (!Number.isFinite(t_s)) return "–";
@@ -81,10 +81,10 @@ export function createPanels(setup, commands) {
     } else {
       reason.textContent = "Waiting for the rover.";
     }
-    const togo = view.planner.goal_distance_m, whole = view.book.path_length_m;
-    const share = s.name === "GOAL_REACHED" ? 1 : Number.isFinite(togo) && whole > 0 ? 1 - togo / whole : 0;
-    byId("bar").style.width = `${100 * Math.max(0, Math.min(1, share))}%`;
-    byId("togo").textContent = fixed(togo, 1, " m");
+    const toGoal = view.planner.goal_distance_m, whole = view.book.path_length_m;
+    const fraction = s.name === "GOAL_REACHED" ? 1 : Number.isFinite(toGoal) && whole > 0 ? 1 - toGoal / whole : 0;
+    byId("bar").style.width = `${100 * Math.max(0, Math.min(1, fraction))}%`;
+    byId("togo").textContent = fixed(toGoal, 1, " m");
     byId("driven").textContent = fixed(view.pose.travelled_m, 1, " m");
     byId("speed").textContent = fixed(view.pose.speed_mps, 2, " m/s");
     byId("repairs").textContent = view.planner.replans;
@@ -98,13 +98,13 @@ export function createPanels(setup, commands) {
     if (key === shownFaults) return;
     shownFaults = key;
     byId("faults").replaceChildren(...list.map((fault) => {
-      const item = element("li", ["log", "slow"].includes(fault.response) ? "minor" : "");
+      const item = element("li", ["LOG", "SLOW"].includes(fault.response) ? "minor" : "");
       const value = Number.isFinite(fault.value) ? ` ${+fault.value.toPrecision(3)}` : "";
       const limit = Number.isFinite(fault.limit) ? ` / ${+fault.limit.toPrecision(3)}` : "";
       const text = element("span", "", words(fault.id) + value + limit);
-      text.title = `${fault.id}: ${fault.response}`;
+      text.title = `${fault.id}: ${words(fault.response).toLowerCase()}`;
       const clear = element("button", "", "Clear");
-      clear.onclick = () => commands.give({ command: "clear_fault", fault: fault.id });
+      clear.onclick = () => commands.send({ command: "clear_fault", fault: fault.id });
       item.append(text, clear);
       return item;
     }));
@@ -122,7 +122,7 @@ export function createPanels(setup, commands) {
       const inject = element("td", "inject");
       for (const kind of ["kill", "hang"]) {
         const button = element("button", "", kind);
-        button.onclick = () => commands.give({ command: kind, service: name });
+        button.onclick = () => commands.send({ command: kind, service: name });
         inject.append(button);
       }
       tr.append(inject);
@@ -140,14 +140,14 @@ export function createPanels(setup, commands) {
       if (service.health === "lost") redUntil.set(service.name, now + RED_HOLD_MS);
       const health = redUntil.get(service.name) > now ? "lost" : service.health;
       tr.className = health;
-      tr.title = service.text || (health === "lost" ? "no word from it" : "");
+      tr.title = service.text || (health === "lost" ? "no heartbeat" : "");
       cells[1].textContent = fixed(service.age_s, 1, " s");
       cells[2].textContent = fixed(service.cpu, 0, " %");
       cells[3].textContent = service.restarts ?? "–";
     }
   }
 
-  // Hidden as long as the Full level has nothing to tell.
+  // Hidden until the Full level publishes data.
   function mapping(view) {
     const { terrain, slam, correction, pan_tilt: unit, grids } = view;
     byId("mapping").hidden = view.state.level !== "FULL" && !(terrain || slam || correction || grids.elevation);
@@ -155,11 +155,11 @@ export function createPanels(setup, commands) {
     byId("difficulty").textContent = terrain ? fixed(terrain.difficulty, 2) : "–";
     byId("known").textContent = terrain ? fixed(100 * terrain.known, 0, " %") : "–";
     byId("map-age").textContent = grids.elevation ? fixed(grids.elevation.age_s, 1, " s") : "–";
-    byId("navcam-at").textContent = unit && Number.isFinite(unit.pan) ? looks(deg(unit.pan)) : "–";
+    byId("navcam-at").textContent = unit && Number.isFinite(unit.pan) ? direction(deg(unit.pan)) : "–";
     byId("slam").textContent = slam ? SLAM[slam.status] || "?" : "–";
     byId("slam").title = slam ? `${slam.particles} particles, information ${fixed(slam.information, 2)}` : "";
-    byId("correction").textContent = !correction ? "–" : correction.accepted ? fixed(correction.moved_m, 2, " m") : "none";
-    byId("correction").title = correction ? `${clock(correction.age_s)} ago, score ${fixed(correction.score, 2)}` : "no match to the orbital map yet";
+    byId("correction").textContent = !correction ? "–" : correction.accepted ? fixed(correction.moved_m, 2, " m") : "rejected";
+    byId("correction").title = correction ? `${clock(correction.age_s)} ago, score ${fixed(correction.score, 2)}` : "not yet matched to the orbital map";
     const why = correction && !correction.accepted ? `Not matched to the orbital map: ${words(correction.reason)}` : "";
     byId("correction-why").hidden = !why;
     byId("correction-why").textContent = byId("correction-why").title = why;

@@ -4,12 +4,15 @@
 // coordinates are affine in world coordinates, so a point has the same albedo in both cameras and all frames.
 #pragma once
 
-#include <smmintrin.h>
-
 #include <Eigen/Dense>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <vector>
+
+#ifdef __SSE4_1__
+#include <smmintrin.h>
+#endif
 
 namespace rover {
 
@@ -48,7 +51,17 @@ class DetailTexture {
   static constexpr int kMask = kSize - 1;
   static constexpr float kOffset =
       16384.0F;  // a multiple of kSize: makes coordinates positive, so that truncation floors
-  static Float4 widen(std::int32_t texel) { return _mm_cvtepi32_ps(_mm_cvtepi8_epi32(_mm_cvtsi32_si128(texel))); }
+#ifdef __SSE4_1__
+  // GCC 12 compiles the portable conversion to scalar code.
+  static Float4 widen(std::int32_t texel) {
+    return _mm_cvtepi32_ps(_mm_cvtepi8_epi32(_mm_cvtsi32_si128(texel)));
+  }
+#else
+  using Byte4 = std::int8_t __attribute__((vector_size(4)));
+  static Float4 widen(std::int32_t texel) {
+    return __builtin_convertvector(std::bit_cast<Byte4>(texel), Float4);
+  }
+#endif
 
   std::vector<std::int32_t> texels_;  // four signed bytes each
 };

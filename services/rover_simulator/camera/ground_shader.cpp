@@ -4,7 +4,7 @@
 #include <cmath>
 
 // Disabled under ThreadSanitizer: the ifunc resolver would run before the sanitizer is loaded.
-#ifdef __SANITIZE_THREAD__
+#if defined(__SANITIZE_THREAD__) || !defined(__x86_64__)
 #define ROVER_AVX2_CLONE
 #else
 #define ROVER_AVX2_CLONE [[gnu::target_clones("avx2", "default")]]

@@ -21,8 +21,8 @@ MotorOutput DriveMotor::step(const DriveMotorConfig& config, double limit_a, dou
                              double rate_radps, double dt_s) {
   lead_rad_ += rate_cmd_radps * dt_s - (angle_rad - last_angle_rad_);
   last_angle_rad_ = angle_rad;
-  const double most_rad = limit_a * config.torque_per_amp_nm / config.angle_gain_nm;
-  lead_rad_ = std::clamp(lead_rad_, -most_rad, most_rad);
+  const double max_rad = limit_a * config.torque_per_amp_nm / config.angle_gain_nm;
+  lead_rad_ = std::clamp(lead_rad_, -max_rad, max_rad);
   const double torque = config.rate_gain_nms * (rate_cmd_radps - rate_radps) + config.angle_gain_nm * lead_rad_;
   MotorOutput out = limited(torque, rate_radps, config.torque_per_amp_nm, config.no_load_current_a, limit_a);
   // At rest the gear is self-locking.

@@ -185,7 +185,7 @@ class VehicleSim::Impl {
     const Eigen::Matrix3d R_map_wheel =
         Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(data_->xmat + 9 * body);
     WheelContact contact = find_contact(config_.contact, vehicle_, heights_, axle, R_map_wheel);
-    if (loose_sand_) contact.soil_share = {1.0, 0.0, 0.0};
+    if (loose_sand_) contact.soil_fraction = {1.0, 0.0, 0.0};
     double* wrench = data_->xfrc_applied + 6 * body;
     std::fill(wrench, wrench + 6, 0.0);
     note_contact(i, contact);
@@ -204,13 +204,13 @@ class VehicleSim::Impl {
     along_mps_[i] += velocity.dot(along);
 
     const double load = contact.load_n * damping_factor(velocity.dot(contact.normal));
-    const Eigen::Vector2d traction = bristle_[i].step(config_.soil, contact.soil_share, load, velocity.dot(along),
+    const Eigen::Vector2d traction = bristle_[i].step(config_.soil, contact.soil_fraction, load, velocity.dot(along),
                                                       velocity.dot(across), rim_mps, config_.step_s);
     truth_.wheel_load_n[i] = load;
     const Eigen::Vector3d rim_force = load * contact.normal + traction.x() * along + traction.y() * across;
     const Eigen::Vector3d axle_force =
-        rolling_force(config_.soil, contact.soil_share, load, velocity.dot(along)) * along;
-    const double scrub = scrub_torque(config_.soil, contact.soil_share, load, hub_rate.dot(contact.normal));
+        rolling_force(config_.soil, contact.soil_fraction, load, velocity.dot(along)) * along;
+    const double scrub = scrub_torque(config_.soil, contact.soil_fraction, load, hub_rate.dot(contact.normal));
     Eigen::Map<Eigen::Vector3d>{wrench} = rim_force + axle_force;
     Eigen::Map<Eigen::Vector3d>{wrench + 3} = arm.cross(rim_force) + scrub * contact.normal;
   }
@@ -223,8 +223,8 @@ class VehicleSim::Impl {
     truth_.wheel_sinkage_m[i] = contact.sinkage_m;
     truth_.climb_m = std::max(truth_.climb_m, contact.climb_m);
     if (contact.load_n <= 0.0) return;
-    const auto most = std::max_element(contact.soil_share.begin(), contact.soil_share.end());
-    truth_.wheel_soil[i] = static_cast<Soil>(most - contact.soil_share.begin());
+    const auto most = std::max_element(contact.soil_fraction.begin(), contact.soil_fraction.end());
+    truth_.wheel_soil[i] = static_cast<Soil>(most - contact.soil_fraction.begin());
   }
 
   void end_interval() {

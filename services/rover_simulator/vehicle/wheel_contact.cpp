@@ -77,7 +77,7 @@ WheelContact find_contact(const ContactConfig& config, const Vehicle& vehicle, H
   const double depth = sums.load_times_depth / sums.load;
   contact.point =
       p_map_axle + sums.load_times_across / sums.load * plane.axle - (vehicle.wheel_radius_m - depth) * contact.normal;
-  for (size_t soil = 0; soil < 3; ++soil) contact.soil_share[soil] = sums.by_soil[soil] / sums.load;
+  for (size_t soil = 0; soil < 3; ++soil) contact.soil_fraction[soil] = sums.by_soil[soil] / sums.load;
   return contact;
 }
 

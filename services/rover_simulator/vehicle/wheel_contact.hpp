@@ -21,7 +21,7 @@ struct WheelContact {
   double load_n = 0.0;                                // without damping; 0: no contact
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  // mean direction of the load, in map axes
   Eigen::Vector3d point = Eigen::Vector3d::Zero();    // centre of pressure, map
-  std::array<double, 3> soil_share{};                 // of the load, by Soil
+  std::array<double, 3> soil_fraction{};              // of the load, by Soil
   double sinkage_m = 0.0;                             // maximum depth
   double climb_m = 0.0;                               // highest load-bearing rock surface, above the ground
 };

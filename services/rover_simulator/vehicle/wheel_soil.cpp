@@ -58,18 +58,18 @@ double gross_traction(Soil soil, double slip) {
   return rolling + net_traction(table.back());
 }
 
-double gross_traction(const std::array<double, 3>& soil_share, double slip) {
+double gross_traction(const std::array<double, 3>& soil_fraction, double slip) {
   double sum = 0.0;
   for (size_t i = 0; i < 3; ++i)
-    if (soil_share[i] > 0.0) sum += soil_share[i] * gross_traction(static_cast<Soil>(i), slip);
+    if (soil_fraction[i] > 0.0) sum += soil_fraction[i] * gross_traction(static_cast<Soil>(i), slip);
   return sum;
 }
 
-double rolling_resistance(const std::array<double, 3>& soil_share) {
-  return soil_share[0] * kRolling[0] + soil_share[1] * kRolling[1] + soil_share[2] * kRolling[2];
+double rolling_resistance(const std::array<double, 3>& soil_fraction) {
+  return soil_fraction[0] * kRolling[0] + soil_fraction[1] * kRolling[1] + soil_fraction[2] * kRolling[2];
 }
 
-Eigen::Vector2d Bristle::step(const WheelSoilConfig& config, const std::array<double, 3>& soil_share, double load_n,
+Eigen::Vector2d Bristle::step(const WheelSoilConfig& config, const std::array<double, 3>& soil_fraction, double load_n,
                               double along_mps, double across_mps, double rim_speed_mps, double dt_s) {
   const Eigen::Vector2d slip_velocity(along_mps - rim_speed_mps, across_mps);
   const Eigen::Vector2d before = deflection_m_;
@@ -77,22 +77,22 @@ Eigen::Vector2d Bristle::step(const WheelSoilConfig& config, const std::array<do
   const double longest = kFullSlip * config.relaxation_m;
   if (const double length = deflection_m_.norm(); length > longest) deflection_m_ *= longest / length;
 
-  const double length = deflection_m_.norm(), most = gross_traction(soil_share, kFullSlip);
+  const double length = deflection_m_.norm(), most = gross_traction(soil_fraction, kFullSlip);
   Eigen::Vector2d force = -config.damping_spm * (deflection_m_ - before) / dt_s;
-  if (length > 0.0) force -= gross_traction(soil_share, length / config.relaxation_m) / length * deflection_m_;
+  if (length > 0.0) force -= gross_traction(soil_fraction, length / config.relaxation_m) / length * deflection_m_;
   if (const double size = force.norm(); size > most) force *= most / size;
   force.y() *= config.lateral_factor;
   return load_n * force;
 }
 
-double rolling_force(const WheelSoilConfig& config, const std::array<double, 3>& soil_share, double load_n,
+double rolling_force(const WheelSoilConfig& config, const std::array<double, 3>& soil_fraction, double load_n,
                      double along_mps) {
-  return -rolling_resistance(soil_share) * load_n * std::tanh(along_mps / config.rolling_speed_mps);
+  return -rolling_resistance(soil_fraction) * load_n * std::tanh(along_mps / config.rolling_speed_mps);
 }
 
-double scrub_torque(const WheelSoilConfig& config, const std::array<double, 3>& soil_share, double load_n,
+double scrub_torque(const WheelSoilConfig& config, const std::array<double, 3>& soil_fraction, double load_n,
                     double turn_radps) {
-  return -config.scrub_arm_m * load_n * gross_traction(soil_share, 1.0) *
+  return -config.scrub_arm_m * load_n * gross_traction(soil_fraction, 1.0) *
          std::tanh(turn_radps / config.scrub_rate_radps);
 }
 

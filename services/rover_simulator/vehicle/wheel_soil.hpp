@@ -25,20 +25,20 @@ double gross_traction(Soil soil, double slip);
 // Rolling resistance coefficient.
 double rolling_resistance(Soil soil);
 // Weighted means over the soils under a wheel.
-double gross_traction(const std::array<double, 3>& soil_share, double slip);
-double rolling_resistance(const std::array<double, 3>& soil_share);
+double gross_traction(const std::array<double, 3>& soil_fraction, double slip);
+double rolling_resistance(const std::array<double, 3>& soil_fraction);
 
 // Resistance force at the axle, opposite to the direction of travel.
-double rolling_force(const WheelSoilConfig& config, const std::array<double, 3>& soil_share, double load_n,
+double rolling_force(const WheelSoilConfig& config, const std::array<double, 3>& soil_fraction, double load_n,
                      double along_mps);
 // Resistance torque of a wheel steered on the spot.
-double scrub_torque(const WheelSoilConfig& config, const std::array<double, 3>& soil_share, double load_n,
+double scrub_torque(const WheelSoilConfig& config, const std::array<double, 3>& soil_fraction, double load_n,
                     double turn_radps);
 
 class Bristle {
  public:
   // Velocities of the contact point along and across the wheel; returns the force on the rim, same axes.
-  Eigen::Vector2d step(const WheelSoilConfig& config, const std::array<double, 3>& soil_share, double load_n,
+  Eigen::Vector2d step(const WheelSoilConfig& config, const std::array<double, 3>& soil_fraction, double load_n,
                        double along_mps, double across_mps, double rim_speed_mps, double dt_s);
   void release() { deflection_m_.setZero(); }
 

@@ -60,7 +60,7 @@ std::vector<RockZone> read_rock_zones(const Config& world) {
     zone.half_width_m = yaml.number("half_width_m", {0.5, 1000});
     zone.x_m = yaml.numbers("x_m", kMap, 0);
     zone.y_m = yaml.numbers("y_m", kMap, zone.x_m.size());
-    if (zone.x_m.empty()) yaml.fail("x_m", "a zone needs a point or more");
+    if (zone.x_m.empty()) yaml.fail("x_m", "a zone requires at least one point");
     zones.push_back(std::move(zone));
   }
   return zones;
@@ -72,7 +72,7 @@ void read_world(const Config& world, const std::string& file, Scenario& scenario
   } else {
     scenario.dtm_file = find_dtm(world, file);
     ElevationMap map = read_elevation_map(scenario.dtm_file);
-    demand_no_voids(map, scenario.dtm_file);
+    require_no_voids(map, scenario.dtm_file);
     scenario.dtm = std::move(map.raster);
     scenario.dtm_notes = std::move(map.notes);
   }
@@ -96,7 +96,7 @@ PlannedPath read_path(const Config& config, const ElevationRaster& dtm) {
   PlannedPath path;
   path.x_m = config.numbers("x_m", kMap, 0);
   path.y_m = config.numbers("y_m", kMap, path.x_m.size());
-  if (path.x_m.size() < 2) config.fail("x_m", "a path needs two points or more");
+  if (path.x_m.size() < 2) config.fail("x_m", "a path requires at least two points");
   path.level.assign(path.x_m.size(), 0);
   if (config.has("level")) {
     const std::vector<double> levels = config.numbers("level", {0, 1}, path.x_m.size());

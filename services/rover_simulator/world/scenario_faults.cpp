@@ -18,19 +18,19 @@ std::int8_t read_state(const Config& config) {
 
 void read_trigger(const Config& config, ScriptedFault& fault) {
   std::string first;
-  for (const char* key : {"at_s", "at_m", "at_state"}) {
+  for (const char* key : {"at_s", "after_m", "at_state"}) {
     if (!config.has(key)) continue;
-    if (!first.empty()) config.fail(key, "a fault begins once, and " + first + " is given");
+    if (!first.empty()) config.fail(key, "only one trigger is allowed, and " + first + " is given");
     first = key;
   }
-  if (first.empty()) config.fail("at_s", "missing; or at_m, or at_state");
+  if (first.empty()) config.fail("at_s", "missing; or after_m, or at_state");
   if (first == "at_s") fault.at_s = config.number(first, {0, kMaxTrigger});
-  if (first == "at_m") fault.at_m = config.number(first, {0, kMaxTrigger});
+  if (first == "after_m") fault.after_m = config.number(first, {0, kMaxTrigger});
   if (first == "at_state") fault.at_state = read_state(config);
 }
 
-FaultOrder read_order(const Config& config) {
-  FaultOrder order;
+FaultRequest read_order(const Config& config) {
+  FaultRequest order;
   order.fault = config.text("fault");
   const FaultKind* kind = find_fault(order.fault);
   if (kind == nullptr) config.fail("fault", "'" + order.fault + "' is not one of " + fault_names());
@@ -38,9 +38,9 @@ FaultOrder read_order(const Config& config) {
   const std::string problem = target_problem(*kind, order.target, find_channel_type);
   if (!problem.empty()) config.fail("target", problem);
   if (kind->unit.empty() && config.has("amount")) config.fail("amount", order.fault + " takes no amount");
-  order.amount = kind->usual;
-  if (config.has("amount") || std::isnan(kind->usual)) order.amount = config.number("amount", kind->amount);
-  if (!kind->lasts && config.has("for_s")) config.fail("for_s", order.fault + " takes no duration");
+  order.amount = kind->default_amount;
+  if (config.has("amount") || std::isnan(kind->default_amount)) order.amount = config.number("amount", kind->amount);
+  if (!kind->has_duration && config.has("for_s")) config.fail("for_s", order.fault + " takes no duration");
   config.read("for_s", order.for_s, {0.02, kMaxTrigger});
   return order;
 }

@@ -11,9 +11,9 @@ namespace rover {
 
 // Triggered by time, distance or first entry into a supervisor state; exactly one is set.
 struct ScriptedFault {
-  FaultOrder order;
+  FaultRequest order;
   std::optional<double> at_s;           // message time since the first tick
-  std::optional<double> at_m;           // true distance driven
+  std::optional<double> after_m;        // true distance driven
   std::optional<std::int8_t> at_state;  // supervisor_state_t
 };
 

@@ -44,11 +44,11 @@ std::vector<Delivery> Deliveries::take(Utime tick) {
     Delivery& d = waiting.delivery;
     Utime delay = 0;
     bool lost = false;
-    // Once on its way a message is not struck again.
+    // Faults are not applied twice to a message.
     for (const injection_t& injection : injections_) {
       if (waiting.at > d.header.release_utime || !is_for(injection, d)) continue;
       if (injection.fault == "drop") {
-        lost = injection.amount == 1.0;  // a part of a dense stream makes no age; the receivers tell what they lost
+        lost = injection.amount == 1.0;  // partial losses of a dense stream cause no age fault; receivers count them
       } else if (injection.fault == "delay") {
         delay += to_utime(injection.amount);
       } else if (injection.fault == "nan" || injection.fault == "offset") {
@@ -58,7 +58,7 @@ std::vector<Delivery> Deliveries::take(Utime tick) {
         };
         d.bytes = change_fields(split_field(injection.target), change, std::move(d.bytes));
       } else {
-        ROVER_CHECK(injection.fault == "duplicate", injection.fault);  // changes nothing but the receivers' accounts
+        ROVER_CHECK(injection.fault == "duplicate", injection.fault);  // changes only the receivers' counters
       }
     }
     if (lost) continue;

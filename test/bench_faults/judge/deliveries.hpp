@@ -1,5 +1,5 @@
-// When a receiver of the bus takes which message: by release, after what INJECT does to its channel on the way. A log
-// says what was sent; this says what came in.
+// Delivery times of messages to a receiver: by release, after the faults of INJECT on the channel. The log contains
+// what was sent; this computes what was received.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ class Deliveries {
  public:
   void inject(const injection_t& injection);
   void sent(Delivery delivery);
-  // Everything that is taken at the tick, in its order; what is older than what its stream has brought is left out.
+  // All messages processed at the tick, in order; messages older than the newest of their stream are dropped.
   std::vector<Delivery> take(Utime tick);
 
  private:

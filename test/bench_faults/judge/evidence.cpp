@@ -13,7 +13,7 @@ namespace {
 constexpr double kLossWindowS = 4.0;
 constexpr double kFaultStopWayM = 10.0;
 constexpr double kTurningMps = 0.03;
-constexpr double kStraysFrom = 0.4;  // of the corridor's half width: nearer to the path its prediction is not believed
+constexpr double kStraysFrom = 0.4;  // fraction of the corridor's half width; below, the prediction is ignored
 
 template <class Message>
 Message decoded(const Delivery& delivery) {
@@ -22,7 +22,7 @@ Message decoded(const Delivery& delivery) {
   return message;
 }
 
-// NaN is bad.
+// NaN counts as bad.
 bool above(double value, double limit) {
   return !(value <= limit);
 }
@@ -32,9 +32,9 @@ bool all_finite(const double (&values)[N]) {
   return std::all_of(values, values + N, [](double v) { return std::isfinite(v); });
 }
 
-// A winding that warms to the square of its current over the nominal one.
+// A winding that heats with the square of current over nominal current.
 void heat(double& load, double current_a, double nominal_a, double dt_s, double time_s) {
-  if (std::isnan(current_a)) return;
+  if (!std::isfinite(current_a)) return;
   const double square = std::pow(current_a / nominal_a, 2);
   load = square + (load - square) * std::exp(-dt_s / time_s);
 }
@@ -57,13 +57,13 @@ void Evidence::take(const Delivery& delivery) {
   headers_[from] = delivery.header;
   if (from == channel::kPose) pose_ = decoded<pose_t>(delivery);
   if (from == channel::kImu) imu_ = decoded<imu_t>(delivery);
-  if (from == channel::kWheelState) take_wheels(decoded<wheel_state_t>(delivery));
+  if (from == channel::kWheelState) add_wheels(decoded<wheel_state_t>(delivery));
   if (from == channel::kPlannerStatus) planner_ = decoded<planner_status_t>(delivery);
   if (from == channel::kControlStatus) control_ = decoded<control_status_t>(delivery);
   if (from == channel::kSlip) slip_ = decoded<slip_t>(delivery);
   if (from == channel::kSlamPose) slam_ = decoded<slam_pose_t>(delivery);
   if (from == channel::kTraversability) terrain_at_m_ = pose_.travelled_m;
-  if (from == channel::kHeartbeat) take_heartbeat(decoded<heartbeat_t>(delivery));
+  if (from == channel::kHeartbeat) add_heartbeat(decoded<heartbeat_t>(delivery));
   if (from != channel::kHazards) return;
   hazards_ = decoded<hazards_t>(delivery);
   const bool seen =
@@ -71,7 +71,7 @@ void Evidence::take(const Delivery& delivery) {
   blind_in_a_row_ = seen ? 0 : blind_in_a_row_ + 1;
 }
 
-void Evidence::take_wheels(const wheel_state_t& wheels) {
+void Evidence::add_wheels(const wheel_state_t& wheels) {
   const double dt_s = wheels_.header.utime > 0 ? to_seconds(wheels.header.utime - wheels_.header.utime) : 0.0;
   wheels_ = wheels;
   for (size_t i = 0; i < 6; ++i)
@@ -80,7 +80,7 @@ void Evidence::take_wheels(const wheel_state_t& wheels) {
     heat(steer_heat_[i], wheels.steer_current_a[i], settings_.steer_nominal_a, dt_s, settings_.motor_time_s);
 }
 
-void Evidence::take_heartbeat(const heartbeat_t& beat) {
+void Evidence::add_heartbeat(const heartbeat_t& beat) {
   const auto account = [](const heartbeat_t& b) {
     Loss sum{b.header.utime, 0.0, 0.0};
     for (const input_health_t& input : b.inputs) {
@@ -91,12 +91,13 @@ void Evidence::take_heartbeat(const heartbeat_t& beat) {
   };
   Service& service = services_[beat.header.publisher];
   beat_utime_ = std::max(beat_utime_, beat.header.utime);
-  if (service.heard && beat.header.boot_id > service.beat.header.boot_id) service.starts.push_back(beat.header.utime);
-  if (service.heard && beat.header.boot_id == service.beat.header.boot_id) {
+  if (service.received && beat.header.boot_id > service.beat.header.boot_id)
+    service.starts.push_back(beat.header.utime);
+  if (service.received && beat.header.boot_id == service.beat.header.boot_id) {
     const Loss before = account(service.beat), after = account(beat);
     losses_.push_back({after.utime, after.received - before.received, after.lost - before.lost});
   }
-  service.heard = true;
+  service.received = true;
   service.beat = beat;
 }
 
@@ -133,27 +134,27 @@ bool Evidence::armed(const Row& row) const {
   using S = supervisor_state_t;
   const std::int8_t s = state_.state;
   if (s == S::BOOT) return false;
-  const bool under_way =
+  const bool drive_in_progress =
       s == S::DRIVING || s == S::HAZARD_STOP || s == S::REPAIRING || s == S::SWEEPING || s == S::FAULT_STOP;
   switch (row.armed) {
     case Armed::kAlways:
       return true;
     case Armed::kMotion:
-      return under_way || s == S::TELEOP;
+      return drive_in_progress || s == S::TELEOP;
     case Armed::kUnderWay:
-      return under_way;
+      return drive_in_progress;
     case Armed::kFull:
-      return under_way && state_.level == S::FULL;
+      return drive_in_progress && state_.level == S::FULL;
     case Armed::kEfficient:
       return state_.level == S::EFFICIENT;
   }
   return false;
 }
 
-bool Evidence::standing() const {
+bool Evidence::stationary() const {
   const double* v = pose_.velocity_body_mps;
-  return std::hypot(v[0], v[1], v[2]) < settings_.standing_speed_mps &&
-         std::abs(pose_.rate_body_radps[2]) < settings_.standing_rate_radps;
+  return std::hypot(v[0], v[1], v[2]) < settings_.stationary_speed_mps &&
+         std::abs(pose_.rate_body_radps[2]) < settings_.stationary_rate_radps;
 }
 
 Measurement Evidence::of(const header_t& header, bool bad) const {
@@ -193,7 +194,7 @@ Measurement Evidence::measure_pose(const Row& row) const {
   const std::string& q = row.quantity;
   const pose_t& p = pose_;
   const auto bad = [&](bool is_bad) { return of(p.header, is_bad); };
-  // None used yet: as old as can be, from the first pose on that says so.
+  // None used yet: infinite age, from the first pose on that reports it.
   if (q == "vo_age_s") return p.last_vo_utime < 0 ? bad(true) : age(p.last_vo_utime);
   if (q == "pose_lost") {
     const bool known = p.status == pose_t::OK || p.status == pose_t::DEGRADED;
@@ -239,13 +240,13 @@ Measurement Evidence::measure_followed(const Row& row) const {
   const auto controlled = [&](bool is_bad) { return of(control_.header, is_bad); };
   if (q == "corridor_deviation") return controlled(control_.state == control_status_t::OUT_OF_CORRIDOR);
   if (q == "path_mismatch") return controlled(planner_.path_id >= 0 && control_.path_id != planner_.path_id);
-  if (q == "no_path") return planned(planner_.state == planner_status_t::NO_PATH && standing());
-  if (q == "predicted_corridor_share") {
+  if (q == "no_path") return planned(planner_.state == planner_status_t::NO_PATH && stationary());
+  if (q == "predicted_corridor_ratio") {
     const double half_m = control_.corridor_half_width_m;
     if (control_.state == control_status_t::STALE_POSE || !(half_m > 0.0)) return controlled(false);
-    const double share = control_.predicted_corridor_error_m / half_m;
+    const double ratio = control_.predicted_corridor_error_m / half_m;
     const bool strays = std::abs(control_.cross_track_m) > kStraysFrom * half_m;
-    return controlled(std::isnan(share) || (share > row.limit && strays));
+    return controlled(std::isnan(ratio) || (ratio > row.limit && strays));
   }
   if (q == "blocked") {
     const bool waits = state_.state == supervisor_state_t::HAZARD_STOP || state_.state == supervisor_state_t::REPAIRING;
@@ -258,7 +259,7 @@ Measurement Evidence::measure_followed(const Row& row) const {
 
 Measurement Evidence::measure_full(const Row& row) const {
   const std::string& q = row.quantity;
-  if (q == "terrain_way_m") {
+  if (q == "terrain_distance_m") {
     const bool sweeps = state_.state == supervisor_state_t::SWEEPING;
     return of(pose_.header, !sweeps && !(pose_.travelled_m - terrain_at_m_ <= row.limit));
   }
@@ -270,7 +271,7 @@ Measurement Evidence::measure_full(const Row& row) const {
   return {};
 }
 
-// Of the services of the Full level the same is asked, by names of their own.
+// Services of the Full level have the same quantities under other names.
 Measurement Evidence::measure_service(const Row& row) const {
   std::string q = row.quantity;
   for (const std::string prefix : {"full_idle_", "full_"})
@@ -284,7 +285,7 @@ Measurement Evidence::measure_service(const Row& row) const {
     return of(service.beat.header,
               service.beat.status != heartbeat_t::OK && service.beat.status != heartbeat_t::DEGRADED);
   if (q == "starts_per_minute") return counted(static_cast<double>(service.starts.size()), row);
-  if (q == "restart_tries") {
+  if (q == "restart_attempts") {
     const auto kills = kills_.find(row.service);
     return counted(kills == kills_.end() ? 0.0 : static_cast<double>(kills->second.size()), row);
   }
@@ -298,7 +299,7 @@ Measurement Evidence::measure_own(const Row& row) const {
   if (q == "unpermitted_motion_s")
     return counted(turning_since_ == kNever ? 0.0 : to_seconds(now_ - turning_since_), row);
   if (q == "idle_drive_s") return counted(idle_since_ == kNever ? 0.0 : to_seconds(now_ - idle_since_), row);
-  if (q == "lost_share") {
+  if (q == "message_loss_ratio") {
     double received = 0.0, lost = 0.0;
     for (const Loss& loss : losses_) received += loss.received, lost += loss.lost;
     return {beat_utime_, beat_utime_ + kTickUs, lost > row.limit * (received + lost), false};

@@ -1,5 +1,5 @@
-// The quantities of the rows, made anew from the messages: nothing here is the supervisor's code or word but the state
-// that says which rows are armed.
+// The quantities of the rows, recomputed from the messages. Independent of the supervisor, except for the state that
+// arms the rows.
 #pragma once
 
 #include <array>
@@ -29,13 +29,13 @@ class Evidence {
   explicit Evidence(const Settings& settings) : settings_(settings) {}
 
   void take(const Delivery& delivery);
-  // Of the supervisor, as it said: STATE and DRIVE_PERMIT of the ticks before.
+  // STATE and DRIVE_PERMIT of previous ticks.
   void state(const supervisor_state_t& state);
   void permit(const drive_permit_t& permit) { permitted_ = permit.granted != 0; }
   void kill_ordered(const std::string& service, Utime at) { kills_[service].push_back(at); }
-  // Counts of starts, kills and stops begin anew at the ground's order.
+  // Counters of starts, kills and stops are reset by ground command.
   void forget_counts();
-  // Once each tick, after what it took.
+  // Once each tick, after its messages.
   void tick(Utime now);
 
   bool armed(const Row& row) const;
@@ -44,7 +44,7 @@ class Evidence {
  private:
   struct Service {
     heartbeat_t beat{};
-    bool heard = false;
+    bool received = false;
     std::deque<Utime> starts;
   };
   struct Loss {
@@ -52,8 +52,8 @@ class Evidence {
     double received;
     double lost;
   };
-  void take_heartbeat(const heartbeat_t& beat);
-  void take_wheels(const wheel_state_t& wheels);
+  void add_heartbeat(const heartbeat_t& beat);
+  void add_wheels(const wheel_state_t& wheels);
   Measurement of(const header_t& header, bool bad) const;
   Measurement age(Utime utime) const;
   Measurement counted(double count, const Row& row) const;
@@ -64,7 +64,7 @@ class Evidence {
   Measurement measure_full(const Row& row) const;
   Measurement measure_service(const Row& row) const;
   Measurement measure_own(const Row& row) const;
-  bool standing() const;
+  bool stationary() const;
 
   Settings settings_;
   Utime now_ = kNever;
@@ -79,9 +79,9 @@ class Evidence {
   control_status_t control_{};
   slip_t slip_{};
   slam_pose_t slam_{};
-  double terrain_at_m_ = kNaN;  // travelled when the newest TRAVERSABILITY came
+  double terrain_at_m_ = kNaN;  // travelled distance at the newest TRAVERSABILITY
   int blind_in_a_row_ = 0;
-  std::map<std::string, header_t> headers_;  // the newest of each channel
+  std::map<std::string, header_t> headers_;  // newest header of each channel
   std::array<double, 6> drive_heat_{};
   std::array<double, 4> steer_heat_{};
   std::map<std::string, Service> services_;

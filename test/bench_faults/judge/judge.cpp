@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <rover/ground_command_t.hpp>
 
 #include "common/bus/channels.hpp"
 #include "common/bus/streams.hpp"
@@ -13,11 +12,11 @@
 namespace rover::bench_faults {
 namespace {
 
-// The supervisor's thermal model and this one differ by less than that; a message is taken one tick after it was made.
+// Tolerance: the supervisor's thermal model differs slightly, and messages are processed one tick after publication.
 constexpr Utime kToleranceUs = 2 * kTickUs;
 constexpr Utime kDetectionUs = 1'000'000;
 constexpr double kRestMps = 0.01;
-constexpr double kCornerWheelM = 0.85;  // from the body origin
+constexpr double kCornerWheelM = 0.85;  // distance from the body origin
 
 template <class Message>
 Message decoded(const std::uint8_t* data, int size) {
@@ -43,9 +42,11 @@ void Judge::take(const std::string& channel, const std::uint8_t* data, int size)
   if (!peek_header(data, size, header)) return;
   if (channel == channel::kTick) return step(header.utime);
   if (channel == channel::kInject) return deliveries_.inject(decoded<injection_t>(data, size));
-  if (channel == channel::kDrivePermit) return take_permit(decoded<drive_permit_t>(data, size));
-  if (channel == channel::kFault) return take_fault(decoded<fault_t>(data, size));
-  if (channel == channel::kTruth) return take_truth(decoded<truth_t>(data, size));
+  if (channel == channel::kDrivePermit) return add_permit(decoded<drive_permit_t>(data, size));
+  if (channel == channel::kFault) return add_fault(decoded<fault_t>(data, size));
+  if (channel == channel::kTruth) return add_truth(decoded<truth_t>(data, size));
+  if (channel == channel::kCommandAck) return add_ack(decoded<command_ack_t>(data, size));
+  if (channel == channel::kGroundCommand) add_command(decoded<ground_command_t>(data, size));
   if (channel == channel::kState) evidence_.state(decoded<supervisor_state_t>(data, size));
   if (channel == channel::kWheelState) {
     wheel_mps_ = 0.0;
@@ -63,19 +64,12 @@ Judge::Watched* Judge::find(const std::string& id) {
 void Judge::step(Utime tick) {
   if (first_tick_ == kNever) first_tick_ = tick;
   last_tick_ = tick;
-  bool forget = false;
-  for (const Delivery& delivery : deliveries_.take(tick)) {
-    evidence_.take(delivery);
-    if (delivery.channel != channel::kGroundCommand) continue;
-    const auto command = decoded<ground_command_t>(delivery.bytes.data(), static_cast<int>(delivery.bytes.size()));
-    forget = forget || command.kind == ground_command_t::CLEAR_FAULT;
-  }
+  for (const Delivery& delivery : deliveries_.take(tick)) evidence_.take(delivery);
   evidence_.tick(tick);
   for (Watched& watched : rows_) {
     watched.now = watched.visibility.step(tick, evidence_.armed(watched.row), evidence_.measure(watched.row));
     if (watched.now.utime != kNever) watched.last_tick = tick;
   }
-  if (forget) evidence_.forget_counts();
   look_at_active(tick);
   measure_rest(tick);
   for (Raised& raised : unproven_) {
@@ -111,7 +105,16 @@ void Judge::look_at_active(Utime tick) {
   if (!granted_ && granted_when_visible_) note_withdrawal(withdrawn_at_);
 }
 
-void Judge::take_permit(const drive_permit_t& permit) {
+void Judge::add_command(const ground_command_t& command) {
+  if (command.kind == ground_command_t::CLEAR_FAULT) clear_commands_.insert(command.command_id);
+}
+
+// An accepted CLEAR_FAULT resets all counters.
+void Judge::add_ack(const command_ack_t& ack) {
+  if (clear_commands_.erase(ack.command_id) > 0 && ack.accepted) evidence_.forget_counts();
+}
+
+void Judge::add_permit(const drive_permit_t& permit) {
   evidence_.permit(permit);
   const bool withdrawn = granted_ && !permit.granted;
   granted_ = permit.granted != 0;
@@ -120,7 +123,7 @@ void Judge::take_permit(const drive_permit_t& permit) {
   if (active_ && active_->visible != kNever && granted_when_visible_) note_withdrawal(withdrawn_at_);
 }
 
-// It counts from when the permit may be used by others.
+// Counts from the release of the permit.
 void Judge::note_withdrawal(Utime at) {
   if (!active_->stops || active_->withdrawn_s) return;
   const Utime release = at + kTickUs;
@@ -130,17 +133,17 @@ void Judge::note_withdrawal(Utime at) {
   stopping_since_ = release;
 }
 
-void Judge::take_fault(const fault_t& fault) {
-  const bool stood = standing_[fault.id];
-  standing_[fault.id] = fault.standing != 0;
-  if (!fault.standing || stood) return;
+void Judge::add_fault(const fault_t& fault) {
+  const bool was_active = fault_active_[fault.id];
+  fault_active_[fault.id] = fault.active != 0;
+  if (!fault.active || was_active) return;
   unproven_.push_back({fault.header.utime, fault.id});
   if (!active_) return;
   if (active_->first_raised.empty()) active_->first_raised = fault.id;
   if (fault.id == active_->row && active_->raised == kNever) active_->raised = fault.header.utime;
 }
 
-void Judge::take_truth(const truth_t& truth) {
+void Judge::add_truth(const truth_t& truth) {
   const double* v = truth.velocity_map_mps;
   body_mps_ = std::hypot(v[0], v[1], v[2]);
   const double* q = truth.quat_map_body_wxyz;

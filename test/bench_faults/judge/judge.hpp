@@ -1,4 +1,4 @@
-// Judges a log of the bench by its messages and the record of what was injected.
+// Evaluates a log of the bench from its messages and injections.
 //
 //   visible    the utime of the message that completes the row's persistence, or the instant at which an age passes it
 //   detected   FAULT raises the row within a second of that
@@ -6,14 +6,17 @@
 //              before it (precursors), and the row follows
 //   withdrawn  release of the first DRIVE_PERMIT that is not granted, where one was granted when the fault was visible
 //   still      from then until neither the wheels turn nor the body moves (TRUTH)
-//   false      raised though this judge does not find it visible
+//   false      raised although not visible in the messages
 #pragma once
 
 #include <lcm/lcm-cpp.hpp>
 #include <map>
 #include <optional>
+#include <rover/command_ack_t.hpp>
 #include <rover/fault_t.hpp>
+#include <rover/ground_command_t.hpp>
 #include <rover/truth_t.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -38,7 +41,7 @@ struct Verdict {
   std::optional<double> withdrawn_s;              // since visible
   std::optional<double> withdrawn_since_known_s;  // since the release of the message that made it visible
   std::optional<double> still_s;                  // since withdrawn
-  double speed_mps = 0.0;                         // of the fastest wheel when withdrawn
+  double speed_mps = 0.0;                         // of the fastest wheel at the withdrawal
 };
 
 struct FalseAlarm {
@@ -56,7 +59,7 @@ class Judge {
 
   const std::vector<Verdict>& verdicts() const { return verdicts_; }
   const std::vector<FalseAlarm>& false_alarms() const { return false_alarms_; }
-  // Of message time.
+  // In message time.
   double duration_s() const { return to_seconds(last_tick_ - first_tick_); }
 
  private:
@@ -64,7 +67,7 @@ class Judge {
     Row row;
     Visibility visibility;
     Visible now;               // at the newest tick
-    Utime last_tick = kNever;  // at which it was visible
+    Utime last_tick = kNever;  // last tick at which it was visible
   };
   struct Raised {
     Utime utime;
@@ -72,10 +75,12 @@ class Judge {
     bool excused = false;
   };
   void step(Utime tick);
-  void take_permit(const drive_permit_t& permit);
+  void add_command(const ground_command_t& command);
+  void add_ack(const command_ack_t& ack);
+  void add_permit(const drive_permit_t& permit);
   void note_withdrawal(Utime at);
-  void take_fault(const fault_t& fault);
-  void take_truth(const truth_t& truth);
+  void add_fault(const fault_t& fault);
+  void add_truth(const truth_t& truth);
   void begin(const injection_t& injection);
   void settle();
   void look_at_active(Utime tick);
@@ -90,13 +95,14 @@ class Judge {
   std::vector<FalseAlarm> false_alarms_;
   std::optional<Verdict> active_;
   bool granted_ = false;         // the newest permit
-  Utime withdrawn_at_ = kNever;  // when one was withdrawn last
+  Utime withdrawn_at_ = kNever;  // last withdrawal
   bool granted_when_visible_ = false;
   Utime stopping_since_ = kNever;
-  std::map<std::string, bool> standing_;
-  std::vector<Raised> unproven_;  // raised and not yet found visible
+  std::map<std::string, bool> fault_active_;
+  std::set<std::int64_t> clear_commands_;  // not yet answered
+  std::vector<Raised> unproven_;           // raised, not yet visible
   double body_mps_ = 0.0;
-  double turn_mps_ = 0.0;  // of the corner wheels by the body's turn
+  double turn_mps_ = 0.0;  // speed of the corner wheels in the body's turn
   double wheel_mps_ = 0.0;
   double yaw_rad_ = 0.0;
   Utime first_tick_ = kNever;

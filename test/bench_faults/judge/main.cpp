@@ -1,4 +1,4 @@
-// Judges a log of the bench and writes its table. Exit status 1 where a demand is not met.
+// Evaluates a log of the bench and writes its table. Exit status 1 if a requirement is not met.
 #include <CLI/CLI.hpp>
 #include <fstream>
 #include <iostream>
@@ -9,10 +9,10 @@ int main(int argc, char** argv) {
   using namespace rover::bench_faults;
   std::string config = "config", log = "logs/bench/faults/stack/stack.lcm", out;
   Heading heading;
-  CLI::App app("judges a log of fault_stack");
-  app.add_option("--config", config, "folder of the configuration")->capture_default_str();
+  CLI::App app("evaluates a log of fault_stack");
+  app.add_option("--config", config, "configuration folder")->capture_default_str();
   app.add_option("--log", log)->capture_default_str();
-  app.add_option("--out", out, "file of the table")->required();
+  app.add_option("--out", out, "output file of the table")->required();
   app.add_option("--command", heading.command);
   app.add_option("--commit", heading.commit);
   app.add_option("--machine", heading.machine);

@@ -5,14 +5,14 @@
 namespace rover::bench_faults {
 namespace {
 
-// The rows that see the streams of a service.
+// Rows that monitor the streams of a service.
 const std::map<std::string, std::set<std::string>> kStreams = {{"stereo", {"hazards_age"}},
                                                                {"hazard_detector", {"hazards_age"}},
                                                                {"localization", {"pose_age"}},
                                                                {"path_planner", {"planner_age"}},
                                                                {"trajectory_control", {"control_age", "command_age"}}};
 
-// Of the same motor or service, where the row is about one.
+// Of the same motor or service, if the row has one.
 const std::map<std::string, std::set<std::string>> kLower = {{"pose_sigma", {"pose_sigma_high"}},
                                                              {"vo_age", {"vo_age_high"}},
                                                              {"drive_heat", {"drive_heat_high"}},
@@ -27,7 +27,7 @@ const std::map<std::string, std::set<std::string>> kLower = {{"pose_sigma", {"po
                                                              {"heartbeat", {"heartbeat_late"}},
                                                              {"restart_failed", {"service_fault"}},
                                                              {"full_restart_failed", {"full_service_fault"}},
-                                                             {"sweep_in_vain", {"terrain_way"}},
+                                                             {"sweep_timeout", {"terrain_distance"}},
                                                              {"fault_stops", {"pose_status"}}};
 
 }  // namespace
@@ -39,11 +39,11 @@ std::set<std::string> precursors(const std::string& row) {
   std::set<std::string> out;
   if (const auto lower = kLower.find(line); lower != kLower.end())
     for (const std::string& one : lower->second) out.insert(one + suffix);
-  // What hangs, or is begun anew again and again, publishes nothing either.
+  // A hanging or repeatedly restarted service publishes nothing either.
   const bool silent = line == "heartbeat" || line == "heartbeat_late" || line == "starts";
   const auto streams = silent ? kStreams.find(suffix.substr(1)) : kStreams.end();
   if (streams != kStreams.end()) out.insert(streams->second.begin(), streams->second.end());
-  // Begun anew, a controller has no path until the planner repeats it, and localization has used no picture.
+  // After a restart the controller has no path until the planner repeats it, and localization has used no image.
   if (row == "starts.trajectory_control") out.insert("path_mismatch");
   if (row == "starts.localization") out.insert({"vo_age_high", "vo_age"});
   return out;

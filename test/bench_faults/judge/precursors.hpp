@@ -1,5 +1,5 @@
-// Rows that the same cause must trip before the row itself: lower limits of the same quantity, and the silence of the
-// streams of a service that hangs. Laid down before any run.
+// Rows that the same cause must trip before the row itself: lower limits of the same quantity, and the missing
+// streams of a hanging service. Fixed before any run.
 #pragma once
 
 #include <set>

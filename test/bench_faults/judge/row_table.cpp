@@ -21,7 +21,7 @@ Names words(const std::string& text) {
   return {std::istream_iterator<std::string>(in), {}};
 }
 
-// Whom a line with the quantity makes a row for.
+// Motors or services for which a line with this quantity makes a row.
 struct Services {
   Names required, optional, full;
 };
@@ -31,7 +31,7 @@ Names subjects(const std::string& quantity, const Services& services) {
   if (quantity.starts_with("steer_")) return kSteers;
   if (quantity == "optional_heartbeat_age_s") return services.optional;
   if (quantity.starts_with("full_")) return services.full;
-  const Names of_services = {"heartbeat_age_s", "service_fault", "starts_per_minute", "restart_tries"};
+  const Names of_services = {"heartbeat_age_s", "service_fault", "starts_per_minute", "restart_attempts"};
   for (const std::string& name : of_services)
     if (quantity == name) return services.required;
   return kOne;
@@ -51,7 +51,7 @@ Row read_row(const Config& c) {
   c.read("stops", row.stops);
   static const std::map<std::string, Armed> kArmed = {{"always", Armed::kAlways},
                                                       {"motion", Armed::kMotion},
-                                                      {"under_way", Armed::kUnderWay},
+                                                      {"drive", Armed::kUnderWay},
                                                       {"full", Armed::kFull},
                                                       {"efficient", Armed::kEfficient}};
   if (c.has("armed")) row.armed = kArmed.at(c.text("armed"));
@@ -83,12 +83,11 @@ Settings read_settings(const std::string& config_dir) {
       read_rows(config_dir, {words(supervisor.text("required_services")), words(supervisor.text("optional_services")),
                              words(supervisor.text("full_services"))});
   out.restart_window_s = supervisor.section("restarts").number("window_s", kAny);
-  out.motor_time_s = supervisor.section("motors").number("thermal_time_s", kAny);
-  const Config stop = supervisor.section("hazard_stop");
-  out.hazard_stop_m = stop.number("hazard_m", kAny);
-  out.unseen_stop_m = stop.number("unseen_m", kAny);
-  out.standing_speed_mps = stop.number("standing_speed_mps", kAny);
-  out.standing_rate_radps = to_rad(stop.number("standing_rate_degps", kAny));
+  out.motor_time_s = supervisor.number("motor_thermal_time_s", kAny);
+  out.hazard_stop_m = supervisor.number("hazard_stop_m", kAny);
+  out.unseen_stop_m = supervisor.number("unseen_stop_m", kAny);
+  out.stationary_speed_mps = supervisor.number("stationary_speed_mps", kAny);
+  out.stationary_rate_radps = to_rad(supervisor.number("stationary_rate_degps", kAny));
   const Config vehicle = Config::load(config_dir + "/vehicle.yaml");
   out.wheel_radius_m = vehicle.section("wheels").number("radius_m", kAny);
   out.drive_nominal_a = vehicle.section("drive").number("current_nominal_a", kAny);

@@ -1,4 +1,4 @@
-// The rows of config/fdir.yaml as the judge reads them: one for each motor or service that a line is about.
+// The rows of config/fdir.yaml: one for each motor or service of a line.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ struct Row {
   std::string id;    // with its motor or service: "drive_heat.FL"
   std::string line;  // without: "drive_heat"
   std::string quantity;
-  std::string service;  // whom it is about, else empty
+  std::string service;  // empty if the row has no service
   int motor = 0;
   double limit = 0.0;
   int n = 1;
@@ -22,7 +22,7 @@ struct Row {
   bool stops = false;  // its response withdraws the permit
 };
 
-// Settings of other files that quantities refer to.
+// Values of other files that quantities depend on.
 struct Settings {
   std::vector<Row> rows;
   double wheel_radius_m = 0.0;
@@ -32,8 +32,8 @@ struct Settings {
   double restart_window_s = 0.0;
   double hazard_stop_m = 0.0;
   double unseen_stop_m = 0.0;
-  double standing_speed_mps = 0.0;
-  double standing_rate_radps = 0.0;
+  double stationary_speed_mps = 0.0;
+  double stationary_rate_radps = 0.0;
 };
 
 Settings read_settings(const std::string& config_dir);

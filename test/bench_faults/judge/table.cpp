@@ -25,7 +25,7 @@ std::string text(const char* format, double value) {
   return out;
 }
 
-// Sorted; of the verdicts that have one.
+// Sorted; only of verdicts with a value.
 std::vector<double> values(const Verdicts& of, const std::function<std::optional<double>(const Verdict&)>& read) {
   std::vector<double> out;
   for (const Verdict* verdict : of)
@@ -57,12 +57,12 @@ std::string quantiles(const std::vector<double>& sorted, const char* format, boo
   return median + text(format, quantile(sorted, 0.99)) + " | " + text(format, sorted.back());
 }
 
-struct Demands {
+struct Requirements {
   std::ostream& out;
   bool all_met = true;
 
-  void line(const std::string& demand, const std::string& measured, bool met) {
-    out << "| " << demand << " | " << measured << " | " << (met ? "yes" : "**no**") << " |\n";
+  void line(const std::string& requirement, const std::string& measured, bool met) {
+    out << "| " << requirement << " | " << measured << " | " << (met ? "yes" : "**no**") << " |\n";
     all_met = all_met && met;
   }
 };
@@ -71,15 +71,15 @@ std::string of(const Verdicts& all) {
   return " of " + std::to_string(all.size());
 }
 
-// An injection may not bring its row's quantity beyond the limit for long enough: then there is no fault to detect. The
-// judge finds that from the messages alone.
+// An injection may not hold its row's quantity beyond the limit for long enough; then there is no fault to detect,
+// which the judge determines from the messages.
 bool takes(const Verdict& v) {
   return v.visible != kNever || v.raised != kNever;
 }
 
-bool write_demands(const Settings& settings, const Judge& judge, const Verdicts& all, std::ostream& out) {
-  out << "| demand | measured | met |\n|---|---|---|\n";
-  Demands demands{out};
+bool write_requirements(const Settings& settings, const Judge& judge, const Verdicts& all, std::ostream& out) {
+  out << "| requirement | measured | met |\n|---|---|---|\n";
+  Requirements requirements{out};
   size_t least = all.size();
   for (const Row& row : settings.rows)
     least = std::min(least, count(all, [&](const Verdict& v) { return v.line == row.line && takes(v); }));
@@ -87,24 +87,24 @@ bool write_demands(const Settings& settings, const Judge& judge, const Verdicts&
   const size_t detected = count(all, [](const Verdict& v) { return takes(v) && v.detected; });
   const size_t named = count(all, [](const Verdict& v) { return takes(v) && v.named; });
   const std::string of_all = " of " + std::to_string(took);
-  demands.line("at least 1000 injections that make a fault", std::to_string(took) + of(all), took >= kLeastInAll);
-  demands.line("every row at least 20 times", "least " + std::to_string(least), least >= kLeastOfRow);
-  demands.line("detected 100 %", std::to_string(detected) + of_all, detected == took);
-  demands.line("right row named at least 99 %", std::to_string(named) + of_all,
-               static_cast<double>(named) >= kLeastNamed * static_cast<double>(took));
+  requirements.line("at least 1000 injections that cause a fault", std::to_string(took) + of(all), took >= kLeastInAll);
+  requirements.line("every row at least 20 times", "minimum " + std::to_string(least), least >= kLeastOfRow);
+  requirements.line("detected 100 %", std::to_string(detected) + of_all, detected == took);
+  requirements.line("right row named at least 99 %", std::to_string(named) + of_all,
+                    static_cast<double>(named) >= kLeastNamed * static_cast<double>(took));
   const double since_visible = quantile(values(all, withdrawn_ms), 0.99);
   const double since_known = quantile(values(all, since_known_ms), 0.99);
-  demands.line("visible to permit withdrawn, p99 at most 50 ms",
-               text("%.0f ms", since_visible) + "; from the release of the message that shows it " +
-                   text("%.0f ms", since_known),
-               since_visible <= 1e3 * kMostWithdrawnS);
+  requirements.line("from visible to permit withdrawn, p99 at most 50 ms",
+                    text("%.0f ms", since_visible) + "; from the release of the message that shows it " +
+                        text("%.0f ms", since_known),
+                    since_visible <= 1e3 * kMostWithdrawnS);
   const std::vector<double> still = values(all, [](const Verdict& v) { return v.still_s; });
   const double longest = still.empty() ? 0.0 : still.back();
-  demands.line("wheels still at most 1.0 s later (from 0.1 m/s; here from up to 0.2 m/s)",
-               text("at most %.2f s", longest), longest <= kMostStillS);
-  demands.line("no row raised that the messages do not show", std::to_string(judge.false_alarms().size()),
-               judge.false_alarms().empty());
-  return demands.all_met;
+  requirements.line("wheels stationary at most 1.0 s later (from 0.1 m/s; here from up to 0.2 m/s)",
+                    text("at most %.2f s", longest), longest <= kMostStillS);
+  requirements.line("no row raised without a fault in the messages", std::to_string(judge.false_alarms().size()),
+                    judge.false_alarms().empty());
+  return requirements.all_met;
 }
 
 void write_row(const std::string& line, const Verdicts& of, std::ostream& out) {
@@ -123,8 +123,8 @@ void write_row(const std::string& line, const Verdicts& of, std::ostream& out) {
 void write_failures(const Judge& judge, const Verdicts& all, std::ostream& out) {
   if (count(all, [](const Verdict& v) { return !v.detected || !v.named; }) > 0) {
     out << "\n## Not detected or not named\n\n"
-        << "Without a time in \"visible\" and \"raised\" the injection made no fault that the messages show; it counts "
-           "for nothing.\n\n"
+        << "Without times in \"visible\" and \"raised\" the injection caused no fault in the messages and does not "
+           "count.\n\n"
         << "| injection | at [s] | row | phase | cause | visible at [s] | raised at [s] | first row raised |\n"
         << "|---|---|---|---|---|---|---|---|\n";
     const auto at = [](Utime utime) { return utime == kNever ? std::string("-") : text("%.2f", to_seconds(utime)); };
@@ -134,7 +134,7 @@ void write_failures(const Judge& judge, const Verdicts& all, std::ostream& out) 
             << v->cause << " | " << at(v->visible) << " | " << at(v->raised) << " | " << v->first_raised << " |\n";
   }
   if (judge.false_alarms().empty()) return;
-  out << "\n## Raised though the messages do not show it\n\n| at [s] | row |\n|---|---|\n";
+  out << "\n## Raised without a fault in the messages\n\n| at [s] | row |\n|---|---|\n";
   for (const FalseAlarm& alarm : judge.false_alarms())
     out << "| " << text("%.2f", to_seconds(alarm.utime)) << " | " << alarm.row << " |\n";
 }
@@ -146,18 +146,17 @@ bool write_table(const Heading& heading, const Settings& settings, const Judge& 
   for (const Verdict& verdict : judge.verdicts()) all.push_back(&verdict);
   out << "# Faults on the stack in one process\n\nCommand: `" << heading.command << "`; commit " << heading.commit
       << "; " << heading.machine << ".\n\n"
-      << "Every row of `config/fdir.yaml` on a stack that lives on through all of them ("
-      << text("%.0f s", judge.duration_s())
-      << " of message time), with a geometric DISPARITY and VO in place of rendering. A judge of its own "
+      << "Every row of `config/fdir.yaml` on one long-lived stack (" << text("%.0f s", judge.duration_s())
+      << " of message time), with a geometric DISPARITY and VO in place of rendering. An independent judge "
          "(`test/bench_faults/judge`)\nfinds from the recorded messages when each fault was visible, and from the "
          "truth "
-         "when the rover stood.\n\n";
-  const bool met = write_demands(settings, judge, all, out);
+         "when the rover was stationary.\n\n";
+  const bool met = write_requirements(settings, judge, all, out);
   out << "\nA row that stops the rover has its times where a permit was granted when the fault became visible; `log` "
          "and "
          "`slow` have none.\n\"-\" in a phase: the row is not armed in it, or its quantity cannot go bad there.\n\n"
-      << "| row | straight | point turn | hazard stop | repair | standstill | detected | named | with a permit | "
-         "withdrawn p50 [ms] | p99 | max | still p99 [s] | max "
+      << "| row | straight | point turn | hazard stop | repair | stationary | detected | named | with a permit | "
+         "withdrawn p50 [ms] | p99 | max | stop p99 [s] | max "
          "|\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
   std::set<std::string> written;
   for (const Row& row : settings.rows) {

@@ -14,7 +14,7 @@ struct Heading {
   std::string machine;
 };
 
-// False where a demand is not met.
+// False if a requirement is not met.
 bool write_table(const Heading& heading, const Settings& settings, const Judge& judge, std::ostream& out);
 
 }  // namespace rover::bench_faults

@@ -1,5 +1,5 @@
-// Since when a row's fault is visible: at the message that makes n of the newest m measurements bad and lets that last
-// for the persistence; where nothing comes, when the age passes the limit for so long.
+// Time from which a row's fault is visible: the message with which n of the last m measurements are bad for the
+// duration of the persistence; without messages, when the age has exceeded the limit for that long.
 #pragma once
 
 #include <deque>
@@ -9,12 +9,12 @@
 
 namespace rover::bench_faults {
 
-// What a row's quantity is at a tick.
+// Value of a row's quantity at a tick.
 struct Measurement {
-  Utime utime = kNever;    // of the newest message in it; kNever: there was none yet
-  Utime release = kNever;  // from when on it could be known
+  Utime utime = kNever;    // of its newest message; kNever: none yet
+  Utime release = kNever;  // earliest time at which it could be known
   bool bad = false;
-  bool is_age = false;  // bad is a matter of the time that has passed since
+  bool is_age = false;  // the quantity is an age
 };
 
 struct Visible {

@@ -1,4 +1,4 @@
-#include "common/bus/kept_state.hpp"
+#include "common/bus/checkpoint_store.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -9,19 +9,19 @@
 namespace rover {
 namespace {
 
-using Bytes = KeptState::Bytes;
+using Bytes = CheckpointStore::Bytes;
 
-class KeptStateTest : public testing::Test {
+class CheckpointStoreTest : public testing::Test {
  protected:
-  KeptStateTest() : dir_(testing::TempDir() + "/kept_state_" + std::to_string(getpid())) {
+  CheckpointStoreTest() : dir_(testing::TempDir() + "/checkpoint_store_" + std::to_string(getpid())) {
     std::filesystem::create_directories(dir_);
     bus_.subscribeFunction(
         channel::kServiceState,
         +[](const lcm::ReceiveBuffer*, const std::string&, const service_state_t* m,
             std::vector<service_state_t>* out) { out->push_back(*m); },
-        &told_);
+        &published_);
   }
-  ~KeptStateTest() override { std::filesystem::remove_all(dir_); }
+  ~CheckpointStoreTest() override { std::filesystem::remove_all(dir_); }
 
   NodeOptions options() const { return {.name = "node", .run_dir = dir_}; }
   void drain() {
@@ -31,12 +31,12 @@ class KeptStateTest : public testing::Test {
 
   std::string dir_;
   lcm::LCM bus_{"memq://"};
-  std::vector<service_state_t> told_;
+  std::vector<service_state_t> published_;
 };
 
-TEST_F(KeptStateTest, TheNextProcessFindsItAndTellsOfItOnce) {
+TEST_F(CheckpointStoreTest, NextProcessRestoresAndPublishesOnce) {
   Node first(options(), bus_);
-  KeptState kept(first);
+  CheckpointStore kept(first);
   bool asked = false;
   kept.restore([&](const Bytes&) { return asked = true; });
   EXPECT_FALSE(asked);
@@ -44,47 +44,47 @@ TEST_F(KeptStateTest, TheNextProcessFindsItAndTellsOfItOnce) {
   EXPECT_FALSE(kept.due());  // not before a second has passed
 
   Node second(options(), bus_);
-  KeptState found(second);
+  CheckpointStore found(second);
   Bytes restored;
   found.restore([&](const Bytes& bytes) {
     restored = bytes;
     return true;
   });
   EXPECT_EQ(restored, (Bytes{1, 2, 3}));
-  found.tell();
-  found.tell();
+  found.publish_restored();
+  found.publish_restored();
   drain();
-  ASSERT_EQ(told_.size(), 1u);
-  EXPECT_EQ(told_[0].service, "node");
-  EXPECT_EQ(told_[0].data, (Bytes{1, 2, 3}));
+  ASSERT_EQ(published_.size(), 1u);
+  EXPECT_EQ(published_[0].service, "node");
+  EXPECT_EQ(published_[0].data, (Bytes{1, 2, 3}));
 }
 
-TEST_F(KeptStateTest, WhatIsOfNoUseIsNotTold) {
+TEST_F(CheckpointStoreTest, UnusableCheckpointIsNotPublished) {
   Node first(options(), bus_);
-  KeptState(first).save({9});
+  CheckpointStore(first).save({9});
   Node second(options(), bus_);
-  KeptState found(second);
+  CheckpointStore found(second);
   testing::internal::CaptureStdout();
   found.restore([](const Bytes&) { return false; });
   EXPECT_NE(testing::internal::GetCapturedStdout().find("CHECKPOINT unusable"), std::string::npos);
-  found.tell();
+  found.publish_restored();
   drain();
-  EXPECT_TRUE(told_.empty());
+  EXPECT_TRUE(published_.empty());
 }
 
-TEST_F(KeptStateTest, WithoutARunFolderNothingIsKeptAndThatIsNoFailure) {
+TEST_F(CheckpointStoreTest, WithoutRunFolderSaveDoesNothing) {
   Node node({.name = "node"}, bus_);
-  KeptState kept(node);
+  CheckpointStore kept(node);
   EXPECT_FALSE(kept.due());
   EXPECT_TRUE(kept.save({1}));
   kept.restore([](const Bytes&) { return ADD_FAILURE(), true; });
 }
 
-TEST_F(KeptStateTest, ADiskThatDoesNotTakeItIsSaid) {
+TEST_F(CheckpointStoreTest, SaveReportsFullDisk) {
   std::filesystem::remove_all(dir_);
   Node node(options(), bus_);
   testing::internal::CaptureStdout();
-  EXPECT_FALSE(KeptState(node).save({1}));
+  EXPECT_FALSE(CheckpointStore(node).save({1}));
   EXPECT_NE(testing::internal::GetCapturedStdout().find("CHECKPOINT not saved"), std::string::npos);
 }
 

@@ -13,10 +13,10 @@ namespace rover::conform {
 enum class Verdict { kPass, kFail, kSkipped };
 
 struct Line {
-  std::string duty;
+  std::string check;
   Verdict verdict = Verdict::kSkipped;
   std::string measured;  // measured value, or why it was skipped
-  std::string demand;
+  std::string requirement;
 };
 
 // Ticks, rates, timestamps, clocks.
@@ -38,7 +38,7 @@ constexpr double kMinLagS = -0.040;
 constexpr double kMaxLagS = 0.100;
 
 // Helpers that make a line.
-Line line(std::string duty, bool pass, std::string measured, std::string demand);
-Line skipped(std::string duty, std::string why, std::string demand);
+Line line(std::string check, bool pass, std::string measured, std::string requirement);
+Line skipped(std::string check, std::string why, std::string requirement);
 
 }  // namespace rover::conform

@@ -1,4 +1,4 @@
-#include "common/bus/tap.hpp"
+#include "common/bus/fault_injector.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -11,33 +11,33 @@ namespace rover {
 namespace {
 
 constexpr Utime kReorderDelay = 3 * kTickUs;
-constexpr Utime kLongestDelayUs = 60'000'000;  // as in faults.cpp: so old a message may still come
+constexpr Utime kMaxDelayUs = 60'000'000;  // as in faults.cpp: the largest age of a message
 
-// FNV-1a: the standard library's hash may differ from one to the next.
+// FNV-1a, because std::hash is implementation-defined.
 std::uint64_t hash_of(const std::string& text) {
   std::uint64_t hash = 14695981039346656037u;
   for (const char c : text) hash = (hash ^ static_cast<std::uint8_t>(c)) * 1099511628211u;
   return hash;
 }
 
-// The content of `old` under the header of `fresh`: what a frozen sensor sends. Headers may differ in length.
-Tap::Bytes with_header_of(const Tap::Bytes& fresh, const Tap::Bytes& old) {
+// A frozen sensor repeats the content under fresh headers. Headers may differ in length.
+FaultInjector::Bytes with_header_of(const FaultInjector::Bytes& fresh, const FaultInjector::Bytes& old) {
   header_t fresh_header{};
   header_t old_header{};
   if (!peek_header(fresh.data(), static_cast<int>(fresh.size()), fresh_header)) return fresh;
   if (!peek_header(old.data(), static_cast<int>(old.size()), old_header)) return fresh;
   const auto fresh_end = kFingerprintBytes + fresh_header._getEncodedSizeNoHash();
   const auto old_end = kFingerprintBytes + old_header._getEncodedSizeNoHash();
-  Tap::Bytes mixed(fresh.begin(), fresh.begin() + fresh_end);
+  FaultInjector::Bytes mixed(fresh.begin(), fresh.begin() + fresh_end);
   mixed.insert(mixed.end(), old.begin() + old_end, old.end());
   return mixed;
 }
 
 }  // namespace
 
-Tap::Tap(const std::string& node_name) : random_(hash_of(node_name)) {}
+FaultInjector::FaultInjector(const std::string& node_name) : random_(hash_of(node_name)) {}
 
-bool Tap::inject(const injection_t& injection) {
+bool FaultInjector::inject(const injection_t& injection) {
   const FaultKind* kind = find_fault(injection.fault);
   if (kind == nullptr || !amount_problem(*kind, injection.amount).empty()) return false;
   const bool known = std::any_of(active_.begin(), active_.end(), [&](const Active& active) {
@@ -57,59 +57,60 @@ bool Tap::inject(const injection_t& injection) {
     default:
       return false;
   }
-  // Those that ended long ago strike nothing more; one that is announced again then is over all the same.
-  std::erase_if(
-      active_, [&](const Active& old) { return old.injection.until_utime < injection.header.utime - kLongestDelayUs; });
+  // Faults that ended long ago affect no message any more.
+  std::erase_if(active_,
+                [&](const Active& old) { return old.injection.until_utime < injection.header.utime - kMaxDelayUs; });
   if (!known || injection.injection_id == 0) active_.push_back(std::move(active));
   return true;
 }
 
-bool Tap::chance(double share) {
-  return std::uniform_real_distribution<double>(0.0, 1.0)(random_) < share;
+bool FaultInjector::chance(double probability) {
+  return std::uniform_real_distribution<double>(0.0, 1.0)(random_) < probability;
 }
 
-std::vector<Tap::Passed> Tap::pass(const std::string& channel, const header_t& header, Bytes bytes) {
+std::vector<FaultInjector::Output> FaultInjector::apply(const std::string& channel, const header_t& header,
+                                                        Bytes bytes) {
   if (mutes(channel)) return {};
-  Fate fate{std::move(bytes)};
+  Outcome outcome{std::move(bytes)};
   for (Active& active : active_) {
     const bool meant = active.channel.empty() ? active.publisher == header.publisher
                                               : active.channel == channel || active.channel == "*";
     const bool in_time = header.utime >= active.injection.from_utime && header.utime <= active.injection.until_utime;
-    if (meant && in_time && fate.copies > 0) strike(active, fate);
+    if (meant && in_time && outcome.copies > 0) apply_one(active, outcome);
   }
-  return std::vector<Passed>(static_cast<size_t>(fate.copies), {fate.bytes, fate.delay});
+  return std::vector<Output>(static_cast<size_t>(outcome.copies), {outcome.bytes, outcome.delay});
 }
 
-void Tap::strike(Active& active, Fate& fate) {
+void FaultInjector::apply_one(Active& active, Outcome& outcome) {
   const std::string& fault = active.injection.fault;
   const double amount = active.injection.amount;
   if (fault == "delay" || fault == "slow") {
-    fate.delay += to_utime(amount);
+    outcome.delay += to_utime(amount);
   } else if (fault == "drop" || fault == "loss") {
-    if (chance(amount)) fate.copies = 0;
+    if (chance(amount)) outcome.copies = 0;
   } else if (fault == "duplicate") {
-    if (chance(amount)) fate.copies = 2;
+    if (chance(amount)) outcome.copies = 2;
   } else if (fault == "reorder") {
-    if (chance(amount)) fate.delay += kReorderDelay;
+    if (chance(amount)) outcome.delay += kReorderDelay;
   } else {
-    strike_content(active, fate);
+    change_content(active, outcome);
   }
 }
 
-void Tap::strike_content(Active& active, Fate& fate) {
+void FaultInjector::change_content(Active& active, Outcome& outcome) {
   const injection_t& what = active.injection;
   if (what.fault == "freeze") {
-    if (active.frozen.empty()) active.frozen = fate.bytes;
-    fate.bytes = with_header_of(fate.bytes, active.frozen);
+    if (active.frozen.empty()) active.frozen = outcome.bytes;
+    outcome.bytes = with_header_of(outcome.bytes, active.frozen);
   } else if (what.fault == "offset") {
     const auto add = [&](double value) { return value + what.amount; };
-    fate.bytes = change_fields(split_field(what.target), add, std::move(fate.bytes));
+    outcome.bytes = change_fields(split_field(what.target), add, std::move(outcome.bytes));
   } else if (what.fault == "nan") {
     const auto spoil = [](double) { return std::numeric_limits<double>::quiet_NaN(); };
-    if (chance(what.amount)) fate.bytes = change_fields(split_field(what.target), spoil, std::move(fate.bytes));
-  } else if (what.fault == "corrupt" && !fate.bytes.empty() && chance(what.amount)) {
-    const size_t at = random_() % fate.bytes.size();
-    fate.bytes[at] ^= static_cast<std::uint8_t>(1u << (random_() % 8));
+    if (chance(what.amount)) outcome.bytes = change_fields(split_field(what.target), spoil, std::move(outcome.bytes));
+  } else if (what.fault == "corrupt" && !outcome.bytes.empty() && chance(what.amount)) {
+    const size_t at = random_() % outcome.bytes.size();
+    outcome.bytes[at] ^= static_cast<std::uint8_t>(1u << (random_() % 8));
   }
 }
 

@@ -1,4 +1,4 @@
-#include "common/bus/kept_state.hpp"
+#include "common/bus/checkpoint_store.hpp"
 
 #include <rover/service_state_t.hpp>
 
@@ -11,7 +11,7 @@ constexpr Utime kPeriod = 1'000'000;
 
 }  // namespace
 
-void KeptState::restore(const std::function<bool(const Bytes&)>& take) {
+void CheckpointStore::restore(const std::function<bool(const Bytes&)>& take) {
   if (node_.options().run_dir.empty()) return;
   const auto bytes = load_checkpoint(node_.options().run_dir, node_.options().name);
   if (!bytes) return;
@@ -20,7 +20,7 @@ void KeptState::restore(const std::function<bool(const Bytes&)>& take) {
   node_.log("INFO", "CHECKPOINT restored bytes=" + std::to_string(restored_.size()));
 }
 
-void KeptState::tell() {
+void CheckpointStore::publish_restored() {
   if (restored_.empty()) return;
   service_state_t state{};
   state.service = node_.options().name;
@@ -30,11 +30,11 @@ void KeptState::tell() {
   restored_.clear();
 }
 
-bool KeptState::due() const {
+bool CheckpointStore::due() const {
   return !node_.options().run_dir.empty() && node_.now() >= next_save_;
 }
 
-bool KeptState::save(const Bytes& bytes) {
+bool CheckpointStore::save(const Bytes& bytes) {
   if (node_.options().run_dir.empty()) return true;
   next_save_ = node_.now() + kPeriod;
   if (save_checkpoint(node_.options().run_dir, node_.options().name, bytes)) return true;

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <set>
 
-#include "tools/conform/duties.hpp"
+#include "tools/conform/checks.hpp"
 
 namespace rover::conform {
 namespace {
@@ -47,7 +47,7 @@ double quantile(std::vector<double> values, double share) {
 }
 
 Line tick_line(const Received& received) {
-  const std::string demand = "REALTIME, on multiples of 20 ms, none left out";
+  const std::string requirement = "REALTIME, on multiples of 20 ms, none skipped";
   int by_the_clock = 0;
   int on_grid = 0;
   int steps = 0;
@@ -61,7 +61,7 @@ Line tick_line(const Received& received) {
   const bool whole = steps >= (1.0 - kMaxSkipped) * (n - 1);
   return line("ticks", by_the_clock == n && on_grid == n && whole,
               fmt::format("{} ticks, {} REALTIME, {} on the grid, {} steps of 20 ms", n, by_the_clock, on_grid, steps),
-              demand);
+              requirement);
 }
 
 // Least-squares fit of message time over wall time, and its residuals.
@@ -87,16 +87,16 @@ std::vector<Line> clock_lines(const Received& received) {
   for (const ReceivedTick& tick : received.ticks)
     late.push_back(std::abs((tick.stamp.arrival_s - mean_s) - (t_of(tick) - mean_t) / std::max(pace, 1e-3)));
   const double jitter = quantile(late, 0.99);
-  return {line("pace", std::abs(pace - 1.0) <= kPaceTolerance, fmt::format("{:.4f} s of message time a second", pace),
+  return {line("pace", std::abs(pace - 1.0) <= kPaceTolerance, fmt::format("{:.4f} s of message time per second", pace),
                fmt::format("1 +- {}", kPaceTolerance)),
           line("jitter", jitter <= kMaxJitterS, fmt::format("99 % of ticks within {:.1f} ms", 1e3 * jitter),
                fmt::format("{:.0f} ms", 1e3 * kMaxJitterS))};
 }
 
-Line rate_line(const std::string& channel, size_t count, double seconds, double least_hz, double most_hz) {
+Line rate_line(const std::string& channel, size_t count, double seconds, double min_hz, double max_hz) {
   const double hz = static_cast<double>(count) / seconds;
-  return line("rate of " + channel, hz >= least_hz && hz <= most_hz, fmt::format("{:.2f} Hz", hz),
-              fmt::format("{} to {} Hz", least_hz, most_hz));
+  return line("rate of " + channel, hz >= min_hz && hz <= max_hz, fmt::format("{:.2f} Hz", hz),
+              fmt::format("{} to {} Hz", min_hz, max_hz));
 }
 
 // In message time, so that machine load does not count.
@@ -131,22 +131,22 @@ std::vector<Line> order_lines(const std::vector<Channel>& channels) {
     return std::all_of(channel.stamps.begin(), channel.stamps.end(),
                        [](const Stamp* s) { return s->boot_id > 0 && !s->publisher.empty(); });
   });
-  return {line("utime", later.empty(), in_order(later), "each later than the one before"),
-          line("seq", counted.empty(), in_order(counted), "counts up by one"),
+  return {line("utime", later.empty(), in_order(later), "strictly increasing"),
+          line("seq", counted.empty(), in_order(counted), "increments by 1"),
           line("boot", booted.empty() && numbered, !numbered ? "no publisher, or a boot_id below 1" : in_order(booted),
-               "one publisher and one boot_id a channel")};
+               "one publisher and one boot_id per channel")};
 }
 
 Line release_line(const std::vector<Channel>& channels) {
-  double least = kMaxReleaseS;
+  double min = kMaxReleaseS;
   double most = 0.0;
   for (const Channel& channel : channels)
     for (const Stamp* stamp : channel.stamps) {
-      least = std::min(least, to_seconds(stamp->release - stamp->utime));
+      min = std::min(min, to_seconds(stamp->release - stamp->utime));
       most = std::max(most, to_seconds(stamp->release - stamp->utime));
     }
-  return line("release", least >= 0.0 && most <= kMaxReleaseS,
-              fmt::format("{:.0f} to {:.0f} ms after utime", 1e3 * least, 1e3 * most),
+  return line("release", min >= 0.0 && most <= kMaxReleaseS,
+              fmt::format("{:.0f} to {:.0f} ms after utime", 1e3 * min, 1e3 * most),
               fmt::format("0 to {:.0f} ms", 1e3 * kMaxReleaseS));
 }
 
@@ -171,12 +171,12 @@ Line decodes_line(const Received& received) {
 
 }  // namespace
 
-Line line(std::string duty, bool pass, std::string measured, std::string demand) {
-  return {std::move(duty), pass ? Verdict::kPass : Verdict::kFail, std::move(measured), std::move(demand)};
+Line line(std::string check, bool pass, std::string measured, std::string requirement) {
+  return {std::move(check), pass ? Verdict::kPass : Verdict::kFail, std::move(measured), std::move(requirement)};
 }
 
-Line skipped(std::string duty, std::string why, std::string demand) {
-  return {std::move(duty), Verdict::kSkipped, std::move(why), std::move(demand)};
+Line skipped(std::string check, std::string why, std::string requirement) {
+  return {std::move(check), Verdict::kSkipped, std::move(why), std::move(requirement)};
 }
 
 std::vector<Lag> clock_lags(const Received& received) {
@@ -192,7 +192,7 @@ std::vector<Lag> clock_lags(const Received& received) {
 
 std::vector<Line> check_time(const Received& received) {
   if (received.ticks.size() < kFewestTicks)
-    return {line("ticks", false, fmt::format("{} ticks", received.ticks.size()), "50 a second"),
+    return {line("ticks", false, fmt::format("{} ticks", received.ticks.size()), "50 per second"),
             decodes_line(received)};
   const std::vector<Channel> channels = channels_of(received);
   std::vector<Line> lines{decodes_line(received), tick_line(received)};

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "common/core/frames.hpp"
-#include "tools/conform/duties.hpp"
+#include "tools/conform/checks.hpp"
 #include "tools/conform/image_shift.hpp"
 
 namespace rover::conform {
@@ -22,11 +22,11 @@ constexpr double kMaxGrey = 245.0;
 constexpr double kMinContrast = 4.0;
 constexpr double kMaxUnpaired = 0.05;
 
-const char kNothing[] = "nothing was heard";
+const char kNothing[] = "no messages received";
 
 Line interval_line(const Received& received) {
-  const std::string demand = "dt_s is the time since the message before; all numbers finite; status OK";
-  if (received.imu.size() < 2) return skipped("IMU interval", kNothing, demand);
+  const std::string requirement = "dt_s is the time since the previous message; all values finite; status OK";
+  if (received.imu.size() < 2) return skipped("IMU interval", kNothing, requirement);
   int bad = 0;
   for (size_t i = 1; i < received.imu.size(); ++i) {
     const ReceivedImu& now = received.imu[i];
@@ -37,7 +37,7 @@ Line interval_line(const Received& received) {
         now.delta_angle_rad.allFinite() && now.delta_velocity_mps.allFinite() && std::isfinite(now.fog_delta_yaw_rad);
     bad += wrong || !finite || !now.ok ? 1 : 0;
   }
-  return line("IMU interval", bad == 0, fmt::format("{} of {} messages are not so", bad, received.imu.size()), demand);
+  return line("IMU interval", bad == 0, fmt::format("{} of {} messages differ", bad, received.imu.size()), requirement);
 }
 
 // Sums over the time covered by the timestamps: a wrong dt_s has its own check.
@@ -73,8 +73,8 @@ std::vector<Line> rest_lines(const Received& received) {
 }
 
 Line wheels_line(const Received& received) {
-  const std::string demand = "finite, no FAULT, at rest without a command";
-  if (received.wheels.empty()) return skipped("wheels at rest", kNothing, demand);
+  const std::string requirement = "finite, no FAULT, at rest without a command";
+  if (received.wheels.empty()) return skipped("wheels at rest", kNothing, requirement);
   double fastest = 0.0;
   int bad = 0;
   for (const ReceivedWheels& wheels : received.wheels) {
@@ -83,11 +83,12 @@ Line wheels_line(const Received& received) {
   }
   const double turned = std::abs(received.wheels.back().angle_rad[0] - received.wheels.front().angle_rad[0]);
   return line("wheels at rest", bad == 0 && fastest <= kMaxRestWheel && turned <= kMaxRestWheel,
-              fmt::format("fastest {:.3f} rad/s, turned {:.3f} rad, {} bad messages", fastest, turned, bad), demand);
+              fmt::format("fastest {:.3f} rad/s, turned {:.3f} rad, {} bad messages", fastest, turned, bad),
+              requirement);
 }
 
 Line size_line(const Received& received, const StereoRig& loccam) {
-  const std::string demand = fmt::format("{} x {} MONO8, as in cameras.yaml", loccam.width, loccam.height);
+  const std::string requirement = fmt::format("{} x {} MONO8, as in cameras.yaml", loccam.width, loccam.height);
   std::set<std::string> sizes;
   bool right = true;
   for (const auto* side : {&received.left, &received.right})
@@ -96,13 +97,13 @@ Line size_line(const Received& received, const StereoRig& loccam) {
       right = right && image.width == loccam.width && image.height == loccam.height && image.mono8 &&
               image.bytes == image.width * image.height;
     }
-  if (sizes.empty()) return skipped("image size", kNothing, demand);
-  return line("image size", right, *sizes.begin() + (sizes.size() > 1 ? " and others" : ""), demand);
+  if (sizes.empty()) return skipped("image size", kNothing, requirement);
+  return line("image size", right, *sizes.begin() + (sizes.size() > 1 ? " and others" : ""), requirement);
 }
 
 Line pairs_line(const Received& received) {
-  const std::string demand = "both pictures of a pair have the same utime";
-  if (received.left.empty() || received.right.empty()) return skipped("pairs", kNothing, demand);
+  const std::string requirement = "both images of a pair have the same utime";
+  if (received.left.empty() || received.right.empty()) return skipped("pairs", kNothing, requirement);
   std::set<Utime> left;
   int alone = 0;
   for (const ReceivedImage& image : received.left) left.insert(image.stamp.utime);
@@ -110,7 +111,7 @@ Line pairs_line(const Received& received) {
   // The first and the last pair may be incomplete.
   const int most = 1 + static_cast<int>(kMaxUnpaired * static_cast<double>(received.right.size()));
   return line("pairs", alone <= most,
-              fmt::format("{} of {} right pictures have no left one", alone, received.right.size()), demand);
+              fmt::format("{} of {} right images have no left image", alone, received.right.size()), requirement);
 }
 
 const GrayImage* first_kept(const std::vector<ReceivedImage>& images) {
@@ -120,7 +121,7 @@ const GrayImage* first_kept(const std::vector<ReceivedImage>& images) {
 }
 
 Line contrast_line(const Received& received) {
-  const std::string demand =
+  const std::string requirement =
       fmt::format("mean grey {:.0f} to {:.0f}, spread {:.0f} and more", kMinGrey, kMaxGrey, kMinContrast);
   std::string measured;
   bool good = true;
@@ -139,13 +140,13 @@ Line contrast_line(const Received& received) {
     good = good && mean >= kMinGrey && mean <= kMaxGrey && spread >= kMinContrast;
     measured += fmt::format("{}mean {:.0f}, spread {:.0f}", measured.empty() ? "" : "; ", mean, spread);
   }
-  if (measured.empty()) return skipped("exposure", kNothing, demand);
-  return line("exposure", good, measured, demand);
+  if (measured.empty()) return skipped("exposure", kNothing, requirement);
+  return line("exposure", good, measured, requirement);
 }
 
 // Points at 1 m and beyond must appear further left in the right image (positive disparity).
 Line sides_line(const Received& received, const StereoRig& loccam) {
-  const std::string demand = "the ground lies further left in the right picture";
+  const std::string requirement = "the ground is farther left in the right image";
   for (const ReceivedImage& left : received.left)
     for (const ReceivedImage& right : received.right) {
       if (left.stamp.utime != right.stamp.utime || left.image.data.empty() || right.image.data.empty()) continue;
@@ -153,10 +154,10 @@ Line sides_line(const Received& received, const StereoRig& loccam) {
       const double expected_px = loccam.left.fx_px * loccam.T_left_right.translation().norm() / nearest_m;
       const int reach = std::min(static_cast<int>(expected_px), left.width / 4);
       const auto shift = shift_to_left_px(left.image, right.image, reach);
-      if (!shift) return skipped("left and right", "no ground was found in both pictures", demand);
-      return line("left and right", *shift > 0.0, fmt::format("by {:.0f} px", *shift), demand);
+      if (!shift) return skipped("left and right", "no ground was matched between the images", requirement);
+      return line("left and right", *shift > 0.0, fmt::format("by {:.0f} px", *shift), requirement);
     }
-  return skipped("left and right", "no pair", demand);
+  return skipped("left and right", "no pair", requirement);
 }
 
 }  // namespace
