@@ -43,6 +43,20 @@ function(rover_check_layers)
       endif()
     endforeach()
   endforeach()
+  rover_check_truth()
+endfunction()
+
+# Maps made from the true surface are for benches: tools/one_process and test/ alone.
+function(rover_check_truth)
+  get_property(programs GLOBAL PROPERTY ROVER_PROGRAMS)
+  foreach(program ${programs})
+    set(links)
+    rover_links_of(${program} links)
+    rover_home_of(${program} home)
+    if(links MATCHES "truth_perception" AND NOT home MATCHES "^(tools/one_process|test)$")
+      message(SEND_ERROR "${home}: ${program} links truth_perception, which reads the true world")
+    endif()
+  endforeach()
 endfunction()
 
 add_custom_target(check_includes ALL

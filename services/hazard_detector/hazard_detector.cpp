@@ -50,10 +50,10 @@ HazardResult HazardDetector::step(const Disparity& disparity, const StereoCamera
   update_table(camera);
   HazardResult result;
   result.coverage = accumulate_samples(disparity);
-  result.plane = fit_plane();
-  classify_samples(disparity, result.plane, fit_local_ground(result.plane));
+  result.plane = fit_plane(evidence_, shape_, config_);
+  classify_samples(disparity, result.plane, fit_local_ground(evidence_, shape_, config_, result.plane));
   result.cells = classify_cells(evidence_, shape_, config_);
-  summarize(result);
+  summarize(evidence_, shape_, result);
   if (result.coverage < config_.min_coverage) result.status = Status::kBlind;
   return result;
 }
@@ -94,29 +94,30 @@ double HazardDetector::accumulate_samples(const Disparity& disparity) {
   return roi > 0 ? static_cast<double>(roi_measured) / roi : 0.0;
 }
 
-GroundPlane HazardDetector::fit_plane() const {
+GroundPlane fit_plane(const std::vector<CellEvidence>& evidence, const GridShape& shape, const HazardConfig& config) {
   GroundPoints points;
-  for (int iy = 0; iy < shape_.cells_y; ++iy)
-    for (int ix = 0; ix < shape_.cells_x; ++ix) {
-      const CellEvidence& e = evidence_[static_cast<size_t>(shape_.at(ix, iy))];
-      if (e.measured < config_.min_free_samples) continue;
-      points.push_back({static_cast<float>(shape_.x_m(ix)), static_cast<float>(shape_.y_m(iy)),
+  for (int iy = 0; iy < shape.cells_y; ++iy)
+    for (int ix = 0; ix < shape.cells_x; ++ix) {
+      const CellEvidence& e = evidence[static_cast<size_t>(shape.at(ix, iy))];
+      if (e.measured < config.min_free_samples) continue;
+      points.push_back({static_cast<float>(shape.x_m(ix)), static_cast<float>(shape.y_m(iy)),
                         e.sum_z_m / static_cast<float>(e.measured)});
     }
-  return fit_ground_plane(points, config_.plane);
+  return fit_ground_plane(points, config.plane);
 }
 
-LocalGround HazardDetector::fit_local_ground(const GroundPlane& plane) const {
-  std::vector<float> over_plane(evidence_.size(), std::numeric_limits<float>::quiet_NaN());
-  for (int iy = 0; iy < shape_.cells_y; ++iy)
-    for (int ix = 0; ix < shape_.cells_x; ++ix) {
-      const size_t i = static_cast<size_t>(shape_.at(ix, iy));
-      if (evidence_[i].measured < config_.min_free_samples) continue;
-      const double plane_m = plane.offset_m + plane.slope_x * (shape_.x_m(ix) - config_.plane.front_axle_x_m) +
-                             plane.slope_y * shape_.y_m(iy);
-      over_plane[i] = evidence_[i].sum_z_m / static_cast<float>(evidence_[i].measured) - static_cast<float>(plane_m);
+LocalGround fit_local_ground(const std::vector<CellEvidence>& evidence, const GridShape& shape,
+                             const HazardConfig& config, const GroundPlane& plane) {
+  std::vector<float> over_plane(evidence.size(), std::numeric_limits<float>::quiet_NaN());
+  for (int iy = 0; iy < shape.cells_y; ++iy)
+    for (int ix = 0; ix < shape.cells_x; ++ix) {
+      const size_t i = static_cast<size_t>(shape.at(ix, iy));
+      if (evidence[i].measured < config.min_free_samples) continue;
+      const double plane_m = plane.offset_m + plane.slope_x * (shape.x_m(ix) - config.plane.front_axle_x_m) +
+                             plane.slope_y * shape.y_m(iy);
+      over_plane[i] = evidence[i].sum_z_m / static_cast<float>(evidence[i].measured) - static_cast<float>(plane_m);
     }
-  return estimate_local_ground(over_plane, shape_, config_.local_ground, config_.plane.front_axle_x_m);
+  return estimate_local_ground(over_plane, shape, config.local_ground, config.plane.front_axle_x_m);
 }
 
 // Compares each disparity with d_cal, corrected for the fitted plane, times the limit factors of its cell. Also counts
@@ -160,14 +161,14 @@ void HazardDetector::classify_samples(const Disparity& disparity, const GroundPl
   }
 }
 
-void HazardDetector::summarize(HazardResult& result) const {
+void summarize(const std::vector<CellEvidence>& evidence, const GridShape& shape, HazardResult& result) {
   double nearest_m = std::numeric_limits<double>::infinity();
-  for (int iy = 0; iy < shape_.cells_y; ++iy)
-    for (int ix = 0; ix < shape_.cells_x; ++ix) {
-      const size_t i = static_cast<size_t>(shape_.at(ix, iy));
+  for (int iy = 0; iy < shape.cells_y; ++iy)
+    for (int ix = 0; ix < shape.cells_x; ++ix) {
+      const size_t i = static_cast<size_t>(shape.at(ix, iy));
       if (result.cells[i] != Cell::kObstacle && result.cells[i] != Cell::kHole) continue;
-      result.hazard_px += evidence_[i].high + evidence_[i].low;
-      nearest_m = std::min(nearest_m, std::hypot(shape_.x_m(ix), shape_.y_m(iy)));
+      result.hazard_px += evidence[i].high + evidence[i].low;
+      nearest_m = std::min(nearest_m, std::hypot(shape.x_m(ix), shape.y_m(iy)));
     }
   result.status = std::isfinite(nearest_m) ? Status::kHazard : Status::kClear;
   if (std::isfinite(nearest_m)) result.nearest_hazard_m = nearest_m;

@@ -36,10 +36,7 @@ class HazardDetector {
  private:
   void update_table(const StereoCamera& camera);
   double accumulate_samples(const Disparity& disparity);
-  GroundPlane fit_plane() const;
-  LocalGround fit_local_ground(const GroundPlane& plane) const;
   void classify_samples(const Disparity& disparity, const GroundPlane& plane, const LocalGround& ground);
-  void summarize(HazardResult& result) const;
 
   HazardConfig config_;
   GridShape shape_;
@@ -48,5 +45,12 @@ class HazardDetector {
   std::vector<std::int16_t> cell_of_sample_;  // -1: no stereo, or outside the grid
   std::vector<CellEvidence> evidence_;
 };
+
+// Steps that need the cells' evidence alone.
+GroundPlane fit_plane(const std::vector<CellEvidence>& evidence, const GridShape& shape, const HazardConfig& config);
+LocalGround fit_local_ground(const std::vector<CellEvidence>& evidence, const GridShape& shape,
+                             const HazardConfig& config, const GroundPlane& plane);
+// Status, nearest hazard and number of hazard samples from the classified cells.
+void summarize(const std::vector<CellEvidence>& evidence, const GridShape& shape, HazardResult& result);
 
 }  // namespace rover::hazard

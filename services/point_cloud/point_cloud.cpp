@@ -28,13 +28,17 @@ PointCloud::PointCloud(const PointCloudConfig& config, const StereoRig& rig, con
 std::optional<CloudResult> PointCloud::step(const GrayImage& left, const GrayImage& right, double pan_rad,
                                             double tilt_rad) {
   ROVER_CHECK(std::isfinite(pan_rad) && std::isfinite(tilt_rad), pan_rad, tilt_rad);
-  TiltedStereo& tilted = stereo_at_tilt(tilt_rad);
-  auto stereo = tilted.stereo.step(left, right);
+  auto stereo = stereo_at_tilt(tilt_rad).stereo.step(left, right);
   if (!stereo) return std::nullopt;
+  return from_disparity(std::move(stereo->disparity), pan_rad, tilt_rad);
+}
+
+CloudResult PointCloud::from_disparity(Disparity disparity, double pan_rad, double tilt_rad) {
+  const TiltedStereo& tilted = stereo_at_tilt(tilt_rad);
   CloudResult result;
-  result.valid_fraction = valid_fraction(stereo->disparity);
-  remove_foreground_fattening(stereo->disparity, config_.foreground_fattening);
-  result.cloud = filter_cloud(triangulate(stereo->disparity, tilted.stereo.camera()), config_.filter);
+  result.valid_fraction = valid_fraction(disparity);
+  remove_foreground_fattening(disparity, config_.foreground_fattening);
+  result.cloud = filter_cloud(triangulate(disparity, tilted.stereo.camera()), config_.filter);
   result.T_body_cam = T_body_navcam(unit_, rig_.T_body_left, pan_rad, tilt_rad) * tilted.T_left_rectified;
   return result;
 }

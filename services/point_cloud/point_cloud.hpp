@@ -44,6 +44,10 @@ class PointCloud {
   // Empty if an image's size differs from the rig's.
   std::optional<CloudResult> step(const GrayImage& left, const GrayImage& right, double pan_rad, double tilt_rad);
 
+  // The same from the disparity of the camera at this tilt.
+  CloudResult from_disparity(Disparity disparity, double pan_rad, double tilt_rad);
+  const StereoCamera& camera_at(double tilt_rad) { return stereo_at_tilt(tilt_rad).stereo.camera(); }
+
   double sigma_m(double depth_m, const StereoCamera& camera) const;
 
  private:

@@ -1,15 +1,10 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "common/bus/bus_url.hpp"
 #include "common/bus/command_line.hpp"
 #include "common/bus/interrupt.hpp"
-#include "common/bus/vehicle_config.hpp"
-#include "rover_simulator/simulator.hpp"
-#include "rover_simulator/world/scenario.hpp"
+#include "rover_simulator/setup.hpp"
 
 namespace {
 
@@ -22,53 +17,16 @@ struct Arguments {
   rover::SimulatorOptions options;
 };
 
-rover::SimulatedRoverConfig rover_config(const rover::Scenario& scenario, std::uint64_t seed) {
-  rover::SimulatedRoverConfig config;
-  config.vehicle.gravity_mps2 = scenario.gravity_mps2;
-  config.loccam.calibration_error_px = scenario.calibration_error_px;
-  config.loccam.scene.appearance.sun_elevation_rad = scenario.sun_elevation_rad;
-  config.loccam.scene.appearance.sun_azimuth_rad = scenario.sun_azimuth_rad;
-  config.loccam.scene.appearance.seed = seed;
-  config.start_sigma_m = scenario.start.sigma_m;
-  config.start_sigma_yaw_rad = scenario.start.sigma_yaw_rad;
-  return config;
-}
-
-void write_summary(const std::string& run_dir, const rover::SimulationSummary& summary) {
-  const nlohmann::json json = {{"outcome", summary.outcome},
-                               {"deterministic", summary.deterministic},
-                               {"simulated_s", summary.simulated_s},
-                               {"wall_s", summary.wall_s},
-                               {"left", summary.left}};
-  std::ofstream(run_dir + "/simulation.json.new") << json.dump(2) << "\n";
-  std::filesystem::rename(run_dir + "/simulation.json.new", run_dir + "/simulation.json");
-}
-
-rover::StereoRig load_rig(const std::string& config_dir, const std::string& camera) {
-  const rover::StereoRig rig = rover::load_stereo_rig(config_dir, camera);
-  const std::string problem = rover::problem_of_rendering(rig);
-  if (!problem.empty()) throw rover::ConfigError(config_dir + "/cameras.yaml: " + camera + ": " + problem);
-  return rig;
-}
-
-int simulate(Arguments& arguments) {
+int simulate(const Arguments& arguments) {
   const rover::Scenario scenario = rover::load_scenario(arguments.scenario);
-  const rover::Vehicle vehicle = rover::load_vehicle(arguments.config_dir);
-  const rover::StereoRig loccam = load_rig(arguments.config_dir, "loccam");
-  auto world = std::make_unique<rover::World>(scenario.world, scenario.dtm, arguments.seed);
-  rover::SimulatedRoverConfig config = rover_config(scenario, arguments.seed);
-  if (vehicle.pan_tilt) config.navcam = load_rig(arguments.config_dir, "navcam");
-  rover::SimulatedRover rover_and_world(config, vehicle, loccam, std::move(world), scenario.start_pose(),
-                                        arguments.seed);
+  const auto rover_and_world = rover::make_simulated_rover(scenario, arguments.config_dir, arguments.seed);
   lcm::LCM lcm(arguments.bus);
   lcm::LCM reports(rover::reports_url(arguments.bus));
   if (!lcm.good() || !reports.good()) throw rover::ConfigError("bus: cannot join " + arguments.bus);
-  arguments.options.end.timeout_s = scenario.timeout_s;
-  arguments.options.faults = scenario.faults;
-  rover::Simulator simulator(arguments.options, rover_and_world, lcm, &reports);
+  rover::Simulator simulator(rover::with_scenario(arguments.options, scenario), *rover_and_world, lcm, &reports);
   const rover::SimulationSummary summary = simulator.run(rover::keep_running);
   for (const std::string& left : summary.left) std::printf("%s\n", left.c_str());
-  if (!arguments.run_dir.empty()) write_summary(arguments.run_dir, summary);
+  if (!arguments.run_dir.empty()) rover::write_summary(arguments.run_dir, summary);
   return 0;
 }
 

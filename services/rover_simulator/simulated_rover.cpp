@@ -3,6 +3,7 @@
 #include <random>
 
 #include "common/core/check.hpp"
+#include "rover_simulator/camera/calibration_error.hpp"
 
 namespace rover {
 namespace {
@@ -33,11 +34,11 @@ SimulatedRover::SimulatedRover(const SimulatedRoverConfig& config, const Vehicle
                                std::unique_ptr<World> world, const Pose2& start_estimate, std::uint64_t seed)
     : config_(config),
       geometry_(vehicle),
+      loccam_rig_(loccam),
       world_(std::move(world)),
       vehicle_(vehicle, config.vehicle, *world_, true_start(config, start_estimate, seed_of(seed, Stream::kStart))),
       sensors_(config.sensors, seed_of(seed, Stream::kSensors)),
-      scene_(std::make_shared<TileScene>(*world_, config.loccam.scene)),
-      loccam_(loccam, config.loccam, scene_, seed_of(seed, Stream::kCamera)),
+      loccam_seed_(seed_of(seed, Stream::kCamera)),
       navcam_seed_(seed_of(seed, Stream::kNavCam)) {
   if (config.navcam && vehicle.pan_tilt)
     pan_tilt_.emplace(*vehicle.pan_tilt, config.pan_tilt_repeatability_rad, seed_of(seed, Stream::kPanTilt));
@@ -57,15 +58,30 @@ Eigen::Isometry3d SimulatedRover::T_map_navcam() const {
          T_body_navcam(*geometry_.pan_tilt, config_.navcam->T_body_left, pan_tilt_->pan_rad(), pan_tilt_->tilt_rad());
 }
 
-StereoCameraSim::Pair SimulatedRover::expose_loccam(const Eigen::Isometry3d& T_map_body, std::int64_t frame) {
-  const std::lock_guard lock(scene_mutex_);
-  return loccam_.render(T_map_body, frame);
+StereoRig SimulatedRover::true_loccam() const {
+  return with_calibration_error(loccam_rig_, config_.loccam.calibration_error_px, loccam_seed_);
+}
+
+StereoRig SimulatedRover::true_navcam() const {
+  ROVER_CHECK(config_.navcam.has_value());
+  return with_calibration_error(*config_.navcam, config_.loccam.calibration_error_px, navcam_seed_);
+}
+
+StereoCameraSim::Pair SimulatedRover::expose_loccam(const Eigen::Isometry3d& T_map_left, std::int64_t frame) {
+  return expose(loccam_, loccam_rig_, loccam_seed_, T_map_left, frame);
 }
 
 StereoCameraSim::Pair SimulatedRover::expose_navcam(const Eigen::Isometry3d& T_map_left, std::int64_t frame) {
+  return expose(navcam_, *config_.navcam, navcam_seed_, T_map_left, frame);
+}
+
+StereoCameraSim::Pair SimulatedRover::expose(std::unique_ptr<StereoCameraSim>& camera, const StereoRig& rig,
+                                             std::uint64_t seed, const Eigen::Isometry3d& T_map_left,
+                                             std::int64_t frame) {
   const std::lock_guard lock(scene_mutex_);
-  if (!navcam_) navcam_ = std::make_unique<StereoCameraSim>(*config_.navcam, config_.loccam, scene_, navcam_seed_);
-  return navcam_->render_from(T_map_left, frame);
+  if (!scene_) scene_ = std::make_shared<TileScene>(*world_, config_.loccam.scene);
+  if (!camera) camera = std::make_unique<StereoCameraSim>(rig, config_.loccam, scene_, seed);
+  return camera->render_from(T_map_left, frame);
 }
 
 WheelCommand SimulatedRover::hold_command() const {

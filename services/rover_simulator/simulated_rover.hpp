@@ -43,23 +43,33 @@ class SimulatedRover {
   const WheelSample& wheels() const { return wheels_; }
   // Null without a NavCam.
   PanTiltSim* pan_tilt() { return pan_tilt_ ? &*pan_tilt_ : nullptr; }
-  // True pose of the left NavCam at the current pan and tilt.
+  // True pose of the left LocCam; of the left NavCam at the current pan and tilt.
+  Eigen::Isometry3d T_map_loccam() const { return T_map_body() * loccam_rig_.T_body_left; }
   Eigen::Isometry3d T_map_navcam() const;
+  // The cameras as they are, with their calibration errors.
+  StereoRig true_loccam() const;
+  StereoRig true_navcam() const;
+  const World& world() const { return *world_; }
   // Safe to call concurrently with advance() and each other.
-  StereoCameraSim::Pair expose_loccam(const Eigen::Isometry3d& T_map_body, std::int64_t frame);
+  StereoCameraSim::Pair expose_loccam(const Eigen::Isometry3d& T_map_left, std::int64_t frame);
   StereoCameraSim::Pair expose_navcam(const Eigen::Isometry3d& T_map_left, std::int64_t frame);
 
  private:
+  StereoCameraSim::Pair expose(std::unique_ptr<StereoCameraSim>& camera, const StereoRig& rig, std::uint64_t seed,
+                               const Eigen::Isometry3d& T_map_left, std::int64_t frame);
+
   SimulatedRoverConfig config_;
   Vehicle geometry_;
+  StereoRig loccam_rig_;  // nominal
   std::unique_ptr<World> world_;
   VehicleSim vehicle_;
   SensorSuite sensors_;
   std::optional<PanTiltSim> pan_tilt_;
-  std::mutex scene_mutex_;  // only one camera may render at a time
-  std::shared_ptr<TileScene> scene_;
-  StereoCameraSim loccam_;
-  std::unique_ptr<StereoCameraSim> navcam_;  // created on first use
+  std::mutex scene_mutex_;            // only one camera may render at a time
+  std::shared_ptr<TileScene> scene_;  // this and the cameras are created on first use
+  std::unique_ptr<StereoCameraSim> loccam_;
+  std::unique_ptr<StereoCameraSim> navcam_;
+  std::uint64_t loccam_seed_;
   std::uint64_t navcam_seed_;
   ImuSample imu_;
   WheelSample wheels_;

@@ -61,11 +61,13 @@ RoverPhase phase_of(const supervisor_state_t& state) {
 
 }  // namespace
 
-Simulator::Simulator(const SimulatorOptions& options, SimulatedRover& rover, lcm::LCM& lcm, lcm::LCM* reports)
+Simulator::Simulator(const SimulatorOptions& options, SimulatedRover& rover, lcm::LCM& lcm, lcm::LCM* reports,
+                     InProcess in_process)
     : options_(options),
       rover_(rover),
       lcm_(lcm),
       reports_(reports == nullptr ? lcm : *reports),
+      in_process_(std::move(in_process)),
       streams_("rover_simulator", options.boot_id),
       barrier_(options.participants),
       end_(options.end, kStart),
@@ -173,10 +175,14 @@ void Simulator::process_states(Utime t) {
   }
 }
 
+bool Simulator::poll_reports(int timeout_ms) {
+  return in_process_.run_services ? in_process_.run_services() : reports_.handleTimeout(timeout_ms) > 0;
+}
+
 bool Simulator::wait_for_start(const std::function<bool()>& running) {
   const auto started = Clock::now();
   const auto missing_now = [&] { return barrier_.waiting_for(kStart); };
-  while (running() && !missing_now().empty() && since_s(started) < kStartTimeout_s) reports_.handleTimeout(20);
+  while (running() && !missing_now().empty() && since_s(started) < kStartTimeout_s) poll_reports(20);
   const std::vector<std::string> missing = missing_now();
   if (missing.empty()) return running();
   summary_.outcome = "not_started";
@@ -234,16 +240,21 @@ void Simulator::publish_pan_tilt(Utime t) {
 }
 
 void Simulator::start_exposures(Utime t) {
-  if ((t - kStart) % kFramePeriod == 0)
-    expose(loccam_, t, [this, T_map_body = rover_.T_map_body()](std::int64_t frame) {
-      return rover_.expose_loccam(T_map_body, frame);
-    });
+  if ((t - kStart) % kFramePeriod == 0) {
+    const Eigen::Isometry3d T_map_left = rover_.T_map_loccam();
+    if (in_process_.loccam)
+      in_process_.loccam(t, T_map_left);
+    else
+      expose(loccam_, t, [=, this](std::int64_t frame) { return rover_.expose_loccam(T_map_left, frame); });
+  }
   PanTiltSim* unit = rover_.pan_tilt();
   if (unit == nullptr || !unit->image_due() || navcam_.exposure) return;
   unit->image_taken();
-  expose(navcam_, t, [this, T_map_left = rover_.T_map_navcam()](std::int64_t frame) {
-    return rover_.expose_navcam(T_map_left, frame);
-  });
+  const Eigen::Isometry3d T_map_left = rover_.T_map_navcam();
+  if (in_process_.navcam)
+    in_process_.navcam(t, T_map_left);
+  else
+    expose(navcam_, t, [=, this](std::int64_t frame) { return rover_.expose_navcam(T_map_left, frame); });
 }
 
 void Simulator::expose(Camera& camera, Utime t, Render render) {
@@ -280,7 +291,7 @@ void Simulator::wait_for_barrier(Utime t, const std::function<bool()>& running) 
   double asked_at_s = 0.0;
   cpu_s_.clear();
   for (auto missing = barrier_.waiting_for(t); !missing.empty() && running(); missing = barrier_.waiting_for(t)) {
-    if (reports_.handleTimeout(5) > 0) continue;
+    if (poll_reports(5)) continue;
     const double waited_s = since_s(started);
     handle_missing(missing, t, waited_s);
     if (waited_s - asked_at_s < kResendPeriod_s || last_tick_.empty()) continue;

@@ -38,6 +38,13 @@ struct SimulatorOptions {
   RunEndConfig end;
 };
 
+// Replaces other processes in a run within one process; each may be empty.
+struct InProcess {
+  std::function<bool()> run_services;  // lets the services work; false if no message waited
+  std::function<void(Utime utime, const Eigen::Isometry3d& T_map_left)> loccam;  // exposures, not rendered
+  std::function<void(Utime utime, const Eigen::Isometry3d& T_map_left)> navcam;
+};
+
 // Summary of a run, for the report.
 struct SimulationSummary {
   std::string outcome;  // goal_reached, fault_stop, timeout, stopped or not_started
@@ -50,7 +57,8 @@ struct SimulationSummary {
 class Simulator {
  public:
   // `reports` carries DONE; null: the bus itself.
-  Simulator(const SimulatorOptions& options, SimulatedRover& rover, lcm::LCM& lcm, lcm::LCM* reports = nullptr);
+  Simulator(const SimulatorOptions& options, SimulatedRover& rover, lcm::LCM& lcm, lcm::LCM* reports = nullptr,
+            InProcess in_process = {});
   // Returns when the run ends or `running` is false.
   SimulationSummary run(const std::function<bool()>& running);
   // Number of messages that failed to decode, for every subscribed channel.
@@ -73,6 +81,8 @@ class Simulator {
   using Render = std::function<StereoCameraSim::Pair(std::int64_t frame)>;
 
   bool wait_for_start(const std::function<bool()>& running);
+  // Handles reports; false if none came within the timeout.
+  bool poll_reports(int timeout_ms);
   void step_world(Utime t);
   void publish_sensors(Utime t);
   void move_pan_tilt(Utime t);
@@ -114,6 +124,7 @@ class Simulator {
   SimulatedRover& rover_;
   lcm::LCM& lcm_;
   lcm::LCM& reports_;
+  InProcess in_process_;
   StreamCounter streams_;
   Barrier barrier_;
   std::map<std::string, double> cpu_s_;  // CPU time of missing services, one second into the wait

@@ -105,7 +105,7 @@ void Simulator::send_signal(const ProcessSignal& order, Utime t, const std::func
 
 bool Simulator::wait_until_idle(const std::string& service, const std::function<bool()>& running) {
   const auto until = Clock::now() + std::chrono::duration<double>(kIdleTimeout_s);
-  while (!barrier_.idle(service) && running() && Clock::now() < until) reports_.handleTimeout(5);
+  while (!barrier_.idle(service) && running() && Clock::now() < until) poll_reports(5);
   return barrier_.idle(service);
 }
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "test/bench_faults/ground.hpp"
-#include "test/bench_faults/stack.hpp"
+#include "tools/one_process/stack.hpp"
 #include "test/bench_faults/stand_ins.hpp"
 
 namespace rover::bench_faults {

@@ -5,19 +5,11 @@
 #include <filesystem>
 
 #include "common/bus/vehicle_config.hpp"
-#include "hazard_detector/node.hpp"
-#include "localization/config.hpp"
-#include "localization/node.hpp"
-#include "locomotion/config.hpp"
-#include "locomotion/node.hpp"
-#include "path_planner/config.hpp"
-#include "path_planner/node.hpp"
 #include "supervisor/config.hpp"
 #include "supervisor/node.hpp"
 #include "test/bench_faults/injector.hpp"
 #include "test/stereo/synthetic_world.hpp"
-#include "trajectory_control/config.hpp"
-#include "trajectory_control/node.hpp"
+#include "tools/one_process/services.hpp"
 
 namespace rover::bench_faults {
 namespace {
@@ -49,7 +41,7 @@ class Bench {
         log_(bus_, arguments.out + "/stack.lcm"),
         seen_(bus_),
         ground_(bus_, seen_, rover_, field_, arguments.seed),
-        stack_(bus_, arguments.out),
+        stack_(bus_, arguments.out, true),
         hands_(bus_, rover_, blindness_, stack_, ground_),
         cases_(cases_of(arguments.rows)),
         injector_(cases_, arguments.per_row, arguments.most, seen_, hands_, field_, log_, arguments.seed) {
@@ -83,21 +75,9 @@ class Bench {
   }
 
   void add_services() {
-    const std::string& config = arguments_.config;
-    stack_.add("localization", [this, core = loc::load_config(config)](Node& n) {
-      return std::make_shared<loc::LocalizationNode>(n, core, vehicle_);
-    });
-    stack_.add("hazard_detector", [config](Node& n) { return hazard::make_hazard_detector(n, config); });
-    stack_.add("path_planner", [core = planning::load_config(config)](Node& n) {
-      return std::make_shared<planning::PathPlannerNode>(n, core);
-    });
-    stack_.add("trajectory_control", [core = control::load_config(config)](Node& n) {
-      return std::make_shared<control::TrajectoryControlNode>(n, core);
-    });
-    stack_.add("locomotion", [core = locomotion::load_config(config)](Node& n) {
-      return std::make_shared<locomotion::LocomotionNode>(n, core);
-    });
-    stack_.add("supervisor", [this, core = supervisor::load_config(config)](Node& n) {
+    for (const char* name : {"localization", "hazard_detector", "path_planner", "trajectory_control", "locomotion"})
+      stack_.add(name, service_factory(name, arguments_.config));
+    stack_.add("supervisor", [this, core = supervisor::load_config(arguments_.config)](Node& n) {
       return std::make_shared<supervisor::SupervisorNode>(n, core, [this](const std::string& who) {
         injection_t note{};
         note.target = who;

@@ -27,6 +27,7 @@ spy rover_spy
 report rover_report
 repair rover_repair
 plan rover_orbital_planner
+campaign rover_campaign
 PROGRAMS
 
 # refused NAME PATTERN COMMAND...
@@ -43,7 +44,7 @@ refused "no such command" "'rum' is not a command; there are: run " "$rover" rum
 refused "help on nothing" "'rum' is not a command" "$rover" help rum
 refused "an argument too many" "takes no 'all'" "$rover" build all
 refused "a window without a display" "./rover spy shows the same" env -u DISPLAY "$rover" lcm-spy
-for program in "rover_launcher run" "rover_launcher status" rover_spy rover_report rover_repair rover_orbital_planner; do
+for program in "rover_launcher run" "rover_launcher status" rover_spy rover_report rover_repair rover_orbital_planner rover_campaign; do
   refused "$program with an unknown option" "see ./rover .* --help" "$BUILD"/bin/$program --no-such-option
 done
 refused "spy on nothing" "$WORK/none.lcm: no such log" "$BUILD/bin/rover_spy" "$WORK/none.lcm"
@@ -76,6 +77,8 @@ completes config/scenarios/flat.yaml ./rover run config/scenarios/f
 completes POSE ./rover spy --channel PO
 completes restarts ./rover bench r
 completes sanitize ./rover test ""
+completes slurm ./rover campaign --engine s
+completes compare ./rover campaign comp
 
 # No terminal control codes in a file.
 "$rover" --help >"$WORK/help"

@@ -22,6 +22,11 @@ for program in rover_orbital_planner rover_export; do
   nm -C "$BUILD/bin/$program" >"$WORK/symbols"
   ! grep -qE 'rover::(World|RockField)::' "$WORK/symbols" || fail "$program links the simulated world"
 done
+# Maps made from the true surface are for benches.
+for program in "$BUILD"/bin/*; do
+  [ "$(basename "$program")" != rover_one_process ] || continue
+  ! nm -C "$program" 2>/dev/null | grep -q 'rover::truth::' || fail "$(basename "$program") links truth_perception"
+done
 bad=$(cd "$SOURCE" && grep -rl '#include "rover_simulator/world/' services supervisor |
   grep -vE '^services/(rover_simulator)/' || true)
 [ -z "$bad" ] || fail "these use the simulated world: $bad"

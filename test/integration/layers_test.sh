@@ -18,6 +18,7 @@ include_is_refused services/slam/node.hpp tools/report/track.hpp
 include_is_refused services/recorder/node.cpp supervisor/fdir.hpp
 include_is_refused services/common/core/frames.cpp localization/filter.hpp
 include_is_refused supervisor/fdir.cpp localization/filter.hpp
+include_is_refused tools/report/track.cpp tools/truth_perception/nodes.hpp
 include_is_refused services/localization/filter.cpp ../supervisor/fdir.hpp
 
 link_is_refused() {  # FILE LINE MESSAGE
@@ -32,4 +33,6 @@ link_is_refused services/slam/CMakeLists.txt 'target_link_libraries(slam_core PR
   'services/slam: slam_core links traversability_core of services/traversability'
 link_is_refused services/recorder/CMakeLists.txt 'target_link_libraries(recorder_node PUBLIC replay_lib)' \
   'services/recorder: recorder_node links replay_lib of tools/replay'
+link_is_refused tools/spy/CMakeLists.txt 'target_link_libraries(rover_spy PRIVATE truth_perception)' \
+  'tools/spy: rover_spy links truth_perception, which reads the true world'
 echo "each wrong include and link is refused"

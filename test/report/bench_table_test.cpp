@@ -121,14 +121,122 @@ TEST(BenchTable, TakesTheNewestCommitAndTheLastRunOfASeed) {
   EXPECT_EQ(newest[0].duty, 0.9);
 }
 
+TEST(BenchTable, EachLevelHasItsOwnNewestCommit) {
+  std::vector<BenchRow> rows = {good("default", 101), good("default", 101), good("default", 102)};
+  rows[0].level = "efficient";
+  rows[1].level = rows[2].level = "auto";
+  rows[1].commit = "old";
+  const std::vector<BenchRow> newest = newest_rows(rows);
+  ASSERT_EQ(newest.size(), 2u);
+  EXPECT_EQ(newest[0].seed, 102) << "auto";
+  EXPECT_EQ(newest[1].level, "efficient");
+}
+
+TEST(BenchTable, ProgressRegretAndTimeByCauseAreInTheTable) {
+  std::vector<BenchRow> rows = full_bench();
+  for (BenchRow& row : rows) {
+    row.progress = 0.812;
+    row.regret = 1.034;
+    row.seconds = {{"straight", 60.0}, {"point_turn", 39.0}, {"fault", 1.0}, {"sweep", 0.0}};
+  }
+  const std::string table = bench_table({"seed", "cmd", "cpu", 2}, rows);
+  EXPECT_NE(table.find("Median progress 0.812, regret 1.034, duty 0.850"), std::string::npos) << table;
+  EXPECT_NE(table.find("Time by cause [%]: straight 60.0, point turn 39.0, fault 1.0.\n"), std::string::npos);
+}
+
+// Four drives at the Efficient level: two reach the goal, one gives up, one died without metrics.
+std::vector<BenchRow> four_drives() {
+  std::vector<BenchRow> rows;
+  for (int seed = 101; seed <= 104; ++seed) rows.push_back(good("default", seed));
+  for (BenchRow& row : rows) {
+    row.level = "efficient";
+    row.command = "./rover bench default";
+    row.progress = 0.7;
+    row.oracle_feasible = true;
+    row.regret = 1.1;
+  }
+  rows[1].path_ratio = 2.13;
+  rows[1].progress = 0.3;
+  rows[1].oracle_feasible = false;
+  rows[2].outcome = "no_path";
+  rows[2].path_ratio = 0.1;
+  rows[2].progress = 0.05;
+  BenchRow died;
+  died.commit = "abc";
+  died.scenario = "default";
+  died.level = "efficient";
+  died.seed = 104;
+  died.outcome = "died";
+  died.command = rows[0].command;
+  rows[3] = died;
+  return rows;
+}
+
+TEST(SuccessTable, SaysHowManyReachTheGoalWithItsInterval) {
+  const std::string table = success_table({"default", "cmd", "cpu", 2}, four_drives());
+  // Wilson's interval of 2 of 4 is 15 to 85 %, of 1 of 2 9 to 91 %.
+  EXPECT_NE(table.find("| efficient | 2 of 4 (50 %; 15 to 85 %) | 2 of 3 | 1 of 2 (50 %; 9 to 91 %) |"),
+            std::string::npos)
+      << table;
+  EXPECT_NE(table.find("failures: died (seeds 104); no_path (seeds 103)"), std::string::npos) << table;
+}
+
+TEST(SuccessTable, RatioIsOfDrivesThatReachedTheGoalAndProgressOfAll) {
+  const std::string table = success_table({"default", "cmd", "cpu", 2}, four_drives());
+  EXPECT_NE(table.find("| 1.590; 2.130 | 1.100; 1.100 | 0.300; 0.050 |"), std::string::npos) << table;
+}
+
+TEST(SuccessTable, ADriveThatDiedIsARowAndMeetsNoRequirement) {
+  const std::string table = success_table({"default", "cmd", "cpu", 2}, four_drives());
+  EXPECT_NE(table.find("| default | 104 | died | n/a |"), std::string::npos) << table;
+  EXPECT_NE(table.find("| 0 (1 unknown) | 0 (1 unknown) | 0 (1 unknown) |"), std::string::npos) << table;
+  for (const Gate& gate : success_gates(four_drives())) EXPECT_FALSE(gate.met) << gate.requirement;
+  std::vector<BenchRow> rows = four_drives();
+  rows.pop_back();
+  for (const Gate& gate : success_gates(rows)) EXPECT_TRUE(gate.met) << gate.requirement;
+}
+
+TEST(SuccessTable, UnknownOracleIsSaid) {
+  std::vector<BenchRow> rows = four_drives();
+  for (BenchRow& row : rows) {
+    row.oracle_feasible.reset();
+    row.regret = kNaN;
+  }
+  const std::string table = success_table({"default", "cmd", "cpu", 2}, rows);
+  EXPECT_NE(table.find("15 to 85 %) | n/a | n/a | 1.590; 2.130 | n/a |"), std::string::npos) << table;
+}
+
+TEST(SuccessTable, EachLevelHasASection) {
+  std::vector<BenchRow> rows = four_drives();
+  for (BenchRow row : four_drives()) {
+    row.level = "auto";
+    row.outcome = "goal_reached";
+    rows.push_back(row);
+  }
+  const std::string table = success_table({"default", "cmd", "cpu", 2}, rows);
+  EXPECT_NE(table.find("| auto | 4 of 4 (100 %; 51 to 100 %)"), std::string::npos) << table;
+  EXPECT_LT(table.find("## Level `efficient`"), table.find("## Level `auto`"));
+}
+
+TEST(Suites, AreFoundByName) {
+  ASSERT_NE(find_suite("seed"), nullptr);
+  ASSERT_NE(find_suite("default"), nullptr);
+  EXPECT_EQ(find_suite("defaults"), nullptr);
+}
+
 TEST(BenchRows, ReadsFiguresAndNull) {
   const std::vector<BenchRow> rows = parse_rows(
-      R"({"scenario":"seed_traverse_1","seed":7,"commit":"c","deterministic":true,"duty":0.8,"rocks_missed":null})"
+      R"({"scenario":"seed_traverse_1","seed":7,"commit":"c","deterministic":true,"duty":0.8,"rocks_missed":null,)"
+      R"("progress":0.7,"oracle_feasible":true,"seconds":{"straight":3.5}})"
       "\n\n",
       "rows.jsonl");
   ASSERT_EQ(rows.size(), 1u);
   EXPECT_EQ(rows[0].seed, 7);
   EXPECT_EQ(rows[0].duty, 0.8);
+  EXPECT_EQ(rows[0].progress, 0.7);
+  EXPECT_TRUE(std::isnan(rows[0].regret));
+  EXPECT_EQ(rows[0].oracle_feasible, true);
+  EXPECT_EQ(rows[0].seconds.at("straight"), 3.5);
   EXPECT_TRUE(rows[0].deterministic);
   EXPECT_TRUE(std::isnan(rows[0].rocks_missed));
 }

@@ -22,6 +22,7 @@
 #include "tools/report/make_report.hpp"
 #include "tools/report/map_picture.hpp"
 #include "tools/report/metrics_json.hpp"
+#include "tools/report/oracle_evaluation.hpp"
 #include "wild.hpp"
 
 namespace rover::report {
@@ -77,6 +78,9 @@ TEST_F(ReportTest, MetricsMatchSyntheticRun) {
   EXPECT_NEAR(m["odometry_drift_percent"], 0.5, 0.02);
   EXPECT_NEAR(m["duration_s"], 12.0 / 0.18, 0.05);
   EXPECT_EQ(m["replans"], 1);
+  EXPECT_NEAR(m["progress"], 0.9, 1e-3);
+  EXPECT_NEAR(m["seconds"]["straight"], m["duration_s"], 0.1);
+  EXPECT_EQ(m["reverse_m"], 0.0);
   EXPECT_EQ(m["rocks_missed"], 0);
   EXPECT_EQ(m["false_stops"], 0);
   EXPECT_EQ(m["realtime_factor"], 5.0);
@@ -96,8 +100,15 @@ TEST_F(ReportTest, MetricNamesAreStable) {
                            "planned_length_m",
                            "driven_length_m",
                            "path_ratio",
+                           "oracle_m",
+                           "oracle_feasible",
+                           "regret",
                            "duration_s",
+                           "progress",
                            "duty",
+                           "seconds",
+                           "reverse_m",
+                           "hazard_clearance_m",
                            "hazard_stops",
                            "replans",
                            "level_switches",
@@ -113,6 +124,9 @@ TEST_F(ReportTest, MetricNamesAreStable) {
                            "final_error_m",
                            "estimate_error_max_m",
                            "corrected_error_max_m",
+                           "anees",
+                           "anees_after_fix",
+                           "map",
                            "global_corrections",
                            "levels",
                            "rocks_encountered",
@@ -127,7 +141,64 @@ TEST_F(ReportTest, MetricNamesAreStable) {
   for (const char* name : {"cpu_s", "cpu_s_per_m", "cpu_s_per_m_efficient", "cpu_s_per_m_full", "rss_mb",
                            "rss_first_half_mb", "restarts", "p50_ms", "p99_ms"})
     EXPECT_TRUE(m["services"]["stereo"].contains(name)) << name;
+  for (const char* name : {"straight", "curve", "steering", "point_turn", "reverse", "waiting_for_plan", "hazard_stop",
+                           "sweep", "blind", "fault", "other"})
+    EXPECT_TRUE(m["seconds"].contains(name)) << name;
   for (const char* name : {"messages", "lost", "bytes"}) EXPECT_TRUE(m["bus"].contains(name)) << name;
+}
+
+TEST_F(ReportTest, RegretIsTheDrivenLengthOverTheShortestDrivablePath) {
+  Study changed = study();
+  EXPECT_TRUE(std::isnan(changed.evaluation.metrics.oracle_m)) << "not evaluated";
+  evaluate_oracle(changed.run, changed.folder.vehicle, changed.world, changed.evaluation);
+  const Metrics& m = changed.evaluation.metrics;
+  EXPECT_EQ(m.oracle_feasible, true);
+  EXPECT_NEAR(m.oracle_m, 12.0 - changed.world->goal_tolerance_m, 0.03);
+  EXPECT_NEAR(m.regret, m.driven_length_m / m.oracle_m, 1e-9);
+  EXPECT_NE(draw_map(changed.scene()).find("shortest drivable path"), std::string::npos);
+  EXPECT_EQ(draw_map(study().scene()).find("shortest drivable path"), std::string::npos);
+}
+
+TEST_F(ReportTest, ClosedWorldHasNoOracle) {
+  Study changed = study();
+  changed.world->height_m = [](double x_m, double) { return std::abs(x_m - 16.0) < 0.1 ? 0.5 : 0.0; };
+  evaluate_oracle(changed.run, changed.folder.vehicle, changed.world, changed.evaluation);
+  const nlohmann::json m = metrics_json(changed.evaluation.metrics);
+  EXPECT_EQ(m["oracle_feasible"], false);
+  EXPECT_TRUE(m["oracle_m"].is_null());
+  EXPECT_TRUE(m["regret"].is_null());
+}
+
+TEST_F(ReportTest, MapFidelityHasAnArrayOfRangesForEachHeight) {
+  Study changed = study();
+  changed.world->ground_m = [](double, double) { return 0.0; };
+  const RunEvaluation evaluation = evaluate(changed.run, changed.folder.info, changed.folder.footprint, changed.world);
+  const nlohmann::json map = metrics_json(evaluation.metrics)["map"]["hazards"];
+  EXPECT_GT(map["maps"], 100);
+  EXPECT_GT(map["observed_cells"], 1000);
+  for (const char* key : {"impassable", "lower", "upper", "looks", "cells"}) {
+    ASSERT_EQ(map[key].size(), kHeightClasses) << key;
+    for (const auto& row : map[key]) EXPECT_EQ(row.size(), kRangeClasses) << key;
+  }
+  EXPECT_TRUE(metrics()["map"]["hazards"].is_null()) << "this world's ground is unknown";
+  EXPECT_TRUE(metrics()["map"]["traversability"].is_null());
+}
+
+TEST_F(ReportTest, CamerasAreWhereTheRunsConfigurationPutsThem) {
+  const std::string dir = testing::TempDir() + "/report_test_cameras";
+  fs::remove_all(dir);
+  fs::copy(dir_, dir);
+  fs::create_directories(dir + "/config");
+  fs::copy(std::string(kConfig) + "/vehicle.yaml", dir + "/config");
+  std::string cameras = read_file(std::string(kConfig) + "/cameras.yaml");
+  const std::string mount = "left_in_body: {position_m: [";
+  cameras.replace(cameras.find(mount), mount.size() + 5, mount + "0.611");
+  cameras.erase(cameras.find("navcam:"));
+  write_file(dir + "/config/cameras.yaml", cameras);
+  const Footprint footprint = open_run_folder(dir, kConfig).footprint;
+  EXPECT_NEAR(footprint.loccam_x_m, 0.611, 1e-9);
+  EXPECT_NEAR(footprint.navcam_x_m, Footprint{}.navcam_x_m, 1e-9) << "a vehicle without one";
+  fs::remove_all(dir);
 }
 
 TEST_F(ReportTest, PageIsSelfContained) {
@@ -139,6 +210,7 @@ TEST_F(ReportTest, PageIsSelfContained) {
   EXPECT_EQ(html.find("<script"), std::string::npos);
   EXPECT_NE(html.find("Goal reached"), std::string::npos);
   EXPECT_NE(html.find("Drive currents"), std::string::npos);
+  EXPECT_NE(html.find("Where the time went"), std::string::npos);
   EXPECT_EQ(html.find("nan"), std::string::npos);
 }
 

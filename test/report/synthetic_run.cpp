@@ -127,6 +127,7 @@ class Writer {
 
   void put_wheels(Utime t, double s) {
     wheel_state_t wheels{};
+    for (int i = 0; i < 6; ++i) wheels.drive_rate_radps[i] = s > 0.0 ? run_.speed_mps / 0.125 : 0.0;
     for (int i = 0; i < 6; ++i)
       wheels.drive_current_a[i] = s > 0.0 ? 1.2 + 0.15 * i + 0.5 * std::sin(1e-6 * static_cast<double>(t) + i) : 0.0;
     log_.put(channel::kWheelState, wheels, t, "rover_simulator");

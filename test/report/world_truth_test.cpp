@@ -43,6 +43,8 @@ TEST(WorldTruth, SeedRegeneratesRocks) {
   folder.info.seed = 6;
   EXPECT_NE(load_true_world(folder, box)->rocks[0].x_m, first->rocks[0].x_m);
   EXPECT_GT(first->height_m(50.0, 20.0), first->height_m(10.0, 20.0) + 2.0);
+  const Rock& rock = first->rocks[0];
+  EXPECT_GT(first->height_m(rock.x_m, rock.y_m) - first->ground_m(rock.x_m, rock.y_m), 0.5 * rock.height_m);
 }
 
 TEST(WorldTruth, EmptyWithoutSeedOrValidScenario) {

@@ -8,15 +8,16 @@
 namespace rover {
 
 struct RunArguments {
-  std::string source_dir = ".";  // contains config/ and logs/
-  std::string bin_dir;           // contains the services' executables
-  std::string scenario;          // file; empty for run(): config/scenarios/default.yaml
-  std::int64_t seed = -1;        // -1: the scenario's own
-  std::string level;             // efficient, auto or full; empty: the scenario's own
-  std::vector<std::string> set;  // file.key.key=value
-  std::string out;               // run folder; empty: logs/<time>-<scenario>
-  std::string bus;               // LCM URL; empty: of config/bus.yaml
-  std::string record;            // full or reduced; empty: of config/recorder.yaml
+  std::string source_dir = ".";         // contains config/ and logs/
+  std::string bin_dir;                  // contains the services' executables
+  std::string scenario;                 // file; empty for run(): config/scenarios/default.yaml
+  std::int64_t seed = -1;               // -1: the scenario's own
+  std::string level;                    // efficient, auto or full; empty: the scenario's own
+  std::vector<std::string> set;         // file.key.key=value
+  std::string out;                      // run folder; empty: logs/<time>-<scenario>
+  std::string bus;                      // LCM URL; empty: of config/bus.yaml
+  std::string record;                   // full or reduced; empty: of config/recorder.yaml
+  std::string perception = "rendered";  // geometric, truth: without cameras, in one process
   bool headless = false;
   bool realtime = false;
   bool allow_injection = false;  // enables ./rover inject; implied by a scenario with faults

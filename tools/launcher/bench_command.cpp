@@ -8,6 +8,7 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "common/bus/child_process.hpp"
 #include "common/bus/config.hpp"
@@ -17,18 +18,66 @@ namespace rover {
 namespace fs = std::filesystem;
 namespace {
 
-// Minimum number of repairs of a valid run. With fewer, too few rocks blocked the path.
-const std::map<std::string, int> kMinRepairs = {{"seed_traverse_1", 5}, {"seed_traverse_2", 8}};
-// Additional seeds that may replace invalid runs.
-constexpr int kSpareSeeds = 10;
 constexpr int kFirstBenchPort = 17'700;
 
+struct BenchScenario {
+  std::string name;
+  int min_repairs = 0;  // of a valid run: with fewer, too few rocks blocked the path
+};
+
+struct Suite {
+  std::string name;
+  std::string seeds;  // unless others are given
+  std::string level;  // unless another is given; empty: the scenario's, and one folder and table for all levels
+  std::vector<BenchScenario> scenarios;
+  int spare_seeds = 0;  // that may replace invalid runs
+};
+
+const std::vector<Suite>& suites() {
+  static const std::vector<Suite> kSuites = {
+      {"seed", "1..10", "", {{"seed_traverse_1", 5}, {"seed_traverse_2", 8}}, 10},
+      {"default", "101..140", "efficient", {{"default"}}},
+  };
+  return kSuites;
+}
+
+const Suite& find_suite(const std::string& name) {
+  for (const Suite& suite : suites())
+    if (suite.name == name) return suite;
+  throw ConfigError("bench: no suite '" + name +
+                    "'; known suites: default, seed, full, slam, correction, speed, micro, faults, restarts, page, "
+                    "data, wild, fuzz");
+}
+
 struct Job {
-  std::string scenario;
+  BenchScenario scenario;
   std::int64_t seed;
 };
 
+// One bench: its suite, what it runs, and where.
+struct Bench {
+  const BenchArguments& arguments;
+  const Suite& suite;
+  std::vector<std::int64_t> seeds;
+  std::string suite_dir;
+  std::string level_dir;  // equal, unless the suite has a folder per level
+
+  std::string run_dir(const Job& job) const {
+    return level_dir + "/" + job.scenario.name + "-" + std::to_string(job.seed);
+  }
+};
+
+Bench make_bench(const BenchArguments& arguments) {
+  const Suite& suite = find_suite(arguments.suite);
+  Bench bench{arguments, suite, parse_seeds(arguments.seeds.empty() ? suite.seeds : arguments.seeds),
+              arguments.run.source_dir + "/logs/bench/" + suite.name, ""};
+  const std::string level = arguments.run.level.empty() ? suite.level : arguments.run.level;
+  bench.level_dir = suite.level.empty() ? bench.suite_dir : bench.suite_dir + "/" + level;
+  return bench;
+}
+
 // Rows of one suite and commit: one JSON object per line, appended after each run, so that a bench can be resumed.
+// Drives that died are repeated then.
 class Rows {
  public:
   Rows(const std::string& file, std::string commit, bool resume) : file_(file), commit_(std::move(commit)) {
@@ -40,13 +89,15 @@ class Rows {
     std::ifstream in(file_);
     for (std::string line; std::getline(in, line);) {
       const auto row = nlohmann::json::parse(line, nullptr, false);
-      if (row.is_object() && row.value("commit", "") == commit_) rows_.push_back(row);
+      const bool same = row.is_object() && row.value("commit", "") == commit_;
+      if (same && row.value("outcome", "") != "died") rows_.push_back(row);
     }
   }
 
   const nlohmann::json* find(const Job& job) const {
     for (const nlohmann::json& row : rows_)
-      if (row.value("scenario", "") == job.scenario && row.value("seed", std::int64_t{-1}) == job.seed) return &row;
+      if (row.value("scenario", "") == job.scenario.name && row.value("seed", std::int64_t{-1}) == job.seed)
+        return &row;
     return nullptr;
   }
 
@@ -64,22 +115,17 @@ class Rows {
   std::vector<nlohmann::json> rows_;
 };
 
-bool counts(const nlohmann::json& row) {
-  const auto minimum = kMinRepairs.find(row.value("scenario", ""));
-  if (minimum == kMinRepairs.end() || row.value("outcome", "") != "goal_reached") return true;
-  return row.contains("replans") && row["replans"].is_number() && row["replans"].get<int>() >= minimum->second;
+bool counts(const BenchScenario& scenario, const nlohmann::json& row) {
+  if (scenario.min_repairs == 0 || row.value("outcome", "") != "goal_reached") return true;
+  return row.contains("replans") && row["replans"].is_number() && row["replans"].get<int>() >= scenario.min_repairs;
 }
 
-std::string out_dir(const BenchArguments& arguments, const Job& job) {
-  return arguments.run.source_dir + "/logs/bench/" + arguments.suite + "/" + job.scenario + "-" +
-         std::to_string(job.seed);
-}
-
-RunArguments run_arguments(const BenchArguments& arguments, const Job& job, int slot) {
-  RunArguments run = arguments.run;
-  run.scenario = arguments.run.source_dir + "/config/scenarios/" + job.scenario + ".yaml";
+RunArguments run_arguments(const Bench& bench, const Job& job, int slot) {
+  RunArguments run = bench.arguments.run;
+  run.scenario = run.source_dir + "/config/scenarios/" + job.scenario.name + ".yaml";
   run.seed = job.seed;
-  run.out = out_dir(arguments, job);
+  if (run.level.empty()) run.level = bench.suite.level;
+  run.out = bench.run_dir(job);
   run.bus = "udpm://239.255.76.67:" + std::to_string(kFirstBenchPort + slot) + "?ttl=0&recv_buf_size=4194304";
   run.record = "reduced";
   run.quiet = true;
@@ -87,80 +133,104 @@ RunArguments run_arguments(const BenchArguments& arguments, const Job& job, int 
   return run;
 }
 
-nlohmann::json row_of(const Job& job, const std::string& dir, int exit_status) {
-  std::ifstream in(dir + "/metrics.json");
+// A drive that left no metrics is a row too.
+nlohmann::json row_of(const Bench& bench, const Job& job, int exit_status) {
+  std::ifstream in(bench.run_dir(job) + "/metrics.json");
   nlohmann::json row = nlohmann::json::parse(in, nullptr, false);
-  if (!row.is_object()) row = {{"outcome", "no_metrics"}};
-  row["scenario"] = job.scenario;
+  if (!row.is_object()) row = {{"outcome", "died"}, {"level", run_arguments(bench, job, 0).level}};
+  row["scenario"] = job.scenario.name;
   row["seed"] = job.seed;
   row["exit_status"] = exit_status;
+  row["command"] = bench.arguments.command;
   return row;
 }
 
+pid_t start(const Bench& bench, const Job& job, int slot) {
+  fs::remove_all(bench.run_dir(job));
+  std::fflush(stdout);
+  const pid_t pid = fork();
+  if (pid < 0) throw std::runtime_error("bench: no further process can be started");
+  if (pid == 0) _exit(run(run_arguments(bench, job, slot)).exit_status);
+  return pid;
+}
+
+void finish(const Bench& bench, const Job& job, int wait_status, Rows& rows) {
+  const int exit_status = WIFEXITED(wait_status) ? WEXITSTATUS(wait_status) : 1;
+  const nlohmann::json row = row_of(bench, job, exit_status);
+  const std::string outcome = row.value("outcome", "unknown");
+  std::printf("%s seed %lld: %s\n", job.scenario.name.c_str(), static_cast<long long>(job.seed),
+              outcome == "died" ? ("died; see " + bench.run_dir(job)).c_str() : outcome.c_str());
+  std::fflush(stdout);
+  rows.add(row);
+}
+
 // Runs the jobs in order in child processes, at most `jobs` in parallel.
-void run_jobs(const BenchArguments& arguments, const std::vector<Job>& jobs, Rows& rows) {
+void run_jobs(const Bench& bench, const std::vector<Job>& jobs, Rows& rows) {
   std::map<pid_t, std::pair<Job, int>> running;  // job and slot
   std::vector<int> free_slots;
-  for (int slot = arguments.jobs; slot > 0; --slot) free_slots.push_back(slot);
+  for (int slot = bench.arguments.jobs; slot > 0; --slot) free_slots.push_back(slot);
   size_t next = 0;
   while (next < jobs.size() || !running.empty()) {
     while (next < jobs.size() && !free_slots.empty()) {
-      const Job job = jobs[next++];
       const int slot = free_slots.back();
       free_slots.pop_back();
-      fs::remove_all(out_dir(arguments, job));
-      std::fflush(stdout);
-      const pid_t pid = fork();
-      if (pid == 0) _exit(run(run_arguments(arguments, job, slot)).exit_status);
-      running[pid] = {job, slot};
+      running[start(bench, jobs[next], slot)] = {jobs[next], slot};
+      ++next;
     }
     int status = 0;
-    const pid_t ended = wait(&status);
-    const auto it = running.find(ended);
+    const auto it = running.find(wait(&status));
     if (it == running.end()) continue;
     const auto [job, slot] = it->second;
     running.erase(it);
     free_slots.push_back(slot);
-    const int exit_status = WIFEXITED(status) ? WEXITSTATUS(status) : 1;
-    const nlohmann::json row = row_of(job, out_dir(arguments, job), exit_status);
-    std::printf("%s seed %lld: %s\n", job.scenario.c_str(), static_cast<long long>(job.seed),
-                row.value("outcome", "unknown").c_str());
-    rows.add(row);
+    finish(bench, job, status, rows);
   }
+}
+
+// Until as many runs as seeds are valid, or the spare seeds are used up.
+void run_scenario(const Bench& bench, const BenchScenario& scenario, Rows& rows) {
+  std::vector<std::int64_t> seeds = bench.seeds;
+  for (int spare = 0; spare <= bench.suite.spare_seeds; ++spare) {
+    std::vector<Job> todo;
+    size_t counted = 0;
+    for (const std::int64_t seed : seeds) {
+      const nlohmann::json* row = rows.find({scenario, seed});
+      if (row == nullptr) todo.push_back({scenario, seed});
+      if (row != nullptr && counts(scenario, *row)) ++counted;
+    }
+    if (todo.empty() && counted >= bench.seeds.size()) break;
+    if (todo.empty())
+      seeds.push_back(seeds.back() + 1);
+    else
+      run_jobs(bench, todo, rows);
+  }
+}
+
+// The table has a section for each level that was run.
+int write_table(const Bench& bench) {
+  const RunArguments& run = bench.arguments.run;
+  std::vector<std::string> command = {run.bin_dir + "/rover_bench_table",
+                                      "--suite",
+                                      bench.suite.name,
+                                      "--out",
+                                      run.source_dir + "/test/results/" + bench.suite.name + ".md",
+                                      "--command",
+                                      bench.arguments.command,
+                                      "--rows"};
+  if (bench.suite.level.empty()) command.push_back(bench.level_dir + "/rows.jsonl");
+  for (const char* level : {"efficient", "auto", "full"})
+    if (const std::string rows = bench.suite_dir + "/" + level + "/rows.jsonl"; fs::exists(rows))
+      command.push_back(rows);
+  return run_program(command) == 0 ? 0 : 1;
 }
 
 }  // namespace
 
 int bench(const BenchArguments& arguments) {
-  if (arguments.suite != "seed")
-    throw ConfigError("bench: no suite '" + arguments.suite +
-                      "'; known suites: seed, full, slam, correction, speed, micro, faults, restarts, page, data");
-  Rows rows(arguments.run.source_dir + "/logs/bench/" + arguments.suite + "/rows.jsonl",
-            commit_of(arguments.run.source_dir), arguments.resume);
-  for (const auto& [scenario, minimum] : kMinRepairs) {
-    std::vector<std::int64_t> seeds = arguments.seeds;
-    size_t wanted = seeds.size();
-    for (int spare = 0; spare <= kSpareSeeds; ++spare) {
-      std::vector<Job> todo;
-      size_t counted = 0;
-      for (const std::int64_t seed : seeds) {
-        const nlohmann::json* row = rows.find({scenario, seed});
-        if (row == nullptr) todo.push_back({scenario, seed});
-        if (row != nullptr && counts(*row)) ++counted;
-      }
-      if (todo.empty() && counted >= wanted) break;
-      if (todo.empty()) {
-        seeds.push_back(seeds.back() + 1);
-        continue;
-      }
-      run_jobs(arguments, todo, rows);
-    }
-  }
-  const std::string table = arguments.run.source_dir + "/test/results/" + arguments.suite + ".md";
-  return run_program({arguments.run.bin_dir + "/rover_bench_table", "--suite", arguments.suite, "--rows", rows.file(),
-                      "--out", table, "--command", arguments.command}) == 0
-             ? 0
-             : 1;
+  const Bench bench = make_bench(arguments);
+  Rows rows(bench.level_dir + "/rows.jsonl", commit_of(arguments.run.source_dir), arguments.resume);
+  for (const BenchScenario& scenario : bench.suite.scenarios) run_scenario(bench, scenario, rows);
+  return write_table(bench);
 }
 
 }  // namespace rover

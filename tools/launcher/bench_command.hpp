@@ -1,4 +1,4 @@
-// ./rover bench seed: runs scenarios over seeds and aggregates the results into a table.
+// ./rover bench seed, default: runs scenarios over seeds and aggregates the results into a table.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ namespace rover {
 struct BenchArguments {
   RunArguments run;  // source and bin folders, settings that hold for each run
   std::string suite = "seed";
-  std::vector<std::int64_t> seeds;
+  std::string seeds;    // "1..10" or "1,4,7"; empty: the suite's
   bool resume = false;  // keep the rows that this commit already has
   int jobs = 1;         // parallel runs, each on its own bus
   std::string command;  // as given, for the table

@@ -5,6 +5,8 @@ _rover_values() {
   case $before in
     --level) compgen -W "auto efficient full" -- "$word" && return ;;
     --record) compgen -W "full reduced" -- "$word" && return ;;
+    --engine) compgen -W "parallel slurm" -- "$word" && return ;;
+    --keep) compgen -W "failures all none" -- "$word" && return ;;
     --part) compgen -W "stack rendered" -- "$word" && return ;;
     --run | --out | --config) compgen -d -- "$word" && return ;;
     --channel)
@@ -15,9 +17,14 @@ _rover_values() {
   case $command in
     help) compgen -W "$_ROVER_COMMANDS" -- "$word" ;;
     run) compgen -f -X '!*.yaml' -- "$word"; compgen -d -- "$word"; compgen -f -X '!*.yaml' -- "${word:-$scenarios/}" ;;
+    campaign)
+      [ "$before" != campaign ] || compgen -W "page compare" -- "$word"
+      compgen -f -X '!*.yaml' -- "${word:-$_ROVER_DIR/config/campaigns/}"
+      compgen -d -- "${word:-$_ROVER_DIR/logs/campaigns/}"
+      ;;
     report | spy | repair) compgen -f -- "$word"; compgen -W "${runs[*]%/}" -- "$word" ;;
     plan) compgen -f -- "$word" ;;
-    bench) [ "$before" != bench ] || compgen -W "seed full slam correction speed micro faults restarts page data wild fuzz" -- "$word" ;;
+    bench) [ "$before" != bench ] || compgen -W "default seed full slam correction speed micro faults restarts page data wild fuzz" -- "$word" ;;
     test) compgen -W "unit sanitize" -- "$word" ;;
     inject)
       [ "$before" != inject ] ||

@@ -23,6 +23,12 @@ std::string command_line(int argc, char** argv) {
 void add_run_options(CLI::App& command, rover::RunArguments& run) {
   command.add_option("--level", run.level, "autonomy level: efficient, auto or full; default: the scenario's")
       ->check(CLI::IsMember({"auto", "efficient", "full"}));
+  command
+      .add_option(
+          "--perception", run.perception,
+          "rendered: cameras; geometric: rays with errors like those of stereo, faster; truth: for benches only")
+      ->check(CLI::IsMember({"rendered", "geometric", "truth"}))
+      ->capture_default_str();
   rover::repeatable(
       command.add_option("--set", run.set, "set a value of the configuration: file.key=value, repeatable"));
 }
@@ -130,10 +136,11 @@ int main(int argc, char** argv) {
   add_run_options(*run_command, run);
 
   rover::BenchArguments bench;
-  std::string seeds = "1..10";
   CLI::App* bench_command = app.add_subcommand("bench", "measure. Example: ./rover bench seed --seeds 1..10 --resume");
-  bench_command->add_option("suite", bench.suite, "seed: both seed traverses")->capture_default_str();
-  bench_command->add_option("--seeds", seeds, "a range like 1..10 or a list like 1,4,7")->capture_default_str();
+  bench_command->add_option("suite", bench.suite, "seed: both seed traverses; default: the default scenario")
+      ->capture_default_str();
+  bench_command->add_option("--seeds", bench.seeds,
+                            "a range like 1..10 or a list like 1,4,7; default: 1..10 of seed, 101..140 of default");
   bench_command->add_flag("--resume", bench.resume, "keep the rows that this commit already has");
   bench_command->add_option("--jobs", bench.jobs, "parallel runs")->check(CLI::Range(1, 64))->capture_default_str();
   add_run_options(*bench_command, run);
@@ -174,7 +181,6 @@ int main(int argc, char** argv) {
     if (inject_command->parsed()) return rover::inject(inject);
     if (replay_command->parsed()) return rover::replay_log(replay);
     bench.run = run;
-    bench.seeds = rover::parse_seeds(seeds);
     bench.command = command_line(argc, argv);
     return rover::bench(bench);
   } catch (const rover::ConfigError& error) {

@@ -17,6 +17,7 @@ std::string level_of(const std::string& scenario) try {
 }  // namespace
 
 bool needs_full_level(const RunArguments& run) {
+  if (run.perception != "rendered") return true;
   return (run.level.empty() ? level_of(scenario_file(run)) : run.level) != "efficient";
 }
 

@@ -5,7 +5,9 @@
 #include <fstream>
 #include <lcm/lcm-cpp.hpp>
 #include <nlohmann/json.hpp>
+#include <optional>
 
+#include "common/bus/child_process.hpp"
 #include "common/bus/config.hpp"
 #include "common/bus/interrupt.hpp"
 #include "common/bus/s6_client.hpp"
@@ -81,6 +83,7 @@ void write_run_json(const RunArguments& arguments, const RunFolder& folder) {
                                 {"seed", folder.seed},
                                 {"commit", commit_of(arguments.source_dir)},
                                 {"level", folder.level},
+                                {"perception", arguments.perception},
                                 {"realtime", arguments.realtime},
                                 {"interrupted", !keep_running()}};
   write_json(folder.dir + "/run.json", facts);
@@ -90,6 +93,44 @@ void write_run_json(const RunArguments& arguments, const RunFolder& folder) {
 void write_launch_json(const RunArguments& arguments, const RunFolder& folder) {
   const nlohmann::json facts = {{"bus", folder.bus_url}, {"allow_injection", allows_injection(arguments, folder)}};
   write_json(folder.dir + "/launch.json", facts);
+}
+
+End run_processes(const RunArguments& arguments, const RunFolder& folder) {
+  write_launch_json(arguments, folder);
+  write_s6_tree(folder.dir, service_commands(arguments, folder), allows_injection(arguments, folder));
+  S6Session session(folder, arguments.bin_dir);
+  const End end = wait_for_end(arguments, folder, session);
+  session.stop();
+  return end;
+}
+
+// Without cameras, and without a bus that others could join.
+End run_one_process(const RunArguments& arguments, const RunFolder& folder) {
+  std::vector<std::string> command = {arguments.bin_dir + "/rover_one_process",
+                                      "--config",
+                                      folder.config_dir,
+                                      "--scenario",
+                                      folder.scenario,
+                                      "--run-dir",
+                                      folder.dir,
+                                      "--seed",
+                                      std::to_string(folder.seed),
+                                      "--perception",
+                                      arguments.perception};
+  if (folder.level != "efficient") command.emplace_back("--full");
+  const std::string log = folder.dir + "/service_logs/rover_one_process.log";
+  if (run_into(log, command) == 0) return End::kOver;
+  std::fprintf(stderr, "the run failed; see %s\n", log.c_str());
+  return End::kFailed;
+}
+
+// Faults of processes, channels and images need processes, a bus and images.
+void require_possible(const RunArguments& arguments, const RunFolder& folder) {
+  if (arguments.perception == "rendered") return;
+  const std::string with = "--perception " + arguments.perception + ": ";
+  if (folder.has_faults) throw ConfigError(with + "the scenario has faults, which need --perception rendered");
+  if (arguments.realtime) throw ConfigError(with + "not with --realtime");
+  if (arguments.allow_injection) throw ConfigError(with + "not with --allow-injection");
 }
 
 void print_result(const RunFolder& folder, const nlohmann::json& metrics) {
@@ -117,10 +158,13 @@ RunResult run(const RunArguments& given) {
     result.exit_status = 2;
     return result;
   }
-  const BusLock lock(folder.bus_url);
+  const bool rendered = arguments.perception == "rendered";
+  std::optional<BusLock> lock;
   try {
-    require_programs(services_of(folder), arguments.bin_dir);
-    require_usable_bus(folder.bus_url, lock);
+    require_possible(arguments, folder);
+    if (rendered) lock.emplace(folder.bus_url);
+    require_programs(rendered ? services_of(folder) : std::vector<std::string>{"rover_one_process"}, arguments.bin_dir);
+    if (rendered) require_usable_bus(folder.bus_url, *lock);
   } catch (const ConfigError& error) {
     std::fprintf(stderr, "%s\n", error.what());
     remove_run_folder(folder);
@@ -130,17 +174,10 @@ RunResult run(const RunArguments& given) {
   result.dir = folder.dir;
   catch_interrupts();
   if (!arguments.quiet) std::printf("run: %s\n", folder.dir.c_str());
-  if (const std::string line = page_line(folder.config_dir); !arguments.quiet && !line.empty())
+  if (const std::string line = page_line(folder.config_dir); rendered && !arguments.quiet && !line.empty())
     std::printf("%s\n", line.c_str());
   for (const std::string& note : folder.map_notes) std::printf("%s\n", note.c_str());
-  write_launch_json(arguments, folder);
-  write_s6_tree(folder.dir, service_commands(arguments, folder), allows_injection(arguments, folder));
-  End end = End::kFailed;
-  {
-    S6Session session(folder, arguments.bin_dir);
-    end = wait_for_end(arguments, folder, session);
-    session.stop();
-  }
+  const End end = rendered ? run_processes(arguments, folder) : run_one_process(arguments, folder);
   if (end != End::kOver) {
     const auto failed = failed_services(folder.dir);
     if (!failed.empty()) report_failure(failed.front(), arguments, folder);

@@ -24,6 +24,8 @@ std::string text_at(const nlohmann::json& row, const char* key) {
 BenchRow row_from(const nlohmann::json& row) {
   BenchRow out;
   out.commit = text_at(row, "commit");
+  out.command = text_at(row, "command");
+  out.level = text_at(row, "level");
   out.scenario = row.at("scenario").get<std::string>();
   out.seed = row.at("seed").get<std::int64_t>();
   out.deterministic = row.contains("deterministic") && row["deterministic"] == true;
@@ -31,6 +33,11 @@ BenchRow row_from(const nlohmann::json& row) {
   out.planned_length_m = number_at(row, "planned_length_m");
   out.driven_length_m = number_at(row, "driven_length_m");
   out.path_ratio = number_at(row, "path_ratio");
+  out.oracle_m = number_at(row, "oracle_m");
+  out.regret = number_at(row, "regret");
+  if (const auto feasible = row.find("oracle_feasible"); feasible != row.end() && feasible->is_boolean())
+    out.oracle_feasible = feasible->get<bool>();
+  out.progress = number_at(row, "progress");
   out.replans = number_at(row, "replans");
   out.hazard_stops = number_at(row, "hazard_stops");
   out.collisions = number_at(row, "collisions");
@@ -46,9 +53,10 @@ BenchRow row_from(const nlohmann::json& row) {
   out.duty = number_at(row, "duty");
   out.realtime_factor = number_at(row, "realtime_factor");
   out.duration_s = number_at(row, "duration_s");
-  out.point_turn_s = number_at(row, "point_turn_s");
-  if (const auto states = row.find("time_in_state_s"); states != row.end() && states->is_object())
-    out.time_in_state_s = states->get<std::map<std::string, double>>();
+  out.reverse_m = number_at(row, "reverse_m");
+  out.hazard_clearance_m = number_at(row, "hazard_clearance_m");
+  if (const auto seconds = row.find("seconds"); seconds != row.end() && seconds->is_object())
+    out.seconds = seconds->get<std::map<std::string, double>>();
   return out;
 }
 

@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
+#include <string_view>
 #include <tuple>
+
+#include "tools/report/bench_figures.hpp"
 
 namespace rover::report {
 namespace {
@@ -23,18 +27,7 @@ struct PaperTraverse {
 const std::map<std::string, PaperTraverse> kPaper = {{"seed_traverse_1", {5, "86.0", "", "", "6"}},
                                                      {"seed_traverse_2", {8, "62.2", "", "", "10"}}};
 
-std::string decimal(double value, int decimals) {
-  return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "n/a";
-}
-
-using Rows = std::vector<BenchRow>;
-using RowFigure = std::function<double(const BenchRow&)>;
-
-std::vector<double> values(const Rows& rows, const RowFigure& figure) {
-  std::vector<double> out;
-  for (const BenchRow& row : rows) out.push_back(figure(row));
-  return out;
-}
+using Rows = BenchRows;
 
 bool is_seed_traverse(const BenchRow& row) {
   return kPaper.contains(row.scenario);
@@ -53,24 +46,6 @@ Rows counted(const Rows& rows) {
   for (const BenchRow& row : sorted)
     if (++of_scenario[row.scenario] <= kRunsOfEach) taken.push_back(row);
   return taken;
-}
-
-// An unknown (NaN) metric never meets a requirement.
-Gate all_gate(const Rows& rows, const std::string& requirement, int decimals, const RowFigure& figure,
-              const std::function<bool(const BenchRow&, double)>& met) {
-  Gate gate{requirement, "", !rows.empty()};
-  double worst = -kInfinity;
-  int failed = 0;
-  for (const BenchRow& row : rows) {
-    const double value = figure(row);
-    const bool good = std::isfinite(value) && met(row, value);
-    failed += good ? 0 : 1;
-    if (std::isfinite(value)) worst = std::max(worst, value);
-  }
-  gate.met = gate.met && failed == 0;
-  gate.measured = fmt::format("maximum {}{}", decimal(worst, decimals),
-                              failed > 0 ? fmt::format(", {} of {} runs fail", failed, rows.size()) : "");
-  return gate;
 }
 
 Gate median_gate(const Rows& rows, const std::string& requirement, int decimals, const RowFigure& figure, double most) {
@@ -93,40 +68,26 @@ double sum(const Rows& rows, const RowFigure& figure) {
   return total;
 }
 
-std::string row_line(const BenchRow& row) {
-  return fmt::format(
-      "| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", row.scenario,
-      row.seed, row.outcome, decimal(row.planned_length_m, 1), decimal(row.driven_length_m, 1),
-      decimal(row.path_ratio, 3), decimal(row.replans, 0), decimal(row.hazard_stops, 0), decimal(row.collisions, 0),
-      decimal(row.rocks_missed, 0) + " / " + decimal(row.rocks_encountered, 0), decimal(row.false_stops, 0),
-      decimal(row.odometry_drift_percent, 2), decimal(row.cross_track_rms_m, 3), decimal(row.final_error_m, 2),
-      decimal(row.mean_speed_m_per_h, 0), decimal(row.duty, 3), decimal(row.realtime_factor, 1),
-      row.deterministic ? "yes" : "no");
-}
-
-constexpr char kHead[] =
-    "| scenario | seed | outcome | planned [m] | driven [m] | ratio | repairs | hazard stops | collisions | rocks "
-    "missed / encountered | false stops | drift [%] | cross-track rms [m] | final error [m] | speed [m/h] | duty | x "
-    "real time "
-    "| deterministic |\n"
-    "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
-
-std::string median_line(const std::string& scenario, const Rows& rows) {
-  const auto mid = [&](const RowFigure& figure, int decimals) {
-    return decimal(median(values(rows, figure)), decimals);
-  };
-  return fmt::format(
-      "| **{}** | **median of {}** | | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | |\n",
-      scenario, rows.size(), mid([](const BenchRow& r) { return r.planned_length_m; }, 1),
-      mid([](const BenchRow& r) { return r.driven_length_m; }, 1),
-      mid([](const BenchRow& r) { return r.path_ratio; }, 3), mid([](const BenchRow& r) { return r.replans; }, 0),
-      mid([](const BenchRow& r) { return r.hazard_stops; }, 0), mid([](const BenchRow& r) { return r.collisions; }, 0),
-      mid([](const BenchRow& r) { return r.rocks_missed; }, 0), mid([](const BenchRow& r) { return r.false_stops; }, 0),
-      mid([](const BenchRow& r) { return r.odometry_drift_percent; }, 2),
-      mid([](const BenchRow& r) { return r.cross_track_rms_m; }, 3),
-      mid([](const BenchRow& r) { return r.final_error_m; }, 2),
-      mid([](const BenchRow& r) { return r.mean_speed_m_per_h; }, 0), mid([](const BenchRow& r) { return r.duty; }, 3),
-      mid([](const BenchRow& r) { return r.realtime_factor; }, 1));
+const std::vector<BenchColumn>& seed_columns() {
+  static const std::vector<BenchColumn> kColumns = {{"planned [m]", 1, &BenchRow::planned_length_m},
+                                                    {"driven [m]", 1, &BenchRow::driven_length_m},
+                                                    {"ratio", 3, &BenchRow::path_ratio},
+                                                    {"oracle [m]", 1, &BenchRow::oracle_m},
+                                                    {"regret", 3, &BenchRow::regret},
+                                                    {"progress", 3, &BenchRow::progress},
+                                                    {"duty", 3, &BenchRow::duty},
+                                                    {"repairs", 0, &BenchRow::replans},
+                                                    {"hazard stops", 0, &BenchRow::hazard_stops},
+                                                    {"false stops", 0, &BenchRow::false_stops},
+                                                    {"collisions", 0, &BenchRow::collisions},
+                                                    {"rocks encountered", 0, &BenchRow::rocks_encountered},
+                                                    {"rocks missed", 0, &BenchRow::rocks_missed},
+                                                    {"drift [%]", 2, &BenchRow::odometry_drift_percent},
+                                                    {"cross-track rms [m]", 3, &BenchRow::cross_track_rms_m},
+                                                    {"final error [m]", 2, &BenchRow::final_error_m},
+                                                    {"speed [m/h]", 0, &BenchRow::mean_speed_m_per_h},
+                                                    {"x real time", 1, &BenchRow::realtime_factor}};
+  return kColumns;
 }
 
 Rows of_scenario(const Rows& rows, const std::string& scenario) {
@@ -160,24 +121,6 @@ std::string paper_table(const Rows& runs) {
                            decimal(sum(runs, [](const BenchRow& r) { return r.replans; }), 0));
 }
 
-// Time in each state, which limits the duty cycle, and losses by point turns and slow ground while driving.
-std::string time_lines(const Rows& runs) {
-  std::map<std::string, double> spent;
-  double total = 0.0;
-  double turning = 0.0;
-  for (const BenchRow& row : runs) {
-    if (!std::isfinite(row.duration_s)) continue;
-    total += row.duration_s;
-    turning += std::isfinite(row.point_turn_s) ? row.point_turn_s : 0.0;
-    for (const auto& [state, seconds] : row.time_in_state_s) spent[state] += seconds;
-  }
-  if (total <= 0.0) return "";
-  std::string out = "\nTime by state:";
-  for (const auto& [state, seconds] : spent)
-    if (seconds > 0.0) out += fmt::format(" {} {} %,", state, decimal(100.0 * seconds / total, 1));
-  return out + fmt::format(" of which point turns {} %.\n", decimal(100.0 * turning / total, 1));
-}
-
 }  // namespace
 
 int min_repairs(const std::string& scenario) {
@@ -189,14 +132,6 @@ bool counts(const BenchRow& row) {
   // A failed run always counts, however few repairs it has.
   const bool failed = row.outcome != "goal_reached" || !(row.collisions == 0.0) || !(row.rocks_missed == 0.0);
   return failed || row.replans >= min_repairs(row.scenario);
-}
-
-double median(std::vector<double> values) {
-  std::erase_if(values, [](double v) { return !std::isfinite(v); });
-  if (values.empty()) return kNaN;
-  std::sort(values.begin(), values.end());
-  const size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
 }
 
 std::vector<Gate> seed_gates(const std::vector<BenchRow>& all) {
@@ -236,43 +171,54 @@ std::vector<Gate> seed_gates(const std::vector<BenchRow>& all) {
 }
 
 std::vector<BenchRow> newest_rows(const std::vector<BenchRow>& rows) {
-  std::map<std::pair<std::string, std::int64_t>, BenchRow> last;
+  std::map<std::string, std::string> commit_of_level;
+  for (const BenchRow& row : rows) commit_of_level[row.level] = row.commit;
+  std::map<std::tuple<std::string, std::string, std::int64_t>, BenchRow> last;
   for (const BenchRow& row : rows)
-    if (row.commit == rows.back().commit) last[{row.scenario, row.seed}] = row;
+    if (row.commit == commit_of_level[row.level]) last[{row.level, row.scenario, row.seed}] = row;
   Rows out;
   for (const auto& [key, row] : last) out.push_back(row);
   return out;
 }
 
-std::string bench_table(const BenchContext& context, const std::vector<BenchRow>& all) {
-  const Rows rows = newest_rows(all);
+std::string bench_table(const BenchContext& context, const std::vector<BenchRow>& rows) {
   const Rows runs = counted(rows);
   std::string out =
       fmt::format("# Bench `{}`\n\n- commit: `{}`\n- machine: {}, {} cores\n- command: `{}`\n\n", context.suite,
                   rows.empty() ? "none" : rows.front().commit, context.cpu_model, context.cores, context.command);
-  out += "## Requirements\n\n| requirement | measured | met |\n|---|---|---|\n";
-  for (const Gate& gate : seed_gates(rows))
-    out += fmt::format("| {} | {} | {} |\n", gate.requirement, gate.measured, gate.met ? "yes" : "**no**");
-  out += fmt::format("\nMean speed, median: {} m/h.\n",
-                     decimal(median(values(runs, [](const BenchRow& r) { return r.mean_speed_m_per_h; })), 0));
-  out += time_lines(runs);
+  out += "## Requirements\n\n" + gates_table(seed_gates(rows));
+  const auto mid = [&](const RowFigure& figure, int decimals) {
+    return decimal(median(values(runs, figure)), decimals);
+  };
+  out += fmt::format("\nMedian progress {}, regret {}, duty {}, mean speed {} m/h.\n\nTime by cause [%]: {}.\n",
+                     mid(&BenchRow::progress, 3), mid(&BenchRow::regret, 3), mid(&BenchRow::duty, 3),
+                     mid(&BenchRow::mean_speed_m_per_h, 0), time_by_cause(runs));
   out +=
       "\nRuns share the machine when there is more than one at a time; real time is measured by `./rover bench "
       "speed`.\n";
-  out += "\n## Comparison with the paper\n\n" + paper_table(runs) + "\n## Runs\n\n" + kHead;
-  for (const BenchRow& row : runs) out += row_line(row);
-  for (const auto& [scenario, paper] : kPaper) out += median_line(scenario, of_scenario(runs, scenario));
+  out += "\n## Comparison with the paper\n\n" + paper_table(runs) + "\n## Runs\n\n" + runs_head(seed_columns());
+  for (const BenchRow& row : runs) out += run_line(row, seed_columns());
+  for (const auto& [scenario, paper] : kPaper)
+    out += median_line(scenario, of_scenario(runs, scenario), seed_columns());
   std::string others;
   for (const BenchRow& row : rows) {
     const auto same = [&](const BenchRow& run) { return run.scenario == row.scenario && run.seed == row.seed; };
-    if (std::none_of(runs.begin(), runs.end(), same)) others += row_line(row);
+    if (std::none_of(runs.begin(), runs.end(), same)) others += run_line(row, seed_columns());
   }
   if (!others.empty())
     out +=
         "\n## Not counted\n\nReached the goal with fewer repairs than required (first traverse 5, second 8), or "
         "beyond the first ten that count.\n\n" +
-        std::string(kHead) + others;
+        runs_head(seed_columns()) + others;
   return out;
+}
+
+const BenchSuite* find_suite(const std::string& name) {
+  static constexpr std::array kSuites = {BenchSuite{"seed", bench_table, seed_gates},
+                                         BenchSuite{"default", success_table, success_gates}};
+  const auto suite = std::find_if(kSuites.begin(), kSuites.end(),
+                                  [&](const BenchSuite& known) { return std::string_view(known.name) == name; });
+  return suite == kSuites.end() ? nullptr : &*suite;
 }
 
 }  // namespace rover::report

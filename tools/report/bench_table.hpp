@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,13 +14,19 @@ namespace rover::report {
 // Metrics of one run; NaN: unknown.
 struct BenchRow {
   std::string commit;
+  std::string command;  // that made the row
   std::string scenario;
+  std::string level;
   std::int64_t seed = 0;
   bool deterministic = false;
   std::string outcome;
   double planned_length_m = kNaN;
   double driven_length_m = kNaN;
   double path_ratio = kNaN;
+  double oracle_m = kNaN;
+  double regret = kNaN;
+  std::optional<bool> oracle_feasible;
+  double progress = kNaN;
   double replans = kNaN;
   double hazard_stops = kNaN;
   double collisions = kNaN;
@@ -34,8 +41,9 @@ struct BenchRow {
   double duty = kNaN;
   double realtime_factor = kNaN;
   double duration_s = kNaN;
-  double point_turn_s = kNaN;
-  std::map<std::string, double> time_in_state_s;
+  double reverse_m = kNaN;
+  double hazard_clearance_m = kNaN;
+  std::map<std::string, double> seconds;  // by cause
 };
 
 struct BenchContext {
@@ -57,9 +65,23 @@ struct Gate {
   bool met = false;
 };
 std::vector<Gate> seed_gates(const std::vector<BenchRow>& rows);
+std::vector<Gate> success_gates(const std::vector<BenchRow>& rows);
 
-// Uses only rows with the commit of the last row; of rows with the same seed, the last one.
+// Of each level the rows with the commit of its last row; of rows with the same seed, the last one.
 std::vector<BenchRow> newest_rows(const std::vector<BenchRow>& rows);
+
+// Beside the paper's field test: the first ten valid runs of each traverse.
 std::string bench_table(const BenchContext& context, const std::vector<BenchRow>& rows);
+// How often the goal is reached on seeds that nobody selected, one section per level.
+std::string success_table(const BenchContext& context, const std::vector<BenchRow>& rows);
+
+// A benchmark of drives over seeds. `rows` of both functions: newest_rows().
+struct BenchSuite {
+  const char* name;
+  std::string (*table)(const BenchContext& context, const std::vector<BenchRow>& rows);
+  std::vector<Gate> (*gates)(const std::vector<BenchRow>& rows);
+};
+// Null if there is none of this name.
+const BenchSuite* find_suite(const std::string& name);
 
 }  // namespace rover::report

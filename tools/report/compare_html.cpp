@@ -14,11 +14,15 @@ namespace {
 
 enum class Better { kLower, kHigher, kNeither };
 
-struct Figure {
+struct FigureText {
   const char* what;
   const char* unit;
   int decimals;
   Better better;
+};
+
+struct Figure {
+  FigureText text;
   double (*of)(const Metrics& m);
 };
 
@@ -31,14 +35,20 @@ const Figure kFigures[] = {
     {"Planned path", "m", 1, Better::kNeither, [](const Metrics& m) { return m.planned_length_m; }},
     {"Driven", "m", 1, Better::kNeither, [](const Metrics& m) { return m.driven_length_m; }},
     {"Driven / planned", "", 3, Better::kLower, [](const Metrics& m) { return m.path_ratio; }},
+    {"Shortest drivable path", "m", 1, Better::kNeither, [](const Metrics& m) { return m.oracle_m; }},
+    {"Regret: driven / shortest drivable", "", 3, Better::kLower, [](const Metrics& m) { return m.regret; }},
     {"Duration of the drive", "s", 0, Better::kLower, [](const Metrics& m) { return m.duration_s; }},
+    {"Progress: planned / (0.2 m/s x time)", "%", 1, Better::kHigher,
+     [](const Metrics& m) { return 100.0 * m.progress; }},
     {"Duty: driven / (0.2 m/s x time)", "%", 1, Better::kHigher, [](const Metrics& m) { return 100.0 * m.duty; }},
-    {"Time in point turns", "s", 1, Better::kLower, [](const Metrics& m) { return m.point_turn_s; }},
+    {"Driven in reverse", "m", 1, Better::kLower, [](const Metrics& m) { return m.reverse_m; }},
     {"Repairs", "", 0, Better::kLower, [](const Metrics& m) { return 1.0 * m.replans; }},
     {"Hazard stops", "", 0, Better::kLower, [](const Metrics& m) { return 1.0 * m.hazard_stops; }},
     {"False stops or repairs", "", 0, Better::kLower, [](const Metrics& m) { return known(m.false_stops); }},
     {"Collisions", "", 0, Better::kLower, [](const Metrics& m) { return 1.0 * m.collisions; }},
     {"Minimum clearance", "m", 2, Better::kHigher, [](const Metrics& m) { return m.min_clearance_m; }},
+    {"Closest approach of a wheel to a hazard", "m", 2, Better::kHigher,
+     [](const Metrics& m) { return m.hazard_clearance_m; }},
     {"Rocks encountered", "", 0, Better::kNeither, [](const Metrics& m) { return known(m.rocks_encountered); }},
     {"Rocks missed", "", 0, Better::kLower, [](const Metrics& m) { return known(m.rocks_missed); }},
     {"Cross-track error, rms", "m", 3, Better::kLower, [](const Metrics& m) { return m.cross_track_rms_m; }},
@@ -62,9 +72,7 @@ const char* mark(Better better, double mine, double other) {
 }
 
 // Equal when both print the same digits.
-std::string figure_row(const Figure& figure, const Metrics& a, const Metrics& b) {
-  const double of_a = figure.of(a);
-  const double of_b = figure.of(b);
+std::string figure_row(const FigureText& figure, double of_a, double of_b) {
   const std::string text_a = shown(of_a, figure.decimals, figure.unit);
   const std::string text_b = shown(of_b, figure.decimals, figure.unit);
   const bool same = text_a == text_b;
@@ -75,7 +83,20 @@ std::string figure_row(const Figure& figure, const Metrics& a, const Metrics& b)
                      same ? "" : mark(figure.better, of_b, of_a), text_b, change);
 }
 
-std::string title_of(const ComparedRun& run) {
+// Seconds by cause, without those that neither run has.
+std::string time_rows(const TimeAccount& a, const TimeAccount& b) {
+  std::string out;
+  for (int i = 0; i < kTimeCauses; ++i) {
+    const auto cause = static_cast<TimeCause>(i);
+    const std::string what = fmt::format("Time: {}", title_of(cause));
+    const bool travels = cause == TimeCause::kStraight || cause == TimeCause::kCurve;
+    if (a.of(cause) > 0.0 || b.of(cause) > 0.0)
+      out += figure_row({what.c_str(), "s", 1, travels ? Better::kNeither : Better::kLower}, a.of(cause), b.of(cause));
+  }
+  return out;
+}
+
+std::string heading(const ComparedRun& run) {
   return fmt::format(
       "<div><h2>{}</h2><div class=\"meta\">{} &middot; {}</div><p><span class=\"badge {}\">{}</span></p></div>\n",
       escaped(run.name), escaped(run.metrics.info.scenario), run_facts(run.metrics.info),
@@ -87,8 +108,8 @@ std::string figures_section(const ComparedRun& a, const ComparedRun& b) {
       "<h2>Metrics</h2><table><tr><th></th><th class=\"n\">A: {}</th><th class=\"n\">B: {}</th><th class=\"n\">B - "
       "A</th></tr>\n",
       escaped(a.name), escaped(b.name));
-  for (const Figure& figure : kFigures) out += figure_row(figure, a.metrics, b.metrics);
-  return out + "</table>\n";
+  for (const Figure& figure : kFigures) out += figure_row(figure.text, figure.of(a.metrics), figure.of(b.metrics));
+  return out + time_rows(a.metrics.time, b.metrics.time) + "</table>\n";
 }
 
 std::string service_cells(const Metrics& m, const std::string& name) {
@@ -146,7 +167,7 @@ std::string pair(const std::string& of_a, const std::string& of_b) {
 
 std::string compare_html(const ComparedRun& a, const ComparedRun& b,
                          const std::vector<ConfigDifference>& configuration) {
-  std::string body = "<h1>Comparison of two runs</h1><div class=\"pair\">" + title_of(a) + title_of(b) + "</div>\n";
+  std::string body = "<h1>Comparison of two runs</h1><div class=\"pair\">" + heading(a) + heading(b) + "</div>\n";
   body += layered_maps(pair(a.pictures.map, b.pictures.map));
   body += figures_section(a, b) + compared_services(a, b);
   body += "<h2>Over driven distance [m]</h2><section class=\"plots\">\n";

@@ -18,6 +18,8 @@ Following following_of(std::int8_t state) {
       return Following::kPointTurn;
     case control_status_t::IDLE:
       return Following::kIdle;
+    case control_status_t::PATH_END:
+      return Following::kPathEnd;
     default:
       return Following::kOther;
   }
@@ -27,6 +29,28 @@ std::string response_name(std::int8_t response) {
   static const std::array kNames = {"log", "slow", "stop", "stop_replan", "restart_service", "safe", "stop_backtrack"};
   const auto index = static_cast<size_t>(response);
   return index < kNames.size() ? kNames[index] : "unknown";
+}
+
+// Empty if the message contradicts itself.
+template <class Message, class StateOf>
+std::optional<PassabilityMap> passability_map(const Message& message, StateOf&& state_of) {
+  constexpr double kMinCellM = 0.01;
+  constexpr double kMaxCellM = 10.0;
+  constexpr double kMaxOriginM = 1e6;
+  const bool placed = message.cell_m >= kMinCellM && message.cell_m <= kMaxCellM &&
+                      std::abs(message.origin_x_m) < kMaxOriginM && std::abs(message.origin_y_m) < kMaxOriginM;
+  if (!placed || message.cells_x <= 0 || message.cells_y <= 0 || message.size != message.cells_x * message.cells_y)
+    return std::nullopt;
+  PassabilityMap map{to_seconds(message.header.utime),
+                     message.cell_m,
+                     message.origin_x_m,
+                     message.origin_y_m,
+                     message.cells_x,
+                     message.cells_y,
+                     {}};
+  map.cells.reserve(message.cells.size());
+  for (const std::uint8_t cell : message.cells) map.cells.push_back(state_of(cell));
+  return map;
 }
 
 }  // namespace
@@ -43,8 +67,10 @@ TruthSample truth_from(const truth_t& message) {
 }
 
 PoseSample pose_from(const pose_t& message) {
+  const Eigen::Array3i planar(0, 1, 5);  // x, y, yaw
   return {to_seconds(message.header.utime), rover::pose_from(message.position_odom_body_m, message.quat_odom_body_wxyz),
-          rover::pose_from(message.position_map_odom_m, message.quat_map_odom_wxyz)};
+          rover::pose_from(message.position_map_odom_m, message.quat_map_odom_wxyz),
+          matrix6_from(message.covariance)(planar, planar)};
 }
 
 VisualSample visual_from(const vo_motion_t& message) {
@@ -61,6 +87,8 @@ WheelSample wheels_from(const wheel_state_t& message) {
   WheelSample sample;
   sample.t_s = to_seconds(message.header.utime);
   std::copy_n(message.drive_current_a, 6, sample.current_a.begin());
+  std::copy_n(message.drive_rate_radps, 6, sample.rate_radps.begin());
+  std::copy_n(message.steer_angle_rad, 4, sample.steer_rad.begin());
   return sample;
 }
 
@@ -104,6 +132,20 @@ HazardMap hazards_from(const hazards_t& message) {
     map.cells.push_back({p, cell == hazards_t::HOLE});
   }
   return map;
+}
+
+std::optional<PassabilityMap> passability_from(const hazards_t& message) {
+  return passability_map(message, [](std::uint8_t cell) {
+    if (cell == hazards_t::OBSTACLE || cell == hazards_t::HOLE) return PassabilityMap::kImpassable;
+    return cell == hazards_t::FREE ? PassabilityMap::kPassable : PassabilityMap::kUnseen;
+  });
+}
+
+std::optional<PassabilityMap> passability_from(const traversability_t& message) {
+  return passability_map(message, [](std::uint8_t cell) {
+    if (cell == traversability_t::UNKNOWN) return PassabilityMap::kUnseen;
+    return cell == traversability_t::IMPASSABLE ? PassabilityMap::kImpassable : PassabilityMap::kPassable;
+  });
 }
 
 PlannerSample planner_from(const planner_status_t& message) {

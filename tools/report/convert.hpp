@@ -1,6 +1,7 @@
 // Converts messages to the run record.
 #pragma once
 
+#include <optional>
 #include <rover/control_status_t.hpp>
 #include <rover/correction_t.hpp>
 #include <rover/drive_permit_t.hpp>
@@ -13,6 +14,7 @@
 #include <rover/slam_pose_t.hpp>
 #include <rover/slip_t.hpp>
 #include <rover/supervisor_state_t.hpp>
+#include <rover/traversability_t.hpp>
 #include <rover/truth_t.hpp>
 #include <rover/vo_motion_t.hpp>
 #include <rover/wheel_state_t.hpp>
@@ -30,6 +32,9 @@ SlipSample slip_from(const slip_t& message);
 StateChange state_from(const supervisor_state_t& message);
 PathRecord path_from(const path_t& message);
 HazardMap hazards_from(const hazards_t& message);
+// Empty if the message contradicts itself. MARGIN is kUnseen: it covers measured and hidden ground.
+std::optional<PassabilityMap> passability_from(const hazards_t& message);
+std::optional<PassabilityMap> passability_from(const traversability_t& message);
 PlannerSample planner_from(const planner_status_t& message);
 FaultRecord fault_from(const fault_t& message);
 CorrectionRecord correction_from(const correction_t& message);

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/report/fidelity_section.hpp"
 #include "tools/report/html_parts.hpp"
 #include "tools/report/map_layers.hpp"
 #include "tools/report/no_truth.hpp"
 #include "tools/report/svg.hpp"
+#include "tools/report/time_section.hpp"
 #include "tools/report/trajectory_section.hpp"
 
 namespace rover::report {
@@ -30,8 +32,11 @@ std::string card(const std::string& value, const std::string& what, const std::s
 std::string cards(const Metrics& m) {
   std::string out = "<section class=\"cards\">\n";
   out += card(shown(m.driven_length_m, 1, "m"), fmt::format("driven, {} planned", shown(m.planned_length_m, 1, "m")));
-  out += card(shown(m.path_ratio, 3), "driven / planned");
-  out += card(shown(m.mean_speed_m_per_h, 0, "m/h"), fmt::format("mean speed, duty {}", shown(100.0 * m.duty, 0, "%")));
+  out +=
+      card(shown(m.path_ratio, 3), fmt::format("driven / planned; driven / shortest drivable {}", shown(m.regret, 3)));
+  out +=
+      card(shown(100.0 * m.progress, 0, "%"),
+           fmt::format("progress; {}, duty {}", shown(m.mean_speed_m_per_h, 0, "m/h"), shown(100.0 * m.duty, 0, "%")));
   out += card(shown(m.duration_s, 0, "s"), fmt::format("{} times real time", shown(m.realtime_factor, 1)));
   out += card(std::to_string(m.replans), fmt::format("repairs; hazard stops: {}", m.hazard_stops));
   out += card(has_truth(m) ? std::to_string(m.collisions) : "n/a",
@@ -73,6 +78,7 @@ std::string comparison_table(const Metrics& m) {
       {"Repairs", fmt::format("{} on {}", m.replans, shown(m.planned_length_m, 1, "m")), paper_repairs(m), ""},
       {"Repairs per metre", shown(m.replans_per_m, 3), "0.11", ""},
       {"Odometry drift", shown(m.odometry_drift_percent, 2, "%"), "1 - 2 %", "1.25 % over 100 m"},
+      {"Progress: planned / (0.2 m/s x time)", shown(100.0 * m.progress, 1, "%"), "", ""},
       {"Duty: driven / (0.2 m/s x time)", shown(100.0 * m.duty, 1, "%"), "", "62 %, Perseverance's best sol"},
       {"Cross-track error, rms", shown(m.cross_track_rms_m, 3, "m"), "", ""},
   };
@@ -104,7 +110,7 @@ std::string figures_table(const Metrics& m) {
       {"Pitch: maximum, rms", shown(m.max_pitch_deg, 1) + ", " + shown(m.rms_pitch_deg, 1, "deg")},
       {"Wheel slip, mean", shown(100.0 * m.mean_slip, 1, "%")},
       {"Drive current: mean, maximum", shown(m.mean_abs_current_a, 2) + ", " + shown(m.max_current_a, 2, "A")},
-      {"Time in point turns", shown(m.point_turn_s, 1, "s")},
+      {"Closest approach of a wheel to a hazard", shown(m.hazard_clearance_m, 2, "m")},
       {"Stereo coverage of the region of interest, mean", shown(100.0 * m.hazard_coverage_mean, 1, "%")},
       {"Hazard maps: total, without coverage",
        fmt::format("{}, {}", m.hazard_frames, m.hazard_frames_without_coverage)},
@@ -276,11 +282,12 @@ std::string report_html(const Scene& scene, const Pictures& pictures,
                         const std::vector<std::pair<std::string, std::string>>& configuration) {
   const Metrics& m = scene.evaluation.metrics;
   std::string body = header(m) + cards(m) + layered_maps(pictures.map);
-  body += full_section(m, pictures) + trajectory_section(m) + comparison_table(m) + events_section(scene, pictures);
+  body += time_section(m) + full_section(m, pictures) + trajectory_section(m) + comparison_table(m) +
+          events_section(scene, pictures);
   body += "<h2>Over driven distance [m]</h2><section class=\"plots\">\n";
   for (const std::string& plot : pictures.plots) body += plot;
   body += pictures.states + "</section>\n";
-  body += figures_table(m) + events_section(scene) + faults_section(m) + services_section(m) +
+  body += fidelity_section(m) + figures_table(m) + events_section(scene) + faults_section(m) + services_section(m) +
           configuration_section(configuration);
   return document("Traverse: " + m.info.scenario, body);
 }

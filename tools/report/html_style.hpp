@@ -32,6 +32,12 @@ svg{max-width:100%;height:auto;display:block}
 .map>input:focus-visible+label{outline:2px solid #1458b8;outline-offset:2px}
 .slope-key{display:none;font-size:12px;color:var(--muted)}#show-slope:checked~.slope-key{display:inline}
 .slope-key i{display:inline-block;width:14px;height:11px;margin:0 4px 0 10px}
+.timebar{display:flex;height:26px;border-radius:4px;overflow:hidden}.timebar i{flex:0 0 0;min-width:0}
+.timekey{columns:3;column-gap:44px;margin:12px 0 8px;font-size:13.5px}
+.timekey div{display:flex;align-items:baseline;gap:9px;padding:4px 0;border-bottom:1px solid var(--line);break-inside:avoid}
+.timekey i{flex:none;width:12px;height:12px;border-radius:2px;align-self:center}.timekey span{flex:1}
+.timekey b,.timekey em{font-variant-numeric:tabular-nums}.timekey em{font-style:normal;min-width:52px;text-align:right}
+.timekey .none{color:var(--muted)}.timekey .none i{opacity:.35}.timekey .none b{font-weight:400}
 figure{margin:0}figure svg+svg{margin-top:6px}
 td.load{background:linear-gradient(to left,#cfe0f5 var(--load),transparent var(--load)) no-repeat}
 .pair{display:grid;grid-template-columns:1fr 1fr;gap:18px 26px}.pair>*{min-width:0}
@@ -49,14 +55,14 @@ td+td.good,td+td.bad,th:last-child:not(.n){padding-left:14px}td.good{color:var(-
 details{margin:8px 0}summary{cursor:pointer;font-weight:600;font-size:14px}
 pre{background:var(--soft);padding:12px 14px;font-size:12px;line-height:1.45;overflow-x:auto;border-radius:4px;
  font-family:"DejaVu Sans Mono",Menlo,Consolas,monospace;white-space:pre-wrap}
-@media(max-width:820px){.cards{grid-template-columns:repeat(2,1fr)}main{padding:22px 16px}.gallery{grid-template-columns:1fr 1fr}.two{grid-template-columns:1fr}
+@media(max-width:820px){.cards{grid-template-columns:repeat(2,1fr)}main{padding:22px 16px}.gallery{grid-template-columns:1fr 1fr}.two{grid-template-columns:1fr}.timekey{columns:1}
  header{flex-direction:column}}
 @media print{@page{size:A4;margin:12mm}body{background:#fff;font-size:11.5px}main{max-width:none;padding:0}
  *{-webkit-print-color-adjust:exact;print-color-adjust:exact}
  .map>label{display:none}header{flex-direction:row}.two{grid-template-columns:1fr 1fr;gap:0 24px}
  h2{break-after:avoid;margin-top:24px}svg,tr,.card,figure{break-inside:avoid}.cards{grid-template-columns:repeat(5,1fr)}
  .card b{font-size:17px}.card span{font-size:10.5px}table{font-size:10.5px}.meta{font-size:10.5px}
- .gallery{grid-template-columns:repeat(3,1fr);gap:12px 14px}
+ .timekey{columns:3;column-gap:8mm;font-size:10px}.gallery{grid-template-columns:repeat(3,1fr);gap:12px 14px}
  details::details-content{content-visibility:visible;display:block}
  .configuration{break-before:page;columns:2;column-gap:8mm}.configuration h2{column-span:all}
  summary{list-style:none;break-after:avoid;font-size:10.5px}pre{font-size:7px;line-height:1.35;padding:6px 8px}}

@@ -61,7 +61,13 @@ class Reader {
     take<supervisor_state_t>(channel::kState, [this](const supervisor_state_t& m) { add_state(m); });
     take<path_t>(channel::kGlobalPath, [this](const path_t& m) { run_.global_paths.push_back(path_from(m)); });
     take<path_t>(channel::kPath, [this](const path_t& m) { add_path(path_from(m)); });
-    take<hazards_t>(channel::kHazards, [this](const hazards_t& m) { run_.hazards.push_back(hazards_from(m)); });
+    take<hazards_t>(channel::kHazards, [this](const hazards_t& m) {
+      run_.hazards.push_back(hazards_from(m));
+      add_map(passability_from(m), run_.hazard_maps);
+    });
+    take<traversability_t>(channel::kTraversability, [this](const traversability_t& m) {
+      add_map(passability_from(m), run_.traversability_maps);
+    });
     take<drive_permit_t>(channel::kDrivePermit, [this](const drive_permit_t& m) {
       if (m.granted) run_.permits.push_back({to_seconds(m.header.release_utime), to_seconds(m.valid_until_utime)});
     });
@@ -117,6 +123,9 @@ class Reader {
     if (message.status == pose_t::UNINITIALISED || message.status == pose_t::LOST) return;
     const PoseSample sample = pose_from(message);
     if (is_finite(sample.T_odom_body) && is_finite(sample.T_map_odom)) run_.poses.push_back(sample);
+  }
+  static void add_map(std::optional<PassabilityMap> map, std::vector<PassabilityMap>& maps) {
+    if (map) maps.push_back(std::move(*map));
   }
   void add_slam(const SlamSample& sample) {
     const Pose2& p = sample.T_map_odom;

@@ -14,6 +14,7 @@ namespace rover::report {
 namespace {
 
 constexpr double kLegend = 40.0;
+constexpr double kLegendRow = 26.0;
 constexpr double kHazardCellM = 0.1;
 
 // Layers that the page can switch; the picture alone shows those that are initially on.
@@ -73,6 +74,10 @@ void draw_paths(Svg& svg, const MapView& view, const Scene& scene) {
       svg.polyline(view.px(thinned(incident.new_path, 0.1)), stroke(palette::kRepair, 2.0, "stroke-opacity:.75"));
 }
 
+std::string oracle_style() {
+  return stroke(palette::kOracle, 1.8, "stroke-dasharray:2 4");
+}
+
 void draw_markers(Svg& svg, const MapView& view, const Scene& scene) {
   const TrueTrack truth(scene.run.truth);
   if (truth.empty()) return;
@@ -118,7 +123,7 @@ struct LegendEntry {
   std::function<void(double x, double y)> symbol;
 };
 
-void draw_legend(Svg& svg, double left, double top, double right, bool has_truth) {
+void draw_legend(Svg& svg, double left, double top, double right, bool has_truth, bool has_oracle) {
   const auto bar = [&](const std::string& style) {
     return [&svg, style](double x, double y) { svg.line(x, y, x + 30.0, y, style); };
   };
@@ -138,6 +143,7 @@ void draw_legend(Svg& svg, double left, double top, double right, bool has_truth
       {"true track", 106, 38, bar(stroke(palette::kTruth, 3.2))},
       {"estimated track", 142, 38, bar(stroke(palette::kEstimate, 2.2, "stroke-dasharray:6 5"))},
       {"repaired path", 130, 38, bar(stroke(palette::kRepair, 2.4))},
+      {"shortest drivable path", 174, 38, bar(oracle_style())},
       {"detected hazard", 132, 24, square(palette::kHazard)},
       {"detected hole", 118, 24, square(palette::kHole)},
       {"rock of 0.15 m or more", 176, 24, disc(fmt::format("fill:{};stroke:#fff", palette::kRock))},
@@ -146,12 +152,14 @@ void draw_legend(Svg& svg, double left, double top, double right, bool has_truth
       {"hazard stop", 100, 24, disc(fmt::format("fill:#fff;stroke:{};stroke-width:2", palette::kBad))},
   };
   if (!has_truth) std::erase_if(entries, [](const LegendEntry& entry) { return entry.text == "true track"; });
+  if (!has_oracle)
+    std::erase_if(entries, [](const LegendEntry& entry) { return entry.text == "shortest drivable path"; });
   double x = left;
   double y = top + 12.0;
   for (const LegendEntry& entry : entries) {
     if (x + entry.width > right) {
       x = left;
-      y += 26.0;
+      y += kLegendRow;
     }
     entry.symbol(x, y);
     svg.text(x + entry.text_at, y + 4.5, entry.text, 13, "");
@@ -164,13 +172,17 @@ void draw_legend(Svg& svg, double left, double top, double right, bool has_truth
 std::string draw_map(const Scene& scene) {
   const MapView view = map_view(scene);
   const double bottom = view.top + view.height() + kMapAxis + 6.0;
-  Svg svg(kMapWidth, bottom + kLegend);
-  svg.rect(0.0, 0.0, kMapWidth, bottom + kLegend, "fill:#fff");
+  const bool has_oracle = !scene.evaluation.oracle_path.empty();  // its entry needs a second row
+  const double height = bottom + kLegend + (has_oracle ? kLegendRow : 0.0);
+  Svg svg(kMapWidth, height);
+  svg.rect(0.0, 0.0, kMapWidth, height, "fill:#fff");
   svg.begin_clip("map-frame", view.left, view.top, view.width(), view.height());
   draw_ground(svg, view, scene.orbital);
   in_layer(svg, MapLayer::kRocks, [&] { draw_rocks(svg, view, scene, RockStyle::kFilled); });
   in_layer(svg, MapLayer::kHazards, [&] { draw_hazards(svg, view, scene); });
   in_layer(svg, MapLayer::kPaths, [&] { draw_paths(svg, view, scene); });
+  in_layer(svg, MapLayer::kOracle,
+           [&] { svg.polyline(view.px(Points(scene.evaluation.oracle_path)), oracle_style()); });
   in_layer(svg, MapLayer::kTracks, [&] { draw_tracks(svg, view, scene); });
   draw_ends(svg, view, scene);
   in_layer(svg, MapLayer::kEvents, [&] { draw_markers(svg, view, scene); });
@@ -179,7 +191,7 @@ std::string draw_map(const Scene& scene) {
   svg.rect(view.left, view.top, view.width(), view.height(), "fill:none;stroke:#5b4636;stroke-width:1.2");
   draw_scale_bar(svg, view, true_line(scene));
   draw_north(svg, view);
-  draw_legend(svg, view.left, bottom + 6.0, kMapWidth - 8.0, has_truth(scene.evaluation.metrics));
+  draw_legend(svg, view.left, bottom + 6.0, kMapWidth - 8.0, has_truth(scene.evaluation.metrics), has_oracle);
   return svg.str();
 }
 

@@ -9,17 +9,18 @@
 namespace rover::report {
 
 // Groups of class "layer-ID" in the map's SVG.
-enum class MapLayer { kRelief, kSlope, kRocks, kHazards, kPaths, kTracks, kEvents };
+enum class MapLayer { kRelief, kSlope, kRocks, kHazards, kPaths, kOracle, kTracks, kEvents };
 struct MapLayerInfo {
   const char* id;
   const char* title;
   bool on;  // initially
 };
-inline constexpr std::array<MapLayerInfo, 7> kMapLayers = {{{"relief", "hillshade", true},
+inline constexpr std::array<MapLayerInfo, 8> kMapLayers = {{{"relief", "hillshade", true},
                                                             {"slope", "slope", false},
                                                             {"rocks", "rocks", true},
                                                             {"hazards", "detected hazards", true},
                                                             {"paths", "paths", true},
+                                                            {"oracle", "shortest drivable path", true},
                                                             {"tracks", "tracks", true},
                                                             {"events", "events", true}}};
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/core/time.hpp"
+#include "tools/report/wheel_clearance.hpp"
 
 namespace rover::report {
 namespace {
@@ -35,10 +35,14 @@ double rounded(double seconds) {
   return std::round(seconds * 1e6) / 1e6;
 }
 
+bool goal_reached(const RunRecord& run) {
+  return std::any_of(run.states.begin(), run.states.end(),
+                     [](const StateChange& change) { return change.state == State::kGoalReached; });
+}
+
 std::string outcome_of(const RunRecord& run, const Metrics& m) {
   if (m.collisions > 0) return "collision";
-  const auto reached = [](const StateChange& change) { return change.state == State::kGoalReached; };
-  if (std::any_of(run.states.begin(), run.states.end(), reached)) return "goal_reached";
+  if (goal_reached(run)) return "goal_reached";
   if (!run.planner.empty() && run.planner.back().no_path) return "no_path";
   if (!run.states.empty()) {
     const State last = run.states.back().state;
@@ -56,6 +60,21 @@ void evaluate_length(const RunRecord& run, const TrueTrack& truth, const Footpri
     m.duty = m.driven_length_m / (footprint.top_speed_mps * m.duration_s);
     m.mean_speed_m_per_h = m.driven_length_m / m.duration_s * 3600.0;
   }
+}
+
+// The planned length up to where the drive ended: all of it at the goal.
+double made_good_m(const RunRecord& run, const TrueTrack& truth, const Metrics& m) {
+  if (goal_reached(run)) return m.planned_length_m;
+  if (truth.empty() || run.global_paths.empty()) return kNaN;
+  const Points& planned = run.global_paths.back().points;
+  return m.planned_length_m -
+         length_m(part_ahead(planned, truth.at(m.window.end_s).translation().head<2>(), kInfinity));
+}
+
+void evaluate_time(const RunRecord& run, const TrueTrack& truth, const Footprint& footprint, Metrics& m) {
+  if (m.duration_s > 0.0) m.progress = made_good_m(run, truth, m) / (footprint.top_speed_mps * m.duration_s);
+  m.time = account_time(run, footprint.wheels, m.window);
+  m.reverse_m = reverse_distance_m(run, m.window);
 }
 
 void evaluate_truth(const RunRecord& run, Metrics& m) {
@@ -162,9 +181,9 @@ void evaluate_slam(const RunRecord& run, const TrueTrack& truth, Metrics& m) {
 
 void evaluate_estimate(const RunRecord& run, const TrueTrack& truth, Metrics& m) {
   if (truth.empty()) return;
-  const auto fixed = std::find_if(run.corrections.begin(), run.corrections.end(),
-                                  [](const CorrectionRecord& correction) { return correction.accepted; });
-  const double fixed_s = fixed == run.corrections.end() ? kInfinity : fixed->released_s + to_seconds(kTickUs);
+  const double fixed_s = first_fix_s(run);
+  m.anees = pose_consistency(run, truth, {m.window.begin_s, std::min(m.window.end_s, fixed_s)});
+  m.anees_after_fix = pose_consistency(run, truth, {fixed_s, m.window.end_s});
   for (const PoseSample& pose : run.poses) {
     if (!m.window.contains(pose.t_s)) continue;
     const Eigen::Vector3d p = (pose.T_map_odom * pose.T_odom_body).translation();
@@ -321,6 +340,8 @@ void evaluate_world(const RunRecord& run, const TrueTrack& truth, const Footprin
     *m.rocks_missed += result.missed() ? 1 : 0;
   }
   for (const Incident& incident : evaluation.incidents) *m.false_stops += incident.is_false() ? 1 : 0;
+  m.map = map_fidelities(run, truth, m.window, footprint, world);
+  m.hazard_clearance_m = hazard_clearance_m(run, m.window, footprint.wheels, footprint.origin_height_m, world);
 }
 
 }  // namespace
@@ -333,6 +354,7 @@ RunEvaluation evaluate(const RunRecord& run, const RunInfo& info, const Footprin
   m.window = drive_window(run);
   const TrueTrack truth(run.truth);
   evaluate_length(run, truth, footprint, m);
+  evaluate_time(run, truth, footprint, m);
   evaluate_truth(run, m);
   evaluate_lease(run, m);
   evaluate_control(run, m);

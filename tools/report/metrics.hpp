@@ -6,9 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "tools/report/map_fidelity.hpp"
+#include "tools/report/pose_consistency.hpp"
 #include "tools/report/rock_evaluation.hpp"
 #include "tools/report/run_record.hpp"
 #include "tools/report/stop_evaluation.hpp"
+#include "tools/report/time_account.hpp"
 #include "tools/report/track.hpp"
 #include "tools/report/trajectory_error.hpp"
 
@@ -59,8 +62,15 @@ struct Metrics {
   double planned_length_m = kNaN;
   double driven_length_m = kNaN;
   double path_ratio = kNaN;
+  double oracle_m = kNaN;               // shortest drivable path on the true surface
+  std::optional<bool> oracle_feasible;  // empty: unknown
+  double regret = kNaN;                 // driven / oracle_m, of a drive that reached its goal
   double duration_s = kNaN;
-  double duty = kNaN;
+  double progress = kNaN;  // planned (or its part made good) over top speed x time
+  double duty = kNaN;      // driven over top speed x time
+  TimeAccount time;
+  double reverse_m = kNaN;
+  double hazard_clearance_m = kNaN;  // of the wheels to a true hazard
   double mean_speed_m_per_h = kNaN;
   int hazard_stops = 0;
   int replans = 0;
@@ -84,6 +94,9 @@ struct Metrics {
   double corrected_error_max_m = kNaN;   // the same, after the first accepted correction
   double final_error_m = kNaN;           // true final position to the goal
   double final_estimate_error_m = kNaN;  // estimated to true final position, in map
+  PoseConsistency anees;                 // before the first accepted correction
+  PoseConsistency anees_after_fix;
+  MapFidelities map;
   std::vector<CorrectionFigure> global_corrections;
   std::optional<int> rocks_encountered;
   std::optional<int> rocks_detected;  // among those encountered
@@ -116,6 +129,7 @@ struct RunEvaluation {
   Metrics metrics;
   std::vector<RockResult> rocks;  // hazard rocks of the world
   std::vector<Incident> incidents;
+  std::vector<Eigen::Vector2d> oracle_path;  // in map; empty: none, or not evaluated
 };
 
 // `world` empty: ground truth of the terrain unknown; rock metrics are null.

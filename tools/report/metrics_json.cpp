@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "tools/report/fidelity_json.hpp"
 #include "tools/report/no_truth.hpp"
 
 namespace rover::report {
@@ -92,6 +93,15 @@ Json services_json(const Metrics& m) {
   return services;
 }
 
+Json seconds_json(const TimeAccount& time) {
+  Json seconds;
+  for (int i = 0; i < kTimeCauses; ++i) {
+    const auto cause = static_cast<TimeCause>(i);
+    seconds[key_of(cause)] = time.of(cause);
+  }
+  return seconds;
+}
+
 void add_run(const Metrics& m, Json& json) {
   json["scenario"] = text(m.info.scenario);
   json["seed"] = optional(m.info.seed);
@@ -106,8 +116,14 @@ void add_drive(const Metrics& m, Json& json) {
   json["planned_length_m"] = number(m.planned_length_m);
   json["driven_length_m"] = number(m.driven_length_m);
   json["path_ratio"] = number(m.path_ratio);
+  json["oracle_m"] = number(m.oracle_m);
+  json["oracle_feasible"] = optional(m.oracle_feasible);
+  json["regret"] = number(m.regret);
   json["duration_s"] = number(m.duration_s);
+  json["progress"] = number(m.progress);
   json["duty"] = number(m.duty);
+  json["seconds"] = seconds_json(m.time);
+  json["reverse_m"] = number(m.reverse_m);
   json["mean_speed_m_per_h"] = number(m.mean_speed_m_per_h);
   json["hazard_stops"] = m.hazard_stops;
   json["replans"] = m.replans;
@@ -116,6 +132,7 @@ void add_drive(const Metrics& m, Json& json) {
   json["levels"] = {{"EFFICIENT", level_json(m.efficient)}, {"FULL", level_json(m.full)}};
   json["collisions"] = has_truth(m) ? Json(m.collisions) : Json(nullptr);
   json["min_clearance_m"] = number(m.min_clearance_m);
+  json["hazard_clearance_m"] = number(m.hazard_clearance_m);
   json["max_roll_deg"] = number(m.max_roll_deg);
   json["max_pitch_deg"] = number(m.max_pitch_deg);
   json["rms_roll_deg"] = number(m.rms_roll_deg);
@@ -157,6 +174,8 @@ void add_accuracy(const Metrics& m, Json& json) {
   json["corrected_error_max_m"] = number(m.corrected_error_max_m);
   json["final_error_m"] = number(m.final_error_m);
   json["final_estimate_error_m"] = number(m.final_estimate_error_m);
+  json["anees"] = anees_json(m.anees);
+  json["anees_after_fix"] = anees_json(m.anees_after_fix);
   json["global_corrections"] = corrections_json(m);
   json["trajectory"] = {{"data_set_pairs", optional(m.info.data_set_pairs)},
                         {"visual_odometry", trajectory_json(m.visual_odometry)},
@@ -172,6 +191,7 @@ void add_hazards(const Metrics& m, Json& json) {
   json["hazard_frames"] = m.hazard_frames;
   json["hazard_frames_without_coverage"] = m.hazard_frames_without_coverage;
   json["hazard_coverage_mean"] = number(m.hazard_coverage_mean);
+  json["map"] = map_json(m.map);
   json["vo_frames"] = m.vo_frames;
   json["vo_lost"] = m.vo_lost;
 }

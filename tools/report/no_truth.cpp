@@ -26,10 +26,12 @@ RunRecord with_estimate_for_truth(const RunRecord& run) {
 }
 
 void leave_out_truth_figures(Metrics& m) {
-  m.min_clearance_m = m.motion_without_lease_s = kNaN;
+  m.min_clearance_m = m.hazard_clearance_m = m.motion_without_lease_s = kNaN;
   m.truth_deviation_max_m = m.odometry_drift_percent = m.odometry_drift_max_m = m.slam_drift_percent = kNaN;
   m.estimate_error_max_m = m.corrected_error_max_m = kNaN;
   m.final_error_m = m.final_estimate_error_m = kNaN;
+  m.anees = m.anees_after_fix = {};
+  m.map = {};
   m.final_truth_pose.reset();
   m.rocks_encountered.reset();
   m.rocks_detected.reset();

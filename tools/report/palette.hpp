@@ -10,6 +10,7 @@ inline constexpr char kTruth[] = "#1458b8";
 inline constexpr char kEstimate[] = "#f08a24";
 inline constexpr char kGlobalPath[] = "#ffffff";
 inline constexpr char kRepair[] = "#8e2fb5";
+inline constexpr char kOracle[] = "#0b5d2a";
 inline constexpr char kHazard[] = "#e02020";
 inline constexpr char kHole[] = "#00838f";
 inline constexpr char kRock[] = "#3d2b20";

@@ -8,14 +8,8 @@ namespace {
 
 constexpr double kBucketM = 1.0;
 
-// The true track is sampled every 2 cm or 1 deg for the swept footprint.
 constexpr double kPoseStepM = 0.02;
 const double kPoseStepRad = to_rad(1.0);
-
-bool far_apart(const Pose2& a, const Pose2& b) {
-  return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m) >= kPoseStepM ||
-         std::abs(wrap_angle(a.yaw_rad - b.yaw_rad)) >= kPoseStepRad;
-}
 
 void evaluate_sweep(const RunRecord& run, const Window& window, const Footprint& footprint, const RockIndex& field,
                     std::vector<RockResult>& results) {
@@ -50,6 +44,11 @@ void evaluate_detection(const RunRecord& run, const TrueTrack& truth, double ori
 }
 
 }  // namespace
+
+bool far_apart(const Pose2& a, const Pose2& b) {
+  return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m) >= kPoseStepM ||
+         std::abs(wrap_angle(a.yaw_rad - b.yaw_rad)) >= kPoseStepRad;
+}
 
 RockIndex::RockIndex(std::vector<Rock> rocks) : rocks_(std::move(rocks)) {
   for (size_t i = 0; i < rocks_.size(); ++i) {

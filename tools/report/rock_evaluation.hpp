@@ -37,6 +37,9 @@ struct RockResult {
   bool missed() const { return rock.height_m >= kMustSeeRockM && swept_s < kInfinity && detected_s > swept_s; }
 };
 
+// By 2 cm or 1 deg, the step at which the true track is sampled.
+bool far_apart(const Pose2& a, const Pose2& b);
+
 // True position of a hazard cell: the ground point below it, by the true pose at the exposure.
 Eigen::Vector2d cell_in_map(const HazardCell& cell, const Eigen::Isometry3d& T_map_body, double origin_height_m);
 

@@ -64,10 +64,20 @@ std::string first_existing(const std::string& dir, const std::vector<std::string
   return {};
 }
 
-Footprint footprint_of(const std::string& config_dir) {
-  const Vehicle vehicle = load_vehicle(config_dir);
+Footprint footprint_of(const Vehicle& vehicle) {
+  VehicleWheels wheels{vehicle.wheel_radius_m, vehicle.wheel_width_m, {}};
+  for (size_t i = 0; i < wheels.p_body.size(); ++i) wheels.p_body[i] = {vehicle.wheel_x_m[i], vehicle.wheel_y_m[i]};
   return {vehicle.footprint_half_length_m(), vehicle.footprint_half_width_m(), vehicle.origin_height_m,
-          vehicle.top_speed_mps};
+          vehicle.top_speed_mps, wheels};
+}
+
+// Positions of the cameras along the body. A recording without cameras.yaml keeps the defaults.
+void read_cameras(const std::string& config_dir, Footprint& footprint) {
+  const std::string file = config_dir + "/cameras.yaml";
+  if (!fs::is_regular_file(file)) return;
+  const Config cameras = Config::load(file);
+  if (cameras.has("loccam")) footprint.loccam_x_m = read_stereo_rig(cameras, "loccam").T_body_left.translation().x();
+  if (cameras.has("navcam")) footprint.navcam_x_m = read_stereo_rig(cameras, "navcam").T_body_left.translation().x();
 }
 
 }  // namespace
@@ -84,7 +94,9 @@ RunFolder open_run_folder(const std::string& dir, const std::string& default_con
   folder.config_dir = fs::is_directory(dir + "/config") ? dir + "/config" : dir;
   if (folder.info.scenario.empty()) folder.info.scenario = fs::path(dir).filename().string();
   const bool has_vehicle = fs::is_regular_file(folder.config_dir + "/vehicle.yaml");
-  folder.footprint = footprint_of(has_vehicle ? folder.config_dir : default_config_dir);
+  folder.vehicle = load_vehicle(has_vehicle ? folder.config_dir : default_config_dir);
+  folder.footprint = footprint_of(folder.vehicle);
+  read_cameras(has_vehicle ? folder.config_dir : default_config_dir, folder.footprint);
   return folder;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "common/core/vehicle.hpp"
 #include "tools/report/run_record.hpp"
 
 namespace rover::report {
@@ -11,6 +12,7 @@ namespace rover::report {
 struct RunFolder {
   std::string dir;
   RunInfo info;
+  Vehicle vehicle;
   Footprint footprint;
   std::string log;          // traverse.lcm
   std::string scenario;     // effective scenario; empty: none

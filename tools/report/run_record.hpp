@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -28,6 +29,7 @@ struct PoseSample {
   double t_s = 0.0;
   Eigen::Isometry3d T_odom_body = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d T_map_odom = Eigen::Isometry3d::Identity();
+  Eigen::Matrix3d cov_xyyaw = Eigen::Matrix3d::Constant(kNaN);  // of T_map_body, in map axes
 };
 
 // Each VO message.
@@ -38,7 +40,7 @@ struct VisualSample {
   Eigen::Isometry3d T_from_to = Eigen::Isometry3d::Identity();
 };
 
-enum class Following { kIdle, kFollowing, kPointTurn, kOther };
+enum class Following { kIdle, kFollowing, kPointTurn, kPathEnd, kOther };
 
 struct ControlSample {
   double t_s = 0.0;
@@ -50,6 +52,8 @@ struct ControlSample {
 struct WheelSample {
   double t_s = 0.0;
   std::array<double, 6> current_a{};
+  std::array<double, 6> rate_radps{};  // positive forward; FL FR ML MR RL RR
+  std::array<double, 4> steer_rad{};   // positive to the left; FL FR RL RR
 };
 
 struct SlipSample {
@@ -105,6 +109,25 @@ struct HazardMap {
   double coverage = 0.0;
   double cell_m = 0.1;
   std::vector<HazardCell> cells;
+};
+
+// Which ground a HAZARDS map (in body) or a TRAVERSABILITY map (in odom) calls passable.
+struct PassabilityMap {
+  enum Cell : std::uint8_t { kUnseen, kPassable, kImpassable };
+  double t_s = 0.0;
+  double cell_m = 0.1;
+  double origin_x_m = 0.0;  // corner with the smallest x and y
+  double origin_y_m = 0.0;
+  int cells_x = 0;
+  int cells_y = 0;
+  std::vector<Cell> cells;  // index iy * cells_x + ix
+  // kUnseen outside.
+  Cell at(double x_m, double y_m) const {
+    const double ix = std::floor((x_m - origin_x_m) / cell_m);
+    const double iy = std::floor((y_m - origin_y_m) / cell_m);
+    if (!(ix >= 0.0 && iy >= 0.0 && ix < cells_x && iy < cells_y)) return kUnseen;
+    return cells[static_cast<size_t>(iy) * static_cast<size_t>(cells_x) + static_cast<size_t>(ix)];
+  }
 };
 
 struct PlannerSample {
@@ -175,6 +198,8 @@ struct RunRecord {
   std::vector<PathRecord> global_paths;
   std::vector<PathRecord> local_paths;
   std::vector<HazardMap> hazards;
+  std::vector<PassabilityMap> hazard_maps;  // of the same messages
+  std::vector<PassabilityMap> traversability_maps;
   std::vector<PlannerSample> planner;
   std::vector<PermitSample> permits;
   std::vector<FaultRecord> faults;
@@ -201,12 +226,23 @@ struct RunInfo {
   std::optional<int> data_set_pairs;  // number of stereo pairs; empty: not an imported data set
 };
 
+struct VehicleWheels {
+  double radius_m = 0.125;
+  double width_m = 0.12;
+  std::array<Eigen::Vector2d, 6> p_body = {Eigen::Vector2d(0.75, 0.41),  Eigen::Vector2d(0.75, -0.41),
+                                           Eigen::Vector2d(0.0, 0.41),   Eigen::Vector2d(0.0, -0.41),
+                                           Eigen::Vector2d(-0.75, 0.41), Eigen::Vector2d(-0.75, -0.41)};
+};
+
 // Footprint about the body origin, and the origin's height above flat ground.
 struct Footprint {
   double half_length_m = 0.875;
   double half_width_m = 0.47;
   double origin_height_m = 0.62;
   double top_speed_mps = 0.2;
+  VehicleWheels wheels;
+  double loccam_x_m = 0.527;  // in body
+  double navcam_x_m = 0.45;
 };
 
 struct Rock {
@@ -220,6 +256,11 @@ struct Rock {
 struct TrueWorld {
   std::vector<Rock> rocks;
   std::function<double(double x_m, double y_m)> height_m;  // of the surface; empty: unknown
+  std::function<double(double x_m, double y_m)> ground_m;  // without rocks
+  double width_m = kInfinity;                              // of the map, whose corner is the map frame's origin
+  double length_m = kInfinity;
+  double goal_tolerance_m = 0.5;  // of the scenario's path
+  double corridor_half_width_m = 1.5;
 };
 
 }  // namespace rover::report

@@ -10,6 +10,7 @@
 #include "tools/report/map_layers.hpp"
 #include "tools/report/map_picture.hpp"
 #include "tools/report/no_truth.hpp"
+#include "tools/report/oracle_evaluation.hpp"
 #include "tools/report/run_plots.hpp"
 #include "tools/report/world_truth.hpp"
 
@@ -49,6 +50,7 @@ Study study_run(const std::string& run_dir, const std::string& default_config_di
   const bool true_run = !study.run.truth.empty();
   if (!true_run) study.run = with_estimate_for_truth(study.run);
   study.evaluation = evaluate(study.run, study.folder.info, study.folder.footprint, study.world);
+  if (true_run) evaluate_oracle(study.run, study.folder.vehicle, study.world, study.evaluation);
   if (!true_run) leave_out_truth_figures(study.evaluation.metrics);
   return study;
 }

@@ -17,6 +17,11 @@ TrueWorld true_world(const RunFolder& folder, const Box& around) {
   for (const rover::Rock& rock : world->rocks_in(around.x0_m, around.y0_m, around.x1_m, around.y1_m))
     truth.rocks.push_back({rock.x_m, rock.y_m, 0.5 * rock.diameter_m, rock.height_m});
   truth.height_m = [world](double x_m, double y_m) { return world->height_m(x_m, y_m); };
+  truth.ground_m = [world](double x_m, double y_m) { return world->ground_height_m(x_m, y_m); };
+  truth.width_m = world->width_m();
+  truth.length_m = world->length_m();
+  truth.goal_tolerance_m = scenario.path.goal_tolerance_m;
+  truth.corridor_half_width_m = scenario.path.corridor_half_width_m;
   return truth;
 }
 

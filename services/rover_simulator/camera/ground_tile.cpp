@@ -13,10 +13,14 @@ Eigen::Vector2i sun_side(const GroundAppearanceConfig& config) {
 
 GroundTile::GroundTile(RTCDevice device, const Heights& heights, const Surface& surface,
                        const GroundAppearance& appearance, const GroundTexture& texture)
-    : key_(heights.self->key), origin_(key_.x_m(), key_.y_m(), heights.self->base_m) {
+    : GroundTile(device, *heights.self) {
   place_textures(texture);
   shade_vertices(heights, surface, appearance, texture);
-  build_mesh(device, *heights.self);
+}
+
+GroundTile::GroundTile(RTCDevice device, const HeightTile& heights)
+    : key_(heights.key), origin_(key_.x_m(), key_.y_m(), heights.base_m) {
+  build_mesh(device, heights);
 }
 
 GroundTile::~GroundTile() {

@@ -31,6 +31,8 @@ class GroundTile {
 
   GroundTile(RTCDevice device, const Heights& heights, const Surface& surface, const GroundAppearance& appearance,
              const GroundTexture& texture);
+  // The mesh alone: for ranges, not for radiance.
+  GroundTile(RTCDevice device, const HeightTile& heights);
   ~GroundTile();
   GroundTile(const GroundTile&) = delete;
   GroundTile& operator=(const GroundTile&) = delete;

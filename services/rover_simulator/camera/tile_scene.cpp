@@ -81,6 +81,7 @@ std::vector<TileKey> TileScene::tiles_around(double x_m, double y_m, double marg
 }
 
 std::vector<TileKey> TileScene::height_keys_of(const TileKey& key) const {
+  if (!config_.shaded) return {key};
   const Eigen::Vector2i side = sun_side(config_.appearance);
   return {key,
           {key.level, key.ix + side.x(), key.iy},
@@ -110,8 +111,9 @@ void TileScene::build(const std::vector<TileKey>& keys) {
             [&](int i) { heights_.at(heights[i]) = std::make_shared<const HeightTile>(heights[i], surface_); });
   for (const TileKey& key : tiles) tiles_.try_emplace(key);
   pool_.run(static_cast<int>(tiles.size()), [&](int i) {
-    tiles_.at(tiles[i]) =
-        std::make_shared<const GroundTile>(device_, heights_of(tiles[i]), surface_, appearance_, texture_);
+    tiles_.at(tiles[i]) = config_.shaded ? std::make_shared<const GroundTile>(device_, heights_of(tiles[i]), surface_,
+                                                                              appearance_, texture_)
+                                         : std::make_shared<const GroundTile>(device_, *heights_.at(tiles[i]));
   });
 }
 

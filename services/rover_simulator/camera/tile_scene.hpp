@@ -26,6 +26,7 @@ struct TileSceneConfig {
   double ahead_m = 2.0;           // prefetch distance beyond the radii, one tile per image
   double keep_m = 3.0;            // eviction distance beyond the radii
   int threads = 2;
+  bool shaded = true;  // false: only intersect() works, and tiles cost less
   GroundAppearanceConfig appearance;
 };
 

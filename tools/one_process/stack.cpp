@@ -1,8 +1,8 @@
-#include "test/bench_faults/stack.hpp"
+#include "tools/one_process/stack.hpp"
 
 #include "common/core/check.hpp"
 
-namespace rover::bench_faults {
+namespace rover {
 
 void Stack::add(const std::string& service, Factory factory) {
   processes_.push_back(std::make_unique<Process>());
@@ -22,7 +22,7 @@ void Stack::start(Process& process) {
   options.name = process.name;
   options.boot_id = ++process.boots;
   options.run_dir = run_dir_;
-  options.allow_injection = true;
+  options.allow_injection = allow_injection_;
   process.node = std::make_unique<Node>(options, bus_);
   process.service = process.factory(*process.node);
 }
@@ -42,9 +42,24 @@ void Stack::set_status(const std::string& service, std::int8_t status) {
   if (process.node && status == heartbeat_t::OK) process.node->set_status(status, "");
 }
 
-void Stack::drain() {
-  while (bus_.handleTimeout(0) > 0) {
+void Stack::start() {
+  for (const auto& process : processes_) {
+    start(*process);
+    process->node->announce();
   }
+}
+
+bool Stack::drain() {
+  bool any = false;
+  while (bus_.handleTimeout(0) > 0) any = true;
+  return any;
+}
+
+bool Stack::work() {
+  const bool any = drain();
+  for (const auto& process : processes_)
+    if (process->node && !process->hangs) process->node->handle(0);
+  return drain() || any;
 }
 
 void Stack::tick(Utime now) {
@@ -59,10 +74,7 @@ void Stack::tick(Utime now) {
   }
   tick.member_count = static_cast<std::int32_t>(tick.members.size());
   bus_.publish(channel::kTick, &tick);
-  drain();
-  for (const auto& process : processes_)
-    if (process->node && !process->hangs) process->node->handle(0);
-  drain();
+  work();
 }
 
-}  // namespace rover::bench_faults
+}  // namespace rover

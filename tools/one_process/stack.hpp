@@ -1,5 +1,5 @@
-// The services of the stack in one process, in place of launcher and s6: each can hang, die and be restarted; all share
-// the ticks of one in-memory bus.
+// Services in one process on an in-memory bus, in place of launcher and s6. In fault benches each can hang, die and be
+// restarted.
 #pragma once
 
 #include <functional>
@@ -10,17 +10,22 @@
 
 #include "common/bus/node.hpp"
 
-namespace rover::bench_faults {
+namespace rover {
 
 class Stack {
  public:
   using Factory = std::function<std::shared_ptr<void>(Node& node)>;
 
-  // `run_dir`: folder of the checkpoints.
-  Stack(lcm::LCM& bus, std::string run_dir) : bus_(bus), run_dir_(std::move(run_dir)) {}
+  // `run_dir`: folder of the checkpoints. `allow_injection`: the services apply the faults of INJECT.
+  Stack(lcm::LCM& bus, std::string run_dir, bool allow_injection)
+      : bus_(bus), run_dir_(std::move(run_dir)), allow_injection_(allow_injection) {}
 
   void add(const std::string& service, Factory factory);
-  // Delivers the published messages, then the tick, to all running services.
+  // Starts all; they report to a clock master on the bus.
+  void start();
+  // Delivers the published messages and lets the services process their ticks; false if no message waited.
+  bool work();
+  // For a bus without clock master: publishes the tick to all running services, and lets them work.
   void tick(Utime now);
 
   void hang(const std::string& service, bool on) { find(service).hangs = on; }
@@ -47,13 +52,14 @@ class Stack {
   };
   Process& find(const std::string& service);
   void start(Process& process);
-  void drain();
+  bool drain();
 
   lcm::LCM& bus_;
   std::string run_dir_;
+  bool allow_injection_;
   Utime now_ = 0;
   StreamCounter ticks_{"rover_simulator", 1};
   std::vector<std::unique_ptr<Process>> processes_;
 };
 
-}  // namespace rover::bench_faults
+}  // namespace rover

@@ -1,0 +1,65 @@
+#include "rover_simulator/camera/geometric_view.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rover_simulator/camera/counter_hash.hpp"
+
+namespace rover {
+namespace {
+
+constexpr float kMinContrast = 0.03F;  // below it blocks have no unique match
+constexpr double kPatchM = 0.12;       // side of the patches of ground that match or not together
+// Fraction of the patches without a unique match: grows with the size of a pixel on the ground, to a maximum.
+constexpr double kSharpPixelM = 0.0065;
+constexpr double kHolesPerM = 50.0;
+constexpr double kMaxHoles = 0.2;
+
+TileSceneConfig unshaded() {
+  TileSceneConfig config;
+  config.threads = 1;
+  config.shaded = false;
+  return config;
+}
+
+}  // namespace
+
+GeometricView::GeometricView(const Surface& world, const GroundAppearanceConfig& appearance)
+    : world_(world),
+      appearance_(appearance),
+      seed_(hash64(appearance.seed, 61)),
+      scene_(std::make_shared<TileScene>(world, unshaded())) {}
+
+Disparity GeometricView::expose(GeometricStereo& stereo, const DisparityErrors& errors, const DisparityPlane& reference,
+                                const Eigen::Isometry3d& T_map_left, std::int64_t frame) {
+  const std::vector<float> exact_px = stereo.exact_px(T_map_left);
+  const auto has_texture = [&](int u, int v) {
+    const float px = exact_px[static_cast<size_t>(v) * stereo.width() + u];
+    if (px <= 0.0F) return true;
+    const Eigen::Vector3d p_left = stereo.point(u, v, px);
+    return textured(T_map_left * p_left, p_left.z() / stereo.focal_px());
+  };
+  return errors.apply(exact_px, stereo.width(), stereo.height(), has_texture, reference, frame);
+}
+
+bool GeometricView::textured(const Eigen::Vector3d& p_map, double pixel_m) const {
+  const Material material = world_.material(p_map.x(), p_map.y());
+  if (appearance_.at(p_map.x(), p_map.y(), material).fine_contrast < kMinContrast) return false;
+  const auto patch = [](double at_m) { return static_cast<std::uint64_t>(std::floor(at_m / kPatchM)); };
+  const double holes = std::clamp(kHolesPerM * (pixel_m - kSharpPixelM), 0.0, kMaxHoles);
+  return unit_random(hash64(hash64(seed_, patch(p_map.x())), patch(p_map.y()))) >= holes;
+}
+
+DisparityErrorConfig errors_of(const stereo::MatcherConfig& matcher, const StereoCamera& rectified) {
+  DisparityErrorConfig config;
+  config.baseline_m = rectified.baseline_m;
+  config.search_min_px = matcher.residual_min_px;
+  config.search_max_px = matcher.residual_min_px + matcher.residual_count_px - 1;
+  return config;
+}
+
+DisparityPlane ground_reference(const StereoCamera& rectified, double origin_height_m) {
+  return disparity_plane(rectified, {0, 0, -origin_height_m}, Eigen::Vector3d::UnitZ());
+}
+
+}  // namespace rover

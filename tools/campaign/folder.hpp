@@ -1,0 +1,46 @@
+// The folder of a campaign:
+//   campaign.yaml, campaign.json   the file as given; commit, command
+//   jobs.jsonl, scenarios/         one line per drive; the scenario of each cell
+//   campaign.sqlite, rows.jsonl    the rows; the text is written when a campaign ends or stops
+//   runs/N, logs/                  kept run folders; output of jobs that died, and of the engine
+//   work-XXXXXX/                   of the running session, see session.hpp
+#pragma once
+
+#include <string>
+
+#include "tools/campaign/campaign_file.hpp"
+
+namespace rover::campaign {
+
+struct CampaignInfo {
+  std::string name;
+  std::string commit;
+  std::string command;        // that began it
+  std::string drive_program;  // rover_launcher, unless a test replaces it
+};
+
+// Held while a campaign runs; one folder has one campaign. Throws ConfigError if another process holds it.
+class FolderLock {
+ public:
+  explicit FolderLock(const std::string& dir);
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int file_ = -1;
+};
+
+// True if a campaign was begun here completely.
+bool has_campaign(const std::string& dir);
+// Makes the folder's content; refuses a folder with something else in it.
+void make_campaign(const std::string& dir, const std::string& file, const CampaignFile& campaign,
+                   const CampaignInfo& info);
+CampaignInfo read_info(const std::string& dir);
+// Throws ConfigError unless the campaign in the folder is that of the file and of the commit.
+void require_same(const std::string& dir, const std::string& file, const CampaignInfo& info);
+
+// Writes a file completely or not at all; it replaces an older one. Throws ConfigError.
+void write_file(const std::string& file, const std::string& text);
+
+}  // namespace rover::campaign

@@ -1,0 +1,28 @@
+#include "tools/report/oracle_evaluation.hpp"
+
+#include "tools/oracle/oracle.hpp"
+
+namespace rover::report {
+
+void evaluate_oracle(const RunRecord& run, const Vehicle& vehicle, const std::optional<TrueWorld>& world,
+                     RunEvaluation& evaluation) {
+  const TrueTrack truth(run.truth);
+  if (truth.empty() || run.global_paths.empty() || run.global_paths.back().points.empty()) return;
+  if (!world || !world->height_m) return;
+  constexpr double kPointsM = 0.1;
+  Metrics& m = evaluation.metrics;
+  const oracle::Result found = oracle::shortest_path({.height_m = world->height_m,
+                                                      .map_width_m = world->width_m,
+                                                      .map_length_m = world->length_m,
+                                                      .vehicle = vehicle,
+                                                      .start = truth.planar_at(m.window.begin_s),
+                                                      .planned = run.global_paths.back().points,
+                                                      .goal_tolerance_m = world->goal_tolerance_m,
+                                                      .corridor_half_width_m = world->corridor_half_width_m});
+  if (found.status != oracle::Status::kGaveUp) m.oracle_feasible = found.status == oracle::Status::kFound;
+  m.oracle_m = found.length_m;
+  evaluation.oracle_path = oracle::points_of(found.path, kPointsM);
+  if (m.outcome == "goal_reached" && m.oracle_m > 0.0) m.regret = m.driven_length_m / m.oracle_m;
+}
+
+}  // namespace rover::report
