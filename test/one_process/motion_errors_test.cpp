@@ -34,9 +34,9 @@ Drive drive(MotionErrors& errors, int frames, double step_m) {
 
 TEST(MotionErrors, StandstillDoesNotDrift) {
   MotionErrors errors(3);
-  const Drive standing = drive(errors, 1000, 0.0);
-  EXPECT_EQ(standing.keyframes, 1);
-  EXPECT_LT(standing.end.translation().norm(), 1e-3);
+  const Drive stationary = drive(errors, 1000, 0.0);
+  EXPECT_EQ(stationary.keyframes, 1);
+  EXPECT_LT(stationary.end.translation().norm(), 1e-3);
 }
 
 TEST(MotionErrors, DriftIsThatOfAScaleAndOfKeyframes) {

@@ -26,7 +26,7 @@ struct Camera {
         rectified(stereo::Stereo({}, rig, 0.62).camera()),
         view(world, {.textureless_fraction = 0.0, .textureless_rock_fraction = 0.0}),
         stereo(rig, with_calibration_error(rig, calibration_error_px, 5), rectified, view.scene()),
-        errors(errors_of({}, rectified), 5) {}
+        errors(errors_of({}, rectified), rig.width, rig.height, 5) {}
 
   std::vector<float> exact() { return stereo.exact_px(kOnGround * rig.T_body_left); }
   Disparity measured(std::int64_t frame = 0) {

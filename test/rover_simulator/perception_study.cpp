@@ -171,7 +171,7 @@ void study(const Arguments& arguments) {
     stereo::Stereo stereo(matching, rig, origin_height_m);
     GeometricView view(world, sim.scene.appearance);
     GeometricStereo geometric(rig, camera.true_rig(), stereo.camera(), view.scene());
-    const DisparityErrors errors(errors_of(matching.matcher, stereo.camera()), seed);
+    const DisparityErrors errors(errors_of(matching.matcher, stereo.camera()), rig.width, rig.height, seed);
     const DisparityPlane reference = ground_reference(stereo.camera(), origin_height_m);
     for (int i = 0; i < arguments.poses; ++i) {
       const double f = (i + 0.5) / arguments.poses;

@@ -1,4 +1,6 @@
 // Simulator and all services in one process on an in-memory bus: a run without cameras, faster than with them.
+#include <malloc.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
@@ -32,7 +34,7 @@ struct Perception {
   rover::truth::TruthPerception truth;
 };
 
-// The service, or what stands in for it at this tier of perception.
+// The service, or its substitute at this tier of perception.
 rover::Stack::Factory factory(const std::string& service, const Arguments& arguments, Perception& perception) {
   const std::string& config_dir = arguments.config_dir;
   if (arguments.perception != "rendered") {
@@ -83,6 +85,9 @@ int simulate(const Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // Grids and images are allocated at each step: memory that is kept need not be cleared by the kernel again.
+  mallopt(M_MMAP_THRESHOLD, 256 << 20);
+  mallopt(M_TRIM_THRESHOLD, 256 << 20);
   Arguments arguments;
   CLI::App app("rover_one_process: simulator and services in one process");
   app.add_option("--config", arguments.config_dir, "folder of the configuration")->required();

@@ -32,7 +32,7 @@ class GeometricStereoNode {
         config_(stereo::load_config(config_dir)),
         camera_(stereo::Stereo(config_.core, config_.rig, config_.origin_height_m).camera()),
         stereo_(config_.rig, perception.rover.true_loccam(), camera_, perception.view.scene()),
-        errors_(errors_of(config_.core.matcher, camera_), perception.seed) {
+        errors_(errors_of(config_.core.matcher, camera_), camera_.width, camera_.height, perception.seed) {
     node.on_step([this](Utime now) {
       while (const auto exposure = perception_.loccam.take(now)) publish(*exposure);
     });
@@ -92,7 +92,8 @@ class GeometricCloudNode {
         config_(cloud::load_config(config_dir)),
         core_(config_.core, config_.rig, config_.unit, config_.ground_below_m),
         stereo_(config_.rig, perception.rover.true_navcam(), core_.camera_at(0.0), perception.view.scene()),
-        errors_(errors_of(config_.core.matcher, core_.camera_at(0.0)), perception.seed + 1) {
+        errors_(errors_of(config_.core.matcher, core_.camera_at(0.0)), core_.width(), core_.height(),
+                perception.seed + 1) {
     node.subscribe<ptu_state_t>(channel::kPtuState, [this](const ptu_state_t& state) {
       states_.push_back(state);
       while (states_.front().header.utime < state.header.utime - kStateHistory) states_.pop_front();

@@ -50,6 +50,7 @@ std::string run_facts(const RunInfo& info) {
   const auto add = [&facts](const std::string& text) { facts += (facts.empty() ? "" : " &middot; ") + escaped(text); };
   if (info.seed) add("seed " + std::to_string(*info.seed));
   if (!info.level.empty()) add("level " + info.level);
+  if (!info.perception.empty() && info.perception != "rendered") add("perception " + info.perception + ", no images");
   if (!info.commit.empty()) add("commit " + info.commit);
   if (info.deterministic) add(*info.deterministic ? "deterministic" : "not deterministic");
   if (info.realtime && *info.realtime) add("real time");

@@ -107,6 +107,7 @@ void add_run(const Metrics& m, Json& json) {
   json["seed"] = optional(m.info.seed);
   json["commit"] = text(m.info.commit);
   json["level"] = text(m.info.level);
+  json["perception"] = text(m.info.perception);
   json["deterministic"] = optional(m.info.deterministic);
   json["truth"] = has_truth(m);
   json["outcome"] = m.outcome;

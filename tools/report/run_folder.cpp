@@ -43,6 +43,7 @@ RunInfo read_info(const std::string& dir) {
       read_optional(run, "seed", info.seed);
       read_optional(run, "commit", info.commit);
       read_optional(run, "level", info.level);
+      read_optional(run, "perception", info.perception);
       read_optional(run, "deterministic", info.deterministic);
       read_optional(run, "realtime", info.realtime);
       read_optional(run, "wall_s", info.wall_s);

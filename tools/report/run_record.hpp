@@ -217,6 +217,7 @@ struct RunInfo {
   std::optional<std::int64_t> seed;
   std::string commit;
   std::string level;
+  std::string perception;  // rendered, geometric or truth; empty: no simulation, or an older run
   std::optional<bool> deterministic;
   std::optional<bool> realtime;
   std::optional<double> wall_s;

@@ -13,37 +13,40 @@
 namespace rover {
 
 struct DisparityErrorConfig {
-  double baseline_m = 0.12;
-  double search_min_px = -16.0;
-  double search_max_px = 47.0;
+  float baseline_m = 0.12F;
+  float search_min_px = -16.0F;
+  float search_max_px = 47.0F;
   int smoothing_px = 3;           // half side of the block that is averaged on smooth ground
-  double max_smoothing_px = 0.5;  // a pixel that differs more from the average keeps its own disparity
-  double sigma_px = 0.085;        // of the noise where a pixel is smaller than sharp_m
-  double sigma_per_m = 35.0;      // growth with the size of a pixel
-  double sharp_m = 0.0024;        // size of a pixel: depth / focal length = baseline / disparity
-  double max_sigma_px = 0.33;
-  int edge_hole_px = 4;       // width of the hole around a foreground
-  double edge_jump_px = 2.0;  // smallest jump of an edge, beyond that of steep ground over the hole
+  float max_smoothing_px = 0.5F;  // a pixel that differs more from the average keeps its own disparity
+  float sigma_px = 0.085F;        // of the noise where a pixel is smaller than sharp_m
+  float sigma_per_m = 35.0F;      // growth with the size of a pixel
+  float sharp_m = 0.0024F;        // size of a pixel: depth / focal length = baseline / disparity
+  float max_sigma_px = 0.33F;
+  int edge_hole_px = 3;       // width of the hole around a foreground
+  float edge_jump_px = 2.0F;  // smallest jump of an edge, beyond that of steep ground over the hole
 };
 
 class DisparityErrors {
  public:
   static constexpr int kTexturePx = 8;  // side of the blocks whose texture is asked for
 
-  DisparityErrors(const DisparityErrorConfig& config, std::uint64_t seed);
+  DisparityErrors(const DisparityErrorConfig& config, int width, int height, std::uint64_t seed);
 
-  // `exact_px`: 0 without ground. `textured(u, v)`: whether the ground at the pixel can be matched. `reference`: the
-  // matcher searches about it.
-  Disparity apply(const std::vector<float>& exact_px, int width, int height,
-                  const std::function<bool(int u, int v)>& textured, const DisparityPlane& reference,
-                  std::int64_t frame) const;
+  // `exact_px`: of all pixels, 0 without ground. `textured(u, v)`: whether the ground at the pixel can be matched.
+  // `reference`: the matcher searches about it.
+  Disparity apply(const std::vector<float>& exact_px, const std::function<bool(int u, int v)>& textured,
+                  const DisparityPlane& reference, std::int64_t frame) const;
 
  private:
-  static constexpr int kNoiseSide = 1024;
+  float sigma_px(float px) const;
+
+  static constexpr int kNoiseMargin = 256;
 
   DisparityErrorConfig config_;
+  int width_;
+  int height_;
   std::uint64_t seed_;
-  std::vector<float> noise_;  // tile of noise, kNoiseSide squared, standard deviation 1
+  std::vector<float> noise_;  // of standard deviation 1; each frame takes another part of it
 };
 
 }  // namespace rover

@@ -1,5 +1,6 @@
 #include "rover_simulator/camera/geometric_stereo.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "rover_simulator/camera/hit_band.hpp"
@@ -10,7 +11,14 @@ namespace {
 // Depths between which the disparity is interpolated; the error is below 0.01 px beyond 0.5 m.
 constexpr double kNearM = 1.0;
 constexpr double kFarM = 20.0;
-constexpr double kDisparityTolerance_px = 0.25;  // of interpolated rays; the noise of matching is larger
+constexpr double kDisparityTolerance_px = 0.5;  // of interpolated rays; the noise of matching is larger
+constexpr int kRayPx = 2;                        // rays at every second pixel of every second row
+constexpr float kSurfacePx = 1.0F;               // neighbours on one surface differ by less
+
+// Disparity half-way between two rays: their mean on one surface, else the first.
+float between(float a, float b) {
+  return std::abs(a - b) < kSurfacePx ? 0.5F * (a + b) : a;
+}
 
 // From the true cameras to the rectified ones and back.
 class Projector {
@@ -50,13 +58,14 @@ GeometricStereo::GeometricStereo(const StereoRig& nominal, const StereoRig& true
                                  std::shared_ptr<TileScene> scene)
     : rectified_(rectified), scene_(std::move(scene)) {
   const Projector projector(nominal, true_rig, rectified);
-  rays_.width = rectified.width;
-  rays_.height = rectified.height;
-  rays_.stride = rectified.width + 1;
-  rays_.pixel_angle_rad = static_cast<float>(1.0 / rectified.focal_px);
-  for (int v = 0; v <= rectified.height; ++v) {
-    for (int u = 0; u <= rectified.width; ++u) {
-      const Eigen::Vector3d ray = projector.true_ray(u, v);
+  rays_.width = rectified.width / kRayPx;
+  rays_.height = (rectified.height / kRayPx + HitBand::kRows - 1) / HitBand::kRows * HitBand::kRows;
+  rays_.stride = rays_.width + 1;
+  rays_.pixel_angle_rad = static_cast<float>(kRayPx / rectified.focal_px);
+  for (int row = 0; row <= rays_.height; ++row) {
+    for (int column = 0; column <= rays_.width; ++column) {
+      const double u = kRayPx * column;
+      const Eigen::Vector3d ray = projector.true_ray(u, kRayPx * row);
       rays_.x.push_back(static_cast<float>(ray.x()));
       rays_.y.push_back(static_cast<float>(ray.y()));
       const double near_px = projector.disparity_px(u, ray * kNearM);
@@ -68,28 +77,47 @@ GeometricStereo::GeometricStereo(const StereoRig& nominal, const StereoRig& true
   }
 }
 
-std::vector<float> GeometricStereo::exact_px(const Eigen::Isometry3d& T_map_left) {
+std::vector<float> GeometricStereo::trace(const Eigen::Isometry3d& T_map_left) {
   scene_->focus(T_map_left.translation().x(), T_map_left.translation().y());
   const double tolerance = kDisparityTolerance_px / (rectified_.focal_px * rectified_.baseline_m);
   const CameraView view{rays_, T_map_left.linear().cast<float>(), scene_->view(T_map_left.translation()),
                         static_cast<float>(tolerance)};
-  std::vector<float> disparity(static_cast<size_t>(rectified_.width) * rectified_.height, 0.0F);
-  for (int first = 0; first < rectified_.height; first += HitBand::kRows) {
+  std::vector<float> traced_px(static_cast<size_t>(rays_.width) * rays_.height, 0.0F);
+  for (int first = 0; first < rays_.height; first += HitBand::kRows) {
     const HitBand band = find_hits(*scene_, view, first);
     for (int row = 0; row < HitBand::kRows; ++row)
-      for (int u = 0; u < rectified_.width; ++u) {
-        const size_t at = static_cast<size_t>(row) * rectified_.width + u;
+      for (int column = 0; column < rays_.width; ++column) {
+        const size_t at = static_cast<size_t>(row) * rays_.width + column;
         if (band.tile[at] == kNoTile) continue;
-        const Projection& p = projections_[static_cast<size_t>(first + row) * rays_.stride + u];
+        const Projection& p = projections_[static_cast<size_t>(first + row) * rays_.stride + column];
         const float px = p.at_infinity_px + p.baseline_px_m * p.range_per_depth / band.range_m[at];
-        disparity[static_cast<size_t>(first + row) * rectified_.width + u] = std::max(px, 0.0F);
+        traced_px[static_cast<size_t>(first) * rays_.width + at] = std::max(px, 0.0F);
       }
   }
-  return disparity;
+  return traced_px;
+}
+
+std::vector<float> GeometricStereo::exact_px(const Eigen::Isometry3d& T_map_left) {
+  const std::vector<float> traced_px = trace(T_map_left);
+  const int width = rectified_.width;
+  std::vector<float> px(static_cast<size_t>(width) * rectified_.height);
+  const auto row_of = [&](int v) { return px.begin() + std::ptrdiff_t{v} * width; };
+  for (int v = 0; v < rectified_.height; v += kRayPx) {
+    const float* rays = &traced_px[static_cast<size_t>(v / kRayPx) * rays_.width];
+    for (int column = 0; column < rays_.width; ++column) {
+      row_of(v)[kRayPx * column] = rays[column];
+      row_of(v)[kRayPx * column + 1] = between(rays[column], rays[std::min(column + 1, rays_.width - 1)]);
+    }
+  }
+  for (int v = 1; v < rectified_.height; v += kRayPx) {
+    const int below = std::min(v + 1, rectified_.height - kRayPx);
+    std::transform(row_of(v - 1), row_of(v - 1) + width, row_of(below), row_of(v), between);
+  }
+  return px;
 }
 
 Eigen::Vector3d GeometricStereo::point(int u, int v, double exact_px) const {
-  const size_t at = static_cast<size_t>(v) * rays_.stride + u;
+  const size_t at = static_cast<size_t>(v / kRayPx) * rays_.stride + u / kRayPx;
   const double depth_m = projections_[at].baseline_px_m / (exact_px - projections_[at].at_infinity_px);
   return depth_m * Eigen::Vector3d(rays_.x[at], rays_.y[at], 1.0);
 }

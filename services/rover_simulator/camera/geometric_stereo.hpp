@@ -25,7 +25,7 @@ class GeometricStereo {
   double focal_px() const { return rectified_.focal_px; }
   // Disparity of each rectified left pixel [px], 0 without ground. T_map_left: the true left camera.
   std::vector<float> exact_px(const Eigen::Isometry3d& T_map_left);
-  // Point in the true left camera of a pixel with its exact disparity.
+  // Point in the true left camera of an even pixel with its exact disparity.
   Eigen::Vector3d point(int u, int v, double exact_px) const;
 
  private:
@@ -36,9 +36,11 @@ class GeometricStereo {
     float range_per_depth;
   };
 
+  std::vector<float> trace(const Eigen::Isometry3d& T_map_left);
+
   StereoCamera rectified_;
   std::shared_ptr<TileScene> scene_;
-  RayTable rays_;  // in the true left camera
+  RayTable rays_;  // in the true left camera; fewer than pixels
   std::vector<Projection> projections_;
 };
 

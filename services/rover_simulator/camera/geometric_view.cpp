@@ -39,7 +39,7 @@ Disparity GeometricView::expose(GeometricStereo& stereo, const DisparityErrors& 
     const Eigen::Vector3d p_left = stereo.point(u, v, px);
     return textured(T_map_left * p_left, p_left.z() / stereo.focal_px());
   };
-  return errors.apply(exact_px, stereo.width(), stereo.height(), has_texture, reference, frame);
+  return errors.apply(exact_px, has_texture, reference, frame);
 }
 
 bool GeometricView::textured(const Eigen::Vector3d& p_map, double pixel_m) const {
@@ -52,9 +52,9 @@ bool GeometricView::textured(const Eigen::Vector3d& p_map, double pixel_m) const
 
 DisparityErrorConfig errors_of(const stereo::MatcherConfig& matcher, const StereoCamera& rectified) {
   DisparityErrorConfig config;
-  config.baseline_m = rectified.baseline_m;
-  config.search_min_px = matcher.residual_min_px;
-  config.search_max_px = matcher.residual_min_px + matcher.residual_count_px - 1;
+  config.baseline_m = static_cast<float>(rectified.baseline_m);
+  config.search_min_px = static_cast<float>(matcher.residual_min_px);
+  config.search_max_px = static_cast<float>(matcher.residual_min_px + matcher.residual_count_px - 1);
   return config;
 }
 
