@@ -37,7 +37,8 @@ if(CMAKE_SYSTEM_PROCESSOR STREQUAL x86_64)
   target_compile_options(rover_flags INTERFACE -march=x86-64-v2)
 elseif(CMAKE_SYSTEM_PROCESSOR STREQUAL aarch64)
   # Eigen then multiplies and adds in two roundings, as on x86-64.
-  target_compile_options(rover_flags INTERFACE -U__ARM_FEATURE_FMA)
+  # -Wno-psabi: notes on how GCC 10 passed pairs, on each file.
+  target_compile_options(rover_flags INTERFACE -U__ARM_FEATURE_FMA -Wno-psabi)
 endif()
 if(ROVER_SANITIZE STREQUAL address)
   # UBSan without the checks that ASan's own cover (null, object-size) or that x86 has no need of: 30 % of the build time.

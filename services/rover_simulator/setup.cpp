@@ -54,7 +54,8 @@ void write_summary(const std::string& run_dir, const SimulationSummary& summary)
                                {"deterministic", summary.deterministic},
                                {"simulated_s", summary.simulated_s},
                                {"wall_s", summary.wall_s},
-                               {"left", summary.left}};
+                               {"left", summary.left},
+                               {"seconds_of_service", summary.seconds_of_service}};
   std::ofstream(run_dir + "/simulation.json.new") << json.dump(2) << "\n";
   std::filesystem::rename(run_dir + "/simulation.json.new", run_dir + "/simulation.json");
 }

@@ -51,7 +51,8 @@ struct SimulationSummary {
   bool deterministic = true;
   double simulated_s = 0.0;
   double wall_s = 0.0;
-  std::vector<std::string> left;  // services that left the barrier, with the message time
+  std::vector<std::string> left;                     // services that left the barrier, with the message time
+  std::map<std::string, double> seconds_of_service;  // wall time, in a run within one process
 };
 
 class Simulator {

@@ -7,5 +7,5 @@ target_link_libraries(camera_bench PRIVATE rover_camera_sim benchmark::benchmark
 set_target_properties(camera_bench PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bench)
 if(TARGET point_cloud_node)
   rover_benchmark(perception_study SOURCES perception_study.cpp
-    LINK rover_camera_sim rover_scenario stereo_node point_cloud_node)
+    LINK rover_camera_sim rover_scenario stereo_node point_cloud_node report_io)
 endif()

@@ -1,10 +1,11 @@
 // Disparities of rendered images beside geometric ones at the same poses: what DisparityErrors is fitted to.
-// perception_study --camera loccam|navcam: a table of errors by depth; --out: histograms of the errors as a picture.
+// perception_study --camera loccam|navcam: a table of errors by depth; --picture: histograms of the errors.
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <map>
 #include <opencv2/imgcodecs.hpp>
 
@@ -15,6 +16,8 @@
 #include "rover_simulator/camera/stereo_camera_sim.hpp"
 #include "rover_simulator/world/scenario.hpp"
 #include "stereo/config.hpp"
+#include "tools/report/rasterise.hpp"
+#include "tools/report/svg.hpp"
 
 namespace rover {
 namespace {
@@ -30,8 +33,8 @@ struct Arguments {
   std::string config = ROVER_SOURCE_DIR "/config";
   std::string scenario = ROVER_SOURCE_DIR "/config/scenarios/full_hard.yaml";
   std::string camera = "loccam";
-  std::string out;   // CSV of the histograms
-  std::string dump;  // folder for pictures of the first frames
+  std::string picture;  // PNG of the histograms
+  std::string dump;     // folder for pictures of the first frames
   std::uint64_t first_seed = 11;
   int seeds = 3;
   int poses = 10;
@@ -139,17 +142,41 @@ void print(const Table& table) {
   }
 }
 
-void write_histograms(const std::string& file, const Table& table) {
-  std::ofstream out(file);
-  out << "ground,depth_m,tier";
-  for (int bin = 0; bin < kHistogramBins; ++bin) out << "," << kHistogramPx * (bin - kHistogramBins / 2);
-  out << "\n";
-  for (const auto& [key, errors] : table)
+// One panel for each depth, smooth ground above and edges below: rendered as an area, geometric as a line.
+std::string draw_histograms(const Table& table, int panels) {
+  constexpr double kPanel = 150.0;
+  constexpr double kTop = 40.0;
+  report::Svg svg(panels * kPanel + 20.0, 2 * kPanel + kTop + 20.0);
+  svg.rect(0, 0, panels * kPanel + 20.0, 2 * kPanel + kTop + 20.0, "fill:#ffffff");
+  svg.text(10, 22, "Error of the disparity by depth: rendered (grey), geometric (line); smooth ground, edges of rocks",
+           14, "fill:#333333");
+  for (const auto& [key, errors] : table) {
+    const int column = key.half_metres - table.begin()->first.half_metres;
+    if (column >= panels) continue;
+    const double left = 10.0 + column * kPanel;
+    const double bottom = kTop + (key.edge ? 2.0 : 1.0) * kPanel - 20.0;
     for (size_t tier = 0; tier < 2; ++tier) {
-      out << (key.edge ? "edge," : "smooth,") << 0.5 * key.half_metres << (tier == 0 ? ",rendered" : ",geometric");
-      for (const long n : errors[tier].histogram) out << "," << n;
-      out << "\n";
+      const double all = errors[tier].inliers() + static_cast<double>(errors[tier].outliers);
+      report::Points line = {{left, bottom}};
+      for (int bin = 0; bin < kHistogramBins; ++bin) {
+        const double share = static_cast<double>(errors[tier].histogram[static_cast<size_t>(bin)]) / std::max(all, 1.0);
+        const double y = bottom - std::min(share * 250.0, kPanel - 45.0);
+        const double x = left + (kPanel - 15.0) * bin / kHistogramBins;
+        line.emplace_back(x, y);
+        line.emplace_back(x + (kPanel - 15.0) / kHistogramBins, y);
+      }
+      line.emplace_back(left + kPanel - 15.0, bottom);
+      if (tier == 0)
+        svg.polygon(line, "fill:#c8c8c8");
+      else
+        svg.polyline(line, "fill:none;stroke:#c04020;stroke-width:1.5");
     }
+    svg.line(left, bottom, left + kPanel - 15.0, bottom, "stroke:#333333");
+    svg.text(left + 2.0, bottom - kPanel + 40.0, fmt::format("{:.1f} m", 0.5 * key.half_metres), 11, "fill:#333333");
+    svg.text(left, bottom + 14.0, "-1.5", 10, "fill:#777777");
+    svg.text(left + kPanel - 15.0, bottom + 14.0, "1.5 px", 10, "fill:#777777", report::Anchor::kEnd);
+  }
+  return svg.str();
 }
 
 void study(const Arguments& arguments) {
@@ -200,7 +227,7 @@ void study(const Arguments& arguments) {
   }
   print(table);
   std::printf("\ngeometric: %.1f ms per frame\n", 1e3 * geometric_s / (arguments.seeds * arguments.poses));
-  if (!arguments.out.empty()) write_histograms(arguments.out, table);
+  if (!arguments.picture.empty()) report::write_png(draw_histograms(table, 8), 1.0, arguments.picture);
 }
 
 }  // namespace
@@ -215,7 +242,7 @@ int main(int argc, char** argv) {
   app.add_option("--seeds", arguments.seeds, "number of worlds")->capture_default_str();
   app.add_option("--first-seed", arguments.first_seed)->capture_default_str();
   app.add_option("--poses", arguments.poses, "in each world")->capture_default_str();
-  app.add_option("--out", arguments.out, "CSV file of the histograms");
+  app.add_option("--picture", arguments.picture, "PNG file of the histograms");
   app.add_option("--dump", arguments.dump, "folder for pictures");
   CLI11_PARSE(app, argc, argv);
   rover::study(arguments);

@@ -32,6 +32,10 @@ std::vector<std::string> drive_command(const CampaignInfo& info, const WorkerArg
   const std::vector<std::string> drive = drive_arguments(arguments.dir, job);
   command.insert(command.end(), drive.begin(), drive.end());
   command.insert(command.end(), {"--headless", "--record", "reduced", "--out", run_dir, "--bus", bus.url()});
+  // Disparities and clouds around events are most of such a log; the drive can be repeated with them.
+  if (!job.perception.empty() && job.perception != "rendered")
+    command.insert(command.end(), {"--set", "recorder.images_before_s=0", "--set", "recorder.images_after_s=0", "--set",
+                                   "recorder.image_interval=1000000"});
   return command;
 }
 

@@ -44,9 +44,10 @@ const std::vector<Suite>& suites() {
 const Suite& find_suite(const std::string& name) {
   for (const Suite& suite : suites())
     if (suite.name == name) return suite;
-  throw ConfigError("bench: no suite '" + name +
-                    "'; known suites: default, seed, full, slam, correction, speed, micro, faults, restarts, page, "
-                    "data, wild, fuzz");
+  throw ConfigError(
+      "bench: no suite '" + name +
+      "'; known suites: default, seed, full, cost, perception, slam, correction, speed, micro, faults, restarts, page, "
+      "data, wild, fuzz");
 }
 
 struct Job {

@@ -76,7 +76,9 @@ int simulate(const Arguments& arguments) {
   }
   rover::Simulator simulator(rover::with_scenario(options, scenario), *rover_and_world, bus, nullptr, in_process);
   stack.start();
-  const rover::SimulationSummary summary = simulator.run(rover::keep_running);
+  rover::SimulationSummary summary = simulator.run(rover::keep_running);
+  stack.work();  // the last tick
+  summary.seconds_of_service = stack.seconds_of_service();
   for (const std::string& left : summary.left) std::printf("%s\n", left.c_str());
   rover::write_summary(arguments.run_dir, summary);
   return 0;

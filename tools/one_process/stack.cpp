@@ -1,8 +1,15 @@
 #include "tools/one_process/stack.hpp"
 
+#include <chrono>
+
 #include "common/core/check.hpp"
 
 namespace rover {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+}  // namespace
 
 void Stack::add(const std::string& service, Factory factory) {
   processes_.push_back(std::make_unique<Process>());
@@ -57,8 +64,12 @@ bool Stack::drain() {
 
 bool Stack::work() {
   const bool any = drain();
-  for (const auto& process : processes_)
-    if (process->node && !process->hangs) process->node->handle(0);
+  for (const auto& process : processes_) {
+    if (!process->node || process->hangs) continue;
+    const auto started = Clock::now();
+    process->node->handle(0);
+    seconds_[process->name] += std::chrono::duration<double>(Clock::now() - started).count();
+  }
   return drain() || any;
 }
 

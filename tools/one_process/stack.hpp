@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <lcm/lcm-cpp.hpp>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -25,6 +26,8 @@ class Stack {
   void start();
   // Delivers the published messages and lets the services process their ticks; false if no message waited.
   bool work();
+  // Wall time that each service has used in work(), for benches.
+  const std::map<std::string, double>& seconds_of_service() const { return seconds_; }
   // For a bus without clock master: publishes the tick to all running services, and lets them work.
   void tick(Utime now);
 
@@ -60,6 +63,7 @@ class Stack {
   Utime now_ = 0;
   StreamCounter ticks_{"rover_simulator", 1};
   std::vector<std::unique_ptr<Process>> processes_;
+  std::map<std::string, double> seconds_;
 };
 
 }  // namespace rover

@@ -1,0 +1,82 @@
+#!/usr/bin/env bash
+# What the path costs, the map or the policy: full_hard (Full) and seed_traverse_2 (Efficient) with maps made from the
+# truth, from rays and from images, and with single parameters changed. Each variant is a campaign in logs/bench/cost, so
+# --resume continues. Writes the tables of test/results/cost.md. Called by ./rover bench cost: BUILD [--seeds a..b]
+# [--resume] [--jobs N].
+set -euo pipefail
+cd "$(dirname "$(readlink -f "$0")")/.."
+BUILD=$1
+shift
+OUT=test/results/cost.md
+LOGS=logs/bench/cost
+SEEDS=11..30
+RENDERED_SEEDS=11..16  # rendered drives take ten times as long
+arguments=()
+while [ $# -gt 0 ]; do
+  case $1 in
+    --seeds) SEEDS=$2 RENDERED_SEEDS=$2 && shift ;;
+    *) arguments+=("$1") ;;
+  esac
+  shift
+done
+mkdir -p test/results "$LOGS"
+
+# NAME | SCENARIOS | what differs from the variant geometric
+VARIANTS='truth | seed_traverse_2 full_hard | perception: truth
+geometric | seed_traverse_2 full_hard | perception: geometric
+rendered | seed_traverse_2 full_hard | perception: rendered
+height_ratio | full_hard | traversability.step.mean_height_ratio: 1.0
+grow_height | full_hard | traversability.step.grow_height_m: 0.12
+uncertain_cost | full_hard | path_planner.full.goal.uncertain_cost: 1.0
+clearance | seed_traverse_2 full_hard | path_planner.clearance.reduced_m: 0.08
+rejoin_8 | seed_traverse_2 | path_planner.repair.rejoin_within_m: 8.0
+rejoin_12 | seed_traverse_2 | path_planner.repair.rejoin_within_m: 12.0
+together | seed_traverse_2 full_hard | traversability.step.mean_height_ratio: 1.0, traversability.step.grow_height_m: 0.12, path_planner.full.goal.uncertain_cost: 1.0, path_planner.clearance.reduced_m: 0.08, path_planner.repair.rejoin_within_m: 8.0'
+variants() { tr -d '\r' <<<"$VARIANTS" | sed 's/ *| */|/g'; }
+
+level_of() { [ "$1" = full_hard ] && echo full || echo efficient; }
+drive() {  # NAME SCENARIOS CHANGES
+  local seeds=$SEEDS changes=$3
+  [ "$1" = rendered ] && seeds=$RENDERED_SEEDS
+  case $changes in *perception:*) ;; *) changes="perception: geometric, $changes" ;; esac
+  {
+    echo "seeds: $seeds"
+    echo "axes: {$changes}"
+    echo "blocks:"
+    for scenario in $2; do
+      echo "  - {scenario: $PWD/config/scenarios/$scenario.yaml, axes: {level: $(level_of "$scenario")}}"
+    done
+  } >"$LOGS/$1.yaml"
+  "$BUILD/bin/rover_campaign" "$LOGS/$1.yaml" --out "$LOGS/$1" "${arguments[@]}"
+}
+table() {  # SCENARIO
+  echo "| variant | drives | at the goal | ratio: median, worst | regret: median | progress: median | hazard stops, false per drive | closed / true area: HAZARDS, TRAVERSABILITY | straight | curve | steering | point turn | reverse | waiting | stop | other |"
+  echo "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|"
+  while IFS='|' read -r name scenarios changes; do
+    case " $scenarios " in *" $1 "*) ;; *) continue ;; esac
+    jq -rs --arg name "$name" --arg level "$(level_of "$1")" -f test/bench_cost.jq "$LOGS/$name/rows.jsonl"
+  done < <(variants)
+}
+
+while IFS='|' read -r name scenarios changes; do
+  drive "$name" "$scenarios" "$changes" </dev/null
+done < <(variants)
+{
+  echo "# What the path costs: the map or the policy"
+  echo
+  echo "Command: \`./rover bench cost\`; commit $(git describe --always --dirty --abbrev=12); $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1), $(nproc) cores; seeds $SEEDS, rendered $RENDERED_SEEDS."
+  for scenario in full_hard seed_traverse_2; do
+    echo
+    echo "## \`$scenario\`, level $(level_of "$scenario")"
+    echo
+    table "$scenario"
+  done
+  echo
+  echo "Ratio: driven / planned, of the drives at the goal; regret: driven / shortest drivable path. Areas: cells called impassable over true area of 0.15 m and more, within 4 m. From 'straight' on: percent of the time."
+  echo
+  echo "Variants:"
+  echo
+  variants | while IFS='|' read -r name scenarios changes; do echo "* \`$name\`: $changes"; done
+} >$OUT.new
+mv $OUT.new $OUT
+cat $OUT
