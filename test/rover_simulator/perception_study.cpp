@@ -26,6 +26,7 @@ constexpr int kBorder = 12;     // pixels at the border are left out
 constexpr int kEdgeWindow = 6;  // half side of the window of an edge
 constexpr float kEdgePx = 4.0F;
 constexpr double kOutlierPx = 1.5;
+constexpr long kMinPixels = 5000;  // at a depth, to be shown
 constexpr double kHistogramPx = 0.1;
 constexpr int kHistogramBins = 31;
 
@@ -133,7 +134,7 @@ void print(const Table& table) {
       "| ground | depth m | pixels | invalid %% | outliers %% | bias px | sigma px |\n|---|---|---|---|---|---|---|\n");
   for (const auto& [key, errors] : table) {
     const auto& [rendered, geometric] = errors;
-    if (rendered.count < 5000 || key.half_metres > 24) continue;
+    if (rendered.count < kMinPixels || key.half_metres > 24) continue;
     std::printf("| %s | %.1f | %ld | %.1f / %.1f | %.2f / %.2f | %.3f / %.3f | %.3f / %.3f |\n",
                 key.edge ? "edge" : "smooth", 0.5 * key.half_metres, rendered.count, rendered.of_all(rendered.invalid),
                 geometric.of_all(geometric.invalid), rendered.of_all(rendered.outliers),
@@ -150,9 +151,11 @@ std::string draw_histograms(const Table& table, int panels) {
   svg.rect(0, 0, panels * kPanel + 20.0, 2 * kPanel + kTop + 20.0, "fill:#ffffff");
   svg.text(10, 22, "Error of the disparity by depth: rendered (grey), geometric (line); smooth ground, edges of rocks",
            14, "fill:#333333");
+  int first = -1;  // depth of the first panel, in half metres
   for (const auto& [key, errors] : table) {
-    const int column = key.half_metres - table.begin()->first.half_metres;
-    if (column >= panels) continue;
+    if (first < 0 && errors[0].count > kMinPixels) first = key.half_metres;
+    const int column = key.half_metres - first;
+    if (first < 0 || column < 0 || column >= panels) continue;
     const double left = 10.0 + column * kPanel;
     const double bottom = kTop + (key.edge ? 2.0 : 1.0) * kPanel - 20.0;
     for (size_t tier = 0; tier < 2; ++tier) {
