@@ -32,7 +32,7 @@ clearance | seed_traverse_2 full_hard | path_planner.clearance.reduced_m: 0.08
 rejoin_8 | seed_traverse_2 | path_planner.repair.rejoin_within_m: 8.0
 rejoin_12 | seed_traverse_2 | path_planner.repair.rejoin_within_m: 12.0
 together | seed_traverse_2 full_hard | traversability.step.mean_height_ratio: 1.0, traversability.step.grow_height_m: 0.12, path_planner.full.goal.uncertain_cost: 1.0, path_planner.clearance.reduced_m: 0.08, path_planner.repair.rejoin_within_m: 8.0'
-variants() { tr -d '\r' <<<"$VARIANTS" | sed 's/ *| */|/g'; }
+variants() { sed 's/ *| */|/g' <<<"$VARIANTS"; }
 
 level_of() { [ "$1" = full_hard ] && echo full || echo efficient; }
 drive() {  # NAME SCENARIOS CHANGES
@@ -44,18 +44,28 @@ drive() {  # NAME SCENARIOS CHANGES
     echo "axes: {$changes}"
     echo "blocks:"
     for scenario in $2; do
-      echo "  - {scenario: $PWD/config/scenarios/$scenario.yaml, axes: {level: $(level_of "$scenario")}}"
+      echo "  - {scenario: ../../../config/scenarios/$scenario.yaml, axes: {level: $(level_of "$scenario")}}"
     done
   } >"$LOGS/$1.yaml"
   "$BUILD/bin/rover_campaign" "$LOGS/$1.yaml" --out "$LOGS/$1" "${arguments[@]}"
+}
+row() {  # NAME SCENARIO [LAST_SEED TITLE]
+  jq -rs --arg name "${4:-$1}" --arg level "$(level_of "$2")" --argjson last_seed "${3:-null}" -f test/bench_cost.jq \
+    "$LOGS/$1/rows.jsonl"
 }
 table() {  # SCENARIO
   echo "| variant | drives | at the goal | ratio: median, worst | regret: median | progress: median | hazard stops, false per drive | closed / true area: HAZARDS, TRAVERSABILITY | straight | curve | steering | point turn | reverse | waiting | stop | other |"
   echo "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|"
   while IFS='|' read -r name scenarios changes; do
     case " $scenarios " in *" $1 "*) ;; *) continue ;; esac
-    jq -rs --arg name "$name" --arg level "$(level_of "$1")" -f test/bench_cost.jq "$LOGS/$name/rows.jsonl"
+    row "$name" "$1"
+    [ "$name" != geometric ] || row geometric "$1" "${RENDERED_SEEDS##*..}" "geometric, seeds of rendered"
   done < <(variants)
+}
+
+compare() {  # VARIANT: drive by drive with geometric
+  "$BUILD/bin/rover_campaign" compare $LOGS/geometric "$LOGS/$1" --out "$LOGS/$1/compare_geometric.md" >/dev/null
+  sed 's/^#/##/' "$LOGS/$1/compare_geometric.md"
 }
 
 while IFS='|' read -r name scenarios changes; do
@@ -77,6 +87,10 @@ done < <(variants)
   echo "Variants:"
   echo
   variants | while IFS='|' read -r name scenarios changes; do echo "* \`$name\`: $changes"; done
+  for variant in truth rendered; do
+    echo
+    compare $variant
+  done
 } >$OUT.new
 mv $OUT.new $OUT
 cat $OUT

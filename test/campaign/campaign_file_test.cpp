@@ -93,6 +93,18 @@ TEST_F(CampaignFileTest, BadInputIsOneLineWithFileAndLine) {
             "c.yaml:1: seeds: '5..3' is neither a range like 1..20 (of 10,000 at most) nor a list like [1, 4, 7]");
 }
 
+// In blocks without a common cell too: each would be driven in the world of the first.
+TEST_F(CampaignFileTest, BasesOfTheSameNameAreRefused) {
+  fs::create_directory(dir_ + "/other");
+  const std::string base = kConfig + "/scenarios/flat.yaml";
+  const std::string other = dir_ + "/other/flat.yaml";
+  fs::copy_file(base, other);
+  const std::string blocks = "seeds: 1\nblocks:\n  - {scenario: " + base + ", axes: {level: full}}\n  - {scenario: ";
+  EXPECT_EQ(error_of(blocks + other + ", axes: {level: efficient}}\n"),
+            "c.yaml: scenario: " + other + " and " + base + " have the same name");
+  EXPECT_EQ(error_of(blocks + base + ", axes: {level: efficient}}\n"), "none");
+}
+
 TEST_F(CampaignFileTest, ParametersMustBeInTheConfigurationWithTheirType) {
   EXPECT_EQ(load(head_ + "axes: {recorder.min_free_gb: [0.2, 0.3]}\n").drives.size(), 6U);
   EXPECT_EQ(error_of(head_ + "axes: {planer.x: 1}\n"), "c.yaml:3: axes.planer.x: there is no config/planer.yaml");

@@ -29,13 +29,14 @@ cmp "$WORK/whole/rows.jsonl" "$WORK/killed/rows.jsonl" || fail "rows after kill 
 campaign "$WORK/c.yaml" --out "$WORK/killed" --resume | grep -q "complete" || fail "resume of a complete campaign"
 
 # SIGTERM: one line, and the drives have ended.
-begin "$WORK/c.yaml" --jobs 4 --out "$WORK/stopped" >/dev/null 2>"$WORK/said"
+begin "$WORK/c.yaml" --jobs 4 --out "$WORK/stopped" >/dev/null 2>"$WORK/stopped.said"
 wait_until "3 rows" has_rows "$WORK/stopped" 3
 refused 2 "two campaigns" "another campaign runs in this folder" "$WORK/c.yaml" --out "$WORK/stopped" --resume
 kill -TERM $pid
 status=0
 wait $pid || status=$?
 [ $status = 1 ] || fail "stopped: exit status $status"
+said "stopped" "^$WORK/stopped: stopped; continue with --resume$" "$WORK/stopped.said"
 no_workers_in "$WORK/stopped" || fail "drives of a stopped campaign go on"
 refused 2 "no --resume" "has a campaign; continue it with --resume" "$WORK/c.yaml" --out "$WORK/stopped"
 mkdir "$WORK/other"
@@ -54,8 +55,34 @@ grep -q "complete, 2 drives died" "$WORK/out" || fail "died drives are not repor
   '"died","",2,"exit status 2: path_planner: config/path_planner.yaml:3: out of range"' ] || fail "row of a died drive"
 [ "$(jq -s 'map(select(.seed == 7 and .status == "done") | .attempts) | add' "$WORK/died/rows.jsonl")" = 3 ] || fail "retry"
 [ "$(grep -c '^5 ' "$FAKE_DRIVE/starts")" = 4 ] || fail "a drive that dies is driven twice"
-[ "$(cat "$WORK"/died/logs/job-*.log | sort -u | wc -l)" = 1 ] || fail "output of died drives"
+[ "$(ls "$WORK"/died/logs/job-*.log | wc -l)" = 2 ] || fail "output of died drives: $(ls "$WORK/died/logs")"
+for log in "$WORK"/died/logs/job-*.log; do
+  [ "$(stat -c %s "$log")" = 100000 ] || fail "the end of a large output is kept: $(stat -c %s "$log") bytes"
+  [ "$(tail -1 "$log")" = "path_planner: config/path_planner.yaml:3: out of range" ] || fail "the end of $log: $(tail -1 "$log")"
+  job=${log##*/job-}
+  [ "$(cat "$WORK/died/runs/${job%.log}/service_logs/path_planner/current")" = began ] || fail "logs of a died drive"
+done
+
+# Drives that the engine begins once, and not again, have not died twice: here it loses one of the two that died.
+mkdir "$WORK/loses"
+cat >"$WORK/loses/parallel" <<SH
+#!/bin/sh
+for list; do case \$list in */parallel.jobs) [ "\$(wc -l <"\$list")" -gt 2 ] || sed -i 1d "\$list" ;; esac; done
+exec $(command -v parallel) "\$@"
+SH
+chmod +x "$WORK/loses/parallel"
+PATH=$WORK/loses:$PATH refused 1 "a drive that is not begun again" \
+  "loses_one: parallel ended, and did not begin 1 drives; see .*; continue with --resume" \
+  "$WORK/c.yaml" --jobs 4 --out "$WORK/loses_one"
+[ "$(jq -r 'select(.status == "died")' "$WORK/loses_one/rows.jsonl")" = "" ] || fail "a drive that was begun once has died"
 rm "$FAKE_DRIVE/die-5"
+
+# Somebody builds another commit meanwhile.
+echo 0123456789ab >"$FAKE_DRIVE/commit"
+refused 1 "another build" "built: job [0-9]*: its drive is of commit 0123456789ab, the campaign of .*; continue with --resume" \
+  "$WORK/c.yaml" --jobs 2 --out "$WORK/built"
+[ ! -s "$WORK/built/rows.jsonl" ] || fail "rows of another commit"
+rm "$FAKE_DRIVE/commit"
 
 # A worker that is killed is a drive that died.
 echo 2 >"$FAKE_DRIVE/seconds"

@@ -30,10 +30,11 @@ has_rows() { [ "$(rows "$1")" -ge "$2" ]; }
 # Processes that work in a folder; $$ is this script.
 workers_in() { pgrep -f -- "$1" | grep -vx -e "$$" -e "$BASHPID" || true; }
 no_workers_in() { [ -z "$(workers_in "$1/work-")" ]; }
-# said NAME PATTERN: the last command said one line on its error output.
+# said NAME PATTERN [FILE]: the command said one line on its error output, which is in FILE.
 said() {
-  [ "$(wc -l <"$WORK/said")" = 1 ] || fail "$1: not one line: $(cat "$WORK/said")"
-  grep -qE -- "$2" "$WORK/said" || fail "$1: said: $(cat "$WORK/said")"
+  local file=${3:-$WORK/said}
+  [ "$(wc -l <"$file")" = 1 ] || fail "$1: not one line: $(cat "$file")"
+  grep -qE -- "$2" "$file" || fail "$1: said: $(cat "$file")"
 }
 # refused STATUS NAME PATTERN ARGUMENTS...
 refused() {

@@ -6,8 +6,10 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 
 #include "common/bus/config.hpp"
+#include "common/bus/text_file.hpp"
 #include "tools/campaign/engine.hpp"
 #include "tools/campaign/folder.hpp"
 #include "tools/campaign/progress_line.hpp"
@@ -64,6 +66,34 @@ TEST_F(SessionTest, ARowThatIsCollectedTwiceIsOne) {
   session.write_row(1, row(7));
   session.collect(store);
   EXPECT_EQ(store.size(), 1);
+}
+
+TEST_F(SessionTest, TwoAttemptsThatWriteTheSameRowHaveFilesOfTheirOwn) {
+  Store store = Store::create(dir_);
+  const Session session = Session::begin(dir_, store);
+  std::ofstream(session.work() + "/rows/1.json.new") << "half";
+  session.write_row(1, row(7));
+  EXPECT_EQ(read_text(session.work() + "/rows/1.json.new", 100), "half");
+  session.collect(store);
+  EXPECT_EQ(store.size(), 1);
+}
+
+TEST_F(SessionTest, TheEndLeavesNoSessionBehind) {
+  Store store = Store::create(dir_);
+  const Session session = Session::begin(dir_, store);
+  fs::create_directories(dir_ + "/closed-abcdef/runs/1-1");  // a drive went on while its session was ended
+  session.remove();
+  EXPECT_FALSE(fs::exists(dir_ + "/closed-abcdef"));
+  EXPECT_FALSE(fs::exists(session.work()));
+}
+
+TEST_F(SessionTest, AWorkerSaysWhyItClosesTheSession) {
+  Store store = Store::create(dir_);
+  const Session session = Session::begin(dir_, store);
+  EXPECT_EQ(session.reason_to_close(), "");
+  session.close_because("job 3: another commit");
+  EXPECT_FALSE(session.is_open());
+  EXPECT_EQ(session.reason_to_close(), "job 3: another commit");
 }
 
 // A limit on the size of a file stops the write as a full disk does: in its middle.

@@ -38,7 +38,7 @@ SlurmdLogFile=$WORK/slurm/slurmd.log
 MaxArraySize=5
 KillWait=5
 ReturnToService=2
-NodeName=localhost NodeAddr=127.0.0.1 CPUs=4
+NodeName=localhost NodeAddr=127.0.0.1 CPUs=8
 PartitionName=test Nodes=localhost Default=YES MaxTime=10 State=UP
 CONF
 
@@ -73,6 +73,7 @@ kill -9 $pid
 wait $pid 2>/dev/null || true
 [ "$(rows "$WORK/slurm_rows")" -lt 12 ] || fail "the campaign was over before it was killed"
 [ -n "$(squeue --noheader)" ] || fail "no job is left in the queue"
+[ "$(squeue --noheader --format %C | sort -u)" = 2 ] || fail "cores of a rendered drive: $(squeue --noheader --format %C)"
 echo 0.5 >"$FAKE_DRIVE/seconds"
 campaign "$WORK/c.yaml" --engine slurm --out "$WORK/slurm_rows" --resume >"$WORK/out" 2>&1 || fail "resume: $(cat "$WORK/out")"
 cmp "$WORK/parallel/rows.jsonl" "$WORK/slurm_rows/rows.jsonl" || fail "rows of Slurm and GNU parallel differ"

@@ -73,6 +73,7 @@ completes() {
 completes repair ./rover rep
 completes --realtime ./rover run --r
 completes efficient ./rover run --level e
+completes geometric ./rover run --perception g
 completes config/scenarios/flat.yaml ./rover run config/scenarios/f
 completes POSE ./rover spy --channel PO
 completes restarts ./rover bench r

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "rover_simulator/world/world.hpp"
+#include "tools/oracle/shorten.hpp"
 #include "vehicle.hpp"
 
 namespace rover::oracle {
@@ -11,9 +12,14 @@ namespace {
 
 constexpr double kToleranceM = 0.5;
 
+double flat(double, double) {
+  return 0.0;
+}
+
 // On a map of 60 x 40 m, from (10, 20) to (50, 20) unless changed.
-Request request_on(HeightFunction height_m) {
+Request request_on(HeightFunction height_m, HeightFunction ground_m = flat) {
   return {.height_m = std::move(height_m),
+          .ground_m = std::move(ground_m),
           .map_width_m = 60.0,
           .map_length_m = 40.0,
           .vehicle = test_vehicle(),
@@ -22,8 +28,9 @@ Request request_on(HeightFunction height_m) {
           .goal_tolerance_m = kToleranceM};
 }
 
-double flat(double, double) {
-  return 0.0;
+Request request_on(const World& world) {
+  return request_on([&](double x_m, double y_m) { return world.height_m(x_m, y_m); },
+                    [&](double x_m, double y_m) { return world.ground_height_m(x_m, y_m); });
 }
 
 // Across the whole map at x = 30, with an opening of this width at y = 20, and a block in its middle.
@@ -110,18 +117,75 @@ TEST(Oracle, SlotWithoutRoomToTurnIsLeftInReverse) {
   EXPECT_GT(result.length_m, 40.0 + 2.0 * (10.0 - 7.0));
 }
 
-TEST(Oracle, LedgeBlocksAndLowStepDoesNot) {
+// The local ground at the edge of a step is half way up.
+TEST(Oracle, LedgeOfTheGroundBlocksAndLowStepDoesNot) {
   const auto ledge = [](double height_m) {
-    return request_on([=](double x_m, double) { return x_m > 30.0 ? height_m : 0.0; });
+    const auto step = [=](double x_m, double) { return x_m > 30.0 ? height_m : 0.0; };
+    return request_on(step, step);
   };
-  EXPECT_EQ(shortest_path(ledge(0.25)).status, Status::kNoPath);
-  EXPECT_EQ(shortest_path(ledge(-0.25)).status, Status::kNoPath);
+  EXPECT_EQ(shortest_path(ledge(0.6)).status, Status::kNoPath);
+  EXPECT_EQ(shortest_path(ledge(-0.6)).status, Status::kNoPath);
   EXPECT_EQ(shortest_path(ledge(0.10)).status, Status::kFound);
+}
+
+// Through a wall 3 m thick, at an angle between two of 15 deg.
+TEST(Oracle, ObliqueCorridorIsPassed) {
+  for (const double angle_deg : {7.5, -22.5, 3.0}) {
+    const double c = std::cos(to_rad(angle_deg));
+    const double s = std::sin(to_rad(angle_deg));
+    const auto wall = [=](double x_m, double y_m) {
+      const double along_m = c * (x_m - 30.0) + s * (y_m - 20.0);
+      const double off_m = c * (y_m - 20.0) - s * (x_m - 30.0);
+      return std::abs(along_m) < 1.5 && std::abs(off_m) > 0.55 ? 0.5 : 0.0;
+    };
+    const Result result = shortest_path(request_on(wall));
+    ASSERT_EQ(result.status, Status::kFound) << angle_deg;
+    EXPECT_LT(result.length_m, 40.5) << angle_deg;
+  }
+}
+
+// The way around the wall is outside the corridor and longer than planned, so that the widest region is searched too.
+TEST(Oracle, ExpansionsOfAllRegionsAreLimitedTogether) {
+  Request request =
+      request_on([](double x_m, double y_m) { return std::abs(x_m - 30.0) < 0.05 && y_m < 23.3 ? 0.5 : 0.0; });
+  const Result whole = shortest_path(request);
+  ASSERT_EQ(whole.status, Status::kFound);
+  request.max_expansions = whole.expansions - 1;
+  const Result less = shortest_path(request);
+  EXPECT_EQ(less.status, Status::kFound) << "by the region before the last";
+  EXPECT_LE(less.expansions, request.max_expansions + 1);
+  request.max_expansions = 100;
+  const Result least = shortest_path(request);
+  EXPECT_EQ(least.status, Status::kGaveUp);
+  EXPECT_LE(least.expansions, 101);
+}
+
+// The goal is straight ahead behind a block at the right side; the search drove past it in an arc.
+TEST(Shorten, LineToTheGoalIsCheckedThoughItJoinsNeighbouringPoses) {
+  const Vehicle vehicle = test_vehicle();
+  TrueGround ground([](double x_m, double y_m) { return std::hypot(x_m - 11.05, y_m - 19.55) < 0.06 ? 0.5 : 0.0; },
+                    flat, {});
+  const FootprintCheck check(vehicle, ground);
+  const Region region = region_around({{10.0, 20.0}, {12.0, 20.0}}, 2.0, 60.0, 40.0);
+  const Eigen::Vector2d goal(10.75, 20.0);
+  const CostToGo cost_to_go(region, check, goal, kToleranceM, 0.0);
+  const SearchProblem problem{.region = region,
+                              .check = check,
+                              .cost_to_go = cost_to_go,
+                              .max_curvature_per_m = 1.0,
+                              .start = {10.0, 20.0, 0.0},
+                              .goal = goal,
+                              .tolerance_m = kToleranceM};
+  const Piece arc{problem.start, 0.3, 1.0, 0.0};
+  ASSERT_TRUE(check.is_free(arc));
+  ASSERT_FALSE(check.is_free(Piece{problem.start, 0.25, 0.0, 0.0}));
+  for (const Piece& piece : shortened({arc}, problem)) EXPECT_TRUE(check.is_free(piece));
 }
 
 TEST(Oracle, SlopeAboveTheLimitBlocks) {
   const auto ramp = [](double slope_deg) {
-    return request_on([=](double x_m, double y_m) { return std::tan(to_rad(slope_deg)) * (0.6 * x_m + 0.8 * y_m); });
+    const auto plane = [=](double x_m, double y_m) { return std::tan(to_rad(slope_deg)) * (0.6 * x_m + 0.8 * y_m); };
+    return request_on(plane, plane);
   };
   const Result gentle = shortest_path(ramp(15.0));
   ASSERT_EQ(gentle.status, Status::kFound);
@@ -165,7 +229,7 @@ TEST(Oracle, PathOverSimulatedRocksKeepsTheLimits) {
     config.rocks.k = k;
     config.keep_clear = {{10.0, 20.0, 1.5}, {50.0, 20.0, 1.0}};
     const World world(config, plane_raster(60.0, 40.0, 1.0, to_rad(8.0), to_rad(30.0)), 3);
-    const Request request = request_on([&](double x_m, double y_m) { return world.height_m(x_m, y_m); });
+    const Request request = request_on(world);
     const Result result = shortest_path(request);
     ASSERT_EQ(result.status, Status::kFound);
     Crossed crossed;
@@ -184,7 +248,7 @@ TEST(Oracle, SameRequestGivesTheSamePath) {
   WorldConfig config;
   config.rocks.k = 0.10;
   const World world(config, plane_raster(60.0, 40.0, 1.0, 0.0, 0.0), 4);
-  Request request = request_on([&](double x_m, double y_m) { return world.height_m(x_m, y_m); });
+  Request request = request_on(world);
   request.start = {10.0, 20.0, 0.1};
   const Result first = shortest_path(request);
   EXPECT_EQ(first.length_m, shortest_path(request).length_m);

@@ -15,16 +15,24 @@ World rocky_slope(double k) {
   return {config, plane_raster(40.0, 40.0, 1.0, to_rad(12.0), to_rad(50.0)), 5};
 }
 
-TEST(TrueGround, LocalGroundIsTheBareGroundBetweenRocks) {
-  for (const double k : {0.0, 0.05, 0.12, 0.20}) {
+HeightFunction surface_of(const World& world) {
+  return [&](double x_m, double y_m) { return world.height_m(x_m, y_m); };
+}
+
+HeightFunction ground_of(const World& world) {
+  return [&](double x_m, double y_m) { return world.ground_height_m(x_m, y_m); };
+}
+
+TEST(LocalGround, IsTheBareGroundBelowAnyRocks) {
+  for (const double k : {0.0, 0.20}) {
     const World world = rocky_slope(k);
-    TrueGround ground([&](double x_m, double y_m) { return world.height_m(x_m, y_m); }, {}, 5.0, 5.0, 35.0, 35.0);
+    LocalGround ground(ground_of(world));
     double sum = 0.0;
     double squares = 0.0;
     int n = 0;
     for (double x = 5.0; x < 35.0; x += 0.37)
       for (double y = 5.0; y < 35.0; y += 0.37, ++n) {
-        const double error = ground.local_ground_m(x, y) - world.smooth_height_m(x, y);
+        const double error = ground.at(x, y) - world.smooth_height_m(x, y);
         sum += error;
         squares += error * error;
       }
@@ -35,14 +43,14 @@ TEST(TrueGround, LocalGroundIsTheBareGroundBetweenRocks) {
 
 TEST(TrueGround, SlopeIsThatBelowTheRocks) {
   const World world = rocky_slope(0.12);
-  TrueGround ground([&](double x_m, double y_m) { return world.height_m(x_m, y_m); }, {}, 5.0, 5.0, 35.0, 35.0);
+  TrueGround ground(surface_of(world), ground_of(world), {});
   for (double x = 5.0; x < 35.0; x += 1.3)
     for (double y = 5.0; y < 35.0; y += 1.3) EXPECT_NEAR(to_deg(ground.slope_rad(x, y)), 12.0, 2.0);
 }
 
 TEST(TrueGround, TallRocksAreHazardsAndLowOnesAreNot) {
   const World world = rocky_slope(0.08);
-  TrueGround ground([&](double x_m, double y_m) { return world.height_m(x_m, y_m); }, {}, 5.0, 5.0, 35.0, 35.0);
+  TrueGround ground(surface_of(world), ground_of(world), {});
   int tall = 0;
   int found = 0;
   for (const Rock& rock : world.rocks_in(6.0, 6.0, 34.0, 34.0)) {

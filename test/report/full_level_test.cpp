@@ -11,6 +11,7 @@
 #include <rover/supervisor_state_t.hpp>
 #include <rover/truth_t.hpp>
 
+#include "../common/temp_folder.hpp"
 #include "common/bus/channels.hpp"
 #include "common/bus/convert.hpp"
 #include "known_run.hpp"
@@ -119,13 +120,10 @@ TEST(Levels, DistanceTimeAndCpuPerLevel) {
 // 20 m along x at 0.2 m/s from 5 s on; at 10 m the level changes to Full, with maps and SLAM poses from then on.
 class FullLogTest : public testing::Test {
  protected:
-  FullLogTest() : dir_(testing::TempDir() + "/full_level_test"), log_file_(dir_ + "/traverse.lcm") {
-    std::filesystem::remove_all(dir_);
-    std::filesystem::create_directories(dir_);
+  FullLogTest() {
     MessageLog log(log_file_);
     for (Utime t = 0; t <= to_utime(106.0); t += to_utime(0.5)) put(log, t);
   }
-  ~FullLogTest() override { std::filesystem::remove_all(dir_); }
 
   static double x_at(Utime t) { return std::clamp(0.2 * (to_seconds(t) - 5.0), 0.0, 20.0); }
 
@@ -182,8 +180,8 @@ class FullLogTest : public testing::Test {
     log.put(channel::kCorrection, correction, t, "global_localization", to_utime(0.3));
   }
 
-  std::string dir_;
-  std::string log_file_;
+  testing_support::TempFolder folder_;
+  std::string log_file_ = folder_.file("traverse.lcm");
 };
 
 TEST_F(FullLogTest, FiguresFromTheLog) {
@@ -223,10 +221,10 @@ TEST_F(FullLogTest, PicturesShowMapTracksAndReasons) {
   EXPECT_NE(elevation.find("0.00 to 0.00 m"), std::string::npos);
   const std::string levels = draw_levels(scene);
   EXPECT_NE(levels.find("EFFICIENT to FULL: many_hazards, hazards_per_m 0.8, threshold 0.5"), std::string::npos);
-  write_png(elevation, 1.0, dir_ + "/elevation.png");
-  write_png(levels, 1.0, dir_ + "/levels.png");
-  EXPECT_GT(std::filesystem::file_size(dir_ + "/elevation.png"), 10'000u);
-  EXPECT_GT(std::filesystem::file_size(dir_ + "/levels.png"), 10'000u);
+  write_png(elevation, 1.0, folder_.file("elevation.png"));
+  write_png(levels, 1.0, folder_.file("levels.png"));
+  EXPECT_GT(std::filesystem::file_size(folder_.file("elevation.png")), 10'000u);
+  EXPECT_GT(std::filesystem::file_size(folder_.file("levels.png")), 10'000u);
 }
 
 TEST(FullPictures, ARunAtTheEfficientLevelHasNone) {

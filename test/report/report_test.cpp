@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <lcm/lcm-cpp.hpp>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <rover/slip_t.hpp>
@@ -48,12 +49,13 @@ TrueWorld world_of(const SyntheticRun& run) {
 class ReportTest : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    dir_ = testing::TempDir() + "/report_test";
-    fs::remove_all(dir_);
+    folder_ = std::make_unique<testing_support::TempFolder>();
+    dir_ = folder_->file("run");
     fs::create_directories(dir_);
     write_synthetic_run(short_run(), dir_);
     write_report(study());
   }
+  static void TearDownTestSuite() { folder_.reset(); }
   // The synthetic world, which no scenario can regenerate.
   static Study study() {
     Study study;
@@ -65,6 +67,7 @@ class ReportTest : public testing::Test {
     return study;
   }
   static nlohmann::json metrics() { return nlohmann::json::parse(read_file(dir_ + "/metrics.json")); }
+  static inline std::unique_ptr<testing_support::TempFolder> folder_;
   static inline std::string dir_;
 };
 
@@ -150,6 +153,7 @@ TEST_F(ReportTest, MetricNamesAreStable) {
 TEST_F(ReportTest, RegretIsTheDrivenLengthOverTheShortestDrivablePath) {
   Study changed = study();
   EXPECT_TRUE(std::isnan(changed.evaluation.metrics.oracle_m)) << "not evaluated";
+  changed.world->ground_m = [](double, double) { return 0.0; };
   evaluate_oracle(changed.run, changed.folder.vehicle, changed.world, changed.evaluation);
   const Metrics& m = changed.evaluation.metrics;
   EXPECT_EQ(m.oracle_feasible, true);
@@ -162,6 +166,7 @@ TEST_F(ReportTest, RegretIsTheDrivenLengthOverTheShortestDrivablePath) {
 TEST_F(ReportTest, ClosedWorldHasNoOracle) {
   Study changed = study();
   changed.world->height_m = [](double x_m, double) { return std::abs(x_m - 16.0) < 0.1 ? 0.5 : 0.0; };
+  changed.world->ground_m = [](double, double) { return 0.0; };
   evaluate_oracle(changed.run, changed.folder.vehicle, changed.world, changed.evaluation);
   const nlohmann::json m = metrics_json(changed.evaluation.metrics);
   EXPECT_EQ(m["oracle_feasible"], false);
@@ -185,8 +190,7 @@ TEST_F(ReportTest, MapFidelityHasAnArrayOfRangesForEachHeight) {
 }
 
 TEST_F(ReportTest, CamerasAreWhereTheRunsConfigurationPutsThem) {
-  const std::string dir = testing::TempDir() + "/report_test_cameras";
-  fs::remove_all(dir);
+  const std::string dir = folder_->file("cameras");
   fs::copy(dir_, dir);
   fs::create_directories(dir + "/config");
   fs::copy(std::string(kConfig) + "/vehicle.yaml", dir + "/config");
@@ -198,7 +202,6 @@ TEST_F(ReportTest, CamerasAreWhereTheRunsConfigurationPutsThem) {
   const Footprint footprint = open_run_folder(dir, kConfig).footprint;
   EXPECT_NEAR(footprint.loccam_x_m, 0.611, 1e-9);
   EXPECT_NEAR(footprint.navcam_x_m, Footprint{}.navcam_x_m, 1e-9) << "a vehicle without one";
-  fs::remove_all(dir);
 }
 
 TEST_F(ReportTest, PageIsSelfContained) {
@@ -248,8 +251,7 @@ TEST_F(ReportTest, RepeatedReportIsIdentical) {
 }
 
 TEST_F(ReportTest, RockMetricsAreNullWithoutWorld) {
-  const std::string other = testing::TempDir() + "/report_test_real";
-  fs::remove_all(other);
+  const std::string other = folder_->file("real");
   fs::create_directories(other);
   fs::copy_file(dir_ + "/traverse.lcm", other + "/traverse.lcm");
   make_report(other, kConfig);
@@ -274,8 +276,7 @@ void copy_without_truth(const std::string& from, const std::string& to) {
 }
 
 TEST_F(ReportTest, WithoutTruthReportUsesEstimate) {
-  const std::string other = testing::TempDir() + "/report_test_no_truth";
-  fs::remove_all(other);
+  const std::string other = folder_->file("no_truth");
   fs::create_directories(other);
   copy_without_truth(dir_ + "/traverse.lcm", other + "/traverse.lcm");
   EXPECT_THAT(make_report(other, kConfig), testing::HasSubstr("no ground truth"));
@@ -296,7 +297,7 @@ TEST_F(ReportTest, WithoutTruthReportUsesEstimate) {
 }
 
 TEST_F(ReportTest, TruncatedLogLosesOnlyItsEnd) {
-  const std::string cut = testing::TempDir() + "/cut.lcm";
+  const std::string cut = folder_->file("cut.lcm");
   const auto whole = read_log(choose_run(dir_ + "/traverse.lcm"));
   for (const std::uintmax_t missing : {1u, 7u, 30u, 333u, 100'000u}) {
     fs::copy_file(dir_ + "/traverse.lcm", cut, fs::copy_options::overwrite_existing);
@@ -342,7 +343,7 @@ TEST_F(ReportTest, EvaluatesSelectedRunOfLog) {
 }
 
 TEST_F(ReportTest, DamagedRecordsAreCountedAndSkipped) {
-  const std::string file = testing::TempDir() + "/damaged.lcm";
+  const std::string file = folder_->file("damaged.lcm");
   {
     MessageLog log(file);
     log.put(channel::kTruth, truth_t{}, 0, "rover_simulator");
@@ -357,7 +358,7 @@ TEST_F(ReportTest, DamagedRecordsAreCountedAndSkipped) {
 }
 
 TEST_F(ReportTest, MessagesLeftOutOfAReducedLogStillCount) {
-  const std::string file = testing::TempDir() + "/reduced.lcm";
+  const std::string file = folder_->file("reduced.lcm");
   {
     MessageLog log(file);
     for (int i = 0; i < 9; ++i) log.leave_out("SLIP", "localization");
@@ -381,8 +382,8 @@ TEST(RunFolder, EachFaultIsOneLineThatNamesTheFile) {
     return "no error";
   };
   EXPECT_EQ(message("/nowhere"), "/nowhere: no such folder");
-  const std::string dir = testing::TempDir() + "/faulty_run";
-  fs::remove_all(dir);
+  const testing_support::TempFolder folder;
+  const std::string dir = folder.file("faulty_run");
   fs::create_directories(dir);
   EXPECT_EQ(message(dir), dir + "/traverse.lcm: no such log");
   std::ofstream(dir + "/traverse.lcm") << "";

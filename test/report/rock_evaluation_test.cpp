@@ -88,6 +88,12 @@ TEST(RockEvaluation, TiltedRoverCellsAreProjectedToGround) {
   EXPECT_NEAR(p.x(), 2.0 * std::cos(to_rad(10.0)) + 0.62 * std::sin(to_rad(10.0)), 1e-12);
 }
 
+TEST(RockEvaluation, RocksFromTheMinimumHeightOnAreHazards) {
+  const std::vector<Rock> hazards = hazards_of({{1.0, 0.0, 0.2, 0.149}, {2.0, 0.0, 0.2, 0.15}, {3.0, 0.0, 0.2, 0.4}});
+  ASSERT_EQ(hazards.size(), 2u);
+  EXPECT_EQ(hazards[0].x_m, 2.0);
+}
+
 TEST(RockIndex, MatchesBruteForceSearch) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> place(-20.0, 20.0);

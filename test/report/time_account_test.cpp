@@ -105,6 +105,17 @@ TEST(TimeAccount, StopThatEndsOnTheSamePathIsAHazardStop) {
   EXPECT_EQ(account.of(TimeCause::kWaitingForPlan), 0.0);
 }
 
+TEST(TimeAccount, StopThatASweepEndsOnTheSamePathIsAHazardStop) {
+  for (const State between : {State::kSweeping, State::kPaused, State::kFaultStop}) {
+    TimedRun run(State::kDriving);
+    run.path().drive(1.0, 0.2, 0.2).state(State::kHazardStop).rest(2.0).state(between).rest(13.0);
+    run.state(State::kDriving).drive(1.0, 0.2, 0.2).path().drive(1.0, 0.2, 0.2);
+    const TimeAccount account = run.account();
+    EXPECT_NEAR(account.of(TimeCause::kHazardStop), 2.0, 1e-9) << static_cast<int>(between);
+    EXPECT_EQ(account.of(TimeCause::kWaitingForPlan), 0.0) << static_cast<int>(between);
+  }
+}
+
 TEST(TimeAccount, StopWaitsForAPlanFromRestUntilTheNewPath) {
   TimedRun run(State::kDriving);
   run.path().drive(1.0, 0.2, 0.2).state(State::kHazardStop).drive(0.5, 0.1, 0.1).rest(1.0).state(State::kRepairing);

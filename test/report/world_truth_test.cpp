@@ -2,32 +2,34 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <fstream>
 
+#include "../common/temp_folder.hpp"
 #include "common/geo/geotiff_writer.hpp"
 
 namespace rover::report {
 namespace {
 
-namespace fs = std::filesystem;
+class WorldTruth : public testing::Test {
+ protected:
+  RunFolder folder_with(const std::string& scenario) const {
+    RunFolder folder;
+    folder.dir = temp_.path();
+    folder.scenario = temp_.file("scenario.yaml");
+    std::ofstream(folder.scenario) << scenario;
+    folder.info.seed = 5;
+    return folder;
+  }
 
-RunFolder folder_with(const std::string& scenario) {
-  RunFolder folder;
-  folder.dir = testing::TempDir() + "/world_truth_test";
-  fs::remove_all(folder.dir);
-  fs::create_directories(folder.dir);
-  folder.scenario = folder.dir + "/scenario.yaml";
-  std::ofstream(folder.scenario) << scenario;
-  folder.info.seed = 5;
-  return folder;
-}
+ private:
+  testing_support::TempFolder temp_;
+};
 
 constexpr char kPlane[] =
     "world:\n  plane: {width_m: 60, height_m: 40, slope_deg: 5}\n  rock_area_k: 0.1\n"
     "path: {x_m: [10, 50], y_m: [20, 20]}\n";
 
-TEST(WorldTruth, SeedRegeneratesRocks) {
+TEST_F(WorldTruth, SeedRegeneratesRocks) {
   RunFolder folder = folder_with(kPlane);
   const Box box{5.0, 5.0, 55.0, 35.0};
   const auto first = load_true_world(folder, box);
@@ -47,14 +49,14 @@ TEST(WorldTruth, SeedRegeneratesRocks) {
   EXPECT_GT(first->height_m(rock.x_m, rock.y_m) - first->ground_m(rock.x_m, rock.y_m), 0.5 * rock.height_m);
 }
 
-TEST(WorldTruth, EmptyWithoutSeedOrValidScenario) {
+TEST_F(WorldTruth, EmptyWithoutSeedOrValidScenario) {
   RunFolder folder = folder_with(kPlane);
   folder.info.seed.reset();
   EXPECT_FALSE(load_true_world(folder, {0, 0, 10, 10}));
   EXPECT_FALSE(load_true_world(folder_with("world: {}\n"), {0, 0, 10, 10}));
 }
 
-TEST(WorldTruth, TheOrbitalMapLiesSouthFirst) {
+TEST_F(WorldTruth, TheOrbitalMapLiesSouthFirst) {
   RunFolder folder = folder_with(kPlane);
   folder.orbital_map = folder.dir + "/orbital_map.tif";
   ElevationRaster raster = plane_raster(8.0, 6.0, 0.5, 0.0, 0.0);

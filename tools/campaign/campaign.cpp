@@ -7,10 +7,10 @@
 #include <fstream>
 #include <set>
 
+#include "common/bus/child.hpp"
 #include "common/bus/config.hpp"
 #include "common/bus/interrupt.hpp"
 #include "tools/campaign/campaign_file.hpp"
-#include "tools/campaign/child.hpp"
 #include "tools/campaign/engine.hpp"
 #include "tools/campaign/folder.hpp"
 #include "tools/campaign/job.hpp"
@@ -25,6 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kAttempts = 2;
+constexpr int kRenderedCores = 2;
 constexpr double kCollectPeriodS = 0.5;
 
 std::string config_dir(const CampaignArguments& arguments) {
@@ -91,7 +92,8 @@ class Campaign {
             session_.work(),
             dir_ + "/logs/engine.log",
             arguments_.jobs,
-            arguments_.sshloginfile};
+            arguments_.sshloginfile,
+            std::any_of(jobs_.begin(), jobs_.end(), is_rendered) ? kRenderedCores : 1};
   }
 
   // False if the campaign cannot go on.
@@ -113,7 +115,7 @@ class Campaign {
     const bool ended = may_go_on();
     if (!ended) engine_->stop();
     session_.collect(store_);
-    return ended && require_begun(jobs, true);
+    return ended && require_begun(jobs, attempt, true);
   }
 
   bool may_go_on() {
@@ -122,8 +124,8 @@ class Campaign {
   }
 
   // Jobs that the engine never began have not died.
-  bool require_begun(const std::vector<int>& jobs, bool any) {
-    const auto begun = [&](int job) { return session_.has_started(job, 1) || session_.has_started(job, kAttempts); };
+  bool require_begun(const std::vector<int>& jobs, int attempt, bool any) {
+    const auto begun = [&](int job) { return session_.has_started(job, attempt); };
     const auto count = static_cast<size_t>(std::count_if(jobs.begin(), jobs.end(), begun));
     if (count == jobs.size() || (any && count > 0)) return true;
     reason_ = arguments_.engine + " ended, and did not begin " + std::to_string(jobs.size() - count) + " drives; see " +
@@ -133,7 +135,8 @@ class Campaign {
 
   bool report_died() {
     const std::vector<int> died = missing();
-    if (!require_begun(died, false)) return false;
+    for (int attempt = 1; attempt <= kAttempts; ++attempt)
+      if (!require_begun(died, attempt, false)) return false;
     std::vector<Row> rows;
     for (const int number : died) {
       const Job& job = jobs_[static_cast<size_t>(number) - 1];
@@ -154,13 +157,14 @@ class Campaign {
   }
 
   std::string died_text() const {
-    const size_t died = store_.rows_where("status = 'died'").size();
+    const std::int64_t died = store_.died();
     return died == 0 ? "" : ", " + std::to_string(died) + " drives died";
   }
 
   std::string reason_to_stop() const {
     if (!keep_running()) return "stopped";
     if (session_.found_full_disk()) return "disk full: " + with_gb(min_free_bytes_) + " have to be free";
+    if (const std::string reason = session_.reason_to_close(); !reason.empty()) return reason;
     return "a worker could not write; see " + dir_ + "/logs/engine.log";
   }
 

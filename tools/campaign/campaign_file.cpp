@@ -156,8 +156,13 @@ Cell merged(Cell cell) {
   return cell;
 }
 
+// Of a scenario's file; cells and the files of their worlds are called by it.
+std::string base_name(const std::string& scenario) {
+  return fs::path(scenario).stem();
+}
+
 std::vector<Cell> product(const std::string& scenario, const AxisValues& axes) {
-  std::vector<Cell> cells = {{{"scenario", fs::path(scenario).stem().string()}}};
+  std::vector<Cell> cells = {{{"scenario", base_name(scenario)}}};
   for (const auto& [axis, values] : axes) {
     std::vector<Cell> more;
     for (const Cell& cell : cells)
@@ -172,17 +177,18 @@ std::vector<Cell> product(const std::string& scenario, const AxisValues& axes) {
 
 CampaignFile load_campaign(const std::string& file, const std::string& config_dir) {
   CampaignFile campaign{fs::path(file).stem().string(), {}};
-  std::map<std::pair<Cell, std::int64_t>, std::string> seen;  // file of the base
-  std::vector<std::pair<size_t, Drive>> ordered;              // index of the seed in its block
+  std::map<std::string, std::string> bases;  // name in a cell, and file
+  std::set<std::pair<Cell, std::int64_t>> seen;
+  std::vector<std::pair<size_t, Drive>> ordered;  // index of the seed in its block
   for (const Block& block : Reader(file, config_dir).read()) {
     for (const std::string& scenario : block.scenarios) {
+      const std::string& base = bases.emplace(base_name(scenario), scenario).first->second;
+      if (base != scenario)
+        throw ConfigError(file + ": scenario: " + scenario + " and " + base + " have the same name");
       for (const Cell& product_cell : product(scenario, block.axes)) {
         const Cell cell = merged(product_cell);
         for (size_t i = 0; i < block.seeds.size(); ++i) {
-          const auto [entry, is_new] = seen.emplace(std::make_pair(cell, block.seeds[i]), scenario);
-          if (entry->second != scenario)
-            throw ConfigError(file + ": scenario: " + scenario + " and " + entry->second + " have the same name");
-          if (is_new) ordered.emplace_back(i, Drive{scenario, cell, block.seeds[i]});
+          if (seen.emplace(cell, block.seeds[i]).second) ordered.emplace_back(i, Drive{scenario, cell, block.seeds[i]});
           if (ordered.size() > kMaxDrives)
             throw ConfigError(file + ": more than " + std::to_string(kMaxDrives) + " drives");
         }

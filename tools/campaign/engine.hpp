@@ -14,6 +14,7 @@ struct Batch {
   std::string log;                   // file for what the engine and the workers say
   int parallel_jobs = 0;             // at the same time; 0: the engine's default
   std::string sshloginfile;          // GNU parallel: other machines; empty: this one
+  int cores_per_job = 1;             // Slurm
 };
 
 class Engine {

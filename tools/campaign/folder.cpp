@@ -111,9 +111,9 @@ void require_same(const std::string& dir, const std::string& file, const Campaig
     throw ConfigError(dir + ": was begun with the drive program " + present.drive_program);
 }
 
-void write_file(const std::string& file, const std::string& text) {
-  const std::string unfinished = file + ".new";
-  const int out = open(unfinished.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+void write_file(const std::string& file, const std::string& text, const std::string& unfinished) {
+  const std::string new_file = file + unfinished;
+  const int out = open(new_file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   bool written = out >= 0;
   for (size_t at = 0; written && at < text.size();) {
     const ssize_t count = write(out, text.data() + at, text.size() - at);
@@ -124,9 +124,9 @@ void write_file(const std::string& file, const std::string& text) {
   written = written && fsync(out) == 0;
   int error = errno;
   if (out >= 0) close(out);
-  if (written && rename(unfinished.c_str(), file.c_str()) == 0) return;
+  if (written && rename(new_file.c_str(), file.c_str()) == 0) return;
   if (written) error = errno;
-  unlink(unfinished.c_str());
+  unlink(new_file.c_str());
   throw ConfigError(file + ": cannot be written: " + std::strerror(error));
 }
 

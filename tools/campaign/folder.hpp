@@ -1,6 +1,6 @@
 // The folder of a campaign:
 //   campaign.yaml, campaign.json   the file as given; commit, command
-//   jobs.jsonl, scenarios/         one line per drive; the scenario of each cell
+//   jobs.jsonl, scenarios/         one line per drive; the scenario of each distinct world
 //   campaign.sqlite, rows.jsonl    the rows; the text is written when a campaign ends or stops
 //   runs/N, logs/                  kept run folders; output of jobs that died, and of the engine
 //   work-XXXXXX/                   of the running session, see session.hpp
@@ -40,7 +40,8 @@ CampaignInfo read_info(const std::string& dir);
 // Throws ConfigError unless the campaign in the folder is that of the file and of the commit.
 void require_same(const std::string& dir, const std::string& file, const CampaignInfo& info);
 
-// Writes a file completely or not at all; it replaces an older one. Throws ConfigError.
-void write_file(const std::string& file, const std::string& text);
+// Writes a file completely or not at all; it replaces an older one. Until then its name is that with `unfinished`.
+// Throws ConfigError.
+void write_file(const std::string& file, const std::string& text, const std::string& unfinished = ".new");
 
 }  // namespace rover::campaign

@@ -26,17 +26,8 @@ std::string write_list(const Batch& batch) {
 
 void GnuParallel::start(const Batch& batch) {
   // --plain: not with the options of the user's own profile. A worker that fails does not end the others.
-  std::vector<std::string> command = {"parallel",
-                                      "--plain",
-                                      "--will-cite",
-                                      "--quote",
-                                      "--ungroup",
-                                      "--halt",
-                                      "never",
-                                      "--termseq",
-                                      kTermination,
-                                      "--joblog",
-                                      "+" + batch.work + "/parallel.joblog"};
+  std::vector<std::string> command = {"parallel", "--plain", "--will-cite", "--quote",   "--ungroup",
+                                      "--halt",   "never",   "--termseq",   kTermination};
   if (batch.parallel_jobs > 0) command.insert(command.end(), {"--jobs", std::to_string(batch.parallel_jobs)});
   if (!batch.sshloginfile.empty()) command.insert(command.end(), {"--sshloginfile", batch.sshloginfile});
   command.insert(command.end(), {"--arg-file", write_list(batch)});

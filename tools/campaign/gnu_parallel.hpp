@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "tools/campaign/child.hpp"
+#include "common/bus/child.hpp"
 #include "tools/campaign/engine.hpp"
 
 namespace rover::campaign {

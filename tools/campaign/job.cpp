@@ -30,6 +30,10 @@ Job parse_job(const std::string& line, const std::string& where) try {
 
 }  // namespace
 
+bool is_rendered(const Job& job) {
+  return job.perception.empty() || job.perception == "rendered";
+}
+
 std::string shell_word(const std::string& word) {
   const std::string plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=:,+@%";
   if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;

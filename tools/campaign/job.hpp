@@ -17,6 +17,9 @@ struct Job {
   std::vector<std::string> set;  // file.key=value
 };
 
+// Its images are rendered, by several processes.
+bool is_rendered(const Job& job);
+
 // Throws ConfigError with one line.
 std::vector<Job> read_jobs(const std::string& dir);
 // Number `number`, without reading those after it.

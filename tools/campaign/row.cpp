@@ -13,8 +13,10 @@ using Json = nlohmann::json;
 
 // Members of every row; metrics of the same name are left out.
 const std::set<std::string> kKeys = {"commit", "cell", "seed", "attempts", "status", "outcome"};
-// Processor time and memory differ from machine to machine, and from run to run.
-const std::string kMachine = "services";
+// Processor time, memory and wall time differ from machine to machine, and from run to run.
+const std::set<std::string> kOfMachine = {"services", "realtime_factor", "wall_s"};
+// Responses of the fault protection that do not stop the rover.
+const std::set<std::string> kDriveOn = {"log", "slow"};
 
 Json json_value(const std::string& text) {
   if (const auto whole = parse_whole_number(text)) return *whole;
@@ -50,11 +52,14 @@ void add_members(const std::string& prefix, const Json& json, Row& row) {
   }
 }
 
-// The fault that was the last to begin.
+// Of those that stopped the rover, the one that was the last to begin.
 std::string last_fault(const Json& metrics) {
+  std::string last;
   const auto fdir = metrics.find("fdir");
-  if (fdir == metrics.end() || !fdir->is_array() || fdir->empty() || !fdir->back().is_object()) return {};
-  return fdir->back().value("id", "");
+  if (fdir == metrics.end() || !fdir->is_array()) return last;
+  for (const Json& fault : *fdir)
+    if (fault.is_object() && !kDriveOn.contains(fault.value("response", ""))) last = fault.value("id", "");
+  return last;
 }
 
 }  // namespace
@@ -79,7 +84,7 @@ Cell parse_cell(const std::string& text) {
 
 void add_metrics(const Json& metrics, Row& row) {
   for (const auto& [key, value] : metrics.items()) {
-    if (kKeys.contains(key) || key == kMachine) continue;
+    if (kKeys.contains(key) || kOfMachine.contains(key)) continue;
     if (value.is_object())
       add_members(key + ".", value, row);
     else

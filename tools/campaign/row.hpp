@@ -19,11 +19,13 @@ struct Row {
   Cell cell;
   std::int64_t seed = 0;
   int attempts = 1;
-  std::string status;                        // done, or died: no metrics after two attempts
-  std::string outcome;                       // of metrics.json, as goal_reached; empty if died
-  std::map<std::string, double> figures;     // scalar numbers of metrics.json, nested ones with '.': "seconds.curve";
-                                             // false and true are 0 and 1; null ones are absent, as are "services"
-  std::map<std::string, std::string> texts;  // scalar texts of metrics.json; "fault": the last one; if died "reason"
+  std::string status;                     // done, or died: no metrics after two attempts
+  std::string outcome;                    // of metrics.json, as goal_reached; empty if died
+  std::map<std::string, double> figures;  // scalar numbers of metrics.json, nested ones with '.': "seconds.curve";
+                                          // false and true are 0 and 1; null ones are absent, as are "services",
+                                          // "realtime_factor" and "wall_s": equal drives have equal rows
+  std::map<std::string, std::string>
+      texts;  // scalar texts of metrics.json; "fault": the last one that stopped the rover; if died "reason"
   bool operator==(const Row&) const = default;
 };
 

@@ -24,6 +24,18 @@ std::string attempt_name(int job, int attempt) {
   return std::to_string(job) + "-" + std::to_string(attempt);
 }
 
+// Of a file that is being written: two machines may repeat a job at the same time.
+std::string unfinished_tag(int attempt) {
+  return "." + std::to_string(attempt) + "-" + std::to_string(getpid()) + ".new";
+}
+
+std::string first_line(const std::string& file) {
+  std::ifstream in(file);
+  std::string line;
+  std::getline(in, line);
+  return line;
+}
+
 constexpr size_t kMaxRow = 1 << 20;
 constexpr size_t kRowsAtOnce = 2000;
 const std::string kOpen = "work-", kClosed = "closed-";
@@ -44,7 +56,7 @@ void end_sessions(const std::string& dir) {
   }
 }
 
-// Finished rows only: while one is written it is called N.json.new.
+// Finished rows only: while one is written its name ends in .new.
 std::vector<fs::path> row_files(const std::string& work) {
   std::vector<fs::path> files;
   std::error_code error;
@@ -89,6 +101,18 @@ bool Session::found_full_disk() const {
   return access((work_ + "/full").c_str(), F_OK) == 0;
 }
 
+void Session::close_because(const std::string& reason) const {
+  try {
+    write_file(work_ + "/reason", reason + "\n", unfinished_tag(0));
+  } catch (const ConfigError&) {  // a full disk
+  }
+  close();
+}
+
+std::string Session::reason_to_close() const {
+  return first_line(work_ + "/reason");
+}
+
 void Session::collect(Store& store) const {
   const std::vector<fs::path> files = row_files(work_);
   for (size_t first = 0; first < files.size(); first += kRowsAtOnce) {
@@ -110,17 +134,16 @@ bool Session::has_started(int job, int attempt) const {
 }
 
 void Session::note_death(int job, const std::string& reason) const {
-  write_file(work_ + "/died/" + std::to_string(job), reason + "\n");
+  write_file(work_ + "/died/" + std::to_string(job), reason + "\n", unfinished_tag(0));
 }
 
 std::string Session::reason_of_death(int job) const {
-  std::ifstream in(work_ + "/died/" + std::to_string(job));
-  std::string reason;
-  return std::getline(in, reason) ? reason : "the worker was killed";
+  const std::string reason = first_line(work_ + "/died/" + std::to_string(job));
+  return reason.empty() ? "the worker was killed" : reason;
 }
 
 void Session::write_row(int job, const Row& row) const {
-  write_file(work_ + "/rows/" + std::to_string(job) + ".json", json_line(row) + "\n");
+  write_file(work_ + "/rows/" + std::to_string(job) + ".json", json_line(row) + "\n", unfinished_tag(row.attempts));
 }
 
 std::string Session::run_dir(int job, int attempt) const {
@@ -129,6 +152,7 @@ std::string Session::run_dir(int job, int attempt) const {
 
 void Session::remove() const {
   std::error_code ignored;
+  for (const fs::path& closed : folders_named(fs::path(work_).parent_path(), kClosed)) fs::remove_all(closed, ignored);
   fs::remove_all(work_, ignored);
 }
 

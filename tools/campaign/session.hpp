@@ -24,6 +24,9 @@ class Session {
   void close() const;
   void close_for_full_disk() const;
   bool found_full_disk() const;
+  // Of a worker that cannot go on; nobody else could.
+  void close_because(const std::string& reason) const;
+  std::string reason_to_close() const;
 
   // Moves the rows that workers have written to the store.
   void collect(Store& store) const;
@@ -36,7 +39,7 @@ class Session {
   // New, for one attempt of a job.
   std::string run_dir(int job, int attempt) const;
 
-  // At the end of the campaign.
+  // At the end of the campaign; with what is left of earlier sessions, whose rows are in the store.
   void remove() const;
 
  private:

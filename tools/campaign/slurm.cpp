@@ -5,10 +5,10 @@
 #include <fstream>
 #include <sstream>
 
+#include "common/bus/child.hpp"
 #include "common/bus/child_process.hpp"
 #include "common/bus/config.hpp"
 #include "common/core/decimal.hpp"
-#include "tools/campaign/child.hpp"
 #include "tools/campaign/job.hpp"
 
 namespace rover::campaign {
@@ -72,9 +72,14 @@ void Slurm::submit() {
   std::string tasks = "0-" + std::to_string(count - 1);
   if (batch_.parallel_jobs > 0) tasks += "%" + std::to_string(batch_.parallel_jobs);
   const std::string answer = stem + ".answer";
-  const bool accepted =
-      run_into(answer, {"sbatch", "--parsable", "--no-requeue", "--job-name", name_, "--array", tasks, "--output",
-                        batch_.log, "--open-mode", "append", "--chdir", batch_.work, stem + ".sh"}) == 0;
+  std::vector<std::string> command = {"sbatch",  "--parsable", "--no-requeue", "--job-name", name_,
+                                      "--array", tasks,        "--output",     batch_.log,   "--open-mode",
+                                      "append",  "--chdir",    batch_.work};
+  // Older versions of sbatch have no variable for it.
+  if (batch_.cores_per_job > 1)
+    command.insert(command.end(), {"--cpus-per-task", std::to_string(batch_.cores_per_job)});
+  command.push_back(stem + ".sh");
+  const bool accepted = run_into(answer, command) == 0;
   // Beyond a limit of the cluster on waiting jobs, try again when some have ended.
   if (!accepted && !has_jobs()) throw ConfigError("sbatch: " + last_line(answer));
   if (!accepted) return;

@@ -7,11 +7,14 @@
 namespace rover::campaign {
 namespace {
 
-constexpr int kBusyMs = 10'000;  // another program reads or writes
+// Another program reads or writes. A campaign of days does not end because somebody looks at its rows for long.
+constexpr int kBusyMs = 10'000;
+constexpr int kWriterBusyMs = 600'000;
 
 sqlite3* opened(const std::string& file, bool writable) {
   sqlite3* database = nullptr;
-  const int flags = writable ? SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE : SQLITE_OPEN_READONLY;
+  // A reader has to roll back what a killed writer left; SQLite itself opens a protected file for reading alone.
+  const int flags = SQLITE_OPEN_READWRITE | (writable ? SQLITE_OPEN_CREATE : 0);
   sqlite3_open_v2(file.c_str(), &database, flags, nullptr);
   return database;
 }
@@ -27,7 +30,7 @@ sqlite3_stmt* prepared(const Database& database, const std::string& sql) {
 Database::Database(const std::string& file, bool writable)
     : file_(file), database_(opened(file, writable), sqlite3_close) {
   if (sqlite3_errcode(get()) != SQLITE_OK) fail();
-  sqlite3_busy_timeout(get(), kBusyMs);
+  sqlite3_busy_timeout(get(), writable ? kWriterBusyMs : kBusyMs);
 }
 
 void Database::execute(const std::string& sql) const {

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <limits>
-#include <numeric>
 
 #include "common/bus/config.hpp"
 #include "tools/campaign/sqlite.hpp"
@@ -11,7 +9,10 @@
 namespace rover::campaign {
 namespace {
 
-const std::string kSelectRows = "SELECT cells.cell AS cell_text, rows.* FROM rows JOIN cells ON cells.id = rows.cell ";
+// `what`: columns of rows; see read_row().
+std::string select_rows(const std::string& what) {
+  return "SELECT cells.cell AS cell_text, " + what + " FROM rows JOIN cells ON cells.id = rows.cell ";
+}
 
 std::string database_file(const std::string& dir) {
   return dir + "/campaign.sqlite";
@@ -104,16 +105,6 @@ void Store::Impl::insert(const std::vector<Row>& rows) {
   }
 }
 
-double CellValues::median() const {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
-}
-
-double CellValues::mean() const {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
 Store::Store(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Store::~Store() = default;
 Store::Store(Store&&) noexcept = default;
@@ -162,63 +153,29 @@ std::set<Key> Store::keys(const std::string& commit) const {
   return keys;
 }
 
-std::vector<Row> Store::rows() const {
-  return rows_where("1");
-}
-
-std::vector<Row> Store::rows_where(const std::string& condition, const std::string& order) const {
+std::vector<Row> Store::rows(const std::vector<std::string>& columns) const {
+  std::string what = "rows.*";
+  if (!columns.empty()) {
+    what = "rows.\"commit\", rows.cell, seed, attempts, status, outcome";
+    // SQLite takes the name of a missing column for a text.
+    for (const auto& [name, type] : impl_->columns())
+      if (std::find(columns.begin(), columns.end(), name) != columns.end()) what += ", rows." + quoted(name);
+  }
   std::vector<Row> rows;
-  for (Statement query(impl_->database, kSelectRows + "WHERE " + condition + " ORDER BY " + order); query.step();)
+  for (Statement query(impl_->database, select_rows(what) + "ORDER BY cell_text, seed"); query.step();)
     rows.push_back(read_row(query));
   return rows;
 }
 
+std::int64_t Store::died() const {
+  Statement query(impl_->database, "SELECT count(*) FROM rows WHERE status = 'died'");
+  query.step();
+  return query.integer(0);
+}
+
 void Store::each(const std::function<void(const Row&)>& use) const {
-  for (Statement query(impl_->database, kSelectRows + "ORDER BY cell_text, seed, \"commit\""); query.step();)
+  for (Statement query(impl_->database, select_rows("rows.*") + "ORDER BY cell_text, seed, \"commit\""); query.step();)
     use(read_row(query));
-}
-
-std::vector<Cell> Store::cells() const {
-  std::vector<Cell> cells;
-  for (Statement query(impl_->database, "SELECT cell FROM cells ORDER BY cell"); query.step();)
-    cells.push_back(parse_cell(query.text(0)));
-  return cells;
-}
-
-std::vector<std::string> Store::figure_names() const {
-  std::vector<std::string> names;
-  for (const auto& [name, type] : impl_->columns())
-    if (type == "REAL") names.push_back(name);
-  return names;
-}
-
-std::vector<OutcomeCount> Store::outcomes() const {
-  std::vector<OutcomeCount> counts;
-  Statement query(impl_->database,
-                  "SELECT cells.cell AS cell_text, status, outcome, count(*) FROM rows JOIN cells ON cells.id = "
-                  "rows.cell GROUP BY cell_text, status, outcome ORDER BY cell_text, status, outcome");
-  while (query.step()) counts.push_back({parse_cell(query.text(0)), query.text(1), query.text(2), query.integer(3)});
-  return counts;
-}
-
-std::vector<CellValues> Store::values_of(const std::string& figure, bool goal_reached_only) const {
-  std::vector<CellValues> cells;
-  const std::vector<std::string> names = figure_names();
-  if (std::find(names.begin(), names.end(), figure) == names.end()) return cells;
-  Statement query(impl_->database,
-                  "SELECT cells.cell AS cell_text, " + quoted(figure) +
-                      " AS figure_value, seed FROM rows JOIN cells ON cells.id = rows.cell WHERE figure_value IS NOT "
-                      "NULL AND status = 'done'" +
-                      (goal_reached_only ? " AND outcome = 'goal_reached'" : "") +
-                      " ORDER BY cell_text, figure_value, seed");
-  for (std::string last; query.step();) {
-    const std::string text = query.text(0);
-    if (cells.empty() || text != last) cells.push_back({parse_cell(text), {}, {}});
-    cells.back().values.push_back(query.number(1));
-    cells.back().seeds.push_back(query.integer(2));
-    last = text;
-  }
-  return cells;
 }
 
 }  // namespace rover::campaign

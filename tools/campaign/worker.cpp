@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "common/bus/child.hpp"
 #include "common/bus/config.hpp"
 #include "common/bus/interrupt.hpp"
 #include "tools/campaign/bus_slot.hpp"
-#include "tools/campaign/child.hpp"
 #include "tools/campaign/folder.hpp"
 #include "tools/campaign/job.hpp"
 #include "tools/campaign/session.hpp"
@@ -33,7 +33,7 @@ std::vector<std::string> drive_command(const CampaignInfo& info, const WorkerArg
   command.insert(command.end(), drive.begin(), drive.end());
   command.insert(command.end(), {"--headless", "--record", "reduced", "--out", run_dir, "--bus", bus.url()});
   // Disparities and clouds around events are most of such a log; the drive can be repeated with them.
-  if (!job.perception.empty() && job.perception != "rendered")
+  if (!is_rendered(job))
     command.insert(command.end(), {"--set", "recorder.images_before_s=0", "--set", "recorder.images_after_s=0", "--set",
                                    "recorder.image_interval=1000000"});
   return command;
@@ -94,9 +94,18 @@ void keep_output(const WorkerArguments& arguments, const std::string& log) {
   const fs::path kept = fs::path(arguments.dir) / "logs" / ("job-" + std::to_string(arguments.job) + ".log");
   std::error_code error;
   const std::uintmax_t size = fs::file_size(log, error);
-  if (error || size == 0 || size > kMaxKeptOutput) return;
+  if (error || size == 0) return;
   fs::create_directories(kept.parent_path(), error);
-  fs::rename(log, kept, error);
+  std::ifstream in(log);
+  in.seekg(static_cast<std::streamoff>(size - std::min(size, kMaxKeptOutput)));
+  std::ofstream(kept) << in.rdbuf();
+}
+
+// Somebody may have built another commit while the campaign runs.
+void require_commit(const Json& metrics, const CampaignInfo& info) {
+  const Json commit = metrics.value("commit", Json());
+  if (commit.is_string() && commit != info.commit)
+    throw ConfigError("its drive is of commit " + commit.get<std::string>() + ", the campaign of " + info.commit);
 }
 
 // The row of a drive that has ended; nothing if it died.
@@ -107,9 +116,13 @@ bool finish(const WorkerArguments& arguments, const CampaignInfo& info, const Jo
   if (!metrics) {
     const std::string line = last_line(log);
     session.note_death(arguments.job, status_text(status) + (line.empty() ? "" : ": " + line));
-    if (arguments.keep != Keep::kNone) keep_output(arguments, log);
+    if (arguments.keep != Keep::kNone) {
+      keep_output(arguments, log);
+      keep_run(arguments, run_dir);
+    }
     return false;
   }
+  require_commit(*metrics, info);
   Row row{info.commit, job.cell, job.seed, arguments.attempt, "done", "", {}, {}};
   add_metrics(*metrics, row);
   if (arguments.keep == Keep::kAll || (arguments.keep == Keep::kFailures && is_failure(row)))
@@ -148,8 +161,9 @@ int do_job(const WorkerArguments& arguments) try {
   return has_row ? 0 : 1;
 } catch (const std::exception& error) {
   // Cannot write where all others have to write too, or cannot read what they read.
-  std::fprintf(stderr, "job %d: %s\n", arguments.job, error.what());
-  Session(arguments.work).close();
+  const std::string reason = "job " + std::to_string(arguments.job) + ": " + error.what();
+  std::fprintf(stderr, "%s\n", reason.c_str());
+  Session(arguments.work).close_because(reason);
   return 1;
 }
 

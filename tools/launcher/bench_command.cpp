@@ -83,16 +83,9 @@ class Rows {
  public:
   Rows(const std::string& file, std::string commit, bool resume) : file_(file), commit_(std::move(commit)) {
     fs::create_directories(fs::path(file).parent_path());
-    if (!resume) {
-      fs::remove(file_);
-      return;
-    }
-    std::ifstream in(file_);
-    for (std::string line; std::getline(in, line);) {
-      const auto row = nlohmann::json::parse(line, nullptr, false);
-      const bool same = row.is_object() && row.value("commit", "") == commit_;
-      if (same && row.value("outcome", "") != "died") rows_.push_back(row);
-    }
+    if (resume) rows_ = finished_rows();
+    std::ofstream out(file_);
+    for (const nlohmann::json& row : rows_) out << row.dump() << "\n";
   }
 
   const nlohmann::json* find(const Job& job) const {
@@ -111,6 +104,17 @@ class Rows {
   const std::string& file() const { return file_; }
 
  private:
+  std::vector<nlohmann::json> finished_rows() const {
+    std::vector<nlohmann::json> rows;
+    std::ifstream in(file_);
+    for (std::string line; std::getline(in, line);) {
+      const auto row = nlohmann::json::parse(line, nullptr, false);
+      const bool same = row.is_object() && row.value("commit", "") == commit_;
+      if (same && row.value("outcome", "") != "died") rows.push_back(row);
+    }
+    return rows;
+  }
+
   std::string file_;
   std::string commit_;
   std::vector<nlohmann::json> rows_;
@@ -228,6 +232,9 @@ int write_table(const Bench& bench) {
 }  // namespace
 
 int bench(const BenchArguments& arguments) {
+  if (arguments.run.perception != "rendered")
+    throw ConfigError("bench " + arguments.suite +
+                      ": its tables are of rendered drives; --perception is an axis of ./rover campaign");
   const Bench bench = make_bench(arguments);
   Rows rows(bench.level_dir + "/rows.jsonl", commit_of(arguments.run.source_dir), arguments.resume);
   for (const BenchScenario& scenario : bench.suite.scenarios) run_scenario(bench, scenario, rows);

@@ -5,6 +5,7 @@ _rover_values() {
   case $before in
     --level) compgen -W "auto efficient full" -- "$word" && return ;;
     --record) compgen -W "full reduced" -- "$word" && return ;;
+    --perception) compgen -W "rendered geometric truth" -- "$word" && return ;;
     --engine) compgen -W "parallel slurm" -- "$word" && return ;;
     --keep) compgen -W "failures all none" -- "$word" && return ;;
     --part) compgen -W "stack rendered" -- "$word" && return ;;
@@ -24,8 +25,8 @@ _rover_values() {
       ;;
     report | spy | repair) compgen -f -- "$word"; compgen -W "${runs[*]%/}" -- "$word" ;;
     plan) compgen -f -- "$word" ;;
-    bench) [ "$before" != bench ] || compgen -W "default seed full slam correction speed micro faults restarts page data wild fuzz" -- "$word" ;;
-    test) compgen -W "unit sanitize" -- "$word" ;;
+    bench) [ "$before" != bench ] || compgen -W "default seed full cost perception slam correction speed micro faults restarts page data wild fuzz" -- "$word" ;;
+    test) compgen -W "unit sanitize arm64" -- "$word" ;;
     inject)
       [ "$before" != inject ] ||
         compgen -W "$("$_ROVER_DIR"/build/bin/rover_launcher inject --list 2>/dev/null | awk '{print $1}')" -- "$word"

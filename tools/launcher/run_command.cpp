@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "common/bus/child_process.hpp"
+#include "common/bus/child.hpp"
 #include "common/bus/config.hpp"
 #include "common/bus/interrupt.hpp"
 #include "common/bus/s6_client.hpp"
@@ -44,6 +44,10 @@ std::vector<ServiceCommand> service_commands(const RunArguments& arguments, cons
 }
 
 enum class End { kOver, kFailed, kNotStarted };
+
+constexpr double kPollS = 0.05;
+constexpr double kStopS = 10.0;
+constexpr int kRefused = 2;  // exit status of a program that refuses its configuration
 
 End wait_for_end(const RunArguments& arguments, const RunFolder& folder, S6Session& session) {
   lcm::LCM lcm(folder.bus_url);
@@ -104,7 +108,7 @@ End run_processes(const RunArguments& arguments, const RunFolder& folder) {
   return end;
 }
 
-// Without cameras, and without a bus that others could join.
+// Without cameras, and without a bus that others could join. A configuration that is refused is one line.
 End run_one_process(const RunArguments& arguments, const RunFolder& folder) {
   std::vector<std::string> command = {arguments.bin_dir + "/rover_one_process",
                                       "--config",
@@ -119,9 +123,14 @@ End run_one_process(const RunArguments& arguments, const RunFolder& folder) {
                                       arguments.perception};
   if (folder.level != "efficient") command.emplace_back("--full");
   const std::string log = folder.dir + "/service_logs/rover_one_process.log";
-  if (run_into(log, command) == 0) return End::kOver;
-  std::fprintf(stderr, "the run failed; see %s\n", log.c_str());
-  return End::kFailed;
+  Child child(command, log);
+  while (child.running() && keep_running()) sleep_s(kPollS);
+  child.end(kStopS);
+  if (fs::exists(folder.dir + "/simulation.json")) return End::kOver;
+  const bool refused = child.status() == kRefused;
+  const std::string line = refused ? last_line(log) : "the run failed: " + status_text(child.status()) + "; see " + log;
+  std::fprintf(stderr, "%s\n", in_users_files(line, folder, arguments.source_dir + "/config").c_str());
+  return refused ? End::kNotStarted : End::kFailed;
 }
 
 // Faults of processes, channels and images need processes, a bus and images.
@@ -185,7 +194,7 @@ RunResult run(const RunArguments& given) {
       remove_run_folder(folder);
       result.dir.clear();
     }
-    result.exit_status = failed.empty() ? 1 : 2;
+    result.exit_status = !failed.empty() || (!rendered && end == End::kNotStarted) ? 2 : 1;
     return result;
   }
   write_run_json(arguments, folder);

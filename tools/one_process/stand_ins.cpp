@@ -40,7 +40,8 @@ class GeometricStereoNode {
 
  private:
   void publish(const Exposure& exposure) {
-    const DisparityPlane ground = ground_reference(camera_, config_.origin_height_m);
+    const DisparityPlane ground =
+        config_.core.ground_reference ? ground_reference(camera_, config_.origin_height_m) : DisparityPlane{};
     const Disparity disparity = perception_.view.expose(stereo_, errors_, ground, exposure.T_map_left, exposure.utime);
     disparity_t message{};
     disparity_to(disparity, camera_, message);
@@ -95,6 +96,8 @@ class GeometricCloudNode {
         errors_(errors_of(config_.core.matcher, core_.camera_at(0.0)), core_.width(), core_.height(),
                 perception.seed + 1) {
     node.subscribe<ptu_state_t>(channel::kPtuState, [this](const ptu_state_t& state) {
+      if (const std::string fault = cloud::fault_of(state, config_.unit); !fault.empty())
+        return node_.reject(channel::kPtuState, fault);
       states_.push_back(state);
       while (states_.front().header.utime < state.header.utime - kStateHistory) states_.pop_front();
     });
@@ -108,7 +111,8 @@ class GeometricCloudNode {
     const auto state = std::find_if(states_.begin(), states_.end(), [&](const ptu_state_t& candidate) {
       return candidate.header.utime == exposure.utime;
     });
-    if (state == states_.end() || state->moving != 0) return;
+    if (state == states_.end()) return node_.reject(channel::kNavCamLeft, "no PTU_STATE of the exposure");
+    if (state->moving != 0) return node_.reject(channel::kNavCamLeft, "exposed while the unit moved");
     const DisparityPlane ground = ground_reference(core_.camera_at(state->tilt_rad), config_.ground_below_m);
     const auto result =
         core_.from_disparity(perception_.view.expose(stereo_, errors_, ground, exposure.T_map_left, exposure.utime),

@@ -7,11 +7,14 @@
 namespace rover::oracle {
 namespace {
 
-constexpr int kTriedHeadings = 12;  // of half a circle: the footprint is the same after half a turn
+// Of half a circle: the footprint is the same after half a turn. Twice as many as the search distinguishes: its arcs
+// lead between them.
+constexpr int kTriedHeadings = 48;
 
-std::vector<std::uint8_t> fits_at_a_heading(const Region& region, const FootprintCheck& check) {
+// The headings are counted from that of the start, as those that the search reaches by point turns.
+std::vector<std::uint8_t> fits_at_a_heading(const Region& region, const FootprintCheck& check, double start_yaw_rad) {
   std::vector<std::uint8_t> fits(region.inside.size(), 0);
-  double last = 0.0;  // what fits here fits at the next cell most often
+  double last = start_yaw_rad;  // what fits here fits at the next cell most often
   for (size_t i = 0; i < fits.size(); ++i) {
     if (!region.inside[i]) continue;
     for (int h = 0; h < kTriedHeadings && !fits[i]; ++h) {
@@ -73,9 +76,11 @@ Region region_around(const Points& line, double half_width_m, double map_width_m
   return region;
 }
 
-CostToGo::CostToGo(const Region& region, const FootprintCheck& check, const Eigen::Vector2d& goal, double tolerance_m)
+CostToGo::CostToGo(const Region& region, const FootprintCheck& check, const Eigen::Vector2d& goal, double tolerance_m,
+                   double start_yaw_rad)
     : region_(region) {
-  MarchGrid grid{region.width, region.height, Region::kCellM, costs(region, fits_at_a_heading(region, check))};
+  MarchGrid grid{region.width, region.height, Region::kCellM,
+                 costs(region, fits_at_a_heading(region, check, start_yaw_rad))};
   std::vector<Seed> seeds;
   for (int cell = 0; cell < region.width * region.height; ++cell)
     if (std::hypot(region.x_m(cell) - goal.x(), region.y_m(cell) - goal.y()) <= tolerance_m)

@@ -29,8 +29,6 @@ struct Region {
   }
   double x_m(int cell) const { return x0_m + (cell % width + 0.5) * kCellM; }
   double y_m(int cell) const { return y0_m + (cell / width + 0.5) * kCellM; }
-  double x1_m() const { return x0_m + width * kCellM; }
-  double y1_m() const { return y0_m + height * kCellM; }
 };
 
 // Ground on the map within this distance of the line.
@@ -38,7 +36,8 @@ Region region_around(const Points& line, double half_width_m, double map_width_m
 
 class CostToGo {
  public:
-  CostToGo(const Region& region, const FootprintCheck& check, const Eigen::Vector2d& goal, double tolerance_m);
+  CostToGo(const Region& region, const FootprintCheck& check, const Eigen::Vector2d& goal, double tolerance_m,
+           double start_yaw_rad);
 
   // Infinity: no line leads to the goal.
   double at(double x_m, double y_m) const {

@@ -17,6 +17,7 @@ void print_seed(const rover::Scenario& scenario, std::uint64_t seed, rover::orac
   const auto begin = std::chrono::steady_clock::now();
   const rover::World world(scenario.world, scenario.dtm, seed);
   request.height_m = [&world](double x_m, double y_m) { return world.height_m(x_m, y_m); };
+  request.ground_m = [&world](double x_m, double y_m) { return world.ground_height_m(x_m, y_m); };
   const rover::oracle::Result result = rover::oracle::shortest_path(request);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   nlohmann::ordered_json line{{"scenario", scenario.name}, {"seed", seed}};

@@ -12,7 +12,7 @@ namespace {
 constexpr double kRepairDeviationM = 4.0;
 constexpr double kFullDeviationM = 20.0;
 
-// Each where the one before takes too long; together at most about 15 s for a region.
+// Each where the one before takes too long.
 struct Effort {
   double heuristic_weight;
   int max_expansions;
@@ -25,9 +25,9 @@ double length_m(const Points& line) {
   return sum;
 }
 
-Result search_region(const Request& request, const Region& region, const FootprintCheck& check) {
+Result search_region(const Request& request, const Region& region, const FootprintCheck& check, int max_expansions) {
   const Eigen::Vector2d goal = request.planned.back();
-  const CostToGo cost_to_go(region, check, goal, request.goal_tolerance_m);
+  const CostToGo cost_to_go(region, check, goal, request.goal_tolerance_m, request.start.yaw_rad);
   const SearchProblem problem{.region = region,
                               .check = check,
                               .cost_to_go = cost_to_go,
@@ -37,7 +37,9 @@ Result search_region(const Request& request, const Region& region, const Footpri
                               .tolerance_m = request.goal_tolerance_m};
   Result result{.status = Status::kGaveUp};
   for (const Effort& effort : kEfforts) {
-    const SearchResult found = search_poses(problem, effort.heuristic_weight, effort.max_expansions);
+    const int left = max_expansions - result.expansions;
+    if (left <= 0) break;
+    const SearchResult found = search_poses(problem, effort.heuristic_weight, std::min(effort.max_expansions, left));
     result.expansions += found.expansions;
     if (!found.found && !found.exhausted) continue;
     result.status = found.found ? Status::kFound : Status::kNoPath;
@@ -71,18 +73,17 @@ Result shortest_path(const Request& request) {
     return region_around(line, half_width_m, request.map_width_m, request.map_length_m);
   };
   const double widest_m = std::max(kFullDeviationM, request.corridor_half_width_m);
-  const Region whole = region(widest_m);
   const Vehicle& vehicle = request.vehicle;
   const double half_wheelbase_m = *std::max_element(vehicle.wheel_x_m.begin(), vehicle.wheel_x_m.end());
-  TrueGround ground(request.height_m, {vehicle.hazard_height_m, vehicle.max_climb_m, half_wheelbase_m}, whole.x0_m,
-                    whole.y0_m, whole.x1_m(), whole.y1_m());
+  TrueGround ground(request.height_m, request.ground_m,
+                    {vehicle.hazard_height_m, vehicle.max_climb_m, half_wheelbase_m});
   const FootprintCheck check(vehicle, ground);
-  if (whole.cell(request.start.x_m, request.start.y_m) < 0 || !check.is_free(request.start))
+  if (region(widest_m).cell(request.start.x_m, request.start.y_m) < 0 || !check.is_free(request.start))
     return {Status::kStartBlocked};
   Result best;
   for (const double half_width_m : {request.corridor_half_width_m, kRepairDeviationM, widest_m}) {
     if (half_width_m < request.corridor_half_width_m) continue;
-    Result result = search_region(request, region(half_width_m), check);
+    Result result = search_region(request, region(half_width_m), check, request.max_expansions - best.expansions);
     result.expansions += best.expansions;
     if (best.status == Status::kFound && !(result.length_m < best.length_m)) break;
     best = std::move(result);

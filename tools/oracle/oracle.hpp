@@ -8,6 +8,7 @@ namespace rover::oracle {
 
 struct Request {
   HeightFunction height_m;
+  HeightFunction ground_m;   // without rocks
   double map_width_m = 0.0;  // the map's extent; the path stays on it
   double map_length_m = 0.0;
   Vehicle vehicle;
@@ -15,6 +16,7 @@ struct Request {
   Points planned;  // global path; ends at the goal
   double goal_tolerance_m = 0.5;
   double corridor_half_width_m = 1.5;
+  int max_expansions = 2'500'000;  // of all regions together: at most about 20 s
 };
 
 enum class Status {

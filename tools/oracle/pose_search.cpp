@@ -23,10 +23,7 @@ struct Reached {
 class PoseSearch {
  public:
   PoseSearch(const SearchProblem& problem, double heuristic_weight)
-      : p_(problem),
-        heuristic_weight_(heuristic_weight),
-        reached_(Region::kCellM, problem.region.x0_m, problem.region.y0_m, problem.region.x1_m(),
-                 problem.region.y1_m()) {}
+      : p_(problem), heuristic_weight_(heuristic_weight) {}
 
   SearchResult run(int max_expansions) {
     SearchResult result;
@@ -53,7 +50,7 @@ class PoseSearch {
   float* reached(const Pose2& pose) {
     const double turns = pose.yaw_rad / kPi;
     const int heading = std::min(kHeadings - 1, static_cast<int>((turns - std::floor(turns)) * kHeadings));
-    return &reached_.at(reached_.index(pose.x_m), reached_.index(pose.y_m)).cost_m[static_cast<size_t>(heading)];
+    return &reached_.at_point(pose.x_m, pose.y_m).cost_m[static_cast<size_t>(heading)];
   }
 
   void offer(const Piece& piece, double cost_m, int parent) {
@@ -93,7 +90,7 @@ class PoseSearch {
 
   const SearchProblem& p_;
   double heuristic_weight_;
-  TileGrid<Reached> reached_;
+  TiledGrid<Reached> reached_{Region::kCellM};
   std::vector<Node> nodes_;
   std::vector<std::pair<float, int>> open_;
 };

@@ -45,12 +45,12 @@ class Shortening {
     best_.assign(poses_.size(), {});
     best_[0].cost_m = 0.0;
     for (int j = 1; j <= last; ++j) {
-      reach(j, j - 1, edges_[j - 1]);
+      reach(j, j - 1, edges_[j - 1], true);
       for (int i = std::max(0, j - kAhead); i < j; ++i)
-        for (const Pieces& joined : connections(poses_[i], poses_[j])) reach(j, i, joined);
+        for (const Pieces& joined : connections(poses_[i], poses_[j])) reach(j, i, joined, false);
     }
     for (int i = std::max(0, last - kAhead); i < last; ++i)
-      for (const Pieces& joined : connections(poses_[i], goal_pose(poses_[i]))) reach(last, i, joined);
+      for (const Pieces& joined : connections(poses_[i], goal_pose(poses_[i]))) reach(last, i, joined, false);
     Pieces path;
     for (int j = last; j > 0; j = best_[j].from)
       path.insert(path.begin(), best_[j].pieces.begin(), best_[j].pieces.end());
@@ -64,9 +64,9 @@ class Shortening {
     Pieces pieces;
   };
 
-  void reach(int j, int i, const Pieces& pieces) {
+  // `known`: the search checked these pieces.
+  void reach(int j, int i, const Pieces& pieces, bool known) {
     const double cost = best_[i].cost_m + cost_m(pieces);
-    const bool known = i == j - 1 && pieces.size() == 1;
     if (cost >= best_[j].cost_m - 1e-6 || !(known || is_free(pieces))) return;
     best_[j] = {cost, i, pieces};
   }

@@ -53,8 +53,7 @@ struct BenchContext {
   int cores = 0;
 };
 
-// A successful run with fewer repairs met too few rocks to count.
-int min_repairs(const std::string& scenario);
+// False for a run without failure and with fewer repairs than min_repairs().
 bool counts(const BenchRow& row);
 // NaN for an empty list; the mean of the middle two for an even number.
 double median(std::vector<double> values);

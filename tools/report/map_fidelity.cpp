@@ -194,7 +194,7 @@ class FidelityJudge {
 
   TrueRelief& relief_;
   const RockIndex& rocks_;
-  TiledGrid<Place> places_{kPlaceM};
+  oracle::TiledGrid<Place> places_{kPlaceM};
   MapFidelity fidelity_;
   double impassable_m2_ = 0.0;
   double ideal_m2_ = 0.0;
@@ -203,13 +203,6 @@ class FidelityJudge {
   std::vector<double> closed_m_;  // of each rock; NaN: never
   std::vector<bool> observed_;
 };
-
-std::vector<Rock> hazards_of(const std::vector<Rock>& rocks) {
-  std::vector<Rock> hazards;
-  std::copy_if(rocks.begin(), rocks.end(), std::back_inserter(hazards),
-               [](const Rock& rock) { return rock.height_m >= kHazardRockM; });
-  return hazards;
-}
 
 bool valid(const Eigen::Isometry3d& T) {
   return is_finite(T) && T.translation().cwiseAbs().maxCoeff() < kMaxPlaceM && std::abs(T.linear()(2, 2)) > 0.1;

@@ -8,10 +8,11 @@ void evaluate_oracle(const RunRecord& run, const Vehicle& vehicle, const std::op
                      RunEvaluation& evaluation) {
   const TrueTrack truth(run.truth);
   if (truth.empty() || run.global_paths.empty() || run.global_paths.back().points.empty()) return;
-  if (!world || !world->height_m) return;
+  if (!world || !world->height_m || !world->ground_m) return;
   constexpr double kPointsM = 0.1;
   Metrics& m = evaluation.metrics;
   const oracle::Result found = oracle::shortest_path({.height_m = world->height_m,
+                                                      .ground_m = world->ground_m,
                                                       .map_width_m = world->width_m,
                                                       .map_length_m = world->length_m,
                                                       .vehicle = vehicle,

@@ -45,6 +45,13 @@ void evaluate_detection(const RunRecord& run, const TrueTrack& truth, double ori
 
 }  // namespace
 
+std::vector<Rock> hazards_of(const std::vector<Rock>& rocks) {
+  std::vector<Rock> hazards;
+  std::copy_if(rocks.begin(), rocks.end(), std::back_inserter(hazards),
+               [](const Rock& rock) { return rock.height_m >= kHazardRockM; });
+  return hazards;
+}
+
 bool far_apart(const Pose2& a, const Pose2& b) {
   return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m) >= kPoseStepM ||
          std::abs(wrap_angle(a.yaw_rad - b.yaw_rad)) >= kPoseStepRad;
@@ -84,9 +91,7 @@ Eigen::Vector2d cell_in_map(const HazardCell& cell, const Eigen::Isometry3d& T_m
 
 std::vector<RockResult> evaluate_rocks(const RunRecord& run, const TrueTrack& truth, const Window& window,
                                        const Footprint& footprint, const std::vector<Rock>& rocks) {
-  std::vector<Rock> hazards;
-  std::copy_if(rocks.begin(), rocks.end(), std::back_inserter(hazards),
-               [](const Rock& rock) { return rock.height_m >= kHazardRockM; });
+  const std::vector<Rock> hazards = hazards_of(rocks);
   const RockIndex field(hazards);
   std::vector<RockResult> results;
   for (const Rock& rock : hazards) results.push_back({rock});

@@ -14,6 +14,9 @@ constexpr double kMustSeeRockM = 0.20;      // minimum height of a rock that mus
 constexpr double kEncounterM = 1.0;         // maximum distance of the rim from the driven or planned path
 constexpr double kDetectionRadiusM = 0.25;  // maximum distance of a hazard cell's centre from the rim
 
+// Those of at least kHazardRockM.
+std::vector<Rock> hazards_of(const std::vector<Rock>& rocks);
+
 // Spatial index of rocks.
 class RockIndex {
  public:

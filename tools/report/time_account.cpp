@@ -91,10 +91,10 @@ bool stopped_by_hazard(State state) {
 bool waits_for_path(const RunRecord& run, double t_s) {
   const auto ahead = [](double t, const auto& item) { return t < item.t_s; };
   const auto path = std::upper_bound(run.local_paths.begin(), run.local_paths.end(), t_s, ahead);
-  auto end = std::upper_bound(run.states.begin(), run.states.end(), t_s, ahead);
-  while (end != run.states.end() && stopped_by_hazard(end->state)) ++end;
-  if (end == run.states.end() || end->state != State::kDriving) return true;
-  return path != run.local_paths.end() && path->t_s <= end->t_s;
+  const auto drives = std::find_if(std::upper_bound(run.states.begin(), run.states.end(), t_s, ahead), run.states.end(),
+                                   [](const StateChange& change) { return change.state == State::kDriving; });
+  if (drives == run.states.end()) return true;
+  return path != run.local_paths.end() && path->t_s <= drives->t_s;
 }
 
 TimeCause stop_cause(const RunRecord& run, const VehicleWheels& wheels, double t_s) {

@@ -1,11 +1,8 @@
 // True surface over the local ground, in cells of 0.05 m, evaluated where it is asked for.
-//
-// Local ground: mean of the ground without rocks over a square of 1.2 m. It follows slopes up to their curvature, not
-// rocks, so a rock keeps its whole height and a bump of the ground counts like one.
 #pragma once
 
+#include "tools/oracle/local_ground.hpp"
 #include "tools/report/run_record.hpp"
-#include "tools/report/tiled_grid.hpp"
 
 namespace rover::report {
 
@@ -25,10 +22,11 @@ class TrueRelief {
   const ReliefCell& at(const Eigen::Vector2d& p) { return cells_.at_point(p.x(), p.y()); }
 
  private:
-  void fill(int ix, int iy, std::vector<ReliefCell>& tile) const;
+  void fill(int ix, int iy, std::vector<ReliefCell>& tile);
 
   const TrueWorld& world_;
-  TiledGrid<ReliefCell> cells_;
+  oracle::LocalGround ground_;
+  oracle::TiledGrid<ReliefCell> cells_;
 };
 
 }  // namespace rover::report

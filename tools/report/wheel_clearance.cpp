@@ -9,13 +9,6 @@ namespace {
 constexpr double kReachM = 5.0;
 constexpr double kGridM = 0.02;
 
-std::vector<Rock> hazards_of(const std::vector<Rock>& rocks) {
-  std::vector<Rock> hazards;
-  std::copy_if(rocks.begin(), rocks.end(), std::back_inserter(hazards),
-               [](const Rock& rock) { return rock.height_m >= kHazardRockM; });
-  return hazards;
-}
-
 // Points of a rock, 2 cm apart, that rise 0.15 m or more.
 Points tall_points(const Rock& rock, const TrueWorld& world) {
   Points points;

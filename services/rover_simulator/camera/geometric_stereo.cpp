@@ -12,12 +12,12 @@ namespace {
 constexpr double kNearM = 1.0;
 constexpr double kFarM = 20.0;
 constexpr double kDisparityTolerance_px = 0.5;  // of interpolated rays; the noise of matching is larger
-constexpr int kRayPx = 2;                        // rays at every second pixel of every second row
-constexpr float kSurfacePx = 1.0F;               // neighbours on one surface differ by less
+constexpr int kRayPx = 2;                       // rays at every second pixel of every second row
+constexpr float kSurfacePx = 1.0F;              // neighbours on one surface differ by less
 
-// Disparity half-way between two rays: their mean on one surface, else the first.
+// Disparity half-way between two rays: their mean on one surface, else the first. 0: no ground.
 float between(float a, float b) {
-  return std::abs(a - b) < kSurfacePx ? 0.5F * (a + b) : a;
+  return a > 0.0F && b > 0.0F && std::abs(a - b) < kSurfacePx ? 0.5F * (a + b) : a;
 }
 
 // From the true cameras to the rectified ones and back.

@@ -45,7 +45,9 @@ Disparity GeometricView::expose(GeometricStereo& stereo, const DisparityErrors& 
 bool GeometricView::textured(const Eigen::Vector3d& p_map, double pixel_m) const {
   const Material material = world_.material(p_map.x(), p_map.y());
   if (appearance_.at(p_map.x(), p_map.y(), material).fine_contrast < kMinContrast) return false;
-  const auto patch = [](double at_m) { return static_cast<std::uint64_t>(std::floor(at_m / kPatchM)); };
+  const auto patch = [](double at_m) {
+    return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(at_m / kPatchM)));
+  };
   const double holes = std::clamp(kHolesPerM * (pixel_m - kSharpPixelM), 0.0, kMaxHoles);
   return unit_random(hash64(hash64(seed_, patch(p_map.x())), patch(p_map.y()))) >= holes;
 }

@@ -73,6 +73,17 @@ TEST(Compare, OneChangedCellIsFoundAmongMany) {
   EXPECT_THAT(table_of(c), HasSubstr("| soil firm | 20 | 12/20 | 20/20 | +40 % |"));
 }
 
+// Ratios of 19 drives fall a little, that of one rises much: median and mean differ in sign.
+TEST(Compare, BetterHasTheSignOfTheDifferenceBesideIt) {
+  const std::vector<Row> a = one_cell("sand", 20, 1.2);
+  std::vector<Row> b = one_cell("sand", 20, 1.15);
+  b[4].figures["path_ratio"] = 9.0;
+  const Comparison c = compare(a, b);
+  ASSERT_LT(c.all.figures[0].median_difference, 0.0);
+  ASSERT_GT(c.all.figures[0].mean_difference, 0.0);
+  EXPECT_THAT(table_of(c), HasSubstr("| Driven / planned | 1 | 1 | 1 | 0 |"));
+}
+
 // 100 cells without a difference beyond noise: the correction lets none, or few, through.
 TEST(Compare, NoiseIsNotADifference) {
   std::mt19937_64 random(1);

@@ -3,12 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 
 #include "common/bus/config.hpp"
 #include "common/bus/user_files.hpp"
 #include "made_up_campaign.hpp"
+#include "tools/campaign/page/results.hpp"
 #include "tools/campaign/store.hpp"
 #include "tools/report/run_folder.hpp"
 
@@ -60,12 +62,36 @@ TEST_F(PageCommand, WritesPageTableAndPicture) {
 }
 
 TEST_F(PageCommand, CommandsNameAFolderOfTheProjectRelativeToIt) {
-  const fs::path dir = fs::path(project_dir()) / "page_command_test";
+  const fs::path dir = fs::canonical("/proc/self/exe").parent_path() / "page_command_test";
   fs::remove_all(dir);
   fs::copy(folder("first", made_up_rows({.seeds = 1})), dir, fs::copy_options::recursive);
   page({dir.string(), root_ + "/page.html", ""});
   fs::remove_all(dir);
-  EXPECT_THAT(report::read_file(root_ + "/page.html"), HasSubstr("./rover run page_command_test/scenarios/"));
+  EXPECT_THAT(report::read_file(root_ + "/page.html"),
+              HasSubstr("./rover run " + fs::relative(dir, project_dir()).string() + "/scenarios/"));
+}
+
+// 100,000 rows of 60 figures and those of the page, in 72 cells.
+TEST_F(PageCommand, ManyRowsAreReadInSeconds) {
+  const std::string dir = folder("many", {});
+  Store store = Store::create(dir);
+  std::vector<Row> rows;
+  for (int i = 0; i < 100'000; ++i) {
+    rows.push_back({"c", {{"rock_area", std::to_string(i % 72)}}, i / 72, 1, "done", "goal_reached", {}, {}});
+    for (int k = 0; k < 60; ++k) rows.back().figures["figure_" + std::to_string(k)] = i + k;
+    for (const ShownFigure& figure : kShownFigures) rows.back().figures[figure.key] = i;
+    if (rows.size() == 2000) {
+      store.add(rows);
+      rows.clear();
+    }
+  }
+  const auto start = std::chrono::steady_clock::now();
+  const std::vector<Row> read = Store::open(dir).rows(page_columns());
+  const double took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  std::printf("100,000 rows for a page: %.2f s\n", took_s);
+  EXPECT_EQ(read.size(), 100'000U);
+  EXPECT_EQ(read.back().figures.size(), std::size(kShownFigures));
+  EXPECT_LT(took_s, 10.0);
 }
 
 TEST_F(PageCommand, EndingOfTheOutputSaysWhatIsWritten) {

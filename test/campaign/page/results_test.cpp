@@ -71,6 +71,14 @@ TEST(Causes, ByOutcomeAndFaultWithTheWorstDriveFirst) {
   EXPECT_EQ(found[1].name, "fault_stop: tilt_high");
 }
 
+TEST(Causes, AFaultThatTheRoverSurvivedIsNoCause) {
+  std::vector<Row> rows = {drive(1, "no_path", 0.5), drive(2, "no_path", 0.2)};
+  rows[0].texts["fault"] = "vo_lost";
+  const std::vector<Cause> found = causes(pointers(rows));
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].name, "no_path");
+}
+
 TEST(Causes, ContactOnAnInfeasibleMapIsAFailure) {
   std::vector<Row> rows = {drive(1, "collision", 0.5, 0.0)};
   rows[0].figures["collisions"] = 1.0;

@@ -97,23 +97,28 @@ Table overall_table(const Comparison& c) {
 
 Table found_table(const Comparison& c) {
   Table table{1, {"", "cells", "differ", "B better", "B worse"}, {}};
-  const auto add = [&](const std::string& title, const auto& differs_in, const auto& is_better) {
+  const auto add = [&](const std::string& title, const auto& differs_in, const auto& gain) {
+    int different = 0;
     int better = 0;
     int worse = 0;
-    for (const CellComparison& cell : c.cells)
-      if (differs_in(cell.pairs)) ++(is_better(cell.pairs) ? better : worse);
-    table.lines.push_back({title, std::to_string(c.cells.size()), std::to_string(better + worse),
-                           std::to_string(better), std::to_string(worse)});
+    for (const CellComparison& cell : c.cells) {
+      if (!differs_in(cell.pairs)) continue;
+      ++different;
+      better += gain(cell.pairs) > 0.0 ? 1 : 0;
+      worse += gain(cell.pairs) < 0.0 ? 1 : 0;
+    }
+    table.lines.push_back({title, std::to_string(c.cells.size()), std::to_string(different), std::to_string(better),
+                           std::to_string(worse)});
   };
   add(
       "Success", [](const PairsComparison& pairs) { return differs(pairs.success); },
-      [](const PairsComparison& pairs) { return pairs.success.difference > 0.0; });
+      [](const PairsComparison& pairs) { return pairs.success.difference; });
   for (size_t i = 0; i < std::size(kShownFigures); ++i)
     add(
         kShownFigures[i].title, [i](const PairsComparison& pairs) { return differs(pairs.figures[i]); },
-        // The mean has a sign where the median of a count is 0.
         [i](const PairsComparison& pairs) {
-          return (pairs.figures[i].mean_difference > 0.0) == kShownFigures[i].higher_is_better;
+          const double difference = difference_of(pairs.figures[i], kShownFigures[i]).value;
+          return kShownFigures[i].higher_is_better ? difference : -difference;
         });
   return table;
 }

@@ -28,7 +28,7 @@ std::string name_of(const std::string& dir) {
 
 // Rows of one commit: drives of two programs are no campaign.
 std::vector<Row> rows_of(const std::string& dir) {
-  std::vector<Row> rows = Store::open(dir).rows();
+  std::vector<Row> rows = Store::open(dir).rows(page_columns());
   if (rows.empty()) throw ConfigError(dir + ": no row yet; ./rover campaign --resume goes on with it");
   std::set<std::string> commits;
   for (const Row& row : rows) commits.insert(row.commit);

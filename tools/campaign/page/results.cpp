@@ -26,7 +26,7 @@ std::string cause_name(const Row& row) {
     const std::string reason = text_of(row, "reason");
     return reason.empty() ? "died" : "died: " + reason;
   }
-  const std::string fault = text_of(row, "fault");
+  const std::string fault = row.outcome == "fault_stop" ? text_of(row, "fault") : "";
   return fault.empty() ? row.outcome : row.outcome + ": " + fault;
 }
 
@@ -46,6 +46,14 @@ bool is_worse(const Row* a, const Row* b) {
 }
 
 }  // namespace
+
+std::vector<std::string> page_columns() {
+  std::vector<std::string> columns = {"collisions",       "oracle_feasible", "progress", "driven_length_m",
+                                      "planned_length_m", "duration_s",      "fault",    "reason"};
+  for (const ShownFigure& figure : kShownFigures)
+    if (std::find(columns.begin(), columns.end(), figure.key) == columns.end()) columns.emplace_back(figure.key);
+  return columns;
+}
 
 double figure_of(const Row& row, const std::string& figure) {
   const auto it = row.figures.find(figure);

@@ -45,6 +45,9 @@ inline constexpr ShownFigure kShownFigures[] = {
     {"replans", "Replans", 0, false, false},
 };
 
+// Figures and texts of a row that page and comparison use.
+std::vector<std::string> page_columns();
+
 // The figure of a drive, NaN if it does not count for this figure: not feasible, or not at its goal.
 double shown_value(const Row& row, const ShownFigure& figure);
 

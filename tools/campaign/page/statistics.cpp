@@ -13,7 +13,6 @@
 namespace rover::campaign {
 namespace {
 
-constexpr double kZ95 = 1.959963984540054;
 constexpr size_t kMaxExact = 60;
 constexpr size_t kResamples = 2000;
 constexpr size_t kMinSeeds = 5;
@@ -125,16 +124,6 @@ double repeated_median(const std::vector<Member>& sorted, const std::vector<int>
 }
 
 }  // namespace
-
-Interval wilson(int successes, int trials) {
-  if (trials == 0) return {kNaN, kNaN};
-  const double n = trials;
-  const double p = successes / n;
-  const double z2 = kZ95 * kZ95;
-  const double centre = (p + z2 / (2.0 * n)) / (1.0 + z2 / n);
-  const double half = kZ95 / (1.0 + z2 / n) * std::sqrt(p * (1.0 - p) / n + z2 / (4.0 * n * n));
-  return {successes == 0 ? 0.0 : centre - half, successes == trials ? 1.0 : centre + half};
-}
 
 Interval newcombe_paired(const PairedCounts& c) {
   if (c.pairs() == 0) return {kNaN, kNaN};

@@ -4,15 +4,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/core/statistics.hpp"
+
 namespace rover::campaign {
-
-struct Interval {
-  double low;
-  double high;
-};
-
-// Score interval of a proportion (Wilson 1927); NaN without trials.
-Interval wilson(int successes, int trials);
 
 // Outcomes of the same drives by A and by B.
 struct PairedCounts {

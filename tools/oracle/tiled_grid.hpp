@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
-namespace rover::report {
+namespace rover::oracle {
 
 template <class Cell>
 class TiledGrid {
@@ -52,4 +52,4 @@ class TiledGrid {
   Tile* last_ = nullptr;
 };
 
-}  // namespace rover::report
+}  // namespace rover::oracle

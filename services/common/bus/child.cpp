@@ -1,4 +1,4 @@
-#include "tools/campaign/child.hpp"
+#include "common/bus/child.hpp"
 
 #include <fcntl.h>
 #include <sys/prctl.h>
@@ -14,7 +14,7 @@
 
 #include "common/bus/config.hpp"
 
-namespace rover::campaign {
+namespace rover {
 namespace {
 
 constexpr int kNotStarted = 127;
@@ -90,4 +90,4 @@ void sleep_s(double seconds) {
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
 }
 
-}  // namespace rover::campaign
+}  // namespace rover

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace rover::campaign {
+namespace rover {
 
 class Child {
  public:
@@ -37,4 +37,4 @@ std::string last_line(const std::string& file);
 
 void sleep_s(double seconds);
 
-}  // namespace rover::campaign
+}  // namespace rover
