@@ -13,6 +13,7 @@
 #include "common/bus/child_process.hpp"
 #include "common/bus/config.hpp"
 #include "tools/launcher/run_command.hpp"
+#include "tools/report/seed_suite.hpp"
 
 namespace rover {
 namespace fs = std::filesystem;
@@ -20,23 +21,18 @@ namespace {
 
 constexpr int kFirstBenchPort = 17'700;
 
-struct BenchScenario {
-  std::string name;
-  int min_repairs = 0;  // of a valid run: with fewer, too few rocks blocked the path
-};
-
 struct Suite {
   std::string name;
   std::string seeds;  // unless others are given
   std::string level;  // unless another is given; empty: the scenario's, and one folder and table for all levels
-  std::vector<BenchScenario> scenarios;
+  std::vector<std::string> scenarios;
   int spare_seeds = 0;  // that may replace invalid runs
 };
 
 const std::vector<Suite>& suites() {
   static const std::vector<Suite> kSuites = {
-      {"seed", "1..10", "", {{"seed_traverse_1", 5}, {"seed_traverse_2", 8}}, 10},
-      {"default", "101..140", "efficient", {{"default"}}},
+      {"seed", "1..10", "", {"seed_traverse_1", "seed_traverse_2"}, 10},
+      {"default", "101..140", "efficient", {"default"}},
   };
   return kSuites;
 }
@@ -51,7 +47,7 @@ const Suite& find_suite(const std::string& name) {
 }
 
 struct Job {
-  BenchScenario scenario;
+  std::string scenario;
   std::int64_t seed;
 };
 
@@ -63,9 +59,7 @@ struct Bench {
   std::string suite_dir;
   std::string level_dir;  // equal, unless the suite has a folder per level
 
-  std::string run_dir(const Job& job) const {
-    return level_dir + "/" + job.scenario.name + "-" + std::to_string(job.seed);
-  }
+  std::string run_dir(const Job& job) const { return level_dir + "/" + job.scenario + "-" + std::to_string(job.seed); }
 };
 
 Bench make_bench(const BenchArguments& arguments) {
@@ -90,8 +84,7 @@ class Rows {
 
   const nlohmann::json* find(const Job& job) const {
     for (const nlohmann::json& row : rows_)
-      if (row.value("scenario", "") == job.scenario.name && row.value("seed", std::int64_t{-1}) == job.seed)
-        return &row;
+      if (row.value("scenario", "") == job.scenario && row.value("seed", std::int64_t{-1}) == job.seed) return &row;
     return nullptr;
   }
 
@@ -120,14 +113,15 @@ class Rows {
   std::vector<nlohmann::json> rows_;
 };
 
-bool counts(const BenchScenario& scenario, const nlohmann::json& row) {
-  if (scenario.min_repairs == 0 || row.value("outcome", "") != "goal_reached") return true;
-  return row.contains("replans") && row["replans"].is_number() && row["replans"].get<int>() >= scenario.min_repairs;
+bool counts(const std::string& scenario, const nlohmann::json& row) {
+  const int minimum = report::min_repairs(scenario);
+  if (minimum == 0 || row.value("outcome", "") != "goal_reached") return true;
+  return row.contains("replans") && row["replans"].is_number() && row["replans"].get<int>() >= minimum;
 }
 
 RunArguments run_arguments(const Bench& bench, const Job& job, int slot) {
   RunArguments run = bench.arguments.run;
-  run.scenario = run.source_dir + "/config/scenarios/" + job.scenario.name + ".yaml";
+  run.scenario = run.source_dir + "/config/scenarios/" + job.scenario + ".yaml";
   run.seed = job.seed;
   if (run.level.empty()) run.level = bench.suite.level;
   run.out = bench.run_dir(job);
@@ -143,7 +137,7 @@ nlohmann::json row_of(const Bench& bench, const Job& job, int exit_status) {
   std::ifstream in(bench.run_dir(job) + "/metrics.json");
   nlohmann::json row = nlohmann::json::parse(in, nullptr, false);
   if (!row.is_object()) row = {{"outcome", "died"}, {"level", run_arguments(bench, job, 0).level}};
-  row["scenario"] = job.scenario.name;
+  row["scenario"] = job.scenario;
   row["seed"] = job.seed;
   row["exit_status"] = exit_status;
   row["command"] = bench.arguments.command;
@@ -163,7 +157,7 @@ void finish(const Bench& bench, const Job& job, int wait_status, Rows& rows) {
   const int exit_status = WIFEXITED(wait_status) ? WEXITSTATUS(wait_status) : 1;
   const nlohmann::json row = row_of(bench, job, exit_status);
   const std::string outcome = row.value("outcome", "unknown");
-  std::printf("%s seed %lld: %s\n", job.scenario.name.c_str(), static_cast<long long>(job.seed),
+  std::printf("%s seed %lld: %s\n", job.scenario.c_str(), static_cast<long long>(job.seed),
               outcome == "died" ? ("died; see " + bench.run_dir(job)).c_str() : outcome.c_str());
   std::fflush(stdout);
   rows.add(row);
@@ -193,7 +187,7 @@ void run_jobs(const Bench& bench, const std::vector<Job>& jobs, Rows& rows) {
 }
 
 // Until as many runs as seeds are valid, or the spare seeds are used up.
-void run_scenario(const Bench& bench, const BenchScenario& scenario, Rows& rows) {
+void run_scenario(const Bench& bench, const std::string& scenario, Rows& rows) {
   std::vector<std::int64_t> seeds = bench.seeds;
   for (int spare = 0; spare <= bench.suite.spare_seeds; ++spare) {
     std::vector<Job> todo;
@@ -237,7 +231,7 @@ int bench(const BenchArguments& arguments) {
                       ": its tables are of rendered drives; --perception is an axis of ./rover campaign");
   const Bench bench = make_bench(arguments);
   Rows rows(bench.level_dir + "/rows.jsonl", commit_of(arguments.run.source_dir), arguments.resume);
-  for (const BenchScenario& scenario : bench.suite.scenarios) run_scenario(bench, scenario, rows);
+  for (const std::string& scenario : bench.suite.scenarios) run_scenario(bench, scenario, rows);
   return write_table(bench);
 }
 

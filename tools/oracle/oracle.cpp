@@ -81,9 +81,12 @@ Result shortest_path(const Request& request) {
   if (region(widest_m).cell(request.start.x_m, request.start.y_m) < 0 || !check.is_free(request.start))
     return {Status::kStartBlocked};
   Result best;
+  int regions_left = 3;
   for (const double half_width_m : {request.corridor_half_width_m, kRepairDeviationM, widest_m}) {
+    const int left =
+        (request.max_expansions - best.expansions) / regions_left--;  // a narrow one leaves the rest its share
     if (half_width_m < request.corridor_half_width_m) continue;
-    Result result = search_region(request, region(half_width_m), check, request.max_expansions - best.expansions);
+    Result result = search_region(request, region(half_width_m), check, left);
     result.expansions += best.expansions;
     if (best.status == Status::kFound && !(result.length_m < best.length_m)) break;
     best = std::move(result);
