@@ -10,9 +10,7 @@ messages_of() {  # RUN: sums of all channels but HEARTBEAT, which states time an
     grep -q " ./$channel.csv" "$1.sums" || fail "$1 has no $channel"
   done
 }
-same() {  # RUN RUN [CHANNELS]
-  diff <(grep -E " \./(${3:-.*})\.csv" "$WORK/$1.sums") <(grep -E " \./(${3:-.*})\.csv" "$WORK/$2.sums") >&2
-}
+same() { diff "$WORK/$1.sums" "$WORK/$2.sums" >&2; }  # RUN RUN
 
 for tier in geometric truth; do
   for run in a b; do
@@ -32,7 +30,13 @@ mkdir -p "$WORK/one/service_logs"
 cp -r "$WORK/config" "$WORK/one/config"
 messages_of "$WORK/processes"
 messages_of "$WORK/one"
-same processes one 'TRUTH|POSE|HAZARDS|PATH|WHEEL_COMMAND|STATE' || fail "another run than in processes"
+# Whether the last tick is in the log depends on how soon the recorder ends.
+for channel in TRUTH POSE HAZARDS PATH WHEEL_COMMAND STATE; do
+  files=("$WORK"/{processes,one}/csv/csv/$channel.csv)
+  lines=$(wc -l "${files[@]}" | awk '$2 != "total" && (least == "" || $1 < least) { least = $1 } END { print least - 1 }')
+  cmp <(head -n "$lines" "${files[0]}") <(head -n "$lines" "${files[1]}") || fail "$channel: another run than in processes"
+  [ $(($(cat "${files[@]}" | wc -l) - 2 * lines)) -le 6 ] || fail "$channel: a run is longer"
+done
 
 refuses() {  # WHAT ARGS...
   local what=$1
