@@ -4,8 +4,8 @@
 #include <string>
 
 #include "test/bench_faults/ground.hpp"
-#include "tools/one_process/stack.hpp"
 #include "test/bench_faults/stand_ins.hpp"
+#include "tools/one_process/stack.hpp"
 
 namespace rover::bench_faults {
 
