@@ -54,12 +54,13 @@ TEST(PoseConsistency, ConsistentRunsHaveAMeanOfOne) {
   constexpr int kRuns = 400;
   Eigen::Vector4d mean = Eigen::Vector4d::Zero();
   for (int i = 0; i < kRuns; ++i) {
-    const Eigen::Vector3d error = root * Eigen::Vector3d(normal(random), normal(random), normal(random));
+    const Eigen::Vector3d error = root * Eigen::Vector3d{normal(random), normal(random), normal(random)};
     const PoseConsistency pose = whole_drive(biased_run(error, cov, 1.0));
     mean += Eigen::Vector4d(pose.x, pose.y, pose.yaw, pose.xyyaw) / kRuns;
   }
-  for (int i = 0; i < 3; ++i) EXPECT_NEAR(mean[i], 1.0, 0.15) << i;
-  EXPECT_NEAR(mean[3], 1.0, 0.09);
+  // Three standard deviations of the mean of 400 runs.
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(mean[i], 1.0, 0.22) << i;
+  EXPECT_NEAR(mean[3], 1.0, 0.13);
 }
 
 TEST(PoseConsistency, YawErrorIsAboutTheVerticalOnASlope) {
