@@ -13,15 +13,13 @@
 #include "common/bus/s6_client.hpp"
 #include "common/bus/streams.hpp"
 #include "rover_simulator/convert.hpp"
+#include "rover_simulator/exposure_times.hpp"
 
 namespace rover {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr Utime kStart = 1'000'000;  // first tick; 0 means never
-constexpr Utime kFramePeriod = 400'000;
-constexpr Utime kCameraLatency = 60'000;   // exposure, read-out and transfer
 constexpr Utime kRejoinDelay = 1'000'000;  // the barrier waits again for a service this long after it left
 constexpr double kStartTimeout_s = 60.0;
 constexpr double kResendPeriod_s = 1.0;
@@ -70,12 +68,12 @@ Simulator::Simulator(const SimulatorOptions& options, SimulatedRover& rover, lcm
       in_process_(std::move(in_process)),
       streams_("rover_simulator", options.boot_id),
       barrier_(options.participants),
-      end_(options.end, kStart),
+      end_(options.end, kFirstTick),
       wheel_commands_(channel::kWheelCommand),
       ptu_commands_(channel::kPtuCommand),
       loccam_{channel::kLocCamLeft, channel::kLocCamRight, SensorFaultModel::StereoPair::kLocCam},
       navcam_{channel::kNavCamLeft, channel::kNavCamRight, SensorFaultModel::StereoPair::kNavCam},
-      script_(options.faults, kStart),
+      script_(options.faults, kFirstTick),
       last_counted_position_(rover.T_map_body().translation().head<2>()) {
   const auto listen = [this](lcm::LCM& bus, const char* channel, auto handler) {
     malformed_[channel] = 0;
@@ -133,7 +131,7 @@ void Simulator::on_state(const lcm::ReceiveBuffer* buffer, const std::string& ch
 SimulationSummary Simulator::run(const std::function<bool()>& running) {
   if (!wait_for_start(running)) return summary_;
   const auto started = Clock::now();
-  Utime t = kStart;
+  Utime t = kFirstTick;
   for (; running(); t = next_tick(t, running)) {
     now_ = t;
     if (const auto outcome = end_.outcome_at(t)) {
@@ -141,14 +139,14 @@ SimulationSummary Simulator::run(const std::function<bool()>& running) {
       break;
     }
     apply_faults(t, running);
-    if (t > kStart) step_world(t);
+    if (t > kFirstTick) step_world(t);
     publish_sensors(t);
     start_exposures(t);
     publish_due_images(loccam_, t);
     publish_due_images(navcam_, t);
     if (options_.realtime)
       std::this_thread::sleep_until(started + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(
-                                                  to_seconds(t - kStart) / options_.pace)));
+                                                  to_seconds(t - kFirstTick) / options_.pace)));
     else
       wait_for_barrier(t, running);
     publish_tick(t);
@@ -156,7 +154,7 @@ SimulationSummary Simulator::run(const std::function<bool()>& running) {
   }
   if (summary_.outcome.empty()) summary_.outcome = "stopped";
   if (options_.realtime) summary_.deterministic = false;
-  summary_.simulated_s = to_seconds(t - kStart);
+  summary_.simulated_s = to_seconds(t - kFirstTick);
   summary_.wall_s = since_s(started);
   return summary_;
 }
@@ -181,7 +179,7 @@ bool Simulator::poll_reports(int timeout_ms) {
 
 bool Simulator::wait_for_start(const std::function<bool()>& running) {
   const auto started = Clock::now();
-  const auto missing_now = [&] { return barrier_.waiting_for(kStart); };
+  const auto missing_now = [&] { return barrier_.waiting_for(kFirstTick); };
   while (running() && !missing_now().empty() && since_s(started) < kStartTimeout_s) poll_reports(20);
   const std::vector<std::string> missing = missing_now();
   if (missing.empty()) return running();
@@ -240,7 +238,7 @@ void Simulator::publish_pan_tilt(Utime t) {
 }
 
 void Simulator::start_exposures(Utime t) {
-  if ((t - kStart) % kFramePeriod == 0) {
+  if ((t - kFirstTick) % kLocCamPeriod == 0) {
     const Eigen::Isometry3d T_map_left = rover_.T_map_loccam();
     if (in_process_.loccam)
       in_process_.loccam(t, T_map_left);

@@ -3,7 +3,7 @@
 //   jobs.jsonl, scenarios/         one line per drive; the scenario of each distinct world
 //   campaign.sqlite, rows.jsonl    the rows; the text is written when a campaign ends or stops
 //   runs/N, logs/                  kept run folders; output of jobs that died, and of the engine
-//   work-XXXXXX/                   of the running session, see session.hpp
+//   work-*/                        of the running session: `open` (without it workers end), rows/, started/, ...
 #pragma once
 
 #include <string>

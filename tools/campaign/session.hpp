@@ -1,7 +1,5 @@
-// One start of a campaign, in DIR/work-XXXXXX: `open` (a file; without it workers end), rows/N.json, started/N-A (A:
-// the attempt), died/N, runs/. Workers and the campaign meet here only, so that engines need a shared folder and
-// nothing else. The next session renames the folder before it reads it: a worker that is still running can write no row
-// then.
+// One start of a campaign: a folder in which it and its workers meet. The next session renames it before it reads it,
+// so a worker that is still running can write no row then.
 #pragma once
 
 #include <string>

@@ -8,6 +8,7 @@
 #include "common/bus/convert.hpp"
 #include "point_cloud/config.hpp"
 #include "point_cloud/convert.hpp"
+#include "rover_simulator/exposure_times.hpp"
 #include "stereo/config.hpp"
 #include "tools/one_process/motion_errors.hpp"
 #include "visual_odometry/config.hpp"
@@ -16,7 +17,6 @@
 namespace rover {
 namespace {
 
-constexpr Utime kImageLatency = 60'000;  // as the simulator's cameras
 constexpr Utime kStateHistory = 2'000'000;
 
 // Release of a slow service's output: `latency` after the tick at which it began.
@@ -134,7 +134,7 @@ class GeometricCloudNode {
 }  // namespace
 
 std::optional<Exposure> Exposures::take(Utime now) {
-  if (waiting_.empty() || waiting_.front().utime + kImageLatency > now) return std::nullopt;
+  if (waiting_.empty() || waiting_.front().utime + kCameraLatency > now) return std::nullopt;
   const Exposure exposure = waiting_.front();
   waiting_.pop_front();
   return exposure;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/core/statistics.hpp"
 #include "tools/report/rock_evaluation.hpp"
 #include "tools/report/true_relief.hpp"
 
@@ -18,14 +19,6 @@ constexpr double kMaxRangeM = kFidelityRangesM.back();
 template <size_t N>
 size_t class_of(double value, const std::array<double, N>& upper_ends) {
   return static_cast<size_t>(std::upper_bound(upper_ends.begin(), upper_ends.end(), value) - upper_ends.begin());
-}
-
-double quantile(const std::vector<double>& sorted, double q) {
-  if (sorted.empty()) return kNaN;
-  const double at = q * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<size_t>(at);
-  const size_t above = std::min(below + 1, sorted.size() - 1);
-  return sorted[below] + (at - static_cast<double>(below)) * (sorted[above] - sorted[below]);
 }
 
 // A map at its true place. The grid's z axis is along the body for HAZARDS, vertical for TRAVERSABILITY.

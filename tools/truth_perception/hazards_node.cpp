@@ -4,6 +4,7 @@
 #include "common/bus/convert.hpp"
 #include "hazard_detector/config.hpp"
 #include "hazard_detector/convert.hpp"
+#include "rover_simulator/exposure_times.hpp"
 #include "stereo/config.hpp"
 #include "tools/truth_perception/nodes.hpp"
 #include "tools/truth_perception/true_hazards.hpp"
@@ -11,17 +12,12 @@
 namespace rover::truth {
 namespace {
 
-// As the simulator exposes the LocCam (truth_nodes_test compares).
-constexpr Utime kFirstExposureUs = 1'000'000;
-constexpr Utime kExposurePeriodUs = 400'000;
-constexpr Utime kCameraLatencyUs = 60'000;
-
 class HazardsNode {
  public:
   HazardsNode(Node& node, const TruthPerception& perception, const hazard::NodeConfig& config,
               const stereo::NodeConfig& stereo)
       : node_(node),
-        extra_latency_us_(kCameraLatencyUs + stereo.latency_us + config.latency_us - kTickUs),
+        extra_latency_us_(kCameraLatency + stereo.latency_us + config.latency_us - kTickUs),
         hazards_(config.core, stereo::Stereo(stereo.core, stereo.rig, stereo.origin_height_m).camera(),
                  perception.surface) {
     node_.subscribe<truth_t>(channel::kTruth, [this](const truth_t& message) { on_truth(message); });
@@ -30,7 +26,7 @@ class HazardsNode {
  private:
   void on_truth(const truth_t& message) {
     const Utime utime = message.header.utime;
-    if (utime < kFirstExposureUs || (utime - kFirstExposureUs) % kExposurePeriodUs != 0) return;
+    if (utime < kFirstTick || (utime - kFirstTick) % kLocCamPeriod != 0) return;
     hazards_t out{};
     const hazard::HazardResult result =
         hazards_.step(pose_from(message.position_map_body_m, message.quat_map_body_wxyz));

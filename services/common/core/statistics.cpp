@@ -1,5 +1,6 @@
 #include "common/core/statistics.hpp"
 
+#include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 
@@ -15,6 +16,14 @@ Interval wilson(double successes, double trials) {
   const double centre = (p + kZ2 / (2.0 * trials)) / (1.0 + kZ2 / trials);
   const double half = kZ95 / (1.0 + kZ2 / trials) * std::sqrt(p * (1.0 - p) / trials + kZ2 / (4.0 * trials * trials));
   return {p == 0.0 ? 0.0 : centre - half, p == 1.0 ? 1.0 : centre + half};
+}
+
+double quantile(const std::vector<double>& sorted, double ratio) {
+  if (sorted.empty()) return kNaN;
+  const double at = ratio * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<size_t>(at);
+  const size_t above = std::min(below + 1, sorted.size() - 1);
+  return sorted[below] + (at - static_cast<double>(below)) * (sorted[above] - sorted[below]);
 }
 
 Interval mean_nees_bounds(double degrees_of_freedom) {

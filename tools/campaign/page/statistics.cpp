@@ -68,13 +68,6 @@ double normal_p(const std::vector<int>& ranks, int positive) {
   return std::erfc(z / std::sqrt(2.0));
 }
 
-double percentile(const std::vector<double>& sorted, double ratio) {
-  const double at = ratio * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<size_t>(at);
-  const size_t above = std::min(below + 1, sorted.size() - 1);
-  return sorted[below] + (at - static_cast<double>(below)) * (sorted[above] - sorted[below]);
-}
-
 // A value, and the number of its seed from 0.
 struct Member {
   double value;
@@ -105,7 +98,7 @@ Interval resampled(size_t seeds, const std::function<double(const std::vector<in
     results.push_back(statistic(times));
   }
   std::sort(results.begin(), results.end());
-  return {percentile(results, 0.025), percentile(results, 0.975)};
+  return {quantile(results, 0.025), quantile(results, 0.975)};
 }
 
 // Median of sorted values, each repeated as often as its seed occurs; `total` with the repetitions.
