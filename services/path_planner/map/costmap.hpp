@@ -14,7 +14,7 @@ namespace rover::planning {
 
 struct CostmapConfig {
   double hazard_probability = 0.5;  // from here on a cell is a hazard; below, its probability costs
-  double stop_probability = 0.7;    // from here on a hazard is certain enough to stop the rover
+  double stop_probability = 0.5;    // from here on a hazard on the path stops the rover
   double hazard_cost = 4.0;         // relative to driving, at probability 1: the expected detour
   double difficulty_cost = 1.5;     // the same, at ground that is just traversable
   double unknown_cost = 0.6;        // the same, on unknown ground
