@@ -14,8 +14,8 @@ begin() {
   pid=$!
 }
 campaign() { "$BUILD/bin/rover_campaign" --drive-program "$SOURCE/test/campaign/fake_drive.sh" "$@"; }
-# Rows in the store.
-rows() { sqlite3 -cmd '.timeout 5000' "$1/campaign.sqlite" 'SELECT count(*) FROM rows' 2>/dev/null || echo 0; }
+# Rows in the store; read only, because sqlite3 would make a file in a folder that has none yet.
+rows() { sqlite3 -readonly -cmd '.timeout 5000' "$1/campaign.sqlite" 'SELECT count(*) FROM rows' 2>/dev/null || echo 0; }
 # wait_until WHAT COMMAND...
 wait_until() {
   local what=$1 i
