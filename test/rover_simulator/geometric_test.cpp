@@ -118,5 +118,36 @@ TEST(GeometricView, DustIsNotMatched) {
   EXPECT_EQ(std::count_if(disparity.px16.begin(), disparity.px16.end(), [](int px16) { return px16 > 0; }), 0);
 }
 
+// The same box as a rock.
+class StepOfRock : public StepSurface {
+ public:
+  Material material(double x, double y) const override {
+    return rises(x, y) ? Material{Soil::kBedrock, 7, 0.3} : Material{Soil::kFirm, -1, 0.0};
+  }
+};
+
+TEST(GeometricView, ADustyRockIsMatchedAtItsOutlineOnly) {
+  const StepOfRock world;
+  Camera camera(world);
+  GeometricView dusty(world, {.textureless_fraction = 0.0, .textureless_rock_fraction = 1.0});
+  const std::vector<float> exact = camera.exact();
+  const Disparity disparity = dusty.expose(camera.stereo, camera.errors, ground_reference(camera.rectified, 0.62),
+                                           kOnGround * camera.rig.T_body_left, 0);
+  const auto is_rim = [&](int u, int v) {
+    return camera.exact_at(exact, u, v) - camera.exact_at(exact, u, v - 1) > 4.0F;
+  };
+  int rims = 0, matched_rims = 0, matched_inside = 0;
+  for (int u = 200; u < 380; ++u)
+    for (int v = 10; v < 300; ++v)
+      if (is_rim(u, v)) {
+        ++rims;
+        matched_rims += disparity.valid(u, v + 1) ? 1 : 0;
+        matched_inside += disparity.valid(u, v + 25) ? 1 : 0;
+      }
+  EXPECT_GT(rims, 20);
+  EXPECT_GT(matched_rims, rims / 2);
+  EXPECT_LT(matched_inside, rims / 4);
+}
+
 }  // namespace
 }  // namespace rover

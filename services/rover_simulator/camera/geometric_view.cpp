@@ -33,11 +33,25 @@ GeometricView::GeometricView(const Surface& world, const GroundAppearanceConfig&
 Disparity GeometricView::expose(GeometricStereo& stereo, const DisparityErrors& errors, const DisparityPlane& reference,
                                 const Eigen::Isometry3d& T_map_left, std::int64_t frame) {
   const std::vector<float> exact_px = stereo.exact_px(T_map_left);
+  const auto px_at = [&](int u, int v) { return exact_px[static_cast<size_t>(v) * stereo.width() + u]; };
+  const auto rock_at = [&](int u, int v) {
+    if (px_at(u, v) <= 0.0F) return -1;
+    const Eigen::Vector3d p_map = T_map_left * stereo.point(u, v, px_at(u, v));
+    return world_.material(p_map.x(), p_map.y()).rock_id;
+  };
+  // The outline of a rock matches, whatever covers it.
+  const auto is_outline = [&](int u, int v) {
+    constexpr int kStep = DisparityErrors::kTexturePx;
+    const int left = std::max(u - kStep, 0), right = std::min(u + kStep, stereo.width() - 1);
+    const int above = std::max(v - kStep, 0), below = std::min(v + kStep, stereo.height() - 1);
+    const int rock = rock_at(u, v);
+    return rock_at(left, v) != rock || rock_at(right, v) != rock || rock_at(u, above) != rock ||
+           rock_at(u, below) != rock;
+  };
   const auto has_texture = [&](int u, int v) {
-    const float px = exact_px[static_cast<size_t>(v) * stereo.width() + u];
-    if (px <= 0.0F) return true;
-    const Eigen::Vector3d p_left = stereo.point(u, v, px);
-    return textured(T_map_left * p_left, p_left.z() / stereo.focal_px());
+    if (px_at(u, v) <= 0.0F) return true;
+    const Eigen::Vector3d p_left = stereo.point(u, v, px_at(u, v));
+    return textured(T_map_left * p_left, p_left.z() / stereo.focal_px()) || is_outline(u, v);
   };
   return errors.apply(exact_px, has_texture, reference, frame);
 }
