@@ -27,11 +27,11 @@ geometric | seed_traverse_2 full_hard | perception: geometric
 rendered | seed_traverse_2 full_hard | perception: rendered
 height_ratio | full_hard | traversability.step.mean_height_ratio: 1.0
 grow_height | full_hard | traversability.step.grow_height_m: 0.12
-uncertain_cost | full_hard | path_planner.full.goal.uncertain_cost: 1.0
-clearance | seed_traverse_2 full_hard | path_planner.clearance.reduced_m: 0.08
-rejoin_8 | seed_traverse_2 | path_planner.repair.rejoin_within_m: 8.0
-rejoin_12 | seed_traverse_2 | path_planner.repair.rejoin_within_m: 12.0
-together | seed_traverse_2 full_hard | traversability.step.mean_height_ratio: 1.0, traversability.step.grow_height_m: 0.12, path_planner.full.goal.uncertain_cost: 1.0, path_planner.clearance.reduced_m: 0.08, path_planner.repair.rejoin_within_m: 8.0'
+hazard_cost | seed_traverse_2 full_hard | path_planner.ground.hazard_cost: 1.0
+clearance | seed_traverse_2 full_hard | path_planner.clearance.min_m: 0.05
+switching | seed_traverse_2 full_hard | path_planner.search.switching_cost_s: 1.0
+horizon | seed_traverse_2 full_hard | path_planner.search.horizon_m: 9.0
+together | seed_traverse_2 full_hard | traversability.step.mean_height_ratio: 1.0, traversability.step.grow_height_m: 0.12, path_planner.ground.hazard_cost: 1.0, path_planner.clearance.min_m: 0.05'
 variants() { sed 's/ *| */|/g' <<<"$VARIANTS"; }
 
 level_of() { [ "$1" = full_hard ] && echo full || echo efficient; }

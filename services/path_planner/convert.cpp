@@ -17,7 +17,7 @@ std::int8_t kind_of(PathKind kind) {
       return path_t::GLOBAL;
     case PathKind::kRepair:
       return path_t::REPAIR;
-    case PathKind::kRetreat:
+    case PathKind::kBacktrack:
       return path_t::BACKTRACK;
     case PathKind::kContinuous:
       return path_t::CONTINUOUS;
@@ -32,14 +32,10 @@ PoseSample pose_from(const pose_t& message) {
   out.utime = message.header.utime;
   out.T_odom_body = rover::pose_from(message.position_odom_body_m, message.quat_odom_body_wxyz);
   out.T_map_odom = rover::pose_from(message.position_map_odom_m, message.quat_map_odom_wxyz);
-  out.position_variance_m2 = std::max(message.covariance[0], message.covariance[7]);
   out.forward_mps = message.velocity_body_mps[0];
   out.yaw_rate_radps = message.rate_body_radps[2];
-  out.travelled_m = message.travelled_m;
-  const bool numbers = is_finite(out.T_odom_body) && is_finite(out.T_map_odom) &&
-                       std::isfinite(message.covariance[0]) && std::isfinite(message.covariance[7]) &&
-                       std::isfinite(out.forward_mps) && std::isfinite(out.yaw_rate_radps) &&
-                       std::isfinite(out.travelled_m);
+  const bool numbers = is_finite(out.T_odom_body) && is_finite(out.T_map_odom) && std::isfinite(out.forward_mps) &&
+                       std::isfinite(out.yaw_rate_radps);
   out.usable = numbers && (message.status == pose_t::OK || message.status == pose_t::DEGRADED);
   return out;
 }
@@ -57,8 +53,15 @@ HazardGrid hazards_from(const hazards_t& message) {
 }
 
 TraversabilityGrid traversability_from(const traversability_t& message) {
-  return {message.header.utime, message.cell_m,  message.origin_x_m, message.origin_y_m,
-          message.cells_x,      message.cells_y, message.cells};
+  TraversabilityGrid out;
+  out.utime = message.header.utime;
+  out.cell_m = message.cell_m;
+  out.origin_x_m = message.origin_x_m;
+  out.origin_y_m = message.origin_y_m;
+  out.cells_x = message.cells_x;
+  out.cells_y = message.cells_y;
+  out.cells = message.cells;
+  return out;
 }
 
 std::string global_path_from(const path_t& message, GlobalPath& path) {

@@ -27,11 +27,20 @@ inline Point2 to_body(const Pose2& pose, Point2 p) {
   const double dy = p.y_m - pose.y_m;
   return {c * dx + s * dy, c * dy - s * dx};
 }
+inline Point2 from_body(const Pose2& pose, Point2 p) {
+  const double c = std::cos(pose.yaw_rad);
+  const double s = std::sin(pose.yaw_rad);
+  return {pose.x_m + c * p.x_m - s * p.y_m, pose.y_m + s * p.x_m + c * p.y_m};
+}
+inline Pose2 inverse(const Pose2& T) {
+  const Point2 p = to_body(T, {});
+  return {p.x_m, p.y_m, -T.yaw_rad};
+}
 
 // Along an arc of the signed curvature (positive: left).
-inline Pose2 advanced(const Pose2& pose, double way_m, double curvature_per_m) {
-  const double turned = way_m * curvature_per_m;
-  const double chord = std::abs(turned) < 1e-9 ? way_m : 2.0 * std::sin(0.5 * turned) / curvature_per_m;
+inline Pose2 advanced(const Pose2& pose, double distance_m, double curvature_per_m) {
+  const double turned = distance_m * curvature_per_m;
+  const double chord = std::abs(turned) < 1e-9 ? distance_m : 2.0 * std::sin(0.5 * turned) / curvature_per_m;
   const double middle = pose.yaw_rad + 0.5 * turned;
   return {pose.x_m + chord * std::cos(middle), pose.y_m + chord * std::sin(middle), pose.yaw_rad + turned};
 }
@@ -49,7 +58,7 @@ struct Footprint {
 
   double radius_m() const { return std::hypot(half_length_m, half_width_m); }
 
-  // From the rectangle's edge to the point, negative inside.
+  // From the edge to the point, negative inside.
   double distance_m(Point2 in_body) const {
     const double dx = std::abs(in_body.x_m) - half_length_m;
     const double dy = std::abs(in_body.y_m) - half_width_m;
@@ -59,25 +68,19 @@ struct Footprint {
   double distance_m(const Pose2& pose, Point2 p) const { return distance_m(to_body(pose, p)); }
 };
 
-// The ground that the camera sees: a trapezoid ahead of the body origin.
+// The ground that the LocCam sees: a trapezoid ahead of the body origin.
 struct ViewArea {
-  Point2 camera{0.53, 0.07};  // what lies behind an obstacle from here is hidden
+  Point2 camera{0.53, 0.07};  // an obstacle hides what lies behind it from here
   double near_m = 0.92;
   double far_m = 3.9;
   double near_half_width_m = 0.37;
   double far_half_width_m = 1.8;
 
-  bool sees(Point2 b) const {  // in body
-    if (b.x_m < near_m || b.x_m > far_m) return false;
-    const double u = (b.x_m - near_m) / (far_m - near_m);
-    return std::abs(b.y_m) <= near_half_width_m + u * (far_half_width_m - near_half_width_m);
+  bool sees(Point2 in_body) const {
+    if (in_body.x_m < near_m || in_body.x_m > far_m) return false;
+    const double u = (in_body.x_m - near_m) / (far_m - near_m);
+    return std::abs(in_body.y_m) <= near_half_width_m + u * (far_half_width_m - near_half_width_m);
   }
-};
-
-// A place that led nowhere, in odom: ground about it costs more.
-struct DeadEnd {
-  Point2 p;
-  double cost_per_m = 0.0;
 };
 
 }  // namespace rover::planning

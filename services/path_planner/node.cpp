@@ -5,15 +5,15 @@
 #include <rover/planner_status_t.hpp>
 #include <rover/pose_t.hpp>
 
+#include "path_planner/background_thread.hpp"
 #include "path_planner/convert.hpp"
-#include "path_planner/plan_beside.hpp"
 
 namespace rover::planning {
 namespace {
 
 constexpr Utime kRepeatPeriodUs = 1'000'000;       // of PATH: a restarted controller has none
 constexpr Utime kFaultClearsUs = 4'000'000;        // a row on the path is cleared by good ones for 1-2 s (fdir.yaml)
-constexpr Utime kRetreatPatienceUs = 10'000'000;   // of a fault that may be over by itself
+constexpr Utime kBackUpPatienceUs = 10'000'000;    // of a fault that may be over by itself
 constexpr Utime kOldestMapUs = 5'000'000;          // at its arrival
 constexpr std::int64_t kPathsPerBoot = 1'000'000;  // keeps the path ids of two processes apart
 constexpr double kMostClearRadiusM = 5.0;          // more than an operator would certify
@@ -38,7 +38,7 @@ const char* text_of(PathKind kind) {
       return "GLOBAL";
     case PathKind::kRepair:
       return "REPAIR";
-    case PathKind::kRetreat:
+    case PathKind::kBacktrack:
       return "BACKTRACK";
     case PathKind::kContinuous:
       return "CONTINUOUS";
@@ -53,9 +53,8 @@ PathPlannerNode::PathPlannerNode(Node& node, const PathPlannerConfig& config)
       checkpoint_(node),
       path_latency_(std::max<Utime>(0, to_utime(config.release_latency_s) - kTickUs)),
       planner_(config, node.options().boot_id * kPathsPerBoot,
-               std::make_shared<PlanBeside>(
-                   PlanBeside::Times{to_utime(config.full.latency_s), to_utime(config.full.patience_s)},
-                   [&node] { return node.follows_clock(); })) {
+               std::make_shared<BackgroundThread>(to_utime(config.planning_latency_s),
+                                                  [&node] { return node.follows_clock(); })) {
   node_.subscribe<path_t>(channel::kGlobalPath, [this](const path_t& m) { on_global_path(m); });
   node_.subscribe<pose_t>(channel::kPose, [this](const pose_t& m) { planner_.add_pose(pose_from(m)); });
   node_.subscribe<hazards_t>(channel::kHazards, [this](const hazards_t& m) { on_hazards(m); });
@@ -108,16 +107,16 @@ void PathPlannerNode::on_state(const supervisor_state_t& message) {
   if (waits && waits_since_ == kNever) waits_since_ = message.header.utime;
 }
 
-// Standing faults are repeated: one that is older than the path is not about it, unless it stands on although the path
+// Active faults are repeated. One that is older than the path is not about it, unless it remains although the path
 // should have ended it.
 void PathPlannerNode::on_fault(const fault_t& message) {
-  if (message.response == fault_t::STOP_BACKTRACK && !message.active) planner_.want_retreat(false);
+  if (message.response == fault_t::STOP_BACKTRACK && !message.active) planner_.request_back_up(false);
   const bool of_this_path = message.visible_utime > told_at_ || message.header.utime > told_at_ + kFaultClearsUs;
   if (!message.active || !of_this_path) return;
   if (message.response == fault_t::STOP_REPLAN) planner_.request_replan();
   const Utime since = std::max(message.visible_utime, waits_since_);
-  const bool lasts = waits_since_ != kNever && message.header.utime > since + kRetreatPatienceUs;
-  if (message.response == fault_t::STOP_BACKTRACK && lasts) planner_.want_retreat(true);
+  const bool lasts = waits_since_ != kNever && message.header.utime > since + kBackUpPatienceUs;
+  if (message.response == fault_t::STOP_BACKTRACK && lasts) planner_.request_back_up(true);
 }
 
 void PathPlannerNode::on_ground_command(const ground_command_t& message) {

@@ -3,45 +3,48 @@
 #include <cmath>
 
 #include "common/core/path_limits.hpp"
+#include "path_planner/dubins.hpp"
 
 namespace rover::planning {
 namespace {
 
-constexpr double kSearchBackM = 0.5;
-constexpr double kSearchAheadM = 1.0;
+constexpr double kMonitorSideM = 14.0;  // of the costmap for the path check
+constexpr double kSearchGlobalM = 3.0;  // along the global path, around the rover
 constexpr double kKeepBehindM = 0.3;
-constexpr double kStandingMps = 0.02;
-constexpr double kTurnCreepMps = 0.05;  // of the body origin while the rover turns on the spot
-constexpr double kStandingRadps = 0.02;
-constexpr double kMaxCurvatureNow = 1.0;
-constexpr double kCorridorReserveM = 0.05;
-constexpr double kCellHalfM = 0.05;
+constexpr double kStationaryMps = 0.02;
+constexpr double kStationaryRadps = 0.02;
+constexpr double kCreepMps = 0.05;  // of the body origin while the rover turns on the spot
+constexpr double kMaxRoverCurvature = 1.0;
+constexpr double kHalfCellM = 0.05;
+constexpr double kControlM = 0.05;
 constexpr double kGoalNearM = 1.0;
-constexpr double kGainM = 1.0;     // of the global path, with which an attempt counts as a success
-constexpr double kForgetM = 15.0;  // between the rover and a dead end
-constexpr double kLeastRetreatM = 0.2;
-constexpr double kRetreatEndM = 0.1;
-constexpr int kMostRetreatsWanted = 2;
-constexpr double kRetreatMarginM = 0.03;  // less than a way back over the own track has had
-constexpr double kSamePlaceM = 1e-6;
-constexpr int kFieldWork = 40;        // the travel field of a search costs as much time as that many expansions
-constexpr size_t kPosesPerPoint = 2;  // repairs are verified every 5 cm and published every 10 cm
-
-Pose2 inverse(const Pose2& T) {
-  const double c = std::cos(T.yaw_rad);
-  const double s = std::sin(T.yaw_rad);
-  return {-c * T.x_m - s * T.y_m, s * T.x_m - c * T.y_m, -T.yaw_rad};
-}
-
-Point2 apply(const Pose2& T, Point2 p) {
-  const double c = std::cos(T.yaw_rad);
-  const double s = std::sin(T.yaw_rad);
-  return {T.x_m + c * p.x_m - s * p.y_m, T.y_m + s * p.x_m + c * p.y_m};
-}
+constexpr double kGoalToleranceRatio = 0.6;  // of the goal's tolerance, for a plan
+constexpr double kProgressM = 1.0;           // of the global path, after which backing up counts anew
+constexpr double kMinBackUpM = 0.2;
+constexpr double kBackUpMarginM = 0.03;  // less than the driven track had
+constexpr double kBackUpReserveM = 0.1;
+constexpr int kMaxWantedBackUps = 2;
+constexpr double kPoseStepM = 0.05;
+constexpr double kMinIncumbentM = 2.5;  // a shorter rest of the active plan does not bind the next one
+constexpr double kTailRadiusM = 2.0;
+constexpr double kTailAheadM = 3.0;
 
 double smooth_step(double u) {
   const double v = std::clamp(u, 0.0, 1.0);
   return v * v * (3.0 - 2.0 * v);
+}
+
+double length_m(const std::vector<PlanPose>& poses) {
+  double sum = 0.0;
+  for (size_t i = 1; i < poses.size(); ++i) sum += distance(position(poses[i - 1].pose), position(poses[i].pose));
+  return sum;
+}
+
+HybridPlannerConfig planner_config(const PathPlannerConfig& config) {
+  HybridPlannerConfig out = config.planner;
+  out.footprint = config.footprint;
+  out.view = config.belief.view;
+  return out;
 }
 
 }  // namespace
@@ -60,13 +63,13 @@ std::string GlobalPath::fault() const {
   return "";
 }
 
-PathPlanner::PathPlanner(const PathPlannerConfig& config, std::int64_t first_path_id, std::shared_ptr<PlanMaker> maker)
+PathPlanner::PathPlanner(const PathPlannerConfig& config, std::int64_t first_path_id,
+                         std::shared_ptr<Background> background)
     : config_(config),
-      local_repair_(config.repair),
-      memory_(config.memory),
-      ground_(config.full.map_cells, config.memory.cell_m, config.full.near_look_m),
-      next_path_id_(first_path_id),
-      maker_(std::move(maker)) {}
+      planner_(std::make_shared<HybridPlanner>(planner_config(config))),
+      background_(std::move(background)),
+      belief_(config.belief),
+      next_path_id_(first_path_id) {}
 
 std::string PathPlanner::set_global_path(const GlobalPath& path) {
   if (const std::string fault = path.fault(); !fault.empty()) return fault;
@@ -74,11 +77,9 @@ std::string PathPlanner::set_global_path(const GlobalPath& path) {
   if (!(path.goal_tolerance_m > 0.0)) global_->goal_tolerance_m = config_.goal_tolerance_m;
   if (!(path.corridor_half_width_m > 0.0)) global_->corridor_half_width_m = config_.corridor_half_width_m;
   global_map_ = rounded(path.points, config_.rounding);
-  forget_way();
-  failures_ = 0;
-  retreats_ = wanted_retreats_ = 0;
-  dead_ends_.clear();
-  furthest_m_ = horizon_from_m_ = 0.0;
+  forget_path();
+  back_ups_ = wanted_back_ups_ = 0;
+  furthest_m_ = 0.0;
   return "";
 }
 
@@ -89,57 +90,60 @@ void PathPlanner::set_start_area(Point2 center_map, double radius_m, Utime utime
 void PathPlanner::add_pose(const PoseSample& sample) {
   if (!sample.usable) {
     history_.clear();  // what comes after need not fit to what was before
-    driven_.clear();
-    making_.reset();
+    breadcrumbs_.clear();
+    job_.reset();
     return;
   }
   history_.add(sample);
-  take_start_area();
-  memory_.move_to(position(rover()));
-  if (full_level_) ground_.move_to(position(rover()));
-  memory_.mark_driven(rover(), config_.footprint);
-  track_driven_way();
-}
-
-void PathPlanner::track_driven_way() {
-  if (active_.kind == PathKind::kRetreat)
-    driven_.retrace(position(rover()));
+  apply_start_area();
+  belief_.move_to(position(rover()));
+  belief_.mark_driven(rover(), config_.footprint);
+  if (mode_ == Mode::kBackingUp)
+    breadcrumbs_.retrace(position(rover()));
   else
-    driven_.extend(position(rover()));
+    breadcrumbs_.extend(position(rover()));
 }
 
-void PathPlanner::take_start_area() {
+void PathPlanner::apply_start_area() {
   if (!start_area_ || history_.newest().utime <= start_area_->utime) return;
   const PoseSample newest = history_.newest();
   history_.clear();
   history_.add(newest);
-  memory_.clear();
-  ground_.clear();
-  driven_.clear();
-  dead_ends_.clear();
-  memory_.move_to(position(rover()));
-  const Point2 center = apply(inverse(planar(newest.T_map_odom)), start_area_->center_map);
-  if (start_area_->radius_m > 0.0) memory_.mark_seen(center, start_area_->radius_m);
+  belief_.clear();
+  breadcrumbs_.clear();
+  belief_.move_to(position(rover()));
+  const Point2 center = from_body(inverse(planar(newest.T_map_odom)), start_area_->center_map);
+  if (start_area_->radius_m > 0.0) belief_.mark_known(center, start_area_->radius_m);
   start_area_.reset();
-  forget_way();
+  forget_path();
   new_ground_ = true;
 }
 
-void PathPlanner::forget_way() {
-  legs_.clear();
-  retreat_wanted_ = false;
-  global_odom_ = Route();
-  active_ = Active();
-  agenda_.restart();
-  firm_agenda_.restart();
-  making_.reset();
+void PathPlanner::forget_path() {
+  back_up_wanted_ = replan_wanted_ = false;
+  global_odom_.reset();
+  active_.clear();
+  job_.reset();
+  failures_ = 0;
+  mode_ = Mode::kIdle;
 }
 
 bool PathPlanner::add_hazards(const HazardGrid& grid) {
   const std::optional<Eigen::Isometry3d> T = history_.at(grid.utime);
   if (!T || !grid.fault().empty()) return false;
-  memory_.add(grid, *T, config_.ground_z_m);
+  belief_.add(grid, *T, config_.ground_z_m);
   new_ground_ = true;
+  return true;
+}
+
+void PathPlanner::set_level(bool full) {
+  full_level_ = full;
+}
+
+bool PathPlanner::add_traversability(const TraversabilityGrid& map) {
+  if (!full_level_ || !map.fault().empty() || history_.empty()) return false;
+  belief_.add(map, position(rover()));
+  new_ground_ = new_map_ = true;
   return true;
 }
 
@@ -147,385 +151,329 @@ bool PathPlanner::ready(Utime now) const {
   return global_ && !history_.empty() && now - history_.newest().utime <= to_utime(config_.pose_max_age_s);
 }
 
+bool PathPlanner::stationary() const {
+  return std::abs(history_.newest().forward_mps) < kStationaryMps &&
+         std::abs(history_.newest().yaw_rate_radps) < kStationaryRadps;
+}
+
 PlannerOutput PathPlanner::step(Utime now) {
   PlannerOutput out;
-  now_ = now;
   if (ready(now)) {
-    if (global_odom_.empty()) lay_global_path();
-    if (making_) take_result(false, out);
-    new_map_ = std::exchange(plan_waits_, false) || new_map_;
-    if (active_.route.empty()) {
-      if (failures_ == 0 || new_ground_) begin(out);
-    } else {
-      if (resumed_) send_again(out);
-      track_progress();
-      leave_repair(out);
-      follow_correction(out);
-      if (new_ground_ || new_map_) react(out);
-    }
-    new_ground_ = false;
-    new_map_ = false;
+    if (!global_odom_) set_global_in_odom();
+    if (active_.empty()) follow_global_path();
+    if (!active_.empty()) follow();
+    take_plan(now);
+    if (new_ground_ && !active_.empty()) check_path();
+  }
+  const Mode before = mode_;
+  mode_ = next_mode(mode_, facts(now));
+  if (mode_ == Mode::kBackingUp && before != mode_) back_up();
+  if (ready(now) && wants_plan()) {
+    request_plan();
+    take_plan(now);
+  }
+  new_ground_ = false;
+  if (!active_.empty() && active_.id() != sent_path_id_) {
+    sent_path_id_ = active_.id();
+    out.path = published();
   }
   out.status = status(now);
   return out;
 }
 
-void PathPlanner::lay_global_path() {
-  T_map_odom_laid_ = planar(history_.newest().T_map_odom);
-  global_odom_ = transformed(global_map_, inverse(T_map_odom_laid_));
-  global_progress_m_ = global_odom_.closest(position(rover()));
-  if (!making_) return;
-  making_.reset();  // it leads back to where the path lay
-  plan_waits_ = true;
+void PathPlanner::set_global_in_odom() {
+  T_map_odom_ = planar(history_.newest().T_map_odom);
+  global_odom_ = std::make_shared<const Route>(transformed(global_map_, inverse(T_map_odom_)));
+  global_progress_m_ = global_odom_->closest(position(rover()));
 }
 
-void PathPlanner::send_again(PlannerOutput& out) {
-  resumed_ = false;
-  out.path = published();
+// From here on; if the rover is far off, a path to it has to be planned.
+void PathPlanner::follow_global_path() {
+  const Point2 start = global_odom_->point_at(global_progress_m_);
+  if (distance(start, position(rover())) > config_.max_start_offset_m) return;
+  std::vector<RoutePoint> points;
+  const size_t count = global_odom_->points().size();
+  const size_t next = std::min(global_odom_->vertex_after(global_progress_m_), count - 1);
+  if (global_odom_->length_m() - global_progress_m_ > kPoseStepM)
+    points.push_back({start, global_progress_m_, global_odom_->level_at(global_progress_m_)});
+  else
+    points.push_back(global_odom_->points()[count - 2]);  // the rover is at the end: the last piece is the path
+  for (size_t i = next; i < count; ++i) points.push_back(global_odom_->points()[i]);
+  active_.set_route(next_path_id_++, PathKind::kGlobal, Route(std::move(points)), global_->corridor_half_width_m,
+                    position(rover()));
+  track_turn();
+  check_path();
 }
 
-LocalPath PathPlanner::published() const {
-  return {active_.id, active_.kind, active_.corridor_half_width_m, global_->goal_tolerance_m, active_.route.points()};
+void PathPlanner::follow() {
+  active_.follow(position(rover()));
+  track_progress();
+  track_turn();
+  if (active_.has_next() && stationary() && active_.at_end(position(rover()))) {
+    active_.advance(next_path_id_++, position(rover()));
+    check_path();
+  }
+  // Past a repair the path is the global path again, with its own corridor.
+  if (active_.kind() == PathKind::kRepair && !active_.has_next() && active_.planned_m() < 0.0) {
+    std::vector<RoutePoint> rest;
+    const std::vector<RoutePoint>& points = active_.route().points();
+    const size_t next = active_.route().vertex_after(active_.progress_m() - kKeepBehindM);
+    for (size_t i = next > 0 ? next - 1 : 0; i < points.size(); ++i) rest.push_back(points[i]);
+    if (rest.size() >= 2) {
+      active_.set_route(next_path_id_++, PathKind::kGlobal, Route(std::move(rest)), global_->corridor_half_width_m,
+                        position(rover()));
+      check_path();
+    }
+  }
+  follow_correction();
 }
 
 void PathPlanner::track_progress() {
-  const Point2 p = position(rover());
-  active_.progress_m = active_.route.closest(p, active_.progress_m - kSearchBackM, active_.progress_m + kSearchAheadM);
-  global_progress_m_ =
-      global_odom_.closest(p, global_progress_m_ - 3.0 * kSearchAheadM, global_progress_m_ + 3.0 * kSearchAheadM);
-  horizon_from_m_ = std::max(horizon_from_m_, global_progress_m_);
-  if (global_progress_m_ < furthest_m_ + kGainM) return;
+  global_progress_m_ = global_odom_->closest(position(rover()), global_progress_m_ - kSearchGlobalM,
+                                             global_progress_m_ + kSearchGlobalM);
+  if (global_progress_m_ < furthest_m_ + kProgressM) return;
   furthest_m_ = global_progress_m_;
-  retreats_ = wanted_retreats_ = 0;
-  std::erase_if(dead_ends_, [&](const DeadEnd& end) { return distance(end.p, p) > kForgetM; });
+  back_ups_ = wanted_back_ups_ = 0;
 }
 
-void PathPlanner::begin(PlannerOutput& out) {
-  const Point2 start = global_odom_.point_at(global_progress_m_);
-  if (distance(start, position(rover())) > config_.max_start_offset_m) {
-    if (continuous()) return want_plan({}, out);
-    repair(false, out);
-    return;
-  }
-  active_.margin_m = config_.margin_m;
-  active_.corridor_half_width_m = global_->corridor_half_width_m;
-  std::vector<RoutePoint> points;
-  const size_t next = global_odom_.vertex_after(global_progress_m_);
-  if (next < global_odom_.points().size())
-    points.push_back({start, global_progress_m_, global_odom_.level_at(global_progress_m_)});
-  else
-    points.push_back(global_odom_.points()[next - 2]);  // the rover stands at the end: the last piece is the path
-  for (size_t i = std::min(next, global_odom_.points().size() - 1); i < global_odom_.points().size(); ++i)
-    points.push_back(global_odom_.points()[i]);
-  adopt(Route(std::move(points)), PathKind::kGlobal, out);
-  judge();
-}
-
-// A new frame: is the way still free, and if not, is there another?
-void PathPlanner::react(PlannerOutput& out) {
-  if (!legs_.empty() && !continuous()) give_up_manoeuvre();
-  if (retreat_wanted_ && retreat_as_wanted(out)) return;
-  if (on_manoeuvre()) {
-    go_on_manoeuvre(out);
-    if (!legs_.empty() || out.path) return;
-  }
-  if (active_.kind == PathKind::kRetreat) return look_from_retreat(out);
-  if (continuous()) return go_on(out);
-  judge();
-  // A single hit that stays in the way without being seen again counts as a hazard in the end.
-  frames_before_possible_ = hazard_ahead_m() < config_.stop_hazard_m ? frames_before_possible_ + 1 : 0;
-  const bool blocked =
-      block_.confirmed_m - active_.progress_m < config_.trigger_m || frames_before_possible_ >= config_.patience_frames;
-  const bool before_unseen = (unseen_ahead_m() < config_.stop_unseen_m || strayed()) && standing();
-  frames_before_unseen_ = before_unseen ? frames_before_unseen_ + 1 : 0;
-  if (blocked || frames_before_unseen_ >= config_.patience_frames) {
-    if (repair(blocked, out)) frames_before_unseen_ = 0;
-  } else {
-    failures_ = 0;
-    agenda_.restart();
-    if (active_.kind == PathKind::kRepair) firm_up(out);
-  }
-  if (stuck() && standing()) retreat(out);
-}
-
-bool PathPlanner::in_the_way() const {
-  return hazard_ahead_m() < config_.stop_hazard_m || unseen_ahead_m() < config_.stop_unseen_m;
-}
-
-bool PathPlanner::stuck() const {
-  return (in_the_way() || strayed()) && failures_ >= config_.patience_frames;
-}
-
-// Outside the corridor, or about to leave it, the rover is not let on (supervisor): only another path helps.
-bool PathPlanner::strayed() const {
-  return replan_wanted_ ||
-         distance(active_.route.point_at(active_.progress_m), position(rover())) > active_.corridor_half_width_m;
-}
-
-// No way leads on from here, but one led here: back over ground that carried the rover, to where more can be seen and
-// there is room to turn; further each time, and what led here costs more from now on. False where there is no track, or
-// where that has been tried enough.
-bool PathPlanner::retreat(PlannerOutput& out) {
-  if (retreats_ >= (continuous() ? config_.full.most_retreats : config_.most_retreats)) return false;
-  dead_ends_.push_back({position(rover()), config_.repair.dead_end_cost});
-  std::vector<Point2> back = driven_.back(position(rover()), (1 + retreats_) * config_.retreat_m);
-  if (continuous()) back = way_back(back);
-  if (back.size() < 2 || distance(back.front(), back.back()) < kLeastRetreatM) {
-    dead_ends_.pop_back();
-    return false;
-  }
-  ++retreats_;
-  failures_ = 0;
-  legs_.clear();
-  turning_ = false;  // whatever turn was begun, the rover backs out of it
-  std::vector<RoutePoint> points;
-  for (const Point2& p : back) points.push_back({p, kNaN, global_odom_.level_at(global_progress_m_)});
-  active_.corridor_half_width_m = config_.retreat_corridor_m;
-  adopt(Route(std::move(points)), PathKind::kRetreat, out);
-  active_.retreat_from = rover();
-  block_ = Block();
-  return true;
-}
-
-// At its end, or where the rover is not let on along it: on a slope it may slide towards a rock beside its track.
-// Behind it nothing looks, so what was seen once or never does not count.
-void PathPlanner::look_from_retreat(PlannerOutput& out) {
-  judge();
-  block_.possible_m = block_.unseen_m = kInfinity;
-  const bool blocked = hazard_ahead_m() < config_.stop_hazard_m;
-  if (!standing() || !(at_retreat_end() || strayed() || blocked)) return;
-  if (continuous()) return want_plan({}, out);
-  if (repair(true, out) || failures_ < config_.patience_frames) return;
-  retreat(out);
-}
-
-// More of them without new ground gained help neither a camera nor a slope.
-bool PathPlanner::retreat_as_wanted(PlannerOutput& out) {
-  if (!standing() || wanted_retreats_ >= kMostRetreatsWanted || !retreat(out)) return false;
-  ++wanted_retreats_;
-  return true;
-}
-
-// A track that was driven to and fro lies twice in one place, and progress may be taken for that of the first.
-bool PathPlanner::at_retreat_end() const {
-  const double left_m = active_.route.length_m() - active_.progress_m;
-  const double straight_m = distance(active_.route.points().back().p, position(rover()));
-  return left_m <= kRetreatEndM || (left_m <= kSearchAheadM && straight_m <= kRetreatEndM);
-}
-
-// Repairs are sure for their first metres only. Where the rest does not become so on approach, another way is sought
-// while there is room; not during a point turn, which shows new ground by itself.
-void PathPlanner::firm_up(PlannerOutput& out) {
-  if (turning_) return;
-  const Terrain terrain(memory_);
-  std::vector<Pose2> poses = {rover()};
-  for (double s = active_.progress_m + kPoseStepM; s < active_.repair_end_m; s += kPoseStepM)
-    poses.push_back(active_.route.pose_at(s));
-  const double sure = seen_way(terrain, poses);
-  if (sure >= config_.firm_way_m) return;
-  if (search(terrain, {{kInfinity, goal_reach_m()}, {config_.sure_way_m, goal_reach_m()}}, firm_agenda_) !=
-      SearchEnd::kFound)
-    return;
-  if (seen_way(terrain, last_repair_.poses) > sure + config_.firm_gain_m) take_repair(out);
-}
-
-double PathPlanner::seen_way(const Terrain& terrain, const std::vector<Pose2>& poses) const {
-  return seen_way_m(poses, FootprintCheck(terrain, config_.footprint, active_.margin_m, 0.0, rover()),
-                    config_.repair.view);
-}
-
-// A turn goes on below the error that starts one. Were the rover taken for one that drives off at that error, its path
-// would look blocked in the middle of each turn beside a rock, and the next plan would turn it back.
-void PathPlanner::track_turn(const Pose2& heading_on) {
-  const double error = std::abs(wrap_angle(active_.route.pose_at(active_.progress_m).yaw_rad - heading_on.yaw_rad));
-  const bool driving = std::abs(history_.newest().forward_mps) > kTurnCreepMps;
+// A point turn goes on below the error that starts one.
+void PathPlanner::track_turn() {
+  const double error = std::abs(wrap_angle(active_.pose_at(active_.progress_m()).yaw_rad - rover().yaw_rad));
+  const bool driving = std::abs(history_.newest().forward_mps) > kCreepMps;
   turning_ = error > config_.turn_threshold_rad || (turning_ && error > config_.turn_stop_rad && !driving);
 }
 
-void PathPlanner::judge() {
-  Pose2 heading_on = rover();
-  if (active_.kind == PathKind::kRetreat)
-    heading_on.yaw_rad = wrap_angle(heading_on.yaw_rad + kPi);  // the rectangle looks the same from behind
-  track_turn(heading_on);
-  const double margin_m = active_.retreat_from ? kRetreatMarginM : active_.margin_m + sigma_margin_m();
-  const Terrain ground = terrain();
-  block_ = find_block({ground, active_.route, config_.footprint, active_.progress_m, heading_on, margin_m, turning_,
-                       config_.turn_threshold_rad, active_.retreat_from});
-}
-
-bool PathPlanner::repair(bool because_of_hazard, PlannerOutput& out) {
-  const SearchEnd end = search(Terrain(memory_), demands(), agenda_);
-  if (end != SearchEnd::kFound) {
-    // A frame whose search goes on is one of patience, but none that ends it.
-    if (end == SearchEnd::kNone || failures_ + 1 < config_.patience_frames) ++failures_;
-    return false;
-  }
-  failures_ = 0;
-  if (because_of_hazard) ++replans_;
-  take_repair(out);
-  return true;
-}
-
-// They fall from one to the next. The last is for a goal under hazards, once that is certain.
-std::vector<WayDemand> PathPlanner::demands() const {
-  std::vector<WayDemand> out;
-  for (const double sure_m : {kInfinity, config_.sure_way_m, config_.least_sure_way_m})
-    out.push_back({sure_m, goal_reach_m()});
-  if (failures_ + 1 >= config_.patience_frames && goal_near())
-    out.push_back({config_.sure_way_m, config_.blocked_goal_reach_m});
-  return out;
-}
-
-bool PathPlanner::goal_near() const {
-  return distance(global_odom_.points().back().p, position(rover())) < config_.repair.view.far_m;
-}
-
-PathPlanner::SearchEnd PathPlanner::search(const Terrain& terrain, const std::vector<WayDemand>& demands,
-                                           RepairAgenda& agenda) {
-  const std::vector<LeadIn> leads = lead_ins();
-  agenda.fit(demands.size());
-  for (int work = 0; work < config_.frame_work; work += last_repair_.expansions + kFieldWork) {
-    last_lead_ = leads[std::min(agenda.lead(), leads.size() - 1)];
-    last_margin_m_ = agenda.margin() == 0 ? config_.margin_m : config_.tight_margin_m;
-    last_repair_ = plan_repair(terrain, last_lead_, last_margin_m_, demands[agenda.demand()]);
-    if (last_repair_.status == RepairStatus::kFound) {
-      agenda.restart();
-      return SearchEnd::kFound;
-    }
-    if (!agenda.advance(last_repair_.status, demands, leads.size())) return SearchEnd::kNone;
-  }
-  return SearchEnd::kGoesOn;
-}
-
-// At speed the wheels need time to steer: the repair bends where the rover can have slowed down. Only where that leaves
-// no way it bends at once.
-std::vector<PathPlanner::LeadIn> PathPlanner::lead_ins() const {
-  const PoseSample& now = history_.newest();
-  if (now.forward_mps < kStandingMps) return {{}};
-  const double curvature = std::clamp(now.yaw_rate_radps / now.forward_mps, -kMaxCurvatureNow, kMaxCurvatureNow);
-  const double reaction = now.forward_mps * config_.release_latency_s;
-  const double braking = 0.5 * now.forward_mps * now.forward_mps / config_.deceleration_mps2;
-  if (braking < kPoseStepM) return {{reaction + braking, curvature}};
-  return {{reaction + braking, curvature}, {reaction, curvature}};
-}
-
-void PathPlanner::take_repair(PlannerOutput& out) {
-  legs_.clear();
-  active_.margin_m = last_margin_m_;
-  active_.corridor_half_width_m =
-      std::clamp(last_repair_.clearance_m - kCellHalfM - kCorridorReserveM, config_.least_corridor_m,
-                 std::max(config_.least_corridor_m, global_->corridor_half_width_m));
-  adopt(repaired_route(last_repair_), PathKind::kRepair, out);
-  judge();
-}
-
-RepairResult PathPlanner::plan_repair(const Terrain& terrain, const LeadIn& lead, double margin_m,
-                                      const WayDemand& demand) const {
-  const double halt_m = lead_ins().front().way_m;
-  return local_repair_.plan(
-      {terrain, global_odom_, global_progress_m_, advanced(rover(), lead.way_m, lead.curvature_per_m),
-       lead.curvature_per_m, advanced(rover(), halt_m, lead.curvature_per_m),
-       margin_m + config_.plan_extra_m + sigma_margin_m(), demand.sure_m, demand.goal_reach_m, dead_ends_});
-}
-
-Route PathPlanner::repaired_route(const RepairResult& repair) const {
-  std::vector<RoutePoint> points;
-  for (double way = 0.0; way < last_lead_.way_m - kPoseStepM; way += 2.0 * kPoseStepM)
-    points.push_back({position(advanced(rover(), way, last_lead_.curvature_per_m)), kNaN,
-                      global_odom_.level_at(global_progress_m_)});
-  append_poses(repair.poses, repair.join_m, points);
-  for (size_t i = global_odom_.vertex_after(repair.join_m + 0.5 * config_.rounding.step_m);
-       i < global_odom_.points().size(); ++i)
-    points.push_back(global_odom_.points()[i]);
-  return Route(std::move(points));
-}
-
-void PathPlanner::append_poses(const std::vector<Pose2>& poses, double end_station_m,
-                               std::vector<RoutePoint>& points) const {
-  for (size_t i = 0; i < poses.size(); ++i) {
-    const bool halt = i > 0 && distance(position(poses[i - 1]), position(poses[i])) < kSamePlaceM;
-    const bool halt_next = i + 1 < poses.size() && distance(position(poses[i]), position(poses[i + 1])) < kSamePlaceM;
-    if (halt || (i % kPosesPerPoint != 0 && !halt_next && i + 1 != poses.size())) continue;
-    const double share = static_cast<double>(i) / static_cast<double>(poses.size() - 1);
-    const double along = global_progress_m_ + share * (end_station_m - global_progress_m_);
-    points.push_back({position(poses[i]), kNaN, global_odom_.level_at(along)});
-  }
-}
-
-void PathPlanner::adopt(Route route, PathKind kind, PlannerOutput& out) {
-  active_.route = std::move(route);
-  active_.kind = kind;
-  active_.id = next_path_id_++;
-  active_.retreat_from.reset();
-  replan_wanted_ = false;
-  retreat_wanted_ = false;
-  no_way_on_ = false;
-  agenda_.restart();
-  firm_agenda_.restart();
-  active_.progress_m = active_.route.closest(position(rover()), 0.0, kSearchAheadM);
-  active_.repair_end_m = 0.0;
-  for (size_t i = 0; i < active_.route.points().size(); ++i)
-    if (std::isnan(active_.route.points()[i].global_s_m)) active_.repair_end_m = active_.route.s_at(i);
-  out.path = published();
-}
-
-// Past the place where the global path is joined the path is the global path again, with its own corridor.
-void PathPlanner::leave_repair(PlannerOutput& out) {
-  if (active_.kind != PathKind::kRepair || active_.progress_m <= active_.repair_end_m) return;
-  std::vector<RoutePoint> rest;
-  const std::vector<RoutePoint>& points = active_.route.points();
-  const size_t first = active_.route.vertex_after(active_.progress_m - kKeepBehindM);
-  for (size_t i = first > 0 ? first - 1 : 0; i < points.size(); ++i) rest.push_back(points[i]);
-  if (rest.size() < 2) return;
-  const double shift = active_.route.s_at(first > 0 ? first - 1 : 0);
-  active_.corridor_half_width_m = global_->corridor_half_width_m;
-  adopt(Route(std::move(rest)), PathKind::kGlobal, out);
-  block_ = {block_.confirmed_m - shift, block_.possible_m - shift, block_.unseen_m - shift};
-}
-
-// Map has moved against odom: obstacles stay, the global path's part of the active path moves, at bounded curvature and
-// not before the rover has left a repair.
-void PathPlanner::follow_correction(PlannerOutput& out) {
+// Map has moved against odom: hazards and plans stay, the part of the path that is global moves, at bounded curvature
+// and not before the end of the plan.
+void PathPlanner::follow_correction() {
   const Pose2 T_now = planar(history_.newest().T_map_odom);
-  const Point2 ahead = apply(T_map_odom_laid_, active_.route.point_at(active_.progress_m + 10.0));
-  const Point2 here = apply(T_map_odom_laid_, position(rover()));
-  const Pose2 T_odom_map = inverse(T_now);
-  const Pose2 T_odom_map_laid = inverse(T_map_odom_laid_);
-  const auto moved = [&](Point2 p_map) { return distance(apply(T_odom_map, p_map), apply(T_odom_map_laid, p_map)); };
-  const double change = std::max(moved(here), moved(ahead));
+  const auto moved_m = [&](Point2 p) { return distance(from_body(inverse(T_now), from_body(T_map_odom_, p)), p); };
+  const double change =
+      std::max(moved_m(position(rover())), moved_m(active_.route().point_at(active_.progress_m() + 10.0)));
   if (change < config_.correction_m) return;
-  lay_global_path();
-  if (active_.kind == PathKind::kRetreat) return;  // over the driven track, which lies in odom
-  const double begin = std::max(active_.progress_m + 1.0, active_.repair_end_m);
+  set_global_in_odom();
+  if (mode_ == Mode::kBackingUp) return;  // over the driven track, which lies in odom
+  const double begin = std::max(active_.progress_m() + 1.0, active_.progress_m() + active_.planned_m());
   // Of the blend 3u^2 - 2u^3: slope at most 0.33, curvature at most 0.3 per metre.
   const double ramp = std::max({3.0, 4.5 * change, std::sqrt(20.0 * change)});
-  std::vector<RoutePoint> points = active_.route.points();
+  std::vector<RoutePoint> points = active_.route().points();
   for (size_t i = 0; i < points.size(); ++i) {
     if (std::isnan(points[i].global_s_m)) continue;
-    const Point2 target = global_odom_.point_at(points[i].global_s_m);
-    const double w = smooth_step((active_.route.s_at(i) - begin) / ramp);
+    const Point2 target = global_odom_->point_at(points[i].global_s_m);
+    const double w = smooth_step((active_.route().s_at(i) - begin) / ramp);
     points[i].p = {points[i].p.x_m + w * (target.x_m - points[i].p.x_m),
                    points[i].p.y_m + w * (target.y_m - points[i].p.y_m)};
   }
-  const double progress = active_.progress_m;
-  adopt(Route(std::move(points)), active_.kind, out);
-  active_.progress_m = active_.route.closest(position(rover()), progress - kSearchBackM, progress + kSearchAheadM);
-  judge();
+  active_.replace_route(next_path_id_++, Route(std::move(points)));
+  check_path();
 }
 
-double PathPlanner::sigma_margin_m() const {
-  if (continuous()) return config_.full.sigma_margin_m;
-  return std::min(config_.most_sigma_margin_m, config_.sigma_gain * history_.gained_sigma_m());
+double PathPlanner::margin_m() const {
+  if (mode_ == Mode::kBackingUp) return kBackUpMarginM;
+  const Clearances& clearances = config_.planner.clearances;
+  return active_.kind() == PathKind::kGlobal ? clearances.turn_m : clearances.min_m - config_.clearance_tolerance_m;
 }
 
-bool PathPlanner::standing() const {
-  return std::abs(history_.newest().forward_mps) < kStandingMps &&
-         std::abs(history_.newest().yaw_rate_radps) < kStandingRadps;
+void PathPlanner::check_path() {
+  const Costmap costmap(config_.costmap, belief_, position(rover()), kMonitorSideM);
+  blockage_ = find_blockage({costmap, active_.route(), active_.reverse(), config_.footprint, active_.progress_m(),
+                             rover(), margin_m(), turning_, config_.turn_threshold_rad, config_.belief.view});
+  // No camera looks backwards, and the driven track was known.
+  if (mode_ == Mode::kBackingUp) blockage_.unknown_m = blockage_.unseen_m = kInfinity;
 }
 
-double PathPlanner::hazard_ahead_m() const {
-  if (no_way_on_) return 0.0;
-  return std::min(block_.confirmed_m, block_.possible_m) - active_.progress_m;
+bool PathPlanner::strayed() const {
+  return distance(active_.route().point_at(active_.progress_m()), position(rover())) > active_.corridor_half_width_m();
+}
+
+bool PathPlanner::clear() const {
+  if (active_.empty()) return false;
+  const bool ended = active_.at_end(position(rover())) && !active_.has_next() && !leads_to_goal();
+  return !ended && !replan_wanted_ && !strayed() && hazard_ahead_m() > config_.stop_hazard_m &&
+         unknown_ahead_m() > config_.stop_unknown_m;
+}
+
+std::uint16_t PathPlanner::facts(Utime now) {
+  if (!ready(now)) return 0;
+  std::uint16_t facts = kReady;
+  if (clear()) facts |= kClear;
+  if (!stationary()) return facts;
+  const bool failed = failures_ >= config_.patience;
+  if (failed) facts |= kFailed;
+  const bool wanted = back_up_wanted_ && wanted_back_ups_ < kMaxWantedBackUps;
+  if (wanted) facts |= kBackUpWanted;
+  if ((failed || wanted) && back_ups_ < config_.max_back_ups && back_up_points().size() >= 2) facts |= kCanBackUp;
+  if (mode_ == Mode::kBackingUp &&
+      (active_.at_end(position(rover())) || strayed() || replan_wanted_ || hazard_ahead_m() < config_.stop_hazard_m))
+    facts |= kBackedUp;
+  return facts;
+}
+
+bool PathPlanner::wants_plan() const {
+  if (job_) return false;
+  if (mode_ == Mode::kPlanning || mode_ == Mode::kNoPath) return new_ground_ || failures_ == 0;
+  if (mode_ != Mode::kFollowing || turning_) return false;
+  if (full_level_ && new_map_) return true;
+  if (!new_ground_) return false;
+  // Beyond a plan the path is provisional; it matters once the plan becomes short.
+  const bool provisional = active_.kind() != PathKind::kGlobal && active_.planned_m() > kMinIncumbentM;
+  const double matters_m = provisional ? active_.planned_m() : kInfinity;
+  return (blockage_.possible_m - active_.progress_m() < matters_m && std::isfinite(blockage_.possible_m)) ||
+         unseen_ahead_m() < std::min(matters_m, config_.planner.search.known_free_m);
+}
+
+double PathPlanner::stopping_distance_m() const {
+  const double v = std::abs(history_.newest().forward_mps);
+  return v * (config_.planning_latency_s + config_.release_latency_s) + 0.5 * v * v / config_.deceleration_mps2;
+}
+
+// At the end of the committed part of the path; if that is blocked, where the rover can stop.
+ActivePath::Start PathPlanner::plan_start() const {
+  const double committed_m = stopping_distance_m();
+  if (mode_ == Mode::kFollowing && !active_.empty()) {
+    const ActivePath::Start start = active_.start_after(committed_m);
+    if (std::min(blockage_.possible_m, blockage_.unknown_m) > start.at_m) return start;
+  }
+  const PoseSample& now = history_.newest();
+  if (stationary()) return {rover(), 0.0, false, kNaN};
+  const double curvature =
+      std::abs(now.forward_mps) > kStationaryMps
+          ? std::clamp(now.yaw_rate_radps / now.forward_mps, -kMaxRoverCurvature, kMaxRoverCurvature)
+          : 0.0;
+  return {advanced(rover(), std::copysign(committed_m, now.forward_mps), curvature), curvature, now.forward_mps < 0.0,
+          kNaN};
+}
+
+void PathPlanner::request_plan() {
+  Job job{active_.id(), plan_start(), std::isfinite(blockage_.possible_m)};
+  PlanRequest request;
+  request.global_path = global_odom_;
+  request.global_progress_m = global_progress_m_;
+  request.rover = rover();
+  request.start = job.start.pose;
+  request.start_curvature_per_m = job.start.curvature_per_m;
+  request.start_reverse = job.start.reverse;
+  request.goal_tolerance_m = kGoalToleranceRatio * global_->goal_tolerance_m;
+  if (!std::isnan(job.start.at_m) && clear()) request.incumbent = active_.plan_from(job.start.at_m);
+  if (length_m(request.incumbent) < kMinIncumbentM) request.incumbent.clear();
+  const auto make = [request, planner = planner_, belief = belief_, costmap = config_.costmap]() mutable {
+    const double side_m = belief.cells().cells() * belief.cells().cell_m();
+    request.costmap = std::make_shared<const Costmap>(costmap, belief, position(request.rover), side_m);
+    return planner->plan(request);
+  };
+  if (!background_->start(make, history_.newest().utime)) return;
+  job_ = job;
+  new_map_ = false;
+}
+
+void PathPlanner::take_plan(Utime now) {
+  if (!job_) return;
+  const std::optional<Plan> plan = background_->result(now);
+  if (!plan) return;
+  const Job job = *std::exchange(job_, std::nullopt);
+  const bool stale = job.path_id != active_.id() || mode_ == Mode::kBackingUp;
+  if (!stale) adopt(*plan, job);
+}
+
+void PathPlanner::adopt(const Plan& plan, const Job& job) {
+  if (!plan.found && !plan.keeps_incumbent) {
+    ++failures_;
+    needs_unseen_ground_ = plan.needs_unseen_ground;
+    return;
+  }
+  failures_ = 0;
+  if (plan.keeps_incumbent) return;
+  std::vector<PlanPose> poses;
+  if (!std::isnan(job.start.at_m)) {
+    poses = active_.plan_until(job.start.at_m);
+  } else {
+    const double lead_m = distance(position(rover()), position(job.start.pose));
+    if (lead_m > kPoseStepM) poses.push_back({rover(), job.start.reverse, 0.0});
+  }
+  poses.insert(poses.end(), plan.poses.begin(), plan.poses.end());
+  const double corridor_m = std::clamp(plan.clearance_m - kHalfCellM - kControlM, config_.min_corridor_m,
+                                       std::max(config_.min_corridor_m, global_->corridor_half_width_m));
+  if (job.because_of_hazard && !full_level_) ++replans_;
+  replan_wanted_ = back_up_wanted_ = false;
+  active_.set_plan(next_path_id_++, full_level_ ? PathKind::kContinuous : PathKind::kRepair, poses,
+                   tail(poses.back().pose, job.start.pose), corridor_m, global_odom_->level_at(global_progress_m_),
+                   position(rover()));
+  track_turn();
+  check_path();
+}
+
+// Beyond a plan the path leads back to the global one; before the rover comes there, there is another plan.
+std::vector<RoutePoint> PathPlanner::tail(const Pose2& from, const Pose2& start) const {
+  std::vector<RoutePoint> points;
+  const double length = global_odom_->length_m();
+  // Within the horizon a plan that ends beside the goal does so because the goal is blocked.
+  const bool at_horizon = distance(position(from), position(start)) >= config_.planner.horizon_m;
+  const double goal_radius_m =
+      at_horizon ? kGoalToleranceRatio * global_->goal_tolerance_m
+                 : std::max(config_.planner.cost_to_go.blocked_goal_radius_m, global_->goal_tolerance_m);
+  if (distance(position(from), global_odom_->points().back().p) <= goal_radius_m) return points;
+  const double station =
+      global_odom_->closest(position(from), global_progress_m_, global_progress_m_ + 2.0 * config_.planner.horizon_m);
+  const double off = distance(position(from), global_odom_->point_at(station));
+  double join = station + 0.5 * kPoseStepM;
+  if (off > kPoseStepM) {
+    join = std::min(length, station + kTailAheadM + off);
+    const Pose2 target = global_odom_->pose_at(join);
+    const std::optional<DubinsPath> arcs = dubins_path(from, target, kTailRadiusM);
+    const std::int8_t level = global_odom_->level_at(station);
+    if (arcs && arcs->length_m() < 1.5 * distance(position(from), position(target))) {
+      Pose2 pose = from;
+      for (const ArcSegment& arc : arcs->segments) {
+        const int steps = static_cast<int>(std::ceil(arc.length_m / (2.0 * kPoseStepM)));
+        for (int i = 1; i <= steps; ++i)
+          points.push_back({position(advanced(pose, arc.length_m * i / steps, arc.curvature_per_m)), kNaN, level});
+        pose = advanced(pose, arc.length_m, arc.curvature_per_m);
+      }
+    } else {
+      points.push_back({position(target), kNaN, level});
+    }
+  }
+  for (size_t i = global_odom_->vertex_after(join + 0.5 * config_.rounding.step_m); i < global_odom_->points().size();
+       ++i)
+    points.push_back(global_odom_->points()[i]);
+  return points;
+}
+
+// The driven track, as far as the footprint passes it.
+std::vector<Point2> PathPlanner::back_up_points() const {
+  const std::vector<Point2> track = breadcrumbs_.back(position(rover()), (1 + back_ups_) * config_.back_up_m);
+  if (track.size() < 2) return {};
+  std::vector<RoutePoint> points;
+  for (const Point2& p : track) points.push_back({p, kNaN, 0});
+  const Route route(std::move(points));
+  const Costmap costmap(config_.costmap, belief_, position(rover()), kMonitorSideM);
+  const bool turning =
+      std::abs(wrap_angle(route.pose_at(0.0).yaw_rad + kPi - rover().yaw_rad)) > config_.turn_threshold_rad;
+  const Blockage blockage = find_blockage({costmap, route, true, config_.footprint, 0.0, rover(), kBackUpMarginM,
+                                           turning, config_.turn_threshold_rad, config_.belief.view});
+  const double clear_m = std::min(route.length_m(), blockage.hazard_m - kBackUpReserveM);
+  std::vector<Point2> out;
+  for (size_t i = 0; i < track.size() && route.s_at(i) <= clear_m; ++i) out.push_back(track[i]);
+  if (out.size() < 2 || distance(out.front(), out.back()) < kMinBackUpM) return {};
+  return out;
+}
+
+void PathPlanner::back_up() {
+  std::vector<RoutePoint> points;
+  for (const Point2& p : back_up_points()) points.push_back({p, kNaN, global_odom_->level_at(global_progress_m_)});
+  ++back_ups_;
+  if (back_up_wanted_) ++wanted_back_ups_;
+  failures_ = 0;
+  back_up_wanted_ = replan_wanted_ = turning_ = false;
+  job_.reset();
+  active_.set_route(next_path_id_++, PathKind::kBacktrack, Route(std::move(points)), config_.back_up_corridor_m,
+                    position(rover()));
+  blockage_ = {};
+}
+
+LocalPath PathPlanner::published() const {
+  return {active_.id(), active_.kind(), active_.corridor_half_width_m(), global_->goal_tolerance_m,
+          active_.route().points()};
 }
 
 PlannerStatus PathPlanner::status(Utime now) const {
@@ -536,52 +484,47 @@ PlannerStatus PathPlanner::status(Utime now) const {
     status.text = global_ ? "no fresh pose" : "no global path";
     return status;
   }
-  if (!global_odom_.empty())
-    status.corridor_offset_m = distance(global_odom_.point_at(global_progress_m_), position(rover()));
-  if (active_.route.empty()) {
+  status.corridor_offset_m = distance(global_odom_->point_at(global_progress_m_), position(rover()));
+  const std::string failure =
+      needs_unseen_ground_ ? "no path: the ground ahead does not come into view" : "no path: hazards on all sides";
+  if (active_.empty()) {
     status.state = PlannerState::kNoPath;
-    status.text = std::string("cannot reach the global path: ") + text_of(last_repair_.status);
+    status.text = "cannot reach the global path: " + failure;
     return status;
   }
-  status.path_id = active_.id;
+  status.path_id = active_.id();
   status.goal_distance_m = goal_distance_m();
-  const bool off_plan = active_.kind == PathKind::kRepair || active_.kind == PathKind::kRetreat;
-  status.state = off_plan ? PlannerState::kRepairing : PlannerState::kFollowing;
+  const bool repairing = active_.kind() == PathKind::kRepair || active_.kind() == PathKind::kBacktrack;
+  status.state = mode_ == Mode::kNoPath ? PlannerState::kNoPath
+                 : repairing            ? PlannerState::kRepairing
+                                        : PlannerState::kFollowing;
   if (leads_to_goal() && short_of_goal_m() > global_->goal_tolerance_m)
     status.text = "the goal is blocked: the path ends beside it";
-  describe_block(status);
+  if (failures_ > 0) status.text = failure;
+  const double hazard = hazard_ahead_m();
+  const double unknown = unknown_ahead_m();
+  status.blocked_in_m = std::max(0.0, std::min(hazard, unknown));
+  status.block_kind = std::isinf(status.blocked_in_m) ? BlockKind::kNone
+                      : hazard <= unknown             ? BlockKind::kHazard
+                                                      : BlockKind::kUnseen;
   return status;
 }
 
-void PathPlanner::describe_block(PlannerStatus& status) const {
-  const double hazard = hazard_ahead_m();
-  const double unseen = unseen_ahead_m();
-  status.blocked_in_m = std::max(0.0, std::min(hazard, unseen));
-  status.block_kind = std::isinf(status.blocked_in_m) ? BlockKind::kNone
-                      : hazard <= unseen              ? BlockKind::kHazard
-                                                      : BlockKind::kUnseen;
-  if (failures_ == 0) return;
-  status.text = text_of(last_repair_.status);
-  const bool no_way = active_.kind == PathKind::kRetreat ? failures_ >= config_.patience_frames : stuck();
-  if (no_way) status.state = PlannerState::kNoPath;
-}
-
 double PathPlanner::short_of_goal_m() const {
-  return distance(active_.route.points().back().p, global_odom_.points().back().p);
+  return distance(active_.route().points().back().p, global_odom_->points().back().p);
 }
 
-// Ways back and the legs of a manoeuvre do not.
 bool PathPlanner::leads_to_goal() const {
-  return active_.kind != PathKind::kRetreat &&
-         short_of_goal_m() <= std::max(config_.blocked_goal_reach_m, global_->goal_tolerance_m);
+  return mode_ != Mode::kBackingUp && !active_.has_next() && active_.kind() != PathKind::kBacktrack &&
+         short_of_goal_m() <= std::max(config_.planner.cost_to_go.blocked_goal_radius_m, global_->goal_tolerance_m);
 }
 
-// Beside the way's end nothing of it is left, and still the goal may be far.
+// Beside the end of a path nothing of it is left, and still the goal may be far.
 double PathPlanner::goal_distance_m() const {
   const bool leads = leads_to_goal();
-  const Route& way = leads ? active_.route : global_odom_;
-  const double along = way.length_m() - (leads ? active_.progress_m : global_progress_m_);
-  const double straight = distance(way.points().back().p, position(rover()));
+  const Route& route = leads ? active_.route() : *global_odom_;
+  const double along = route.length_m() - (leads ? active_.progress_m() : global_progress_m_);
+  const double straight = distance(route.points().back().p, position(rover()));
   return along < kGoalNearM ? std::max(along, straight) : along;
 }
 

@@ -3,7 +3,7 @@
 namespace rover::planning {
 namespace {
 
-constexpr double kKinkRad = 0.35;  // between two pieces of the route; an arc of 1 m sampled every 0.1 m makes 0.1
+constexpr double kCornerRad = 0.35;  // between two pieces of the route; an arc of 1 m sampled every 0.1 m makes 0.1
 
 double heading(Point2 from, Point2 to) {
   return std::atan2(to.y_m - from.y_m, to.x_m - from.x_m);
@@ -83,11 +83,11 @@ void Route::set_headings() {
   yaw_out_rad_ = yaw_in_rad_;
   yaw_in_rad_[last] = yaw_out_rad_[last] = piece.back();
   for (size_t i = 1; i < last; ++i) {
-    const bool kink = std::abs(piece[i] - piece[i - 1]) > kKinkRad;
+    const bool corner = std::abs(piece[i] - piece[i - 1]) > kCornerRad;
     const double middle = 0.5 * (piece[i - 1] + piece[i]);
-    yaw_in_rad_[i] = kink ? piece[i - 1] : middle;
-    yaw_out_rad_[i] = kink ? piece[i] : middle;
-    if (kink) kinks_.push_back(i);
+    yaw_in_rad_[i] = corner ? piece[i - 1] : middle;
+    yaw_out_rad_[i] = corner ? piece[i] : middle;
+    if (corner) corners_.push_back(i);
   }
   // The ends continue the bend of their neighbours.
   if (last >= 2) {

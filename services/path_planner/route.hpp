@@ -23,10 +23,11 @@ class Route {
   const std::vector<RoutePoint>& points() const { return points_; }
   double length_m() const { return s_m_.empty() ? 0.0 : s_m_.back(); }
   double s_at(size_t i) const { return s_m_[i]; }
-  // Position on the polyline; the heading changes evenly between vertices, and jumps at kinks (before the jump there).
+  // Position on the polyline; the heading changes evenly between vertices, and jumps at corners (before the jump
+  // there).
   Pose2 pose_at(double s_m) const;
   // Vertices at which the heading jumps: the rover turns there on the spot.
-  const std::vector<size_t>& kinks() const { return kinks_; }
+  const std::vector<size_t>& corners() const { return corners_; }
   double yaw_into(size_t i) const { return yaw_in_rad_[i]; }
   double yaw_out_of(size_t i) const { return yaw_out_rad_[i]; }
   Point2 point_at(double s_m) const;
@@ -42,9 +43,9 @@ class Route {
 
   std::vector<RoutePoint> points_;
   std::vector<double> s_m_;
-  std::vector<double> yaw_in_rad_;  // continuous along the route, but for kinks
+  std::vector<double> yaw_in_rad_;  // continuous along the route, but at corners
   std::vector<double> yaw_out_rad_;
-  std::vector<size_t> kinks_;
+  std::vector<size_t> corners_;
 };
 
 // The route seen from another frame.

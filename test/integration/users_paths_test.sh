@@ -14,7 +14,7 @@ logs_before=$(ls "$SOURCE/logs")
 on_bus=(--headless --bus "$BUS")
 
 # --set before the scenario, a trailing slash after the folder.
-"$rover" run --set path_planner.repair.rejoin_within_m=8 mine.yaml "${on_bus[@]}" --out "out; touch BAD; '/" >said 2>&1 ||
+"$rover" run --set path_planner.search.horizon_m=7 mine.yaml "${on_bus[@]}" --out "out; touch BAD; '/" >said 2>&1 ||
   fail "run: $(cat said)"
 out="$home/out; touch BAD; '"
 [ -s "$out/report.html" ] || fail "no report: $(cat said)"

@@ -62,7 +62,7 @@ TEST(Dubins, IsNeverShorterThanTheStraightLine) {
     ASSERT_GE(dubins_path(p.from, p.to, p.radius_m)->length_m(), distance(position(p.from), position(p.to)) - 1e-9);
 }
 
-TEST(Dubins, TheWayBackIsAsLong) {
+TEST(Dubins, ThePathInReverseIsAsLong) {
   for (const Pair& p : random_pairs(4)) {
     const Pose2 from{p.to.x_m, p.to.y_m, p.to.yaw_rad + kPi};
     const Pose2 to{p.from.x_m, p.from.y_m, p.from.yaw_rad + kPi};
@@ -78,7 +78,7 @@ TEST(Dubins, TheMirrorImageIsAsLong) {
   }
 }
 
-// Whatever arc-line-arc way is tried, none that meets the end is shorter.
+// Random arc-line-arc paths that meet the same end are never shorter.
 TEST(Dubins, NoOtherArcLineArcIsShorter) {
   std::mt19937_64 random(6);
   for (int i = 0; i < 20000; ++i) {

@@ -1,4 +1,4 @@
-// Arcs, body axes and the rectangle against sums of small steps and brute force.
+// Arcs, body axes and the footprint against sums of small steps and brute force.
 #include "path_planner/geometry.hpp"
 
 #include <gtest/gtest.h>
@@ -16,22 +16,22 @@ TEST(Geometry, AnArcIsTheLimitOfSmallSteps) {
   for (int i = 0; i < 100; ++i) {
     const Pose2 start = random_pose(random, 5.0);
     const double curvature = uniform(random, -1.0, 1.0);
-    const double way = uniform(random, -3.0, 3.0);
+    const double length_m = uniform(random, -3.0, 3.0);
     Pose2 sum = start;
     constexpr int kSteps = 20000;
     for (int k = 0; k < kSteps; ++k) {
-      const double middle = sum.yaw_rad + 0.5 * curvature * way / kSteps;
-      sum.x_m += way / kSteps * std::cos(middle);
-      sum.y_m += way / kSteps * std::sin(middle);
-      sum.yaw_rad += curvature * way / kSteps;
+      const double middle = sum.yaw_rad + 0.5 * curvature * length_m / kSteps;
+      sum.x_m += length_m / kSteps * std::cos(middle);
+      sum.y_m += length_m / kSteps * std::sin(middle);
+      sum.yaw_rad += curvature * length_m / kSteps;
     }
-    const Pose2 end = advanced(start, way, curvature);
+    const Pose2 end = advanced(start, length_m, curvature);
     EXPECT_NEAR(distance(position(end), position(sum)), 0.0, 1e-7);
     EXPECT_NEAR(end.yaw_rad, sum.yaw_rad, 1e-9);
   }
 }
 
-TEST(Geometry, BackAlongAnArcLeadsToItsStart) {
+TEST(Geometry, InReverseAnArcLeadsToItsStart) {
   std::mt19937_64 random(2);
   for (int i = 0; i < 100; ++i) {
     const Pose2 start = random_pose(random, 5.0);
@@ -64,7 +64,7 @@ double brute_distance_m(const Footprint& f, Point2 p) {
   return inside ? -least : least;
 }
 
-TEST(Geometry, DistanceToTheRectangleIsThatToTheNearestPointOfItsEdge) {
+TEST(Geometry, DistanceToTheFootprintIsThatToTheNearestPointOfItsEdge) {
   std::mt19937_64 random(3);
   const Footprint footprint{0.875, 0.47};
   for (int i = 0; i < 300; ++i) {

@@ -1,4 +1,4 @@
-// The planner's behaviour: what makes it publish a path, what makes it hold one back, and what it says of both.
+// The planner's behaviour: which path it publishes, what blocks it, and what it says.
 #include "path_planner/path_planner.hpp"
 
 #include <gtest/gtest.h>
@@ -9,13 +9,33 @@ namespace rover::planning {
 namespace {
 
 using testing_support::clearance_along_m;
+using testing_support::planner_config;
 using testing_support::PlannerRig;
 using testing_support::Rock;
 
 const std::vector<Point2> kAhead = {{0.0, 0.0}, {20.0, 0.0}};
-const Rock kInTheWay{{3.0, 0.1}, 0.25, 0.3};
+const Rock kOnPath{{3.0, 0.1}, 0.25, 0.3};
 
-// A ring of rocks around the origin that nothing gets through.
+// Hands over a plan when it is allowed to.
+class HeldBackground final : public Background {
+ public:
+  bool start(PlanJob job, Utime /*now*/) override {
+    job_ = std::move(job);
+    ++started;
+    return true;
+  }
+  std::optional<Plan> result(Utime /*now*/) override {
+    if (!job_ || !release) return std::nullopt;
+    return std::exchange(job_, nullptr)();
+  }
+  int started = 0;
+  bool release = false;
+
+ private:
+  PlanJob job_;
+};
+
+// A ring of rocks around the origin without a gap.
 std::vector<Rock> ring(double radius_m) {
   std::vector<Rock> rocks;
   for (int deg = 0; deg < 360; deg += 5)
@@ -23,13 +43,20 @@ std::vector<Rock> ring(double radius_m) {
   return rocks;
 }
 
-// The whole ring is looked at, as a rover that turns would.
 void look_around(PlannerRig& rig, int frames) {
   for (int deg = -180; deg <= 180; deg += 20) {
     rig.odom.yaw_rad = to_rad(deg);
     rig.look(frames);
   }
   rig.odom.yaw_rad = 0.0;
+}
+
+size_t hazards(const PlannerRig& rig) {
+  return Costmap({}, rig.planner.belief(), position(rig.odom), 20.0).hazards().size();
+}
+
+int patience() {
+  return planner_config().patience;
 }
 
 TEST(PathPlanner, WithoutAGlobalPathItIsIdle) {
@@ -45,7 +72,7 @@ TEST(PathPlanner, WithoutAGlobalPathItIsIdle) {
 TEST(PathPlanner, OnFreeGroundTheGlobalPathIsPublishedOnce) {
   PlannerRig rig;
   rig.send_path(kAhead);
-  const PlannerOutput out = rig.step();
+  const PlannerOutput out = rig.look();
   ASSERT_TRUE(out.path);
   EXPECT_EQ(out.path->kind, PathKind::kGlobal);
   EXPECT_EQ(out.path->corridor_half_width_m, 0.75);
@@ -59,8 +86,7 @@ TEST(PathPlanner, OnFreeGroundTheGlobalPathIsPublishedOnce) {
   EXPECT_NEAR(rig.look().status.goal_distance_m, 15.0, 0.1);
 }
 
-// Not seen is not safe: ahead of what the camera has seen the path is blocked by unseen ground.
-TEST(PathPlanner, TheEndOfSeenGroundBlocks) {
+TEST(PathPlanner, UnknownGroundAheadBlocks) {
   PlannerRig rig;
   rig.send_path(kAhead);
   const PlannerOutput out = rig.look(2);
@@ -69,75 +95,60 @@ TEST(PathPlanner, TheEndOfSeenGroundBlocks) {
   EXPECT_LT(out.status.blocked_in_m, 4.0 - 0.875 + 0.15);
 }
 
-TEST(PathPlanner, ARockInTheWayIsPassedAtADistance) {
+TEST(PathPlanner, ARockOnThePathIsPassedWithClearance) {
   PlannerRig rig;
   rig.send_path(kAhead);
-  rig.rocks = {kInTheWay};
-  EXPECT_EQ(rig.look().status.state, PlannerState::kFollowing) << "a single frame is no hazard yet";
-  const PlannerOutput out = rig.look();
-  ASSERT_TRUE(out.path);
-  EXPECT_EQ(out.path->kind, PathKind::kRepair);
+  rig.rocks = {kOnPath};
+  const PlannerOutput out = rig.look(2);
+  const LocalPath path = rig.paths.back();
+  EXPECT_EQ(path.kind, PathKind::kRepair);
   EXPECT_EQ(out.status.state, PlannerState::kRepairing);
-  EXPECT_EQ(out.status.replans, 1);
-  EXPECT_EQ(out.status.path_id, out.path->id);
-  EXPECT_GT(clearance_along_m(*out.path, rig.rocks), 0.05);
-  EXPECT_NEAR(distance(out.path->points.front().p, position(rig.odom)), 0.0, 1e-6);
-  EXPECT_NEAR(distance(out.path->points.back().p, kAhead.back()), 0.0, 1e-6);
-  for (size_t i = 1; i < out.path->points.size(); ++i)
-    EXPECT_LT(distance(out.path->points[i - 1].p, out.path->points[i].p), 0.17);
-}
-
-TEST(PathPlanner, AFurtherHazardDuringARepairIsRepairedToo) {
-  PlannerRig rig;
-  rig.send_path(kAhead);
-  rig.rocks = {kInTheWay};
-  rig.look(2);
-  ASSERT_EQ(rig.paths.back().kind, PathKind::kRepair);
-  const std::int64_t first_id = rig.paths.back().id;
-  // Where the repair passes the first rock, on whichever side, stands another.
-  const Route repair(rig.paths.back().points);
-  const Point2 aside = repair.point_at(repair.closest(kInTheWay.p));
-  rig.rocks.push_back({aside, 0.2, 0.3});
-  const PlannerOutput out = rig.look(3);  // the first hit is doubted, because the ground was free before
-  ASSERT_NE(rig.paths.back().id, first_id);
-  EXPECT_EQ(rig.paths.back().kind, PathKind::kRepair);
-  EXPECT_EQ(out.status.replans, 2);
-  EXPECT_GT(rig.paths.back().id, first_id);
+  EXPECT_EQ(out.status.path_id, path.id);
+  EXPECT_GT(out.status.blocked_in_m, 1.0);
+  EXPECT_GT(clearance_along_m(path, rig.rocks), 0.0);
+  EXPECT_NEAR(distance(path.points.front().p, position(rig.odom)), 0.0, 0.05);
+  EXPECT_NEAR(distance(path.points.back().p, kAhead.back()), 0.0, 1e-6);
+  for (size_t i = 1; i < path.points.size(); ++i) EXPECT_LT(distance(path.points[i - 1].p, path.points[i].p), 0.17);
+  rig.go(1.5);
   EXPECT_GT(clearance_along_m(rig.paths.back(), rig.rocks), 0.05);
 }
 
-TEST(PathPlanner, PastTheRockItIsTheGlobalPathAgain) {
+TEST(PathPlanner, AFurtherHazardOnARepairIsPassedToo) {
   PlannerRig rig;
   rig.send_path(kAhead);
-  rig.rocks = {kInTheWay};
+  rig.rocks = {kOnPath};
   rig.look(2);
-  const PlannerOutput out = rig.go(10.0);
+  const LocalPath first = rig.paths.back();
+  ASSERT_EQ(first.kind, PathKind::kRepair);
+  const Route repair(first.points);
+  rig.rocks.push_back({repair.point_at(repair.closest(kOnPath.p)), 0.2, 0.3});
+  rig.look(4);
+  EXPECT_GT(rig.paths.back().id, first.id);
+  EXPECT_EQ(rig.paths.back().kind, PathKind::kRepair);
+  EXPECT_GT(clearance_along_m(rig.paths.back(), rig.rocks), 0.05);
+}
+
+TEST(PathPlanner, PastTheRockItFollowsTheGlobalPathAgain) {
+  PlannerRig rig;
+  rig.send_path(kAhead);
+  rig.rocks = {kOnPath};
+  rig.look(2);
+  const PlannerOutput out = rig.go(14.0);
   EXPECT_EQ(out.status.state, PlannerState::kFollowing);
   EXPECT_EQ(rig.paths.back().kind, PathKind::kGlobal);
   EXPECT_EQ(rig.paths.back().corridor_half_width_m, 0.75);
   EXPECT_LT(out.status.corridor_offset_m, 0.05);
+  EXPECT_GT(rig.odom.x_m, 12.0);
 }
 
-TEST(PathPlanner, HazardsFarBehindAreForgotten) {
-  PlannerRig rig;
-  rig.send_path({{0.0, 0.0}, {30.0, 0.0}});
-  rig.rocks = {kInTheWay};
-  rig.look(2);
-  EXPECT_FALSE(Terrain(rig.planner.memory()).hazards().empty());
-  rig.go(14.0);
-  EXPECT_TRUE(Terrain(rig.planner.memory()).hazards().empty());
-}
-
-// The original forgot what left the view to the side, and turned into it.
 TEST(PathPlanner, AHazardBesideTheRoverBlocksAPointTurn) {
-  PlannerRig rig;
+  PlannerRig rig(std::make_shared<HeldBackground>());
   rig.odom = {-1.5, -0.3, 0.0};
   rig.send_path({{-1.5, -0.3}, {10.0, -0.3}});
   rig.rocks = {{{0.0, 0.45}, 0.12, 0.3}};
   rig.look(2);
-  rig.go(1.5);
-  ASSERT_LT(std::abs(rig.odom.x_m), 0.3);
-  rig.rocks.clear();  // out of view: only the memory knows it
+  rig.move_to(0.0, -0.3);
+  rig.rocks.clear();  // out of view
   rig.send_path({position(rig.odom), {rig.odom.x_m, 10.0}}, 8);
   const PlannerOutput out = rig.step();
   ASSERT_TRUE(out.path);
@@ -168,7 +179,7 @@ TEST(PathPlanner, WithoutAFreshPoseThereIsNoPath) {
   EXPECT_EQ(rig.step().status.state, PlannerState::kFollowing);
 }
 
-TEST(PathPlanner, APathThatComesWithoutAPoseWaitsForOne) {
+TEST(PathPlanner, AGlobalPathThatArrivesBeforeAPoseWaitsForOne) {
   PlannerRig rig;
   rig.send_path(kAhead);
   rig.now = 100'000;
@@ -176,7 +187,7 @@ TEST(PathPlanner, APathThatComesWithoutAPoseWaitsForOne) {
   EXPECT_TRUE(rig.step().path);
 }
 
-TEST(PathPlanner, APoseThatIsNotUsableEndsWhatIsKnownOfThePose) {
+TEST(PathPlanner, AnUnusablePoseStopsTheRover) {
   PlannerRig rig;
   rig.send_path(kAhead);
   rig.look(2);
@@ -188,7 +199,7 @@ TEST(PathPlanner, APoseThatIsNotUsableEndsWhatIsKnownOfThePose) {
   EXPECT_EQ(rig.step_without_pose().status.path_id, -1);
 }
 
-TEST(PathPlanner, AFrameIsLaidWhereThePoseOfItsExposureIsKnown) {
+TEST(PathPlanner, FramesNeedAPoseOfTheirExposure) {
   PlannerRig rig;
   rig.send_path(kAhead);
   rig.look(2);
@@ -200,7 +211,7 @@ TEST(PathPlanner, AFrameIsLaidWhereThePoseOfItsExposureIsKnown) {
   EXPECT_FALSE(rig.planner.add_hazards(broken));
 }
 
-TEST(PathPlanner, WhatIsNoPathIsRefusedWithAReasonAndTheOldOneStays) {
+TEST(PathPlanner, InvalidGlobalPathsAreRefusedAndTheOldOneStays) {
   PlannerRig rig;
   rig.send_path(kAhead);
   rig.look(2);
@@ -214,16 +225,16 @@ TEST(PathPlanner, WhatIsNoPathIsRefusedWithAReasonAndTheOldOneStays) {
   EXPECT_EQ(out.status.state, PlannerState::kFollowing);
 }
 
-TEST(PathPlanner, APathThatNamesNoCorridorGetsTheConfigurations) {
+TEST(PathPlanner, AGlobalPathWithoutCorridorGetsTheConfiguredOne) {
   PlannerRig rig;
   EXPECT_EQ(rig.planner.set_global_path({9, {{{0, 0}}, {{5, 0}}}, kNaN, kNaN}), "");
   const PlannerOutput out = rig.step();
   ASSERT_TRUE(out.path);
-  EXPECT_EQ(out.path->corridor_half_width_m, testing_support::planner_config().corridor_half_width_m);
-  EXPECT_EQ(out.path->goal_tolerance_m, testing_support::planner_config().goal_tolerance_m);
+  EXPECT_EQ(out.path->corridor_half_width_m, planner_config().corridor_half_width_m);
+  EXPECT_EQ(out.path->goal_tolerance_m, planner_config().goal_tolerance_m);
 }
 
-TEST(PathPlanner, FarFromThePathAWayToItIsPlanned) {
+TEST(PathPlanner, FarFromTheGlobalPathAPathToItIsPlanned) {
   PlannerRig rig;
   rig.odom = {0.0, -1.2, 0.0};
   rig.send_path(kAhead);
@@ -233,9 +244,11 @@ TEST(PathPlanner, FarFromThePathAWayToItIsPlanned) {
   EXPECT_EQ(out.status.state, PlannerState::kRepairing);
   EXPECT_NEAR(distance(rig.paths.back().points.front().p, position(rig.odom)), 0.0, 0.01);
   EXPECT_EQ(out.status.replans, 0) << "no hazard was the reason";
+  rig.go(12.0);
+  EXPECT_LT(std::abs(rig.odom.y_m), 0.1);
 }
 
-TEST(PathPlanner, EnclosedByRocksItSaysThatThereIsNoWay) {
+TEST(PathPlanner, EnclosedByRocksItSaysThatThereIsNoPath) {
   PlannerRig rig;
   rig.send_path(kAhead);
   rig.rocks = ring(1.7);
@@ -244,173 +257,175 @@ TEST(PathPlanner, EnclosedByRocksItSaysThatThereIsNoWay) {
   EXPECT_EQ(out.status.state, PlannerState::kNoPath);
   EXPECT_EQ(out.status.block_kind, BlockKind::kHazard);
   EXPECT_LT(out.status.blocked_in_m, 0.6);
-  EXPECT_EQ(out.status.text, "hazards block every path to the global path");
+  EXPECT_EQ(out.status.text, "no path: hazards on all sides");
   const size_t before = rig.paths.size();
   rig.look(10);
   EXPECT_EQ(rig.paths.size(), before) << "no path through rocks";
 }
 
-// As EnclosedByRocks above, with a share of work that allows one search a frame.
-TEST(PathPlanner, ASearchThatTakesMoreThanAFramesShareGoesOnAtTheNext) {
-  PathPlannerConfig config = testing_support::planner_config();
-  config.frame_work = 1;
-  PlannerRig rig(config);
+TEST(PathPlanner, LeavesNoPathWhenTheGroundTurnsOutFree) {
+  PlannerRig rig;
   rig.send_path(kAhead);
   rig.rocks = ring(1.7);
-  look_around(rig, 1);
-  const PlannerOutput out = rig.look(20);
-  EXPECT_EQ(out.status.state, PlannerState::kNoPath);
-  EXPECT_EQ(out.status.text, "hazards block every path to the global path");
+  look_around(rig, 2);
+  ASSERT_EQ(rig.look(10).status.state, PlannerState::kNoPath);
+  rig.rocks.clear();
+  look_around(rig, 3);
+  EXPECT_NE(rig.look(10).status.state, PlannerState::kNoPath);
 }
 
-// A rover that knows no ground but that under it: it stands, waits some frames, finds no way and says so.
-TEST(PathPlanner, StandingBeforeUnseenGroundItSaysThatThereIsNoWay) {
+TEST(PathPlanner, OnUnknownGroundItSaysThatThereIsNoPath) {
   PlannerRig rig;
   rig.planner.set_start_area({0.0, 0.0}, 0.0, 0);
   rig.send_path(kAhead);
-  rig.camera.far_m = 0.0;  // dust, night, a cap on the lens
-  PlannerOutput out = rig.look();
-  EXPECT_EQ(out.status.state, PlannerState::kFollowing);
+  PlannerOutput out = rig.step();
   EXPECT_EQ(out.status.block_kind, BlockKind::kUnseen);
   EXPECT_LT(out.status.blocked_in_m, 0.35);
-  const size_t before = rig.paths.size();
-  out = rig.look(12);
+  rig.camera.near_m = 2.5;  // sees only ground further on
+  out = rig.look(patience() + 1);
   EXPECT_EQ(out.status.state, PlannerState::kNoPath);
-  EXPECT_EQ(out.status.text, "unseen ground blocks every path to the global path");
+  EXPECT_EQ(out.status.text, "no path: the ground ahead does not come into view");
   EXPECT_EQ(out.status.replans, 0);
-  EXPECT_EQ(rig.paths.size(), before);
+  EXPECT_EQ(rig.paths.size(), 1u);
   rig.planner.set_start_area({0.0, 0.0}, 2.0, rig.now);
-  EXPECT_EQ(rig.step().status.state, PlannerState::kFollowing);
+  EXPECT_NE(rig.step().status.state, PlannerState::kNoPath);
 }
 
-// No way leads on and there is no room to turn, but one way led here.
-TEST(PathPlanner, WhereNoWayLeadsOnItGoesBackOverItsTrack) {
+// Never finds a plan.
+class NoPlanBackground final : public Background {
+ public:
+  bool start(PlanJob /*job*/, Utime /*now*/) override { return true; }
+  std::optional<Plan> result(Utime /*now*/) override { return Plan{}; }
+};
+
+// A rover at the end of a driven track.
+class BackUpTest : public testing::Test {
+ protected:
+  static constexpr double kTrackM = 9.0;
+
+  void SetUp() override {
+    rig_.send_path(kAhead);
+    rig_.step();
+    rig_.move_to(kTrackM, 0.0);
+  }
+  void wait_for_back_up() {
+    for (int i = 0; i < patience() + 2 && rig_.planner.mode() != Mode::kBackingUp; ++i) rig_.look();
+  }
+  // In reverse to the end of the path.
+  void back_up() {
+    const Route route(rig_.paths.back().points);
+    rig_.forward_mps = -0.1;
+    for (double s = 0.0; s <= route.length_m() + 0.05; s += 0.05) {
+      const Pose2 pose = route.pose_at(s);
+      rig_.odom = {pose.x_m, pose.y_m, pose.yaw_rad + kPi};
+      rig_.look();
+    }
+    rig_.forward_mps = 0.0;
+    rig_.look();
+  }
+  PlannerRig rig_{std::make_shared<NoPlanBackground>()};
+};
+
+TEST_F(BackUpTest, WithoutAPathItBacksUpOverTheDrivenTrack) {
+  wait_for_back_up();
+  ASSERT_EQ(rig_.planner.mode(), Mode::kBackingUp);
+  const LocalPath path = rig_.paths.back();
+  EXPECT_EQ(path.kind, PathKind::kBacktrack);
+  EXPECT_EQ(path.corridor_half_width_m, planner_config().back_up_corridor_m);
+  EXPECT_NEAR(distance(path.points.front().p, position(rig_.odom)), 0.0, 0.01);
+  for (const RoutePoint& point : path.points) EXPECT_NEAR(point.p.y_m, 0.0, 1e-9);
+  EXPECT_NEAR(path.points.back().p.x_m, rig_.odom.x_m - planner_config().back_up_m, 0.11);
+  EXPECT_EQ(rig_.look().status.state, PlannerState::kRepairing);
+}
+
+TEST_F(BackUpTest, ItBacksUpFurtherEachTimeUntilTheTrackEnds) {
+  for (const int times : {1, 2, 3}) {
+    wait_for_back_up();
+    ASSERT_EQ(rig_.planner.mode(), Mode::kBackingUp);
+    EXPECT_NEAR(Route(rig_.paths.back().points).length_m(), times * planner_config().back_up_m, 0.15);
+    back_up();
+    ASSERT_EQ(rig_.planner.mode(), Mode::kPlanning);
+  }
+  wait_for_back_up();
+  back_up();
+  EXPECT_NEAR(rig_.odom.x_m, 0.0, 0.3);
+  EXPECT_EQ(rig_.look(patience() + 2).status.state, PlannerState::kNoPath);
+}
+
+// The rover has turned and come back.
+TEST_F(BackUpTest, APathThatPassesAPlaceTwiceIsFollowedToItsEnd) {
+  rig_.odom.yaw_rad = kPi;
+  rig_.move_to(kTrackM - 0.4, 0.0);
+  wait_for_back_up();
+  ASSERT_EQ(rig_.planner.mode(), Mode::kBackingUp);
+  const LocalPath path = rig_.paths.back();
+  ASSERT_LT(path.points.back().p.x_m, rig_.odom.x_m - 0.2);
+  rig_.forward_mps = -0.1;
+  for (const RoutePoint& point : path.points) {
+    rig_.odom = {point.p.x_m, point.p.y_m, kPi};
+    rig_.look();
+    ASSERT_EQ(rig_.paths.back().id, path.id);
+  }
+  rig_.forward_mps = 0.0;
+  rig_.look();
+  EXPECT_NE(rig_.planner.mode(), Mode::kBackingUp);
+}
+
+TEST_F(BackUpTest, SlidingTowardsARockWhileBackingUpItStops) {
+  rig_.rocks = {{{kTrackM + 2.0, 0.85}, 0.2, 0.3}};
+  rig_.look(2);
+  rig_.move_to(kTrackM + 3.6, 0.0);
+  wait_for_back_up();
+  ASSERT_EQ(rig_.planner.mode(), Mode::kBackingUp);
+  rig_.forward_mps = -0.1;
+  rig_.odom.x_m = kTrackM + 3.5;
+  EXPECT_TRUE(std::isinf(rig_.look().status.blocked_in_m));
+  rig_.odom = {kTrackM + 3.2, 0.2, -0.15};
+  EXPECT_LT(rig_.look().status.blocked_in_m, 0.6);
+  rig_.forward_mps = 0.0;
+  rig_.look(2);
+  EXPECT_NE(rig_.planner.mode(), Mode::kBackingUp);
+}
+
+TEST_F(BackUpTest, StoppedByFdirWhileBackingUpItPlansAgain) {
+  wait_for_back_up();
+  ASSERT_EQ(rig_.planner.mode(), Mode::kBackingUp);
+  rig_.look(20);
+  ASSERT_EQ(rig_.planner.mode(), Mode::kBackingUp) << "undisturbed it goes on";
+  rig_.planner.request_replan();
+  rig_.look();
+  EXPECT_NE(rig_.planner.mode(), Mode::kBackingUp);
+}
+
+TEST(PathPlanner, OnRequestItBacksUpTwiceAtMost) {
   PlannerRig rig;
   rig.send_path(kAhead);
-  rig.camera.far_m = 0.0;
-  for (rig.odom.x_m = 0.0; rig.odom.x_m < 1.0; rig.odom.x_m += 0.05) rig.step();
-  rig.look(20);
-  const auto retreat =
-      std::find_if(rig.paths.begin(), rig.paths.end(), [](const LocalPath& p) { return p.kind == PathKind::kRetreat; });
-  ASSERT_NE(retreat, rig.paths.end());
-  EXPECT_NEAR(distance(retreat->points.front().p, position(rig.odom)), 0.0, 0.01);
-  for (const RoutePoint& point : retreat->points) {
-    EXPECT_NEAR(point.p.y_m, 0.0, 1e-9);
-    EXPECT_GE(point.p.x_m, -1e-9);
-    EXPECT_LE(point.p.x_m, rig.odom.x_m + 1e-9);
-  }
-  EXPECT_LT(retreat->points.back().p.x_m, rig.odom.x_m - 0.4);
-}
-
-// The rover had turned and come back on its own track, so the retreat's end lies on its beginning.
-TEST(PathPlanner, ARetreatThatLeadsToAndFroEndsWhereItEnds) {
-  PlannerRig rig;
-  rig.send_path(kAhead);
-  rig.camera.far_m = 0.0;
-  for (rig.odom.x_m = 0.0; rig.odom.x_m < 2.0; rig.odom.x_m += 0.05) rig.step();
-  rig.odom.yaw_rad = kPi;
-  for (; rig.odom.x_m > 1.2; rig.odom.x_m -= 0.05) rig.step();
-  rig.look(20);
-  const LocalPath retreat = rig.paths.back();
-  ASSERT_EQ(retreat.kind, PathKind::kRetreat);
-  ASSERT_GT(retreat.points.back().p.x_m, 1.2 + 0.1);
-  rig.forward_mps = -0.1;
-  for (const RoutePoint& point : retreat.points) {
-    rig.odom = {point.p.x_m, point.p.y_m, kPi};
-    rig.look();
-    ASSERT_EQ(rig.paths.back().id, retreat.id);
-  }
-  rig.forward_mps = 0.0;
-  rig.look(20);
-  EXPECT_NE(rig.paths.back().id, retreat.id);
-}
-
-TEST(PathPlanner, AGoalUnderARockIsReachedBesideIt) {
-  PlannerRig rig;
-  rig.send_path({{0.0, 0.0}, {6.0, 0.0}});
-  const Rock on_goal{{6.0, 0.0}, 0.25, 0.4};
-  rig.rocks = {on_goal};
-  rig.look(3);
-  PlannerOutput out;
-  for (int leg = 0; leg < 40 && !(out.status.goal_distance_m < 0.1); ++leg) {
-    rig.go(0.5);
-    out = rig.look(6);
-  }
-  EXPECT_LT(out.status.goal_distance_m, 0.1);
-  EXPECT_EQ(out.status.text, "the goal is blocked: the path ends beside it");
-  EXPECT_LT(distance(position(rig.odom), on_goal.p), 1.3);
-  EXPECT_GT(clearance_m(testing_support::planner_config().footprint, rig.odom, rig.rocks), 0.0);
-}
-
-// On a slope: a rock beside the track, towards which the rover slides as it backs.
-TEST(PathPlanner, ARetreatThatSlidesTowardsARockIsStopped) {
-  PlannerRig rig;
-  rig.send_path(kAhead);
-  rig.rocks = {{{2.0, 0.85}, 0.2, 0.3}};
-  rig.look(3);
-  rig.go(3.0);
-  rig.planner.want_retreat(true);
   rig.look();
-  ASSERT_EQ(rig.paths.back().kind, PathKind::kRetreat);
-  const std::int64_t retreat = rig.paths.back().id;
-  rig.forward_mps = -0.1;
-  rig.odom.x_m -= 0.2;
-  EXPECT_TRUE(std::isinf(rig.look().status.blocked_in_m));
-  rig.odom.y_m += 0.16;
-  EXPECT_LT(rig.look().status.blocked_in_m, 0.2);
-  rig.forward_mps = 0.0;
-  rig.look(testing_support::planner_config().patience_frames + 1);
-  EXPECT_NE(rig.paths.back().id, retreat);
-}
-
-// FDIR has stopped the rover on the retreat: it must not wait there for ever.
-TEST(PathPlanner, ARetreatThatTheRoverIsNotLetGoOnIsReplaced) {
-  PlannerRig rig;
-  rig.send_path(kAhead);
-  rig.camera.far_m = 0.0;
-  for (rig.odom.x_m = 0.0; rig.odom.x_m < 1.5; rig.odom.x_m += 0.05) rig.step();
-  rig.look(20);
-  ASSERT_EQ(rig.paths.back().kind, PathKind::kRetreat);
-  const std::int64_t retreat = rig.paths.back().id;
-  rig.look(20);
-  ASSERT_EQ(rig.paths.back().id, retreat);  // undisturbed it is kept
-  rig.planner.request_replan();
-  rig.look(20);
-  EXPECT_NE(rig.paths.back().id, retreat);
-}
-
-// Nothing is seen from where the rover stands. From elsewhere it may be, but not from ever further back.
-TEST(PathPlanner, OnDemandItGoesBackOverItsTrackAndNotForEver) {
-  PlannerRig rig;
-  rig.send_path(kAhead);
-  for (rig.odom.x_m = 0.0; rig.odom.x_m < 5.0; rig.odom.x_m += 0.05) rig.look();
-  ASSERT_EQ(rig.paths.size(), 1u);
-  rig.planner.want_retreat(true);
+  rig.go(5.0);
+  rig.planner.request_back_up(true);
   rig.forward_mps = 0.1;
   rig.look(3);
-  ASSERT_EQ(rig.paths.size(), 1u) << "still rolling";
+  EXPECT_NE(rig.planner.mode(), Mode::kBackingUp) << "not before it has stopped";
   rig.forward_mps = 0.0;
-  rig.planner.want_retreat(false);
+  rig.planner.request_back_up(false);
   rig.look(3);
-  ASSERT_EQ(rig.paths.size(), 1u) << "the fault is over";
-  int retreats = 0;
+  EXPECT_NE(rig.planner.mode(), Mode::kBackingUp) << "the fault is over";
+  int back_ups = 0;
   for (int i = 0; i < 4; ++i) {
-    const size_t before = rig.paths.size();
-    rig.planner.want_retreat(true);
+    rig.planner.request_back_up(true);
     rig.look();
-    if (rig.paths.size() == before) continue;
-    ASSERT_EQ(rig.paths.back().kind, PathKind::kRetreat);
-    ++retreats;
+    if (rig.planner.mode() != Mode::kBackingUp) continue;
+    ++back_ups;
     const Point2 end = rig.paths.back().points.back().p;
-    EXPECT_NEAR(rig.odom.x_m - end.x_m, 1.2 * retreats, 0.1);
+    EXPECT_NEAR(rig.odom.x_m - end.x_m, planner_config().back_up_m * back_ups, 0.15);
     rig.odom = {end.x_m, end.y_m, 0.0};
     rig.look(3);
-    ASSERT_EQ(rig.paths.back().kind, PathKind::kRepair) << "from there it goes on";
+    EXPECT_EQ(rig.planner.mode(), Mode::kFollowing) << "from there it drives on";
   }
-  EXPECT_EQ(retreats, 2);
+  EXPECT_EQ(back_ups, 2);
 }
 
-TEST(PathPlanner, OnDemandAClearPathIsReplacedTooAndOnce) {
+TEST(PathPlanner, OnRequestAClearPathIsReplacedOnce) {
   PlannerRig rig;
   rig.send_path(kAhead);
   rig.look(3);
@@ -422,19 +437,50 @@ TEST(PathPlanner, OnDemandAClearPathIsReplacedTooAndOnce) {
   EXPECT_EQ(rig.paths.size(), before + 1);
 }
 
-TEST(PathPlanner, AStartAreaBeginsAnew) {
+TEST(PathPlanner, AGoalWithARockOnItIsReachedBesideTheRock) {
+  PlannerRig rig;
+  rig.send_path({{0.0, 0.0}, {6.0, 0.0}});
+  const Rock on_goal{{6.0, 0.0}, 0.25, 0.4};
+  rig.rocks = {on_goal};
+  rig.look(3);
+  PlannerOutput out;
+  for (int i = 0; i < 40 && !(out.status.goal_distance_m < 0.1); ++i) {
+    rig.go(0.5);
+    out = rig.look(2);
+  }
+  EXPECT_LT(out.status.goal_distance_m, 0.1);
+  EXPECT_EQ(out.status.text, "the goal is blocked: the path ends beside it");
+  EXPECT_LT(distance(position(rig.odom), on_goal.p), planner_config().planner.cost_to_go.blocked_goal_radius_m + 0.1);
+  EXPECT_GT(clearance_m(planner_config().footprint, rig.odom, rig.rocks), 0.0);
+}
+
+TEST(PathPlanner, AStartAreaForgetsWhatWasSeen) {
   PlannerRig rig;
   rig.send_path(kAhead);
-  rig.rocks = {kInTheWay};
+  rig.rocks = {kOnPath};
   rig.look(3);
+  EXPECT_GT(hazards(rig), 0u);
   rig.planner.set_start_area({0.0, 0.0}, 2.0, rig.now);
   rig.rocks.clear();
   const PlannerOutput out = rig.step();
-  EXPECT_TRUE(Terrain(rig.planner.memory()).hazards().empty());
-  EXPECT_FALSE(Terrain(rig.planner.memory()).unseen(Point2{1.9, 0.0}));
-  EXPECT_TRUE(Terrain(rig.planner.memory()).unseen(Point2{2.3, 0.0}));
-  ASSERT_TRUE(out.path);
-  EXPECT_EQ(out.path->kind, PathKind::kGlobal);
+  EXPECT_EQ(hazards(rig), 0u);
+  const Costmap costmap({}, rig.planner.belief(), {}, 20.0);
+  EXPECT_FALSE(costmap.unknown(Point2{1.9, 0.0}));
+  EXPECT_TRUE(costmap.unknown(Point2{2.3, 0.0}));
+  EXPECT_TRUE(out.path);
+}
+
+TEST(PathPlanner, PathIdsAreNeverUsedTwice) {
+  PlannerRig rig;
+  rig.rocks = {kOnPath};
+  for (int i = 0; i < 3; ++i) {
+    rig.send_path(kAhead, 7 + i);
+    rig.look(3);
+    rig.planner.request_replan();
+    rig.look(3);
+  }
+  ASSERT_GT(rig.paths.size(), 4u);
+  for (size_t i = 1; i < rig.paths.size(); ++i) EXPECT_GT(rig.paths[i].id, rig.paths[i - 1].id);
 }
 
 TEST(PathPlanner, TheSameInputsGiveTheSameBytes) {
@@ -443,13 +489,13 @@ TEST(PathPlanner, TheSameInputsGiveTheSameBytes) {
   for (PlannerRig* rig : {&a, &b}) {
     rig->send_path({{0.0, 0.0}, {8.0, 1.0}, {20.0, 0.0}});
     rig->camera.false_hit_rate = 0.5;
-    rig->rocks = {kInTheWay, {{6.0, 1.2}, 0.3, 0.3}};
+    rig->rocks = {kOnPath, {{6.0, 1.2}, 0.3, 0.3}};
     rig->look(2);
     rig->go(6.0);
   }
   EXPECT_EQ(a.planner.save(), b.planner.save());
   ASSERT_EQ(a.paths.size(), b.paths.size());
-  EXPECT_GE(a.paths.size(), 3u);
+  EXPECT_GE(a.paths.size(), 2u);
   for (size_t i = 0; i < a.paths.size(); ++i) {
     ASSERT_EQ(a.paths[i].points.size(), b.paths[i].points.size());
     for (size_t k = 0; k < a.paths[i].points.size(); ++k) {
@@ -457,6 +503,56 @@ TEST(PathPlanner, TheSameInputsGiveTheSameBytes) {
       EXPECT_EQ(a.paths[i].points[k].p.y_m, b.paths[i].points[k].p.y_m);
     }
   }
+}
+
+class BackgroundPlanTest : public testing::Test {
+ protected:
+  BackgroundPlanTest() {
+    rig_.send_path(kAhead);
+    rig_.step();
+  }
+  std::shared_ptr<HeldBackground> background_ = std::make_shared<HeldBackground>();
+  PlannerRig rig_{background_};
+};
+
+TEST_F(BackgroundPlanTest, FramesAreCheckedWhileAPlanIsMade) {
+  rig_.rocks = {kOnPath};
+  rig_.look(2);
+  EXPECT_EQ(background_->started, 1);
+  rig_.rocks.push_back({{1.6, 0.0}, 0.2, 0.3});
+  EXPECT_LT(rig_.look(4).status.blocked_in_m, 1.0);
+  EXPECT_EQ(background_->started, 1);
+  EXPECT_EQ(rig_.paths.size(), 1u);
+}
+
+TEST_F(BackgroundPlanTest, APlanIsAdoptedWhenItIsReady) {
+  rig_.rocks = {kOnPath};
+  rig_.look(3);
+  background_->release = true;
+  EXPECT_TRUE(rig_.step().path);
+  EXPECT_EQ(rig_.paths.back().kind, PathKind::kRepair);
+}
+
+TEST_F(BackgroundPlanTest, APlanForAnotherGlobalPathIsDropped) {
+  rig_.rocks = {kOnPath};
+  rig_.look(3);
+  rig_.rocks.clear();
+  rig_.send_path({{0.0, 0.0}, {0.0, 20.0}}, 8);
+  background_->release = true;
+  rig_.step();
+  rig_.step();
+  for (const LocalPath& path : rig_.paths) EXPECT_EQ(path.kind, PathKind::kGlobal);
+}
+
+TEST_F(BackgroundPlanTest, AMovingRoverKeepsThePathOnWhichItStopsInTime) {
+  rig_.forward_mps = 0.2;
+  rig_.rocks = {kOnPath};
+  background_->release = true;
+  rig_.look(2);
+  const LocalPath path = rig_.paths.back();
+  ASSERT_EQ(path.kind, PathKind::kRepair);
+  const Route route(path.points);
+  for (double s = 0.0; s < 0.2; s += 0.05) EXPECT_NEAR(route.point_at(s).y_m, 0.0, 0.01);
 }
 
 }  // namespace

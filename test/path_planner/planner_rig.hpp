@@ -1,4 +1,4 @@
-// A planner with a rover that is where its path says, without error: for tests that want one thing to happen.
+// A planner with a rover that follows its path without error.
 #pragma once
 
 #include "test/path_planner/rock_world.hpp"
@@ -8,8 +8,10 @@ namespace rover::planning::testing_support {
 class PlannerRig {
  public:
   static constexpr Utime kStepUs = 100'000;
+  static constexpr double kStepM = 0.08;
 
-  explicit PlannerRig(const PathPlannerConfig& config = planner_config()) : planner(config, 1) {
+  explicit PlannerRig(std::shared_ptr<Background> background = std::make_shared<AtOnce>())
+      : planner(planner_config(), 1, std::move(background)) {
     planner.set_start_area({0.0, 0.0}, 2.0, 0);
   }
 
@@ -25,9 +27,7 @@ class PlannerRig {
     s.usable = true;
     s.T_odom_body = from_planar(odom);
     s.T_map_odom = from_planar(T_map_odom);
-    s.position_variance_m2 = 0.0;
     s.forward_mps = forward_mps;
-    s.travelled_m = travelled_m;
     return s;
   }
 
@@ -54,19 +54,32 @@ class PlannerRig {
     return out;
   }
 
-  // Along the newest path at 0.2 m/s with a frame every step; ends sooner where the planner says that it is blocked.
-  PlannerOutput go(double way_m) {
+  // Along the newest path at 0.2 m/s with a frame every step, until it is blocked.
+  PlannerOutput go(double distance_m) {
     PlannerOutput out;
-    for (double gone = 0.0; gone < way_m; gone += 0.08) {
+    for (double gone_m = 0.0; gone_m < distance_m; gone_m += kStepM) {
+      const bool reverse = paths.back().kind == PathKind::kBacktrack;
       const Route route(paths.back().points);
-      odom = route.pose_at(std::min(route.closest(position(odom)) + 0.08, route.length_m()));
-      travelled_m += 0.08;
-      forward_mps = 0.2;
+      odom = route.pose_at(std::min(route.closest(position(odom)) + kStepM, route.length_m()));
+      if (reverse) odom.yaw_rad += kPi;
+      forward_mps = reverse ? -0.2 : 0.2;
       out = look();
       if (out.status.blocked_in_m < 0.3) break;
     }
     forward_mps = 0.0;
     return out;
+  }
+  // To the place without a frame, at the heading that the rover has.
+  void move_to(double x_m, double y_m) {
+    const Pose2 from = odom;
+    const int steps = 1 + static_cast<int>(std::hypot(x_m - from.x_m, y_m - from.y_m) / 0.05);
+    forward_mps = 0.1;
+    for (int i = 1; i <= steps; ++i) {
+      odom.x_m = from.x_m + (x_m - from.x_m) * i / steps;
+      odom.y_m = from.y_m + (y_m - from.y_m) * i / steps;
+      step();
+    }
+    forward_mps = 0.0;
   }
 
   PathPlanner planner;
@@ -75,13 +88,12 @@ class PlannerRig {
   Pose2 odom;
   Pose2 T_map_odom;
   double forward_mps = 0.0;
-  double travelled_m = 0.0;
   Utime now = 0;
   std::mt19937_64 random{1};
   std::vector<LocalPath> paths;  // as they were published
 };
 
-// The least distance of the rover's rectangle to the rocks if it follows the path.
+// Smallest distance of the footprint to the rocks along the path.
 inline double clearance_along_m(const LocalPath& path, const std::vector<Rock>& rocks) {
   const Route route(path.points);
   double least = kInfinity;

@@ -25,7 +25,7 @@ struct Drift {
   double bend_per_m = 0.0;
 };
 
-// As trajectory_control: legs between kinks, a halt and a point turn at each; retreats are driven stern first.
+// As trajectory_control: segments between corners, a stop and a point turn at each; kBacktrack in reverse.
 class Follower {
  public:
   Follower(const DriveConfig& config, const Pose2& start, const Drift& drift)
@@ -46,7 +46,7 @@ class Follower {
   }
 
   void take(const LocalPath& path) {
-    const double direction = path.kind == PathKind::kRetreat ? -1.0 : 1.0;
+    const double direction = path.kind == PathKind::kBacktrack ? -1.0 : 1.0;
     if (direction != direction_) curvature_ = -curvature_;
     direction_ = direction;
     route_ = Route(path.points);
@@ -61,9 +61,9 @@ class Follower {
     rate_ = 0.0;
   }
 
-  // False where the rover stands at the end of its path.
+  // False at the end of the path.
   bool move() {
-    const double leg_end = advance();
+    const double segment_end = advance();
     if (route_.length_m() - progress_m_ < kAtTheEndM) {
       halt();
       return false;
@@ -72,16 +72,16 @@ class Follower {
     if (turning_)
       turn();
     else
-      follow(std::sqrt(2.0 * kDecelerationMps2 * std::max(leg_end - progress_m_, 0.002)));
+      follow(std::sqrt(2.0 * kDecelerationMps2 * std::max(segment_end - progress_m_, 0.002)));
     return true;
   }
 
  private:
   double step_s() const { return to_seconds(config_.step_us); }
 
-  // The way that the rover's bow points, of two ends the one that goes ahead.
-  Pose2 bow() const { return {odom_.x_m, odom_.y_m, odom_.yaw_rad + (direction_ < 0.0 ? kPi : 0.0)}; }
-  double heading_error() const { return wrap_angle(route_.pose_at(progress_m_).yaw_rad - bow().yaw_rad); }
+  // Of the end that leads: the rear in reverse.
+  Pose2 leading_pose() const { return {odom_.x_m, odom_.y_m, odom_.yaw_rad + (direction_ < 0.0 ? kPi : 0.0)}; }
+  double heading_error() const { return wrap_angle(route_.pose_at(progress_m_).yaw_rad - leading_pose().yaw_rad); }
 
   void begin_turn() {
     turning_ = true;
@@ -89,14 +89,15 @@ class Follower {
     turn_wait_s_ = config_.turn_overhead_s;
   }
 
-  // Along the leg between two kinks; returns where it ends.
+  // Along the segment between two corners; returns where it ends.
   double advance() {
-    const auto& kinks = route_.kinks();
-    const auto next = std::find_if(kinks.begin(), kinks.end(), [&](size_t i) { return route_.s_at(i) > progress_m_; });
-    const double begin = next == kinks.begin() ? 0.0 : route_.s_at(*std::prev(next)) + 1e-6;
-    const double end = next == kinks.end() ? route_.length_m() : route_.s_at(*next);
+    const auto& corners = route_.corners();
+    const auto next =
+        std::find_if(corners.begin(), corners.end(), [&](size_t i) { return route_.s_at(i) > progress_m_; });
+    const double begin = next == corners.begin() ? 0.0 : route_.s_at(*std::prev(next)) + 1e-6;
+    const double end = next == corners.end() ? route_.length_m() : route_.s_at(*next);
     progress_m_ = route_.closest(position(odom_), std::max(progress_m_ - 0.3, begin), std::min(progress_m_ + 0.5, end));
-    if (next != kinks.end() && end - progress_m_ < 0.03 && !turning_) {
+    if (next != corners.end() && end - progress_m_ < 0.03 && !turning_) {
       progress_m_ = end + 1e-3;
       begin_turn();
     }
@@ -125,17 +126,17 @@ class Follower {
     return std::clamp(wanted, -kMostCurvature, kMostCurvature);
   }
 
-  void follow(double most_mps) {
+  void follow(double max_mps) {
     const double wanted = wanted_curvature();
     const double change = kSteeringRate * step_s();
     curvature_ += std::clamp(wanted - curvature_, -change, change);
-    speed_ = std::min(most_mps, std::abs(wanted - curvature_) > 0.15 ? kCreepMps : config_.speed_mps);
+    speed_ = std::min(max_mps, std::abs(wanted - curvature_) > 0.15 ? kCreepMps : config_.speed_mps);
     rate_ = speed_ * curvature_;
-    const double way = speed_ * step_s();
-    truth_ = advanced(truth_, direction_ * way, direction_ * curvature_);
-    odom_ =
-        advanced(odom_, direction_ * drift_.scale * way, (direction_ * curvature_ + drift_.bend_per_m) / drift_.scale);
-    driven_m_ += way;
+    const double step_m = speed_ * step_s();
+    truth_ = advanced(truth_, direction_ * step_m, direction_ * curvature_);
+    odom_ = advanced(odom_, direction_ * drift_.scale * step_m,
+                     (direction_ * curvature_ + drift_.bend_per_m) / drift_.scale);
+    driven_m_ += step_m;
   }
 
   const DriveConfig& config_;
@@ -208,7 +209,7 @@ class Drive {
     if (out.path) {
       ++result_.paths;
       rover_.take(*out.path);
-      if (out.path->kind == PathKind::kRetreat) ++result_.retreats;
+      if (out.path->kind == PathKind::kBacktrack) ++result_.back_ups;
     }
     result_.replans = out.status.replans;
     result_.text = out.status.text;
@@ -224,10 +225,8 @@ class Drive {
     s.usable = true;
     s.T_odom_body = from_planar(rover_.odom());
     s.T_map_odom = from_planar(start_);
-    s.position_variance_m2 = std::pow(config_.odometry_drift * rover_.driven_m(), 2);
     s.forward_mps = rover_.forward_mps();
     s.yaw_rate_radps = rover_.yaw_rate_radps();
-    s.travelled_m = rover_.driven_m();
     return s;
   }
 
@@ -241,7 +240,7 @@ class Drive {
     }
   }
 
-  // A picture each half a metre and each few degrees of turn, a sweep before the start and where there is no path.
+  // An image each half a metre and each few degrees of turn; a sweep before the start, and if there is no path.
   void look_far() {
     const bool moved = rover_.driven_m() - nav_at_m_ >= config_.nav_step_m ||
                        std::abs(wrap_angle(rover_.odom().yaw_rad - nav_at_yaw_)) >= config_.nav_turn_rad;
@@ -289,7 +288,7 @@ class Drive {
 
   void judge() {
     const double clearance = clearance_m(config_.planner.footprint, rover_.truth(), rocks_);
-    result_.least_clearance_m = std::min(result_.least_clearance_m, clearance);
+    result_.min_clearance_m = std::min(result_.min_clearance_m, clearance);
     result_.collided = clearance < 0.0;
     if (result_.track.empty() || distance(position(result_.track.back()), position(rover_.truth())) > 0.2)
       result_.track.push_back(rover_.truth());
@@ -305,7 +304,7 @@ class Drive {
   Utime now_ = 0;
   std::deque<std::pair<Utime, HazardGrid>> frames_;  // with the time at which the planner gets them
   NavView nav_view_;
-  std::deque<std::pair<Utime, TraversabilityGrid>> maps_;  // likewise
+  std::deque<std::pair<Utime, TraversabilityGrid>> maps_;  // the same
   double nav_at_m_ = 0.0;
   double nav_at_yaw_ = 0.0;
   double swept_at_m_ = 0.0;

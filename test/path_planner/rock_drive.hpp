@@ -37,16 +37,16 @@ struct DriveResult {
   double driven_m = 0.0;
   double duration_s = 0.0;
   int replans = 0;
-  int retreats = 0;
+  int back_ups = 0;
   int point_turns = 0;
   int stops = 0;
   int hazard_stops = 0;  // of them before hazards, not unseen ground
   int paths = 0;
   double plan_p99_s = 0.0;  // CPU time of the planner's steps that published a path
   double stopped_s = 0.0;
-  double least_clearance_m = kInfinity;  // rectangle to rocks
-  std::string text;                      // why it ended where it did
-  std::vector<Pose2> track;              // true, in map
+  double min_clearance_m = kInfinity;  // footprint to rocks
+  std::string text;                    // why it ended where it did
+  std::vector<Pose2> track;            // true, in map
 };
 
 DriveResult drive(const DriveConfig& config, const std::vector<Rock>& rocks, const std::vector<Point2>& path,

@@ -20,10 +20,10 @@ double count_above(double k, double diameter_m) {
 }
 
 // Diameters and the share of rocks that are larger: the inverse of the cumulative count.
-std::vector<std::pair<double, double>> diameter_table(double k, double least_diameter_m) {
-  const double total = count_above(k, least_diameter_m);
+std::vector<std::pair<double, double>> diameter_table(double k, double min_diameter_m) {
+  const double total = count_above(k, min_diameter_m);
   std::vector<std::pair<double, double>> table;
-  for (double d = least_diameter_m; d < 2.0; d += 0.02) table.emplace_back(count_above(k, d) / total, d);
+  for (double d = min_diameter_m; d < 2.0; d += 0.02) table.emplace_back(count_above(k, d) / total, d);
   return table;
 }
 
@@ -60,14 +60,14 @@ std::uint8_t seen_at(const CameraModel& camera, const std::vector<Rock>& rocks_b
 
 }  // namespace
 
-std::vector<Rock> rock_field(double k, Point2 low, Point2 high, double least_diameter_m, std::mt19937_64& random) {
+std::vector<Rock> rock_field(double k, Point2 low, Point2 high, double min_diameter_m, std::mt19937_64& random) {
   const double area = (high.x_m - low.x_m) * (high.y_m - low.y_m);
-  const long count = std::lround(count_above(k, least_diameter_m) * area);
-  const std::vector<std::pair<double, double>> table = diameter_table(k, least_diameter_m);
+  const long count = std::lround(count_above(k, min_diameter_m) * area);
+  const std::vector<std::pair<double, double>> table = diameter_table(k, min_diameter_m);
   std::vector<Rock> rocks;
   for (long i = 0; i < count; ++i) {
     const double share = uniform(random, 0.0, 1.0);
-    double diameter = least_diameter_m;
+    double diameter = min_diameter_m;
     for (const auto& [above, d] : table)
       if (above >= share) diameter = d;
     const double x = uniform(random, low.x_m, high.x_m);
@@ -90,8 +90,8 @@ HazardGrid observe(const CameraModel& camera, const std::vector<Rock>& rocks, co
     for (int ix = 0; ix < grid.cells_x; ++ix) {
       const Point2 b{grid.origin_x_m + (ix + 0.5) * kGridCellM, grid.origin_y_m + (iy + 0.5) * kGridCellM};
       std::uint8_t cell = seen_at(camera, in_body, b);
-      const double false_share = camera.false_hit_rate / kTypicalFreeCells;
-      if (cell == HazardGrid::kFree && uniform(random, 0.0, 1.0) < false_share) cell = HazardGrid::kObstacle;
+      const double false_ratio = camera.false_hit_rate / kTypicalFreeCells;
+      if (cell == HazardGrid::kFree && uniform(random, 0.0, 1.0) < false_ratio) cell = HazardGrid::kObstacle;
       grid.cells.push_back(cell);
     }
   return grid;
@@ -108,13 +108,10 @@ double clearance_m(const Footprint& footprint, const Pose2& pose, const std::vec
 PathPlannerConfig planner_config() {
   PathPlannerConfig config;
   config.footprint = {0.875, 0.47};
-  config.repair.footprint = config.footprint;
   config.ground_z_m = 0.0;
   config.goal_tolerance_m = 0.4;
   config.turn_threshold_rad = 0.7;
   config.turn_stop_rad = 0.035;
-  config.repair.search.turn_cost_per_rad_m = 0.5;
-  config.full.goal.max_deviation_m = 8.0;
   return config;
 }
 

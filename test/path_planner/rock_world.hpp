@@ -17,8 +17,8 @@ struct Rock {
 
 constexpr double kHazardHeightM = 0.15;  // lower rocks are driven over
 
-// Golombek's law F(D) = k exp(-q D), q = 1.79 + 0.152 / k, for rocks of at least `least_diameter_m`; height D / 2.
-std::vector<Rock> rock_field(double k, Point2 low, Point2 high, double least_diameter_m, std::mt19937_64& random);
+// Golombek's law F(D) = k exp(-q D), q = 1.79 + 0.152 / k, for rocks of at least `min_diameter_m`; height D / 2.
+std::vector<Rock> rock_field(double k, Point2 low, Point2 high, double min_diameter_m, std::mt19937_64& random);
 
 struct CameraModel {
   Point2 position{0.527, 0.074};  // in body
@@ -35,7 +35,7 @@ struct CameraModel {
 HazardGrid observe(const CameraModel& camera, const std::vector<Rock>& rocks, const Pose2& pose, Utime utime,
                    std::mt19937_64& random);
 
-// From the rectangle to the nearest rock that is a hazard, negative inside; infinity: no rock within 3 m.
+// From the footprint to the nearest rock that is a hazard, negative inside; infinity: no rock within 3 m.
 double clearance_m(const Footprint& footprint, const Pose2& pose, const std::vector<Rock>& rocks);
 
 // The configuration that the service ships, without its file.

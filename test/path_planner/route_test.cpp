@@ -35,8 +35,9 @@ std::vector<Point2> random_corners(std::mt19937_64& random) {
   double heading = 0.0;
   for (int i = 0; i < 6; ++i) {
     heading += uniform(random, -1.5, 1.5);
-    const double way = uniform(random, 2.0, 8.0);
-    points.push_back({points.back().x_m + way * std::cos(heading), points.back().y_m + way * std::sin(heading)});
+    const double length_m = uniform(random, 2.0, 8.0);
+    points.push_back(
+        {points.back().x_m + length_m * std::cos(heading), points.back().y_m + length_m * std::sin(heading)});
   }
   return points;
 }
@@ -53,27 +54,27 @@ TEST(Route, OnACircleThePoseIsThatOfTheCircle) {
     EXPECT_NEAR(distance(position(pose), position(exact)), 0.0, 0.002);  // sagitta of 0.1 m
     EXPECT_NEAR(pose.yaw_rad, exact.yaw_rad, 0.002);
   }
-  EXPECT_TRUE(route.kinks().empty());
+  EXPECT_TRUE(route.corners().empty());
 }
 
-TEST(Route, TheHeadingJumpsOnlyAtKinks) {
+TEST(Route, TheHeadingJumpsOnlyAtCorners) {
   const Route route = route_of({{0, 0}, {2, 0}, {2, 2}, {4, 2.2}});
-  ASSERT_EQ(route.kinks().size(), 2u);
-  EXPECT_EQ(route.kinks()[0], 1u);
+  ASSERT_EQ(route.corners().size(), 2u);
+  EXPECT_EQ(route.corners()[0], 1u);
   EXPECT_NEAR(route.yaw_into(1), 0.0, 1e-12);
   EXPECT_NEAR(route.yaw_out_of(1), 0.5 * kPi, 1e-12);
   EXPECT_NEAR(route.pose_at(2.0).yaw_rad, 0.0, 1e-12);
   EXPECT_NEAR(route.pose_at(2.0 + 1e-9).yaw_rad, 0.5 * kPi, 1e-6);
 }
 
-TEST(Route, BeyondItsEndsTheRouteStands) {
+TEST(Route, BeyondItsEndsTheRouteIsItsEndPoint) {
   const Route route = route_of({{0, 0}, {1, 0}, {2, 0}});
   EXPECT_NEAR(route.point_at(-1.0).x_m, 0.0, 1e-12);
   EXPECT_NEAR(route.point_at(9.0).x_m, 2.0, 1e-12);
   EXPECT_NEAR(route.pose_at(9.0).yaw_rad, 0.0, 1e-12);
 }
 
-TEST(Route, ClosestAgreesWithBruteForceInsideTheGivenStretch) {
+TEST(Route, ClosestAgreesWithBruteForceWithinTheGivenRange) {
   std::mt19937_64 random(1);
   for (int i = 0; i < 200; ++i) {
     const Route route = route_of(random_corners(random));
@@ -90,7 +91,7 @@ TEST(Route, ClosestAgreesWithBruteForceInsideTheGivenStretch) {
   }
 }
 
-TEST(Route, SeenFromAnotherFrameItKeepsItsShape) {
+TEST(Route, TransformedItKeepsItsShape) {
   std::mt19937_64 random(2);
   const Route route = rounded(corners_of(random_corners(random)), RoundingConfig{});
   const Pose2 T{3.0, -2.0, 1.2};
@@ -119,30 +120,30 @@ TEST(Rounding, StaysNearTheCornersAndKeepsTheEnds) {
   }
 }
 
-// Between kinks the bend per way is that of the least radius or less; 5 % for arcs made of pieces.
-TEST(Rounding, KeepsTheLeastRadiusOrLeavesAKink) {
+// Between corners the curvature is that of the minimum radius or less; 5 % for arcs made of pieces.
+TEST(Rounding, KeepsTheMinimumRadiusOrLeavesACorner) {
   std::mt19937_64 random(4);
   const RoundingConfig config;
-  int kinks = 0;
+  int sharp_corners = 0;
   for (int i = 0; i < 200; ++i) {
     const Route route = rounded(corners_of(random_corners(random)), config);
-    kinks += static_cast<int>(route.kinks().size());
+    sharp_corners += static_cast<int>(route.corners().size());
     for (size_t k = 1; k < route.points().size(); ++k) {
       const double bend = std::abs(route.yaw_into(k) - route.yaw_out_of(k - 1));
       // A piece shorter than a step may hold half of its neighbours' bends.
-      const double way = std::max(route.s_at(k) - route.s_at(k - 1), config.step_m);
-      ASSERT_LE(bend / way, 1.05 / config.min_radius_m) << i << " " << k;
+      const double length_m = std::max(route.s_at(k) - route.s_at(k - 1), config.step_m);
+      ASSERT_LE(bend / length_m, 1.05 / config.min_radius_m) << i << " " << k;
     }
   }
-  EXPECT_GT(kinks, 100);  // turns of more than 66 deg do not fit into the tolerance with a radius of 1 m
+  EXPECT_GT(sharp_corners, 100);  // turns of more than 66 deg do not fit into the tolerance with a radius of 1 m
 }
 
 TEST(Rounding, AGentleCornerGetsAWideArcAndASharpOneStays) {
   const Route gentle = rounded(corners_of({{0, 0}, {10, 0}, {20, 2}}), RoundingConfig{});
-  EXPECT_TRUE(gentle.kinks().empty());
+  EXPECT_TRUE(gentle.corners().empty());
   const Route sharp = rounded(corners_of({{0, 0}, {10, 0}, {10, 10}}), RoundingConfig{});
-  ASSERT_EQ(sharp.kinks().size(), 1u);
-  EXPECT_NEAR(distance(sharp.points()[sharp.kinks()[0]].p, {10, 0}), 0.0, 1e-9);
+  ASSERT_EQ(sharp.corners().size(), 1u);
+  EXPECT_NEAR(distance(sharp.points()[sharp.corners()[0]].p, {10, 0}), 0.0, 1e-9);
 }
 
 TEST(Rounding, LevelsStartWhereTheirPointLies) {

@@ -1,4 +1,4 @@
-// Drives many rock fields in the simple world of rock_drive.hpp and prints what came of it: a tool for tuning.
+// Drives many rock fields in the simple world of rock_drive.hpp and prints the results: a tool for tuning.
 //   traverse_study [first seed] [last seed] [k] [length m] [efficient | full]
 #include <cstdio>
 #include <cstdlib>
@@ -16,12 +16,12 @@ struct Tally {
 
 void print(int seed, const DriveResult& r, double ratio, double duty) {
   std::printf(
-      "seed %3d %s ratio %.3f replans %2d retreats %d turns %d stops %2d (hazards %2d) stopped %5.1f s duty %.2f", seed,
+      "seed %3d %s ratio %.3f replans %2d back-ups %d turns %d stops %2d (hazards %2d) stopped %5.1f s duty %.2f", seed,
       r.collided  ? "COLLISION"
       : r.reached ? "goal"
                   : "LOST",
-      ratio, r.replans, r.retreats, r.point_turns, r.stops, r.hazard_stops, r.stopped_s, duty);
-  std::printf(" clearance %.2f paths %d p99 %.3f s", r.least_clearance_m, r.paths, r.plan_p99_s);
+      ratio, r.replans, r.back_ups, r.point_turns, r.stops, r.hazard_stops, r.stopped_s, duty);
+  std::printf(" clearance %.2f paths %d p99 %.3f s", r.min_clearance_m, r.paths, r.plan_p99_s);
   if (!r.reached) std::printf(" at %.2f %.2f: %s", r.track.back().x_m, r.track.back().y_m, r.text.c_str());
   std::printf("\n");
   std::fflush(stdout);

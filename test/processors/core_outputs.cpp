@@ -11,7 +11,7 @@
 #include "hazard_detector/hazard_detector.hpp"
 #include "slam/slam.hpp"
 #include "test/localization/synthetic_drive.hpp"
-#include "test/path_planner/repair_field.hpp"
+#include "test/path_planner/plan_scene.hpp"
 #include "test/slam/navcam.hpp"
 #include "test/stereo/synthetic_world.hpp"
 #include "test/traversability/synthetic_terrain.hpp"
@@ -143,13 +143,12 @@ void run_traversability() {
 
 void run_path_planner() {
   using namespace planning::testing_support;
-  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
-    const RepairField field = random_field(seed);
-    const planning::Terrain terrain(field.memory);
-    const planning::RepairResult result = plan_on(field, terrain, planner_config().repair);
-    print("repair search", static_cast<int>(result.status));
-    print("repair search", result.expansions);
-    for (const Pose2& pose : result.poses) print_pose("repair path", pose);
+  const planning::HybridPlanner planner(search_config());
+  for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+    const planning::Plan plan = planner.plan(plan_request(certain_belief(ground_of(random_rocks(seed)))));
+    print("plan search", plan.expansions);
+    print("plan search", plan.cost);
+    for (const planning::PlanPose& at : plan.poses) print_pose("plan", at.pose);
   }
 }
 

@@ -52,8 +52,8 @@ TEST_F(TruthNodesTest, HazardsComeAtEachExposureWithTheLatencyOfStereoAndDetecto
   EXPECT_EQ(hazards[1].header.publisher, "hazard_detector");
   const planning::HazardGrid grid = planning::hazards_from(hazards[1]);
   EXPECT_EQ(grid.fault(), "");
-  EXPECT_EQ(grid.at(2.0, 0.0), planning::HazardGrid::kObstacle);
-  EXPECT_EQ(grid.at(2.0, 0.6), planning::HazardGrid::kFree);
+  EXPECT_EQ(grid.at({2.0, 0.0}), planning::HazardGrid::kObstacle);
+  EXPECT_EQ(grid.at({2.0, 0.6}), planning::HazardGrid::kFree);
 }
 
 TEST_F(TruthNodesTest, ExposuresAreThoseOfTheSimulator) {

@@ -62,9 +62,9 @@ TEST(Panels, FlatGroundAloneIsAPanel) {
 
 TEST(Panels, OtherwiseTheAxesWithMostValues) {
   const Panels panels = panels_of(product({{"level", {"full", "efficient"}},
-                                           {"path_planner.repair.rejoin_within_m", {"4", "8", "12", "16"}},
+                                           {"path_planner.search.horizon_m", {"4", "8", "12", "16"}},
                                            {"sun_elevation_deg", {"10", "40", "70"}}}));
-  EXPECT_EQ(panels.x.name, "path_planner.repair.rejoin_within_m");
+  EXPECT_EQ(panels.x.name, "path_planner.search.horizon_m");
   EXPECT_EQ(panels.x.values, (std::vector<std::string>{"4", "8", "12", "16"}));  // by number
   EXPECT_EQ(panels.y.name, "sun_elevation_deg");
   EXPECT_EQ(panels.panels.size(), 2u);

@@ -1,0 +1,53 @@
+// Where the rover has been, in odom, to back up along.
+#pragma once
+
+#include <deque>
+#include <vector>
+
+#include "path_planner/geometry.hpp"
+
+namespace rover::planning {
+
+class Breadcrumbs {
+ public:
+  static constexpr double kStepM = 0.1;
+  static constexpr double kMaxLengthM = 10.0;
+  static constexpr double kRetraceM = 1.0;
+
+  void extend(Point2 rover) {
+    if (!points_.empty() && distance(points_.back(), rover) < kStepM) return;
+    points_.push_back(rover);
+    if (static_cast<double>(points_.size()) * kStepM > kMaxLengthM) points_.pop_front();
+  }
+  // The rover backs up, not quite on the track, which then ends at its point closest to the rover among the last
+  // kRetraceM.
+  void retrace(Point2 rover) {
+    const size_t window = std::min(points_.size(), static_cast<size_t>(kRetraceM / kStepM));
+    size_t nearest = points_.size();
+    for (size_t i = points_.size(); i-- > points_.size() - window;)
+      if (nearest == points_.size() || distance(points_[i], rover) < distance(points_[nearest], rover)) nearest = i;
+    points_.resize(std::min(nearest + 1, points_.size()));
+  }
+  void clear() { points_.clear(); }
+  // From the rover back along the track, about `distance_m` long; nearer points than kStepM come from the drift of a
+  // stationary rover.
+  std::vector<Point2> back(Point2 rover, double distance_m) const {
+    std::vector<Point2> out = {rover};
+    double sum = 0.0;
+    for (size_t i = points_.size(); i-- > 0 && sum < distance_m;) {
+      const double step = distance(out.back(), points_[i]);
+      if (step < kStepM) continue;
+      sum += step;
+      out.push_back(points_[i]);
+    }
+    return out;
+  }
+
+  const std::deque<Point2>& points() const { return points_; }
+  void restore(std::deque<Point2> points) { points_ = std::move(points); }
+
+ private:
+  std::deque<Point2> points_;  // the oldest first
+};
+
+}  // namespace rover::planning

@@ -1,0 +1,156 @@
+// What the planner keeps over a restart, as bytes: global path, active path, belief map, counters. The pose comes with
+// the next POSE; a plan in the background is made anew.
+#include "common/core/path_limits.hpp"
+#include "common/core/state_bytes.hpp"
+#include "path_planner/path_planner.hpp"
+
+namespace rover::planning {
+namespace {
+
+constexpr std::uint32_t kVersion = 5;
+
+void put_points(StateWriter& out, const std::vector<RoutePoint>& points) {
+  out.put(static_cast<std::uint64_t>(points.size()));
+  for (const RoutePoint& point : points) {
+    out.put(point.p);
+    out.put(point.global_s_m);
+    out.put(point.level);
+  }
+}
+
+std::vector<RoutePoint> get_points(StateReader& in) {
+  std::vector<RoutePoint> points(in.count(sizeof(Point2) + sizeof(double) + 1));
+  for (RoutePoint& point : points) {
+    point.p = in.get<Point2>();
+    point.global_s_m = in.get<double>();
+    point.level = in.get<std::int8_t>();
+  }
+  return points;
+}
+
+bool is_finite(Point2 p) {
+  return std::isfinite(p.x_m) && std::isfinite(p.y_m);
+}
+
+// Numbers, on or off the global path, and no longer than a global path may be.
+bool is_path(const std::vector<RoutePoint>& points, double global_length_m) {
+  double length_m = 0.0;
+  for (size_t i = 0; i < points.size(); ++i) {
+    const double s_m = points[i].global_s_m;
+    if (!is_finite(points[i].p) || s_m < 0.0 || s_m > global_length_m) return false;
+    if (i > 0) length_m += distance(points[i - 1].p, points[i].p);
+  }
+  return points.size() >= 2 && length_m <= kLongestPathM;
+}
+
+void put_map(StateWriter& out, const GridMap<CellBelief>& map) {
+  out.put(map.origin());
+  out.put(map.cells());
+  map.for_each([&](CellIndex, const CellBelief& cell) {
+    out.put(static_cast<std::uint8_t>((cell.known ? 1 : 0) | (cell.driven ? 2 : 0)));
+    if (!cell.known) return;
+    out.put(cell.unmeasured);
+    out.put(cell.unmeasured_range_m);
+    out.put(cell.evidence);
+    out.put(cell.step_ratio);
+    out.put(cell.step_sigma);
+    out.put(cell.cost);
+  });
+}
+
+// False if the stored map has another size, or its origin is out of range.
+bool get_map(StateReader& in, GridMap<CellBelief>& map) {
+  constexpr int kMaxIndex = 1 << 24;
+  const CellIndex origin = in.get<CellIndex>();
+  if (in.get<int>() != map.cells()) return false;
+  if (std::abs(origin.ix) > kMaxIndex || std::abs(origin.iy) > kMaxIndex) return false;
+  const CellIndex center{origin.ix + map.cells() / 2, origin.iy + map.cells() / 2};
+  map.move_to(map.center_x_m(center), map.center_y_m(center));
+  bool numbers = true;
+  map.for_each([&](CellIndex, CellBelief& cell) {
+    const auto flags = in.get<std::uint8_t>();
+    cell.known = (flags & 1) != 0;
+    cell.driven = (flags & 2) != 0;
+    if (!cell.known) return;
+    cell.unmeasured = in.get<std::uint8_t>();
+    cell.unmeasured_range_m = in.get<float>();
+    cell.evidence = in.get<float>();
+    cell.step_ratio = in.get<float>();
+    cell.step_sigma = in.get<float>();
+    cell.cost = in.get<float>();
+    numbers = numbers && std::isfinite(cell.evidence + cell.step_ratio + cell.step_sigma + cell.cost) &&
+              std::isfinite(cell.unmeasured_range_m) && cell.step_sigma > 0.0F;
+  });
+  return numbers;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> PathPlanner::save() const {
+  StateWriter out;
+  out.put(kVersion);
+  out.put(next_path_id_);
+  out.put(replans_);
+  out.put(back_ups_);
+  out.put(furthest_m_);
+  out.put(static_cast<std::uint8_t>(global_.has_value()));
+  if (global_) {
+    out.put(global_->id);
+    out.put(global_->corridor_half_width_m);
+    out.put(global_->goal_tolerance_m);
+    put_points(out, global_->points);
+  }
+  put_points(out, active_.route().points());
+  out.put(active_.kind());
+  out.put(active_.corridor_half_width_m());
+  out.put(active_.progress_m());
+  out.put(active_.planned_m());
+  out.put(static_cast<std::uint8_t>(active_.has_next()));
+  out.put(static_cast<std::uint64_t>(breadcrumbs_.points().size()));
+  for (const Point2& p : breadcrumbs_.points()) out.put(p);
+  put_map(out, belief_.cells());
+  return out.take();
+}
+
+bool PathPlanner::restore(const std::vector<std::uint8_t>& bytes) {
+  StateReader in(bytes);
+  if (in.get<std::uint32_t>() != kVersion) return false;
+  PathPlanner fresh(config_, next_path_id_, background_);
+  fresh.next_path_id_ = std::max(next_path_id_, in.get<std::int64_t>());
+  fresh.replans_ = in.get<std::int32_t>();
+  const int back_ups = in.get<int>();
+  const double furthest_m = in.get<double>();
+  if (in.get<std::uint8_t>() != 0) {
+    GlobalPath global;
+    global.id = in.get<std::int64_t>();
+    global.corridor_half_width_m = in.get<double>();
+    global.goal_tolerance_m = in.get<double>();
+    global.points = get_points(in);
+    if (!fresh.set_global_path(global).empty()) return false;
+  }
+  std::vector<RoutePoint> points = get_points(in);
+  const auto kind = in.get<PathKind>();
+  const auto corridor_m = in.get<double>();
+  const auto progress_m = in.get<double>();
+  const auto planned_m = in.get<double>();
+  const bool has_next = in.get<std::uint8_t>() != 0;
+  std::deque<Point2> crumbs(in.count(sizeof(Point2)));
+  for (Point2& p : crumbs) p = in.get<Point2>();
+  if (!get_map(in, fresh.belief_.cells()) || !in.finished()) return false;
+  if (!std::isfinite(furthest_m) || !std::all_of(crumbs.begin(), crumbs.end(), is_finite)) return false;
+  if (!points.empty()) {
+    if (!fresh.global_ || !is_path(points, fresh.global_map_.length_m())) return false;
+    if (kind < PathKind::kGlobal || kind > PathKind::kContinuous) return false;
+    if (!(corridor_m > 0.0) || !std::isfinite(corridor_m + progress_m + planned_m)) return false;
+    fresh.active_.restore(fresh.next_path_id_++, kind, Route(std::move(points)), corridor_m, progress_m, planned_m);
+  }
+  fresh.breadcrumbs_.restore(std::move(crumbs));
+  fresh.replan_wanted_ = has_next;  // the segments that follow are forgotten
+  fresh.back_ups_ = std::clamp(back_ups, 0, config_.max_back_ups);
+  fresh.furthest_m_ = furthest_m;
+  fresh.new_ground_ = true;
+  *this = std::move(fresh);
+  return true;
+}
+
+}  // namespace rover::planning

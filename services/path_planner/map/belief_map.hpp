@@ -1,0 +1,75 @@
+// What is known of the ground around the rover, from both cameras: for each cell the probability that a wheel cannot
+// pass it, and whether it was seen at all. A rolling grid in odom; what leaves the field of view is kept.
+#pragma once
+
+#include <cstdint>
+
+#include "common/core/grid_map.hpp"
+#include "path_planner/map/input_grids.hpp"
+
+namespace rover::planning {
+
+struct BeliefConfig {
+  int cells = 280;
+  double cell_m = 0.1;
+  // LocCam: evidence of one frame, in log-odds. Frames are correlated, so each counts less than its error rate allows.
+  double prior = -2.0;
+  double hit = 1.5;
+  double miss = 0.7;  // within near_range_m; further off in proportion to 1 / range
+  double max_evidence = 4.0;
+  double near_range_m = 2.0;
+  // NavCam: the map shows a step as a ratio of the limit, with this standard deviation.
+  double sigma = 0.05;
+  double sigma_per_m = 0.008;
+  double max_navcam_evidence = 2.5;  // less than the LocCam's, whose picture of near ground is the sharper one
+  int unmeasured_frames = 6;         // in a row, in view within near_range_m: the cell counts as a hazard
+  ViewArea view;
+};
+
+struct CellBelief {
+  bool known = false;
+  bool driven = false;          // the rover was on it
+  std::uint8_t unmeasured = 0;  // frames in a row that should have measured it and did not: no texture, or a drop
+  std::uint16_t last_hit = 0;   // frame; two cells of a frame may fall into one cell here
+  float unmeasured_range_m = 0.0F;
+  float evidence = 0.0F;        // LocCam, log-odds
+  float step_ratio = 0.0F;      // NavCam, mean
+  float step_sigma = kNoSigma;  // and its standard deviation
+  float cost = 0.0F;            // NavCam, cost of driving over it, 0 .. 1
+
+  static constexpr float kNoSigma = 1e3F;
+};
+
+class BeliefMap {
+ public:
+  explicit BeliefMap(const BeliefConfig& config) : config_(config), map_(config.cells, config.cell_m) {}
+
+  void move_to(Point2 rover) { map_.move_to(rover.x_m, rover.y_m); }
+  void clear() { map_.clear(); }
+  // One frame of the LocCam. The ground lies `ground_z_m` above (negative: below) the body origin.
+  void add(const HazardGrid& grid, const Eigen::Isometry3d& T_odom_body, double ground_z_m);
+  // One map of the NavCam, made with the rover at this position.
+  void add(const TraversabilityGrid& grid, Point2 rover);
+  void mark_driven(const Pose2& pose, const Footprint& footprint);
+  // Ground that the operator certifies.
+  void mark_known(Point2 center, double radius_m);
+
+  // That a wheel cannot pass the cell.
+  double probability(const CellBelief& cell) const;
+  // Seen from afar perhaps, but not from near, where the picture is sharper. Only a look from as near changes that.
+  bool unmeasurable(const CellBelief& cell) const { return cell.unmeasured >= config_.unmeasured_frames; }
+  const GridMap<CellBelief>& cells() const { return map_; }
+  GridMap<CellBelief>& cells() { return map_; }
+
+ private:
+  void add_hit(CellIndex index);
+  void add_miss(CellBelief& cell, double range_m) const;
+  void add_seen(CellBelief& cell, double range_m) const;
+  void add_unmeasured(CellBelief& cell, const HazardGrid& grid, Point2 in_body) const;
+
+  BeliefConfig config_;
+  GridMap<CellBelief> map_;
+  std::uint16_t frame_ = 0;
+};
+
+}  // namespace rover::planning

@@ -1,0 +1,108 @@
+#include "path_planner/map/costmap.hpp"
+
+#include "common/core/distance_field.hpp"
+
+namespace rover::planning {
+namespace {
+
+// A single unknown cell hides nothing that matters: a hazard of 0.15 m is wider than a cell.
+constexpr int kKnownNeighbours = 6;
+// Ground that cannot be measured from near counts where it is so wide that a rock fits in.
+constexpr int kWideCells = 5;
+constexpr int kWideCount = 20;  // of 25
+
+// Fills unknown cells among known ones.
+std::vector<std::uint8_t> filled(const std::vector<std::uint8_t>& unknown, int cells) {
+  std::vector<std::uint8_t> out = unknown;
+  for (int y = 1; y + 1 < cells; ++y)
+    for (int x = 1; x + 1 < cells; ++x) {
+      const size_t i = static_cast<size_t>(y) * cells + x;
+      if (!unknown[i]) continue;
+      const auto row = [&](size_t j) { return unknown[j - 1] + unknown[j] + unknown[j + 1]; };
+      if (9 - row(i - cells) - row(i) - row(i + cells) >= kKnownNeighbours) out[i] = 0;
+    }
+  return out;
+}
+
+std::vector<std::uint8_t> wide_parts(const std::vector<std::uint8_t>& mask, int cells) {
+  const int n = cells + 1;
+  std::vector<int> sum(static_cast<size_t>(n) * n, 0);
+  for (int y = 0; y < cells; ++y)
+    for (int x = 0; x < cells; ++x)
+      sum[(y + 1) * n + x + 1] = mask[y * cells + x] + sum[y * n + x + 1] + sum[(y + 1) * n + x] - sum[y * n + x];
+  std::vector<std::uint8_t> out(mask.size(), 0);
+  for (int y = 0; y + kWideCells <= cells; ++y)
+    for (int x = 0; x + kWideCells <= cells; ++x) {
+      const int x1 = x + kWideCells;
+      const int y1 = y + kWideCells;
+      if (sum[y1 * n + x1] - sum[y * n + x1] - sum[y1 * n + x] + sum[y * n + x] < kWideCount) continue;
+      for (int v = y; v < y1; ++v)
+        for (int u = x; u < x1; ++u) out[v * cells + u] = mask[v * cells + u];
+    }
+  return out;
+}
+
+// The largest value within so many cells, along rows and columns.
+std::vector<float> widened(const std::vector<float>& values, int cells, int reach) {
+  const auto along = [&](const std::vector<float>& in, int step, int across) {
+    std::vector<float> out(in.size());
+    for (int line = 0; line < cells; ++line)
+      for (int k = 0; k < cells; ++k) {
+        float largest = 0.0F;
+        for (int j = std::max(0, k - reach); j <= std::min(cells - 1, k + reach); ++j)
+          largest = std::max(largest, in[line * across + j * step]);
+        out[line * across + k * step] = largest;
+      }
+    return out;
+  };
+  return along(along(values, 1, cells), cells, 1);
+}
+
+}  // namespace
+
+Costmap::Costmap(const CostmapConfig& config, const BeliefMap& belief, Point2 rover, double side_m)
+    : cells_(std::min(belief.cells().cells(), static_cast<int>(std::lround(side_m / belief.cells().cell_m())))),
+      cell_m_(belief.cells().cell_m()),
+      side_m_(cells_ * cell_m_) {
+  const GridMap<CellBelief>& map = belief.cells();
+  const CellIndex center = map.index_of(rover.x_m, rover.y_m);
+  const CellIndex origin{center.ix - cells_ / 2, center.iy - cells_ / 2};
+  corner_ = {origin.ix * cell_m_, origin.iy * cell_m_};
+  const size_t count = static_cast<size_t>(cells_) * static_cast<size_t>(cells_);
+  const auto belief_of = [&](size_t i) -> const CellBelief& {
+    return map.get({origin.ix + static_cast<int>(i) % cells_, origin.iy + static_cast<int>(i) / cells_});
+  };
+  std::vector<std::uint8_t> unmeasurable(count);
+  for (size_t i = 0; i < count; ++i) unmeasurable[i] = belief.unmeasurable(belief_of(i)) ? 1 : 0;
+  const std::vector<std::uint8_t> wide = wide_parts(unmeasurable, cells_);
+  unknown_.resize(count);
+  for (size_t i = 0; i < count; ++i) unknown_[i] = belief_of(i).known && !wide[i] ? 0 : 1;
+  unknown_ = filled(unknown_, cells_);
+
+  std::vector<std::uint8_t> hazard(count, 0);
+  cost_.resize(count);
+  for (size_t i = 0; i < count; ++i) {
+    if (i % static_cast<size_t>(cells_) == 0) row_begin_.push_back(hazards_.size());
+    const CellBelief& cell = belief_of(i);
+    const double p = cell.known ? belief.probability(cell) : 0.0;
+    cost_[i] = static_cast<float>(config.hazard_cost * p + config.difficulty_cost * cell.cost);
+    const bool unmeasured = unknown_[i] && unmeasurable[i];
+    hazard[i] = p >= config.hazard_probability || unmeasured ? 1 : 0;
+    if (hazard[i]) hazards_.push_back({center_of(static_cast<int>(i)), p >= config.stop_probability || unmeasured});
+  }
+  row_begin_.push_back(hazards_.size());
+  cost_ = widened(cost_, cells_, static_cast<int>(config.wheel_reach_m / cell_m_));
+  for (size_t i = 0; i < count; ++i) cost_[i] += static_cast<float>(1.0 + (unknown_[i] ? config.unknown_cost : 0.0));
+  hazard_distance_ = distance_field(hazard, cells_, cells_, cell_m_);
+  unknown_distance_ = distance_field(unknown_, cells_, cells_, cell_m_);
+}
+
+std::span<const Hazard> Costmap::hazards_near(Point2 p, double reach_m) const {
+  const auto row = [&](double y_m) {
+    return std::clamp(static_cast<int>(std::floor((y_m - corner_.y_m) / cell_m_)), 0, cells_ - 1);
+  };
+  const size_t begin = row_begin_[row(p.y_m - reach_m)];
+  return {hazards_.data() + begin, row_begin_[row(p.y_m + reach_m) + 1] - begin};
+}
+
+}  // namespace rover::planning

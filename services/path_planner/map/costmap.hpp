@@ -1,0 +1,79 @@
+// The ground around the rover at one moment, prepared for planning: hazards as points with distances to them, unknown
+// ground, and what a metre costs. Immutable.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "path_planner/geometry.hpp"
+#include "path_planner/map/belief_map.hpp"
+
+namespace rover::planning {
+
+struct CostmapConfig {
+  double hazard_probability = 0.5;  // from here on a cell is a hazard; below, its probability costs
+  double stop_probability = 0.5;    // from here on a hazard on the path stops the rover
+  double hazard_cost = 4.0;         // relative to driving, at probability 1: the expected detour
+  double difficulty_cost = 1.5;     // the same, at ground that is just traversable
+  double unknown_cost = 0.6;        // the same, on unknown ground
+  double wheel_reach_m = 0.45;      // the costliest cell this near to the body origin counts: wheels pass there
+};
+
+struct Hazard {
+  Point2 p;  // centre of a cell
+  bool certain = false;
+};
+
+class Costmap {
+ public:
+  // A square window of the map around the rover.
+  Costmap(const CostmapConfig& config, const BeliefMap& belief, Point2 rover, double side_m);
+
+  int cells() const { return cells_; }
+  double cell_m() const { return cell_m_; }
+  bool contains(Point2 p) const { return inside_m(p) > 0.0; }
+  // Distance of the point to the border, negative outside.
+  double inside_m(Point2 p) const {
+    const double x = p.x_m - corner_.x_m;
+    const double y = p.y_m - corner_.y_m;
+    return std::min(std::min(x, side_m_ - x), std::min(y, side_m_ - y));
+  }
+  // The point must lie inside.
+  int cell_of(Point2 p) const {
+    const int ix = std::clamp(static_cast<int>((p.x_m - corner_.x_m) / cell_m_), 0, cells_ - 1);
+    const int iy = std::clamp(static_cast<int>((p.y_m - corner_.y_m) / cell_m_), 0, cells_ - 1);
+    return iy * cells_ + ix;
+  }
+  Point2 center_of(int cell) const {
+    return {corner_.x_m + (cell % cells_ + 0.5) * cell_m_, corner_.y_m + (cell / cells_ + 0.5) * cell_m_};
+  }
+
+  // Row by row.
+  const std::vector<Hazard>& hazards() const { return hazards_; }
+  // Those whose y lies within `reach_m` of that of the point, and a few more.
+  std::span<const Hazard> hazards_near(Point2 p, double reach_m) const;
+  // To the nearest centre of a hazard cell, by the cell; infinity outside.
+  double hazard_distance_m(Point2 p) const { return contains(p) ? hazard_distance_[cell_of(p)] : kInfinity; }
+  double hazard_distance_m(int cell) const { return hazard_distance_[cell]; }
+  bool unknown(Point2 p) const { return !contains(p) || unknown_[cell_of(p)] != 0; }
+  bool unknown(int cell) const { return unknown_[cell] != 0; }
+  double unknown_distance_m(Point2 p) const { return contains(p) ? unknown_distance_[cell_of(p)] : 0.0; }
+  // Of a metre with the body origin there, relative to a metre on easy ground: at least 1.
+  double cost(int cell) const { return cost_[cell]; }
+
+ private:
+  int cells_;
+  double cell_m_;
+  double side_m_;
+  Point2 corner_;
+  std::vector<std::uint8_t> unknown_;
+  std::vector<float> cost_;
+  std::vector<Hazard> hazards_;
+  std::vector<size_t> row_begin_;  // in hazards_, one more than there are rows
+  std::vector<double> hazard_distance_;
+  std::vector<double> unknown_distance_;
+};
+
+}  // namespace rover::planning

@@ -1,0 +1,95 @@
+#include "path_planner/path_monitor.hpp"
+
+namespace rover::planning {
+namespace {
+
+constexpr double kStepM = 0.05;
+constexpr double kTurnStepRad = 0.0524;
+constexpr double kViewStepM = 0.3;
+constexpr double kMergeM = 1.0;  // over about this distance the controller removes a cross-track error
+
+class Monitor {
+ public:
+  explicit Monitor(const MonitorQuery& query)
+      : query_(query),
+        check_(query.costmap, query.footprint, query.margin_m, 0.0, query.rover),
+        visibility_(query.costmap, check_, query.view) {}
+
+  Blockage run() {
+    const Pose2 here = body_pose(query_.from_m);
+    if (query_.turning) check_turn(query_.rover, wrap_angle(here.yaw_rad - query_.rover.yaw_rad), query_.from_m);
+    // A point turn shows the ground ahead; until then nothing can be said of it.
+    bool view_known = !query_.turning;
+    size_t corner = 0;
+    double next_view_m = query_.from_m + kViewStepM;  // from here the LocCam has seen what there is to see
+    const std::vector<size_t>& corners = query_.route.corners();
+    for (double s = query_.from_m; s <= query_.route.length_m() && !complete(); s += kStepM) {
+      for (; corner < corners.size() && query_.route.s_at(corners[corner]) < s; ++corner)
+        if (query_.route.s_at(corners[corner]) > query_.from_m && check_corner(corners[corner], s)) view_known = false;
+      const Pose2 pose = expected_pose(s, here);
+      if (!query_.costmap.contains(position(pose))) break;
+      check(pose, s, view_known);
+      if (s < next_view_m) continue;
+      visibility_.add_view(pose);
+      next_view_m += kViewStepM;
+    }
+    return blockage_;
+  }
+
+ private:
+  bool complete() const { return std::isfinite(blockage_.hazard_m) && std::isfinite(blockage_.unseen_m); }
+
+  Pose2 body_pose(double s_m) const {
+    Pose2 pose = query_.route.pose_at(s_m);
+    if (query_.reverse) pose.yaw_rad += kPi;
+    return pose;
+  }
+
+  // False if the corner is so small that the rover does not stop for it.
+  bool check_corner(size_t i, double s_m) {
+    const double turn = wrap_angle(query_.route.yaw_out_of(i) - query_.route.yaw_into(i));
+    if (std::abs(turn) <= query_.turn_threshold_rad) return false;
+    const Point2 p = query_.route.points()[i].p;
+    check_turn({p.x_m, p.y_m, query_.route.yaw_into(i)}, turn, s_m);
+    return true;
+  }
+
+  void check_turn(Pose2 pose, double turn_rad, double s_m) {
+    const int steps = 1 + static_cast<int>(std::abs(turn_rad) / kTurnStepRad);
+    for (int i = 0; i <= steps; ++i) {
+      check(pose, s_m, true);
+      pose.yaw_rad += turn_rad / steps;
+    }
+  }
+
+  // The pose of the path, shifted by what remains of the rover's tracking error.
+  Pose2 expected_pose(double s_m, const Pose2& here) const {
+    Pose2 pose = body_pose(s_m);
+    const double remaining = std::max(0.0, 1.0 - (s_m - query_.from_m) / kMergeM);
+    pose.x_m += remaining * (query_.rover.x_m - here.x_m);
+    pose.y_m += remaining * (query_.rover.y_m - here.y_m);
+    if (!query_.turning) pose.yaw_rad += remaining * wrap_angle(query_.rover.yaw_rad - here.yaw_rad);
+    return pose;
+  }
+
+  void check(const Pose2& pose, double s_m, bool check_unknown) {
+    if (std::isinf(blockage_.possible_m) && !check_.clear(pose)) blockage_.possible_m = s_m;
+    if (std::isinf(blockage_.hazard_m) && !check_.clear(pose, true)) blockage_.hazard_m = s_m;
+    if (!check_unknown || std::isfinite(blockage_.unseen_m) || check_.known(pose)) return;
+    blockage_.unknown_m = std::min(blockage_.unknown_m, s_m);
+    if (!visibility_.covers(pose)) blockage_.unseen_m = s_m;
+  }
+
+  const MonitorQuery& query_;
+  FootprintCheck check_;
+  Visibility visibility_;
+  Blockage blockage_;
+};
+
+}  // namespace
+
+Blockage find_blockage(const MonitorQuery& query) {
+  return Monitor(query).run();
+}
+
+}  // namespace rover::planning

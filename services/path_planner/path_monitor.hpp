@@ -1,0 +1,34 @@
+// How far the rover can follow its path: where the swept footprint first meets a hazard or unknown ground.
+#pragma once
+
+#include <optional>
+
+#include "path_planner/route.hpp"
+#include "path_planner/search/footprint_check.hpp"
+
+namespace rover::planning {
+
+struct MonitorQuery {
+  const Costmap& costmap;
+  const Route& route;
+  bool reverse = false;
+  Footprint footprint;
+  double from_m = 0.0;  // along the route: where the rover is
+  Pose2 rover;
+  double margin_m = 0.0;
+  bool turning = false;             // the rover turns on the spot to the heading of the route first
+  double turn_threshold_rad = 0.7;  // larger corners of the route are point turns
+  ViewArea view;
+};
+
+// Arc lengths along the route; infinity: clear as far as the costmap reaches.
+struct Blockage {
+  double hazard_m = kInfinity;    // certain enough to stop
+  double possible_m = kInfinity;  // any
+  double unknown_m = kInfinity;
+  double unseen_m = kInfinity;  // unknown, and not seen on the path to it either
+};
+
+Blockage find_blockage(const MonitorQuery& query);
+
+}  // namespace rover::planning

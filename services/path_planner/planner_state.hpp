@@ -1,0 +1,34 @@
+// The states of the planner as one table.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+namespace rover::planning {
+
+enum class Mode : std::uint8_t { kIdle, kFollowing, kPlanning, kBackingUp, kNoPath };
+
+enum Fact : std::uint16_t {
+  kReady = 1 << 0,         // global path and fresh pose
+  kClear = 1 << 1,         // the rover may go on along its path
+  kFailed = 1 << 2,        // stationary, and several plans in a row were not found
+  kCanBackUp = 1 << 3,     // the driven track is free, and not too often taken back
+  kBackedUp = 1 << 4,      // at the end of a path to back up, or stopped on it
+  kBackUpWanted = 1 << 5,  // by FDIR; stationary
+
+};
+
+struct Transition {
+  Mode from;
+  std::uint16_t required;
+  std::uint16_t forbidden;
+  Mode to;
+};
+
+// The first row that fits fires; at most one a step.
+std::span<const Transition> transitions();
+Mode next_mode(Mode mode, std::uint16_t facts);
+const char* text_of(Mode mode);
+
+}  // namespace rover::planning

@@ -1,0 +1,94 @@
+#include "path_planner/search/cost_to_go.hpp"
+
+namespace rover::planning {
+namespace {
+
+constexpr double kBorderM = 0.3;         // of the costmap, where nothing ends
+constexpr double kBorderBandM = 0.3;     // of the cells that seed the march
+constexpr double kGlobalStepM = 0.5;     // along the global path
+constexpr double kReturnWithinM = 15.0;  // along the global path, on which the rover may return to it
+constexpr double kAroundFactor = 2.0;    // from the border to a goal inside of it: the direct path is blocked
+constexpr double kAtRoverM = 1.2;        // the rover may be closer to a hazard than it would drive
+constexpr double kTightCost = 6.0;       // relative to driving, there
+constexpr double kScrapeM = 0.05;
+constexpr double kHalfDiagonal = 0.71;
+
+}  // namespace
+
+CostToGo::CostToGo(const CostToGoConfig& config, const PlanRequest& request, const Footprint& footprint,
+                   double margin_m)
+    : config_(config),
+      costmap_(*request.costmap),
+      half_width_m_(footprint.half_width_m),
+      margin_m_(margin_m),
+      rover_(position(request.rover)),
+      goal_(request.global_path->points().back().p),
+      goal_tolerance_m_(request.goal_tolerance_m),
+      goal_inside_(costmap_.inside_m(goal_) > kBorderM),
+      coarse_cells_((costmap_.cells() + kCoarse - 1) / kCoarse) {
+  march_from_goal(request);
+}
+
+double CostToGo::cost_per_m(int cell) const {
+  const double room = costmap_.hazard_distance_m(cell) - half_width_m_ - margin_m_;
+  if (room < -kHalfDiagonal * costmap_.cell_m()) {
+    const bool at_rover = room > -margin_m_ - kScrapeM && distance(costmap_.center_of(cell), rover_) < kAtRoverM;
+    return at_rover ? config_.seconds_per_m * kTightCost : kInfinity;
+  }
+  const double lack = std::clamp(1.0 - room / config_.clearance_distance_m, 0.0, 1.0);
+  return config_.seconds_per_m * (costmap_.cost(cell) + config_.clearance_cost * lack * lack);
+}
+
+double CostToGo::goal_cost(Point2 p) const {
+  if (!goal_inside_) return kInfinity;
+  const double miss = distance(p, goal_);
+  if (miss > std::max(config_.blocked_goal_radius_m, goal_tolerance_m_)) return kInfinity;
+  return config_.seconds_per_m * config_.goal_miss_cost * std::max(0.0, miss - goal_tolerance_m_);
+}
+
+// From a cell at the border: straight to where the global path is met again, and along it to the goal.
+double CostToGo::beyond(const PlanRequest& request, Point2 p) const {
+  const Route& path = *request.global_path;
+  const double nearest = path.closest(p, request.global_progress_m, request.global_progress_m + 2.0 * kReturnWithinM);
+  const double last = std::min(path.length_m(), std::max(nearest, request.global_progress_m) + kReturnWithinM);
+  double least = kInfinity;
+  for (double s = request.global_progress_m; s <= last; s += kGlobalStepM)
+    least = std::min(least, config_.off_path_factor * distance(p, path.point_at(s)) + path.length_m() - s);
+  return config_.seconds_per_m * least;
+}
+
+void CostToGo::march_from_goal(const PlanRequest& request) {
+  const int n = costmap_.cells();
+  const auto count = static_cast<size_t>(coarse_cells_) * coarse_cells_;
+  MarchGrid grid{coarse_cells_, coarse_cells_, kCoarse * costmap_.cell_m(), std::vector<double>(count, kInfinity)};
+  std::vector<double> seed(count, kInfinity);
+  for (int cell = 0; cell < n * n; ++cell) {
+    const double cost = cost_per_m(cell);
+    if (std::isinf(cost)) continue;
+    const int coarse = coarse_cell(cell);
+    grid.cost_per_m[coarse] = std::min(grid.cost_per_m[coarse], cost);
+    const Point2 p = costmap_.center_of(cell);
+    seed[coarse] = std::min(seed[coarse], goal_cost(p));
+    const double inside = costmap_.inside_m(p);
+    if (inside < kBorderM || inside > kBorderM + kBorderBandM || std::isfinite(seed[coarse])) continue;
+    // If all paths through the costmap are blocked, one may lead around it.
+    seed[coarse] = goal_inside_ ? config_.seconds_per_m * kAroundFactor * distance(p, goal_) : beyond(request, p);
+  }
+  std::vector<Seed> seeds;
+  for (size_t i = 0; i < count; ++i)
+    if (std::isfinite(seed[i])) seeds.push_back({static_cast<int>(i), seed[i]});
+  to_goal_ = seeds.empty() ? std::vector<double>(count, kInfinity) : march(grid, seeds, -1, 0.0);
+}
+
+double CostToGo::descent_rad(Point2 p) const {
+  const double d = 1.5 * kCoarse * costmap_.cell_m();
+  const double here = at(p);
+  const auto rise = [&](double dx, double dy) {
+    const double ahead = at({p.x_m + dx, p.y_m + dy});
+    const double behind = at({p.x_m - dx, p.y_m - dy});
+    return (std::isinf(ahead) ? here : ahead) - (std::isinf(behind) ? here : behind);
+  };
+  return std::atan2(-rise(0.0, d), -rise(d, 0.0));
+}
+
+}  // namespace rover::planning

@@ -1,0 +1,72 @@
+#include "path_planner/search/footprint_check.hpp"
+
+namespace rover::planning {
+namespace {
+
+constexpr double kRoundingM = 0.02;  // for a rover that starts close to a hazard
+constexpr double kShadowM = 0.5;     // of a rock of 0.2 m, seen from 1.2 m
+
+}  // namespace
+
+FootprintCheck::FootprintCheck(const Costmap& costmap, const Footprint& footprint, double margin_m,
+                               double known_margin_m, const Pose2& start)
+    : costmap_(costmap), footprint_(footprint), margin_m_(margin_m), start_(start) {
+  const double x = footprint.half_length_m + known_margin_m;
+  const double y = footprint.half_width_m + known_margin_m;
+  const int nx = static_cast<int>(std::ceil(2.0 * x / costmap.cell_m()));
+  const int ny = static_cast<int>(std::ceil(2.0 * y / costmap.cell_m()));
+  for (int i = 0; i < ny; ++i) edge_.push_back({x, y * (2.0 * i / ny - 1.0)});
+  for (int i = 0; i < nx; ++i) edge_.push_back({x * (1.0 - 2.0 * i / nx), y});
+  for (int i = 0; i < ny; ++i) edge_.push_back({-x, y * (1.0 - 2.0 * i / ny)});
+  for (int i = 0; i < nx; ++i) edge_.push_back({x * (2.0 * i / nx - 1.0), -y});
+}
+
+bool FootprintCheck::violates(const Pose2& pose, Point2 hazard) const {
+  const double d = footprint_.distance_m(pose, hazard);
+  if (d >= margin_m_) return false;
+  const double at_start = footprint_.distance_m(start_, hazard);
+  return d < std::min(margin_m_, std::max(at_start - kRoundingM, 0.0));
+}
+
+bool FootprintCheck::clear(const Pose2& pose, bool only_certain) const {
+  const double reach = footprint_.radius_m() + margin_m_;
+  if (costmap_.hazard_distance_m(position(pose)) > reach + costmap_.cell_m()) return true;
+  for (const Hazard& hazard : costmap_.hazards_near(position(pose), reach)) {
+    if (only_certain && !hazard.certain) continue;
+    if (std::abs(hazard.p.x_m - pose.x_m) <= reach && violates(pose, hazard.p)) return false;
+  }
+  return true;
+}
+
+double FootprintCheck::clearance_m(const Pose2& pose, double max) const {
+  double nearest = max;
+  for (const Hazard& hazard : costmap_.hazards_near(position(pose), footprint_.radius_m() + max))
+    nearest = std::min(nearest, footprint_.distance_m(pose, hazard.p));
+  return nearest;
+}
+
+bool Visibility::covers(const Pose2& pose) const {
+  return check_.all_unknown(pose, [&](Point2 p) {
+    return std::any_of(views_.begin(), views_.end(), [&](const View& view) { return sees(view, p); });
+  });
+}
+
+bool Visibility::sees(const View& view, Point2 p) const {
+  const double dx = p.x_m - view.from.x_m;
+  const double dy = p.y_m - view.from.y_m;
+  const Point2 in_body{view.cos_yaw * dx + view.sin_yaw * dy, view.cos_yaw * dy - view.sin_yaw * dx};
+  if (!view_.sees(in_body)) return false;
+  // Towards the camera, over the length of a shadow.
+  const double to_x = view_.camera.x_m - in_body.x_m;
+  const double to_y = view_.camera.y_m - in_body.y_m;
+  const double step = costmap_.cell_m() / std::hypot(to_x, to_y);
+  for (double u = step; u < std::min(1.0, step * kShadowM / costmap_.cell_m()); u += step) {
+    const double x = u * to_x;
+    const double y = u * to_y;
+    const Point2 q{p.x_m + view.cos_yaw * x - view.sin_yaw * y, p.y_m + view.sin_yaw * x + view.cos_yaw * y};
+    if (costmap_.hazard_distance_m(q) < costmap_.cell_m()) return false;
+  }
+  return true;
+}
+
+}  // namespace rover::planning

@@ -1,0 +1,291 @@
+#include "path_planner/search/hybrid_a_star.hpp"
+
+#include <array>
+#include <functional>
+#include <utility>
+
+namespace rover::planning {
+namespace {
+
+constexpr double kSampleM = 0.05;
+constexpr int kYawBins = 32;
+constexpr double kPlaceBinM = 0.2;
+constexpr int kCurvatures = 5;
+constexpr double kMaxChange = 1.1;  // of the curvature in one motion, relative to the largest
+constexpr double kTurnSampleRad = 0.0524;
+constexpr double kTurnViewRad = 0.4;
+// Of the heuristic, for pruning: arcs and clearances of the lattice are not quite those of a plan.
+constexpr double kLatticeBound = 0.85;
+constexpr std::array<double, kCurvatures> kLevels = {0.0, 0.5, -0.5, 1.0, -1.0};  // of the largest curvature
+constexpr std::array<double, 9> kTurnsDeg = {45.0, 60.0, 75.0, 90.0, 105.0, 120.0, 140.0, 160.0, 180.0};
+
+struct Node {
+  enum class Kind : std::uint8_t {
+    kMotion,       // reached by driving
+    kTurned,       // reached by a point turn
+    kTurnPending,  // stands for the point turns from here until they are worth expanding
+    kCusp          // the rover is stationary, to go on in the other direction
+  };
+  Pose2 pose;
+  double curvature_per_m = 0.0;
+  double cost = 0.0;         // [s]
+  double motion_cost = 0.0;  // of it, what does not depend on the ground
+  double distance_m = 0.0;   // forward
+  int parent = -1;
+  Kind kind = Kind::kMotion;
+  bool reverse = false;
+};
+
+// A motion with evenly changing curvature.
+class Motion {
+ public:
+  Motion(const Node& from, double to_curvature_per_m, double length_m)
+      : pose_(from.pose),
+        from_(from.curvature_per_m),
+        slope_((to_curvature_per_m - from.curvature_per_m) / length_m),
+        sign_(from.reverse ? -1.0 : 1.0),
+        samples_(std::max(1, static_cast<int>(std::ceil(length_m / kSampleM - 1e-6)))),
+        step_m_(length_m / samples_) {}
+  int samples() const { return samples_; }
+  double step_m() const { return step_m_; }
+  const Pose2& next() {
+    pose_ = advanced(pose_, sign_ * step_m_, from_ + slope_ * step_m_ * (done_++ + 0.5));
+    return pose_;
+  }
+
+ private:
+  Pose2 pose_;
+  double from_;
+  double slope_;
+  double sign_;
+  int samples_;
+  double step_m_;
+  int done_ = 0;
+};
+
+class HybridAStar {
+ public:
+  HybridAStar(const HybridAStarConfig& config, const MotionCosts& costs, const SearchProblem& problem)
+      : config_(config), costs_(costs), problem_(problem), pricer_(costs, problem) {
+    const double half_m = 0.5 * problem.request.costmap->cells() * problem.request.costmap->cell_m();
+    const Point2 middle = position(problem.request.start);
+    corner_ = {middle.x_m - half_m, middle.y_m - half_m};
+    places_ = static_cast<int>(2.0 * half_m / kPlaceBinM) + 1;
+    best_.assign(static_cast<size_t>(places_) * places_ * kYawBins * kCurvatures * 2, kMaxCost);
+  }
+
+  Plan run() {
+    plan_.cost = problem_.max_cost;
+    Node start;
+    start.pose = problem_.request.start;
+    start.curvature_per_m = problem_.request.start_curvature_per_m;
+    start.reverse = problem_.request.start_reverse;
+    offer(start);
+    while (!open_.empty() && plan_.expansions < config_.max_expansions) {
+      const auto [estimate, index] = pop();
+      if (estimate >= plan_.cost) break;
+      if (nodes_[index].kind == Node::Kind::kTurnPending) {
+        turn(index, 1.0);
+        turn(index, -1.0);
+        continue;
+      }
+      if (static_cast<float>(nodes_[index].cost) > best_[key(nodes_[index])]) continue;
+      ++plan_.expansions;
+      expand(index);
+    }
+    if (end_ >= 0) set_poses();
+    plan_.needs_unseen_ground = plan_.needs_unseen_ground || pricer_.needs_unseen_ground();
+    return std::move(plan_);
+  }
+
+ private:
+  using Entry = std::pair<double, int>;
+  static constexpr float kMaxCost = 1e30F;
+
+  double relative(double curvature_per_m) const { return curvature_per_m / costs_.max_curvature_per_m; }
+
+  size_t key(const Node& node) const {
+    const auto place = [&](double v, double corner) {
+      return static_cast<size_t>(std::clamp(static_cast<int>((v - corner) / kPlaceBinM), 0, places_ - 1));
+    };
+    const auto heading = static_cast<size_t>(heading_bin(node.pose.yaw_rad, kYawBins));
+    const int curvature = static_cast<int>(std::lround(2.0 * relative(node.curvature_per_m))) + kCurvatures / 2;
+    const size_t at = place(node.pose.y_m, corner_.y_m) * places_ + place(node.pose.x_m, corner_.x_m);
+    const auto bin = static_cast<size_t>(std::clamp(curvature, 0, kCurvatures - 1));
+    return ((at * kYawBins + heading) * kCurvatures + bin) * 2 + (node.reverse ? 1 : 0);
+  }
+
+  double heuristic(const Node& node) const {
+    if (node.kind == Node::Kind::kTurnPending) return problem_.pose_cost_to_go.turning(node.pose);
+    return node.reverse ? problem_.pose_cost_to_go.reverse(node.pose) : problem_.pose_cost_to_go.forward(node.pose);
+  }
+
+  void offer(const Node& node) {
+    float& best = best_[key(node)];
+    if (static_cast<float>(node.cost) >= best) return;
+    best = static_cast<float>(node.cost);
+    push(node);
+  }
+
+  void push(const Node& node) {
+    const double remaining = heuristic(node);
+    // The start may lie closer to hazards than the lattice allows; its successors need not.
+    if (node.parent >= 0 && (std::isinf(remaining) || node.cost + kLatticeBound * remaining >= plan_.cost)) return;
+    nodes_.push_back(node);
+    open_.emplace_back(node.cost + (std::isinf(remaining) ? 0.0 : config_.heuristic_weight * remaining),
+                       static_cast<int>(nodes_.size()) - 1);
+    std::push_heap(open_.begin(), open_.end(), std::greater<>());
+  }
+
+  Entry pop() {
+    std::pop_heap(open_.begin(), open_.end(), std::greater<>());
+    const Entry entry = open_.back();
+    open_.pop_back();
+    return entry;
+  }
+
+  static void add_motion_cost(Node& node, double cost) {
+    node.cost += cost;
+    node.motion_cost += cost;
+  }
+
+  void expand(int index) {
+    const Node from = nodes_[index];
+    if (from.distance_m < problem_.known_free_m) set_views(index);
+    for (const double level : kLevels) drive(index, level);
+    if (from.kind != Node::Kind::kMotion) return;
+    // The wheels keep their angle: the rover goes back on the circle on which it came.
+    Node cusp = from;
+    cusp.parent = index;
+    cusp.kind = Node::Kind::kCusp;
+    cusp.reverse = !from.reverse;
+    add_motion_cost(cusp, costs_.cusp_s);
+    offer(cusp);
+    Node pending = from;
+    pending.parent = index;
+    pending.kind = Node::Kind::kTurnPending;
+    pending.curvature_per_m = 0.0;
+    add_motion_cost(pending,
+                    costs_.point_turn_s + costs_.point_turn_steering_s * std::abs(relative(from.curvature_per_m)));
+    push(pending);
+  }
+
+  void drive(int index, double level) {
+    const Node& from = nodes_[index];
+    Node next = from;
+    next.parent = index;
+    next.kind = Node::Kind::kMotion;
+    next.curvature_per_m = level * costs_.max_curvature_per_m;
+    const double change = std::abs(level - relative(from.curvature_per_m));
+    if (change > kMaxChange) return;
+    add_motion_cost(next, costs_.curvature_change_s * change * change +
+                              costs_.curvature * costs_.seconds_per_m * level * level * config_.step_m);
+    Motion motion(from, next.curvature_per_m, config_.step_m);
+    for (int i = 0; i < motion.samples(); ++i) {
+      next.pose = motion.next();
+      if (!from.reverse) next.distance_m += motion.step_m();
+      next.cost += motion.step_m() * pricer_.cost_per_m(next.pose, next.distance_m, from.reverse);
+      if (next.cost >= plan_.cost) return;
+    }
+    end_or_offer(next);
+  }
+
+  // Point turns to one side, as far as the footprint turns freely over known ground.
+  void turn(int index, double side) {
+    const Node from = nodes_[index];
+    set_views(index);
+    double turned = 0.0;
+    double cost = 0.0;
+    for (const double turn_deg : kTurnsDeg) {
+      Node next = from;
+      for (; turned < to_rad(turn_deg) + kTurnSampleRad; turned += kTurnSampleRad) {
+        next.pose.yaw_rad = from.pose.yaw_rad + side * std::min(turned, to_rad(turn_deg));
+        if (!problem_.turn.clear(next.pose)) return;
+        if (from.distance_m < problem_.known_free_m && !pricer_.covers(next.pose)) {
+          plan_.needs_unseen_ground = true;
+          return;
+        }
+        const double factor = problem_.comfort.clear(next.pose) ? 1.0 : costs_.tight_turn_factor;
+        cost += factor * costs_.point_turn_s_per_rad * kTurnSampleRad;
+      }
+      add_motion_cost(next, cost);
+      next.parent = index;
+      next.kind = Node::Kind::kTurned;
+      next.reverse = false;
+      offer(next);
+    }
+  }
+
+  // What the LocCam sees on the path to a node. At the start it has seen what there is to see.
+  void set_views(int index) {
+    pricer_.clear_views();
+    for (int i = index; nodes_[i].parent >= 0; i = nodes_[i].parent) {
+      pricer_.add_view(nodes_[i].pose);
+      if (nodes_[i].kind != Node::Kind::kTurned) continue;
+      const Pose2& to = nodes_[i].pose;
+      const double turn = to.yaw_rad - nodes_[nodes_[i].parent].pose.yaw_rad;
+      const int views = static_cast<int>(std::abs(turn) / kTurnViewRad);
+      for (int k = 1; k <= views; ++k) pricer_.add_view({to.x_m, to.y_m, to.yaw_rad - turn * k / (views + 1)});
+    }
+  }
+
+  void end_or_offer(const Node& node) {
+    const double end_cost = node.reverse ? kInfinity : problem_.pose_cost_to_go.end_cost(node.pose);
+    if (node.cost + end_cost < plan_.cost) {
+      plan_.found = true;
+      plan_.cost = node.cost + end_cost;
+      nodes_.push_back(node);
+      end_ = static_cast<int>(nodes_.size()) - 1;
+    }
+    // At the horizon plans end; beside the goal one may go on for a smaller miss.
+    if (node.reverse || !problem_.pose_cost_to_go.at_horizon(position(node.pose))) offer(node);
+  }
+
+  void set_poses() {
+    std::vector<int> chain;
+    for (int i = end_; i >= 0; i = nodes_[i].parent) chain.insert(chain.begin(), i);
+    const Node& start = nodes_[chain.front()];
+    plan_.poses.push_back({start.pose, start.reverse, 0.0});
+    for (size_t k = 1; k < chain.size(); ++k) {
+      const Node& from = nodes_[chain[k - 1]];
+      const Node& to = nodes_[chain[k]];
+      if (to.kind == Node::Kind::kTurned) {
+        plan_.poses.push_back({to.pose, false, to.motion_cost});
+      } else if (to.kind == Node::Kind::kMotion) {
+        Motion motion(from, to.curvature_per_m, config_.step_m);
+        for (int i = 0; i < motion.samples(); ++i) plan_.poses.push_back({motion.next(), to.reverse, to.motion_cost});
+      }
+    }
+  }
+
+  const HybridAStarConfig& config_;
+  const MotionCosts& costs_;
+  const SearchProblem& problem_;
+  PathPricer pricer_;
+  Point2 corner_;
+  int places_;
+  std::vector<float> best_;
+  std::vector<Node> nodes_;
+  std::vector<Entry> open_;
+  Plan plan_;
+  int end_ = -1;
+};
+
+}  // namespace
+
+double PathPricer::cost_per_m(const Pose2& pose, double distance_m, bool reverse) {
+  double cost = problem_.cost_to_go.cost_per_m(position(pose));
+  if (std::isinf(cost) || !problem_.min.clear(pose)) return kInfinity;
+  if (!problem_.comfort.clear(pose)) cost *= costs_.tight_factor;
+  // No camera looks backwards: ground behind has been seen before.
+  if (reverse) return problem_.min.known(pose) ? costs_.reverse_factor * cost : kInfinity;
+  if (distance_m > problem_.known_free_m || visibility_.covers(pose)) return cost;
+  needs_unseen_ground_ = true;
+  return kInfinity;
+}
+
+Plan search_hybrid_a_star(const HybridAStarConfig& config, const MotionCosts& costs, const SearchProblem& problem) {
+  return HybridAStar(config, costs, problem).run();
+}
+
+}  // namespace rover::planning

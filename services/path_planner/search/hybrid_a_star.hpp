@@ -1,0 +1,53 @@
+// Hybrid A* (Dolgov et al., IJRR 2010) over place, heading and curvature: motions whose curvature changes no faster
+// than the steering allows, forward and in reverse, point turns and cusps. The SE(2) cost-to-go is the heuristic.
+#pragma once
+
+#include "path_planner/search/footprint_check.hpp"
+#include "path_planner/search/pose_cost_to_go.hpp"
+
+namespace rover::planning {
+
+struct HybridAStarConfig {
+  double step_m = 0.3;            // length of a motion
+  double known_free_m = 2.5;      // of a plan: this far, ground is known or comes into view in time
+  double min_known_free_m = 0.6;  // the same, if that allows no plan
+  double heuristic_weight = 1.1;
+  int max_expansions = 3000;
+};
+
+struct SearchProblem {
+  const PlanRequest& request;
+  const CostToGo& cost_to_go;
+  const PoseCostToGo& pose_cost_to_go;
+  const FootprintCheck& comfort;
+  const FootprintCheck& min;
+  const FootprintCheck& turn;
+  ViewArea view;
+  double known_free_m = 0.0;
+  double max_cost = kInfinity;  // costlier plans are of no use [s]
+};
+
+Plan search_hybrid_a_star(const HybridAStarConfig& config, const MotionCosts& costs, const SearchProblem& problem);
+
+// Prices poses one after the other along a path, by ground, clearance, and whether the ground comes into view before
+// the rover is there.
+class PathPricer {
+ public:
+  PathPricer(const MotionCosts& costs, const SearchProblem& problem)
+      : costs_(costs), problem_(problem), visibility_(*problem.request.costmap, problem.min, problem.view) {}
+
+  void clear_views() { visibility_.clear(); }
+  void add_view(const Pose2& from) { visibility_.add_view(from); }
+  // A metre that ends at the pose, `distance_m` forward from the start [s/m]; infinity: not allowed.
+  double cost_per_m(const Pose2& pose, double distance_m, bool reverse);
+  bool covers(const Pose2& pose) const { return visibility_.covers(pose); }
+  bool needs_unseen_ground() const { return needs_unseen_ground_; }
+
+ private:
+  const MotionCosts& costs_;
+  const SearchProblem& problem_;
+  Visibility visibility_;
+  bool needs_unseen_ground_ = false;
+};
+
+}  // namespace rover::planning

@@ -1,0 +1,63 @@
+#include "path_planner/search/hybrid_planner.hpp"
+
+namespace rover::planning {
+namespace {
+
+constexpr double kKnownMarginM = 0.04;  // the rover follows a path within centimetres
+constexpr double kMaxClearanceM = 1.5;
+// The lattice first lets through what almost fits; if that misleads the search, only what surely fits.
+constexpr std::array<double, 2> kSlacksM = {0.03, -0.03};
+
+}  // namespace
+
+Plan HybridPlanner::plan(const PlanRequest& request) const {
+  const Clearances& margins = config_.clearances;
+  const CostToGo cost_to_go(config_.cost_to_go, request, config_.footprint, margins.min_m);
+  const auto check = [&](double margin_m) {
+    return FootprintCheck(*request.costmap, config_.footprint, margin_m, kKnownMarginM, request.rover);
+  };
+  const FootprintCheck comfort = check(margins.comfort_m);
+  const FootprintCheck min = check(margins.min_m);
+  const FootprintCheck turn = check(margins.turn_m);
+  Plan plan;
+  for (const double slack_m : kSlacksM) {
+    const PoseCostToGo pose_cost_to_go(config_.motion, margins, config_.footprint, request, cost_to_go,
+                                       config_.horizon_m, slack_m);
+    for (const double known_free_m : {config_.search.known_free_m, config_.search.min_known_free_m}) {
+      SearchProblem problem{request, cost_to_go, pose_cost_to_go, comfort, min, turn, config_.view, known_free_m};
+      const double incumbent = incumbent_cost(problem);
+      problem.max_cost = incumbent - config_.switching_cost_s;
+      const int before = plan.expansions;
+      plan = search_hybrid_a_star(config_.search, config_.motion, problem);
+      plan.expansions += before;
+      if (!plan.found && std::isfinite(incumbent)) {
+        plan.keeps_incumbent = true;
+        plan.cost = incumbent;
+      }
+      if (plan.found || plan.keeps_incumbent || !plan.needs_unseen_ground) break;
+    }
+    if (plan.found || plan.keeps_incumbent) break;
+  }
+  if (!plan.found) return plan;
+  plan.clearance_m = kMaxClearanceM;
+  for (const PlanPose& at : plan.poses) plan.clearance_m = min.clearance_m(at.pose, plan.clearance_m);
+  return plan;
+}
+
+// Infinite if it is blocked or ends in nothing.
+double HybridPlanner::incumbent_cost(const SearchProblem& problem) const {
+  const std::vector<PlanPose>& poses = problem.request.incumbent;
+  if (poses.size() < 2) return kInfinity;
+  PathPricer pricer(config_.motion, problem);
+  double cost = poses.back().motion_cost - poses.front().motion_cost;
+  double distance_m = 0.0;
+  for (size_t i = 1; i < poses.size() && std::isfinite(cost); ++i) {
+    const double step_m = distance(position(poses[i - 1].pose), position(poses[i].pose));
+    if (!poses[i].reverse) distance_m += step_m;
+    if (step_m > 0.0) cost += step_m * pricer.cost_per_m(poses[i].pose, distance_m, poses[i].reverse);
+    pricer.add_view(poses[i].pose);
+  }
+  return cost + problem.pose_cost_to_go.cost_beyond(position(poses.back().pose));
+}
+
+}  // namespace rover::planning

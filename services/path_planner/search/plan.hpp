@@ -1,0 +1,47 @@
+// A plan and what it is asked for. A planner is a pure function of its request.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "path_planner/map/costmap.hpp"
+#include "path_planner/route.hpp"
+
+namespace rover::planning {
+
+// A pose of a plan, every few cm. Two at one place: a point turn.
+struct PlanPose {
+  Pose2 pose;                // in odom
+  bool reverse = false;      // how the rover gets there from the pose before
+  double motion_cost = 0.0;  // of curvature, steering, point turns and changes of direction up to here [s]
+};
+
+struct Plan {
+  bool found = false;
+  bool keeps_incumbent = false;      // no other plan is better by the switching cost
+  bool needs_unseen_ground = false;  // not found, but paths were dropped whose ground does not come into view
+  std::vector<PlanPose> poses;       // from the start of the request
+  double cost = kInfinity;           // to the goal, less what all plans of the request have in common [s]
+  double clearance_m = kNaN;         // smallest distance of the footprint to the centre of a hazard cell
+  int expansions = 0;
+};
+
+struct PlanRequest {
+  std::shared_ptr<const Costmap> costmap;
+  std::shared_ptr<const Route> global_path;  // in odom
+  double global_progress_m = 0.0;            // along it, of the rover
+  Pose2 rover;
+  Pose2 start;  // where the committed part of the active path ends
+  double start_curvature_per_m = 0.0;
+  bool start_reverse = false;  // the rover comes to the start in reverse
+  double goal_tolerance_m = 0.0;
+  std::vector<PlanPose> incumbent;  // the active plan from the start on; empty: none
+};
+
+class Planner {
+ public:
+  virtual ~Planner() = default;
+  virtual Plan plan(const PlanRequest& request) const = 0;
+};
+
+}  // namespace rover::planning

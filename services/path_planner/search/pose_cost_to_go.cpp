@@ -1,0 +1,286 @@
+#include "path_planner/search/pose_cost_to_go.hpp"
+
+#include <limits>
+
+namespace rover::planning {
+namespace {
+
+constexpr float kNone = std::numeric_limits<float>::infinity();
+constexpr double kBucketS = 0.25;
+constexpr double kMaxCostS = 1500.0;                      // above that of the start
+constexpr std::array<int, 5> kTurns = {0, 1, -1, 2, -2};  // headings by which an arc turns
+constexpr double kMinArcM = 0.35;
+constexpr double kMaxArcM = 0.62;
+constexpr double kArcStepM = 0.01;
+constexpr double kBandM = 0.7;           // around the horizon, in which the lattice begins
+constexpr double kNearRoverM = 0.10;     // hazards nearer to the rover than the margin and this do not block its place
+constexpr double kBeyondS = 10.0;        // the lattice is laid this far past the cost from the start
+constexpr float kMarchBound = 0.9F;      // of fast marching: its circles are wider than round, its cells coarse
+constexpr double kFreeHeadingRad = 0.3;  // at the horizon, between plan and descent
+constexpr double kHeadingCostS = 4.0;    // per radian beyond
+
+}  // namespace
+
+PoseCostToGo::PoseCostToGo(const MotionCosts& costs, const Clearances& clearances, const Footprint& footprint,
+                           const PlanRequest& request, const CostToGo& cost_to_go, double horizon_m, double slack_m)
+    : costs_(costs),
+      clearances_(clearances),
+      footprint_(footprint),
+      request_(request),
+      cost_to_go_(cost_to_go),
+      horizon_m_(horizon_m),
+      slack_m_(slack_m),
+      from_start_to_goal_(kMarchBound * cost_to_go.at(position(request.start))),
+      center_(position(request.start)),
+      cell_m_(request.costmap->cell_m()),
+      cells_(2 * static_cast<int>((horizon_m + kBandM) / request.costmap->cell_m()) + 3) {
+  const Point2 middle = request.costmap->center_of(request.costmap->cell_of(center_));
+  const double half_m = (0.5 * cells_) * cell_m_;
+  corner_ = {middle.x_m - half_m, middle.y_m - half_m};
+  make_arcs();
+  classify();
+  const size_t states = kMotions * static_cast<size_t>(cells_) * cells_ * kHeadings;
+  cost_.assign(states, kNone);
+  closed_.assign(states, false);
+  buckets_.resize(static_cast<size_t>(kMaxCostS / kBucketS) + 1);
+  seed();
+  spread();
+}
+
+// For each heading and turn the arc that ends closest to the centre of a cell.
+void PoseCostToGo::make_arcs() {
+  arcs_to_.resize(kHeadings);
+  arcs_from_.resize(kHeadings);
+  const auto cells = [&](double v) { return static_cast<int>(std::lround(v / cell_m_)); };
+  for (int heading = 0; heading < kHeadings; ++heading)
+    for (const int turn : kTurns) {
+      double least = kInfinity;
+      Arc best{};
+      const double min_m = std::max(kMinArcM, std::abs(turn) * yaw_of(1) / costs_.max_curvature_per_m);
+      for (double length = min_m; length <= kMaxArcM; length += kArcStepM) {
+        const double curvature = turn * yaw_of(1) / length;
+        const Pose2 start{0.0, 0.0, yaw_of(heading)};
+        const Pose2 end = advanced(start, length, curvature);
+        const Pose2 middle = advanced(start, 0.5 * length, curvature);
+        const double miss = std::hypot(end.x_m - cells(end.x_m) * cell_m_, end.y_m - cells(end.y_m) * cell_m_);
+        if (miss >= least) continue;
+        least = miss;
+        const double relative = curvature / costs_.max_curvature_per_m;
+        best = {heading,
+                wrapped(heading + turn),
+                cells(end.x_m),
+                cells(end.y_m),
+                cells(middle.x_m),
+                cells(middle.y_m),
+                wrapped(heading + turn / 2),
+                static_cast<float>(length),
+                static_cast<float>(costs_.curvature * costs_.seconds_per_m * relative * relative * length)};
+      }
+      arcs_to_[best.to_heading].push_back(best);
+      arcs_from_[heading].push_back(best);
+    }
+}
+
+void PoseCostToGo::classify() {
+  const size_t count = static_cast<size_t>(cells_) * cells_;
+  ground_.assign(count, kNone);
+  from_start_.resize(count);
+  for (size_t i = 0; i < count; ++i) {
+    const Point2 p = center_of(static_cast<int>(i));
+    if (!request_.costmap->contains(p)) continue;
+    const int cell = request_.costmap->cell_of(p);
+    ground_[i] = static_cast<float>(cost_to_go_.cost_per_m(cell));
+  }
+  const MarchGrid grid{cells_, cells_, cell_m_, {ground_.begin(), ground_.end()}};
+  const int start = cells_ / 2 * cells_ + cells_ / 2;
+  const std::vector<double> from_start = march(grid, {{start, 0.0}}, -1, 0.0);
+  for (size_t i = 0; i < count; ++i) from_start_[i] = kMarchBound * static_cast<float>(from_start[i]);
+  classes_.assign(count * kClearanceHeadings, kComfort);
+  rasterise(clearances_.comfort_m - slack_m_, kTight);
+  rasterise(clearances_.turn_m - slack_m_, kNoTurn);
+  rasterise(clearances_.min_m - slack_m_, kBlocked);
+}
+
+// Every pose whose footprint, widened by the margin, covers the hazard: the footprint around the hazard, row by row.
+void PoseCostToGo::rasterise(double margin_m, Clearance value) {
+  const double half_length = footprint_.half_length_m + margin_m;
+  const double half_width = footprint_.half_width_m + margin_m;
+  const int reach = static_cast<int>(std::hypot(half_length, half_width) / cell_m_) + 1;
+  std::vector<std::pair<int, int>> hazards;
+  for (const auto& [p, certain] : request_.costmap->hazards()) {
+    const int ix = static_cast<int>(std::floor((p.x_m - corner_.x_m) / cell_m_));
+    const int iy = static_cast<int>(std::floor((p.y_m - corner_.y_m) / cell_m_));
+    if (std::min(ix, iy) < -reach || std::max(ix, iy) >= cells_ + reach) continue;
+    if (footprint_.distance_m(request_.rover, p) > margin_m + kNearRoverM) hazards.emplace_back(ix, iy);
+  }
+  for (int heading = 0; heading < kClearanceHeadings; ++heading) {
+    const double c = std::cos(yaw_of(heading));
+    const double s = std::sin(yaw_of(heading));
+    for (int dy = -reach; dy <= reach; ++dy) {
+      int from = reach + 1;
+      int to = -reach - 1;
+      for (int dx = -reach; dx <= reach; ++dx) {
+        const double x = dx * cell_m_;
+        const double y = dy * cell_m_;
+        if (std::abs(c * x + s * y) >= half_length || std::abs(c * y - s * x) >= half_width) continue;
+        from = std::min(from, dx);
+        to = std::max(to, dx);
+      }
+      for (const auto& [hx, hy] : hazards) {
+        const int y = hy + dy;
+        if (y < 0 || y >= cells_) continue;
+        for (int x = std::max(0, hx + from); x <= std::min(cells_ - 1, hx + to); ++x)
+          classes_[(static_cast<size_t>(y) * cells_ + x) * kClearanceHeadings + heading] = value;
+      }
+    }
+  }
+}
+
+double PoseCostToGo::cost_beyond(Point2 p) const {
+  const double goal = cost_to_go_.goal_cost(p);
+  return (std::isfinite(goal) ? goal : cost_to_go_.at(p)) - common_;
+}
+
+double PoseCostToGo::end_cost(const Pose2& pose) const {
+  const Point2 p = position(pose);
+  if (std::isfinite(cost_to_go_.goal_cost(p))) return cost_beyond(p);
+  if (!at_horizon(p)) return kInfinity;
+  const double turn = std::abs(wrap_angle(cost_to_go_.descent_rad(p) - pose.yaw_rad));
+  return cost_beyond(p) + kHeadingCostS * std::max(0.0, turn - kFreeHeadingRad);
+}
+
+void PoseCostToGo::seed() {
+  std::vector<int> ends;
+  double least = kInfinity;
+  for (int cell = 0; cell < cells_ * cells_; ++cell) {
+    if (ground_[cell] == kNone) continue;
+    const Point2 p = center_of(cell);
+    const bool ring = at_horizon(p) && distance(p, center_) <= horizon_m_ + kBandM;
+    if (!ring && std::isinf(cost_to_go_.goal_cost(p))) continue;
+    ends.push_back(cell);
+    least = std::min(least, cost_beyond(p));
+  }
+  if (std::isinf(least)) return;
+  common_ = least;
+  from_start_to_goal_ -= least;
+  for (const int cell : ends)
+    for (int heading = 0; heading < kHeadings; ++heading) {
+      if (clearance(cell, heading) == kBlocked) continue;
+      const Point2 p = center_of(cell);
+      const double cost = end_cost({p.x_m, p.y_m, yaw_of(heading)});
+      if (std::isfinite(cost)) offer(kForward, cell, heading, static_cast<float>(cost));
+    }
+}
+
+void PoseCostToGo::offer(Motion motion, int cell, int heading, float cost) {
+  const size_t state = state_of(motion, cell, heading);
+  if (!(cost < cost_[state])) return;
+  const float through = cost + from_start_[cell] - static_cast<float>(from_start_to_goal_);
+  if (!(through < kMaxCostS)) return;
+  cost_[state] = cost;
+  closed_[state] = false;
+  // The cost from the start is a bound over places, the cost-to-go one over poses: what is found now may have to be
+  // expanded earlier.
+  const auto bucket = static_cast<size_t>(std::max(0.0, through / kBucketS));
+  buckets_[std::max(bucket_, bucket)].push_back(static_cast<std::uint32_t>(state));
+}
+
+void PoseCostToGo::spread() {
+  double last = kInfinity;
+  for (; bucket_ < buckets_.size() && kBucketS * static_cast<double>(bucket_) <= last; ++bucket_) {
+    // A bucket may grow while it is expanded.
+    for (size_t k = 0; k < buckets_[bucket_].size(); ++k) {
+      const size_t state = buckets_[bucket_][k];
+      if (closed_[state]) continue;
+      closed_[state] = true;
+      ++expansions_;
+      const int cell = static_cast<int>(state / kHeadings / kMotions);
+      const int heading = static_cast<int>(state % kHeadings);
+      switch (static_cast<Motion>(state / kHeadings % kMotions)) {
+        case kForward:
+          spread_forward(cell, heading, cost_[state]);
+          break;
+        case kTurn:
+          spread_turn(cell, heading, cost_[state]);
+          break;
+        case kReverse:
+          spread_reverse(cell, heading, cost_[state]);
+          break;
+      }
+    }
+    if (std::isinf(last)) {
+      const double best = std::min(forward(request_.start), turning(request_.start));
+      if (std::isfinite(best)) last = best - from_start_to_goal_ + kBeyondS;
+    }
+  }
+}
+
+int PoseCostToGo::shifted(int cell, int dx, int dy) const {
+  const int x = cell % cells_ + dx;
+  const int y = cell / cells_ + dy;
+  return x < 0 || y < 0 || x >= cells_ || y >= cells_ ? -1 : y * cells_ + x;
+}
+
+float PoseCostToGo::cost_per_m(int cell, int heading) const {
+  const Clearance here = clearance(cell, heading);
+  if (here == kBlocked) return kNone;
+  return here == kComfort ? ground_[cell] : static_cast<float>(costs_.tight_factor) * ground_[cell];
+}
+
+float PoseCostToGo::arc_cost(int cell, const Arc& arc) const {
+  const int end = shifted(cell, arc.dx, arc.dy);
+  if (end < 0) return kNone;
+  const float here = cost_per_m(cell, arc.from_heading);
+  const float between = cost_per_m(cell + arc.middle_dy * cells_ + arc.middle_dx, arc.middle_heading);
+  const float there = cost_per_m(end, arc.to_heading);
+  return arc.length_m * 0.25F * (here + 2.0F * between + there) + arc.extra;
+}
+
+// To the poses from which an arc ends here, and to the end of a point turn or of a path in reverse.
+void PoseCostToGo::spread_forward(int cell, int heading, float cost) {
+  for (const Arc& arc : arcs_to_[heading])
+    if (const int from = shifted(cell, -arc.dx, -arc.dy); from >= 0)
+      offer(kForward, from, arc.from_heading, cost + arc_cost(from, arc));
+  offer(kTurn, cell, heading, cost);
+  offer(kReverse, cell, heading, cost + static_cast<float>(costs_.cusp_s));
+}
+
+// In reverse the rover came over the arcs that begin here, over known ground.
+void PoseCostToGo::spread_reverse(int cell, int heading, float cost) {
+  for (const Arc& arc : arcs_from_[heading]) {
+    const float length_cost = arc_cost(cell, arc);
+    if (length_cost == kNone) continue;
+    const int from = shifted(cell, arc.dx, arc.dy);
+    if (request_.costmap->unknown(center_of(from))) continue;
+    offer(kReverse, from, arc.to_heading, cost + static_cast<float>(costs_.reverse_factor) * length_cost);
+  }
+  offer(kForward, cell, heading, cost + static_cast<float>(costs_.cusp_s));
+}
+
+// Backwards through a point turn: either it goes on, or it began here.
+void PoseCostToGo::spread_turn(int cell, int heading, float cost) {
+  for (const int turn : {1, -1}) {
+    const int from = wrapped(heading + turn);
+    const Clearance there = clearance(cell, from);
+    if (there >= kNoTurn) continue;
+    const double factor = there == kTight ? costs_.tight_turn_factor : 1.0;
+    offer(kTurn, cell, from, cost + static_cast<float>(factor * costs_.point_turn_s_per_rad * yaw_of(1)));
+  }
+  offer(kForward, cell, heading, cost + static_cast<float>(costs_.point_turn_s));
+  offer(kReverse, cell, heading, cost + static_cast<float>(costs_.point_turn_s));
+}
+
+double PoseCostToGo::nearby(const Pose2& pose, Motion motion) const {
+  const int ix = static_cast<int>(std::floor((pose.x_m - corner_.x_m) / cell_m_ - 0.5));
+  const int iy = static_cast<int>(std::floor((pose.y_m - corner_.y_m) / cell_m_ - 0.5));
+  const int heading = static_cast<int>(std::floor(pose.yaw_rad / yaw_of(1)));
+  if (ix < 0 || iy < 0 || ix + 1 >= cells_ || iy + 1 >= cells_) return kInfinity;
+  float least = kNone;
+  for (int h = 0; h < 2; ++h)
+    for (int dy = 0; dy < 2; ++dy)
+      for (int dx = 0; dx < 2; ++dx)
+        least = std::min(least, cost_[state_of(motion, (iy + dy) * cells_ + ix + dx, wrapped(heading + h))]);
+  return least;
+}
+
+}  // namespace rover::planning
