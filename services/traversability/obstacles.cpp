@@ -77,7 +77,7 @@ std::vector<std::uint8_t> find_obstacles(const TerrainGrid& grid, const DiscPlan
   };
   for_each_cell(shape, [&](Cell p) {
     const std::size_t i = shape.at(p.ix, p.iy);
-    if (steps.rise_m[i] >= limit_m || steps.drop_m[i] >= limit_m) mark(p);
+    if (steps.rise_m[i] >= limit_m) mark(p);
   });
   // Region growing with a lower threshold adds foot, sides and tops whose far side is unseen. Rises that may be noise
   // grow by one cell only.

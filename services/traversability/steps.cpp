@@ -50,7 +50,7 @@ class StepFinder {
         factor_(static_cast<float>(config.significance * config.significance)),
         reach_cells_(config.radius_m / grid.shape.cell_m) {
     steps_.rise_m.assign(shape_.size(), 0.0F);
-    steps_.drop_m = steps_.raw_rise_m = steps_.rise_m;
+    steps_.raw_rise_m = steps_.rise_m;
   }
 
   Steps find() {
@@ -60,14 +60,14 @@ class StepFinder {
         const bool direct = std::max(std::abs(dx), std::abs(dy)) == 1;
         const bool within = dx * dx + dy * dy <= reach_cells_ * reach_cells_ + 1e-9;
         if ((dx == 0 && dy == 0) || (!within && !direct)) continue;
-        for (int iy = 0; iy < shape_.cells_y; ++iy) compare_row(iy, dx, dy, direct);
+        for (int iy = 0; iy < shape_.cells_y; ++iy) compare_row(iy, dx, dy);
       }
     return std::move(steps_);
   }
 
  private:
   // Comparisons with NaN are false, so unseen cells are ignored.
-  void compare_row(int iy, int dx, int dy, bool direct) {
+  void compare_row(int iy, int dx, int dy) {
     const std::size_t own = static_cast<std::size_t>(iy + padded_.reach) * padded_.stride + padded_.reach;
     const std::size_t other = static_cast<std::size_t>(iy + padded_.reach + dy) * padded_.stride + padded_.reach + dx;
     const std::size_t first = shape_.at(0, iy);
@@ -79,16 +79,12 @@ class StepFinder {
     const float* slope_y = slopes_.y.data() + first;
     float* rise = steps_.rise_m.data() + first;
     float* raw = steps_.raw_rise_m.data() + first;
-    float* drop = steps_.drop_m.data() + first;
     const float offset_x = static_cast<float>(dx * shape_.cell_m), offset_y = static_cast<float>(dy * shape_.cell_m);
-    const float direct_factor = direct ? 1.0F : 0.0F;
     for (int ix = 0; ix < shape_.cells_x; ++ix) {
       const float d = z[ix] - z_other[ix] + slope_x[ix] * offset_x + slope_y[ix] * offset_y;
       const float significant = d * d >= factor_ * (variance[ix] + variance_other[ix]) ? d : 0.0F;
       rise[ix] = significant > rise[ix] ? significant : rise[ix];
       raw[ix] = d > raw[ix] ? d : raw[ix];
-      const float drop_here = -significant * direct_factor;
-      drop[ix] = drop_here > drop[ix] ? drop_here : drop[ix];
     }
   }
 

@@ -1,5 +1,5 @@
-// Steps: rise of a cell above the lowest one within a wheel diameter, and drop below a direct neighbour. Both are
-// relative to the local slope and must be significant compared with the noise of the two heights.
+// Steps: rise of a cell above the lowest one within a wheel diameter, relative to the local slope. It must be significant
+// compared with the noise of the two heights.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,6 @@ namespace rover::trav {
 
 struct Steps {
   std::vector<float> rise_m;      // significant; 0: none
-  std::vector<float> drop_m;      // significant, to a direct neighbour
   std::vector<float> raw_rise_m;  // without the significance test
 };
 
