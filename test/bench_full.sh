@@ -41,6 +41,7 @@ run() {
   "$BUILD/bin/rover_launcher" run "config/scenarios/$1.yaml" --level "$2" --seed "$3" --record reduced --headless \
     --out "$dir" --bus "udpm://239.255.76.67:$4?ttl=0&recv_buf_size=4194304" >"$dir.txt" 2>&1 || status=$?
   [ -e "$dir/metrics.json" ] || { echo "$1 $2 seed $3: no metrics, see $dir.txt" >&2; return; }
+  [ "$(jq -r .outcome "$dir/metrics.json")" != stopped ] || return 0  # the bench was interrupted
   jq -c --arg commit "$COMMIT" --arg level "$2" --argjson status $status \
     '.commit = $commit | .level = $level | .exit_status = $status' "$dir/metrics.json" >>"$ROWS"
   echo "$1 $2 seed $3: $(jq -r .outcome "$dir/metrics.json")" >&2

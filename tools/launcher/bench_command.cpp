@@ -102,8 +102,9 @@ class Rows {
     std::ifstream in(file_);
     for (std::string line; std::getline(in, line);) {
       const auto row = nlohmann::json::parse(line, nullptr, false);
-      const bool same = row.is_object() && row.value("commit", "") == commit_;
-      if (same && row.value("outcome", "") != "died") rows.push_back(row);
+      if (!row.is_object() || row.value("commit", "") != commit_) continue;
+      const std::string outcome = row.value("outcome", "");
+      if (outcome != "died" && outcome != "stopped") rows.push_back(row);  // stopped: the bench was interrupted
     }
     return rows;
   }
