@@ -1,4 +1,4 @@
-// Segments obstacles (rocks, steps, holes): their raised cells, their foot, and ground that they enclose.
+// Segments obstacles (rocks, steps, holes): their raised cells, and ground that they enclose.
 #pragma once
 
 #include <cstdint>
