@@ -5,6 +5,8 @@
 namespace rover::trav {
 namespace {
 
+constexpr double kRimShare = 1.0 / 3.0;  // of a cell, covered by the rock
+
 struct Cell {
   int ix, iy;
 };
@@ -79,8 +81,8 @@ std::vector<std::uint8_t> find_obstacles(const TerrainGrid& grid, const DiscPlan
     const std::size_t i = shape.at(p.ix, p.iy);
     if (steps.rise_m[i] >= limit_m) mark(p);
   });
-  // Region growing with a lower threshold adds foot, sides and tops whose far side is unseen. Rises that may be noise
-  // grow by one cell only.
+  // Region growing with a lower threshold adds sides and tops whose far side is unseen. The rim, which the rock covers
+  // in part, and rises that may be noise are one cell more.
   for (std::size_t k = 0; k < queue.size(); ++k)
     for_each_neighbour(shape, queue[k], [&](Cell q) {
       const std::size_t i = shape.at(q.ix, q.iy);
@@ -90,7 +92,7 @@ std::vector<std::uint8_t> find_obstacles(const TerrainGrid& grid, const DiscPlan
   for (const Cell& p : queue)
     for_each_neighbour(shape, p, [&](Cell q) {
       const std::size_t i = shape.at(q.ix, q.iy);
-      if (steps.raw_rise_m[i] >= grow_height_m) obstacle[i] = 1;
+      if (steps.raw_rise_m[i] >= kRimShare * limit_m) obstacle[i] = 1;
     });
   return obstacle;
 }

@@ -147,9 +147,9 @@ TEST(Ledges, EdgeIsImpassableButGroundAboveAndBelowIsNot) {
       traversability_of(synthetic_terrain([](double x, double) { return x > 0.0 ? 0.2 : 0.0; }));
   for (int iy = 0; iy < 200; ++iy) {
     EXPECT_EQ(map.cells[map.shape.at(100, iy)], kImpassable);
-    EXPECT_EQ(map.cells[map.shape.at(99, iy)], kImpassable);
+    EXPECT_LT(map.cells[map.shape.at(99, iy)], kImpassable);
   }
-  EXPECT_EQ(count(map, [](double x, double) { return x > 0.3 || x < -0.15; }).impassable, 0);
+  EXPECT_EQ(count(map, [](double x, double) { return x > 0.3 || x < 0.0; }).impassable, 0);
 }
 
 TEST(Ledges, NarrowDitchIsImpassable) {
