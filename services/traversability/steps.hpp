@@ -1,5 +1,5 @@
-// Steps: rise of a cell above the lowest one within a wheel diameter, relative to the local slope. It must be significant
-// compared with the noise of the two heights.
+// Steps: rise of a cell above the lowest one within a wheel diameter, relative to the local slope. It must be
+// significant compared with the noise of the two heights.
 #pragma once
 
 #include <vector>
