@@ -42,10 +42,6 @@ void add_clearance(Parameters p, PathPlannerConfig& c) {
 
 void add_ground(Parameters p, PathPlannerConfig& c) {
   p.add("hazard_probability", c.costmap.hazard_probability, {0.05, 0.95}, "from here on a cell is a hazard");
-  p.add("stop_probability", c.costmap.stop_probability, {0.05, 0.99},
-        "from here on a hazard on the path stops the rover");
-  p.check(c.costmap.stop_probability >= c.costmap.hazard_probability, "stop_probability",
-          "must not be smaller than hazard_probability");
   p.add("hazard_cost", c.costmap.hazard_cost, {0.0, 50.0}, "at probability 1: the expected detour");
   p.add("difficulty_cost", c.costmap.difficulty_cost, {0.0, 50.0}, "at ground that is just traversable");
   p.add("unknown_cost", c.costmap.unknown_cost, {0.0, 20.0}, "unknown ground");

@@ -73,8 +73,7 @@ class Monitor {
   }
 
   void check(const Pose2& pose, double s_m, bool check_unknown) {
-    if (std::isinf(blockage_.possible_m) && !check_.clear(pose)) blockage_.possible_m = s_m;
-    if (std::isinf(blockage_.hazard_m) && !check_.clear(pose, true)) blockage_.hazard_m = s_m;
+    if (std::isinf(blockage_.hazard_m) && !check_.clear(pose)) blockage_.hazard_m = s_m;
     if (!check_unknown || std::isfinite(blockage_.unseen_m) || check_.known(pose)) return;
     blockage_.unknown_m = std::min(blockage_.unknown_m, s_m);
     if (!visibility_.covers(pose)) blockage_.unseen_m = s_m;

@@ -318,7 +318,7 @@ bool PathPlanner::wants_plan() const {
   // Beyond a plan the path is provisional; it matters once the plan becomes short.
   const bool provisional = active_.kind() != PathKind::kGlobal && active_.planned_m() > kMinIncumbentM;
   const double matters_m = provisional ? active_.planned_m() : kInfinity;
-  return (blockage_.possible_m - active_.progress_m() < matters_m && std::isfinite(blockage_.possible_m)) ||
+  return (blockage_.hazard_m - active_.progress_m() < matters_m && std::isfinite(blockage_.hazard_m)) ||
          unseen_ahead_m() < std::min(matters_m, config_.planner.search.known_free_m);
 }
 
@@ -332,7 +332,7 @@ ActivePath::Start PathPlanner::plan_start() const {
   const double committed_m = stopping_distance_m();
   if (mode_ == Mode::kFollowing && !active_.empty()) {
     const ActivePath::Start start = active_.start_after(committed_m);
-    if (std::min(blockage_.possible_m, blockage_.unknown_m) > start.at_m) return start;
+    if (std::min(blockage_.hazard_m, blockage_.unknown_m) > start.at_m) return start;
   }
   const PoseSample& now = history_.newest();
   if (stationary()) return {rover(), 0.0, false, kNaN};
@@ -345,7 +345,7 @@ ActivePath::Start PathPlanner::plan_start() const {
 }
 
 void PathPlanner::request_plan() {
-  Job job{active_.id(), plan_start(), std::isfinite(blockage_.possible_m)};
+  Job job{active_.id(), plan_start(), std::isfinite(blockage_.hazard_m)};
   PlanRequest request;
   request.global_path = global_odom_;
   request.global_progress_m = global_progress_m_;

@@ -88,7 +88,7 @@ Costmap::Costmap(const CostmapConfig& config, const BeliefMap& belief, Point2 ro
     cost_[i] = static_cast<float>(config.hazard_cost * p + config.difficulty_cost * cell.cost);
     const bool unmeasured = unknown_[i] && unmeasurable[i];
     hazard[i] = p >= config.hazard_probability || unmeasured ? 1 : 0;
-    if (hazard[i]) hazards_.push_back({center_of(static_cast<int>(i)), p >= config.stop_probability || unmeasured});
+    if (hazard[i]) hazards_.push_back({center_of(static_cast<int>(i))});
   }
   row_begin_.push_back(hazards_.size());
   cost_ = widened(cost_, cells_, static_cast<int>(config.wheel_reach_m / cell_m_));

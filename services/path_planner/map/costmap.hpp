@@ -14,7 +14,6 @@ namespace rover::planning {
 
 struct CostmapConfig {
   double hazard_probability = 0.5;  // from here on a cell is a hazard; below, its probability costs
-  double stop_probability = 0.5;    // from here on a hazard on the path stops the rover
   double hazard_cost = 4.0;         // relative to driving, at probability 1: the expected detour
   double difficulty_cost = 1.5;     // the same, at ground that is just traversable
   double unknown_cost = 0.6;        // the same, on unknown ground
@@ -23,7 +22,6 @@ struct CostmapConfig {
 
 struct Hazard {
   Point2 p;  // centre of a cell
-  bool certain = false;
 };
 
 class Costmap {

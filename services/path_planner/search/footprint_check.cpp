@@ -28,11 +28,10 @@ bool FootprintCheck::violates(const Pose2& pose, Point2 hazard) const {
   return d < std::min(margin_m_, std::max(at_start - kRoundingM, 0.0));
 }
 
-bool FootprintCheck::clear(const Pose2& pose, bool only_certain) const {
+bool FootprintCheck::clear(const Pose2& pose) const {
   const double reach = footprint_.radius_m() + margin_m_;
   if (costmap_.hazard_distance_m(position(pose)) > reach + costmap_.cell_m()) return true;
   for (const Hazard& hazard : costmap_.hazards_near(position(pose), reach)) {
-    if (only_certain && !hazard.certain) continue;
     if (std::abs(hazard.p.x_m - pose.x_m) <= reach && violates(pose, hazard.p)) return false;
   }
   return true;

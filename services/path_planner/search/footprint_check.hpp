@@ -15,7 +15,7 @@ class FootprintCheck {
   FootprintCheck(const Costmap& costmap, const Footprint& footprint, double margin_m, double known_margin_m,
                  const Pose2& start);
 
-  bool clear(const Pose2& pose, bool only_certain = false) const;
+  bool clear(const Pose2& pose) const;
   // From the footprint to the nearest centre of a hazard cell; `max` if none is as near.
   double clearance_m(const Pose2& pose, double max) const;
   // Calls f(point) for each unknown point under the edge of the footprint until it returns false; false then. A moving

@@ -107,7 +107,7 @@ void PoseCostToGo::rasterise(double margin_m, Clearance value) {
   const double half_width = footprint_.half_width_m + margin_m;
   const int reach = static_cast<int>(std::hypot(half_length, half_width) / cell_m_) + 1;
   std::vector<std::pair<int, int>> hazards;
-  for (const auto& [p, certain] : request_.costmap->hazards()) {
+  for (const auto& [p] : request_.costmap->hazards()) {
     const int ix = static_cast<int>(std::floor((p.x_m - corner_.x_m) / cell_m_));
     const int iy = static_cast<int>(std::floor((p.y_m - corner_.y_m) / cell_m_));
     if (std::min(ix, iy) < -reach || std::max(ix, iy) >= cells_ + reach) continue;
