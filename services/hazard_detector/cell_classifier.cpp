@@ -18,6 +18,7 @@ class CellClassifier {
     mark_clusters(Cell::kObstacle, [](const CellEvidence& e) { return e.high; });
     mark_clusters(Cell::kHole, [](const CellEvidence& e) { return e.low; });
     grow_obstacles();
+    find_low_obstacles();
     inflate_hazards();
     return std::move(cells_);
   }
@@ -33,10 +34,7 @@ class CellClassifier {
 
   Cell& cell(int i) { return cells_[static_cast<size_t>(i)]; }
   const CellEvidence& evidence(int i) const { return evidence_[static_cast<size_t>(i)]; }
-  bool hazard(int i) const {
-    const Cell state = cells_[static_cast<size_t>(i)];
-    return state == Cell::kObstacle || state == Cell::kHole;
-  }
+  bool hazard(int i) const { return is_hazard(cells_[static_cast<size_t>(i)]); }
 
   bool enough_ground(int measured, int expected) const {
     return measured >= config_.min_free_samples && measured >= config_.min_free_fraction * expected;
@@ -71,6 +69,20 @@ class CellClassifier {
     for (int i : gaps) cell(i) = Cell::kFree;
   }
 
+  // The cells connected with the seed by those that `accepts` takes; marks them as visited.
+  template <class Accepts>
+  std::vector<int> connected(int seed, Accepts&& accepts, std::vector<char>& visited) const {
+    std::vector<int> cells{seed};
+    visited[static_cast<size_t>(seed)] = 1;
+    for (size_t k = 0; k < cells.size(); ++k)
+      for_neighbours(cells[k], 1, [&](int i) {
+        if (!accepts(i)) return;
+        visited[static_cast<size_t>(i)] = 1;
+        cells.push_back(i);
+      });
+    return cells;
+  }
+
   // Connected components of suspect cells are hazards if they contain enough samples; this rejects stereo outliers.
   template <class Count>
   void mark_clusters(Cell state, Count&& count) {
@@ -80,17 +92,9 @@ class CellClassifier {
     };
     for (int seed = 0; seed < shape_.size(); ++seed) {
       if (!is_suspect(seed)) continue;
-      std::vector<int> cluster{seed};
-      visited[static_cast<size_t>(seed)] = 1;
       int samples = 0;
-      for (size_t k = 0; k < cluster.size(); ++k) {
-        samples += count(evidence(cluster[k]));
-        for_neighbours(cluster[k], 1, [&](int i) {
-          if (!is_suspect(i)) return;
-          visited[static_cast<size_t>(i)] = 1;
-          cluster.push_back(i);
-        });
-      }
+      const std::vector<int> cluster = connected(seed, is_suspect, visited);
+      for (int i : cluster) samples += count(evidence(i));
       if (samples < config_.min_cluster_samples) continue;
       for (int i : cluster) cell(i) = state;
     }
@@ -106,6 +110,20 @@ class CellClassifier {
       });
     }
     for (int i : sides) cell(i) = Cell::kObstacle;
+  }
+
+  // A rock as a whole is low or not.
+  void find_low_obstacles() {
+    std::vector<char> visited(evidence_.size(), 0);
+    const auto is_open = [&](int i) { return cell(i) == Cell::kObstacle && !visited[static_cast<size_t>(i)]; };
+    for (int seed = 0; seed < shape_.size(); ++seed) {
+      if (!is_open(seed)) continue;
+      int tall = 0;
+      const std::vector<int> rock = connected(seed, is_open, visited);
+      for (int i : rock) tall += evidence(i).tall;
+      if (tall >= config_.min_cell_samples) continue;
+      for (int i : rock) cell(i) = Cell::kLow;
+    }
   }
 
   void inflate_hazards() {

@@ -80,6 +80,7 @@ NodeConfig load_config(const std::string& config_dir, ParameterList* list) {
   c.roi_far_m = navigation.hazard_roi_far_m;
   c.origin_height_m = vehicle.origin_height_m;
   c.obstacle_height_m = vehicle.hazard_height_m;
+  c.body_height_m = vehicle.max_climb_m;
   c.plane.front_axle_x_m = *std::max_element(vehicle.wheel_x_m.begin(), vehicle.wheel_x_m.end());
   Parameters p(config_dir + "/hazard_detector.yaml",
                "Hazard detection in disparity space (Azkarate et al. 2020). T_near is hazard_height_m of vehicle.yaml. "

@@ -35,11 +35,16 @@ struct CellEvidence {
   int measured = 0;   // samples with valid stereo whose 3-D point lies in the cell
   int expected = 0;   // samples that would hit the ground of the cell without occlusion
   int high = 0;       // above the obstacle limit T_near
+  int tall = 0;       // too high to pass under the body
   int raised = 0;     // above grow_height_m
   int low = 0;        // below the hole limit T_far
   float sum_z_m = 0;  // sum of heights over flat ground
 };
 
-enum class Cell : std::int8_t { kUnseen = 0, kFree = 1, kObstacle = 2, kHole = 3, kMargin = 4 };
+enum class Cell : std::int8_t { kUnseen = 0, kFree = 1, kObstacle = 2, kHole = 3, kMargin = 4, kLow = 5 };
+
+inline bool is_hazard(Cell cell) {
+  return cell == Cell::kObstacle || cell == Cell::kHole || cell == Cell::kLow;
+}
 
 }  // namespace rover::hazard

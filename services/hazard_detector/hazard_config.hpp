@@ -46,6 +46,7 @@ struct HazardConfig {
   PlanePrior plane;
   LocalGroundConfig local_ground;
   double obstacle_height_m = 0.15;  // T_near: obstacles are higher than this over the local ground
+  double body_height_m = 0.20;      // lower obstacles pass under the body, between the wheels
   double hole_depth_m = 0.20;       // T_far: holes are deeper than this
   double grow_height_m = 0.08;      // region growing: neighbours of an obstacle higher than this belong to it
   int min_cell_samples = 3;         // hazard samples that make a cell suspect

@@ -33,7 +33,7 @@ struct CellLookup {
 
 // Limits of one cell as factors h / (h - height) on the disparity of the reference plane.
 struct LimitFactors {
-  float high, raised, low;
+  float high, tall, raised, low;
 };
 
 float limit_factor(double camera_height_m, double height_m) {
@@ -136,6 +136,7 @@ void HazardDetector::classify_samples(const Disparity& disparity, const GroundPl
   limits.reserve(evidence_.size());
   for (size_t i = 0; i < evidence_.size(); ++i)
     limits.push_back({limit_factor(height_m, ground.low_m[i] + config_.obstacle_height_m),
+                      limit_factor(height_m, ground.low_m[i] + config_.body_height_m),
                       limit_factor(height_m, ground.low_m[i] + config_.grow_height_m),
                       limit_factor(height_m, ground.high_m[i] - config_.hole_depth_m)});
   const CellLookup lookup(shape_);
@@ -156,6 +157,7 @@ void HazardDetector::classify_samples(const Disparity& disparity, const GroundPl
     const LimitFactors& l = limits[static_cast<size_t>(cell)];
     CellEvidence& e = evidence_[static_cast<size_t>(cell)];
     e.high += d > l.high * reference;
+    e.tall += d > l.tall * reference;
     e.raised += d > l.raised * reference;
     e.low += d < l.low * reference;
   }
@@ -166,7 +168,7 @@ void summarize(const std::vector<CellEvidence>& evidence, const GridShape& shape
   for (int iy = 0; iy < shape.cells_y; ++iy)
     for (int ix = 0; ix < shape.cells_x; ++ix) {
       const size_t i = static_cast<size_t>(shape.at(ix, iy));
-      if (result.cells[i] != Cell::kObstacle && result.cells[i] != Cell::kHole) continue;
+      if (!is_hazard(result.cells[i])) continue;
       result.hazard_px += evidence[i].high + evidence[i].low;
       nearest_m = std::min(nearest_m, std::hypot(shape.x_m(ix), shape.y_m(iy)));
     }

@@ -9,6 +9,7 @@ namespace rover::mission {
 namespace {
 
 constexpr int kFree = 0;
+constexpr int kLow = 253;
 constexpr int kImpassable = 254;
 
 template <class ColourOf>
@@ -28,7 +29,8 @@ cv::Vec4b mixed(const cv::Vec4d& a, const cv::Vec4d& b, double u) {
 cv::Vec4b cost_colour(int cost) {
   if (cost > kImpassable) return {0, 0, 0, 0};
   if (cost == kImpassable) return {70, 60, 225, 215};
-  const double u = static_cast<double>(cost - kFree) / (kImpassable - kFree);
+  if (cost == kLow) return {85, 95, 235, 205};
+  const double u = static_cast<double>(cost - kFree) / (kLow - kFree);
   const cv::Vec4d green(120, 185, 70, 110);
   const cv::Vec4d yellow(60, 205, 240, 160);
   const cv::Vec4d orange(40, 120, 245, 190);
@@ -38,10 +40,10 @@ cv::Vec4b cost_colour(int cost) {
 }  // namespace
 
 Png hazards_png(const std::vector<std::uint8_t>& cells, int cells_x, int cells_y) {
-  // UNSEEN, FREE, OBSTACLE, HOLE, MARGIN
-  static const std::array<cv::Vec4b, 5> kColours = {cv::Vec4b{0, 0, 0, 0}, cv::Vec4b{140, 200, 80, 95},
-                                                    cv::Vec4b{70, 60, 235, 235}, cv::Vec4b{200, 60, 160, 235},
-                                                    cv::Vec4b{60, 165, 250, 150}};
+  // UNSEEN, FREE, OBSTACLE, HOLE, MARGIN, LOW
+  static const std::array<cv::Vec4b, 6> kColours = {cv::Vec4b{0, 0, 0, 0},        cv::Vec4b{140, 200, 80, 95},
+                                                    cv::Vec4b{70, 60, 235, 235},  cv::Vec4b{200, 60, 160, 235},
+                                                    cv::Vec4b{60, 165, 250, 150}, cv::Vec4b{85, 105, 240, 215}};
   return picture(cells_x, cells_y, [&](int x, int y) {
     const std::uint8_t cell = cells[static_cast<size_t>(y) * cells_x + x];
     return cell < kColours.size() ? kColours[cell] : kColours[0];

@@ -74,7 +74,7 @@ void add_search(Parameters p, HybridPlannerConfig& c) {
 }
 
 void set_vehicle(const Vehicle& vehicle, PathPlannerConfig& c) {
-  c.footprint = {vehicle.footprint_half_length_m(), vehicle.footprint_half_width_m()};
+  c.footprint = {vehicle.footprint_half_length_m(), vehicle.footprint_half_width_m(), vehicle.half_gap_m()};
   c.ground_z_m = -vehicle.origin_height_m;
   c.deceleration_mps2 = vehicle.deceleration_mps2;
   c.rounding.min_radius_m = vehicle.min_turn_radius_m;

@@ -8,7 +8,8 @@ namespace rover::planning {
 
 namespace {
 
-static_assert(TraversabilityGrid::kImpassable == traversability_t::IMPASSABLE &&
+static_assert(TraversabilityGrid::kLow == traversability_t::LOW &&
+              TraversabilityGrid::kImpassable == traversability_t::IMPASSABLE &&
               TraversabilityGrid::kUnknown == traversability_t::UNKNOWN);
 
 std::int8_t kind_of(PathKind kind) {

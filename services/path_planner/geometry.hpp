@@ -55,6 +55,7 @@ inline int heading_bin(double yaw_rad, int bins) {
 struct Footprint {
   double half_length_m = 0.0;
   double half_width_m = 0.0;
+  double half_gap_m = 0.0;  // between the wheels of both sides, where the body passes over low obstacles
 
   double radius_m() const { return std::hypot(half_length_m, half_width_m); }
 
@@ -66,6 +67,12 @@ struct Footprint {
     return std::max(dx, dy);
   }
   double distance_m(const Pose2& pose, Point2 p) const { return distance_m(to_body(pose, p)); }
+  // The same, of the two strips that the wheels cover.
+  double wheel_distance_m(Point2 in_body) const {
+    const double middle = 0.5 * (half_gap_m + half_width_m);
+    return Footprint{half_length_m, half_width_m - middle}.distance_m({in_body.x_m, std::abs(in_body.y_m) - middle});
+  }
+  double wheel_distance_m(const Pose2& pose, Point2 p) const { return wheel_distance_m(to_body(pose, p)); }
 };
 
 // The ground that the LocCam sees: a trapezoid ahead of the body origin.

@@ -110,4 +110,32 @@ void fill_enclosed_regions(const TerrainGrid& grid, double footprint_m2, std::ve
   });
 }
 
+std::vector<std::uint8_t> find_low_obstacles(const TerrainGrid& grid, const DiscPlanes& planes, const Steps& steps,
+                                             const std::vector<std::uint8_t>& obstacle,
+                                             const TraversabilityConfig& config) {
+  const GridShape& shape = grid.shape;
+  std::vector<std::uint8_t> low(shape.size(), 0);
+  std::vector<std::uint8_t> visited(shape.size(), 0);
+  for_each_cell(shape, [&](Cell seed) {
+    if (!obstacle[shape.at(seed.ix, seed.iy)] || visited[shape.at(seed.ix, seed.iy)]) return;
+    std::vector<Cell> rock{seed};
+    visited[shape.at(seed.ix, seed.iy)] = 1;
+    bool is_low = true;
+    for (std::size_t k = 0; k < rock.size(); ++k) {
+      const std::size_t i = shape.at(rock[k].ix, rock[k].iy);
+      const double over_plane_m = grid.height_m[i] - planes.at(i).height_m;
+      is_low = is_low && std::max<double>(steps.raw_rise_m[i], over_plane_m) < config.body_limit_m();
+      for_each_neighbour(shape, rock[k], [&](Cell q) {
+        const std::size_t j = shape.at(q.ix, q.iy);
+        if (!obstacle[j] || visited[j]) return;
+        visited[j] = 1;
+        rock.push_back(q);
+      });
+    }
+    if (!is_low) return;
+    for (const Cell& p : rock) low[shape.at(p.ix, p.iy)] = 1;
+  });
+  return low;
+}
+
 }  // namespace rover::trav

@@ -14,6 +14,11 @@ namespace rover::trav {
 std::vector<std::uint8_t> find_obstacles(const TerrainGrid& grid, const DiscPlanes& planes, const Steps& steps,
                                          const TraversabilityConfig& config);
 
+// 1 for the obstacles that pass under the body, between the wheels. An obstacle as a whole is low or not.
+std::vector<std::uint8_t> find_low_obstacles(const TerrainGrid& grid, const DiscPlanes& planes, const Steps& steps,
+                                             const std::vector<std::uint8_t>& obstacle,
+                                             const TraversabilityConfig& config);
+
 // Marks regions of seen ground as obstacle if obstacles enclose them and they are smaller than the footprint.
 void fill_enclosed_regions(const TerrainGrid& grid, double footprint_m2, std::vector<std::uint8_t>& obstacle);
 

@@ -9,7 +9,7 @@
 namespace rover::trav {
 namespace {
 
-constexpr double kMaxCost = 253.0;
+constexpr double kMaxCost = 252.0;
 
 std::vector<std::uint8_t> seen_cells(const TerrainGrid& grid) {
   std::vector<std::uint8_t> seen(grid.shape.size());
@@ -43,6 +43,7 @@ class CellCost {
 struct TerrainAnalysis {
   std::vector<std::uint8_t> seen;
   std::vector<std::uint8_t> obstacle;
+  std::vector<std::uint8_t> low;  // of them
   Steps steps;
   DiscPlanes planes;
 
@@ -55,6 +56,7 @@ struct TerrainAnalysis {
     for (std::size_t i = 0; i < without_obstacles.size(); ++i) without_obstacles[i] = seen[i] && !obstacle[i];
     planes.refit(grid.height_m, without_obstacles);
     detect(grid, config);
+    low = find_low_obstacles(grid, planes, steps, obstacle, config);
   }
 
  private:
@@ -75,7 +77,7 @@ TraversabilityMap compute_traversability(TerrainGrid grid, const TraversabilityC
   for (std::size_t i = 0; i < map.cells.size(); ++i) {
     if (!analysis.seen[i]) continue;
     if (analysis.obstacle[i])
-      map.cells[i] = kImpassable;
+      map.cells[i] = analysis.low[i] ? kLow : kImpassable;
     else if (analysis.steps.raw_rise_m[i] < config.step_limit_m())
       map.cells[i] = cell_cost.cost(analysis.planes.at(i), grid.height_m[i], grid.sigma_m[i], analysis.steps.rise_m[i]);
   }

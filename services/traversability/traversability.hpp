@@ -13,12 +13,13 @@
 
 namespace rover::trav {
 
+inline constexpr std::uint8_t kLow = 253;  // impassable for the wheels; the body passes over it
 inline constexpr std::uint8_t kImpassable = 254;
 inline constexpr std::uint8_t kUnknown = 255;
 
 struct TraversabilityMap {
   GridShape shape;
-  std::vector<std::uint8_t> cells;     // cost 0 .. 253, kImpassable or kUnknown
+  std::vector<std::uint8_t> cells;     // cost 0 .. 252, kLow, kImpassable or kUnknown
   std::vector<std::uint8_t> obstacle;  // 1: rock, step or hole; steep slopes are not included
 };
 

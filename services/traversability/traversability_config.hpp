@@ -41,6 +41,7 @@ struct AheadConfig {
 
 struct TraversabilityConfig {
   double hazard_height_m = 0.15;  // rocks and steps from this height are impassable
+  double body_height_m = 0.20;    // lower ones pass under the body, between the wheels
   double belly_clearance_m = 0.30;
   double footprint_m2 = 1.645;  // enclosed regions up to this area are obstacles
   PlaneConfig plane;
@@ -50,12 +51,14 @@ struct TraversabilityConfig {
 
   // Limits for mean heights of cells.
   double step_limit_m() const { return step.mean_height_ratio * hazard_height_m; }
+  double body_limit_m() const { return step.mean_height_ratio * body_height_m; }
   double belly_limit_m() const { return step.mean_height_ratio * belly_clearance_m; }
 };
 
 // The lower of hazard height and climb limit applies.
 inline void apply_vehicle_limits(const Vehicle& vehicle, TraversabilityConfig& config) {
   config.hazard_height_m = std::min(vehicle.hazard_height_m, vehicle.max_climb_m);
+  config.body_height_m = vehicle.max_climb_m;
   config.belly_clearance_m = vehicle.belly_clearance_m;
   config.footprint_m2 = 4.0 * vehicle.footprint_half_length_m() * vehicle.footprint_half_width_m();
 }

@@ -126,7 +126,7 @@ HazardMap hazards_from(const hazards_t& message) {
   const int columns = message.cells_x;
   for (int i = 0; i < message.size && columns > 0; ++i) {
     const auto cell = static_cast<std::int8_t>(message.cells[static_cast<size_t>(i)]);
-    if (cell != hazards_t::OBSTACLE && cell != hazards_t::HOLE) continue;
+    if (cell != hazards_t::OBSTACLE && cell != hazards_t::HOLE && cell != hazards_t::LOW) continue;
     const Eigen::Vector2d p(message.origin_x_m + (i % columns + 0.5) * message.cell_m,
                             message.origin_y_m + (i / columns + 0.5) * message.cell_m);
     map.cells.push_back({p, cell == hazards_t::HOLE});
@@ -136,7 +136,8 @@ HazardMap hazards_from(const hazards_t& message) {
 
 std::optional<PassabilityMap> passability_from(const hazards_t& message) {
   return passability_map(message, [](std::uint8_t cell) {
-    if (cell == hazards_t::OBSTACLE || cell == hazards_t::HOLE) return PassabilityMap::kImpassable;
+    if (cell == hazards_t::OBSTACLE || cell == hazards_t::HOLE || cell == hazards_t::LOW)
+      return PassabilityMap::kImpassable;
     return cell == hazards_t::FREE ? PassabilityMap::kPassable : PassabilityMap::kUnseen;
   });
 }
@@ -144,7 +145,7 @@ std::optional<PassabilityMap> passability_from(const hazards_t& message) {
 std::optional<PassabilityMap> passability_from(const traversability_t& message) {
   return passability_map(message, [](std::uint8_t cell) {
     if (cell == traversability_t::UNKNOWN) return PassabilityMap::kUnseen;
-    return cell == traversability_t::IMPASSABLE ? PassabilityMap::kImpassable : PassabilityMap::kPassable;
+    return cell >= traversability_t::LOW ? PassabilityMap::kImpassable : PassabilityMap::kPassable;
   });
 }
 

@@ -71,6 +71,7 @@ void TrueHazards::classify(const hazard::GroundPlane& plane, const hazard::Local
     const double height_m = normal.dot(point.p_body - p_plane);
     hazard::CellEvidence& e = evidence_[i];
     e.high += height_m > ground.low_m[i] + config_.obstacle_height_m;
+    e.tall += height_m > ground.low_m[i] + config_.body_height_m;
     e.raised += height_m > ground.low_m[i] + config_.grow_height_m;
     e.low += height_m < ground.high_m[i] - config_.hole_depth_m;
   }

@@ -52,6 +52,12 @@ struct Vehicle {
     for (double wheel : wheel_y_m) y = std::max(y, std::abs(wheel) + 0.5 * wheel_width_m);
     return y;
   }
+  // Half of the gap between the wheels of both sides.
+  double half_gap_m() const {
+    double y = footprint_half_width_m();
+    for (double wheel : wheel_y_m) y = std::min(y, std::abs(wheel) - 0.5 * wheel_width_m);
+    return y;
+  }
 };
 
 }  // namespace rover

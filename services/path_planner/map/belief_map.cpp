@@ -36,7 +36,7 @@ bool surely_in_view(const ViewArea& view, double range_m, Point2 in_body) {
 }
 
 bool is_hit(int cell) {
-  return cell == HazardGrid::kObstacle || cell == HazardGrid::kHole;
+  return cell == HazardGrid::kObstacle || cell == HazardGrid::kHole || cell == HazardGrid::kLow;
 }
 
 // Whether an obstacle of the frame lies between the camera and the point.
@@ -75,14 +75,15 @@ void BeliefMap::add(const HazardGrid& grid, const Eigen::Isometry3d& T_odom_body
   // From the side of the frame, so that no hit falls between the cells of the turned grid.
   for (int iy = 0; iy < grid.cells_y; ++iy)
     for (int ix = 0; ix < grid.cells_x; ++ix) {
-      if (!is_hit(grid.cells[static_cast<size_t>(iy) * grid.cells_x + ix])) continue;
+      const int value = grid.cells[static_cast<size_t>(iy) * grid.cells_x + ix];
+      if (!is_hit(value)) continue;
       const Eigen::Vector2d p =
           to_odom(grid.origin_x_m + (ix + 0.5) * grid.cell_m, grid.origin_y_m + (iy + 0.5) * grid.cell_m);
-      add_hit(map_.index_of(p.x(), p.y()));
+      add_hit(map_.index_of(p.x(), p.y()), value != HazardGrid::kLow);
     }
 }
 
-void BeliefMap::add_hit(CellIndex index) {
+void BeliefMap::add_hit(CellIndex index, bool tall) {
   if (!map_.contains(index)) return;
   CellBelief& cell = map_.at(index);
   if (cell.last_hit == frame_) return;
@@ -90,6 +91,8 @@ void BeliefMap::add_hit(CellIndex index) {
   cell.known = true;
   cell.unmeasured = 0;
   cell.evidence = static_cast<float>(std::min(config_.max_evidence, cell.evidence + config_.hit));
+  const double tall_evidence = cell.tall_evidence + (tall ? config_.hit : -config_.miss);
+  cell.tall_evidence = static_cast<float>(std::clamp(tall_evidence, -config_.max_evidence, config_.max_evidence));
 }
 
 void BeliefMap::add_miss(CellBelief& cell, double range_m) const {
@@ -118,8 +121,8 @@ void BeliefMap::add(const TraversabilityGrid& grid, Point2 rover) {
   for_cells_in(map_, {grid.origin_x_m, grid.origin_y_m}, high, [&](CellBelief& cell, Point2 p) {
     const int cost = grid.at(p);
     if (cost == TraversabilityGrid::kUnknown || cost == InputGrid::kOutside) return;
-    const bool impassable = cost == TraversabilityGrid::kImpassable;
-    const double relative = static_cast<double>(cost) / TraversabilityGrid::kImpassable;
+    const bool impassable = cost >= TraversabilityGrid::kLow;
+    const double relative = static_cast<double>(cost) / TraversabilityGrid::kLow;
     const double ratio = impassable ? kImpassableRatio : std::cbrt(relative);  // cost.step_exponent of traversability
     const double sigma = config_.sigma + config_.sigma_per_m * distance(p, rover);
     const double before = static_cast<double>(cell.step_sigma) * cell.step_sigma;
@@ -131,6 +134,7 @@ void BeliefMap::add(const TraversabilityGrid& grid, Point2 rover) {
     const double innovation = std::clamp(ratio - cell.step_ratio, -bound, bound);
     cell.step_ratio += weight * static_cast<float>(innovation);
     cell.cost += weight * (static_cast<float>(impassable ? 0.0 : relative) - cell.cost);
+    if (impassable) cell.tall_share += weight * ((cost == TraversabilityGrid::kLow ? 0.0F : 1.0F) - cell.tall_share);
     cell.step_sigma = std::min(cell.step_sigma, static_cast<float>(sigma));
     cell.known = true;
   });
@@ -150,7 +154,9 @@ void BeliefMap::mark_driven(const Pose2& pose, const Footprint& footprint) {
   const double r = footprint.radius_m() + rim;
   for_cells_in(map_, {pose.x_m - r, pose.y_m - r}, {pose.x_m + r, pose.y_m + r}, [&](CellBelief& cell, Point2 p) {
     const double d = footprint.distance_m(pose, p);
-    if (d <= 0.0) cell = {.known = true, .driven = true};
+    // The wheels have driven it, or the body passed over it.
+    if (footprint.wheel_distance_m(pose, p) <= 0.0) cell = {.known = true, .driven = true};
+    if (d <= 0.0) cell.known = true, cell.unmeasured = 0, cell.tall_evidence = cell.tall_share = 0.0F;
     if (d <= rim) cell.known = true, cell.unmeasured = 0;
   });
 }

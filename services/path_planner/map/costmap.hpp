@@ -22,6 +22,7 @@ struct CostmapConfig {
 
 struct Hazard {
   Point2 p;  // centre of a cell
+  bool low = false;  // the body passes over it, the wheels do not
 };
 
 class Costmap {
@@ -54,7 +55,8 @@ class Costmap {
   std::span<const Hazard> hazards_near(Point2 p, double reach_m) const;
   // To the nearest centre of a hazard cell, by the cell; infinity outside.
   double hazard_distance_m(Point2 p) const { return contains(p) ? hazard_distance_[cell_of(p)] : kInfinity; }
-  double hazard_distance_m(int cell) const { return hazard_distance_[cell]; }
+  // The same, to one that is not low.
+  double tall_hazard_distance_m(int cell) const { return tall_hazard_distance_[cell]; }
   bool unknown(Point2 p) const { return !contains(p) || unknown_[cell_of(p)] != 0; }
   bool unknown(int cell) const { return unknown_[cell] != 0; }
   double unknown_distance_m(Point2 p) const { return contains(p) ? unknown_distance_[cell_of(p)] : 0.0; }
@@ -71,6 +73,7 @@ class Costmap {
   std::vector<Hazard> hazards_;
   std::vector<size_t> row_begin_;  // in hazards_, one more than there are rows
   std::vector<double> hazard_distance_;
+  std::vector<double> tall_hazard_distance_;
   std::vector<double> unknown_distance_;
 };
 

@@ -45,12 +45,13 @@ struct InputGrid {
 
 // In the body frame of the exposure.
 struct HazardGrid : InputGrid {
-  enum Cell : std::uint8_t { kUnseen = 0, kFree = 1, kObstacle = 2, kHole = 3, kMargin = 4 };
-  std::string fault() const { return InputGrid::fault(kMargin); }
+  enum Cell : std::uint8_t { kUnseen = 0, kFree = 1, kObstacle = 2, kHole = 3, kMargin = 4, kLow = 5 };
+  std::string fault() const { return InputGrid::fault(kLow); }
 };
 
-// Aligned with odom; cost of a cell from 0 (free) to kImpassable.
+// Aligned with odom; cost of a cell from 0 (free), or one of the values below.
 struct TraversabilityGrid : InputGrid {
+  static constexpr std::uint8_t kLow = 253;
   static constexpr std::uint8_t kImpassable = 254;
   static constexpr std::uint8_t kUnknown = 255;
   std::string fault() const { return InputGrid::fault(kUnknown); }

@@ -30,7 +30,8 @@ CostToGo::CostToGo(const CostToGoConfig& config, const PlanRequest& request, con
 }
 
 double CostToGo::cost_per_m(int cell) const {
-  const double room = costmap_.hazard_distance_m(cell) - half_width_m_ - margin_m_;
+  // Over a low hazard the rover may pass, with the right heading.
+  const double room = costmap_.tall_hazard_distance_m(cell) - half_width_m_ - margin_m_;
   if (room < -kHalfDiagonal * costmap_.cell_m()) {
     const bool at_rover = room > -margin_m_ - kScrapeM && distance(costmap_.center_of(cell), rover_) < kAtRoverM;
     return at_rover ? config_.seconds_per_m * kTightCost : kInfinity;

@@ -21,10 +21,10 @@ FootprintCheck::FootprintCheck(const Costmap& costmap, const Footprint& footprin
   for (int i = 0; i < nx; ++i) edge_.push_back({x * (2.0 * i / nx - 1.0), -y});
 }
 
-bool FootprintCheck::violates(const Pose2& pose, Point2 hazard) const {
-  const double d = footprint_.distance_m(pose, hazard);
+bool FootprintCheck::violates(const Pose2& pose, const Hazard& hazard) const {
+  const double d = distance_m(pose, hazard);
   if (d >= margin_m_) return false;
-  const double at_start = footprint_.distance_m(start_, hazard);
+  const double at_start = distance_m(start_, hazard);
   return d < std::min(margin_m_, std::max(at_start - kRoundingM, 0.0));
 }
 
@@ -32,7 +32,7 @@ bool FootprintCheck::clear(const Pose2& pose) const {
   const double reach = footprint_.radius_m() + margin_m_;
   if (costmap_.hazard_distance_m(position(pose)) > reach + costmap_.cell_m()) return true;
   for (const Hazard& hazard : costmap_.hazards_near(position(pose), reach)) {
-    if (std::abs(hazard.p.x_m - pose.x_m) <= reach && violates(pose, hazard.p)) return false;
+    if (std::abs(hazard.p.x_m - pose.x_m) <= reach && violates(pose, hazard)) return false;
   }
   return true;
 }
@@ -40,7 +40,7 @@ bool FootprintCheck::clear(const Pose2& pose) const {
 double FootprintCheck::clearance_m(const Pose2& pose, double max) const {
   double nearest = max;
   for (const Hazard& hazard : costmap_.hazards_near(position(pose), footprint_.radius_m() + max))
-    nearest = std::min(nearest, footprint_.distance_m(pose, hazard.p));
+    nearest = std::min(nearest, distance_m(pose, hazard));
   return nearest;
 }
 

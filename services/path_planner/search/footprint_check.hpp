@@ -29,7 +29,10 @@ class FootprintCheck {
  private:
   static constexpr double kCellDiagonals = 1.5;  // cells by which a distance between cells may be too large
 
-  bool violates(const Pose2& pose, Point2 hazard) const;
+  double distance_m(const Pose2& pose, const Hazard& hazard) const {
+    return hazard.low ? footprint_.wheel_distance_m(pose, hazard.p) : footprint_.distance_m(pose, hazard.p);
+  }
+  bool violates(const Pose2& pose, const Hazard& hazard) const;
 
   const Costmap& costmap_;
   Footprint footprint_;

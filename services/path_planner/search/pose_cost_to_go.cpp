@@ -101,39 +101,34 @@ void PoseCostToGo::classify() {
   rasterise(clearances_.min_m - slack_m_, kBlocked);
 }
 
-// Every pose whose footprint, widened by the margin, covers the hazard: the footprint around the hazard, row by row.
+// Every pose whose footprint, widened by the margin, covers the hazard; of a low one, whose wheels do.
 void PoseCostToGo::rasterise(double margin_m, Clearance value) {
-  const double half_length = footprint_.half_length_m + margin_m;
-  const double half_width = footprint_.half_width_m + margin_m;
-  const int reach = static_cast<int>(std::hypot(half_length, half_width) / cell_m_) + 1;
-  std::vector<std::pair<int, int>> hazards;
-  for (const auto& [p] : request_.costmap->hazards()) {
-    const int ix = static_cast<int>(std::floor((p.x_m - corner_.x_m) / cell_m_));
-    const int iy = static_cast<int>(std::floor((p.y_m - corner_.y_m) / cell_m_));
+  const int reach = static_cast<int>((footprint_.radius_m() + 2.0 * margin_m) / cell_m_) + 1;
+  std::array<std::vector<std::pair<int, int>>, 2> hazards;  // tall, low
+  for (const Hazard& hazard : request_.costmap->hazards()) {
+    const int ix = static_cast<int>(std::floor((hazard.p.x_m - corner_.x_m) / cell_m_));
+    const int iy = static_cast<int>(std::floor((hazard.p.y_m - corner_.y_m) / cell_m_));
     if (std::min(ix, iy) < -reach || std::max(ix, iy) >= cells_ + reach) continue;
-    if (footprint_.distance_m(request_.rover, p) > margin_m + kNearRoverM) hazards.emplace_back(ix, iy);
+    const double at_rover_m = hazard.low ? footprint_.wheel_distance_m(request_.rover, hazard.p)
+                                         : footprint_.distance_m(request_.rover, hazard.p);
+    if (at_rover_m > margin_m + kNearRoverM) hazards[hazard.low ? 1 : 0].emplace_back(ix, iy);
   }
-  for (int heading = 0; heading < kClearanceHeadings; ++heading) {
-    const double c = std::cos(yaw_of(heading));
-    const double s = std::sin(yaw_of(heading));
-    for (int dy = -reach; dy <= reach; ++dy) {
-      int from = reach + 1;
-      int to = -reach - 1;
+  for (int heading = 0; heading < kClearanceHeadings; ++heading)
+    for (int dy = -reach; dy <= reach; ++dy)
       for (int dx = -reach; dx <= reach; ++dx) {
-        const double x = dx * cell_m_;
-        const double y = dy * cell_m_;
-        if (std::abs(c * x + s * y) >= half_length || std::abs(c * y - s * x) >= half_width) continue;
-        from = std::min(from, dx);
-        to = std::max(to, dx);
+        const Pose2 pose{dx * cell_m_, dy * cell_m_, yaw_of(heading)};
+        const std::array<bool, 2> covers = {footprint_.distance_m(pose, {}) < margin_m,
+                                            footprint_.wheel_distance_m(pose, {}) < margin_m};
+        for (size_t kind = 0; kind < hazards.size(); ++kind) {
+          if (!covers[kind]) continue;
+          for (const auto& [hx, hy] : hazards[kind]) {
+            const int x = hx + dx;
+            const int y = hy + dy;
+            if (x < 0 || y < 0 || x >= cells_ || y >= cells_) continue;
+            classes_[(static_cast<size_t>(y) * cells_ + x) * kClearanceHeadings + heading] = value;
+          }
+        }
       }
-      for (const auto& [hx, hy] : hazards) {
-        const int y = hy + dy;
-        if (y < 0 || y >= cells_) continue;
-        for (int x = std::max(0, hx + from); x <= std::min(cells_ - 1, hx + to); ++x)
-          classes_[(static_cast<size_t>(y) * cells_ + x) * kClearanceHeadings + heading] = value;
-      }
-    }
-  }
 }
 
 double PoseCostToGo::cost_beyond(Point2 p) const {
