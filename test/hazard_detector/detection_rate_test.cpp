@@ -13,7 +13,7 @@ class DetectionRateTest : public SceneTest {
   bool detected(const synthetic::World& world, double sigma_px) {
     const synthetic::Rock& rock = world.rocks.front();
     const HazardResult result = detect(world, sigma_px, 0.08);
-    return map(result).count_near(Cell::kObstacle, rock.x_m, rock.y_m, 1.5 * rock.half_width_m + 0.15) > 0;
+    return map(result).count_near(is_hazard, rock.x_m, rock.y_m, 1.5 * rock.half_width_m + 0.15) > 0;
   }
 
   // Fraction of frames in which the rock is detected, over lateral positions, shapes, slopes and noise.

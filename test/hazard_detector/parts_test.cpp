@@ -175,8 +175,8 @@ TEST_F(CellClassifierTest, OnlyASingleGapIsFilled) {
 }
 
 TEST_F(CellClassifierTest, HazardClusterNeedsMinSamples) {
-  at(10, 10).high = 11;
-  EXPECT_NE(state(10, 10), Cell::kObstacle);
+  at(10, 10).high = at(10, 10).tall = 11;
+  EXPECT_FALSE(is_hazard(state(10, 10)));
   at(11, 11).high = 3;
   EXPECT_EQ(state(10, 10), Cell::kObstacle);
   EXPECT_EQ(state(11, 11), Cell::kObstacle);
@@ -185,11 +185,20 @@ TEST_F(CellClassifierTest, HazardClusterNeedsMinSamples) {
 }
 
 TEST_F(CellClassifierTest, ObstacleGrowsOverItsSidesAndHolesAreDetected) {
-  at(10, 10).high = 20;
+  at(10, 10).high = at(10, 10).tall = 20;
   at(11, 10).raised = 5;
   at(20, 20).low = 20;
   EXPECT_EQ(state(11, 10), Cell::kObstacle);
   EXPECT_EQ(state(20, 20), Cell::kHole);
+}
+
+TEST_F(CellClassifierTest, AnObstacleIsLowIfHardlyAnySampleOfItIsTall) {
+  for (int ix : {10, 11, 12}) at(ix, 10).high = 20;
+  at(12, 10).tall = config_.min_cell_samples - 1;
+  for (int ix : {20, 21, 22}) at(ix, 20).high = 20;
+  at(22, 20).tall = config_.min_cell_samples;
+  for (int ix : {10, 11, 12}) EXPECT_EQ(state(ix, 10), Cell::kLow) << ix;
+  for (int ix : {20, 21, 22}) EXPECT_EQ(state(ix, 20), Cell::kObstacle) << ix;
 }
 
 }  // namespace

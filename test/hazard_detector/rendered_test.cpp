@@ -91,7 +91,7 @@ TEST_F(RockFieldTest, DetectsTwentyCentimetreRocksBeforeContact) {
       const double x = rock.x_m - ahead * std::cos(yaw) + offset * std::sin(yaw);
       const double y = rock.y_m - ahead * std::sin(yaw) - offset * std::cos(yaw);
       const HazardResult result = detect(place_on_ground({x, y, yaw}));
-      const bool hit = map(result).count_near(Cell::kObstacle, ahead, offset, 0.5 * rock.diameter_m + 0.15) > 0;
+      const bool hit = map(result).count_near(is_hazard, ahead, offset, 0.5 * rock.diameter_m + 0.15) > 0;
       seen = seen || hit;
       hits += hit;
       ++frames;

@@ -39,15 +39,19 @@ struct Map {
     return shape.contains(ix, iy) ? result.cells[static_cast<size_t>(shape.at(ix, iy))] : Cell::kUnseen;
   }
   int count(Cell state) const { return static_cast<int>(std::count(result.cells.begin(), result.cells.end(), state)); }
-  int hazards() const { return count(Cell::kObstacle) + count(Cell::kHole); }
-  // Number of cells with that state whose centre is within distance_m of a point.
-  int count_near(Cell state, double x_m, double y_m, double distance_m) const {
+  int hazards() const { return static_cast<int>(std::count_if(result.cells.begin(), result.cells.end(), is_hazard)); }
+  // Number of cells that fulfil the condition, with their centre within distance_m of a point.
+  template <class F>
+  int count_near(F&& fulfils, double x_m, double y_m, double distance_m) const {
     int n = 0;
     for (int iy = 0; iy < shape.cells_y; ++iy)
       for (int ix = 0; ix < shape.cells_x; ++ix)
         n += std::hypot(shape.x_m(ix) - x_m, shape.y_m(iy) - y_m) < distance_m &&
-             result.cells[static_cast<size_t>(shape.at(ix, iy))] == state;
+             fulfils(result.cells[static_cast<size_t>(shape.at(ix, iy))]);
     return n;
+  }
+  int count_near(Cell state, double x_m, double y_m, double distance_m) const {
+    return count_near([state](Cell cell) { return cell == state; }, x_m, y_m, distance_m);
   }
 };
 

@@ -159,6 +159,27 @@ TEST_F(BeliefMapTest, DrivenGroundIsFreeWhateverWasSeenThere) {
   EXPECT_EQ(probability(), 0.0);
 }
 
+TEST_F(BeliefMapTest, AHazardIsLowOnlyIfCamerasSaySo) {
+  see(HazardGrid::kObstacle, 2);
+  EXPECT_FALSE(belief_.low(at(kRock)));
+  see(HazardGrid::kLow, 4);
+  EXPECT_FALSE(belief_.low(at(kRock))) << "a look that finds it tall weighs more";
+  see(HazardGrid::kLow, 2);
+  EXPECT_TRUE(belief_.low(at(kRock)));
+  see_cost(TraversabilityGrid::kImpassable, 2.0);
+  EXPECT_FALSE(belief_.low(at(kRock)));
+}
+
+TEST_F(BeliefMapTest, BetweenTheWheelsALowHazardStaysOne) {
+  const Footprint footprint{0.875, 0.47, 0.35};
+  see(HazardGrid::kObstacle, 3);
+  belief_.mark_driven({kRock.x_m, kRock.y_m, 0.0}, footprint);
+  EXPECT_TRUE(is_hazard());
+  EXPECT_TRUE(belief_.low(at(kRock))) << "the body passed over it";
+  belief_.mark_driven({kRock.x_m, kRock.y_m + 0.41, 0.0}, footprint);
+  EXPECT_EQ(probability(), 0.0) << "a wheel drove over it";
+}
+
 TEST_F(BeliefMapTest, DrivenGroundNeedsNoMeasurement) {
   belief_.mark_driven({1.5, 0.0, 0.0}, {0.875, 0.47});
   see_everywhere(HazardGrid::kUnseen, 2 * config_.unmeasured_frames);

@@ -40,7 +40,7 @@ RockCells cells_on_rocks(const World& world, const TraversabilityMap& map, doubl
       if (world.height_m(x, y) - world.ground_height_m(x, y) < min_height_m) continue;
       const int ix = static_cast<int>((x - x0) / map.shape.cell_m), iy = static_cast<int>((y - y0) / map.shape.cell_m);
       ++out.all;
-      out.passable += map.cells[map.shape.at(ix, iy)] < kImpassable;
+      out.passable += map.cells[map.shape.at(ix, iy)] < kLow;
     }
   return out;
 }

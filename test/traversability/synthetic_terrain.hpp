@@ -64,7 +64,7 @@ Count count(const TraversabilityMap& map, In&& in) {
     for (int ix = 0; ix < map.shape.cells_x; ++ix) {
       if (!in(map.shape.x_m(ix), map.shape.y_m(iy))) continue;
       const std::uint8_t cost = map.cells[map.shape.at(ix, iy)];
-      ++(cost == kUnknown ? out.unknown : cost == kImpassable ? out.impassable : out.passable);
+      ++(cost == kUnknown ? out.unknown : cost >= kLow ? out.impassable : out.passable);
     }
   return out;
 }

@@ -68,8 +68,8 @@ void compare_rocks(const World& world, const TerrainGrid& grid, const Traversabi
     int cells = 0, passable = 0, impassable = 0;
     for_each_seen(grid, rock.x_m, rock.y_m, 0.4 * rock.diameter_m, [&](std::size_t i) {
       ++cells;
-      passable += map.cells[i] < kImpassable;
-      impassable += map.cells[i] == kImpassable;
+      passable += map.cells[i] < kLow;
+      impassable += map.cells[i] >= kLow && map.cells[i] != kUnknown;
     });
     const double whole_cells = kPi * std::pow(0.4 * rock.diameter_m / grid.shape.cell_m, 2);
     if (cells == 0 || cells < 0.5 * whole_cells) continue;
@@ -93,14 +93,14 @@ void compare(const World& world, const TerrainGrid& grid, const TraversabilityMa
       tally.worst_sigma_m = std::max<double>(tally.worst_sigma_m, grid.sigma_m[i]);
       tally.unknown += cost == kUnknown;
       tally.uncertain += cost == kUnknown && grid.sigma_m[i] <= 0.06F;
-      tally.impassable += cost == kImpassable;
-      if (cost < kImpassable) tally.cost += cost, ++tally.passable;
+      tally.impassable += cost == kImpassable || cost == kLow;
+      if (cost < kLow) tally.cost += cost, ++tally.passable;
       if (rise_m(world, x, y) >= kRockM) {
         ++tally.rock_cells;
-        tally.rock_passable += cost < kImpassable;
+        tally.rock_passable += cost < kLow;
       } else if (highest_m(world, x, y, kRimM) < 0.08) {
         ++tally.plain_cells;
-        tally.plain_impassable += cost == kImpassable;
+        tally.plain_impassable += cost == kImpassable || cost == kLow;
       }
     }
 }

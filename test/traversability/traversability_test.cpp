@@ -97,6 +97,16 @@ TEST_F(Rocks, ImpassableFromHazardHeight) {
     }
 }
 
+TEST_F(Rocks, ThoseOfSeventeenCentimetresAreLowAndThoseOfThirtyAreNot) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const TraversabilityMap low = map_with_block(0.17, 0.2, 0.005, seed);
+    const TraversabilityMap tall = map_with_block(0.30, 0.2, 0.005, seed);
+    EXPECT_EQ(std::count(low.cells.begin(), low.cells.end(), kImpassable), 0) << seed;
+    EXPECT_GT(std::count(low.cells.begin(), low.cells.end(), kLow), 4) << seed;
+    EXPECT_EQ(std::count(tall.cells.begin(), tall.cells.end(), kLow), 0) << seed;
+  }
+}
+
 TEST_F(Rocks, NoCellPassableFromTwentyCentimetres) {
   for (double height : {0.20, 0.30, 0.6})
     for (double radius : {0.12, 0.25, 0.5, 0.8})

@@ -59,7 +59,7 @@ TEST(TrueMapsInRockField, HazardsAreTheVisibleCellsAboveTheLimit) {
         const bool at_edge_of_view = std::abs(shape.y_m(iy)) > 0.35 * shape.x_m(ix);
         if (cell == hazard::Cell::kUnseen || cell == hazard::Cell::kMargin || at_edge_of_view) continue;
         const double west = x + shape.x_m(ix) - 0.5 * kCellM, south = 30.0 + shape.y_m(iy) - 0.5 * kCellM;
-        agreement.add(cell == hazard::Cell::kObstacle, surface->top_m(west, south, kCellM),
+        agreement.add(hazard::is_hazard(cell), surface->top_m(west, south, kCellM),
                       surface->top_m(west - kCellM, south - kCellM, 3.0 * kCellM));
       }
   }
@@ -88,7 +88,7 @@ TEST(TrueMapsInRockField, ImpassableCellsAreThoseAboveTheLimitAndTheirNeighbours
         if (cost == trav::kUnknown) continue;
         const double west = map.shape.x_m(ix) - 0.5 * kCellM, south = map.shape.y_m(iy) - 0.5 * kCellM;
         // Growth over the sides of a rock: two cells.
-        agreement.add(cost == trav::kImpassable, surface->top_m(west, south, kCellM),
+        agreement.add(cost == trav::kLow || cost == trav::kImpassable, surface->top_m(west, south, kCellM),
                       surface->top_m(west - 2.0 * kCellM, south - 2.0 * kCellM, 5.0 * kCellM));
       }
   }
@@ -102,7 +102,7 @@ TEST(TrueMapsInRockField, RoughGroundWithoutRocksIsClear) {
   for (double x = 5.0; x < 50.0; x += 1.5) EXPECT_EQ(look(hazards, x).status, hazard::Status::kClear) << x;
   const trav::TraversabilityMap map = drive(surface, 30.0);
   EXPECT_EQ(std::count(map.cells.begin(), map.cells.end(), trav::kImpassable), 0);
-  EXPECT_GT(std::count_if(map.cells.begin(), map.cells.end(), [](int cost) { return cost < trav::kImpassable; }), 5000);
+  EXPECT_GT(std::count_if(map.cells.begin(), map.cells.end(), [](int cost) { return cost < trav::kLow; }), 5000);
 }
 
 }  // namespace
