@@ -6,13 +6,14 @@ namespace {
 constexpr double kStepM = 0.05;
 constexpr double kTurnStepRad = 0.0524;
 constexpr double kViewStepM = 0.3;
-constexpr double kMergeM = 1.0;  // over about this distance the controller removes a cross-track error
+constexpr double kMonitorApproachM = 0.025;  // a path is not its plan to the millimetre
+constexpr double kMergeM = 1.0;              // over about this distance the controller removes a cross-track error
 
 class Monitor {
  public:
   explicit Monitor(const MonitorQuery& query)
       : query_(query),
-        check_(query.costmap, query.footprint, query.margin_m, 0.0, query.rover),
+        check_(query.costmap, query.footprint, query.margin_m, kMonitorApproachM, 0.0, query.rover),
         visibility_(query.costmap, check_, query.view) {}
 
   Blockage run() {

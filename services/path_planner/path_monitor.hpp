@@ -23,7 +23,7 @@ struct MonitorQuery {
 
 // Arc lengths along the route; infinity: clear as far as the costmap reaches.
 struct Blockage {
-  double hazard_m = kInfinity;  // certain enough to stop
+  double hazard_m = kInfinity;
   double unknown_m = kInfinity;
   double unseen_m = kInfinity;  // unknown, and not seen on the path to it either
 };

@@ -381,8 +381,10 @@ void PathPlanner::adopt(const Plan& plan, const Job& job) {
     needs_unseen_ground_ = plan.needs_unseen_ground;
     return;
   }
-  failures_ = 0;
-  if (plan.keeps_incumbent) return;
+  if (plan.keeps_incumbent) {
+    failures_ = 0;
+    return;
+  }
   std::vector<PlanPose> poses;
   if (!std::isnan(job.start.at_m)) {
     poses = active_.plan_until(job.start.at_m);
@@ -400,6 +402,7 @@ void PathPlanner::adopt(const Plan& plan, const Job& job) {
                    position(rover()));
   track_turn();
   check_path();
+  failures_ = clear() ? 0 : failures_ + 1;  // a plan that the path monitor refuses is none
 }
 
 // Beyond a plan the path leads back to the global one; before the rover comes there, there is another plan.

@@ -123,8 +123,10 @@ std::vector<std::uint8_t> find_low_obstacles(const TerrainGrid& grid, const Disc
     bool is_low = true;
     for (std::size_t k = 0; k < rock.size(); ++k) {
       const std::size_t i = shape.at(rock[k].ix, rock[k].iy);
-      const double over_plane_m = grid.height_m[i] - planes.at(i).height_m;
-      is_low = is_low && std::max<double>(steps.raw_rise_m[i], over_plane_m) < config.body_limit_m();
+      // The rise is that over the lowest of many cells, which noise lowers.
+      const double noise_m = config.step.significance * grid.sigma_m[i];
+      is_low = is_low && grid.height_m[i] - planes.at(i).height_m < config.body_limit_m() &&
+               steps.raw_rise_m[i] - noise_m < config.body_limit_m();
       for_each_neighbour(shape, rock[k], [&](Cell q) {
         const std::size_t j = shape.at(q.ix, q.iy);
         if (!obstacle[j] || visited[j]) return;

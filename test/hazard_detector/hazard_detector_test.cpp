@@ -156,9 +156,7 @@ TEST_F(HazardDetectorTest, StepUpAcrossTheWholeViewIsAHazard) {
     const HazardResult result = detect(step_edge(x_m, 0.2));
     EXPECT_EQ(result.status, Status::kHazard) << x_m;
     for (double y = -0.35; y < 0.4; y += 0.1)
-      EXPECT_GT(
-          map(result).count_near(is_hazard, x_m, y, 0.15), 0)
-          << x_m << " " << y;
+      EXPECT_GT(map(result).count_near(is_hazard, x_m, y, 0.15), 0) << x_m << " " << y;
   }
 }
 

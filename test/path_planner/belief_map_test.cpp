@@ -243,11 +243,11 @@ TEST_F(BeliefMapTest, GroundHiddenBehindAnObstacleIsNotUnmeasured) {
 
 TEST_F(BeliefMapTest, ProbabilityGrowsWithTheCostOfTheNavCamsMap) {
   double last = 0.0;
-  for (const int cost : {0, 120, 180, 220, 253, int(TraversabilityGrid::kImpassable)}) {
+  for (const int cost : {0, 120, 180, 220, 252, int(TraversabilityGrid::kLow), int(TraversabilityGrid::kImpassable)}) {
     belief_.clear();
     see_cost(static_cast<std::uint8_t>(cost), 2.0);
     EXPECT_GE(probability(), last) << cost;
-    EXPECT_EQ(is_hazard(), cost == TraversabilityGrid::kImpassable) << cost;
+    EXPECT_EQ(is_hazard(), cost >= TraversabilityGrid::kLow) << cost;
     last = probability();
   }
   EXPECT_GT(last, 0.9);
@@ -315,7 +315,7 @@ TEST_F(BeliefMapTest, HazardsAreKeptOutOfViewAndForgottenOutsideTheGrid) {
 }
 
 TEST(InputGrid, CorruptGridsAreRefusedWithAReason) {
-  EXPECT_EQ(frame_of(HazardGrid::kMargin).fault(), "");
+  EXPECT_EQ(frame_of(HazardGrid::kLow).fault(), "");
   const std::vector<std::function<void(InputGrid&)>> faults = {
       [](InputGrid& g) { g.cells_x = 0; },
       [](InputGrid& g) { g.cells_y = -40; },
@@ -325,7 +325,7 @@ TEST(InputGrid, CorruptGridsAreRefusedWithAReason) {
       [](InputGrid& g) { g.cell_m = 0.0; },
       [](InputGrid& g) { g.origin_x_m = kInfinity; },
       [](InputGrid& g) { g.origin_y_m = kNaN; },
-      [](InputGrid& g) { g.cells[7] = HazardGrid::kMargin + 1; },
+      [](InputGrid& g) { g.cells[7] = HazardGrid::kLow + 1; },
   };
   for (size_t i = 0; i < faults.size(); ++i) {
     HazardGrid grid = frame_of(HazardGrid::kFree);

@@ -60,8 +60,8 @@ TEST(Costmap, ListsTheHazardsNearAPoint) {
     for (const double reach_m : {0.0, 0.3, 1.2, 20.0}) {
       size_t within = 0;
       size_t listed = 0;
-      for (const auto& [h] : costmap.hazards()) within += std::abs(h.y_m - p.y_m) <= reach_m ? 1 : 0;
-      for (const auto& [h] : costmap.hazards_near(p, reach_m)) {
+      for (const auto& [h, low] : costmap.hazards()) within += std::abs(h.y_m - p.y_m) <= reach_m ? 1 : 0;
+      for (const auto& [h, low] : costmap.hazards_near(p, reach_m)) {
         listed += std::abs(h.y_m - p.y_m) <= reach_m ? 1 : 0;
         EXPECT_LE(std::abs(h.y_m - p.y_m), reach_m + costmap.cell_m());
       }
@@ -74,7 +74,7 @@ TEST(Costmap, DistancesReachToTheNearestCentreOfAHazardCell) {
   for (const Point2& p : random_points(5, 300)) {
     const Point2 center = costmap.center_of(costmap.cell_of(p));
     double nearest = kInfinity;
-    for (const auto& [h] : costmap.hazards()) nearest = std::min(nearest, distance(h, center));
+    for (const Hazard& h : costmap.hazards()) nearest = std::min(nearest, distance(h.p, center));
     EXPECT_NEAR(costmap.hazard_distance_m(p), nearest, 1e-6);
   }
   EXPECT_TRUE(std::isinf(costmap.hazard_distance_m(Point2{6.0, 0.0})));

@@ -18,6 +18,7 @@ using testing_support::Rock;
 using testing_support::uniform;
 
 constexpr double kMarginM = 0.17;
+constexpr double kApproachM = 0.02;
 const Footprint kRover = planner_config().footprint;
 
 Costmap costmap_of(const GroundAt& ground) {
@@ -25,7 +26,7 @@ Costmap costmap_of(const GroundAt& ground) {
 }
 
 FootprintCheck check_of(const Costmap& costmap, const Pose2& start = {9.0, 9.0, 0.0}) {
-  return FootprintCheck(costmap, kRover, kMarginM, 0.0, start);
+  return FootprintCheck(costmap, kRover, kMarginM, kApproachM, 0.0, start);
 }
 
 GroundAt scattered(Ground kind, std::uint64_t seed) {

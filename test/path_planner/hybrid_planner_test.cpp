@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "path_planner/active_path.hpp"
+#include "path_planner/path_monitor.hpp"
 #include "test/path_planner/plan_scene.hpp"
 
 namespace rover::planning {
@@ -22,6 +24,7 @@ constexpr double kWallM = 4.0;
 constexpr double kSamplesPerMotion = 6.0;
 constexpr double kMaxMotionChange = 1.1;  // of the curvature, relative to the largest
 constexpr double kKnownMarginM = 0.04;
+constexpr double kApproachM = 0.005;
 
 Ground free_ground(Point2 /*p*/) {
   return Ground::kFree;
@@ -91,7 +94,7 @@ bool reverses(const Plan& plan) {
 void expect_keeps_clearance(const Plan& plan, const PlanRequest& request) {
   const HybridPlannerConfig config = search_config();
   const auto check = [&](double margin_m) {
-    return FootprintCheck(*request.costmap, config.footprint, margin_m, 0.0, request.rover);
+    return FootprintCheck(*request.costmap, config.footprint, margin_m, kApproachM, 0.0, request.rover);
   };
   const FootprintCheck min = check(config.clearances.min_m);
   const FootprintCheck turn = check(config.clearances.turn_m);
@@ -131,7 +134,8 @@ void expect_drivable(const Plan& plan, double start_curvature_per_m = 0.0) {
 // Ground that the footprint comes to cover is known, or was in view before.
 void expect_seen_in_time(const Plan& plan, const PlanRequest& request) {
   const HybridPlannerConfig config = search_config();
-  const FootprintCheck check(*request.costmap, config.footprint, config.clearances.min_m, kKnownMarginM, request.rover);
+  const FootprintCheck check(*request.costmap, config.footprint, config.clearances.min_m, kApproachM, kKnownMarginM,
+                             request.rover);
   Visibility visibility(*request.costmap, check, config.view);
   double forward_m = 0.0;
   for (size_t i = 0; i < plan.poses.size(); ++i) {
@@ -206,6 +210,37 @@ TEST(HybridPlanner, OnRandomFieldsItKeepsTheLimitsOfTheSteering) {
     EXPECT_EQ(distance(position(field.plan.poses.front().pose), position(field.request.start)), 0.0);
     expect_drivable(field.plan, field.request.start_curvature_per_m);
   }
+}
+
+// Also beside a rock that is nearer than a plan would come.
+TEST(HybridPlanner, ThePathMonitorAcceptsEachPlan) {
+  const HybridPlannerConfig config = search_config();
+  int near = 0;
+  for (std::uint64_t seed = 1; seed <= kFields; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937_64 random(seed);
+    const Pose2 start{0.0, 0.0, uniform(random, -1.0, 1.0)};
+    const double side = seed % 2 == 0 ? 1.0 : -1.0;
+    const Point2 beside = from_body(start, {uniform(random, -0.8, 0.8), side * uniform(random, 0.5, 0.6)});
+    const GroundAt rocks = ground_of(random_rocks(seed));
+    const PlanRequest request = plan_request(
+        certain_belief([&](Point2 p) { return distance(p, beside) < 0.06 ? Ground::kHazard : rocks(p); }), start);
+    const Plan plan = plan_on(request);
+    if (!plan.found) continue;
+    near += FootprintCheck(*request.costmap, config.footprint, config.clearances.min_m, 0.0, 0.0, {9.0, 9.0, 0.0})
+                    .clear(start)
+                ? 0
+                : 1;
+    ActivePath path;
+    path.set_plan(1, PathKind::kRepair, plan.poses, {}, 0.25, 0, position(start));
+    constexpr double kPointTurnRad = 0.7;
+    const bool turning = std::abs(wrap_angle(path.pose_at(0.0).yaw_rad - start.yaw_rad)) > kPointTurnRad;
+    const Blockage blockage =
+        find_blockage({*request.costmap, path.route(), path.reverse(), config.footprint, 0.0, start,
+                       config.clearances.min_m - 0.03, turning, kPointTurnRad, config.view});
+    EXPECT_TRUE(std::isinf(blockage.hazard_m)) << blockage.hazard_m;
+  }
+  EXPECT_GT(near, 10);
 }
 
 // The search also counts the heading at the end of a plan.

@@ -239,18 +239,19 @@ TEST(PassabilityMap, OutsideOfTheGridIsUnseen) {
 TEST(PassabilityMap, MarginAndUnknownCellsAreUnseen) {
   hazards_t hazards{};
   hazards.cell_m = 0.1;
-  hazards.size = hazards.cells_x = 5;
+  hazards.size = hazards.cells_x = 6;
   hazards.cells_y = 1;
-  hazards.cells = {hazards_t::UNSEEN, hazards_t::FREE, hazards_t::OBSTACLE, hazards_t::HOLE, hazards_t::MARGIN};
+  hazards.cells = {hazards_t::UNSEEN, hazards_t::FREE,   hazards_t::OBSTACLE,
+                   hazards_t::HOLE,   hazards_t::MARGIN, hazards_t::LOW};
   using P = PassabilityMap;
   EXPECT_EQ(passability_from(hazards)->cells,
-            (std::vector{P::kUnseen, P::kPassable, P::kImpassable, P::kImpassable, P::kUnseen}));
+            (std::vector{P::kUnseen, P::kPassable, P::kImpassable, P::kImpassable, P::kUnseen, P::kImpassable}));
   traversability_t costs{};
   costs.cell_m = 0.1;
   costs.size = costs.cells_x = 4;
   costs.cells_y = 1;
-  costs.cells = {0, 253, 254, 255};
-  EXPECT_EQ(passability_from(costs)->cells, (std::vector{P::kPassable, P::kPassable, P::kImpassable, P::kUnseen}));
+  costs.cells = {252, 253, 254, 255};
+  EXPECT_EQ(passability_from(costs)->cells, (std::vector{P::kPassable, P::kImpassable, P::kImpassable, P::kUnseen}));
 }
 
 TEST(PassabilityMap, MessageThatContradictsItselfIsIgnored) {

@@ -120,6 +120,21 @@ TEST(VehicleClimb, StoneBetweenWheelsReducesClearance) {
   EXPECT_NEAR(crossing.min_clearance_m, 0.147, 0.01);
 }
 
+TEST(VehicleClimb, StoneThatMeetsTheRearBogieIsCollision) {
+  const Crossing crossing =
+      cross([](double x, double y) { return std::clamp(3.0 * (0.15 - std::hypot(x - 1.5, y)), 0.0, 0.28); }, 30.0);
+  EXPECT_EQ(crossing.collision, Collision::kBodyContact);
+  EXPECT_GT(crossing.min_clearance_m, 0.0);
+}
+
+TEST(VehicleClimb, StoneThatMeetsTheForkBesideAWheelIsCollision) {
+  const auto stone_at = [](double y_m) {
+    return [=](double x, double y) { return std::clamp(9.0 * (0.04 - std::hypot(x - 1.5, y - y_m)), 0.0, 0.22); };
+  };
+  EXPECT_EQ(cross(stone_at(0.31), 20.0).collision, Collision::kBodyContact);
+  EXPECT_EQ(cross(stone_at(0.25), 20.0).collision, Collision::kNone);
+}
+
 TEST(VehicleClimb, DrivingIntoWallIsCollision) {
   EXPECT_EQ(cross([](double x, double) { return std::clamp((x - 1.5) * 20.0, 0.0, 1.0); }, 15.0).collision,
             Collision::kWheelClimb);

@@ -97,10 +97,10 @@ TEST_F(Rocks, ImpassableFromHazardHeight) {
     }
 }
 
-TEST_F(Rocks, ThoseOfSeventeenCentimetresAreLowAndThoseOfThirtyAreNot) {
+TEST_F(Rocks, ThoseOfFifteenCentimetresAreLowAndThoseOfTwentyAreNot) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-    const TraversabilityMap low = map_with_block(0.17, 0.2, 0.005, seed);
-    const TraversabilityMap tall = map_with_block(0.30, 0.2, 0.005, seed);
+    const TraversabilityMap low = map_with_block(0.15, 0.2, 0.005, seed);
+    const TraversabilityMap tall = map_with_block(0.20, 0.2, 0.005, seed);
     EXPECT_EQ(std::count(low.cells.begin(), low.cells.end(), kImpassable), 0) << seed;
     EXPECT_GT(std::count(low.cells.begin(), low.cells.end(), kLow), 4) << seed;
     EXPECT_EQ(std::count(tall.cells.begin(), tall.cells.end(), kLow), 0) << seed;

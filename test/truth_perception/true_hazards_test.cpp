@@ -42,10 +42,10 @@ class TrueHazardsTest : public testing::Test {
     return result.cells[static_cast<size_t>(shape_.at(static_cast<int>((x_m - shape_.origin_x_m) / shape_.cell_m),
                                                       static_cast<int>((y_m - shape_.origin_y_m) / shape_.cell_m)))];
   }
-  // Every cell on the rock is an obstacle, and no other is.
+  // Every cell on the rock is an obstacle, low or not, and no other is.
   void expect_marked_exactly(const hazard::HazardResult& result, const Block& rock) const {
     for_each_cell([&](int i, double x, double y) {
-      const bool obstacle = result.cells[static_cast<size_t>(i)] == Cell::kObstacle;
+      const bool obstacle = hazard::is_hazard(result.cells[static_cast<size_t>(i)]);
       if (std::hypot(x - rock.x_m, y - rock.y_m) <= rock.radius_m) {
         EXPECT_TRUE(obstacle) << x << " " << y;
       }

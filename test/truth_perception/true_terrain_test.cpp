@@ -32,11 +32,11 @@ class TrueTerrainTest : public testing::Test {
 
 TEST_F(TrueTerrainTest, RockOfFourteenCentimetresIsPassable) {
   const trav::TraversabilityMap map = map_of({{13.0, 10.1, 0.2, 0.14}});
-  EXPECT_EQ(count(map, trav::kImpassable), 0);
-  EXPECT_LT(at(map, 13.0, 10.1), trav::kImpassable);
+  EXPECT_EQ(count(map, trav::kLow) + count(map, trav::kImpassable), 0);
+  EXPECT_LT(at(map, 13.0, 10.1), trav::kLow);
 }
 
-TEST_F(TrueTerrainTest, RockOfSixteenCentimetresIsImpassableWithOneRingOfCells) {
+TEST_F(TrueTerrainTest, RockOfSixteenCentimetresIsLowWithOneRingOfCells) {
   const Block rock{13.0, 10.1, 0.2, 0.16};
   const trav::TraversabilityMap map = map_of({rock});
   for (int iy = 0; iy < map.shape.cells_y; ++iy)
@@ -44,9 +44,9 @@ TEST_F(TrueTerrainTest, RockOfSixteenCentimetresIsImpassableWithOneRingOfCells) 
       const double x = map.shape.x_m(ix), y = map.shape.y_m(iy);
       const std::uint8_t cost = map.cells[map.shape.at(ix, iy)];
       if (std::hypot(x - rock.x_m, y - rock.y_m) <= rock.radius_m) {
-        EXPECT_EQ(cost, trav::kImpassable) << x << " " << y;
+        EXPECT_EQ(cost, trav::kLow) << x << " " << y;
       }
-      if (cost == trav::kImpassable) {
+      if (cost == trav::kLow) {
         EXPECT_TRUE(touches(rock, x, y, 3.0 * kCellM + 0.01)) << x << " " << y;
       }
     }

@@ -134,7 +134,8 @@ void BeliefMap::add(const TraversabilityGrid& grid, Point2 rover) {
     const double innovation = std::clamp(ratio - cell.step_ratio, -bound, bound);
     cell.step_ratio += weight * static_cast<float>(innovation);
     cell.cost += weight * (static_cast<float>(impassable ? 0.0 : relative) - cell.cost);
-    if (impassable) cell.tall_share += weight * ((cost == TraversabilityGrid::kLow ? 0.0F : 1.0F) - cell.tall_share);
+    if (impassable)
+      cell.tall_fraction += weight * ((cost == TraversabilityGrid::kLow ? 0.0F : 1.0F) - cell.tall_fraction);
     cell.step_sigma = std::min(cell.step_sigma, static_cast<float>(sigma));
     cell.known = true;
   });
@@ -156,7 +157,7 @@ void BeliefMap::mark_driven(const Pose2& pose, const Footprint& footprint) {
     const double d = footprint.distance_m(pose, p);
     // The wheels have driven it, or the body passed over it.
     if (footprint.wheel_distance_m(pose, p) <= 0.0) cell = {.known = true, .driven = true};
-    if (d <= 0.0) cell.known = true, cell.unmeasured = 0, cell.tall_evidence = cell.tall_share = 0.0F;
+    if (d <= 0.0) cell.known = true, cell.unmeasured = 0, cell.tall_evidence = cell.tall_fraction = 0.0F;
     if (d <= rim) cell.known = true, cell.unmeasured = 0;
   });
 }

@@ -37,7 +37,7 @@ struct CellBelief {
   float step_sigma = kNoSigma;  // and its standard deviation
   float cost = 0.0F;            // NavCam, cost of driving over it, 0 .. 1
   float tall_evidence = 0.0F;   // LocCam, log-odds that a hazard is too tall to pass under the body
-  float tall_share = 0.5F;      // NavCam, mean of its verdicts on the same
+  float tall_fraction = 0.5F;   // NavCam, mean of what its maps say of the same
 
   static constexpr float kNoSigma = 1e3F;
 };
@@ -60,7 +60,7 @@ class BeliefMap {
   double probability(const CellBelief& cell) const;
   // If it is a hazard, whether the body passes over it.
   bool low(const CellBelief& cell) const {
-    return cell.tall_evidence + config_.max_navcam_evidence * (2.0 * cell.tall_share - 1.0) < 0.0;
+    return cell.tall_evidence + config_.max_navcam_evidence * (2.0 * cell.tall_fraction - 1.0) < 0.0;
   }
   // Seen from afar perhaps, but not from near, where the picture is sharper. Only a look from as near changes that.
   bool unmeasurable(const CellBelief& cell) const { return cell.unmeasured >= config_.unmeasured_frames; }

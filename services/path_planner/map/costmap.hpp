@@ -21,7 +21,7 @@ struct CostmapConfig {
 };
 
 struct Hazard {
-  Point2 p;  // centre of a cell
+  Point2 p;          // centre of a cell
   bool low = false;  // the body passes over it, the wheels do not
 };
 

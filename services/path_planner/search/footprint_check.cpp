@@ -3,14 +3,13 @@
 namespace rover::planning {
 namespace {
 
-constexpr double kRoundingM = 0.02;  // for a rover that starts close to a hazard
-constexpr double kShadowM = 0.5;     // of a rock of 0.2 m, seen from 1.2 m
+constexpr double kShadowM = 0.5;  // of a rock of 0.2 m, seen from 1.2 m
 
 }  // namespace
 
-FootprintCheck::FootprintCheck(const Costmap& costmap, const Footprint& footprint, double margin_m,
+FootprintCheck::FootprintCheck(const Costmap& costmap, const Footprint& footprint, double margin_m, double approach_m,
                                double known_margin_m, const Pose2& start)
-    : costmap_(costmap), footprint_(footprint), margin_m_(margin_m), start_(start) {
+    : costmap_(costmap), footprint_(footprint), margin_m_(margin_m), approach_m_(approach_m), start_(start) {
   const double x = footprint.half_length_m + known_margin_m;
   const double y = footprint.half_width_m + known_margin_m;
   const int nx = static_cast<int>(std::ceil(2.0 * x / costmap.cell_m()));
@@ -25,7 +24,7 @@ bool FootprintCheck::violates(const Pose2& pose, const Hazard& hazard) const {
   const double d = distance_m(pose, hazard);
   if (d >= margin_m_) return false;
   const double at_start = distance_m(start_, hazard);
-  return d < std::min(margin_m_, std::max(at_start - kRoundingM, 0.0));
+  return d < std::min(margin_m_, std::max(at_start, 0.0) - approach_m_);
 }
 
 bool FootprintCheck::clear(const Pose2& pose) const {

@@ -8,12 +8,12 @@
 namespace rover::planning {
 
 // Keeps the footprint clear of hazards by a margin. The rover may leave a hazard that is nearer at `start`, but not
-// approach it.
+// approach it by more than `approach_m`.
 class FootprintCheck {
  public:
   // `known_margin_m`: how far around the footprint ground must be known.
-  FootprintCheck(const Costmap& costmap, const Footprint& footprint, double margin_m, double known_margin_m,
-                 const Pose2& start);
+  FootprintCheck(const Costmap& costmap, const Footprint& footprint, double margin_m, double approach_m,
+                 double known_margin_m, const Pose2& start);
 
   bool clear(const Pose2& pose) const;
   // From the footprint to the nearest centre of a hazard cell; `max` if none is as near.
@@ -37,6 +37,7 @@ class FootprintCheck {
   const Costmap& costmap_;
   Footprint footprint_;
   double margin_m_;
+  double approach_m_;
   Pose2 start_;
   std::vector<Point2> edge_;  // points along the edge, the front first
 };

@@ -4,6 +4,7 @@ namespace rover::planning {
 namespace {
 
 constexpr double kKnownMarginM = 0.04;  // the rover follows a path within centimetres
+constexpr double kApproachM = 0.005;    // less than the path monitor's
 constexpr double kMaxClearanceM = 1.5;
 // The lattice first lets through what almost fits; if that misleads the search, only what surely fits.
 constexpr std::array<double, 2> kSlacksM = {0.03, -0.03};
@@ -14,7 +15,7 @@ Plan HybridPlanner::plan(const PlanRequest& request) const {
   const Clearances& margins = config_.clearances;
   const CostToGo cost_to_go(config_.cost_to_go, request, config_.footprint, margins.min_m);
   const auto check = [&](double margin_m) {
-    return FootprintCheck(*request.costmap, config_.footprint, margin_m, kKnownMarginM, request.rover);
+    return FootprintCheck(*request.costmap, config_.footprint, margin_m, kApproachM, kKnownMarginM, request.rover);
   };
   const FootprintCheck comfort = check(margins.comfort_m);
   const FootprintCheck min = check(margins.min_m);

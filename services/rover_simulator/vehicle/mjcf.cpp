@@ -6,6 +6,10 @@ namespace rover {
 namespace {
 
 constexpr double kHubShare = 0.25;  // of a wheel's mass that does not turn with it
+constexpr double kBeamOverWheelM = 0.02;
+constexpr double kBeamHalfWidthM = 0.025;
+constexpr double kForkBesideWheelM = 0.04;  // the fork's far side
+constexpr int kBeamSites = 16;              // along a beam
 
 template <class... Values>
 std::string format(const char* pattern, Values... values) {
@@ -51,20 +55,44 @@ class Writer {
            inertial(c_.bogie_mass_kg, Eigen::Vector3d::Zero(), inertia);
   }
 
+  static std::string site(const Eigen::Vector3d& at) {
+    return format(R"(<site pos="%.9g %.9g %.9g"/>)", at.x(), at.y(), at.z());
+  }
+
+  // About the pivot, `along` from end to end.
+  std::string beam(const Eigen::Vector3d& along) const {
+    const double z = v_.wheel_radius_m + kBeamOverWheelM - c_.bogie_pivot_height_m;
+    const Eigen::Vector3d across = kBeamHalfWidthM * Eigen::Vector3d(-along.y(), along.x(), 0.0).normalized();
+    std::string sites;
+    for (int i = 0; i <= kBeamSites; ++i)
+      for (const double side : {-1.0, 1.0}) {
+        const Eigen::Vector3d at = (static_cast<double>(i) / kBeamSites - 0.5) * along + side * across;
+        sites += site({at.x(), at.y(), z});
+      }
+    return sites;
+  }
+
+  // It may pass what the wheel may be forced over.
+  std::string fork(int wheel, const Eigen::Vector3d& axle) const {
+    const double inwards = -std::copysign(0.5 * v_.wheel_width_m + kForkBesideWheelM, v_.wheel_y_m[wheel]);
+    return site(axle + Eigen::Vector3d(0.0, inwards, v_.max_climb_m - v_.wheel_radius_m));
+  }
+
   std::string side_bogie(int bogie, int front, int middle) const {
     const Eigen::Vector3d at(0.5 * (v_.wheel_x_m[front] + v_.wheel_x_m[middle]), v_.wheel_y_m[front],
                              axle_z_m_ + c_.bogie_pivot_height_m);
     const double length = v_.wheel_x_m[front] - v_.wheel_x_m[middle];
     return bogie_open(bogie, at, "0 1 0", box_inertia(c_.bogie_mass_kg, length, 0.05, 0.05)) +
-           steered(bogie, front, at) + wheel(middle, wheel_position(middle) - at, v_.wheel_mass_kg) + "</body>";
+           beam({length, 0.0, 0.0}) + steered(bogie, front, at) + fork(middle, wheel_position(middle) - at) +
+           wheel(middle, wheel_position(middle) - at, v_.wheel_mass_kg) + "</body>";
   }
 
   std::string rear_bogie() const {
     const Eigen::Vector3d at(v_.wheel_x_m[4], 0.5 * (v_.wheel_y_m[4] + v_.wheel_y_m[5]),
                              axle_z_m_ + c_.bogie_pivot_height_m);
     const double width = v_.wheel_y_m[4] - v_.wheel_y_m[5];
-    return bogie_open(2, at, "1 0 0", box_inertia(c_.bogie_mass_kg, 0.05, width, 0.05)) + steered(2, 4, at) +
-           steered(3, 5, at) + "</body>";
+    return bogie_open(2, at, "1 0 0", box_inertia(c_.bogie_mass_kg, 0.05, width, 0.05)) + beam({0.0, width, 0.0}) +
+           steered(2, 4, at) + steered(3, 5, at) + "</body>";
   }
 
   std::string steered(int steer, int wheel_index, const Eigen::Vector3d& p_body_bogie) const {
@@ -73,6 +101,7 @@ class Writer {
     return format(R"(<body name="hub%d" pos="%.9g %.9g %.9g">)", steer, at.x(), at.y(), at.z()) +
            format(R"(<joint name="steer%d" axis="0 0 1" armature="%.9g"/>)", steer, c_.steer.rotor_inertia_kgm2) +
            inertial(hub_kg, Eigen::Vector3d::Zero(), box_inertia(hub_kg, 0.1, 0.1, 0.1)) +
+           fork(wheel_index, Eigen::Vector3d::Zero()) +
            wheel(wheel_index, Eigen::Vector3d::Zero(), v_.wheel_mass_kg - hub_kg) + "</body>";
   }
 

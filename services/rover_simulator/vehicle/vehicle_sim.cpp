@@ -227,6 +227,15 @@ class VehicleSim::Impl {
     truth_.wheel_soil[i] = static_cast<Soil>(most - contact.soil_fraction.begin());
   }
 
+  // A beam or a fork touches ground or rock.
+  bool suspension_touches() {
+    for (int i = 0; i < model_->nsite; ++i) {
+      const mjtNum* p = data_->site_xpos + 3 * i;
+      if (p[2] <= heights_.height_m(p[0], p[1])) return true;
+    }
+    return false;
+  }
+
   void end_interval() {
     truth_.T_map_body = pose();
     truth_.velocity_map_mps = Vec3Map(data_->qvel);
@@ -244,7 +253,7 @@ class VehicleSim::Impl {
     truth_.clearance_m = std::min(truth_.clearance_m, belly_clearance_m(vehicle_, heights_, truth_.T_map_body));
     truth_.collision = Collision::kNone;
     if (truth_.climb_m > vehicle_.max_climb_m) truth_.collision = Collision::kWheelClimb;
-    if (truth_.clearance_m <= 0.0) truth_.collision = Collision::kBodyContact;
+    if (truth_.clearance_m <= 0.0 || suspension_touches()) truth_.collision = Collision::kBodyContact;
   }
 
   Vehicle vehicle_;
