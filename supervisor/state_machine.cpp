@@ -108,15 +108,21 @@ constexpr std::array kLevelTransitions = {
                     Level::kFull,
                     "many_hazards",
                     L::kManyHazards},
+    LevelTransition{Level::kEfficient,
+                    {L::kNoPath, L::kFullReady},
+                    {L::kForcedEfficient, L::kFullFailing},
+                    Level::kFull,
+                    "no_path",
+                    L::kNoPath},
     LevelTransition{Level::kFull,
                     {L::kRaisedByPath},
-                    {L::kPathFull, L::kForcedFull},
+                    {L::kPathFull, L::kForcedFull, L::kNoPath},
                     Level::kEfficient,
                     "path_segment",
                     L::kPathFull},
     LevelTransition{Level::kFull,
                     {L::kEasyAhead},
-                    {L::kPathFull, L::kForcedFull},
+                    {L::kPathFull, L::kForcedFull, L::kNoPath},
                     Level::kEfficient,
                     "easy_terrain",
                     L::kEasyAhead},
@@ -134,8 +140,8 @@ constexpr std::array<const char*, kFactCount> kFactNames = {
     "STOP",         "PAUSE",      "RESUME",       "EMERGENCY_STOP", "CLEAR_SAFE",    "TELEOP"};
 constexpr std::array<const char*, 2> kLevelNames = {"EFFICIENT", "FULL"};
 constexpr std::array<const char*, kLevelFactCount> kLevelFactNames = {
-    "full_ready",    "forced_full",  "forced_efficient", "path_full",   "raised_by_path",
-    "slow_progress", "many_hazards", "easy_ahead",       "full_failing"};
+    "full_ready",    "forced_full",  "forced_efficient", "path_full",  "raised_by_path",
+    "slow_progress", "many_hazards", "no_path",          "easy_ahead", "full_failing"};
 
 template <class Enum, size_t N>
 std::string names(EnumSet<Enum> facts, const std::array<const char*, N>& of, const char* prefix) {

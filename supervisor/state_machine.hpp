@@ -64,10 +64,11 @@ enum class LevelFact : int {
   kRaisedByPath,  // the level was raised by the path, not on board
   kSlowProgress,  // effective speed below its limit over a full window
   kManyHazards,   // hazards per metre above its limit in the window
+  kNoPath,        // the planner found none with what this level sees
   kEasyAhead,     // terrain difficulty below its limit over easy_distance_m
   kFullFailing,   // a Full-level service restarts repeatedly, or a sweep fails
 };
-inline constexpr int kLevelFactCount = 9;
+inline constexpr int kLevelFactCount = 10;
 
 // Bit set of enumerators.
 template <class Enum>

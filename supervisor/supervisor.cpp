@@ -8,6 +8,9 @@ namespace {
 
 using enum State;
 
+constexpr StateSet kDriveInProgress = {kDriving, kHazardStop, kRepairing};
+constexpr double kMinApproachMps = 0.05;  // towards the place where the rover stops
+
 std::optional<Fact> fact_of(CommandKind kind) {
   switch (kind) {
     case CommandKind::kGo:
@@ -119,7 +122,7 @@ void Supervisor::run_monitors(Utime now, SupervisorOutput& out) {
 }
 
 void Supervisor::run_level(Utime now, SupervisorOutput& out) {
-  level_selector_.step(now, inputs_, hazard_stops_, StateSet{kDriving, kHazardStop, kRepairing}.has(state_));
+  level_selector_.step(now, inputs_, hazard_stops_, kDriveInProgress.has(state_));
   if (const LevelTransition* row = next_level(level_, level_facts(now))) fire(*row, out);
 }
 
@@ -144,6 +147,8 @@ LevelFactSet Supervisor::level_facts(Utime now) {
   set_level_fact(
       out, F::kManyHazards, level_selector_.many_hazards(),
       {"hazards_per_m", level_selector_.hazards_per_m(), limits.hazards_per_m, limits.window_s, planner_age});
+  const bool no_path = inputs_.planner.state == PlannerState::kNoPath && kDriveInProgress.has(state_) && stationary();
+  set_level_fact(out, F::kNoPath, no_path, {"planner_state", double(inputs_.planner.state), 0.0, 0.0, planner_age});
   set_level_fact(out, F::kEasyAhead, level_selector_.easy_ahead() && terrain_fresh(),
                  {"terrain_difficulty", inputs_.terrain.difficulty, limits.easy_difficulty, 0.0,
                   age_s(inputs_.terrain.utime, now)});
@@ -365,8 +370,11 @@ Permit Supervisor::permit(FactSet facts, Utime now) const {
 }
 
 double Supervisor::speed_limit_mps() const {
-  const double allowed = state_ == kTeleop ? config_.teleop_speed_mps : config_.max_speed_mps;
-  return std::min(allowed, fdir_.speed_limit_mps());
+  if (state_ == kTeleop) return std::min(config_.teleop_speed_mps, fdir_.speed_limit_mps());
+  // At any time the rover can brake before the stopping distance; a plan that comes a little late costs no stop.
+  const double free_m = std::max(0.0, blocked_in_m() - stop_distance_m());
+  const double braking_mps = std::sqrt(2.0 * config_.deceleration_mps2 * free_m);
+  return std::min({config_.max_speed_mps, std::max(braking_mps, kMinApproachMps), fdir_.speed_limit_mps()});
 }
 
 void Supervisor::restore(const PersistentState& persistent_state) {

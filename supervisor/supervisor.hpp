@@ -23,6 +23,7 @@ struct SupervisorConfig {
   LevelConfig level;
   ServiceRestarterConfig restarts;
   double max_speed_mps = 0.2;
+  double deceleration_mps2 = 0.118;
   double teleop_speed_mps = 0.1;
   double teleop_max_age_s = 0.5;  // of the newest operator command
   double permit_validity_s = 0.2;

@@ -97,6 +97,7 @@ PathPlannerConfig load_config(const std::string& config_dir, ParameterList* list
                "Belief map, planning and recovery at both levels. Footprint, minimum turn radius and deceleration: "
                "vehicle.yaml. Goal tolerance and point turns: navigation.yaml.",
                list);
+  p.add_choice("planner", c.planner_name, planner_names(), "the search; another one: docs/contributing.md");
   p.add("pose_max_age_s", c.pose_max_age_s, {0.02, 5.0}, "without a newer POSE there is no path");
   p.add("release_latency_s", c.release_latency_s, {0.02, 1.0}, "modelled processing time, frame to path");
   p.add("planning_latency_s", c.planning_latency_s, {0.0, 2.0}, "modelled time of the background planner");

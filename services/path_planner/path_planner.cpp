@@ -66,7 +66,7 @@ std::string GlobalPath::fault() const {
 PathPlanner::PathPlanner(const PathPlannerConfig& config, std::int64_t first_path_id,
                          std::shared_ptr<Background> background)
     : config_(config),
-      planner_(std::make_shared<HybridPlanner>(planner_config(config))),
+      planner_(make_planner(config.planner_name, planner_config(config))),
       background_(std::move(background)),
       belief_(config.belief),
       next_path_id_(first_path_id) {}
@@ -137,13 +137,17 @@ bool PathPlanner::add_hazards(const HazardGrid& grid) {
 }
 
 void PathPlanner::set_level(bool full) {
+  if (full == full_level_) return;
   full_level_ = full;
+  new_level_ = true;
+  mapped_ = false;
+  failures_ = back_ups_ = 0;
 }
 
 bool PathPlanner::add_traversability(const TraversabilityGrid& map) {
   if (!full_level_ || !map.fault().empty() || history_.empty()) return false;
   belief_.add(map, position(rover()));
-  new_ground_ = new_map_ = true;
+  new_ground_ = new_map_ = mapped_ = true;
   return true;
 }
 
@@ -172,7 +176,7 @@ PlannerOutput PathPlanner::step(Utime now) {
     request_plan();
     take_plan(now);
   }
-  new_ground_ = false;
+  new_ground_ = new_level_ = false;
   if (!active_.empty() && active_.id() != sent_path_id_) {
     sent_path_id_ = active_.id();
     out.path = published();
@@ -297,8 +301,9 @@ std::uint16_t PathPlanner::facts(Utime now) {
   if (!ready(now)) return 0;
   std::uint16_t facts = kReady;
   if (clear()) facts |= kClear;
+  if (new_level_) facts |= kNewLevel;
   if (!stationary()) return facts;
-  const bool failed = failures_ >= config_.patience;
+  const bool failed = failures_ >= config_.patience && (mapped_ || !full_level_);
   if (failed) facts |= kFailed;
   const bool wanted = back_up_wanted_ && wanted_back_ups_ < kMaxWantedBackUps;
   if (wanted) facts |= kBackUpWanted;

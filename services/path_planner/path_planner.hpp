@@ -15,7 +15,7 @@
 #include "path_planner/path_monitor.hpp"
 #include "path_planner/planner_state.hpp"
 #include "path_planner/pose_history.hpp"
-#include "path_planner/search/hybrid_planner.hpp"
+#include "path_planner/search/planners.hpp"
 
 namespace rover::planning {
 
@@ -25,6 +25,7 @@ struct PathPlannerConfig {
   double deceleration_mps2 = 0.1;
   BeliefConfig belief;
   CostmapConfig costmap;
+  std::string planner_name = "hybrid_a_star";
   HybridPlannerConfig planner;  // footprint and view are taken from here
   RoundingConfig rounding;
   double pose_max_age_s = 0.5;
@@ -181,6 +182,8 @@ class PathPlanner {
   int wanted_back_ups_ = 0;           // of them, those that FDIR wanted
   bool full_level_ = false;
   bool new_ground_ = false;  // since the last step
+  bool new_level_ = false;   // since the last step
+  bool mapped_ = false;      // by the NavCam, since the Full level began
   bool new_map_ = false;     // of the NavCam, since the last plan
   bool replan_wanted_ = false;
   bool back_up_wanted_ = false;

@@ -17,6 +17,7 @@ constexpr std::array kTransitions = {
     Transition{Mode::kPlanning, kFailed | kCanBackUp, 0, Mode::kBackingUp},
     Transition{Mode::kPlanning, kFailed, kCanBackUp, Mode::kNoPath},
     Transition{Mode::kBackingUp, kBackedUp, 0, Mode::kPlanning},
+    Transition{Mode::kNoPath, kNewLevel, 0, Mode::kPlanning},
     Transition{Mode::kNoPath, kBackUpWanted | kCanBackUp, 0, Mode::kBackingUp},
     Transition{Mode::kNoPath, kClear, 0, Mode::kFollowing},
 };

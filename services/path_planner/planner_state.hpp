@@ -16,7 +16,7 @@ enum Fact : std::uint16_t {
   kCanBackUp = 1 << 3,     // the driven track is free, and not too often taken back
   kBackedUp = 1 << 4,      // at the end of a path to back up, or stopped on it
   kBackUpWanted = 1 << 5,  // by FDIR; stationary
-
+  kNewLevel = 1 << 6,      // which sees other ground: what failed before may succeed
 };
 
 struct Transition {

@@ -1,6 +1,7 @@
 // The planner in a closed loop with a rover of imperfect odometry, among rocks.
 #include <gtest/gtest.h>
 
+#include "test/path_planner/descent_planner.hpp"
 #include "test/path_planner/rock_drive.hpp"
 
 namespace rover::planning {
@@ -48,6 +49,19 @@ std::vector<Rock> joined(std::initializer_list<std::vector<Rock>> parts) {
   std::vector<Rock> rocks;
   for (const std::vector<Rock>& part : parts) rocks.insert(rocks.end(), part.begin(), part.end());
   return rocks;
+}
+
+TEST(SecondPlanner, IsChosenByItsName) {
+  add_planner("descent", [](const HybridPlannerConfig& config) -> std::shared_ptr<const Planner> {
+    return std::make_shared<testing_support::DescentPlanner>(config);
+  });
+  DriveConfig config = drive_config(false);
+  config.planner.planner_name = "descent";
+  const std::vector<Rock> rocks = {{{6.0, 0.2}, 0.3, 0.3}};
+  const DriveResult r = drive(config, rocks, {{0.0, 0.0}, {kLengthM, 0.0}}, 1);
+  EXPECT_TRUE(r.reached) << r.text;
+  EXPECT_FALSE(r.collided);
+  EXPECT_GT(r.replans, 0);
 }
 
 class ClosedLoopTest : public testing::TestWithParam<bool> {};

@@ -21,9 +21,10 @@ double shape_of(const Rock& rock) {
 std::uint8_t cost_of(const NavView::SeenRock& rock, double range_m) {
   const double further = std::max(0.0, range_m - kNearM);
   const double shown_m = rock.height_m + (kSpreadM + kSpreadPerM * further) * rock.shape;
-  const double share = shown_m / (kHazardHeightM + kLimitPerM * further);
-  if (share >= 1.0) return TraversabilityGrid::kImpassable;
-  return static_cast<std::uint8_t>((TraversabilityGrid::kImpassable - 1) * std::pow(std::max(0.0, share), 3));
+  const double ratio = shown_m / (kHazardHeightM + kLimitPerM * further);
+  if (ratio * kHazardHeightM >= kBodyHeightM) return TraversabilityGrid::kImpassable;
+  if (ratio >= 1.0) return TraversabilityGrid::kLow;
+  return static_cast<std::uint8_t>((TraversabilityGrid::kLow - 1) * std::pow(std::max(0.0, ratio), 3));
 }
 
 }  // namespace

@@ -91,6 +91,7 @@ TEST(PlannerState, FollowsTheTable) {
       {Mode::kNoPath, kReady, Mode::kNoPath},
       {Mode::kNoPath, kReady | kFailed | kCanBackUp, Mode::kNoPath},
       {Mode::kNoPath, kReady | kClear, Mode::kFollowing},
+      {Mode::kNoPath, kReady | kNewLevel, Mode::kPlanning},
       {Mode::kNoPath, kReady | kBackUpWanted | kCanBackUp, Mode::kBackingUp},
   };
   for (const Row& row : expected)

@@ -49,10 +49,10 @@ bool hides(const CameraModel& camera, const Rock& rock_body, Point2 b) {
 
 std::uint8_t seen_at(const CameraModel& camera, const std::vector<Rock>& rocks_body, Point2 b) {
   if (!visible(camera, b)) return HazardGrid::kUnseen;
-  const auto is_here = [&](const Rock& r) {
-    return r.height_m >= kHazardHeightM && distance(r.p, b) <= r.radius_m + kSeenRimM;
-  };
-  if (std::any_of(rocks_body.begin(), rocks_body.end(), is_here)) return HazardGrid::kObstacle;
+  double height_m = 0.0;
+  for (const Rock& r : rocks_body)
+    if (distance(r.p, b) <= r.radius_m + kSeenRimM) height_m = std::max(height_m, r.height_m);
+  if (height_m >= kHazardHeightM) return height_m < kBodyHeightM ? HazardGrid::kLow : HazardGrid::kObstacle;
   const auto hides_it = [&](const Rock& r) { return hides(camera, r, b); };
   if (std::any_of(rocks_body.begin(), rocks_body.end(), hides_it)) return HazardGrid::kUnseen;
   return HazardGrid::kFree;
@@ -100,14 +100,17 @@ HazardGrid observe(const CameraModel& camera, const std::vector<Rock>& rocks, co
 double clearance_m(const Footprint& footprint, const Pose2& pose, const std::vector<Rock>& rocks) {
   double least = kInfinity;
   for (const Rock& rock : rocks)
-    if (rock.height_m >= kHazardHeightM && distance(rock.p, position(pose)) < 3.0)
-      least = std::min(least, footprint.distance_m(pose, rock.p) - rock.radius_m);
+    if (rock.height_m >= kHazardHeightM && distance(rock.p, position(pose)) < 3.0) {
+      const double d =
+          rock.height_m < kBodyHeightM ? footprint.wheel_distance_m(pose, rock.p) : footprint.distance_m(pose, rock.p);
+      least = std::min(least, d - rock.radius_m);
+    }
   return least;
 }
 
 PathPlannerConfig planner_config() {
   PathPlannerConfig config;
-  config.footprint = {0.875, 0.47};
+  config.footprint = {0.875, 0.47, 0.35};
   config.ground_z_m = 0.0;
   config.goal_tolerance_m = 0.4;
   config.turn_threshold_rad = 0.7;

@@ -16,6 +16,7 @@ struct Rock {
 };
 
 constexpr double kHazardHeightM = 0.15;  // lower rocks are driven over
+constexpr double kBodyHeightM = 0.20;    // the body passes over lower ones
 
 // Golombek's law F(D) = k exp(-q D), q = 1.79 + 0.152 / k, for rocks of at least `min_diameter_m`; height D / 2.
 std::vector<Rock> rock_field(double k, Point2 low, Point2 high, double min_diameter_m, std::mt19937_64& random);
@@ -35,7 +36,8 @@ struct CameraModel {
 HazardGrid observe(const CameraModel& camera, const std::vector<Rock>& rocks, const Pose2& pose, Utime utime,
                    std::mt19937_64& random);
 
-// From the footprint to the nearest rock that is a hazard, negative inside; infinity: no rock within 3 m.
+// From the footprint, or over low rocks the wheels, to the nearest rock that is a hazard, negative inside; infinity: no
+// rock within 3 m.
 double clearance_m(const Footprint& footprint, const Pose2& pose, const std::vector<Rock>& rocks);
 
 // The configuration that the service ships, without its file.

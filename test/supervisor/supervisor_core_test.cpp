@@ -418,6 +418,25 @@ TEST_F(SupervisorTest, HazardAheadStopsRepairsAndResumes) {
   EXPECT_EQ(supervisor_.hazard_stops(), 1);
 }
 
+TEST_F(SupervisorTest, ThePermittedSpeedFallsWithTheFreeDistance) {
+  start_driving();
+  planner_.block_kind = BlockKind::kHazard;
+  double last = config_.max_speed_mps;
+  for (const double free_m : {1.0, 0.15, 0.1, 0.05, 0.02}) {
+    planner_.blocked_in_m = config_.hazard_stop_m + free_m;
+    tick();
+    ASSERT_TRUE(out_.permit.granted);
+    const double v = out_.permit.max_speed_mps;
+    EXPECT_LE(v, last);
+    EXPECT_LE(v * v / (2.0 * config_.deceleration_mps2), free_m + 1e-9);
+    last = v;
+  }
+  EXPECT_LT(last, 0.08);
+  planner_.blocked_in_m = config_.hazard_stop_m + 1e-4;
+  tick();
+  EXPECT_GT(out_.permit.max_speed_mps, 0.0) << "it comes to its stop";
+}
+
 TEST_F(SupervisorTest, StopHysteresisAppliesToTheSamePathOnly) {
   start_driving();
   planner_.block_kind = BlockKind::kHazard;
@@ -1002,6 +1021,18 @@ TEST_F(LevelTest, ManyHazardsRaise) {
   }
   EXPECT_EQ(supervisor_.level(), Level::kFull);
   EXPECT_EQ(last_level_change()->cause, "many_hazards");
+}
+
+TEST_F(LevelTest, NoPathAtTheEfficientLevelRaises) {
+  begin();
+  speed_ = 0.0;
+  planner_.state = PlannerState::kNoPath;
+  planner_.blocked_in_m = 0.0;
+  drive(2.0, 0.0);
+  EXPECT_EQ(supervisor_.level(), Level::kFull);
+  EXPECT_EQ(last_level_change()->cause, "no_path");
+  drive(30.0, 0.0);
+  EXPECT_EQ(faults_.front().id, "no_path") << "both levels have looked";
 }
 
 TEST_F(LevelTest, PathSegmentsRaiseAndLower) {
