@@ -154,7 +154,7 @@ TEST_F(Rocks, GroundBesideRockStaysPassable) {
 
 TEST(Ledges, EdgeIsImpassableButGroundAboveAndBelowIsNot) {
   const TraversabilityMap map =
-      traversability_of(synthetic_terrain([](double x, double) { return x > 0.0 ? 0.2 : 0.0; }));
+      traversability_of(synthetic_terrain([](double x, double) { return x > 0.0 ? 0.25 : 0.0; }));
   for (int iy = 0; iy < 200; ++iy) {
     EXPECT_EQ(map.cells[map.shape.at(100, iy)], kImpassable);
     EXPECT_LT(map.cells[map.shape.at(99, iy)], kImpassable);
