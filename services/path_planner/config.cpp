@@ -78,6 +78,7 @@ void set_vehicle(const Vehicle& vehicle, PathPlannerConfig& c) {
   c.ground_z_m = -vehicle.origin_height_m;
   c.deceleration_mps2 = vehicle.deceleration_mps2;
   c.rounding.min_radius_m = vehicle.min_turn_radius_m;
+  c.planner.motion.seconds_per_m = c.planner.cost_to_go.seconds_per_m = 1.0 / vehicle.top_speed_mps;
 }
 
 void set_navigation(const NavigationConfig& navigation, PathPlannerConfig& c) {
@@ -124,7 +125,6 @@ PathPlannerConfig load_config(const std::string& config_dir, ParameterList* list
                 c);
   add_ground(p.section("ground", "cost of a metre, relative to a metre of easy ground"), c);
   add_motion(p.section("motion", "cost of motions"), c.planner.motion);
-  c.planner.motion.seconds_per_m = c.planner.cost_to_go.seconds_per_m = 1.0 / vehicle.top_speed_mps;
   add_search(p.section("search", "hybrid A*"), c.planner);
   p.finish();
   return c;

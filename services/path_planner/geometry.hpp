@@ -14,7 +14,9 @@ struct Point2 {
 };
 
 inline double distance(Point2 a, Point2 b) {
-  return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m);
+  const double dx = a.x_m - b.x_m;
+  const double dy = a.y_m - b.y_m;
+  return std::sqrt(dx * dx + dy * dy);
 }
 inline Point2 position(const Pose2& pose) {
   return {pose.x_m, pose.y_m};
@@ -63,7 +65,7 @@ struct Footprint {
   double distance_m(Point2 in_body) const {
     const double dx = std::abs(in_body.x_m) - half_length_m;
     const double dy = std::abs(in_body.y_m) - half_width_m;
-    if (dx > 0.0 && dy > 0.0) return std::hypot(dx, dy);
+    if (dx > 0.0 && dy > 0.0) return std::sqrt(dx * dx + dy * dy);
     return std::max(dx, dy);
   }
   double distance_m(const Pose2& pose, Point2 p) const { return distance_m(to_body(pose, p)); }

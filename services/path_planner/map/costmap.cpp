@@ -81,7 +81,6 @@ Costmap::Costmap(const CostmapConfig& config, const BeliefMap& belief, Point2 ro
   unknown_ = filled(unknown_, cells_);
 
   std::vector<std::uint8_t> hazard(count, 0);
-  std::vector<std::uint8_t> tall_hazard(count, 0);
   cost_.resize(count);
   for (size_t i = 0; i < count; ++i) {
     if (i % static_cast<size_t>(cells_) == 0) row_begin_.push_back(hazards_.size());
@@ -92,14 +91,12 @@ Costmap::Costmap(const CostmapConfig& config, const BeliefMap& belief, Point2 ro
     cost_[i] =
         static_cast<float>((low ? kLowShare : 1.0) * config.hazard_cost * p + config.difficulty_cost * cell.cost);
     hazard[i] = p >= config.hazard_probability || unmeasured ? 1 : 0;
-    tall_hazard[i] = hazard[i] && !low ? 1 : 0;
     if (hazard[i]) hazards_.push_back({center_of(static_cast<int>(i)), low});
   }
   row_begin_.push_back(hazards_.size());
   cost_ = widened(cost_, cells_, static_cast<int>(config.wheel_reach_m / cell_m_));
   for (size_t i = 0; i < count; ++i) cost_[i] += static_cast<float>(1.0 + (unknown_[i] ? config.unknown_cost : 0.0));
   hazard_distance_ = distance_field(hazard, cells_, cells_, cell_m_);
-  tall_hazard_distance_ = distance_field(tall_hazard, cells_, cells_, cell_m_);
   unknown_distance_ = distance_field(unknown_, cells_, cells_, cell_m_);
 }
 

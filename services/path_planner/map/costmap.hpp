@@ -56,7 +56,6 @@ class Costmap {
   // To the nearest centre of a hazard cell, by the cell; infinity outside.
   double hazard_distance_m(Point2 p) const { return contains(p) ? hazard_distance_[cell_of(p)] : kInfinity; }
   // The same, to one that is not low.
-  double tall_hazard_distance_m(int cell) const { return tall_hazard_distance_[cell]; }
   bool unknown(Point2 p) const { return !contains(p) || unknown_[cell_of(p)] != 0; }
   bool unknown(int cell) const { return unknown_[cell] != 0; }
   double unknown_distance_m(Point2 p) const { return contains(p) ? unknown_distance_[cell_of(p)] : 0.0; }
@@ -73,7 +72,6 @@ class Costmap {
   std::vector<Hazard> hazards_;
   std::vector<size_t> row_begin_;  // in hazards_, one more than there are rows
   std::vector<double> hazard_distance_;
-  std::vector<double> tall_hazard_distance_;
   std::vector<double> unknown_distance_;
 };
 

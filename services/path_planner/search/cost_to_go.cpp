@@ -1,5 +1,7 @@
 #include "path_planner/search/cost_to_go.hpp"
 
+#include "common/core/distance_field.hpp"
+
 namespace rover::planning {
 namespace {
 
@@ -26,12 +28,16 @@ CostToGo::CostToGo(const CostToGoConfig& config, const PlanRequest& request, con
       goal_tolerance_m_(request.goal_tolerance_m),
       goal_inside_(costmap_.inside_m(goal_) > kBorderM),
       coarse_cells_((costmap_.cells() + kCoarse - 1) / kCoarse) {
+  std::vector<std::uint8_t> tall(static_cast<size_t>(costmap_.cells()) * costmap_.cells(), 0);
+  for (const auto& [p, low] : costmap_.hazards())
+    if (!low) tall[costmap_.cell_of(p)] = 1;
+  tall_distance_m_ = distance_field(tall, costmap_.cells(), costmap_.cells(), costmap_.cell_m());
   march_from_goal(request);
 }
 
 double CostToGo::cost_per_m(int cell) const {
   // Over a low hazard the rover may pass, with the right heading.
-  const double room = costmap_.tall_hazard_distance_m(cell) - half_width_m_ - margin_m_;
+  const double room = tall_distance_m_[cell] - half_width_m_ - margin_m_;
   if (room < -kHalfDiagonal * costmap_.cell_m()) {
     const bool at_rover = room > -margin_m_ - kScrapeM && distance(costmap_.center_of(cell), rover_) < kAtRoverM;
     return at_rover ? config_.seconds_per_m * kTightCost : kInfinity;

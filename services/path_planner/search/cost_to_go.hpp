@@ -50,6 +50,7 @@ class CostToGo {
   double goal_tolerance_m_;
   bool goal_inside_ = false;
   int coarse_cells_;
+  std::vector<double> tall_distance_m_;  // to the nearest hazard that does not pass under the body
   std::vector<double> to_goal_;
 };
 

@@ -104,31 +104,36 @@ void PoseCostToGo::classify() {
 // Every pose whose footprint, widened by the margin, covers the hazard; of a low one, whose wheels do.
 void PoseCostToGo::rasterise(double margin_m, Clearance value) {
   const int reach = static_cast<int>((footprint_.radius_m() + 2.0 * margin_m) / cell_m_) + 1;
-  std::array<std::vector<std::pair<int, int>>, 2> hazards;  // tall, low
-  for (const Hazard& hazard : request_.costmap->hazards()) {
-    const int ix = static_cast<int>(std::floor((hazard.p.x_m - corner_.x_m) / cell_m_));
-    const int iy = static_cast<int>(std::floor((hazard.p.y_m - corner_.y_m) / cell_m_));
-    if (std::min(ix, iy) < -reach || std::max(ix, iy) >= cells_ + reach) continue;
-    const double at_rover_m = hazard.low ? footprint_.wheel_distance_m(request_.rover, hazard.p)
-                                         : footprint_.distance_m(request_.rover, hazard.p);
-    if (at_rover_m > margin_m + kNearRoverM) hazards[hazard.low ? 1 : 0].emplace_back(ix, iy);
-  }
-  for (int heading = 0; heading < kClearanceHeadings; ++heading)
-    for (int dy = -reach; dy <= reach; ++dy)
-      for (int dx = -reach; dx <= reach; ++dx) {
-        const Pose2 pose{dx * cell_m_, dy * cell_m_, yaw_of(heading)};
-        const std::array<bool, 2> covers = {footprint_.distance_m(pose, {}) < margin_m,
-                                            footprint_.wheel_distance_m(pose, {}) < margin_m};
-        for (size_t kind = 0; kind < hazards.size(); ++kind) {
-          if (!covers[kind]) continue;
-          for (const auto& [hx, hy] : hazards[kind]) {
-            const int x = hx + dx;
-            const int y = hy + dy;
-            if (x < 0 || y < 0 || x >= cells_ || y >= cells_) continue;
-            classes_[(static_cast<size_t>(y) * cells_ + x) * kClearanceHeadings + heading] = value;
-          }
+  for (const bool low : {false, true}) {
+    const auto distance_m = [&](const Pose2& pose, Point2 p) {
+      return low ? footprint_.wheel_distance_m(pose, p) : footprint_.distance_m(pose, p);
+    };
+    std::vector<std::pair<int, int>> hazards;
+    for (const Hazard& hazard : request_.costmap->hazards()) {
+      const int ix = static_cast<int>(std::floor((hazard.p.x_m - corner_.x_m) / cell_m_));
+      const int iy = static_cast<int>(std::floor((hazard.p.y_m - corner_.y_m) / cell_m_));
+      if (hazard.low != low || std::min(ix, iy) < -reach || std::max(ix, iy) >= cells_ + reach) continue;
+      if (distance_m(request_.rover, hazard.p) > margin_m + kNearRoverM) hazards.emplace_back(ix, iy);
+    }
+    for (int heading = 0; heading < kClearanceHeadings; ++heading)
+      for (int dy = -reach; dy <= reach; ++dy)
+        for (int dx = -reach; dx <= reach; ++dx) {
+          const auto covers = [&] { return distance_m({dx * cell_m_, dy * cell_m_, yaw_of(heading)}, {}) < margin_m; };
+          const int from = dx;
+          while (dx <= reach && covers()) ++dx;
+          if (dx == from) continue;
+          for (const auto& [hx, hy] : hazards) mark(heading, hy + dy, hx + from, hx + dx, value);
         }
-      }
+  }
+}
+
+// Cells [from, to) of the row.
+void PoseCostToGo::mark(int heading, int row, int from, int to, Clearance value) {
+  if (row < 0 || row >= cells_) return;
+  const auto begin =
+      classes_.begin() + static_cast<std::ptrdiff_t>((static_cast<size_t>(heading) * cells_ + row) * cells_);
+  const int first = std::max(from, 0);
+  if (first < std::min(to, cells_)) std::fill(begin + first, begin + std::min(to, cells_), value);
 }
 
 double PoseCostToGo::cost_beyond(Point2 p) const {

@@ -57,7 +57,8 @@ class PoseCostToGo {
 
   void make_arcs();
   void classify();
-  void rasterise(double margin_m, Clearance clearance);
+  void rasterise(double margin_m, Clearance value);
+  void mark(int heading, int row, int from, int to, Clearance value);
   void seed();
   void spread();
   void spread_forward(int cell, int heading, float cost);
@@ -74,8 +75,7 @@ class PoseCostToGo {
     return (static_cast<size_t>(cell) * kMotions + motion) * kHeadings + static_cast<size_t>(heading);
   }
   Clearance clearance(int cell, int heading) const {
-    return static_cast<Clearance>(
-        classes_[static_cast<size_t>(cell) * kClearanceHeadings + heading % kClearanceHeadings]);
+    return static_cast<Clearance>(classes_[heading % kClearanceHeadings * ground_.size() + static_cast<size_t>(cell)]);
   }
   Point2 center_of(int cell) const {
     return {corner_.x_m + (cell % cells_ + 0.5) * cell_m_, corner_.y_m + (cell / cells_ + 0.5) * cell_m_};
