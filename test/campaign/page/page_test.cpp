@@ -55,6 +55,14 @@ TEST_F(Page, CellShowsSuccessNumberIntervalAndInfeasibleDrives) {
   EXPECT_THAT(table(), HasSubstr("| 15/18 (61–94 %), +2 inf. |"));
 }
 
+TEST_F(Page, TableOfOneCellListsItsDrivesInPlaceOfTheHeatMap) {
+  std::erase_if(rows_, [&](const Row& row) { return row.cell != rows_.front().cell; });
+  std::reverse(rows_.begin(), rows_.end());
+  const std::string text = table();
+  EXPECT_THAT(text, Not(HasSubstr("campaign.png")));
+  EXPECT_LT(text.find("\n| 1 |"), text.find("\n| 20 |"));
+}
+
 TEST_F(Page, NoContactIsGoodAndOneContactIsAnAlarm) {
   EXPECT_THAT(html(), HasSubstr("badge good\">No contact"));
   for (Row& row : rows_)

@@ -114,6 +114,7 @@ int page(const PageArguments& arguments) {
   if (out.table) {
     const fs::path picture = with_ending(out.base, ".png");
     write(with_ending(out.base, ".md"), page_table(info, panels, drives, picture.filename().string()));
+    if (cells.size() < 2) return 0;  // nothing to compare in a picture
     constexpr double kPixels = 1.5;  // per CSS pixel
     report::write_png(heat_map(info, panels, drives), kPixels, picture.string());
     std::printf("%s\n", picture.c_str());

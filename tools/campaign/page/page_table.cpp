@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 
 #include "tools/campaign/page/statistics.hpp"
@@ -77,6 +78,20 @@ std::string summary(const Panels& panels, const Drives& drives, const std::map<C
   return out;
 }
 
+// Of a campaign of one cell: each drive.
+std::string drives_table(Drives drives) {
+  std::sort(drives.begin(), drives.end(), [](const Row* a, const Row* b) { return a->seed < b->seed; });
+  std::vector<std::string> head = {"seed", "outcome", "contacts"};
+  for (const ShownFigure& figure : kShownFigures) head.push_back(figure.title);
+  std::string out = "\n" + markdown_line(head) + markdown_rule(head.size());
+  for (const Row* row : drives) {
+    std::vector<std::string> line = {std::to_string(row->seed), row->outcome, shown(figure_of(*row, "collisions"), 0)};
+    for (const ShownFigure& figure : kShownFigures) line.push_back(shown(figure_of(*row, figure.key), figure.decimals));
+    out += markdown_line(line);
+  }
+  return out;
+}
+
 std::string causes_table(const PageInfo& info, const Panels& panels, const Drives& drives) {
   const std::vector<Cause> found = causes(drives);
   if (found.empty()) return "\nNo drive failed.\n";
@@ -120,9 +135,14 @@ std::string page_table(const PageInfo& info, const Panels& panels, const Drives&
   if (repeats_flat_cells(panels))
     out += " Flat ground has no direction: its drives are in each panel, and once in all.";
   out += "\n";
-  out += fmt::format("\n![Success by {} and {}]({})\n", axis_title(panels.x.name), axis_title(panels.y.name), picture);
-  out += "\n## Success\n";
-  for (const Panel& panel : panels.panels) out += panel_table(panels, panel, cells);
+  if (cells.size() > 1) {
+    out +=
+        fmt::format("\n![Success by {} and {}]({})\n", axis_title(panels.x.name), axis_title(panels.y.name), picture);
+    out += "\n## Success\n";
+    for (const Panel& panel : panels.panels) out += panel_table(panels, panel, cells);
+  } else {
+    out += "\n## Drives\n" + drives_table(drives);
+  }
   return out + "\n## Failures by cause\n" + causes_table(info, panels, drives);
 }
 
