@@ -75,6 +75,10 @@ struct Footprint {
     return Footprint{half_length_m, half_width_m - middle}.distance_m({in_body.x_m, std::abs(in_body.y_m) - middle});
   }
   double wheel_distance_m(const Pose2& pose, Point2 p) const { return wheel_distance_m(to_body(pose, p)); }
+  // To a hazard; the body passes over a low one.
+  double hazard_distance_m(const Pose2& pose, Point2 p, bool low) const {
+    return low ? wheel_distance_m(pose, p) : distance_m(pose, p);
+  }
 };
 
 // The ground that the LocCam sees: a trapezoid ahead of the body origin.

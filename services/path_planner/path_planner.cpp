@@ -141,7 +141,6 @@ void PathPlanner::set_level(bool full) {
   full_level_ = full;
   new_level_ = true;
   mapped_ = false;
-  failures_ = back_ups_ = 0;
 }
 
 bool PathPlanner::add_traversability(const TraversabilityGrid& map) {
@@ -172,6 +171,7 @@ PlannerOutput PathPlanner::step(Utime now) {
   const Mode before = mode_;
   mode_ = next_mode(mode_, facts(now));
   if (mode_ == Mode::kBackingUp && before != mode_) back_up();
+  if (before == Mode::kNoPath && mode_ == Mode::kPlanning) failures_ = back_ups_ = 0;
   if (ready(now) && wants_plan()) {
     request_plan();
     take_plan(now);
@@ -407,7 +407,7 @@ void PathPlanner::adopt(const Plan& plan, const Job& job) {
                    position(rover()));
   track_turn();
   check_path();
-  failures_ = clear() ? 0 : failures_ + 1;  // a plan that the path monitor refuses is none
+  failures_ = clear() ? 0 : failures_ + 1;  // one that the path monitor refuses is a failure
 }
 
 // Beyond a plan the path leads back to the global one; before the rover comes there, there is another plan.

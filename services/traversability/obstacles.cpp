@@ -1,11 +1,12 @@
 #include "traversability/obstacles.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace rover::trav {
 namespace {
 
-constexpr double kRimShare = 1.0 / 3.0;  // of a cell, covered by the rock
+constexpr double kRimFraction = 1.0 / 3.0;  // of a cell, covered by the rock
 
 struct Cell {
   int ix, iy;
@@ -24,46 +25,27 @@ void for_each_cell(const GridShape& shape, F&& f) {
     for (int ix = 0; ix < shape.cells_x; ++ix) f(Cell{ix, iy});
 }
 
-// Connected component of seen, obstacle-free cells, found by flood fill.
-class ConnectedRegion {
- public:
-  ConnectedRegion(const TerrainGrid& grid, const std::vector<std::uint8_t>& obstacle,
-                  std::vector<std::uint8_t>& visited)
-      : grid_(grid), obstacle_(obstacle), visited_(visited) {}
+// The component of cells that `accepts` takes, by flood fill from the seed, which is one.
+template <class F>
+std::vector<Cell> connected(const GridShape& shape, Cell seed, std::vector<std::uint8_t>& visited, F&& accepts) {
+  std::vector<Cell> cells{seed};
+  visited[shape.at(seed.ix, seed.iy)] = 1;
+  for (std::size_t k = 0; k < cells.size(); ++k)
+    for_each_neighbour(shape, cells[k], [&](Cell q) {
+      if (visited[shape.at(q.ix, q.iy)] || !accepts(q)) return;
+      visited[shape.at(q.ix, q.iy)] = 1;
+      cells.push_back(q);
+    });
+  return cells;
+}
 
-  void flood(Cell start) {
-    visit(start);
-    for (std::size_t k = 0; k < cells_.size(); ++k) {
-      const Cell p = cells_[k];
-      const GridShape& shape = grid_.shape;
-      touches_unknown_ =
-          touches_unknown_ || p.ix == 0 || p.iy == 0 || p.ix == shape.cells_x - 1 || p.iy == shape.cells_y - 1;
-      for_each_neighbour(shape, p, [&](Cell q) {
-        touches_unknown_ = touches_unknown_ || std::isnan(grid_.height_m[shape.at(q.ix, q.iy)]);
-        if (is_ground(q)) visit(q);
-      });
-    }
-  }
-
-  bool is_ground(Cell p) const {
-    const std::size_t i = grid_.shape.at(p.ix, p.iy);
-    return !visited_[i] && !obstacle_[i] && !std::isnan(grid_.height_m[i]);
-  }
-  bool enclosed() const { return !touches_unknown_; }
-  const std::vector<Cell>& cells() const { return cells_; }
-
- private:
-  void visit(Cell p) {
-    visited_[grid_.shape.at(p.ix, p.iy)] = 1;
-    cells_.push_back(p);
-  }
-
-  const TerrainGrid& grid_;
-  const std::vector<std::uint8_t>& obstacle_;
-  std::vector<std::uint8_t>& visited_;
-  std::vector<Cell> cells_;
-  bool touches_unknown_ = false;  // or the map's border
-};
+// Unseen cells, or what lies outside of the map.
+bool touches_unknown(const TerrainGrid& grid, Cell p) {
+  const GridShape& shape = grid.shape;
+  bool touches = p.ix == 0 || p.iy == 0 || p.ix == shape.cells_x - 1 || p.iy == shape.cells_y - 1;
+  for_each_neighbour(shape, p, [&](Cell q) { touches = touches || std::isnan(grid.height_m[shape.at(q.ix, q.iy)]); });
+  return touches;
+}
 
 }  // namespace
 
@@ -92,7 +74,7 @@ std::vector<std::uint8_t> find_obstacles(const TerrainGrid& grid, const DiscPlan
   for (const Cell& p : queue)
     for_each_neighbour(shape, p, [&](Cell q) {
       const std::size_t i = shape.at(q.ix, q.iy);
-      if (steps.raw_rise_m[i] >= kRimShare * limit_m) obstacle[i] = 1;
+      if (steps.raw_rise_m[i] >= kRimFraction * limit_m) obstacle[i] = 1;
     });
   return obstacle;
 }
@@ -101,12 +83,15 @@ void fill_enclosed_regions(const TerrainGrid& grid, double footprint_m2, std::ve
   const GridShape& shape = grid.shape;
   const double max_cells = footprint_m2 / (shape.cell_m * shape.cell_m);
   std::vector<std::uint8_t> visited(shape.size(), 0);
+  const auto is_ground = [&](Cell p) {
+    return !obstacle[shape.at(p.ix, p.iy)] && !std::isnan(grid.height_m[shape.at(p.ix, p.iy)]);
+  };
   for_each_cell(shape, [&](Cell p) {
-    ConnectedRegion region(grid, obstacle, visited);
-    if (!region.is_ground(p)) return;
-    region.flood(p);
-    if (!region.enclosed() || static_cast<double>(region.cells().size()) > max_cells) return;
-    for (const Cell& q : region.cells()) obstacle[shape.at(q.ix, q.iy)] = 1;
+    if (visited[shape.at(p.ix, p.iy)] || !is_ground(p)) return;
+    const std::vector<Cell> region = connected(shape, p, visited, is_ground);
+    if (static_cast<double>(region.size()) > max_cells) return;
+    if (std::any_of(region.begin(), region.end(), [&](Cell q) { return touches_unknown(grid, q); })) return;
+    for (const Cell& q : region) obstacle[shape.at(q.ix, q.iy)] = 1;
   });
 }
 
@@ -116,25 +101,18 @@ std::vector<std::uint8_t> find_low_obstacles(const TerrainGrid& grid, const Disc
   const GridShape& shape = grid.shape;
   std::vector<std::uint8_t> low(shape.size(), 0);
   std::vector<std::uint8_t> visited(shape.size(), 0);
+  const auto is_obstacle = [&](Cell p) { return obstacle[shape.at(p.ix, p.iy)] != 0; };
+  const auto passes_under_body = [&](Cell p) {
+    const std::size_t i = shape.at(p.ix, p.iy);
+    // The rise is that over the lowest of many cells, which noise lowers.
+    const double noise_m = config.step.significance * grid.sigma_m[i];
+    return grid.height_m[i] - planes.at(i).height_m < config.body_limit_m() &&
+           steps.raw_rise_m[i] - noise_m < config.body_limit_m();
+  };
   for_each_cell(shape, [&](Cell seed) {
-    if (!obstacle[shape.at(seed.ix, seed.iy)] || visited[shape.at(seed.ix, seed.iy)]) return;
-    std::vector<Cell> rock{seed};
-    visited[shape.at(seed.ix, seed.iy)] = 1;
-    bool is_low = true;
-    for (std::size_t k = 0; k < rock.size(); ++k) {
-      const std::size_t i = shape.at(rock[k].ix, rock[k].iy);
-      // The rise is that over the lowest of many cells, which noise lowers.
-      const double noise_m = config.step.significance * grid.sigma_m[i];
-      is_low = is_low && grid.height_m[i] - planes.at(i).height_m < config.body_limit_m() &&
-               steps.raw_rise_m[i] - noise_m < config.body_limit_m();
-      for_each_neighbour(shape, rock[k], [&](Cell q) {
-        const std::size_t j = shape.at(q.ix, q.iy);
-        if (!obstacle[j] || visited[j]) return;
-        visited[j] = 1;
-        rock.push_back(q);
-      });
-    }
-    if (!is_low) return;
+    if (visited[shape.at(seed.ix, seed.iy)] || !is_obstacle(seed)) return;
+    const std::vector<Cell> rock = connected(shape, seed, visited, is_obstacle);
+    if (!std::all_of(rock.begin(), rock.end(), passes_under_body)) return;
     for (const Cell& p : rock) low[shape.at(p.ix, p.iy)] = 1;
   });
   return low;

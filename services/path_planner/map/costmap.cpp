@@ -9,8 +9,8 @@ namespace {
 constexpr int kKnownNeighbours = 6;
 // Ground that cannot be measured from near counts where it is so wide that a rock fits in.
 constexpr int kWideCells = 5;
-constexpr int kWideCount = 20;     // of 25
-constexpr double kLowShare = 0.3;  // of the cost of a hazard, if the body passes over it
+constexpr int kWideCount = 20;        // of 25
+constexpr double kLowFraction = 0.3;  // of the cost of a hazard, if the body passes over it
 
 // Fills unknown cells among known ones.
 std::vector<std::uint8_t> filled(const std::vector<std::uint8_t>& unknown, int cells) {
@@ -89,7 +89,7 @@ Costmap::Costmap(const CostmapConfig& config, const BeliefMap& belief, Point2 ro
     const bool unmeasured = unknown_[i] && unmeasurable[i];
     const bool low = !unmeasured && belief.low(cell);
     cost_[i] =
-        static_cast<float>((low ? kLowShare : 1.0) * config.hazard_cost * p + config.difficulty_cost * cell.cost);
+        static_cast<float>((low ? kLowFraction : 1.0) * config.hazard_cost * p + config.difficulty_cost * cell.cost);
     hazard[i] = p >= config.hazard_probability || unmeasured ? 1 : 0;
     if (hazard[i]) hazards_.push_back({center_of(static_cast<int>(i)), low});
   }

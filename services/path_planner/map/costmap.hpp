@@ -55,7 +55,6 @@ class Costmap {
   std::span<const Hazard> hazards_near(Point2 p, double reach_m) const;
   // To the nearest centre of a hazard cell, by the cell; infinity outside.
   double hazard_distance_m(Point2 p) const { return contains(p) ? hazard_distance_[cell_of(p)] : kInfinity; }
-  // The same, to one that is not low.
   bool unknown(Point2 p) const { return !contains(p) || unknown_[cell_of(p)] != 0; }
   bool unknown(int cell) const { return unknown_[cell] != 0; }
   double unknown_distance_m(Point2 p) const { return contains(p) ? unknown_distance_[cell_of(p)] : 0.0; }

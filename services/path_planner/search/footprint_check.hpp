@@ -30,7 +30,7 @@ class FootprintCheck {
   static constexpr double kCellDiagonals = 1.5;  // cells by which a distance between cells may be too large
 
   double distance_m(const Pose2& pose, const Hazard& hazard) const {
-    return hazard.low ? footprint_.wheel_distance_m(pose, hazard.p) : footprint_.distance_m(pose, hazard.p);
+    return footprint_.hazard_distance_m(pose, hazard.p, hazard.low);
   }
   bool violates(const Pose2& pose, const Hazard& hazard) const;
 

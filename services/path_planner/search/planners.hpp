@@ -12,7 +12,7 @@ using MakePlanner = std::shared_ptr<const Planner> (*)(const HybridPlannerConfig
 // Before the configuration is read; the name is new.
 void add_planner(const std::string& name, MakePlanner make);
 std::vector<std::string> planner_names();
-// Throws std::out_of_range if there is none of this name.
+// Throws std::out_of_range for an unknown name.
 std::shared_ptr<const Planner> make_planner(const std::string& name, const HybridPlannerConfig& config);
 
 }  // namespace rover::planning

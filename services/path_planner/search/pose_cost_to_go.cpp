@@ -105,20 +105,21 @@ void PoseCostToGo::classify() {
 void PoseCostToGo::rasterise(double margin_m, Clearance value) {
   const int reach = static_cast<int>((footprint_.radius_m() + 2.0 * margin_m) / cell_m_) + 1;
   for (const bool low : {false, true}) {
-    const auto distance_m = [&](const Pose2& pose, Point2 p) {
-      return low ? footprint_.wheel_distance_m(pose, p) : footprint_.distance_m(pose, p);
-    };
     std::vector<std::pair<int, int>> hazards;
     for (const Hazard& hazard : request_.costmap->hazards()) {
       const int ix = static_cast<int>(std::floor((hazard.p.x_m - corner_.x_m) / cell_m_));
       const int iy = static_cast<int>(std::floor((hazard.p.y_m - corner_.y_m) / cell_m_));
       if (hazard.low != low || std::min(ix, iy) < -reach || std::max(ix, iy) >= cells_ + reach) continue;
-      if (distance_m(request_.rover, hazard.p) > margin_m + kNearRoverM) hazards.emplace_back(ix, iy);
+      if (footprint_.hazard_distance_m(request_.rover, hazard.p, low) > margin_m + kNearRoverM)
+        hazards.emplace_back(ix, iy);
     }
     for (int heading = 0; heading < kClearanceHeadings; ++heading)
       for (int dy = -reach; dy <= reach; ++dy)
         for (int dx = -reach; dx <= reach; ++dx) {
-          const auto covers = [&] { return distance_m({dx * cell_m_, dy * cell_m_, yaw_of(heading)}, {}) < margin_m; };
+          const auto covers = [&] {
+            const Pose2 pose{dx * cell_m_, dy * cell_m_, yaw_of(heading)};
+            return footprint_.hazard_distance_m(pose, {}, low) < margin_m;
+          };
           const int from = dx;
           while (dx <= reach && covers()) ++dx;
           if (dx == from) continue;
