@@ -129,7 +129,7 @@ PathLevels levels_from(const path_t& message) {
   PathLevels out;
   const size_t count = std::min({message.x_m.size(), message.y_m.size(), message.level.size()});
   out.path_id = message.path_id;
-  out.reverse = message.kind == path_t::BACKTRACK;
+  out.backtrack = message.kind == path_t::BACKTRACK;
   double s_m = 0.0;
   for (size_t i = 0; i < count; ++i) {
     if (i > 0) s_m += std::hypot(message.x_m[i] - message.x_m[i - 1], message.y_m[i] - message.y_m[i - 1]);

@@ -1,4 +1,4 @@
-// Autonomy level along a path, and whether the path is driven in reverse.
+// Autonomy level along a path, and whether it leads back along the driven track.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ struct PathLevels {
   std::int64_t path_id = -1;
   std::vector<double> s_m;   // arc length of each point, increasing
   std::vector<Level> level;  // level from that point on
-  bool reverse = false;      // backtracking, or a reverse segment of a manoeuvre
+  bool backtrack = false;
 
   // Efficient if unknown.
   Level at(double query_s_m) const {

@@ -43,7 +43,7 @@ struct MonitorContext {
   double blocked_in_m;
   double stop_distance_m;
   double sweep_s;     // time since the sweep began, 0 if not sweeping
-  bool backtracking;  // on a reverse path that recovers from a stop_backtrack fault
+  bool backtracking;  // on a path back that recovers from a stop_backtrack fault
 };
 
 struct Quantity {

@@ -63,10 +63,10 @@ void Supervisor::on_hazards(const HazardsReport& hazards) {
   inputs_.consecutive_blind_frames = hazards.blind ? inputs_.consecutive_blind_frames + 1 : 0;
 }
 
-// Reverse segments of ordinary manoeuvres do not relax limits: only paths that follow a stop_backtrack fault do.
+// Backing up for want of a path does not relax limits: only paths that follow a stop_backtrack fault do.
 void Supervisor::on_path(PathLevels path) {
   if (path.path_id != path_.path_id) {
-    const bool backtracking = path.reverse && (backtracking_path_id_ >= 0 || fdir_.backtrack_requested());
+    const bool backtracking = path.backtrack && (backtracking_path_id_ >= 0 || fdir_.backtrack_requested());
     backtracking_path_id_ = backtracking ? path.path_id : -1;
   }
   path_ = std::move(path);

@@ -196,7 +196,7 @@ class Supervisor {
   SupervisorConfig config_;
   Inputs inputs_;
   PathLevels path_;
-  std::int64_t backtracking_path_id_ = -1;  // reverse path that recovers from a stop_backtrack fault; -1: none
+  std::int64_t backtracking_path_id_ = -1;  // path that recovers from a stop_backtrack fault; -1: none
   std::vector<GroundCommand> commands_;
 
   DerivedValueTracker derived_;

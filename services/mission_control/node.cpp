@@ -297,6 +297,7 @@ void MissionControlNode::publish_path(std::int64_t command_id, const GlobalPath&
   message.x_m = path.x_m;
   message.y_m = path.y_m;
   message.level = path.level;
+  message.direction.assign(path.x_m.size(), std::int8_t{path_t::FORWARD});
   node_.publish(channel::kGlobalPath, message, node_.now());
   unacknowledged_paths_.clear();  // drop paths that were never acknowledged
   unacknowledged_paths_[command_id] = path;

@@ -8,12 +8,14 @@ namespace rover::gaze {
 
 std::optional<Path> path_from(const path_t& message) {
   if (message.frame != path_t::ODOM || message.point_count < 2) return std::nullopt;
-  // Backing up runs over known ground, and the camera cannot turn that far.
-  if (message.kind == path_t::BACKTRACK) return Path{};
   Path path;
   for (size_t i = 0; i < message.x_m.size(); ++i) {
-    path.emplace_back(message.x_m[i], message.y_m[i]);
-    if (!path.back().allFinite()) return std::nullopt;
+    const Eigen::Vector2d point(message.x_m[i], message.y_m[i]);
+    if (!point.allFinite()) return std::nullopt;
+    // Reverse runs over known ground, and the camera cannot turn that far: it looks to where the rover goes on.
+    const bool reverse = message.direction[i] == path_t::REVERSE;
+    const bool into_reverse = i > 0 && reverse && message.direction[i - 1] == path_t::FORWARD;
+    if (!reverse || into_reverse) path.push_back(point);
   }
   return path;
 }

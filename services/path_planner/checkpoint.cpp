@@ -7,7 +7,7 @@
 namespace rover::planning {
 namespace {
 
-constexpr std::uint32_t kVersion = 5;
+constexpr std::uint32_t kVersion = 6;
 
 void put_points(StateWriter& out, const std::vector<RoutePoint>& points) {
   out.put(static_cast<std::uint64_t>(points.size()));
@@ -15,15 +15,17 @@ void put_points(StateWriter& out, const std::vector<RoutePoint>& points) {
     out.put(point.p);
     out.put(point.global_s_m);
     out.put(point.level);
+    out.put(static_cast<std::uint8_t>(point.reverse));
   }
 }
 
 std::vector<RoutePoint> get_points(StateReader& in) {
-  std::vector<RoutePoint> points(in.count(sizeof(Point2) + sizeof(double) + 1));
+  std::vector<RoutePoint> points(in.count(sizeof(Point2) + sizeof(double) + 2));
   for (RoutePoint& point : points) {
     point.p = in.get<Point2>();
     point.global_s_m = in.get<double>();
     point.level = in.get<std::int8_t>();
+    point.reverse = in.get<std::uint8_t>() != 0;
   }
   return points;
 }
@@ -105,7 +107,6 @@ std::vector<std::uint8_t> PathPlanner::save() const {
   out.put(active_.corridor_half_width_m());
   out.put(active_.progress_m());
   out.put(active_.planned_m());
-  out.put(static_cast<std::uint8_t>(active_.has_next()));
   out.put(static_cast<std::uint64_t>(breadcrumbs_.points().size()));
   for (const Point2& p : breadcrumbs_.points()) out.put(p);
   put_map(out, belief_.cells());
@@ -133,7 +134,6 @@ bool PathPlanner::restore(const std::vector<std::uint8_t>& bytes) {
   const auto corridor_m = in.get<double>();
   const auto progress_m = in.get<double>();
   const auto planned_m = in.get<double>();
-  const bool has_next = in.get<std::uint8_t>() != 0;
   std::deque<Point2> crumbs(in.count(sizeof(Point2)));
   for (Point2& p : crumbs) p = in.get<Point2>();
   if (!get_map(in, fresh.belief_.cells()) || !in.finished()) return false;
@@ -145,7 +145,6 @@ bool PathPlanner::restore(const std::vector<std::uint8_t>& bytes) {
     fresh.active_.restore(fresh.next_path_id_++, kind, Route(std::move(points)), corridor_m, progress_m, planned_m);
   }
   fresh.breadcrumbs_.restore(std::move(crumbs));
-  fresh.replan_wanted_ = has_next;  // the segments that follow are forgotten
   fresh.back_ups_ = std::clamp(back_ups, 0, config_.max_back_ups);
   fresh.furthest_m_ = furthest_m;
   fresh.new_ground_ = true;

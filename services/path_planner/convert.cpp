@@ -68,7 +68,8 @@ TraversabilityGrid traversability_from(const traversability_t& message) {
 std::string global_path_from(const path_t& message, GlobalPath& path) {
   if (message.frame != path_t::MAP) return "path is not in the map frame";
   const size_t count = message.x_m.size();
-  if (message.y_m.size() != count || message.level.size() != count) return "path has lists of different lengths";
+  if (message.y_m.size() != count || message.level.size() != count || message.direction.size() != count)
+    return "path has lists of different lengths";
   path.id = message.path_id;
   path.corridor_half_width_m = message.corridor_half_width_m;
   path.goal_tolerance_m = message.goal_tolerance_m;
@@ -76,6 +77,8 @@ std::string global_path_from(const path_t& message, GlobalPath& path) {
   for (size_t i = 0; i < count; ++i) {
     if (message.level[i] != path_t::EFFICIENT && message.level[i] != path_t::FULL)
       return "point " + std::to_string(i) + " of the path has an unknown level";
+    if (message.direction[i] != path_t::FORWARD)
+      return "point " + std::to_string(i) + " of the path is not driven forward";
     path.points.push_back({{message.x_m[i], message.y_m[i]}, kNaN, message.level[i]});
   }
   return path.fault();
@@ -92,6 +95,7 @@ void path_to(const LocalPath& path, path_t& message) {
     message.x_m.push_back(point.p.x_m);
     message.y_m.push_back(point.p.y_m);
     message.level.push_back(point.level);
+    message.direction.push_back(point.reverse ? std::int8_t{path_t::REVERSE} : std::int8_t{path_t::FORWARD});
   }
 }
 

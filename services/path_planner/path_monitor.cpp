@@ -17,7 +17,7 @@ class Monitor {
         visibility_(query.costmap, check_, query.view) {}
 
   Blockage run() {
-    const Pose2 here = body_pose(query_.from_m);
+    const Pose2 here = query_.route.pose_at(query_.from_m);
     if (query_.turning) check_turn(query_.rover, wrap_angle(here.yaw_rad - query_.rover.yaw_rad), query_.from_m);
     // A point turn shows the ground ahead; until then nothing can be said of it.
     bool view_known = !query_.turning;
@@ -40,12 +40,6 @@ class Monitor {
  private:
   bool complete() const { return std::isfinite(blockage_.hazard_m) && std::isfinite(blockage_.unseen_m); }
 
-  Pose2 body_pose(double s_m) const {
-    Pose2 pose = query_.route.pose_at(s_m);
-    if (query_.reverse) pose.yaw_rad += kPi;
-    return pose;
-  }
-
   // False if the corner is so small that the rover does not stop for it.
   bool check_corner(size_t i, double s_m) {
     const double turn = wrap_angle(query_.route.yaw_out_of(i) - query_.route.yaw_into(i));
@@ -65,7 +59,7 @@ class Monitor {
 
   // The pose of the path, shifted by what remains of the rover's tracking error.
   Pose2 expected_pose(double s_m, const Pose2& here) const {
-    Pose2 pose = body_pose(s_m);
+    Pose2 pose = query_.route.pose_at(s_m);
     const double remaining = std::max(0.0, 1.0 - (s_m - query_.from_m) / kMergeM);
     pose.x_m += remaining * (query_.rover.x_m - here.x_m);
     pose.y_m += remaining * (query_.rover.y_m - here.y_m);

@@ -11,7 +11,6 @@ namespace rover::planning {
 struct MonitorQuery {
   const Costmap& costmap;
   const Route& route;
-  bool reverse = false;
   Footprint footprint;
   double from_m = 0.0;  // along the route: where the rover is
   Pose2 rover;

@@ -210,19 +210,15 @@ void PathPlanner::follow_global_path() {
 }
 
 void PathPlanner::follow() {
-  active_.follow(position(rover()));
+  active_.follow(position(rover()), history_.newest().forward_mps);
   track_progress();
   track_turn();
-  if (active_.has_next() && stationary() && active_.at_end(position(rover()))) {
-    active_.advance(next_path_id_++, position(rover()));
-    check_path();
-  }
   // Past a repair the path is the global path again, with its own corridor.
-  if (active_.kind() == PathKind::kRepair && !active_.has_next() && active_.planned_m() < 0.0) {
+  if (active_.kind() == PathKind::kRepair && active_.planned_m() < 0.0) {
     std::vector<RoutePoint> rest;
     const std::vector<RoutePoint>& points = active_.route().points();
-    const size_t next = active_.route().vertex_after(active_.progress_m() - kKeepBehindM);
-    for (size_t i = next > 0 ? next - 1 : 0; i < points.size(); ++i) rest.push_back(points[i]);
+    const double from_m = std::max(active_.progress_m() - kKeepBehindM, active_.leg().begin_m);
+    for (size_t i = active_.route().vertex_after(from_m) - 1; i < points.size(); ++i) rest.push_back(points[i]);
     if (rest.size() >= 2) {
       active_.set_route(next_path_id_++, PathKind::kGlobal, Route(std::move(rest)), global_->corridor_half_width_m,
                         position(rover()));
@@ -242,7 +238,7 @@ void PathPlanner::track_progress() {
 
 // A point turn goes on below the error that starts one.
 void PathPlanner::track_turn() {
-  const double error = std::abs(wrap_angle(active_.pose_at(active_.progress_m()).yaw_rad - rover().yaw_rad));
+  const double error = std::abs(wrap_angle(active_.route().pose_at(active_.progress_m()).yaw_rad - rover().yaw_rad));
   const bool driving = std::abs(history_.newest().forward_mps) > kCreepMps;
   turning_ = error > config_.turn_threshold_rad || (turning_ && error > config_.turn_stop_rad && !driving);
 }
@@ -280,8 +276,8 @@ double PathPlanner::margin_m() const {
 
 void PathPlanner::check_path() {
   const Costmap costmap(config_.costmap, belief_, position(rover()), kMonitorSideM);
-  blockage_ = find_blockage({costmap, active_.route(), active_.reverse(), config_.footprint, active_.progress_m(),
-                             rover(), margin_m(), turning_, config_.turn_threshold_rad, config_.belief.view});
+  blockage_ = find_blockage({costmap, active_.route(), config_.footprint, active_.progress_m(), rover(), margin_m(),
+                             turning_, config_.turn_threshold_rad, config_.belief.view});
   // No camera looks backwards, and the driven track was known.
   if (mode_ == Mode::kBackingUp) blockage_.unknown_m = blockage_.unseen_m = kInfinity;
 }
@@ -292,7 +288,7 @@ bool PathPlanner::strayed() const {
 
 bool PathPlanner::clear() const {
   if (active_.empty()) return false;
-  const bool ended = active_.at_end(position(rover())) && !active_.has_next() && !leads_to_goal();
+  const bool ended = active_.at_end(position(rover())) && !leads_to_goal();
   return !ended && !replan_wanted_ && !strayed() && hazard_ahead_m() > config_.stop_hazard_m &&
          unknown_ahead_m() > config_.stop_unknown_m;
 }
@@ -452,13 +448,12 @@ std::vector<Point2> PathPlanner::back_up_points() const {
   const std::vector<Point2> track = breadcrumbs_.back(position(rover()), (1 + back_ups_) * config_.back_up_m);
   if (track.size() < 2) return {};
   std::vector<RoutePoint> points;
-  for (const Point2& p : track) points.push_back({p, kNaN, 0});
+  for (const Point2& p : track) points.push_back({p, kNaN, 0, true});
   const Route route(std::move(points));
   const Costmap costmap(config_.costmap, belief_, position(rover()), kMonitorSideM);
-  const bool turning =
-      std::abs(wrap_angle(route.pose_at(0.0).yaw_rad + kPi - rover().yaw_rad)) > config_.turn_threshold_rad;
-  const Blockage blockage = find_blockage({costmap, route, true, config_.footprint, 0.0, rover(), kBackUpMarginM,
-                                           turning, config_.turn_threshold_rad, config_.belief.view});
+  const bool turning = std::abs(wrap_angle(route.pose_at(0.0).yaw_rad - rover().yaw_rad)) > config_.turn_threshold_rad;
+  const Blockage blockage = find_blockage({costmap, route, config_.footprint, 0.0, rover(), kBackUpMarginM, turning,
+                                           config_.turn_threshold_rad, config_.belief.view});
   const double clear_m = std::min(route.length_m(), blockage.hazard_m - kBackUpReserveM);
   std::vector<Point2> out;
   for (size_t i = 0; i < track.size() && route.s_at(i) <= clear_m; ++i) out.push_back(track[i]);
@@ -468,7 +463,8 @@ std::vector<Point2> PathPlanner::back_up_points() const {
 
 void PathPlanner::back_up() {
   std::vector<RoutePoint> points;
-  for (const Point2& p : back_up_points()) points.push_back({p, kNaN, global_odom_->level_at(global_progress_m_)});
+  const std::int8_t level = global_odom_->level_at(global_progress_m_);
+  for (const Point2& p : back_up_points()) points.push_back({p, kNaN, level, true});
   ++back_ups_;
   if (back_up_wanted_) ++wanted_back_ups_;
   failures_ = 0;
@@ -523,7 +519,7 @@ double PathPlanner::short_of_goal_m() const {
 }
 
 bool PathPlanner::leads_to_goal() const {
-  return mode_ != Mode::kBackingUp && !active_.has_next() && active_.kind() != PathKind::kBacktrack &&
+  return mode_ != Mode::kBackingUp && active_.kind() != PathKind::kBacktrack &&
          short_of_goal_m() <= std::max(config_.planner.cost_to_go.blocked_goal_radius_m, global_->goal_tolerance_m);
 }
 

@@ -76,7 +76,7 @@ void Route::set_headings() {
   const size_t last = points_.size() - 1;
   std::vector<double> piece(last);
   for (size_t i = 0; i < last; ++i) {
-    piece[i] = heading(points_[i].p, points_[i + 1].p);
+    piece[i] = heading(points_[i].p, points_[i + 1].p) + (points_[i].reverse ? kPi : 0.0);
     if (i > 0) piece[i] = piece[i - 1] + wrap_angle(piece[i] - piece[i - 1]);
   }
   yaw_in_rad_.assign(last + 1, piece.front());
@@ -118,6 +118,15 @@ Pose2 Route::pose_at(double s_m) const {
 
 std::int8_t Route::level_at(double s_m) const {
   return points_[std::clamp<size_t>(vertex_after(s_m), 1, points_.size()) - 1].level;
+}
+
+Leg Route::leg_at(double s_m) const {
+  size_t begin = std::clamp<size_t>(vertex_after(s_m), 1, points_.size() - 1) - 1;
+  size_t end = begin + 1;
+  const bool reverse = points_[begin].reverse;
+  while (begin > 0 && points_[begin - 1].reverse == reverse) --begin;
+  while (end + 1 < points_.size() && points_[end].reverse == reverse) ++end;
+  return {s_m_[begin], s_m_[end], reverse};
 }
 
 double Route::closest(Point2 p, double from_m, double to_m) const {

@@ -12,6 +12,14 @@ struct RoutePoint {
   Point2 p;
   double global_s_m = kNaN;  // along the global path; NaN: on a repair
   std::int8_t level = 0;     // wanted from here on (path_t)
+  bool reverse = false;      // motion from here on
+};
+
+// Part of a route between two changes of direction.
+struct Leg {
+  double begin_m = 0.0;
+  double end_m = 0.0;
+  bool reverse = false;
 };
 
 class Route {
@@ -23,7 +31,7 @@ class Route {
   const std::vector<RoutePoint>& points() const { return points_; }
   double length_m() const { return s_m_.empty() ? 0.0 : s_m_.back(); }
   double s_at(size_t i) const { return s_m_[i]; }
-  // Position on the polyline; the heading changes evenly between vertices, and jumps at corners (before the jump
+  // Body pose on the polyline; the heading changes evenly between vertices, and jumps at corners (before the jump
   // there).
   Pose2 pose_at(double s_m) const;
   // Vertices at which the heading jumps: the rover turns there on the spot.
@@ -32,6 +40,8 @@ class Route {
   double yaw_out_of(size_t i) const { return yaw_out_rad_[i]; }
   Point2 point_at(double s_m) const;
   std::int8_t level_at(double s_m) const;
+  // A cusp belongs to the leg that follows it.
+  Leg leg_at(double s_m) const;
   // Arc length of the closest point with arc length in [from, to].
   double closest(Point2 p, double from_m, double to_m) const;
   double closest(Point2 p) const { return closest(p, 0.0, length_m()); }

@@ -8,10 +8,10 @@ PathInput path_from(const path_t& message) {
   PathInput out;
   out.id = message.path_id;
   out.corridor_half_width_m = message.corridor_half_width_m;
-  out.reverse = message.kind == path_t::BACKTRACK;
   if (message.frame != path_t::ODOM || message.x_m.size() != message.y_m.size()) return out;
   out.points.reserve(message.x_m.size());
   for (size_t i = 0; i < message.x_m.size(); ++i) out.points.emplace_back(message.x_m[i], message.y_m[i]);
+  for (const std::int8_t direction : message.direction) out.reverse.push_back(direction == path_t::REVERSE);
   return out;
 }
 

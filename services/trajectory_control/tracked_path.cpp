@@ -13,6 +13,7 @@ constexpr double kMaxLengthM = 1e5;
 constexpr double kSearchWindowM = 0.5;      // around the arc length of the smoothed curve
 constexpr double kHeadingWeightM = 0.3;     // 1 rad of heading error costs as much as this distance
 constexpr double kCandidateFraction = 0.5;  // of the half width: parts this close are candidates
+constexpr double kPastCuspM = 0.05;         // a part beyond a cusp must be this much closer
 
 Points without_duplicates(const Points& points) {
   Points out;
@@ -125,9 +126,9 @@ std::vector<size_t> local_minima(const std::vector<PathSample>& samples, const E
 
 }  // namespace
 
-PathSegment::PathSegment(std::vector<Eigen::Vector2d> samples, double step_m, double start_m,
+PathSegment::PathSegment(std::vector<Eigen::Vector2d> samples, double step_m, double start_m, bool reverse,
                          const TrackedPathConfig& config)
-    : step_m_(step_m), start_m_(start_m) {
+    : step_m_(step_m), start_m_(start_m), reverse_(reverse) {
   const Points curve = smooth(samples, step_m, config.smoother);
   samples_.resize(samples.size());
   for (size_t i = 0; i < samples.size(); ++i) {
@@ -228,20 +229,35 @@ double PathSegment::cross_track_m(const Eigen::Vector2d& p, double near_m) const
 std::optional<TrackedPath> TrackedPath::build(const PathInput& input, const TrackedPathConfig& config) {
   if (!all_finite(input.points) || !(input.corridor_half_width_m > 0.0) || !std::isfinite(input.corridor_half_width_m))
     return std::nullopt;
-  const Points points = without_duplicates(input.points);
-  if (points.size() < 2 || length(points) > kMaxLengthM) return std::nullopt;
-  double step_m = config.sample_m;
-  const Points samples = resample(points, step_m);
+  if (length(input.points) > kMaxLengthM) return std::nullopt;
   TrackedPath path;
   path.id_ = input.id;
   path.corridor_half_width_m_ = input.corridor_half_width_m;
+  const auto reverse = [&](size_t i) { return i < input.reverse.size() && input.reverse[i]; };
+  Points leg;
+  for (size_t i = 0; i < input.points.size(); ++i) {
+    leg.push_back(input.points[i]);
+    const bool last = i + 1 == input.points.size();
+    if (i == 0 || (!last && reverse(i) == reverse(i - 1))) continue;
+    path.add_leg(leg, reverse(i - 1), config);
+    leg = {input.points[i]};  // a cusp belongs to both
+  }
+  if (path.segments_.empty()) return std::nullopt;
+  return path;
+}
+
+void TrackedPath::add_leg(const Points& leg, bool reverse, const TrackedPathConfig& config) {
+  const Points points = without_duplicates(leg);
+  if (points.size() < 2) return;
+  const double start_m = segments_.empty() ? 0.0 : length_m();
+  double step_m = config.sample_m;
+  const Points samples = resample(points, step_m);
   size_t first = 0;
   for (const size_t end : segment_ends(samples, step_m, config)) {
     Points segment(samples.begin() + static_cast<long>(first), samples.begin() + static_cast<long>(end) + 1);
-    path.segments_.emplace_back(std::move(segment), step_m, step_m * static_cast<double>(first), config);
+    segments_.emplace_back(std::move(segment), step_m, start_m + step_m * static_cast<double>(first), reverse, config);
     first = end;
   }
-  return path;
 }
 
 PathPosition TrackedPath::locate(const Pose2& pose) const {
@@ -254,12 +270,14 @@ PathPosition TrackedPath::locate(const Pose2& pose) const {
   PathPosition best;
   double min_cost = kInfinity;
   for (size_t l = 0; l < segments_.size(); ++l) {
+    const double heading_rad = pose.yaw_rad + (segments_[l].reverse() ? kPi : 0.0);
     const double step_m = segments_[l].length_m() / static_cast<double>(segments_[l].samples().size() - 1);
     for (const size_t i : local_minima(segments_[l].samples(), p)) {
       const PathSample& sample = segments_[l].samples()[i];
       const double distance_m = (sample.p - p).norm();
-      const double cost = std::hypot(distance_m, kHeadingWeightM * wrap_angle(sample.yaw_rad - pose.yaw_rad));
-      if (distance_m > candidate_distance_m || cost >= min_cost) continue;
+      const double cost = std::hypot(distance_m, kHeadingWeightM * wrap_angle(sample.yaw_rad - heading_rad));
+      const double handicap_m = segments_[l].reverse() == segments_[best.segment].reverse() ? 0.0 : kPastCuspM;
+      if (distance_m > candidate_distance_m || cost + handicap_m >= min_cost) continue;
       min_cost = cost;
       best = {l, step_m * static_cast<double>(i)};
     }

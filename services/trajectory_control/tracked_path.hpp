@@ -1,6 +1,7 @@
-// Reference trajectory for path following. The polyline is split at sharp corners (no arc of the minimum radius can
-// follow them); the rover turns on the spot there. Each segment is a smoothed curve with heading, curvature and a speed
-// profile (curvature, steering rate, stop at the end). The cross track is measured against the unsmoothed path.
+// Reference trajectory for path following. The polyline is split where the direction of motion changes, and at sharp
+// corners (no arc of the minimum radius can follow them); the rover turns on the spot there. Each segment is a smoothed
+// curve with heading, curvature and a speed profile (curvature, steering rate, stop at the end). The cross track is
+// measured against the unsmoothed path.
 #pragma once
 
 #include <Eigen/Dense>
@@ -17,7 +18,7 @@ struct PathInput {
   std::int64_t id = -1;
   double corridor_half_width_m = 0.0;
   std::vector<Eigen::Vector2d> points;  // odom frame
-  bool reverse = false;                 // driven in reverse
+  std::vector<bool> reverse;            // motion from each point on; points without a value: forward
 };
 
 struct TrackedPathConfig {
@@ -54,10 +55,12 @@ struct Projection {
 
 class PathSegment {
  public:
-  PathSegment(std::vector<Eigen::Vector2d> samples, double step_m, double start_m, const TrackedPathConfig& config);
+  PathSegment(std::vector<Eigen::Vector2d> samples, double step_m, double start_m, bool reverse,
+              const TrackedPathConfig& config);
 
   double length_m() const { return step_m_ * static_cast<double>(samples_.size() - 1); }
   double start_m() const { return start_m_; }  // arc length of its start on the whole path
+  bool reverse() const { return reverse_; }    // headings are those of the motion, not of the body
   const std::vector<PathSample>& samples() const { return samples_; }
   PathSample at(double s_m) const;
   // Closest point of the smoothed curve with arc length in [from_m, to_m].
@@ -75,6 +78,7 @@ class PathSegment {
   std::vector<PathSample> samples_;
   double step_m_;
   double start_m_;
+  bool reverse_;
 };
 
 struct PathPosition {
@@ -93,11 +97,13 @@ class TrackedPath {
   const std::vector<PathSegment>& segments() const { return segments_; }
   // Closest sample to the pose on the whole path. If several parts pass within kCandidateFraction of the corridor half
   // width, the heading selects among their closest samples, so a path that starts with a point turn starts at the
-  // rover.
+  // rover. Beside a cusp, where both parts have the same heading, the first is taken unless the other is much nearer.
   PathPosition locate(const Pose2& pose) const;
 
  private:
   TrackedPath() = default;
+  void add_leg(const std::vector<Eigen::Vector2d>& points, bool reverse, const TrackedPathConfig& config);
+
   std::int64_t id_ = -1;
   double corridor_half_width_m_ = 0.0;
   std::vector<PathSegment> segments_;

@@ -45,7 +45,6 @@ bool TrajectoryController::set_path(const PathInput& input) {
   if (path_ && input.id == input_.id && input.reverse == input_.reverse && input.points == input_.points) return true;
   input_ = input;
   path_ = TrackedPath::build(input, config_.path);
-  set_reverse(input.reverse);
   relocate_ = true;
   return path_.has_value();
 }
@@ -59,14 +58,6 @@ void TrajectoryController::set_reverse(bool reverse) {
 }
 
 ControlOutput TrajectoryController::step(Utime now, const PoseInput& pose, const DrivePermit& permit) {
-  if (!reverse_) return step_forward(now, pose, permit);
-  ControlOutput out = step_forward(now, reversed(pose), permit);
-  out.command.speed_mps = -out.command.speed_mps;
-  out.command.curvature_per_m = -out.command.curvature_per_m;
-  return out;
-}
-
-ControlOutput TrajectoryController::step_forward(Utime now, const PoseInput& pose, const DrivePermit& permit) {
   const double dt_s = last_step_ == kNever ? 0.0 : std::min(to_seconds(now - last_step_), kMaxStepS);
   last_step_ = now;
   ControlOutput out;
@@ -80,10 +71,20 @@ ControlOutput TrajectoryController::step_forward(Utime now, const PoseInput& pos
     out.state = ControlState::kStalePose;
     return out;
   }
-  update_side_slip(pose, dt_s);
-  if (!path_) return out;
+  const Projection projection = path_ ? advance_on_path(pose.odom) : Projection();
+  const PoseInput leading = reverse_ ? reversed(pose) : pose;
+  update_side_slip(leading, dt_s);
+  if (path_) follow(leading, projection, dt_s, permit, out);
+  if (reverse_) {
+    out.command.speed_mps = -out.command.speed_mps;
+    out.command.curvature_per_m = -out.command.curvature_per_m;
+  }
+  return out;
+}
 
-  const Projection projection = advance_on_path(pose.odom);
+// The pose is that of the end which leads.
+void TrajectoryController::follow(const PoseInput& pose, const Projection& projection, double dt_s,
+                                  const DrivePermit& permit, ControlOutput& out) {
   out.arc_length_m = segment().start_m() + projection.s_m;
   out.remaining_m = path_->length_m() - out.arc_length_m - std::max(projection.beyond_m, 0.0);
   out.cross_track_m = segment().cross_track_m(point_of(pose.odom), projection.s_m);
@@ -91,17 +92,18 @@ ControlOutput TrajectoryController::step_forward(Utime now, const PoseInput& pos
   out.predicted_corridor_error_m = predict_corridor_error(pose.odom, projection);
   if (std::abs(out.cross_track_m) > path_->corridor_half_width_m()) {
     out.state = ControlState::kOutOfCorridor;
-    return out;
+    return;
   }
+  const Utime now = out.command.utime;
   const Utime valid_until = now + to_utime(config_.command_validity_s);
   if (on_last_segment() && out.remaining_m <= config_.end_tolerance_m) {
     out.state = ControlState::kPathEnd;
     out.command.valid_until = valid_until;
-    return out;
+    return;
   }
   if (!permit_valid(permit, now, to_utime(config_.permit_max_age_s))) {
     out.state = ControlState::kNoPermit;
-    return out;
+    return;
   }
   out.command.valid_until = valid_until;
   if (update_point_turn(out, pose.forward_mps)) {
@@ -111,7 +113,6 @@ ControlOutput TrajectoryController::step_forward(Utime now, const PoseInput& pos
     out.state = ControlState::kFollowing;
     follow_arc(pose, projection, dt_s, permit.max_speed_mps, out.command);
   }
-  return out;
 }
 
 bool TrajectoryController::is_fresh(const PoseInput& pose, Utime now) const {
@@ -128,10 +129,11 @@ Projection TrajectoryController::advance_on_path(const Pose2& pose) {
   const double remaining_m = segment().length_m() - projection.s_m - std::max(projection.beyond_m, 0.0);
   if (!on_last_segment() && remaining_m <= config_.end_tolerance_m) {
     ++path_position_.segment;
-    turning_ = true;
+    turning_ = segment().reverse() == reverse_;  // at a corner, not at a cusp
     projection = segment().project(point_of(pose), 0.0, kSearchAheadM);
   }
   path_position_.s_m = projection.s_m;
+  set_reverse(segment().reverse());
   return projection;
 }
 

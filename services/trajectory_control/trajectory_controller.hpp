@@ -72,7 +72,8 @@ class TrajectoryController {
   ControlOutput step(Utime now, const PoseInput& pose, const DrivePermit& permit);
 
  private:
-  ControlOutput step_forward(Utime now, const PoseInput& pose, const DrivePermit& permit);
+  void follow(const PoseInput& pose, const Projection& projection, double dt_s, const DrivePermit& permit,
+              ControlOutput& out);
   void set_reverse(bool reverse);
   bool is_fresh(const PoseInput& pose, Utime now) const;
   const PathSegment& segment() const { return path_->segments()[path_position_.segment]; }
@@ -97,7 +98,7 @@ class TrajectoryController {
   double steering_curvature_per_m_ = 0.0;  // modelled steering: commands with a rate limit
   double integral_per_m_ = 0.0;
   double side_slip_rad_ = 0.0;
-  bool reverse_ = false;  // curvature, integral and side slip refer to a body rotated by 180 deg
+  bool reverse_ = false;  // of the segment; curvature, integral and side slip refer to a body rotated by 180 deg
   Utime last_step_ = kNever;
 };
 

@@ -111,7 +111,8 @@ void Ground::give_path(double away_m) {
   for (int i = 0; i <= kBends; ++i) {
     out.x_m.push_back(at.x_m);
     out.y_m.push_back(at.y_m);
-    out.level.push_back(path_t::EFFICIENT);
+    out.level.push_back(std::int8_t{path_t::EFFICIENT});
+    out.direction.push_back(std::int8_t{path_t::FORWARD});
     const double distance_m = uniform(random_, 5.0, 8.0);
     at.x_m += distance_m * std::cos(at.yaw_rad);
     at.y_m += distance_m * std::sin(at.yaw_rad);

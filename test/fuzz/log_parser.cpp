@@ -56,6 +56,7 @@ path_t short_path() {
   path.x_m = {0.0, 3.0};
   path.y_m = {0.0, 0.5};
   path.level = {0, 0};
+  path.direction = {0, 0};
   return path;
 }
 

@@ -45,6 +45,7 @@ TEST(CsvTable, ArraysThatVaryAreOneColumn) {
   path.x_m = {1.5, kNaN, -0.1};
   path.y_m = {0.0, 1.0, 2.0};
   path.level = {0, 1, 0};
+  path.direction = {0, 1, 0};
   const auto columns = csv_columns("path_t");
   std::ostringstream row;
   write_csv_row(row, columns, fields_of(channel::kPath, path));

@@ -177,6 +177,7 @@ void MadeUpDrive::say_paths(Utime now) {
     path.x_m.push_back(at.x_m);
     path.y_m.push_back(at.y_m);
     path.level.push_back(path_t::FULL);
+    path.direction.push_back(std::int8_t{path_t::FORWARD});
   }
   path.point_count = static_cast<std::int32_t>(path.x_m.size());
   publish(channel::kPath, path, now);

@@ -44,7 +44,9 @@ class PanTiltNodeTest : public testing::Test {
     message.point_count = static_cast<std::int32_t>(x.size());
     message.x_m = x;
     message.y_m = y;
-    message.level.assign(x.size(), path_t::FULL);
+    message.level.assign(x.size(), std::int8_t{path_t::FULL});
+    message.direction.assign(x.size(),
+                             kind == path_t::BACKTRACK ? std::int8_t{path_t::REVERSE} : std::int8_t{path_t::FORWARD});
     world_.send(channel::kPath, message, now_);
   }
   void tick() {

@@ -1,4 +1,4 @@
-// The Full level: maps of the NavCam make continuous paths, and plans that reverse are driven segment by segment.
+// The Full level: maps of the NavCam make continuous paths, and plans may reverse.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -109,47 +109,49 @@ TEST_F(FullLevelTest, TheSameMapAgainKeepsThePath) {
   EXPECT_LE(rig_.paths.size(), before + 1);
 }
 
-TEST_F(FullLevelTest, APlanThatReversesIsDrivenSegmentBySegment) {
+TEST_F(FullLevelTest, APlanThatReversesIsOnePath) {
   send_map(channel_map);
-  PlannerOutput out = rig_.step();
-  ASSERT_TRUE(out.path);
-  EXPECT_EQ(out.path->kind, PathKind::kBacktrack);
-  EXPECT_LT(distance(out.path->points.front().p, position(rig_.odom)), 0.1);
-  EXPECT_GT(out.status.goal_distance_m, 25.0);
-  const Route reverse(out.path->points);
-  for (double s = 0.0; s <= reverse.length_m(); s += 0.05) {
-    rig_.odom = reverse.pose_at(s);
-    rig_.odom.yaw_rad += kPi;
-    rig_.forward_mps = -0.2;
-    EXPECT_FALSE(rig_.look().path) << s;
-  }
-  EXPECT_LT(rig_.odom.x_m, -2.0);
-  rig_.forward_mps = 0.0;
-  out = rig_.look();
+  const PlannerOutput out = rig_.step();
   ASSERT_TRUE(out.path);
   EXPECT_EQ(out.path->kind, PathKind::kContinuous);
-  EXPECT_LT(distance(out.path->points.front().p, position(rig_.odom)), 0.15);
+  EXPECT_GT(out.status.goal_distance_m, 25.0);
+  const Route route(out.path->points);
+  const Leg back = route.leg_at(0.0);
+  ASSERT_TRUE(back.reverse);
+  EXPECT_LT(route.point_at(back.end_m).x_m, -2.0);
   EXPECT_NEAR(out.path->points.back().p.x_m, 30.0, 1e-6);
+  // Driven over the cusp the path stays, and the rover's place on it is never taken for one on the other leg.
+  double before_m = 0.0;
+  for (double s = 0.0; s <= back.end_m + 1.0; s += 0.05) {
+    rig_.odom = route.pose_at(s);
+    rig_.forward_mps = route.leg_at(s).reverse ? -0.2 : 0.2;
+    if (std::abs(s - back.end_m) < 0.1) rig_.forward_mps = 0.0;
+    EXPECT_FALSE(rig_.look().path) << s;
+    const double at_m = rig_.planner.active_path().progress_m();
+    EXPECT_NEAR(at_m, s, 0.15);
+    EXPECT_GE(at_m, before_m - 0.05);
+    before_m = at_m;
+  }
 }
 
-// The segments that follow are not in the checkpoint.
-TEST_F(FullLevelTest, RestartedWhileItReversesItPlansAgain) {
+TEST_F(FullLevelTest, RestartedWhileItReversesItKeepsThePath) {
   send_map(channel_map);
   rig_.step();
-  ASSERT_TRUE(rig_.planner.active_path().has_next());
+  const size_t points = path().points.size();
   constexpr std::int64_t kFirstId = 1'000'001;
   PathPlanner restarted(planner_config(), kFirstId);
   ASSERT_TRUE(restarted.restore(rig_.planner.save()));
   rig_.planner = restarted;
   rig_.step();
-  EXPECT_GT(path().id, kFirstId) << "the id of the restored path";
-  EXPECT_TRUE(rig_.planner.active_path().has_next());
+  EXPECT_EQ(path().id, kFirstId) << "the id of the restored path";
+  EXPECT_EQ(path().points.size(), points);
+  EXPECT_TRUE(rig_.planner.active_path().leg().reverse);
 }
 
 TEST_F(FullLevelTest, AReversingRoverOffItsPathIsStoppedBeforeAHazard) {
   send_map(channel_map);
   rig_.step();
-  ASSERT_EQ(path().kind, PathKind::kBacktrack);
+  ASSERT_TRUE(rig_.planner.active_path().leg().reverse);
   rig_.forward_mps = -0.2;
   rig_.odom.x_m = -0.3;
   EXPECT_TRUE(std::isinf(rig_.look().status.blocked_in_m));
@@ -181,12 +183,11 @@ TEST_F(FullLevelTest, ABlockedGapIsLeftForAnotherOne) {
 }
 
 TEST_F(FullLevelTest, WithoutAPathOnTheMapItBacksUp) {
-  send_map(free_map);
-  rig_.step();
+  rig_.planner.set_start_area({0.0, 0.0}, 5.0, rig_.now);
   rig_.move_to(1.5, 0.0);
   const CostAt enclosed = [](Point2 p) {
     const bool sides = std::abs(std::abs(p.y_m) - 0.85) < 0.1 && p.x_m < 3.2;
-    return impassable_if(sides || std::abs(p.x_m - 3.1) < 0.15);
+    return impassable_if(sides || std::abs(p.x_m - 3.1) < 0.15 || std::abs(p.x_m + 1.5) < 0.15);
   };
   for (int i = 0; i < planner_config().patience + 3 && rig_.planner.mode() != Mode::kBackingUp; ++i) {
     send_map(enclosed);

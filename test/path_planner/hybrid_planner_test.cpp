@@ -234,10 +234,9 @@ TEST(HybridPlanner, ThePathMonitorAcceptsEachPlan) {
     ActivePath path;
     path.set_plan(1, PathKind::kRepair, plan.poses, {}, 0.25, 0, position(start));
     constexpr double kPointTurnRad = 0.7;
-    const bool turning = std::abs(wrap_angle(path.pose_at(0.0).yaw_rad - start.yaw_rad)) > kPointTurnRad;
-    const Blockage blockage =
-        find_blockage({*request.costmap, path.route(), path.reverse(), config.footprint, 0.0, start,
-                       config.clearances.min_m - 0.03, turning, kPointTurnRad, config.view});
+    const bool turning = std::abs(wrap_angle(path.route().pose_at(0.0).yaw_rad - start.yaw_rad)) > kPointTurnRad;
+    const Blockage blockage = find_blockage({*request.costmap, path.route(), config.footprint, 0.0, start,
+                                             config.clearances.min_m - 0.03, turning, kPointTurnRad, config.view});
     EXPECT_TRUE(std::isinf(blockage.hazard_m)) << blockage.hazard_m;
   }
   EXPECT_GT(near, 10);

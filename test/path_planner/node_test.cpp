@@ -36,6 +36,7 @@ path_t ahead() {
   out.x_m = {0.0, 20.0};
   out.y_m = {0.0, 0.0};
   out.level = {path_t::EFFICIENT, path_t::EFFICIENT};
+  out.direction = {path_t::FORWARD, path_t::FORWARD};
   out.point_count = 2;
   return out;
 }

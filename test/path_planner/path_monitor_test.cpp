@@ -18,16 +18,15 @@ class PathMonitorTest : public testing::Test {
  protected:
   static constexpr double kMarginM = 0.1;
 
-  void set_path(const std::vector<Point2>& points) {
+  void set_path(const std::vector<Point2>& points, bool reverse = false) {
     std::vector<RoutePoint> route;
-    for (const Point2& p : points) route.push_back({p, kNaN, 0});
+    for (const Point2& p : points) route.push_back({p, kNaN, 0, reverse});
     route_ = Route(std::move(route));
   }
   Blockage blockage(const GroundAt& ground) const {
     const Costmap costmap({}, certain_belief(ground), {}, 14.0);
     return find_blockage({.costmap = costmap,
                           .route = route_,
-                          .reverse = reverse_,
                           .footprint = footprint_,
                           .from_m = from_m_,
                           .rover = rover_,
@@ -44,7 +43,6 @@ class PathMonitorTest : public testing::Test {
   Route route_{{{{-2.0, 0.0}, kNaN, 0}, {{20.0, 0.0}, kNaN, 0}}};
   double from_m_ = 2.0;  // where the rover is
   Pose2 rover_;
-  bool reverse_ = false;
   bool turning_ = false;
 };
 
@@ -74,10 +72,20 @@ TEST_F(PathMonitorTest, UnknownGroundThatComesIntoViewIsNotUnseen) {
 }
 
 TEST_F(PathMonitorTest, InReverseTheRearLeads) {
-  set_path({{2.0, 0.0}, {-6.0, 0.0}});
-  reverse_ = true;
+  set_path({{2.0, 0.0}, {-6.0, 0.0}}, true);
   const double expected_m = from_m_ + 3.05 - footprint_.half_length_m - kMarginM;
   EXPECT_NEAR(blockage(spot(Ground::kHazard, {-3.05, 0.05})).hazard_m, expected_m, 0.06);
+}
+
+// In reverse for 2 m, then forward to the left: the rear is checked as far as the cusp, then the front.
+TEST_F(PathMonitorTest, BeyondACuspThePathIsCheckedToo) {
+  route_ = Route({{{0.0, 0.0}, kNaN, 0, true}, {{-2.0, 0.0}, kNaN, 0, false}, {{4.0, 1.5}, kNaN, 0, false}});
+  from_m_ = 0.0;
+  EXPECT_TRUE(std::isinf(blockage(spot(Ground::kHazard, {-3.25, 0.05})).hazard_m));
+  EXPECT_LT(blockage(spot(Ground::kHazard, {-2.85, 0.05})).hazard_m, 2.0);
+  const double beyond_m = blockage(spot(Ground::kHazard, {2.45, 1.15})).hazard_m;
+  EXPECT_GT(beyond_m, 4.5);
+  EXPECT_LT(beyond_m, 6.5);
 }
 
 TEST_F(PathMonitorTest, APointTurnSweepsTheCorners) {

@@ -54,15 +54,13 @@ class PlannerRig {
     return out;
   }
 
-  // Along the newest path at 0.2 m/s with a frame every step, until it is blocked.
+  // Along the active path at 0.2 m/s with a frame every step, until it is blocked.
   PlannerOutput go(double distance_m) {
     PlannerOutput out;
     for (double gone_m = 0.0; gone_m < distance_m; gone_m += kStepM) {
-      const bool reverse = paths.back().kind == PathKind::kBacktrack;
-      const Route route(paths.back().points);
-      odom = route.pose_at(std::min(route.closest(position(odom)) + kStepM, route.length_m()));
-      if (reverse) odom.yaw_rad += kPi;
-      forward_mps = reverse ? -0.2 : 0.2;
+      const ActivePath& active = planner.active_path();
+      odom = active.route().pose_at(std::min(active.progress_m() + kStepM, active.route().length_m()));
+      forward_mps = active.leg().reverse ? -0.2 : 0.2;
       out = look();
       if (out.status.blocked_in_m < 0.3) break;
     }

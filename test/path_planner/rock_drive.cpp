@@ -25,7 +25,7 @@ struct Drift {
   double bend_per_m = 0.0;
 };
 
-// As trajectory_control: segments between corners, a stop and a point turn at each; kBacktrack in reverse.
+// As trajectory_control: segments between cusps and corners, a stop at each, a point turn at corners.
 class Follower {
  public:
   Follower(const DriveConfig& config, const Pose2& start, const Drift& drift)
@@ -46,11 +46,9 @@ class Follower {
   }
 
   void take(const LocalPath& path) {
-    const double direction = path.kind == PathKind::kBacktrack ? -1.0 : 1.0;
-    if (direction != direction_) curvature_ = -curvature_;
-    direction_ = direction;
     route_ = Route(path.points);
-    progress_m_ = route_.closest(position(odom_), 0.0, 1.0);
+    progress_m_ = route_.closest(position(odom_), 0.0, std::min(1.0, route_.leg_at(0.0).end_m));
+    set_direction();
     const bool turn = std::abs(heading_error()) > (turning_ ? kTurnStopRad : kTurnStartRad);
     if (turn && !turning_) begin_turn();
     turning_ = turn;
@@ -79,9 +77,13 @@ class Follower {
  private:
   double step_s() const { return to_seconds(config_.step_us); }
 
-  // Of the end that leads: the rear in reverse.
-  Pose2 leading_pose() const { return {odom_.x_m, odom_.y_m, odom_.yaw_rad + (direction_ < 0.0 ? kPi : 0.0)}; }
-  double heading_error() const { return wrap_angle(route_.pose_at(progress_m_).yaw_rad - leading_pose().yaw_rad); }
+  double heading_error() const { return wrap_angle(route_.pose_at(progress_m_).yaw_rad - odom_.yaw_rad); }
+
+  void set_direction() {
+    const double direction = route_.leg_at(progress_m_).reverse ? -1.0 : 1.0;
+    if (direction != direction_) curvature_ = -curvature_;
+    direction_ = direction;
+  }
 
   void begin_turn() {
     turning_ = true;
@@ -89,17 +91,19 @@ class Follower {
     turn_wait_s_ = config_.turn_overhead_s;
   }
 
-  // Along the segment between two corners; returns where it ends.
+  // Along the segment between two corners or cusps; returns where it ends.
   double advance() {
     const auto& corners = route_.corners();
     const auto next =
         std::find_if(corners.begin(), corners.end(), [&](size_t i) { return route_.s_at(i) > progress_m_; });
-    const double begin = next == corners.begin() ? 0.0 : route_.s_at(*std::prev(next)) + 1e-6;
-    const double end = next == corners.end() ? route_.length_m() : route_.s_at(*next);
+    const Leg leg = route_.leg_at(progress_m_);
+    const double begin = std::max(leg.begin_m, next == corners.begin() ? 0.0 : route_.s_at(*std::prev(next)) + 1e-6);
+    const double end = std::min(leg.end_m, next == corners.end() ? leg.end_m : route_.s_at(*next));
     progress_m_ = route_.closest(position(odom_), std::max(progress_m_ - 0.3, begin), std::min(progress_m_ + 0.5, end));
-    if (next != corners.end() && end - progress_m_ < 0.03 && !turning_) {
+    if (end < route_.length_m() && end - progress_m_ < 0.03 && !turning_) {
       progress_m_ = end + 1e-3;
-      begin_turn();
+      set_direction();
+      if (end < leg.end_m) begin_turn();
     }
     return end;
   }
@@ -119,10 +123,10 @@ class Follower {
 
   // Feedback of cross-track and heading errors around the path's curvature, with the steering's rate.
   double wanted_curvature() const {
-    const Point2 off = to_body(route_.pose_at(progress_m_), position(odom_));
+    const double left_m = direction_ * to_body(route_.pose_at(progress_m_), position(odom_)).y_m;
     const double ahead = progress_m_ + 0.1;
     const double bend = wrap_angle(route_.pose_at(ahead + 0.15).yaw_rad - route_.pose_at(ahead - 0.15).yaw_rad);
-    const double wanted = bend / 0.3 + 2.0 / 0.6 * heading_error() - off.y_m / 0.36;
+    const double wanted = bend / 0.3 + 2.0 / 0.6 * heading_error() - left_m / 0.36;
     return std::clamp(wanted, -kMostCurvature, kMostCurvature);
   }
 

@@ -67,6 +67,22 @@ TEST(Route, TheHeadingJumpsOnlyAtCorners) {
   EXPECT_NEAR(route.pose_at(2.0 + 1e-9).yaw_rad, 0.5 * kPi, 1e-6);
 }
 
+TEST(Route, AtACuspTheBodyKeepsItsHeading) {
+  const Route route(
+      {{{0, 0}, kNaN, 0, false}, {{2, 0}, kNaN, 0, true}, {{1, 0.1}, kNaN, 0, true}, {{0, 0.4}, kNaN, 0}});
+  EXPECT_TRUE(route.corners().empty());
+  EXPECT_NEAR(route.pose_at(0.5).yaw_rad, 0.0, 0.1);
+  EXPECT_NEAR(route.pose_at(2.5).yaw_rad, -0.15, 0.1);
+  const Leg there = route.leg_at(1.99), back = route.leg_at(2.0);
+  EXPECT_FALSE(there.reverse);
+  EXPECT_TRUE(back.reverse);
+  EXPECT_EQ(there.begin_m, 0.0);
+  EXPECT_EQ(there.end_m, 2.0);
+  EXPECT_EQ(back.begin_m, 2.0);
+  EXPECT_EQ(back.end_m, route.length_m());
+  EXPECT_EQ(route.leg_at(100.0).end_m, route.length_m());
+}
+
 TEST(Route, BeyondItsEndsTheRouteIsItsEndPoint) {
   const Route route = route_of({{0, 0}, {1, 0}, {2, 0}});
   EXPECT_NEAR(route.point_at(-1.0).x_m, 0.0, 1e-12);

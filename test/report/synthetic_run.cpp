@@ -205,6 +205,7 @@ class Writer {
       m.x_m.push_back(p.x());
       m.y_m.push_back(p.y());
       m.level.push_back(std::int8_t{path_t::EFFICIENT});
+      m.direction.push_back(std::int8_t{path_t::FORWARD});
     }
     log_.put(channel, m, t, publisher);
   }

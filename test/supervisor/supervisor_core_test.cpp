@@ -246,7 +246,7 @@ TEST_F(SupervisorTest, BlindFramesAllowBacktracking) {
   EXPECT_FALSE(out_.permit.granted);
   PathLevels back;
   back.path_id = 2;
-  back.reverse = true;
+  back.backtrack = true;
   supervisor_.on_path(back);
   run(5.0);
   EXPECT_FALSE(out_.permit.granted) << "another path is followed";
@@ -265,7 +265,7 @@ TEST_F(SupervisorTest, ExcessiveRollAllowsBacktrackingUpToItsLimit) {
   EXPECT_FALSE(out_.permit.granted);
   PathLevels back;
   back.path_id = planner_.path_id = control_.path_id = 2;
-  back.reverse = true;
+  back.backtrack = true;
   supervisor_.on_path(back);
   EXPECT_LE(time_to_permit(), 1.1);
   pose_.roll_rad = to_rad(-23.5);
@@ -274,12 +274,11 @@ TEST_F(SupervisorTest, ExcessiveRollAllowsBacktrackingUpToItsLimit) {
   EXPECT_EQ(changes_.back().evidence.threshold, 23.0);
 }
 
-// Reverse segments of ordinary manoeuvres do not relax the limits.
-TEST_F(SupervisorTest, ReversePathWithoutFaultHasTheOrdinaryLimits) {
+TEST_F(SupervisorTest, BackingUpWithoutFaultHasTheOrdinaryLimits) {
   start_driving();
   PathLevels back;
   back.path_id = planner_.path_id = control_.path_id = 2;
-  back.reverse = true;
+  back.backtrack = true;
   supervisor_.on_path(back);
   run(1.0);
   ASSERT_TRUE(out_.permit.granted);
@@ -294,7 +293,7 @@ TEST_F(SupervisorTest, NanStopsWhileBacktracking) {
   time_to_withdrawal();
   PathLevels back;
   back.path_id = planner_.path_id = control_.path_id = 2;
-  back.reverse = true;
+  back.backtrack = true;
   supervisor_.on_path(back);
   time_to_permit();
   pose_.roll_rad = kNaN;
@@ -848,7 +847,7 @@ TEST_F(SupervisorTest, RestartKeepsTheBacktrackLimit) {
   time_to_withdrawal();
   PathLevels back;
   back.path_id = planner_.path_id = control_.path_id = 2;
-  back.reverse = true;
+  back.backtrack = true;
   supervisor_.on_path(back);
   time_to_permit();
   run(3.0);

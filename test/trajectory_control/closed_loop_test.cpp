@@ -217,7 +217,7 @@ TEST(ClosedLoop, BacktrackingPathIsDrivenInReverse) {
   const auto track = polyline({{0.0, 1.0}, {0.7, 2.0}, {-0.7, 1.0}});
   ASSERT_TRUE(drive(loop, track).ended);
   std::vector<Eigen::Vector2d> back(track.rbegin(), track.rend());
-  loop.controller.set_path({2, 0.25, back, true});
+  loop.controller.set_path({2, 0.25, back, std::vector<bool>(back.size(), true)});
   double largest = 0.0;
   bool turned = false;
   for (loop.tick(); loop.output.state != ControlState::kPathEnd && loop.now < to_utime(200.0); loop.tick()) {
@@ -242,7 +242,7 @@ TEST(ClosedLoop, BacktrackingOverAPointTurnStaysInTheCorridor) {
   const std::vector<Eigen::Vector2d> back = {{13.758, 3.431}, {13.687, 3.364}, {13.629, 3.280}, {13.613, 3.179},
                                              {13.515, 3.204}, {13.415, 3.204}, {13.311, 3.206}, {13.211, 3.209},
                                              {13.107, 3.215}, {13.005, 3.201}, {12.903, 3.193}, {12.801, 3.184}};
-  loop.controller.set_path({1, 0.25, back, true});
+  loop.controller.set_path({1, 0.25, back, std::vector<bool>(back.size(), true)});
   loop.run(0.1);
   while (loop.output.state != ControlState::kPathEnd && loop.now < to_utime(200.0)) {
     loop.tick();
@@ -263,7 +263,7 @@ TEST(ClosedLoop, BacktrackingOverAPointTurnNearItsStartStaysInTheCorridor) {
         std::vector<Eigen::Vector2d> back = {{0.0, 0.0}, {first_m, 0.0}};
         for (double distance_m = 0.1; distance_m < 1.05; distance_m += 0.1)
           back.push_back(back[1] + distance_m * along);
-        loop.controller.set_path({1, 0.25, back, true});
+        loop.controller.set_path({1, 0.25, back, std::vector<bool>(back.size(), true)});
         loop.run(0.1);
         double largest = 0.0;
         while (loop.output.state != ControlState::kPathEnd && loop.now < to_utime(200.0) &&
@@ -274,6 +274,79 @@ TEST(ClosedLoop, BacktrackingOverAPointTurnNearItsStartStaysInTheCorridor) {
         EXPECT_EQ(loop.output.state, ControlState::kPathEnd) << first_m << " " << turn_deg << " " << yaw_deg;
         EXPECT_LT(largest, 0.2) << first_m << " " << turn_deg << " " << yaw_deg;
       }
+}
+
+// Forward, in reverse to the other side, forward again: cusps at 3.0 m and 5.0 m, all with the steering turned.
+PathInput path_with_cusps() {
+  PathInput path{1, 0.25, {{0.0, 0.0}}, {false}};
+  Pose2 pose;
+  const auto drive_leg = [&](double length_m, double curvature_per_m, bool reverse) {
+    path.reverse.back() = reverse;
+    const double step_m = reverse ? -0.1 : 0.1;
+    for (double s = 0.05; s < length_m; s += 0.1) {
+      const double middle_rad = pose.yaw_rad + 0.5 * step_m * curvature_per_m;
+      pose.x_m += step_m * std::cos(middle_rad);
+      pose.y_m += step_m * std::sin(middle_rad);
+      pose.yaw_rad += step_m * curvature_per_m;
+      path.points.emplace_back(pose.x_m, pose.y_m);
+      path.reverse.push_back(reverse);
+    }
+  };
+  drive_leg(2.0, 0.0, false);
+  drive_leg(1.0, 0.4, false);
+  drive_leg(2.0, -0.4, true);
+  drive_leg(1.0, 0.4, false);
+  drive_leg(3.0, 0.0, false);
+  return path;
+}
+
+TEST(ClosedLoop, DrivesOverCuspsWithoutPointTurns) {
+  const PathInput path = path_with_cusps();
+  DriveLoop loop;
+  ASSERT_TRUE(loop.controller.set_path(path));
+  double largest_m = 0.0;
+  std::vector<double> changes_m;  // arc lengths at which the rover first moves the other way
+  bool backwards = false;
+  for (loop.tick(); loop.output.state != ControlState::kPathEnd && loop.now < to_utime(200.0); loop.tick()) {
+    ASSERT_NE(loop.output.state, ControlState::kPointTurn);
+    ASSERT_NE(loop.output.state, ControlState::kOutOfCorridor);
+    largest_m = std::max(largest_m, std::abs(loop.output.cross_track_m));
+    if ((loop.output.command.speed_mps < 0.0) == backwards) continue;
+    backwards = !backwards;
+    changes_m.push_back(loop.output.arc_length_m);
+  }
+  EXPECT_EQ(loop.output.state, ControlState::kPathEnd);
+  ASSERT_EQ(changes_m.size(), 2u);
+  EXPECT_NEAR(changes_m[0], 3.0, 0.06);
+  EXPECT_NEAR(changes_m[1], 5.0, 0.06);
+  EXPECT_LT(largest_m, 0.12);
+  EXPECT_LT((path.points.back() - Eigen::Vector2d(loop.rover.pose().x_m, loop.rover.pose().y_m)).norm(), 0.06);
+}
+
+// A restarted controller gets the whole path, wherever the rover is on it.
+TEST(ClosedLoop, RestartedAnywhereOnAPathWithCuspsItDrivesToTheEnd) {
+  const PathInput path = path_with_cusps();
+  DriveLoop first;
+  ASSERT_TRUE(first.controller.set_path(path));
+  std::vector<Pose2> places;
+  for (int i = 0; first.output.state != ControlState::kPathEnd && i < 10'000; ++i) {
+    first.tick();
+    if (i % 50 == 0) places.push_back(first.rover.pose());
+  }
+  ASSERT_GT(places.size(), 20u);
+  for (const Pose2& place : places) {
+    SCOPED_TRACE(::testing::Message() << place.x_m << " " << place.y_m);
+    DriveLoop loop;
+    loop.rover.put(place);
+    ASSERT_TRUE(loop.controller.set_path(path));
+    double largest_m = 0.0;
+    for (loop.tick(); loop.output.state != ControlState::kPathEnd && loop.now < to_utime(200.0); loop.tick()) {
+      ASSERT_NE(loop.output.state, ControlState::kOutOfCorridor);
+      largest_m = std::max(largest_m, std::abs(loop.output.cross_track_m));
+    }
+    EXPECT_EQ(loop.output.state, ControlState::kPathEnd);
+    EXPECT_LT(largest_m, 0.2);
+  }
 }
 
 TEST(ClosedLoop, ResendingTheSamePathChangesNothing) {

@@ -32,6 +32,7 @@ class ControlNodeTest : public testing::Test {
     out.x_m = {0.0, 10.0};
     out.y_m = {0.0, 0.0};
     out.level = {0, 0};
+    out.direction = {0, 0};
     out.point_count = 2;
     return out;
   }

@@ -84,6 +84,7 @@ path_t message_from(const Plan& plan, const PathTerms& terms) {
     message.y_m.push_back(plan.line[i].y());
     message.level.push_back(static_cast<std::int8_t>(plan.level[i]));
   }
+  message.direction.assign(plan.line.size(), std::int8_t{path_t::FORWARD});
   return message;
 }
 
