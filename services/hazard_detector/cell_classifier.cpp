@@ -112,16 +112,18 @@ class CellClassifier {
     for (int i : sides) cell(i) = Cell::kObstacle;
   }
 
-  // A rock as a whole is low or not.
+  // A rock as a whole is low or not. It is low if it was seen to be: most rays that pass over it at the height of the
+  // body are measured, and what they meet is not tall.
   void find_low_obstacles() {
     std::vector<char> visited(evidence_.size(), 0);
     const auto is_open = [&](int i) { return cell(i) == Cell::kObstacle && !visited[static_cast<size_t>(i)]; };
     for (int seed = 0; seed < shape_.size(); ++seed) {
       if (!is_open(seed)) continue;
-      int tall = 0;
+      int tall = 0, over = 0, over_seen = 0;
       const std::vector<int> rock = connected(seed, is_open, visited);
-      for (int i : rock) tall += evidence(i).tall;
-      if (tall >= config_.min_cell_samples) continue;
+      for (int i : rock) tall += evidence(i).tall, over += evidence(i).over, over_seen += evidence(i).over_seen;
+      const bool top_seen = over > 0 && over_seen >= config_.min_free_fraction * over;
+      if (tall >= config_.min_cell_samples || !top_seen) continue;
       for (int i : rock) cell(i) = Cell::kLow;
     }
   }

@@ -38,6 +38,8 @@ struct CellEvidence {
   int tall = 0;       // too high to pass under the body
   int raised = 0;     // above grow_height_m
   int low = 0;        // below the hole limit T_far
+  int over = 0;       // whose rays pass the cell at the height of the body
+  int over_seen = 0;  // of them, with valid stereo: what is there is lower, or counts as tall
   float sum_z_m = 0;  // sum of heights over flat ground
 };
 

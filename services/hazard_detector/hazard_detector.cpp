@@ -142,18 +142,23 @@ void HazardDetector::classify_samples(const Disparity& disparity, const GroundPl
   const CellLookup lookup(shape_);
   const Eigen::Vector3f p_cam = camera.T_body_cam.translation().cast<float>();
   const float depth_px16 = static_cast<float>(16.0 * camera.focal_px * camera.baseline_m);
+  const float at_body_height = 1.0f / limit_factor(height_m, config_.body_height_m);
   const std::vector<Sample>& samples = table_->samples();
   for (size_t k = 0; k < samples.size(); ++k) {
     const Sample& s = samples[k];
+    const float d = static_cast<float>(disparity.px16[static_cast<size_t>(s.index)]);
     const float reference = s.d_cal_px16 + d0 + du * s.u + dv * s.v;
     if (reference > 0.0f) {
-      const float depth = depth_px16 / reference;
-      const int cell = lookup(p_cam.x() + depth * s.ray_x, p_cam.y() + depth * s.ray_y);
-      if (cell >= 0) ++evidence_[static_cast<size_t>(cell)].expected;
+      const auto cell_at = [&](float depth) {
+        return lookup(p_cam.x() + depth * s.ray_x, p_cam.y() + depth * s.ray_y);
+      };
+      const int below = cell_at(depth_px16 / reference), over = cell_at(at_body_height * depth_px16 / reference);
+      if (below >= 0) ++evidence_[static_cast<size_t>(below)].expected;
+      if (over >= 0)
+        ++evidence_[static_cast<size_t>(over)].over, evidence_[static_cast<size_t>(over)].over_seen += d > 0;
     }
     const int cell = cell_of_sample_[k];
     if (cell < 0) continue;
-    const float d = static_cast<float>(disparity.px16[static_cast<size_t>(s.index)]);
     const LimitFactors& l = limits[static_cast<size_t>(cell)];
     CellEvidence& e = evidence_[static_cast<size_t>(cell)];
     e.high += d > l.high * reference;

@@ -75,6 +75,17 @@ TEST_F(HazardDetectorTest, FlatTopRockOfSeventeenCentimetresIsLowAndOneOfThirtyI
   EXPECT_EQ(map(detect(world)).at(1.8, 0.05), Cell::kObstacle);
 }
 
+// Stereo measures the lower 17 cm of a rock of 30 cm.
+TEST_F(HazardDetectorTest, ARockWhoseTopIsNotMeasuredIsNotLow) {
+  for (const double x : {1.3, 1.8, 2.3, 2.8}) {
+    synthetic::World world;
+    world.rocks = {{x, 0.1, 0.15, 0.17, true}, {x, 0.1, 0.149, 0.30, true, true}};
+    const HazardResult result = detect(world);
+    EXPECT_EQ(map(result).count(Cell::kLow), 0) << x;
+    EXPECT_GT(map(result).count_near(Cell::kObstacle, x - 0.1, 0.1, 0.2), 3) << x;
+  }
+}
+
 TEST_F(HazardDetectorTest, RocksOfTenCentimetresAreFree) {
   for (double x = 1.25; x < 2.8; x += 0.2)
     for (bool box : {false, true}) {

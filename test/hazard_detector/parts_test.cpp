@@ -141,7 +141,7 @@ TEST(LocalGroundTest, DeviationFromThePlaneIsBoundedByTheDistance) {
 class CellClassifierTest : public testing::Test {
  protected:
   CellClassifierTest() : evidence_(static_cast<size_t>(shape_.size())) {
-    for (CellEvidence& e : evidence_) e = {.measured = 25, .expected = 25};
+    for (CellEvidence& e : evidence_) e = {.measured = 25, .expected = 25, .over = 25, .over_seen = 25};
   }
   CellEvidence& at(int ix, int iy) { return evidence_[static_cast<size_t>(shape_.at(ix, iy))]; }
   Cell state(int ix, int iy) const {
@@ -198,6 +198,13 @@ TEST_F(CellClassifierTest, AnObstacleIsLowIfHardlyAnySampleOfItIsTall) {
   for (int ix : {20, 21, 22}) at(ix, 20).high = 20;
   at(22, 20).tall = config_.min_cell_samples;
   for (int ix : {10, 11, 12}) EXPECT_EQ(state(ix, 10), Cell::kLow) << ix;
+  for (int ix : {20, 21, 22}) EXPECT_EQ(state(ix, 20), Cell::kObstacle) << ix;
+}
+
+TEST_F(CellClassifierTest, AnObstacleIsLowOnlyIfTheRaysOverItAreMeasured) {
+  for (int ix : {10, 11, 12}) at(ix, 10).high = 20, at(ix, 10).over_seen = 12;
+  for (int ix : {20, 21, 22}) at(ix, 20).high = 20, at(ix, 20).over = 0, at(ix, 20).over_seen = 0;
+  for (int ix : {10, 11, 12}) EXPECT_EQ(state(ix, 10), Cell::kObstacle) << ix;
   for (int ix : {20, 21, 22}) EXPECT_EQ(state(ix, 20), Cell::kObstacle) << ix;
 }
 

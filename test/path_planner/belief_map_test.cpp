@@ -170,6 +170,17 @@ TEST_F(BeliefMapTest, AHazardIsLowOnlyIfCamerasSaySo) {
   EXPECT_FALSE(belief_.low(at(kRock)));
 }
 
+// Its top may lie above the picture.
+TEST_F(BeliefMapTest, FromAfarAnObstacleMayBeLowUntilItIsSeenToBe) {
+  const Pose2 far{-1.3, 0.0, 0.0};  // 3.4 m from the rock
+  see(HazardGrid::kObstacle, 10, far);
+  EXPECT_FALSE(belief_.low(at(kRock))) << "unknown counts as tall";
+  see(HazardGrid::kLow, 1, far);
+  EXPECT_TRUE(belief_.low(at(kRock)));
+  see(HazardGrid::kObstacle, 1);
+  EXPECT_FALSE(belief_.low(at(kRock)));
+}
+
 TEST_F(BeliefMapTest, BetweenTheWheelsALowHazardStaysOne) {
   const Footprint footprint{0.875, 0.47, 0.35};
   see(HazardGrid::kObstacle, 3);

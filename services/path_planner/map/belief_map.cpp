@@ -77,13 +77,15 @@ void BeliefMap::add(const HazardGrid& grid, const Eigen::Isometry3d& T_odom_body
     for (int ix = 0; ix < grid.cells_x; ++ix) {
       const int value = grid.cells[static_cast<size_t>(iy) * grid.cells_x + ix];
       if (!is_hit(value)) continue;
-      const Eigen::Vector2d p =
-          to_odom(grid.origin_x_m + (ix + 0.5) * grid.cell_m, grid.origin_y_m + (iy + 0.5) * grid.cell_m);
-      add_hit(map_.index_of(p.x(), p.y()), value != HazardGrid::kLow);
+      const Eigen::Vector2d b(grid.origin_x_m + (ix + 0.5) * grid.cell_m, grid.origin_y_m + (iy + 0.5) * grid.cell_m);
+      const Eigen::Vector2d p = to_odom(b.x(), b.y());
+      add_hit(map_.index_of(p.x(), p.y()), value == HazardGrid::kLow, b.norm());
     }
 }
 
-void BeliefMap::add_hit(CellIndex index, bool tall) {
+// A low hazard was seen to be low. Of another the top may lie above the picture, unless it is near; as long as nothing
+// says that it is low it counts as tall.
+void BeliefMap::add_hit(CellIndex index, bool low, double range_m) {
   if (!map_.contains(index)) return;
   CellBelief& cell = map_.at(index);
   if (cell.last_hit == frame_) return;
@@ -91,8 +93,9 @@ void BeliefMap::add_hit(CellIndex index, bool tall) {
   cell.known = true;
   cell.unmeasured = 0;
   cell.evidence = static_cast<float>(std::min(config_.max_evidence, cell.evidence + config_.hit));
-  const double tall_evidence = cell.tall_evidence + (tall ? config_.hit : -config_.miss);
-  cell.tall_evidence = static_cast<float>(std::clamp(tall_evidence, -config_.max_evidence, config_.max_evidence));
+  const double tall = low ? -config_.miss : range_m <= config_.near_range_m ? config_.hit : 0.0;
+  cell.tall_evidence =
+      static_cast<float>(std::clamp(cell.tall_evidence + tall, -config_.max_evidence, config_.max_evidence));
 }
 
 void BeliefMap::add_miss(CellBelief& cell, double range_m) const {

@@ -68,7 +68,7 @@ class BeliefMap {
   GridMap<CellBelief>& cells() { return map_; }
 
  private:
-  void add_hit(CellIndex index, bool tall);
+  void add_hit(CellIndex index, bool low, double range_m);
   void add_miss(CellBelief& cell, double range_m) const;
   void add_seen(CellBelief& cell, double range_m) const;
   void add_unmeasured(CellBelief& cell, const HazardGrid& grid, Point2 in_body) const;
