@@ -29,10 +29,11 @@ class Breadcrumbs {
     points_.resize(std::min(nearest + 1, points_.size()));
   }
   void clear() { points_.clear(); }
-  // From the rover back along the track, about `distance_m` long; nearer points than kStepM come from the drift of a
-  // stationary rover.
-  std::vector<Point2> back(Point2 rover, double distance_m) const {
-    std::vector<Point2> out = {rover};
+  // Back along the track, about `distance_m` long. Not from the rover itself: it may have slid sideways in a point
+  // turn, and the track turns nowhere that the rover did not.
+  std::vector<Point2> back(double distance_m) const {
+    if (points_.empty()) return {};
+    std::vector<Point2> out = {points_.back()};
     double sum = 0.0;
     for (size_t i = points_.size(); i-- > 0 && sum < distance_m;) {
       const double step = distance(out.back(), points_[i]);

@@ -242,6 +242,42 @@ TEST(HybridPlanner, ThePathMonitorAcceptsEachPlan) {
   EXPECT_GT(near, 10);
 }
 
+// Hazards all around, so near that most point turns are blocked: where no plan is found, none is found either from a
+// place that the rover can reach straight ahead or back.
+TEST(HybridPlanner, AmongNearHazardsItFindsAWayIfAShortStraightMotionHasOne) {
+  constexpr int kNear = 7;
+  const HybridPlannerConfig config = search_config();
+  int found = 0;
+  for (std::uint64_t seed = 50; seed < 64; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937_64 random(seed);
+    const Pose2 start{0.0, 0.0, uniform(random, -kPi, kPi)};
+    std::vector<Point2> near;
+    while (near.size() < kNear) {
+      const Point2 p{uniform(random, -1.8, 1.8), uniform(random, -1.3, 1.3)};
+      if (config.footprint.distance_m(p) > 0.2) near.push_back(from_body(start, p));
+    }
+    const GroundAt rocks = ground_of(random_rocks(seed));
+    const auto ground = [&](Point2 p) {
+      const bool hazard = std::any_of(near.begin(), near.end(), [&](Point2 q) { return distance(p, q) < 0.08; });
+      return hazard ? Ground::kHazard : rocks(p);
+    };
+    PlanRequest request = plan_request(certain_belief(ground), start);
+    if (plan_on(request).found) {
+      ++found;
+      continue;
+    }
+    const FootprintCheck check(*request.costmap, config.footprint, config.clearances.min_m, kApproachM, 0.0, start);
+    for (const double side : {1.0, -1.0})
+      for (double x_m = 0.05; x_m < 1.2; x_m += 0.05) {
+        request.start = advanced(start, side * x_m, 0.0);
+        if (!check.clear(request.start)) break;
+        EXPECT_FALSE(plan_on(request).found) << side * x_m;
+      }
+  }
+  EXPECT_GT(found, 5);
+}
+
 // The search also counts the heading at the end of a plan.
 TEST(HybridPlanner, AnIncumbentCostsWhatTheSamePlanCosts) {
   for (size_t i = 0; i < planned_fields().size(); i += 5) {

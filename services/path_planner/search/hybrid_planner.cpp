@@ -6,8 +6,9 @@ namespace {
 constexpr double kKnownMarginM = 0.04;  // the rover follows a path within centimetres
 constexpr double kApproachM = 0.005;    // less than the path monitor's
 constexpr double kMaxClearanceM = 1.5;
-// The lattice first lets through what almost fits; if that misleads the search, only what surely fits.
-constexpr std::array<double, 2> kSlacksM = {0.03, -0.03};
+// The lattice first lets through what almost fits, and ends where its best way is much better than others. If that
+// misleads the search, it holds only what surely fits, and all of it.
+constexpr std::array<LatticeExtent, 2> kExtents = {LatticeExtent{0.03, 10.0}, LatticeExtent{-0.03, kInfinity}};
 
 }  // namespace
 
@@ -21,9 +22,9 @@ Plan HybridPlanner::plan(const PlanRequest& request) const {
   const FootprintCheck min = check(margins.min_m);
   const FootprintCheck turn = check(margins.turn_m);
   Plan plan;
-  for (const double slack_m : kSlacksM) {
+  for (const LatticeExtent& extent : kExtents) {
     const PoseCostToGo pose_cost_to_go(config_.motion, margins, config_.footprint, request, cost_to_go,
-                                       config_.horizon_m, slack_m);
+                                       config_.horizon_m, extent);
     for (const double known_free_m : {config_.search.known_free_m, config_.search.min_known_free_m}) {
       SearchProblem problem{request, cost_to_go, pose_cost_to_go, comfort, min, turn, config_.view, known_free_m};
       const double incumbent = incumbent_cost(problem);

@@ -14,7 +14,6 @@ constexpr double kMaxArcM = 0.62;
 constexpr double kArcStepM = 0.01;
 constexpr double kBandM = 0.7;           // around the horizon, in which the lattice begins
 constexpr double kNearRoverM = 0.10;     // hazards nearer to the rover than the margin and this do not block its place
-constexpr double kBeyondS = 10.0;        // the lattice is laid this far past the cost from the start
 constexpr float kMarchBound = 0.9F;      // of fast marching: its circles are wider than round, its cells coarse
 constexpr double kFreeHeadingRad = 0.3;  // at the horizon, between plan and descent
 constexpr double kHeadingCostS = 4.0;    // per radian beyond
@@ -22,14 +21,15 @@ constexpr double kHeadingCostS = 4.0;    // per radian beyond
 }  // namespace
 
 PoseCostToGo::PoseCostToGo(const MotionCosts& costs, const Clearances& clearances, const Footprint& footprint,
-                           const PlanRequest& request, const CostToGo& cost_to_go, double horizon_m, double slack_m)
+                           const PlanRequest& request, const CostToGo& cost_to_go, double horizon_m,
+                           const LatticeExtent& extent)
     : costs_(costs),
       clearances_(clearances),
       footprint_(footprint),
       request_(request),
       cost_to_go_(cost_to_go),
       horizon_m_(horizon_m),
-      slack_m_(slack_m),
+      extent_(extent),
       from_start_to_goal_(kMarchBound * cost_to_go.at(position(request.start))),
       center_(position(request.start)),
       cell_m_(request.costmap->cell_m()),
@@ -96,9 +96,9 @@ void PoseCostToGo::classify() {
   const std::vector<double> from_start = march(grid, {{start, 0.0}}, -1, 0.0);
   for (size_t i = 0; i < count; ++i) from_start_[i] = kMarchBound * static_cast<float>(from_start[i]);
   classes_.assign(count * kClearanceHeadings, kComfort);
-  rasterise(clearances_.comfort_m - slack_m_, kTight);
-  rasterise(clearances_.turn_m - slack_m_, kNoTurn);
-  rasterise(clearances_.min_m - slack_m_, kBlocked);
+  rasterise(clearances_.comfort_m - extent_.slack_m, kTight);
+  rasterise(clearances_.turn_m - extent_.slack_m, kNoTurn);
+  rasterise(clearances_.min_m - extent_.slack_m, kBlocked);
 }
 
 // Every pose whose footprint, widened by the margin, covers the hazard; of a low one, whose wheels do.
@@ -211,7 +211,7 @@ void PoseCostToGo::spread() {
     }
     if (std::isinf(last)) {
       const double best = std::min(forward(request_.start), turning(request_.start));
-      if (std::isfinite(best)) last = best - from_start_to_goal_ + kBeyondS;
+      if (std::isfinite(best)) last = best - from_start_to_goal_ + extent_.beyond_s;
     }
   }
 }

@@ -12,14 +12,19 @@
 
 namespace rover::planning {
 
+struct LatticeExtent {
+  // Taken off each clearance. Positive: gaps stay open that a pose between those of the lattice fits through; negative:
+  // only what surely fits.
+  double slack_m = 0.0;
+  double beyond_s = 0.0;  // the lattice is laid this far past the cost from the start
+};
+
 class PoseCostToGo {
  public:
   static constexpr int kHeadings = 32;
 
-  // `slack_m`: taken off each clearance. Positive: gaps stay open that a pose between those of the lattice fits
-  // through; negative: only what surely fits.
   PoseCostToGo(const MotionCosts& costs, const Clearances& clearances, const Footprint& footprint,
-               const PlanRequest& request, const CostToGo& cost_to_go, double horizon_m, double slack_m);
+               const PlanRequest& request, const CostToGo& cost_to_go, double horizon_m, const LatticeExtent& extent);
 
   // Smallest of the lattice poses around this one; infinity: nothing leads to the goal, or beyond the horizon.
   double forward(const Pose2& pose) const { return nearby(pose, kForward); }
@@ -88,7 +93,7 @@ class PoseCostToGo {
   const PlanRequest& request_;
   const CostToGo& cost_to_go_;
   double horizon_m_;
-  double slack_m_;
+  LatticeExtent extent_;
   double from_start_to_goal_;  // lower bound [s]
   // All costs are relative to that of the best place at the horizon: what plans have in common does not count.
   double common_ = 0.0;
