@@ -5,6 +5,7 @@
 
 #include "common/bus/channels.hpp"
 #include "common/bus/convert.hpp"
+#include "common/bus/zone_list.hpp"
 
 namespace rover::supervisor {
 namespace {
@@ -20,8 +21,10 @@ PoseReport report_from(const pose_t& message) {
   PoseReport out;
   out.utime = message.header.utime;
   out.speed_mps = Eigen::Vector3d(message.velocity_body_mps).norm();
+  out.forward_mps = message.velocity_body_mps[0];
   out.turn_rate_radps = message.rate_body_radps[2];
   const Eigen::Isometry3d T_odom_body = pose_from(message.position_odom_body_m, message.quat_odom_body_wxyz);
+  out.odom = planar(T_odom_body);
   const Eigen::Vector3d attitude = rpy_of(T_odom_body.linear());
   out.roll_rad = attitude.x();
   out.pitch_rad = attitude.y();
@@ -130,6 +133,7 @@ PathLevels levels_from(const path_t& message) {
   const size_t count = std::min({message.x_m.size(), message.y_m.size(), message.level.size()});
   out.path_id = message.path_id;
   out.backtrack = message.kind == path_t::BACKTRACK;
+  out.zones = zones_from(message);
   double s_m = 0.0;
   for (size_t i = 0; i < count; ++i) {
     if (i > 0) s_m += std::hypot(message.x_m[i] - message.x_m[i - 1], message.y_m[i] - message.y_m[i - 1]);

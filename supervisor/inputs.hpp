@@ -15,7 +15,9 @@ namespace rover::supervisor {
 struct PoseReport {
   Utime utime = kNever;
   bool usable = false;  // status OK or DEGRADED, all numbers finite
+  Pose2 odom;
   double speed_mps = kNaN;
+  double forward_mps = kNaN;
   double turn_rate_radps = kNaN;
   double roll_rad = 0.0;
   double pitch_rad = 0.0;

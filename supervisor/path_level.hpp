@@ -1,9 +1,11 @@
-// Autonomy level along a path, and whether it leads back along the driven track.
+// What the supervisor needs of a path: the autonomy level along it, whether it leads back along the driven track, and
+// the zones that come with it.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
+#include "common/core/zones.hpp"
 #include "supervisor/state_machine.hpp"
 
 namespace rover::supervisor {
@@ -13,6 +15,7 @@ struct PathLevels {
   std::vector<double> s_m;   // arc length of each point, increasing
   std::vector<Level> level;  // level from that point on
   bool backtrack = false;
+  std::vector<Zone> zones;  // in odom
 
   // Efficient if unknown.
   Level at(double query_s_m) const {

@@ -95,6 +95,10 @@ Reading no_path(const MonitorContext& context, const Subject&, double) {
   return flag_reading(none, context.inputs.planner.utime, context.utime);
 }
 
+Reading keep_out_depth(const MonitorContext& context, const Subject&, double limit) {
+  return above_reading(context.keep_out_depth_m, limit, context.inputs.pose.utime, context.utime);
+}
+
 Reading blocked(const MonitorContext& context, const Subject&, double) {
   const bool waiting = context.waiting_for_path && context.blocked_in_m <= context.stop_distance_m;
   Reading out = flag_reading(waiting, context.inputs.planner.utime, context.utime);
@@ -213,6 +217,7 @@ constexpr std::array kQuantities = {
     Quantity{"path_mismatch", kOne, path_mismatch},
     Quantity{"no_path", kOne, no_path},
     Quantity{"blocked", kOne, blocked},
+    Quantity{"keep_out_depth_m", kOne, keep_out_depth},
     Quantity{"heartbeat_age_s", kEachRequired, heartbeat_age},
     Quantity{"optional_heartbeat_age_s", kEachOptional, optional_heartbeat_age},
     Quantity{"service_fault", kEachRequired, service_status<ServiceStatus::kFault>},

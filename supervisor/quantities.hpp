@@ -42,8 +42,9 @@ struct MonitorContext {
   bool waiting_for_path;  // HAZARD_STOP or REPAIRING
   double blocked_in_m;
   double stop_distance_m;
-  double sweep_s;     // time since the sweep began, 0 if not sweeping
-  bool backtracking;  // on a path back that recovers from a stop_backtrack fault
+  double sweep_s;           // time since the sweep began, 0 if not sweeping
+  bool backtracking;        // on a path back that recovers from a stop_backtrack fault
+  double keep_out_depth_m;  // how far the footprint reaches into a zone, now or where the rover can stop
 };
 
 struct Quantity {

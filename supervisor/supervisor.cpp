@@ -10,6 +10,7 @@ using enum State;
 
 constexpr StateSet kDriveInProgress = {kDriving, kHazardStop, kRepairing};
 constexpr double kMinApproachMps = 0.05;  // towards the place where the rover stops
+constexpr double kReactionS = 0.5;        // at 0.2 m/s 0.1 m, as of hazard_stop_m
 
 std::optional<Fact> fact_of(CommandKind kind) {
   switch (kind) {
@@ -112,7 +113,23 @@ MonitorContext Supervisor::monitor_context(Utime now) const {
   const bool backtracking =
       backtracking_path_id_ >= 0 && backtracking_path_id_ == inputs_.planner.path_id && state_ != kTeleop;
   return {inputs_,        derived_.values(), now,          stationary(), waiting,
-          blocked_in_m(), stop_distance_m(), sweep_s(now), backtracking};
+          blocked_in_m(), stop_distance_m(), sweep_s(now), backtracking, keep_out_depth_m()};
+}
+
+// Of the footprint now, and after the reaction and braking on the circle that the rover is on.
+double Supervisor::keep_out_depth_m() const {
+  const PoseReport& pose = inputs_.pose;
+  const auto depth_m = [&](const Pose2& at) {
+    return forbidden_depth_m(path_.zones, at, config_.body_half_length_m, config_.body_half_width_m);
+  };
+  if (path_.zones.empty() || !pose.usable) return 0.0;
+  const double v = pose.forward_mps;
+  const double stop_m = v * kReactionS + 0.5 * v * std::abs(v) / config_.deceleration_mps2;
+  const double turned_rad = std::abs(v) > config_.stationary_speed_mps ? stop_m * pose.turn_rate_radps / v : 0.0;
+  const double course_rad = pose.odom.yaw_rad + 0.5 * turned_rad;
+  return std::max(depth_m(pose.odom),
+                  depth_m({pose.odom.x_m + stop_m * std::cos(course_rad), pose.odom.y_m + stop_m * std::sin(course_rad),
+                           pose.odom.yaw_rad + turned_rad}));
 }
 
 void Supervisor::run_monitors(Utime now, SupervisorOutput& out) {

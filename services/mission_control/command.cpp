@@ -5,13 +5,15 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "mission_control/zones_json.hpp"
+
 namespace rover::mission {
 namespace {
 
 using nlohmann::json;
 
 constexpr size_t kMaxNameLength = 64;
-constexpr int kMaxDepth = 4;
+constexpr int kMaxDepth = 6;
 
 struct Form {
   const char* name;
@@ -28,6 +30,7 @@ constexpr std::array kForms = {Form{"go", CommandKind::kGo, nullptr},
                                Form{"force_level", CommandKind::kForceLevel, "level"},
                                Form{"clear_fault", CommandKind::kClearFault, "fault"},
                                Form{"path", CommandKind::kPath, "points"},
+                               Form{"zones", CommandKind::kZones, "zones"},
                                Form{"kill", CommandKind::kKill, "service"},
                                Form{"hang", CommandKind::kHang, "service"}};
 
@@ -90,11 +93,25 @@ std::string read_path(const json& request, const CommandLimits& limits, Command&
   return read_points(request.at("points"), limits, command.points);
 }
 
+std::string read_zones(const json& value, Command& command) {
+  try {
+    command.zones = zones_from(value);
+  } catch (const json::exception&) {
+    return "zones: a list of {name, kind: keep_out or keep_in, points: [[x, y], ...]} is required";
+  }
+  const auto control = [](unsigned char c) { return std::iscntrl(c) != 0; };
+  for (const Zone& zone : command.zones)
+    if (zone.name.size() > kMaxNameLength || std::any_of(zone.name.begin(), zone.name.end(), control))
+      return "zones: a name is too long or has control characters";
+  return zones_problem(command.zones);
+}
+
 std::string read_argument(const Form& form, const json& request, const CommandLimits& limits, Command& command) {
   if (form.argument == nullptr) return "";
   const auto value = request.find(form.argument);
   if (value == request.end()) return std::string(form.argument) + " is missing";
   if (form.kind == CommandKind::kPath) return read_path(request, limits, command);
+  if (form.kind == CommandKind::kZones) return read_zones(*value, command);
   if (form.kind == CommandKind::kForceLevel) {
     const auto level = level_from(*value);
     if (!level) return "level: must be efficient, full or auto";
@@ -156,6 +173,7 @@ std::string description(const Command& command) {
   std::replace(text.begin(), text.end(), '_', ' ');
   if (command.kind == CommandKind::kForceLevel) text += std::string(" ") + name(command.level);
   if (command.kind == CommandKind::kPath) text += " with " + std::to_string(command.points.size()) + " waypoints";
+  if (command.kind == CommandKind::kZones) text += " (" + std::to_string(command.zones.size()) + ")";
   return command.target.empty() ? text : text + " " + command.target;
 }
 

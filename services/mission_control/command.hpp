@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "common/core/zones.hpp"
+
 namespace rover::mission {
 
 enum class CommandKind {
@@ -18,6 +20,7 @@ enum class CommandKind {
   kForceLevel,
   kClearFault,
   kPath,
+  kZones,
   kKill,
   kHang
 };
@@ -29,6 +32,7 @@ struct Command {
   Level level = Level::kAuto;           // kForceLevel; kPath: level of all points, kEfficient or kFull
   std::string target;                   // kClearFault: the fault's id; kKill, kHang: the service
   std::vector<Eigen::Vector2d> points;  // kPath: waypoints in map coordinates [m]
+  std::vector<Zone> zones;              // kZones: in place of all before
 };
 
 struct CommandLimits {

@@ -7,6 +7,7 @@
 #include "common/bus/config.hpp"
 #include "common/bus/navigation_config.hpp"
 #include "common/bus/vehicle_config.hpp"
+#include "common/bus/zone_list.hpp"
 #include "common/core/path_limits.hpp"
 
 namespace rover {
@@ -73,7 +74,8 @@ nlohmann::json navcam_view(const std::string& config_dir, const Vehicle& vehicle
 
 MissionPlan load_mission_plan(const std::string& config_dir) {
   const Config config = Config::load(config_dir + "/ground.yaml");
-  const MissionPlan plan{read_start(config.section("start")), read_path(config.section("path"))};
+  MissionPlan plan{read_start(config.section("start")), read_path(config.section("path"))};
+  plan.path.zones = read_zones(config);
   config.finish();
   return plan;
 }

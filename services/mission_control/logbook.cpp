@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "mission_control/zones_json.hpp"
+
 namespace rover::mission {
 namespace {
 
@@ -95,7 +97,8 @@ json Logbook::path_json() const {
           {"y_m", path_.y_m},
           {"level", path_.level},
           {"corridor_half_width_m", path_.corridor_half_width_m},
-          {"goal_tolerance_m", path_.goal_tolerance_m}};
+          {"goal_tolerance_m", path_.goal_tolerance_m},
+          {"zones", zones_json(path_.zones)}};
 }
 
 json Logbook::trend_json() const {
@@ -123,6 +126,7 @@ bool Logbook::restore(const std::vector<std::uint8_t>& bytes) {
     restored.path_.level = path.at("level").get<std::vector<std::int8_t>>();
     restored.path_.corridor_half_width_m = path.at("corridor_half_width_m");
     restored.path_.goal_tolerance_m = path.at("goal_tolerance_m");
+    restored.path_.zones = zones_from(path.at("zones"));
     const int forced = in.at("forced");
     if (forced < 0 || forced > static_cast<int>(Level::kAuto)) return false;
     restored.forced_ = static_cast<Level>(forced);

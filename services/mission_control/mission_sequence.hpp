@@ -9,6 +9,7 @@
 
 #include "common/core/frames.hpp"
 #include "common/core/time.hpp"
+#include "common/core/zones.hpp"
 
 namespace rover {
 
@@ -27,6 +28,7 @@ struct GlobalPath {
   std::vector<std::int8_t> level;
   double corridor_half_width_m = 1.5;
   double goal_tolerance_m = 0.5;
+  std::vector<Zone> zones;
 };
 
 enum class MissionStep { kStartPose, kPath, kGo };

@@ -6,6 +6,7 @@
 
 #include "common/bus/convert.hpp"
 #include "common/bus/state_names.hpp"
+#include "common/bus/zone_list.hpp"
 #include "mission_control/view.hpp"
 
 namespace rover {
@@ -60,8 +61,10 @@ std::int8_t level_of(mission::Level level) {
   }
 }
 
-GlobalPath path_of(const mission::Command& command, const mission::OperatorPathConfig& path_config) {
+GlobalPath path_of(const mission::Command& command, const std::vector<Zone>& zones,
+                   const mission::OperatorPathConfig& path_config) {
   GlobalPath path;
+  path.zones = zones;
   for (const Eigen::Vector2d& p : command.points) {
     path.x_m.push_back(p.x());
     path.y_m.push_back(p.y());
@@ -69,6 +72,28 @@ GlobalPath path_of(const mission::Command& command, const mission::OperatorPathC
   }
   path.corridor_half_width_m = path_config.corridor_half_width_m;
   path.goal_tolerance_m = path_config.goal_tolerance_m;
+  return path;
+}
+
+// Of a path under way, from where the rover is: what lies behind it may be forbidden now.
+GlobalPath rest_of(GlobalPath path, const Eigen::Vector2d& rover) {
+  size_t nearest = 0;
+  double min_m = std::numeric_limits<double>::infinity();
+  for (size_t i = 0; i + 1 < path.x_m.size(); ++i) {
+    const Eigen::Vector2d from(path.x_m[i], path.y_m[i]),
+        along = Eigen::Vector2d(path.x_m[i + 1], path.y_m[i + 1]) - from;
+    const double u = std::clamp((rover - from).dot(along) / along.squaredNorm(), 0.0, 1.0);
+    const double distance_m = (from + u * along - rover).norm();
+    if (!(distance_m < min_m)) continue;
+    min_m = distance_m;
+    nearest = i;
+  }
+  const auto behind = static_cast<std::ptrdiff_t>(nearest);
+  path.x_m.erase(path.x_m.begin(), path.x_m.begin() + behind);
+  path.y_m.erase(path.y_m.begin(), path.y_m.begin() + behind);
+  path.level.erase(path.level.begin(), path.level.begin() + behind);
+  path.x_m.front() = rover.x();
+  path.y_m.front() = rover.y();
   return path;
 }
 
@@ -201,6 +226,7 @@ void MissionControlNode::on_pose(const pose_t& pose) {
   if (!known || sequence_.progress() == static_cast<int>(MissionStep::kStartPose)) return;
   const Eigen::Vector3d p =
       pose_from(pose.position_map_odom_m, pose.quat_map_odom_wxyz) * Eigen::Vector3d(pose.position_odom_body_m);
+  p_map_body_ = p.head<2>();
   shared_->book.with([&](mission::Logbook& book) { book.add_track_point(p.x(), p.y()); });
 }
 
@@ -261,9 +287,19 @@ void MissionControlNode::send(const mission::CommandQueue::Pending& waiting) {
   const std::int64_t id = next_command_id_++;
   changed_ = true;
   shared_->commands.set_command_id(waiting.ticket, id);
-  // A stop or a new path replaces the plan, which must not continue by itself.
+  // A stop or a new path replaces the plan, which must not continue by itself; new zones change the plan's path.
+  if (command.kind == CommandKind::kZones) plan_.path.zones = command.zones;
   if (mission::stops(command.kind) || command.kind == CommandKind::kPath) sequence_.cancel();
-  if (command.kind == CommandKind::kPath) return publish_path(id, path_of(command, path_config_));
+  if (command.kind == CommandKind::kPath || command.kind == CommandKind::kZones) {
+    GlobalPath path = current_path();
+    if (command.kind == CommandKind::kPath) {
+      path = path_of(command, path.zones, path_config_);
+    } else {
+      if (p_map_body_) path = rest_of(std::move(path), *p_map_body_);
+      path.zones = command.zones;
+    }
+    return publish_path(id, path);
+  }
   ground_command_t message = command_message(kind_of(command.kind), id);
   message.level = level_of(command.level);
   message.target = command.target;
@@ -286,6 +322,12 @@ void MissionControlNode::publish(ground_command_t message) {
   node_.publish(channel::kGroundCommand, message, node_.now());
 }
 
+// The last one that the rover accepted; before, that of the plan.
+GlobalPath MissionControlNode::current_path() const {
+  const GlobalPath path = shared_->book.with([](const mission::Logbook& book) { return book.path(); });
+  return path.x_m.empty() ? plan_.path : path;
+}
+
 void MissionControlNode::publish_path(std::int64_t command_id, const GlobalPath& path) {
   path_t message{};
   message.path_id = command_id;
@@ -297,6 +339,7 @@ void MissionControlNode::publish_path(std::int64_t command_id, const GlobalPath&
   message.x_m = path.x_m;
   message.y_m = path.y_m;
   message.level = path.level;
+  zones_to(path.zones, message);
   message.direction.assign(path.x_m.size(), std::int8_t{path_t::FORWARD});
   node_.publish(channel::kGlobalPath, message, node_.now());
   unacknowledged_paths_.clear();  // drop paths that were never acknowledged

@@ -49,6 +49,7 @@ class MissionControlNode {
   void send(const MissionSequence::Issued& issued);
   void send(const mission::CommandQueue::Pending& waiting);
   void publish_start_pose(std::int64_t command_id);
+  GlobalPath current_path() const;
   void publish_path(std::int64_t command_id, const GlobalPath& path);
   void publish(ground_command_t message);
   void add_event(mission::Tone tone, const std::string& kind, const std::string& text);
@@ -67,6 +68,7 @@ class MissionControlNode {
   bool standby_ = false;
   std::optional<supervisor_state_t> state_;
   pose_t pose_{};
+  std::optional<Eigen::Vector2d> p_map_body_;  // the last known
   double slip_ratio_ = kNaN;
   std::map<std::string, ServiceLiveness> liveness_;
   std::map<std::string, bool> faults_;

@@ -18,6 +18,7 @@ struct LocalPath {
   double corridor_half_width_m = 0.0;
   double goal_tolerance_m = 0.0;
   std::vector<RoutePoint> points;  // in odom
+  std::vector<Zone> zones;         // in odom
 };
 
 class ActivePath {

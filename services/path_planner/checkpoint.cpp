@@ -30,6 +30,32 @@ std::vector<RoutePoint> get_points(StateReader& in) {
   return points;
 }
 
+void put_zones(StateWriter& out, const std::vector<Zone>& zones) {
+  out.put(static_cast<std::uint64_t>(zones.size()));
+  for (const Zone& zone : zones) {
+    out.put(static_cast<std::uint64_t>(zone.name.size()));
+    for (const char c : zone.name) out.put(c);
+    out.put(static_cast<std::uint8_t>(zone.keep_in));
+    out.put(static_cast<std::uint64_t>(zone.points.size()));
+    for (const Eigen::Vector2d& p : zone.points) out.put(Point2{p.x(), p.y()});
+  }
+}
+
+std::vector<Zone> get_zones(StateReader& in) {
+  std::vector<Zone> zones(in.count(2 * sizeof(std::uint64_t) + 1));
+  for (Zone& zone : zones) {
+    zone.name.resize(in.count(1));
+    for (char& c : zone.name) c = in.get<char>();
+    zone.keep_in = in.get<std::uint8_t>() != 0;
+    zone.points.resize(in.count(sizeof(Point2)));
+    for (Eigen::Vector2d& p : zone.points) {
+      const auto corner = in.get<Point2>();
+      p = {corner.x_m, corner.y_m};
+    }
+  }
+  return zones;
+}
+
 bool is_finite(Point2 p) {
   return std::isfinite(p.x_m) && std::isfinite(p.y_m);
 }
@@ -57,6 +83,8 @@ void put_map(StateWriter& out, const GridMap<CellBelief>& map) {
     out.put(cell.step_ratio);
     out.put(cell.step_sigma);
     out.put(cell.cost);
+    out.put(cell.tall_evidence);
+    out.put(cell.tall_fraction);
   });
 }
 
@@ -80,7 +108,10 @@ bool get_map(StateReader& in, GridMap<CellBelief>& map) {
     cell.step_ratio = in.get<float>();
     cell.step_sigma = in.get<float>();
     cell.cost = in.get<float>();
-    numbers = numbers && std::isfinite(cell.evidence + cell.step_ratio + cell.step_sigma + cell.cost) &&
+    cell.tall_evidence = in.get<float>();
+    cell.tall_fraction = in.get<float>();
+    const float tall = cell.tall_evidence + cell.tall_fraction;
+    numbers = numbers && std::isfinite(cell.evidence + cell.step_ratio + cell.step_sigma + cell.cost + tall) &&
               std::isfinite(cell.unmeasured_range_m) && cell.step_sigma > 0.0F;
   });
   return numbers;
@@ -101,6 +132,7 @@ std::vector<std::uint8_t> PathPlanner::save() const {
     out.put(global_->corridor_half_width_m);
     out.put(global_->goal_tolerance_m);
     put_points(out, global_->points);
+    put_zones(out, global_->zones);
   }
   put_points(out, active_.route().points());
   out.put(active_.kind());
@@ -127,6 +159,7 @@ bool PathPlanner::restore(const std::vector<std::uint8_t>& bytes) {
     global.corridor_half_width_m = in.get<double>();
     global.goal_tolerance_m = in.get<double>();
     global.points = get_points(in);
+    global.zones = get_zones(in);
     if (!fresh.set_global_path(global).empty()) return false;
   }
   std::vector<RoutePoint> points = get_points(in);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "common/bus/convert.hpp"
+#include "common/bus/zone_list.hpp"
 
 namespace rover::planning {
 
@@ -73,6 +74,7 @@ std::string global_path_from(const path_t& message, GlobalPath& path) {
   path.id = message.path_id;
   path.corridor_half_width_m = message.corridor_half_width_m;
   path.goal_tolerance_m = message.goal_tolerance_m;
+  path.zones = zones_from(message);
   path.points.clear();
   for (size_t i = 0; i < count; ++i) {
     if (message.level[i] != path_t::EFFICIENT && message.level[i] != path_t::FULL)
@@ -90,6 +92,7 @@ void path_to(const LocalPath& path, path_t& message) {
   message.kind = kind_of(path.kind);
   message.corridor_half_width_m = path.corridor_half_width_m;
   message.goal_tolerance_m = path.goal_tolerance_m;
+  zones_to(path.zones, message);
   message.point_count = static_cast<std::int32_t>(path.points.size());
   for (const RoutePoint& point : path.points) {
     message.x_m.push_back(point.p.x_m);

@@ -60,6 +60,11 @@ std::string GlobalPath::fault() const {
   if (const std::string problem = path_length_problem(length); !problem.empty()) return problem;
   if (goal_tolerance_m < 0.0 || std::isinf(goal_tolerance_m)) return "goal tolerance is out of range";
   if (corridor_half_width_m < 0.0 || std::isinf(corridor_half_width_m)) return "corridor is out of range";
+  if (const std::string problem = zones_problem(zones); !problem.empty()) return problem;
+  for (const auto& [end, p] : {std::pair{"starts", points.front().p}, std::pair{"ends", points.back().p}})
+    if (const Zone* zone = forbidding_zone(zones, {p.x_m, p.y_m}))
+      return std::string("path ") + end + (zone->keep_in ? " outside of keep-in '" : " in keep-out '") + zone->name +
+             "'";
   return "";
 }
 
@@ -187,7 +192,14 @@ PlannerOutput PathPlanner::step(Utime now) {
 
 void PathPlanner::set_global_in_odom() {
   T_map_odom_ = planar(history_.newest().T_map_odom);
-  global_odom_ = std::make_shared<const Route>(transformed(global_map_, inverse(T_map_odom_)));
+  const Pose2 T_odom_map = inverse(T_map_odom_);
+  global_odom_ = std::make_shared<const Route>(transformed(global_map_, T_odom_map));
+  zones_odom_ = global_->zones;
+  for (Zone& zone : zones_odom_)
+    for (Eigen::Vector2d& p : zone.points) {
+      const Point2 in_odom = from_body(T_odom_map, {p.x(), p.y()});
+      p = {in_odom.x_m, in_odom.y_m};
+    }
   global_progress_m_ = global_odom_->closest(position(rover()));
 }
 
@@ -274,8 +286,12 @@ double PathPlanner::margin_m() const {
   return active_.kind() == PathKind::kGlobal ? clearances.turn_m : clearances.min_m - config_.clearance_tolerance_m;
 }
 
+Costmap PathPlanner::costmap_around(double side_m) const {
+  return Costmap(config_.costmap, belief_, position(rover()), side_m, zones_odom_);
+}
+
 void PathPlanner::check_path() {
-  const Costmap costmap(config_.costmap, belief_, position(rover()), kMonitorSideM);
+  const Costmap costmap = costmap_around(kMonitorSideM);
   blockage_ = find_blockage({costmap, active_.route(), config_.footprint, active_.progress_m(), rover(), margin_m(),
                              turning_, config_.turn_threshold_rad, config_.belief.view});
   // No camera looks backwards, and the driven track was known.
@@ -357,9 +373,10 @@ void PathPlanner::request_plan() {
   request.goal_tolerance_m = kGoalToleranceRatio * global_->goal_tolerance_m;
   if (!std::isnan(job.start.at_m) && clear()) request.incumbent = active_.plan_from(job.start.at_m);
   if (length_m(request.incumbent) < kMinIncumbentM) request.incumbent.clear();
-  const auto make = [request, planner = planner_, belief = belief_, costmap = config_.costmap]() mutable {
+  const auto make = [request, planner = planner_, belief = belief_, costmap = config_.costmap,
+                     zones = zones_odom_]() mutable {
     const double side_m = belief.cells().cells() * belief.cells().cell_m();
-    request.costmap = std::make_shared<const Costmap>(costmap, belief, position(request.rover), side_m);
+    request.costmap = std::make_shared<const Costmap>(costmap, belief, position(request.rover), side_m, zones);
     return planner->plan(request);
   };
   if (!background_->start(make, history_.newest().utime)) return;
@@ -445,12 +462,12 @@ std::vector<RoutePoint> PathPlanner::tail(const Pose2& from, const Pose2& start)
 
 // The driven track, as far as the footprint passes it.
 std::vector<Point2> PathPlanner::back_up_points() const {
-  const std::vector<Point2> track = breadcrumbs_.back(position(rover()), (1 + back_ups_) * config_.back_up_m);
+  const std::vector<Point2> track = breadcrumbs_.back((1 + back_ups_) * config_.back_up_m);
   if (track.size() < 2) return {};
   std::vector<RoutePoint> points;
   for (const Point2& p : track) points.push_back({p, kNaN, 0, true});
   const Route route(std::move(points));
-  const Costmap costmap(config_.costmap, belief_, position(rover()), kMonitorSideM);
+  const Costmap costmap = costmap_around(kMonitorSideM);
   const bool turning = std::abs(wrap_angle(route.pose_at(0.0).yaw_rad - rover().yaw_rad)) > config_.turn_threshold_rad;
   const Blockage blockage = find_blockage({costmap, route, config_.footprint, 0.0, rover(), kBackUpMarginM, turning,
                                            config_.turn_threshold_rad, config_.belief.view});
@@ -476,8 +493,12 @@ void PathPlanner::back_up() {
 }
 
 LocalPath PathPlanner::published() const {
-  return {active_.id(), active_.kind(), active_.corridor_half_width_m(), global_->goal_tolerance_m,
-          active_.route().points()};
+  return {active_.id(),
+          active_.kind(),
+          active_.corridor_half_width_m(),
+          global_->goal_tolerance_m,
+          active_.route().points(),
+          zones_odom_};
 }
 
 PlannerStatus PathPlanner::status(Utime now) const {

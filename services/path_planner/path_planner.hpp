@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "common/core/zones.hpp"
 #include "path_planner/active_path.hpp"
 #include "path_planner/background.hpp"
 #include "path_planner/breadcrumbs.hpp"
@@ -52,6 +53,7 @@ struct GlobalPath {
   std::vector<RoutePoint> points;  // in map
   double corridor_half_width_m = kNaN;
   double goal_tolerance_m = kNaN;
+  std::vector<Zone> zones;
 
   // Why it is not a path; empty if it is.
   std::string fault() const;
@@ -132,6 +134,7 @@ class PathPlanner {
   void follow_correction();
   void track_progress();
   void track_turn();
+  Costmap costmap_around(double side_m) const;
   void check_path();
   std::uint16_t facts(Utime now);
   bool clear() const;
@@ -168,6 +171,7 @@ class PathPlanner {
   std::optional<GlobalPath> global_;
   Route global_map_;                          // rounded, in map
   std::shared_ptr<const Route> global_odom_;  // the same in odom
+  std::vector<Zone> zones_odom_;              // of the global path
   Pose2 T_map_odom_;                          // with which it was transformed
   double global_progress_m_ = 0.0;
   double furthest_m_ = 0.0;  // along the global path

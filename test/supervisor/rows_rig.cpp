@@ -19,7 +19,7 @@ RowsRig::RowsRig(Bus bus)
       faults_(world.listen<fault_t>(channel::kFault)) {
   pose_to(Eigen::Isometry3d::Identity(), pose.position_odom_body_m, pose.quat_odom_body_wxyz);
   pose_to(Eigen::Isometry3d::Identity(), pose.position_map_odom_m, pose.quat_map_odom_wxyz);
-  planner.path_id = control.path_id = 3;
+  planner.path_id = control.path_id = path.path_id = 3;
   planner.state = planner_status_t::FOLLOWING;
   planner.blocked_in_m = kInfinity;
   planner.goal_distance_m = 100.0;
@@ -79,6 +79,7 @@ void RowsRig::send_sensors() {
 
 void RowsRig::send_decisions() {
   send(channel::kPlannerStatus, planner);
+  if (ticks_ % 50 == 0) send(channel::kPath, path);
   send(channel::kControlStatus, control);
   send(channel::kMotionCommand, motion_command_t{});
   if (ticks_ % 20 == 0) send(channel::kHazards, hazards);

@@ -11,6 +11,7 @@
 #include <rover/hazards_t.hpp>
 #include <rover/imu_t.hpp>
 #include <rover/motion_command_t.hpp>
+#include <rover/path_t.hpp>
 #include <rover/planner_status_t.hpp>
 #include <rover/pose_t.hpp>
 #include <rover/slam_pose_t.hpp>
@@ -65,6 +66,7 @@ class RowsRig {
 
   pose_t pose{};
   planner_status_t planner{};
+  path_t path{};
   control_status_t control{};
   hazards_t hazards{};
   slip_t slip{};

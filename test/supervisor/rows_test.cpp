@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "common/bus/convert.hpp"
+#include "common/bus/zone_list.hpp"
 #include "test/supervisor/rows_rig.hpp"
 
 namespace rover::supervisor {
@@ -213,6 +214,11 @@ std::vector<RowCase> path_cases() {
        25.0, 2.0, false, "fault"},
       {"blocked", "", [](RowsRig& rig) { rig.planner.blocked_in_m = 0.1; },
        [](RowsRig& rig) { rig.planner.blocked_in_m = kInfinity; }, 70.0, 2.0, false, "fault"},
+      {"keep_out", "",
+       [](RowsRig& rig) {
+         zones_to({{"dune", false, {{-1, -1}, {9, -1}, {9, 9}}}}, rig.path);
+       },
+       [](RowsRig& rig) { zones_to({}, rig.path); }},
       {"idle_drive", "",
        [](RowsRig& rig) {
          rig.wheels_follow = false;

@@ -274,6 +274,41 @@ TEST_F(SupervisorTest, ExcessiveRollAllowsBacktrackingUpToItsLimit) {
   EXPECT_EQ(changes_.back().evidence.threshold, 23.0);
 }
 
+// A wall 3 m ahead: the row stops the rover before its front (0.9 m) is there, with what it needs to stop.
+TEST_F(SupervisorTest, AZoneStopsTheRoverAtItsStoppingDistance) {
+  start_driving();
+  PathLevels path;
+  path.path_id = planner_.path_id;
+  path.zones = {{"dune", false, {{3, -5}, {6, -5}, {6, 5}, {3, 5}}}};
+  supervisor_.on_path(path);
+  pose_.forward_mps = pose_.speed_mps = 0.2;
+  pose_.odom.x_m = 1.0;
+  run(1.0);
+  ASSERT_TRUE(out_.permit.granted);
+  double stopped_at_m = 0.0;
+  for (double x_m = 1.0; x_m < 2.2 && out_.permit.granted; x_m += 0.004) {
+    pose_.odom.x_m = stopped_at_m = x_m;
+    run(0.02);
+  }
+  EXPECT_LT(stopped_at_m + config_.body_half_length_m + 0.2 * 0.2 / (2.0 * config_.deceleration_mps2), 3.0);
+  EXPECT_GT(stopped_at_m + config_.body_half_length_m, 2.6);
+  EXPECT_EQ(changes_.back().cause, "keep_out");
+}
+
+TEST_F(SupervisorTest, ARoverThatAPoseCorrectionPutIntoAZoneMayBackUp) {
+  start_driving();
+  PathLevels path;
+  path.path_id = planner_.path_id;
+  path.zones = {{"dune", false, {{0.5, -5}, {6, -5}, {6, 5}, {0.5, 5}}}};
+  supervisor_.on_path(path);
+  time_to_withdrawal();
+  EXPECT_EQ(changes_.back().cause, "keep_out");
+  path.path_id = planner_.path_id = control_.path_id = 2;
+  path.backtrack = true;
+  supervisor_.on_path(path);
+  EXPECT_LE(time_to_permit(), 1.5);
+}
+
 TEST_F(SupervisorTest, BackingUpWithoutFaultHasTheOrdinaryLimits) {
   start_driving();
   PathLevels back;

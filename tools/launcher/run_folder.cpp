@@ -51,6 +51,13 @@ void write_ground(const Scenario& scenario, const std::string& level, double sta
   ground["path"]["level"] = levels;
   ground["path"]["corridor_half_width_m"] = scenario.path.corridor_half_width_m;
   ground["path"]["goal_tolerance_m"] = scenario.path.goal_tolerance_m;
+  for (const Zone& zone : scenario.zones) {
+    YAML::Node out;
+    out["name"] = zone.name;
+    out["kind"] = zone.keep_in ? "keep_in" : "keep_out";
+    for (const Eigen::Vector2d& p : zone.points) out["x_m"].push_back(p.x()), out["y_m"].push_back(p.y());
+    ground["zones"].push_back(out);
+  }
   write_yaml(file, ground);
 }
 

@@ -61,7 +61,8 @@ std::vector<float> widened(const std::vector<float>& values, int cells, int reac
 
 }  // namespace
 
-Costmap::Costmap(const CostmapConfig& config, const BeliefMap& belief, Point2 rover, double side_m)
+Costmap::Costmap(const CostmapConfig& config, const BeliefMap& belief, Point2 rover, double side_m,
+                 const std::vector<Zone>& zones)
     : cells_(std::min(belief.cells().cells(), static_cast<int>(std::lround(side_m / belief.cells().cell_m())))),
       cell_m_(belief.cells().cell_m()),
       side_m_(cells_ * cell_m_) {
@@ -81,16 +82,17 @@ Costmap::Costmap(const CostmapConfig& config, const BeliefMap& belief, Point2 ro
   unknown_ = filled(unknown_, cells_);
 
   std::vector<std::uint8_t> hazard(count, 0);
+  add_walls(zones, hazard);
   cost_.resize(count);
   for (size_t i = 0; i < count; ++i) {
     if (i % static_cast<size_t>(cells_) == 0) row_begin_.push_back(hazards_.size());
     const CellBelief& cell = belief_of(i);
     const double p = cell.known ? belief.probability(cell) : 0.0;
     const bool unmeasured = unknown_[i] && unmeasurable[i];
-    const bool low = !unmeasured && belief.low(cell);
+    const bool low = !unmeasured && !hazard[i] && belief.low(cell);
     cost_[i] =
         static_cast<float>((low ? kLowFraction : 1.0) * config.hazard_cost * p + config.difficulty_cost * cell.cost);
-    hazard[i] = p >= config.hazard_probability || unmeasured ? 1 : 0;
+    if (p >= config.hazard_probability || unmeasured) hazard[i] = 1;
     if (hazard[i]) hazards_.push_back({center_of(static_cast<int>(i)), low});
   }
   row_begin_.push_back(hazards_.size());
@@ -98,6 +100,18 @@ Costmap::Costmap(const CostmapConfig& config, const BeliefMap& belief, Point2 ro
   for (size_t i = 0; i < count; ++i) cost_[i] += static_cast<float>(1.0 + (unknown_[i] ? config.unknown_cost : 0.0));
   hazard_distance_ = distance_field(hazard, cells_, cells_, cell_m_);
   unknown_distance_ = distance_field(unknown_, cells_, cells_, cell_m_);
+}
+
+void Costmap::add_walls(const std::vector<Zone>& zones, std::vector<std::uint8_t>& hazard) const {
+  for (const Zone& zone : zones)
+    for (size_t i = 0; i < zone.points.size(); ++i) {
+      const Eigen::Vector2d from = zone.points[i], along = zone.points[(i + 1) % zone.points.size()] - from;
+      const int steps = 1 + static_cast<int>(along.norm() / (0.5 * cell_m_));
+      for (int k = 0; k < steps; ++k) {
+        const Eigen::Vector2d p = from + static_cast<double>(k) / steps * along;
+        if (contains({p.x(), p.y()})) hazard[static_cast<size_t>(cell_of({p.x(), p.y()}))] = 1;
+      }
+    }
 }
 
 std::span<const Hazard> Costmap::hazards_near(Point2 p, double reach_m) const {

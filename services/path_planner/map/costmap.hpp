@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "common/core/zones.hpp"
 #include "path_planner/geometry.hpp"
 #include "path_planner/map/belief_map.hpp"
 
@@ -27,8 +28,9 @@ struct Hazard {
 
 class Costmap {
  public:
-  // A square window of the map around the rover.
-  Costmap(const CostmapConfig& config, const BeliefMap& belief, Point2 rover, double side_m);
+  // A square window of the map around the rover. The borders of the zones, in odom, are walls.
+  Costmap(const CostmapConfig& config, const BeliefMap& belief, Point2 rover, double side_m,
+          const std::vector<Zone>& zones = {});
 
   int cells() const { return cells_; }
   double cell_m() const { return cell_m_; }
@@ -62,6 +64,8 @@ class Costmap {
   double cost(int cell) const { return cost_[cell]; }
 
  private:
+  void add_walls(const std::vector<Zone>& zones, std::vector<std::uint8_t>& hazard) const;
+
   int cells_;
   double cell_m_;
   double side_m_;

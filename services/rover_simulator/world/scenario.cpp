@@ -6,6 +6,7 @@
 
 #include "common/bus/config.hpp"
 #include "common/bus/user_files.hpp"
+#include "common/bus/zone_list.hpp"
 #include "common/core/path_limits.hpp"
 #include "common/geo/elevation_map.hpp"
 
@@ -153,6 +154,7 @@ Scenario load_scenario(const std::string& file) {
   read_world(config.section("world"), file, scenario);
   if (config.has("level")) scenario.level = config.one_of("level", {"efficient", "auto", "full"});
   scenario.path = read_path(config.section("path"), scenario.dtm);
+  scenario.zones = read_zones(config);
   if (config.has("start")) scenario.start = read_start(config.section("start"));
   if (config.has("sun")) read_sun(config.section("sun"), scenario);
   config.read("calibration_error_px", scenario.calibration_error_px, {0, 5});

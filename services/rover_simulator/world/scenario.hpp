@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/core/frames.hpp"
+#include "common/core/zones.hpp"
 #include "common/geo/elevation_raster.hpp"
 #include "rover_simulator/world/scenario_faults.hpp"
 #include "rover_simulator/world/world.hpp"
@@ -45,6 +46,7 @@ struct Scenario {
   std::string level = "efficient";
   PlannedStart start;
   PlannedPath path;
+  std::vector<Zone> zones;  // given to the rover with the path
   double timeout_s = 3600.0;
   std::vector<ScriptedFault> faults;
 
