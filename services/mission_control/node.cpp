@@ -295,7 +295,9 @@ void MissionControlNode::send(const mission::CommandQueue::Pending& waiting) {
     if (command.kind == CommandKind::kPath) {
       path = path_of(command, path.zones, path_config_);
     } else {
-      if (p_map_body_) path = rest_of(std::move(path), *p_map_body_);
+      const bool behind =
+          !path.x_m.empty() && forbidding_zone(command.zones, {path.x_m.front(), path.y_m.front()}) != nullptr;
+      if (behind && p_map_body_) path = rest_of(std::move(path), *p_map_body_);
       path.zones = command.zones;
     }
     return publish_path(id, path);

@@ -84,6 +84,36 @@ TEST(Command, RefusesInvalidCommandsWithReason) {
   for (const std::string& text : bad) EXPECT_FALSE(error_of(text).empty()) << text;
 }
 
+TEST(Command, ParsesZones) {
+  const auto parsed = parse_command(
+      R"({"command":"zones","zones":[{"name":"dune 1","kind":"keep_out","points":[[1,2],[3,2],[3,5]]},
+          {"name":"site","kind":"keep_in","points":[[-50,-50],[50,-50],[50,50],[-50,50]]}]})",
+      kLimits);
+  ASSERT_TRUE(parsed.command) << parsed.error;
+  ASSERT_EQ(parsed.command->zones.size(), 2U);
+  EXPECT_EQ(parsed.command->zones[0].name, "dune 1");
+  EXPECT_FALSE(parsed.command->zones[0].keep_in);
+  EXPECT_EQ(parsed.command->zones[0].points[2], Eigen::Vector2d(3.0, 5.0));
+  EXPECT_TRUE(parsed.command->zones[1].keep_in);
+  EXPECT_TRUE(parse_command(R"({"command":"zones","zones":[]})", kLimits).command) << "deletes all";
+}
+
+TEST(Command, RefusesWhatIsNoZone) {
+  const auto with = [](const std::string& zone) { return error_of(R"({"command":"zones","zones":[)" + zone + "]}"); };
+  EXPECT_EQ(with(R"({"name":"a","kind":"keep_out","points":[[1,2],[3,4]]})"),
+            "zones: zone 'a' has fewer than 3 corners");
+  EXPECT_EQ(with(R"({"name":"","kind":"keep_out","points":[[1,2],[3,4],[1,5]]})"), "zones: a zone has no name");
+  EXPECT_NE(with(R"({"name":"a","kind":"no_go","points":[[1,2],[3,4],[1,5]]})"), "");
+  EXPECT_NE(with(R"({"name":"a","kind":"keep_out","points":[[1,2],[3],[1,5]]})"), "");
+  EXPECT_NE(with(R"({"name":"a","kind":"keep_out","points":[[1,2],["x",3],[1,5]]})"), "");
+  EXPECT_NE(with(R"({"name":5,"kind":"keep_out","points":[[1,2],[3,4],[1,5]]})"), "");
+  EXPECT_NE(with(R"({"name":"a\u0007","kind":"keep_out","points":[[1,2],[3,4],[1,5]]})"), "");
+  EXPECT_NE(with(R"({"name":"a","kind":"keep_out","points":[[1,2],[3,4],[1,1e99]]})"), "");
+  EXPECT_NE(with("7"), "");
+  EXPECT_NE(error_of(R"({"command":"zones","zones":{}})"), "");
+  EXPECT_NE(error_of(R"({"command":"zones"})"), "");
+}
+
 TEST(Command, RefusesTooManyWaypoints) {
   nlohmann::json request = {{"command", "path"}, {"points", nlohmann::json::array()}};
   for (size_t i = 0; i < kLimits.max_points; ++i) request["points"].push_back({i, i});

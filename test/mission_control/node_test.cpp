@@ -84,7 +84,8 @@ class MissionControlTest : public testing::Test {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     EXPECT_EQ(commands_->size() + paths_->size(), before + 1);
-    const std::int64_t id = command.kind == CommandKind::kPath ? paths_->back().path_id : commands_->back().command_id;
+    const bool path = command.kind == CommandKind::kPath || command.kind == CommandKind::kZones;
+    const std::int64_t id = path ? paths_->back().path_id : commands_->back().command_id;
     if (answer) acknowledge(id, *answer, reason);
     page.join();
     return result;
@@ -182,6 +183,45 @@ TEST_F(MissionControlTest, DrawnPathIsActiveOnceAccepted) {
   EXPECT_EQ(in_force(), paths_->back().path_id);
   EXPECT_EQ(paths_->back().frame, +path_t::MAP);
   EXPECT_EQ(paths_->back().x_m, (std::vector<double>{1.0, 3.0}));
+}
+
+Command zones(const std::vector<Zone>& list) {
+  Command command;
+  command.kind = CommandKind::kZones;
+  command.zones = list;
+  return command;
+}
+
+TEST_F(MissionControlTest, ZonesComeWithThePathUnderWayAndWithLaterOnes) {
+  finish_plan();
+  const Zone dune{"dune", false, {{22.0, 21.0}, {24.0, 21.0}, {24.0, 23.0}}};
+  operate(zones({dune}), true);
+  EXPECT_EQ(paths_->back().x_m, (std::vector<double>{20.0, 25.0}));
+  ASSERT_EQ(paths_->back().zone_count, 1);
+  EXPECT_EQ(paths_->back().zones[0].name, "dune");
+  EXPECT_EQ(paths_->back().zones[0].x_m, (std::vector<double>{22.0, 24.0, 24.0}));
+  Command path;
+  path.kind = CommandKind::kPath;
+  path.points = {{20.0, 20.0}, {30.0, 30.0}};
+  operate(path, true);
+  EXPECT_EQ(paths_->back().zone_count, 1);
+  operate(zones({}), false, "no");
+  operate(zones({}), true);
+  EXPECT_EQ(paths_->back().zone_count, 0);
+  EXPECT_EQ(paths_->back().x_m, (std::vector<double>{20.0, 30.0}));
+}
+
+// The ground behind the rover may be forbidden after it has passed.
+TEST_F(MissionControlTest, AZoneOverTheStartLeavesTheRestOfThePath) {
+  finish_plan();
+  pose_t pose{};
+  pose_to(from_planar({23.0, 20.1, 0.0}), pose.position_odom_body_m, pose.quat_odom_body_wxyz);
+  pose_to(from_planar({0.0, 0.0, 0.0}), pose.position_map_odom_m, pose.quat_map_odom_wxyz);
+  world_.send(channel::kPose, pose, "localization");
+  tick(2);
+  operate(zones({{"start", false, {{19.0, 19.0}, {21.0, 19.0}, {21.0, 21.0}, {19.0, 21.0}}}}), true);
+  EXPECT_EQ(paths_->back().x_m, (std::vector<double>{23.0, 25.0}));
+  EXPECT_EQ(paths_->back().y_m, (std::vector<double>{20.1, 20.0}));
 }
 
 // The plan's GO must not follow a stop.

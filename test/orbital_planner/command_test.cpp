@@ -134,6 +134,45 @@ TEST_F(PlanCommand, GeojsonMessageAndScenarioAgree) {
   EXPECT_EQ(points, 2u);
 }
 
+TEST_F(PlanCommand, ZonesAreAvoidedAndGoIntoEveryFile) {
+  Arguments without = arguments();
+  without.out = folder_.file("free");
+  run(without);
+  const PlannedPath free = written_path("free");
+  const size_t middle = free.x_m.size() / 2;
+  const double x = free.x_m[middle], y = free.y_m[middle];
+  std::ofstream(folder_.file("zones.geojson")) << fmt::format(
+      R"({{"type": "FeatureCollection", "features": [
+          {{"type": "Feature", "properties": {{"name": "dune \"A\""}},
+            "geometry": {{"type": "Polygon", "coordinates": [[[{0}, {2}], [{1}, {2}], [{1}, {3}], [{0}, {3}], [{0}, {2}]]]}}}}]}})",
+      x - 10.0, x + 10.0, y - 10.0, y + 10.0);
+  Arguments with_zone = arguments();
+  with_zone.zones = folder_.file("zones.geojson");
+  with_zone.out = folder_.file("around");
+  run(with_zone);
+  const PlannedPath around = written_path("around");
+  for (size_t i = 0; i < around.x_m.size(); ++i)
+    EXPECT_GT(std::max(std::abs(around.x_m[i] - x), std::abs(around.y_m[i] - y)), 10.0 + 2.0) << i;
+  const Scenario scenario = load_scenario(folder_.file("scenario.yaml"));
+  ASSERT_EQ(scenario.zones.size(), 1u);
+  EXPECT_EQ(scenario.zones[0].name, "dune \"A\"");
+  EXPECT_NEAR(scenario.zones[0].points[2].x(), x + 10.0, 1e-3);
+  EXPECT_EQ(scenario.zones[0].points.size(), 4u);
+  lcm::LogFile log(folder_.file("around/path.lcm"), "r");
+  path_t message{};
+  const lcm::LogEvent* event = log.readNextEvent();
+  ASSERT_GT(message.decode(event->data, 0, event->datalen), 0);
+  ASSERT_EQ(message.zone_count, 1);
+  EXPECT_EQ(message.zones[0].kind, zone_t::KEEP_OUT + 0);
+  planning::GlobalPath path;
+  EXPECT_EQ(planning::global_path_from(message, path), "");
+  const nlohmann::json geojson = nlohmann::json::parse(text_of(folder_.file("around/path.geojson")));
+  EXPECT_EQ(geojson["features"].back()["geometry"]["type"], "Polygon");
+  EXPECT_EQ(geojson["features"].back()["properties"]["kind"], "keep_out");
+  refusal(kGale + fmt::format(" --start 60.5,270.5 --goal {:.3f},{:.3f} --zones {}", x, y, with_zone.zones),
+          "lies in keep-out 'dune \"A\"'", "out2");
+}
+
 TEST_F(PlanCommand, LongitudeAndLatitudeGiveTheSamePlan) {
   run(arguments());
   const PlannedPath by_metres = written_path();
@@ -224,6 +263,8 @@ TEST_F(PlanCommand, BadInputPrintsOneLineAndExits2) {
       {kGale + " --start nan,270 --goal 120,60", "--start 'nan,270': two numbers"},
       {kGale + " --start 137.4,-4.6 --goal 120,600 --lonlat", "--goal 120,600: no longitude and latitude"},
       {kGale + " --start 60,270 --goal 120,60 --config " + folder_.file("none"), "none/orbital_planner.yaml"},
+      {kGale + " --start 60,270 --goal 120,60 --zones " + folder_.file("none"), "none: "},
+      {kGale + " --start 60,270 --goal 120,60 --zones " + kGale, "has no"},
   };
   for (const auto& [words, expected] : cases) refusal(words, expected);
   EXPECT_EQ(execute(kGale).first, 2);

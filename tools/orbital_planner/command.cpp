@@ -8,15 +8,19 @@
 #include <filesystem>
 
 #include "common/bus/config.hpp"
+#include "common/bus/text_file.hpp"
 #include "common/bus/user_files.hpp"
 #include "common/core/path_limits.hpp"
 #include "tools/orbital_planner/config.hpp"
+#include "tools/orbital_planner/convert.hpp"
 #include "tools/orbital_planner/files.hpp"
 
 namespace rover::orbital {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr size_t kMaxZonesBytes = 10'000'000;
 
 struct Place {
   std::string option;
@@ -41,6 +45,17 @@ Line on_map(const std::vector<Place>& places, const Geography& geography, bool l
   return line;
 }
 
+std::vector<Zone> zones_of(const Arguments& arguments, const Geography& geography) {
+  if (arguments.zones.empty()) return {};
+  std::vector<Zone> zones = zones_from_geojson(read_text(arguments.zones, kMaxZonesBytes), arguments.zones);
+  for (Zone& zone : zones)
+    for (Eigen::Vector2d& p : zone.points)
+      if (arguments.lon_lat) p = geography.to_map(p);
+  if (const std::string problem = zones_problem(zones); !problem.empty())
+    throw ConfigError(arguments.zones + ": " + problem);
+  return zones;
+}
+
 // Refuses a goal that is at the start already.
 void check_distances(const std::vector<Place>& places, const Line& waypoints, double goal_tolerance_m) {
   for (size_t i = 1; i < waypoints.size(); ++i)
@@ -62,9 +77,15 @@ std::string problem_of(const Plan& plan, const ElevationMap& map, const Line& wa
                          map.raster.height_m());
     case PlanStatus::kNoData:
       return "has no map data";
+    case PlanStatus::kForbidden: {
+      const Zone& zone = *forbidding_zone(plan.zones, waypoints[plan.waypoint]);
+      return fmt::format("lies {} '{}'", zone.keep_in ? "outside of keep-in" : "in keep-out", zone.name);
+    }
     case PlanStatus::kNotClear:
-      return fmt::format("lies {:.1f} m from an obstacle or unknown ground; {:.1f} m are required (cost.clearance_m)",
-                         plan.obstacle_distance_m, config.cost.clearance_m);
+      return fmt::format(
+          "lies {:.1f} m from an obstacle, a zone or unknown ground; {:.1f} m are required "
+          "(cost.clearance_m)",
+          plan.obstacle_distance_m, config.cost.clearance_m);
     case PlanStatus::kUnreachable:
       return "cannot be reached: no traversable path leads there";
   }
@@ -128,7 +149,8 @@ std::string run(const Arguments& arguments) {
     throw ConfigError("--lonlat: " + arguments.map + " has no planet; give X,Y in metres from its lower left corner");
   const Line waypoints = on_map(places, geography, arguments.lon_lat);
   check_distances(places, waypoints, config.terms.goal_tolerance_m);
-  const Plan result = plan(map.raster, waypoints, config.planner);
+  const std::vector<Zone> zones = zones_of(arguments, geography);
+  const Plan result = plan(map.raster, waypoints, config.planner, zones);
   check(result, places, map, waypoints, config.planner);
   if (const std::string problem = path_length_problem(result.length_m); !problem.empty()) throw ConfigError(problem);
   write_files(out.dir(), map, geography, result, waypoints, config.terms);

@@ -14,7 +14,8 @@ struct Arguments {
   std::string start, goal;       // "x,y" or "longitude,latitude"
   std::vector<std::string> via;  // in order, between start and goal
   bool lon_lat = false;
-  std::string out;  // new or empty folder; empty string: default_folder()
+  std::string zones;  // GeoJSON file; empty: none
+  std::string out;    // new or empty folder; empty string: default_folder()
   std::string config_dir = project_dir() + "/config";
 };
 

@@ -20,6 +20,10 @@ int main(int argc, char** argv) {
   rover::repeatable(app.add_option("--via", arguments.via, "an intermediate waypoint, repeatable"));
   app.add_option("--goal", arguments.goal, "as --start")->required();
   app.add_flag("--lonlat", arguments.lon_lat, "places are LONGITUDE,LATITUDE in degrees instead (--start=-9.5,4.1)");
+  app.add_option("--zones", arguments.zones,
+                 "GeoJSON polygons, in the coordinates of the places, that the path keeps out of; with the property "
+                 "\"kind\": \"keep_in\" it does not leave them")
+      ->transform(rover::is_user_path());
   app.add_option("--out", arguments.out, "folder for the results, new or empty; default: logs/<time>-plan-<map>")
       ->transform(rover::is_user_path());
   app.add_option("--config", arguments.config_dir, "folder with orbital_planner.yaml and navigation.yaml")

@@ -19,6 +19,8 @@ bool check_waypoints(const Line& waypoints, const CostMap& costs, Plan& plan) {
   for (size_t i = 0; i < waypoints.size(); ++i) {
     plan.status = check_waypoint(plan.terrain, costs, waypoints[i]);
     plan.waypoint = i;
+    if (plan.status == PlanStatus::kNotClear && forbidding_zone(plan.zones, waypoints[i]))
+      plan.status = PlanStatus::kForbidden;
     if (plan.status == PlanStatus::kNotClear)
       plan.obstacle_distance_m = costs.obstacle_distance_m[cell_at(costs.grid, waypoints[i])];
     if (plan.status != PlanStatus::kPlanned) return false;
@@ -75,11 +77,13 @@ void measure(const MarchGrid& grid, Plan& plan) {
 
 }  // namespace
 
-Plan plan(const ElevationRaster& map, const Line& waypoints, const PlannerConfig& config) {
+Plan plan(const ElevationRaster& map, const Line& waypoints, const PlannerConfig& config,
+          const std::vector<Zone>& zones) {
   ROVER_CHECK(waypoints.size() >= 2, waypoints.size());
   Plan plan;
+  plan.zones = zones;
   plan.terrain = analyse(map, config.terrain);
-  const CostMap costs = travel_cost(plan.terrain, config.cost);
+  const CostMap costs = travel_cost(plan.terrain, config.cost, zones);
   if (!check_waypoints(waypoints, costs, plan) || !connect_waypoints(waypoints, costs.grid, plan)) return plan;
   plan.line = drivable(plan.line, costs.grid, config.route);
   plan.difficulty = difficulty_along(plan.line, plan.terrain, config.levels);

@@ -31,7 +31,8 @@ enum class PlanStatus : std::int8_t {
   kPlanned,
   kOutside,      // the waypoint is outside of the map
   kNoData,       // the waypoint has no map data
-  kNotClear,     // the waypoint is closer to an obstacle or unknown ground than the clearance
+  kForbidden,    // a zone forbids the waypoint
+  kNotClear,     // the waypoint is closer to an obstacle, a zone or unknown ground than the clearance
   kUnreachable,  // no path from the previous waypoint
 };
 
@@ -39,6 +40,7 @@ struct Plan {
   PlanStatus status = PlanStatus::kPlanned;  // read first
   size_t waypoint = 0;                       // the waypoint that the status refers to
   double obstacle_distance_m = kNaN;         // kNotClear
+  std::vector<Zone> zones;
   TerrainLayers terrain;
   Line line;
   std::vector<double> difficulty;  // expected difficulty at each point
@@ -48,7 +50,8 @@ struct Plan {
   double cost_m = 0.0;  // equivalent distance on level ground
 };
 
-// Waypoints in map coordinates: start, any number of intermediate points, goal.
-Plan plan(const ElevationRaster& map, const Line& waypoints, const PlannerConfig& config);
+// Waypoints in map coordinates: start, any number of intermediate points, goal. The path keeps the clearance to zones.
+Plan plan(const ElevationRaster& map, const Line& waypoints, const PlannerConfig& config,
+          const std::vector<Zone>& zones = {});
 
 }  // namespace rover::orbital

@@ -138,6 +138,10 @@ cv::Mat draw(const ElevationRaster& map, const Plan& plan, const Line& waypoints
   const Cut cut = cut_around(map, plan.line);
   cv::Mat picture = draw_ground(map, plan.terrain, cut);
   Pen pen(picture, map, cut);
+  for (const Zone& zone : plan.zones)
+    for (size_t i = 0; i < zone.points.size(); ++i)
+      pen.line(zone.points[i], zone.points[(i + 1) % zone.points.size()],
+               zone.keep_in ? cv::Scalar(90, 150, 40) : cv::Scalar(40, 40, 200), 3);
   for (size_t i = 1; i < plan.line.size(); ++i) pen.line(plan.line[i - 1], plan.line[i], {255, 255, 255}, 7);
   for (size_t i = 1; i < plan.line.size(); ++i)
     pen.line(plan.line[i - 1], plan.line[i], colour_of(plan.level[i - 1]), 4);

@@ -9,12 +9,17 @@
 namespace rover::orbital {
 namespace {
 
-// Distance to obstacles and unknown ground; outside of the map is unknown.
-std::vector<double> distance_to_closed(const TerrainLayers& layers) {
+// Distance to obstacles, forbidden and unknown ground; outside of the map is unknown.
+std::vector<double> distance_to_closed(const TerrainLayers& layers, const std::vector<Zone>& zones) {
   std::vector<std::uint8_t> closed(layers.terrain_class.size());
   std::transform(layers.terrain_class.begin(), layers.terrain_class.end(), closed.begin(), [](TerrainClass c) {
     return static_cast<std::uint8_t>(c == TerrainClass::kUnknown || c == TerrainClass::kObstacle);
   });
+  for (size_t i = 0; !zones.empty() && i < closed.size(); ++i) {
+    const auto x = static_cast<double>(i % static_cast<size_t>(layers.width));
+    const auto y = static_cast<double>(i / static_cast<size_t>(layers.width));
+    if (forbidding_zone(zones, layers.cell_m * Eigen::Vector2d(x + 0.5, y + 0.5))) closed[i] = 1;
+  }
   std::vector<double> distance = distance_field(closed, layers.width, layers.height, layers.cell_m);
   for (int y = 0; y < layers.height; ++y)
     for (int x = 0; x < layers.width; ++x) {
@@ -41,8 +46,8 @@ double slope_cost(double slope_rad) {
   return kCost[i] + (position - static_cast<double>(i)) * (kCost[i + 1] - kCost[i]);
 }
 
-CostMap travel_cost(const TerrainLayers& layers, const CostConfig& config) {
-  CostMap map{{layers.width, layers.height, layers.cell_m, {}}, distance_to_closed(layers)};
+CostMap travel_cost(const TerrainLayers& layers, const CostConfig& config, const std::vector<Zone>& zones) {
+  CostMap map{{layers.width, layers.height, layers.cell_m, {}}, distance_to_closed(layers, zones)};
   map.grid.cost_per_m.assign(layers.terrain_class.size(), kInfinity);
   for (size_t i = 0; i < layers.terrain_class.size(); ++i) {
     const double distance = map.obstacle_distance_m[i];

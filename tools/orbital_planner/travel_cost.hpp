@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "common/core/fast_marching.hpp"
+#include "common/core/zones.hpp"
 #include "tools/orbital_planner/terrain.hpp"
 
 namespace rover::orbital {
@@ -20,8 +21,8 @@ double slope_cost(double slope_rad);
 
 struct CostMap {
   MarchGrid grid;                           // cost per metre
-  std::vector<double> obstacle_distance_m;  // to the nearest obstacle, unknown cell or map border
+  std::vector<double> obstacle_distance_m;  // to the nearest obstacle, unknown cell, forbidden cell or map border
 };
-CostMap travel_cost(const TerrainLayers& layers, const CostConfig& config);
+CostMap travel_cost(const TerrainLayers& layers, const CostConfig& config, const std::vector<Zone>& zones = {});
 
 }  // namespace rover::orbital

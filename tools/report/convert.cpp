@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/bus/convert.hpp"
+#include "common/bus/zone_list.hpp"
 #include "common/core/time.hpp"
 
 namespace rover::report {
@@ -112,6 +113,7 @@ PathRecord path_from(const path_t& message) {
   path.id = message.path_id;
   path.in_odom = message.frame == path_t::ODOM;
   path.is_repair = message.kind == path_t::REPAIR;
+  path.zones = zones_from(message);
   for (size_t i = 0; i < message.x_m.size(); ++i) path.points.emplace_back(message.x_m[i], message.y_m[i]);
   return path;
 }

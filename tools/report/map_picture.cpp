@@ -65,6 +65,16 @@ void draw_tracks(Svg& svg, const MapView& view, const Scene& scene) {
   svg.polyline(view.px(estimated_line(scene)), stroke(palette::kEstimate, 1.8, "stroke-dasharray:6 5"));
 }
 
+void draw_zones(Svg& svg, const MapView& view, const Scene& scene) {
+  if (scene.run.global_paths.empty()) return;
+  for (const Zone& zone : scene.run.global_paths.back().zones) {
+    const char* colour = zone.keep_in ? palette::kGood : palette::kBad;
+    const std::string fill = zone.keep_in ? "none" : colour;
+    svg.polygon(view.px(Points(zone.points.begin(), zone.points.end())),
+                stroke(colour, 2.4, fmt::format("stroke-dasharray:10 5;fill:{};fill-opacity:.18", fill)));
+  }
+}
+
 void draw_paths(Svg& svg, const MapView& view, const Scene& scene) {
   const Points global = view.px(planned_line(scene));
   svg.polyline(global, stroke("#3b2a1e", 4.0, "stroke-opacity:.55"));
@@ -180,7 +190,10 @@ std::string draw_map(const Scene& scene) {
   draw_ground(svg, view, scene.orbital);
   in_layer(svg, MapLayer::kRocks, [&] { draw_rocks(svg, view, scene, RockStyle::kFilled); });
   in_layer(svg, MapLayer::kHazards, [&] { draw_hazards(svg, view, scene); });
-  in_layer(svg, MapLayer::kPaths, [&] { draw_paths(svg, view, scene); });
+  in_layer(svg, MapLayer::kPaths, [&] {
+    draw_zones(svg, view, scene);
+    draw_paths(svg, view, scene);
+  });
   in_layer(svg, MapLayer::kOracle,
            [&] { svg.polyline(view.px(Points(scene.evaluation.oracle_path)), oracle_style()); });
   in_layer(svg, MapLayer::kTracks, [&] { draw_tracks(svg, view, scene); });

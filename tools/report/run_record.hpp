@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "common/core/frames.hpp"
+#include "common/core/zones.hpp"
 #include "tools/report/elevation_mosaic.hpp"
 
 namespace rover::report {
@@ -94,6 +95,7 @@ struct PathRecord {
   bool in_odom = false;
   bool is_repair = false;
   std::vector<Eigen::Vector2d> points;
+  std::vector<Zone> zones;
 };
 
 struct HazardCell {

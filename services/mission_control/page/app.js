@@ -68,6 +68,7 @@ async function fetchNews(view) {
       const found = await getJson("/api/paths");
       paths = { global: found.global.id, local: found.local.id };
       parts.map.setPaths(found);
+      parts.commands.showZones(found.global.zones);
     }
   } finally {
     fetching = false;

@@ -34,6 +34,19 @@ export function readWaypoints(text) {
   return points;
 }
 
+// Polygons of GeoJSON in map coordinates [m]; property kind: keep_out (also without one) or keep_in.
+export function readZones(text, name) {
+  const root = JSON.parse(text);
+  const features = root.type === "FeatureCollection" ? root.features : root.type === "Feature" ? [root] : [{ geometry: root, properties: {} }];
+  const zones = features.filter((f) => f.geometry?.type === "Polygon").map((f, i) => {
+    const ring = f.geometry.coordinates[0].map((p) => [Number(p[0]), Number(p[1])]);
+    const closed = ring.length > 1 && ring[0][0] === ring.at(-1)[0] && ring[0][1] === ring.at(-1)[1];
+    return { name: String(f.properties?.name || `${name} ${i + 1}`), kind: f.properties?.kind === "keep_in" ? "keep_in" : "keep_out", points: closed ? ring.slice(0, -1) : ring };
+  });
+  if (!zones.length) throw new Error("a GeoJSON polygon is required");
+  return zones;
+}
+
 export function createCommands(setup, map, charts) {
   async function send(command) {
     const what = describe(command);
@@ -115,8 +128,63 @@ export function createCommands(setup, map, charts) {
     }
   };
 
+  // Zones: those that the rover has, and the one being drawn.
+  const zoneTools = { undo: byId("zone-undo"), send: byId("zone-send"), cancel: byId("zone-cancel"), name: byId("zone-name") };
+  const zoneStart = [byId("zone-out"), byId("zone-in"), byId("zone-load")];
+  let zones = [], zoneKind = null;
+
+  function drawingZone(kind) {
+    zoneKind = kind;
+    for (const button of zoneStart) button.hidden = kind !== null;
+    for (const tool of Object.values(zoneTools)) tool.hidden = kind === null;
+    byId("path-tools").hidden = kind !== null;
+    info.hidden = kind === null;
+    zoneTools.send.disabled = true;
+    if (kind === null) return map.sketch.end();
+    let number = 1;
+    while (zones.some((zone) => zone.name === `${words(kind)} ${number}`)) number++;
+    zoneTools.name.value = `${words(kind)} ${number}`;
+    say("Click the corners on the map.");
+    return map.sketch.begin(() => { zoneTools.send.disabled = map.sketch.points().length < 3; }, kind);
+  }
+  byId("zone-out").onclick = () => drawingZone("keep_out");
+  byId("zone-in").onclick = () => drawingZone("keep_in");
+  zoneTools.undo.onclick = () => map.sketch.undo();
+  zoneTools.cancel.onclick = () => drawingZone(null);
+  zoneTools.send.onclick = async () => {
+    const zone = { name: zoneTools.name.value.trim(), kind: zoneKind, points: map.sketch.points() };
+    const result = await send({ command: "zones", zones: [...zones, zone] });
+    if (result.accepted) drawingZone(null);
+  };
+  byId("zone-load").onclick = () => byId("zone-file").click();
+  byId("zone-file").onchange = async ({ target }) => {
+    const file = target.files[0];
+    target.value = "";
+    if (!file) return;
+    try {
+      await send({ command: "zones", zones: [...zones, ...readZones(await file.text(), file.name.replace(/\.[^.]*$/, ""))] });
+    } catch (error) {
+      toast(`${file.name}: ${error.message}`, false);
+    }
+  };
+  function showZones(found) {
+    zones = found;
+    byId("zones").replaceChildren(...zones.map((zone) => {
+      const item = document.createElement("li");
+      item.className = zone.kind;
+      item.textContent = zone.name;
+      const remove = document.createElement("button");
+      remove.textContent = "×";
+      remove.title = `Delete ${zone.name}`;
+      remove.onclick = () => send({ command: "zones", zones: zones.filter((other) => other !== zone) });
+      item.append(remove);
+      return item;
+    }));
+  }
+
   return {
     send,
+    showZones,
     show(view) {
       byId("clear-safe").hidden = view.state.name !== "SAFE";
       const forced = (view.book.forced || "auto").toLowerCase();

@@ -119,7 +119,7 @@ export function createMap(setup, { onTruth }) {
     relief: picture("relief", {}), slope: picture("slope", { opacity: .75, zIndex: 2 }), difficulty: picture("difficulty", { opacity: .75, zIndex: 2 }),
     elevation: new GridLayer("elevation"), traversability: new GridLayer("traversability"), hazards: new GridLayer("hazards"),
     navcam: L.polygon([], { color: "#dbe2ea", weight: 1, opacity: .55, fillColor: "#dbe2ea", fillOpacity: .1, interactive: false }),
-    global: L.layerGroup(), local: line("#5cc8ff", 3.5), track: line("#ffb454", 3), truth: L.layerGroup(),
+    global: L.layerGroup(), zones: L.layerGroup(), local: line("#5cc8ff", 3.5), track: line("#ffb454", 3), truth: L.layerGroup(),
   };
   const planned = line("#ffffff", 2.5, { dashArray: "7 6", opacity: .9 });
   const corridor = line("#ffffff", 1, { opacity: .1, lineCap: "butt" });
@@ -132,13 +132,13 @@ export function createMap(setup, { onTruth }) {
   layers.truth.addLayer(trueTrack).addLayer(trueRover.group);
 
   if (setup.map) layers.relief.addTo(map);
-  for (const name of ["elevation", "traversability", "hazards", "navcam", "global", "track", "local"]) layers[name].addTo(map);
+  for (const name of ["elevation", "traversability", "hazards", "navcam", "global", "zones", "track", "local"]) layers[name].addTo(map);
   rover.group.addTo(map);
 
   const control = L.control.layers(null, {}, { collapsed: true }).addTo(map);
   const names = {
     relief: "Relief", slope: "Slope", difficulty: "Difficulty", elevation: "Elevation map", traversability: "Traversability",
-    hazards: "Hazards", navcam: "NavCam field of view", global: "Global path", local: "Local path", track: "Driven track", truth: "True pose (simulation)",
+    hazards: "Hazards", navcam: "NavCam field of view", global: "Global path", zones: "Zones", local: "Local path", track: "Driven track", truth: "True pose (simulation)",
   };
   for (const [key, name] of Object.entries(names))
     if (key === "navcam" ? setup.navcam : setup.map || !["relief", "slope", "difficulty"].includes(key)) control.addOverlay(layers[key], name);
@@ -148,7 +148,7 @@ export function createMap(setup, { onTruth }) {
   legend.onAdd = () => {
     const box = L.DomUtil.create("div", "map-legend");
     box.innerHTML = `<span><i class="dash" style="color:#fff"></i>global path</span><span><i style="color:#5cc8ff"></i>local path</span>
-      <span><i style="color:#ffb454"></i>driven</span><span class="terrain-key" hidden><i class="ramp cost"></i>cost</span><span class="terrain-key" hidden><i class="ramp height"></i>height</span>
+      <span><i style="color:#ffb454"></i>driven</span><span class="zone-key" hidden><i style="color:#f0616d"></i>keep-out</span><span class="terrain-key" hidden><i class="ramp cost"></i>cost</span><span class="terrain-key" hidden><i class="ramp height"></i>height</span>
       <span class="truth-key" hidden><i class="dash" style="color:#e48bff"></i>true</span>`;
     return box;
   };
@@ -209,7 +209,19 @@ export function createMap(setup, { onTruth }) {
     layers.local.setLatLngs(localPath.x_m.map((x, i) => at(...apply(mapOdom, x, localPath.y_m[i]))));
   };
 
-  // Drawing: waypoints by clicks; the first segment starts at the rover.
+  let zones = [];
+  const zoneStyle = { keep_out: { color: "#f0616d", weight: 2, fillOpacity: .22 }, keep_in: { color: "#4cc38a", weight: 2, dashArray: "6 5", fill: false } };
+  function drawZones() {
+    layers.zones.clearLayers();
+    for (const zone of zones) {
+      const name = document.createElement("span");
+      name.textContent = zone.name;
+      L.polygon(zone.points.map(([x, y]) => at(x, y)), zoneStyle[zone.kind]).bindTooltip(name, { sticky: true }).addTo(layers.zones);
+    }
+    document.querySelector(".zone-key").hidden = !zones.some((zone) => zone.kind === "keep_out");
+  }
+
+  // Drawing: waypoints by clicks; the first segment starts at the rover. Of a zone: its corners.
   const sketch = { points: [], on: false, changed: () => {} };
   const sketchLine = L.layerGroup().addTo(map);
   const slopeColour = (deg) => (deg > setup.path.max_slope_deg ? "#f0616d" : deg > setup.path.steep_slope_deg ? "#f2b84b" : "#4cc38a");
@@ -217,7 +229,9 @@ export function createMap(setup, { onTruth }) {
     sketchLine.clearLayers();
     const line_ = (points, color) => L.polyline(points, { color, weight: 4, interactive: false }).addTo(sketchLine);
     const whole = waypoints();
-    if (check && check.inside && check.distance_m.length > 1) {
+    if (sketch.zone) {
+      L.polygon(whole.map(([x, y]) => at(x, y)), { ...zoneStyle[sketch.zone], interactive: false }).addTo(sketchLine);
+    } else if (check && check.inside && check.distance_m.length > 1) {
       const along = pointsAlong(whole, check.distance_m);
       for (let i = 1; i < along.length; i++) line_([along[i - 1], along[i]], slopeColour(Math.max(check.slope_deg[i], check.slope_deg[i - 1])));
     } else if (whole.length > 1) {
@@ -271,6 +285,8 @@ export function createMap(setup, { onTruth }) {
         goal.setLatLng(points.at(-1)).setRadius(globalPath.goal_tolerance_m);
         widths();
       }
+      zones = found.global.zones;
+      drawZones();
       localPath = found.local.x_m.length ? found.local : null;
       drawLocal();
     },
@@ -303,20 +319,20 @@ export function createMap(setup, { onTruth }) {
       document.querySelector(".truth-key").hidden = false;
     },
     sketch: {
-      begin(changed) {
-        Object.assign(sketch, { on: true, points: [], fromRover: true, changed });
+      begin(changed, zone = null) {
+        Object.assign(sketch, { on: true, points: [], fromRover: !zone, zone, changed });
         document.getElementById("map").classList.add("drawing");
         map.doubleClickZoom.disable();
       },
       load(points, changed) {
-        Object.assign(sketch, { on: true, points, fromRover: false, changed });
+        Object.assign(sketch, { on: true, points, fromRover: false, zone: null, changed });
         map.fitBounds(L.latLngBounds(points.map(([x, y]) => at(x, y))), { padding: [46, 46], maxZoom: 6 });
         drawSketch();
         changed();
       },
       undo() { sketch.points.pop(); drawSketch(); sketch.changed(); },
       end() {
-        Object.assign(sketch, { on: false, points: [] });
+        Object.assign(sketch, { on: false, points: [], zone: null });
         document.getElementById("map").classList.remove("drawing");
         map.doubleClickZoom.enable();
         sketchLine.clearLayers();
