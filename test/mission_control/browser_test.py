@@ -77,6 +77,17 @@ def drive(page, second, url, run, pictures):
     wait_for("it is accepted", lambda: "path: accepted" in page.text("answer"))
     wait_for("and is the way to go now", lambda: page.number("togo") < 30.0)
     check("but does not move the rover by itself", page.text("state") == "STANDBY")
+    page.click("#zone-out")
+    for x, y in [(.62, .30), (.74, .30), (.68, .40)]:
+        page.click_map(x, y)
+    wait_for("a zone of three corners may be sent", lambda: page.script("return !document.getElementById('zone-send').disabled"))
+    page.click("#zone-send")
+    wait_for("it is accepted", lambda: "zones: accepted" in page.text("answer"))
+    wait_for("and listed with its name", lambda: "keep out 1" in page.text("zones"))
+    page.picture(pictures / "page_zone.png")
+    wait_for("the second page has it", lambda: "keep out 1" in second.text("zones"))
+    page.click("#zones button")
+    wait_for("it can be deleted", lambda: page.text("zones") == "")
     page.click("[data-command=go]")
     wait_for("it is driven", lambda: page.number("driven") > stopped_at + 2.0)
 

@@ -51,6 +51,25 @@ std::vector<Rock> joined(std::initializer_list<std::vector<Rock>> parts) {
   return rocks;
 }
 
+// traverse_study drives more of them.
+TEST(ClosedLoop, TheFootprintNeverEntersAZone) {
+  int zones = 0, reached = 0;
+  for (const bool full : {false, true})
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+      SCOPED_TRACE("seed " + std::to_string(seed));
+      const std::vector<Point2> path = {{0.0, 0.0}, {kLengthM, 0.0}};
+      DriveConfig config = drive_config(full);
+      config.zones = testing_support::random_zones(path, 5, seed);
+      zones += static_cast<int>(config.zones.size());
+      const DriveResult r = drive(config, rocks_around_path(seed), path, seed);
+      reached += r.reached ? 1 : 0;
+      EXPECT_EQ(r.zone_depth_m, 0.0);
+      EXPECT_FALSE(r.collided);
+    }
+  EXPECT_GT(zones, 8);
+  EXPECT_GT(reached, 5);
+}
+
 TEST(SecondPlanner, IsChosenByItsName) {
   add_planner("descent", [](const HybridPlannerConfig& config) -> std::shared_ptr<const Planner> {
     return std::make_shared<testing_support::DescentPlanner>(config);

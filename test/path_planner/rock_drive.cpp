@@ -180,6 +180,7 @@ class Drive {
         nav_view_(config.nav_camera) {
     GlobalPath global{1, {}, 0.75, 0.5};
     for (const Point2& p : path) global.points.push_back({p, kNaN, 0});
+    global.zones = config.zones;
     planner_.set_global_path(global);
     planner_.set_start_area(path.front(), 1.5, 0);
     planner_.set_level(config.full);
@@ -294,6 +295,12 @@ class Drive {
     const double clearance = clearance_m(config_.planner.footprint, rover_.truth(), rocks_);
     result_.min_clearance_m = std::min(result_.min_clearance_m, clearance);
     result_.collided = clearance < 0.0;
+    const Point2 believed = from_body(start_, position(rover_.odom()));
+    const Footprint& footprint = config_.planner.footprint;
+    result_.zone_depth_m =
+        std::max(result_.zone_depth_m,
+                 forbidden_depth_m(config_.zones, {believed.x_m, believed.y_m, start_.yaw_rad + rover_.odom().yaw_rad},
+                                   footprint.half_length_m, footprint.half_width_m));
     if (result_.track.empty() || distance(position(result_.track.back()), position(rover_.truth())) > 0.2)
       result_.track.push_back(rover_.truth());
   }
@@ -320,6 +327,29 @@ class Drive {
 };
 
 }  // namespace
+
+std::vector<Zone> random_zones(const std::vector<Point2>& path, int count, std::uint64_t seed) {
+  constexpr double kFreeEndM = 2.5;
+  std::mt19937_64 random(seed);
+  std::vector<Zone> zones;
+  for (int i = 0; i < count; ++i) {
+    const auto leg = static_cast<size_t>(uniform(random, 0.0, static_cast<double>(path.size() - 1)));
+    const double u = uniform(random, 0.0, 1.0);
+    const Point2 middle{path[leg].x_m + u * (path[leg + 1].x_m - path[leg].x_m) + uniform(random, -2.0, 2.0),
+                        path[leg].y_m + u * (path[leg + 1].y_m - path[leg].y_m) + uniform(random, -4.0, 4.0)};
+    const int corners = 3 + static_cast<int>(uniform(random, 0.0, 5.0));
+    const double radius_m = uniform(random, 0.4, 3.0);
+    Zone zone{"zone " + std::to_string(i), false, {}};
+    for (int k = 0; k < corners; ++k) {
+      const double angle = 2.0 * kPi * k / corners, r = radius_m * uniform(random, 0.4, 1.0);
+      zone.points.emplace_back(middle.x_m + r * std::cos(angle), middle.y_m + r * std::sin(angle));
+    }
+    const bool free_ends =
+        distance(middle, path.front()) > radius_m + kFreeEndM && distance(middle, path.back()) > radius_m + kFreeEndM;
+    if (free_ends) zones.push_back(std::move(zone));
+  }
+  return zones;
+}
 
 DriveResult drive(const DriveConfig& config, const std::vector<Rock>& rocks, const std::vector<Point2>& path,
                   std::uint64_t seed) {

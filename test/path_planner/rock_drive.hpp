@@ -29,6 +29,7 @@ struct DriveConfig {
   double unseen_stop_m = 0.25;
   double no_path_s = 20.0;  // then the drive is given up
   double timeout_s = 1500.0;
+  std::vector<Zone> zones;
 };
 
 struct DriveResult {
@@ -45,9 +46,13 @@ struct DriveResult {
   double plan_p99_s = 0.0;  // CPU time of the planner's steps that published a path
   double stopped_s = 0.0;
   double min_clearance_m = kInfinity;  // footprint to rocks
+  double zone_depth_m = 0.0;           // largest, of the footprint at the estimated pose in forbidden ground
   std::string text;                    // why it ended where it did
   std::vector<Pose2> track;            // true, in map
 };
+
+// Up to `count` keep-outs of random shape around the path, none of which covers start or goal.
+std::vector<Zone> random_zones(const std::vector<Point2>& path, int count, std::uint64_t seed);
 
 DriveResult drive(const DriveConfig& config, const std::vector<Rock>& rocks, const std::vector<Point2>& path,
                   std::uint64_t seed);
