@@ -93,6 +93,19 @@ TEST(Oracle, ClosedWallHasNoPath) {
   EXPECT_TRUE(result.path.empty());
 }
 
+// As the wall of known extent.
+TEST(Oracle, AZoneIsPassedAtItsEnd) {
+  Request request = request_on(flat);
+  request.zones = {{"dune", false, {{29.9, 17.0}, {30.1, 17.0}, {30.1, 30.0}, {29.9, 30.0}}}};
+  const Result around = shortest_path(request);
+  ASSERT_EQ(around.status, Status::kFound);
+  EXPECT_GT(around.length_m, shortest_path(request_on(flat)).length_m + 0.3);
+  for (const Eigen::Vector2d& p : points_of(around.path, 0.05))
+    EXPECT_FALSE(forbidding_zone(request.zones, p)) << p.transpose();
+  request.zones = {{"site", true, {{5.0, 15.0}, {25.0, 15.0}, {25.0, 25.0}, {5.0, 25.0}}}};
+  EXPECT_EQ(shortest_path(request).status, Status::kNoPath);
+}
+
 TEST(Oracle, PathDoesNotLeaveTheMap) {
   const auto wall = [](double x_m, double y_m) { return std::abs(x_m - 30.0) < 0.1 && y_m < 38.0 ? 0.5 : 0.0; };
   Request request = request_on(wall);

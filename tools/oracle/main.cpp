@@ -55,7 +55,8 @@ int main(int argc, char** argv) {
                                    .vehicle = rover::load_vehicle(config_dir),
                                    .start = scenario.start_pose(),
                                    .goal_tolerance_m = scenario.path.goal_tolerance_m,
-                                   .corridor_half_width_m = scenario.path.corridor_half_width_m};
+                                   .corridor_half_width_m = scenario.path.corridor_half_width_m,
+                                   .zones = scenario.zones};
     for (size_t i = 0; i < scenario.path.x_m.size(); ++i)
       request.planned.emplace_back(scenario.path.x_m[i], scenario.path.y_m[i]);
     const auto own = std::to_string(scenario.seed);

@@ -76,7 +76,7 @@ Result shortest_path(const Request& request) {
   const Vehicle& vehicle = request.vehicle;
   const double half_wheelbase_m = *std::max_element(vehicle.wheel_x_m.begin(), vehicle.wheel_x_m.end());
   TrueGround ground(request.height_m, request.ground_m,
-                    {vehicle.hazard_height_m, vehicle.max_climb_m, half_wheelbase_m});
+                    {vehicle.hazard_height_m, vehicle.max_climb_m, half_wheelbase_m, request.zones});
   const FootprintCheck check(vehicle, ground);
   if (region(widest_m).cell(request.start.x_m, request.start.y_m) < 0 || !check.is_free(request.start))
     return {Status::kStartBlocked};

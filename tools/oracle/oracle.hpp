@@ -16,6 +16,7 @@ struct Request {
   Points planned;  // global path; ends at the goal
   double goal_tolerance_m = 0.5;
   double corridor_half_width_m = 1.5;
+  std::vector<Zone> zones;
   int max_expansions = 3'600'000;  // of all regions together: at most about 20 s
 };
 

@@ -48,10 +48,11 @@ void TrueGround::classify(int bx, int by, Block& block) {
     for (int x = 1; x <= kBlockCells; ++x) {
       const float lowest = std::min({rise[y - 1][x], rise[y + 1][x], rise[y][x - 1], rise[y][x + 1]});
       const auto is_rim = [&](double limit_m) { return rise[y][x] >= limit_m && lowest < limit_m; };
-      const bool body = is_rim(config_.body_limit_m);
+      const double x_m = heights_.center_m(bx * kBlockCells + x - 1);
+      const double y_m = heights_.center_m(by * kBlockCells + y - 1);
+      const bool body = is_rim(config_.body_limit_m) || forbidding_zone(config_.zones, {x_m, y_m}) != nullptr;
       if (body || is_rim(config_.wheel_limit_m))
-        block.hazards.push_back({static_cast<float>(heights_.center_m(bx * kBlockCells + x - 1)),
-                                 static_cast<float>(heights_.center_m(by * kBlockCells + y - 1)), body});
+        block.hazards.push_back({static_cast<float>(x_m), static_cast<float>(y_m), body});
     }
   block.classified = true;
 }

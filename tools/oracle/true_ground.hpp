@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "common/core/zones.hpp"
 #include "tools/oracle/local_ground.hpp"
 
 namespace rover::oracle {
@@ -11,6 +12,7 @@ struct GroundConfig {
   double wheel_limit_m = 0.15;  // as Vehicle::hazard_height_m
   double body_limit_m = 0.20;   // as Vehicle::max_climb_m
   double half_wheelbase_m = 0.75;
+  std::vector<Zone> zones;  // what they forbid is a hazard of the body
 };
 
 // Centre of a cell of kCellM.

@@ -19,7 +19,8 @@ void evaluate_oracle(const RunRecord& run, const Vehicle& vehicle, const std::op
                                                       .start = truth.planar_at(m.window.begin_s),
                                                       .planned = run.global_paths.back().points,
                                                       .goal_tolerance_m = world->goal_tolerance_m,
-                                                      .corridor_half_width_m = world->corridor_half_width_m});
+                                                      .corridor_half_width_m = world->corridor_half_width_m,
+                                                      .zones = run.global_paths.back().zones});
   if (found.status != oracle::Status::kGaveUp) m.oracle_feasible = found.status == oracle::Status::kFound;
   m.oracle_m = found.length_m;
   evaluation.oracle_path = oracle::points_of(found.path, kPointsM);
