@@ -161,8 +161,8 @@ void add_restarts(Parameters p, ServiceRestarterConfig& c) {
 void apply_vehicle(const Vehicle& vehicle, SupervisorConfig& out) {
   out.max_speed_mps = vehicle.top_speed_mps;
   out.deceleration_mps2 = vehicle.deceleration_mps2;
-  out.body_half_length_m = vehicle.body_half_length_m;
-  out.body_half_width_m = vehicle.body_half_width_m;
+  out.footprint_half_length_m = vehicle.footprint_half_length_m();
+  out.footprint_half_width_m = vehicle.footprint_half_width_m();
   out.derived.drive_nominal_a = vehicle.drive_current_nominal_a;
   out.derived.steer_nominal_a = vehicle.steer_current_nominal_a;
   out.derived.wheel_radius_m = vehicle.wheel_radius_m;

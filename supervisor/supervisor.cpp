@@ -116,20 +116,27 @@ MonitorContext Supervisor::monitor_context(Utime now) const {
           blocked_in_m(), stop_distance_m(), sweep_s(now), backtracking, keep_out_depth_m()};
 }
 
-// Of the footprint now, and after the reaction and braking on the circle that the rover is on.
+// Of the footprint now, and on the circle that the rover is on until it has reacted and braked. On the spot its ends
+// brake as the wheels do.
 double Supervisor::keep_out_depth_m() const {
   const PoseReport& pose = inputs_.pose;
-  const auto depth_m = [&](const Pose2& at) {
-    return forbidden_depth_m(path_.zones, at, config_.body_half_length_m, config_.body_half_width_m);
-  };
   if (path_.zones.empty() || !pose.usable) return 0.0;
-  const double v = pose.forward_mps;
+  const double v = pose.forward_mps, rate = pose.turn_rate_radps;
+  const bool drives = std::abs(v) > config_.stationary_speed_mps;
+  const double turn_deceleration = config_.deceleration_mps2 / config_.footprint_half_length_m;
   const double stop_m = v * kReactionS + 0.5 * v * std::abs(v) / config_.deceleration_mps2;
-  const double turned_rad = std::abs(v) > config_.stationary_speed_mps ? stop_m * pose.turn_rate_radps / v : 0.0;
-  const double course_rad = pose.odom.yaw_rad + 0.5 * turned_rad;
-  return std::max(depth_m(pose.odom),
-                  depth_m({pose.odom.x_m + stop_m * std::cos(course_rad), pose.odom.y_m + stop_m * std::sin(course_rad),
-                           pose.odom.yaw_rad + turned_rad}));
+  const double turn_rad =
+      drives ? stop_m * rate / v : rate * kReactionS + 0.5 * rate * std::abs(rate) / turn_deceleration;
+  if (!std::isfinite(stop_m + turn_rad)) return kNaN;
+  double depth_m = 0.0;
+  for (const double u : {0.0, 0.5, 1.0}) {
+    const double course_rad = pose.odom.yaw_rad + 0.5 * u * turn_rad;
+    const Pose2 at{pose.odom.x_m + u * stop_m * std::cos(course_rad), pose.odom.y_m + u * stop_m * std::sin(course_rad),
+                   pose.odom.yaw_rad + u * turn_rad};
+    depth_m = std::max(
+        depth_m, forbidden_depth_m(path_.zones, at, config_.footprint_half_length_m, config_.footprint_half_width_m));
+  }
+  return depth_m;
 }
 
 void Supervisor::run_monitors(Utime now, SupervisorOutput& out) {

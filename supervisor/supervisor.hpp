@@ -24,8 +24,8 @@ struct SupervisorConfig {
   ServiceRestarterConfig restarts;
   double max_speed_mps = 0.2;
   double deceleration_mps2 = 0.118;
-  double body_half_length_m = 0.9;  // of the footprint
-  double body_half_width_m = 0.5;
+  double footprint_half_length_m = 0.9;
+  double footprint_half_width_m = 0.5;
   double teleop_speed_mps = 0.1;
   double teleop_max_age_s = 0.5;  // of the newest operator command
   double permit_validity_s = 0.2;

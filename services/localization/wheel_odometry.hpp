@@ -25,7 +25,6 @@ class WheelOdometry {
   // Mean of |r a| over the six wheels.
   double path_m(const std::array<double, 6>& wheel_turn_rad) const;
 
-
  private:
   Vehicle vehicle_;
 };

@@ -99,10 +99,6 @@ std::string read_zones(const json& value, Command& command) {
   } catch (const json::exception&) {
     return "zones: a list of {name, kind: keep_out or keep_in, points: [[x, y], ...]} is required";
   }
-  const auto control = [](unsigned char c) { return std::iscntrl(c) != 0; };
-  for (const Zone& zone : command.zones)
-    if (zone.name.size() > kMaxNameLength || std::any_of(zone.name.begin(), zone.name.end(), control))
-      return "zones: a name is too long or has control characters";
   return zones_problem(command.zones);
 }
 

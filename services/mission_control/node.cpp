@@ -170,8 +170,12 @@ void MissionControlNode::on_ack(const command_ack_t& ack) {
     if (accepted) accepted_by_operator(*command, ack.command_id);
   }
   if (const auto path = unacknowledged_paths_.find(ack.command_id); path != unacknowledged_paths_.end()) {
-    if (accepted) shared_->book.with([&](mission::Logbook& book) { book.set_path(ack.command_id, path->second); });
-    unacknowledged_paths_.erase(path);
+    if (accepted) {
+      shared_->book.with([&](mission::Logbook& book) { book.set_path(ack.command_id, path->second); });
+      unacknowledged_paths_.erase(unacknowledged_paths_.begin(), std::next(path));  // and those lost before
+    } else {
+      unacknowledged_paths_.erase(path);
+    }
   }
 }
 
@@ -287,21 +291,10 @@ void MissionControlNode::send(const mission::CommandQueue::Pending& waiting) {
   const std::int64_t id = next_command_id_++;
   changed_ = true;
   shared_->commands.set_command_id(waiting.ticket, id);
-  // A stop or a new path replaces the plan, which must not continue by itself; new zones change the plan's path.
-  if (command.kind == CommandKind::kZones) plan_.path.zones = command.zones;
+  // A stop or a new path replaces the plan, which must not continue by itself.
   if (mission::stops(command.kind) || command.kind == CommandKind::kPath) sequence_.cancel();
-  if (command.kind == CommandKind::kPath || command.kind == CommandKind::kZones) {
-    GlobalPath path = current_path();
-    if (command.kind == CommandKind::kPath) {
-      path = path_of(command, path.zones, path_config_);
-    } else {
-      const bool behind =
-          !path.x_m.empty() && forbidding_zone(command.zones, {path.x_m.front(), path.y_m.front()}) != nullptr;
-      if (behind && p_map_body_) path = rest_of(std::move(path), *p_map_body_);
-      path.zones = command.zones;
-    }
-    return publish_path(id, path);
-  }
+  if (command.kind == CommandKind::kPath) return publish_path(id, path_of(command, current_path().zones, path_config_));
+  if (command.kind == CommandKind::kZones) return send_zones(id, command.zones);
   ground_command_t message = command_message(kind_of(command.kind), id);
   message.level = level_of(command.level);
   message.target = command.target;
@@ -324,10 +317,24 @@ void MissionControlNode::publish(ground_command_t message) {
   node_.publish(channel::kGroundCommand, message, node_.now());
 }
 
-// The last one that the rover accepted; before, that of the plan.
+// The last one sent, as long as the rover has not refused it; the plan's before it is sent.
 GlobalPath MissionControlNode::current_path() const {
+  if (!unacknowledged_paths_.empty()) return unacknowledged_paths_.rbegin()->second;
   const GlobalPath path = shared_->book.with([](const mission::Logbook& book) { return book.path(); });
   return path.x_m.empty() ? plan_.path : path;
+}
+
+// With the path under way. Before the rover has one the page does not show the zones of the plan: it would delete them.
+void MissionControlNode::send_zones(std::int64_t command_id, const std::vector<Zone>& zones) {
+  if (shared_->book.with([](const mission::Logbook& book) { return book.path().x_m.empty(); })) {
+    shared_->commands.acknowledge(command_id, false, "the rover has no path yet");
+    return;
+  }
+  GlobalPath path = current_path();
+  const bool behind = forbidding_zone(zones, {path.x_m.front(), path.y_m.front()}) != nullptr;
+  if (behind && p_map_body_) path = rest_of(std::move(path), *p_map_body_);
+  path.zones = zones;
+  publish_path(command_id, path);
 }
 
 void MissionControlNode::publish_path(std::int64_t command_id, const GlobalPath& path) {
@@ -344,7 +351,6 @@ void MissionControlNode::publish_path(std::int64_t command_id, const GlobalPath&
   zones_to(path.zones, message);
   message.direction.assign(path.x_m.size(), std::int8_t{path_t::FORWARD});
   node_.publish(channel::kGlobalPath, message, node_.now());
-  unacknowledged_paths_.clear();  // drop paths that were never acknowledged
   unacknowledged_paths_[command_id] = path;
 }
 

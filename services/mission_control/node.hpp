@@ -50,6 +50,7 @@ class MissionControlNode {
   void send(const mission::CommandQueue::Pending& waiting);
   void publish_start_pose(std::int64_t command_id);
   GlobalPath current_path() const;
+  void send_zones(std::int64_t command_id, const std::vector<Zone>& zones);
   void publish_path(std::int64_t command_id, const GlobalPath& path);
   void publish(ground_command_t message);
   void add_event(mission::Tone tone, const std::string& kind, const std::string& text);

@@ -42,7 +42,7 @@ void ActivePath::set_route(std::int64_t id, PathKind kind, Route route, double c
   kind_ = kind;
   route_ = std::move(route);
   corridor_half_width_m_ = corridor_half_width_m;
-  progress_m_ = route_.closest(rover, 0.0, std::min(kSearchAheadM, route_.leg_at(0.0).end_m));
+  progress_m_ = route_.closest(rover, 0.0, std::min(kSearchAheadM, route_.segment_at(0.0).end_m));
 }
 
 void ActivePath::set_plan(std::int64_t id, PathKind kind, std::vector<PlanPose> plan,
@@ -57,9 +57,9 @@ void ActivePath::set_plan(std::int64_t id, PathKind kind, std::vector<PlanPose> 
   plan_end_m_ = route_.s_at(planned - 1);
 }
 
-// The next leg begins where the rover no longer moves in the direction of this one.
+// The next segment begins where the rover no longer moves in the direction of this one.
 void ActivePath::follow(Point2 rover, double forward_mps) {
-  const Leg now = leg();
+  const PathSegment now = segment();
   progress_m_ = route_.closest(rover, std::max(progress_m_ - kSearchBackM, now.begin_m),
                                std::min(progress_m_ + kSearchAheadM, now.end_m));
   const bool moves = (now.reverse ? -forward_mps : forward_mps) > kAtRestMps;
@@ -68,13 +68,13 @@ void ActivePath::follow(Point2 rover, double forward_mps) {
 
 // A path that passes one place twice may take the progress of the first for that of the second.
 bool ActivePath::at_end(Point2 rover) const {
-  if (leg().end_m < route_.length_m()) return false;
+  if (segment().end_m < route_.length_m()) return false;
   return remaining_m() <= kEndM ||
          (remaining_m() <= kSearchAheadM && distance(route_.points().back().p, rover) <= kEndM);
 }
 
 ActivePath::Start ActivePath::start_after(double committed_m) const {
-  const Leg now = leg();
+  const PathSegment now = segment();
   double at = progress_m_ + committed_m;
   for (const size_t i : route_.corners())
     if (route_.s_at(i) > progress_m_ - kPastCornerM && route_.s_at(i) < at + kPastCornerM)
@@ -100,7 +100,7 @@ std::vector<PlanPose> ActivePath::plan_from(double at_m) const {
 std::vector<PlanPose> ActivePath::plan_until(double at_m) const {
   constexpr double kBehindM = 0.3;
   std::vector<PlanPose> out;
-  const Leg now = leg();
+  const PathSegment now = segment();
   for (double s = std::max(now.begin_m, progress_m_ - kBehindM); s < at_m; s += 0.5 * 0.1)
     out.push_back({route_.pose_at(s), now.reverse, 0.0});
   return out;

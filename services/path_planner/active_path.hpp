@@ -37,7 +37,7 @@ class ActivePath {
   double progress_m() const { return progress_m_; }
   double remaining_m() const { return route_.length_m() - progress_m_; }
   double corridor_half_width_m() const { return corridor_half_width_m_; }
-  Leg leg() const { return route_.leg_at(progress_m_); }
+  PathSegment segment() const { return route_.segment_at(progress_m_); }
   // Of the planned part of the route that is ahead; the rest is the global path.
   double planned_m() const { return plan_end_m_ - progress_m_; }
 

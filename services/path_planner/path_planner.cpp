@@ -182,7 +182,7 @@ PlannerOutput PathPlanner::step(Utime now) {
     take_plan(now);
   }
   new_ground_ = new_level_ = false;
-  if (!active_.empty() && active_.id() != sent_path_id_) {
+  if (global_odom_ && !active_.empty() && active_.id() != sent_path_id_) {
     sent_path_id_ = active_.id();
     out.path = published();
   }
@@ -229,7 +229,7 @@ void PathPlanner::follow() {
   if (active_.kind() == PathKind::kRepair && active_.planned_m() < 0.0) {
     std::vector<RoutePoint> rest;
     const std::vector<RoutePoint>& points = active_.route().points();
-    const double from_m = std::max(active_.progress_m() - kKeepBehindM, active_.leg().begin_m);
+    const double from_m = std::max(active_.progress_m() - kKeepBehindM, active_.segment().begin_m);
     for (size_t i = active_.route().vertex_after(from_m) - 1; i < points.size(); ++i) rest.push_back(points[i]);
     if (rest.size() >= 2) {
       active_.set_route(next_path_id_++, PathKind::kGlobal, Route(std::move(rest)), global_->corridor_half_width_m,
@@ -264,7 +264,10 @@ void PathPlanner::follow_correction() {
       std::max(moved_m(position(rover())), moved_m(active_.route().point_at(active_.progress_m() + 10.0)));
   if (change < config_.correction_m) return;
   set_global_in_odom();
-  if (mode_ == Mode::kBackingUp) return;  // over the driven track, which lies in odom
+  if (mode_ == Mode::kBackingUp) {  // over the driven track, which lies in odom; only the zones move
+    if (!zones_odom_.empty()) active_.replace_route(next_path_id_++, active_.route());
+    return;
+  }
   const double begin = std::max(active_.progress_m() + 1.0, active_.progress_m() + active_.planned_m());
   // Of the blend 3u^2 - 2u^3: slope at most 0.33, curvature at most 0.3 per metre.
   const double ramp = std::max({3.0, 4.5 * change, std::sqrt(20.0 * change)});
@@ -492,12 +495,15 @@ void PathPlanner::back_up() {
   blockage_ = {};
 }
 
+// From the last cusp on: a controller that takes it anew shall not go back behind it.
 LocalPath PathPlanner::published() const {
+  const std::vector<RoutePoint>& points = active_.route().points();
+  const size_t begin = active_.route().vertex_after(active_.segment().begin_m) - 1;
   return {active_.id(),
           active_.kind(),
           active_.corridor_half_width_m(),
           global_->goal_tolerance_m,
-          active_.route().points(),
+          {points.begin() + static_cast<std::ptrdiff_t>(begin), points.end()},
           zones_odom_};
 }
 

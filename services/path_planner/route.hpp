@@ -16,7 +16,7 @@ struct RoutePoint {
 };
 
 // Part of a route between two changes of direction.
-struct Leg {
+struct PathSegment {
   double begin_m = 0.0;
   double end_m = 0.0;
   bool reverse = false;
@@ -40,8 +40,8 @@ class Route {
   double yaw_out_of(size_t i) const { return yaw_out_rad_[i]; }
   Point2 point_at(double s_m) const;
   std::int8_t level_at(double s_m) const;
-  // A cusp belongs to the leg that follows it.
-  Leg leg_at(double s_m) const;
+  // A cusp belongs to the segment that follows it.
+  PathSegment segment_at(double s_m) const;
   // Arc length of the closest point with arc length in [from, to].
   double closest(Point2 p, double from_m, double to_m) const;
   double closest(Point2 p) const { return closest(p, 0.0, length_m()); }

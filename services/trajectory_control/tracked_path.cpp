@@ -234,20 +234,20 @@ std::optional<TrackedPath> TrackedPath::build(const PathInput& input, const Trac
   path.id_ = input.id;
   path.corridor_half_width_m_ = input.corridor_half_width_m;
   const auto reverse = [&](size_t i) { return i < input.reverse.size() && input.reverse[i]; };
-  Points leg;
+  Points part;
   for (size_t i = 0; i < input.points.size(); ++i) {
-    leg.push_back(input.points[i]);
+    part.push_back(input.points[i]);
     const bool last = i + 1 == input.points.size();
     if (i == 0 || (!last && reverse(i) == reverse(i - 1))) continue;
-    path.add_leg(leg, reverse(i - 1), config);
-    leg = {input.points[i]};  // a cusp belongs to both
+    path.add_part(part, reverse(i - 1), config);
+    part = {input.points[i]};  // a cusp belongs to both
   }
   if (path.segments_.empty()) return std::nullopt;
   return path;
 }
 
-void TrackedPath::add_leg(const Points& leg, bool reverse, const TrackedPathConfig& config) {
-  const Points points = without_duplicates(leg);
+void TrackedPath::add_part(const Points& part, bool reverse, const TrackedPathConfig& config) {
+  const Points points = without_duplicates(part);
   if (points.size() < 2) return;
   const double start_m = segments_.empty() ? 0.0 : length_m();
   double step_m = config.sample_m;

@@ -102,7 +102,8 @@ class TrackedPath {
 
  private:
   TrackedPath() = default;
-  void add_leg(const std::vector<Eigen::Vector2d>& points, bool reverse, const TrackedPathConfig& config);
+  // Between two changes of direction.
+  void add_part(const std::vector<Eigen::Vector2d>& points, bool reverse, const TrackedPathConfig& config);
 
   std::int64_t id_ = -1;
   double corridor_half_width_m_ = 0.0;

@@ -189,6 +189,10 @@ Cause looks_blocked() {
   };
   return cause;
 }
+Cause zone_under_the_front() {
+  return {"a zone under the front", 4.0, [](Hands& h, Who, int) { h.ground.give_path(0.0, true); },
+          [](Hands& h, Who) { h.ground.give_path(0.0); }, nullptr};
+}
 Cause unreachable_path() {
   return {"path starts too far away", 40.0, [](Hands& h, Who, int) { h.ground.give_path(25.0); },
           [](Hands& h, Who) {
@@ -267,6 +271,7 @@ std::vector<Case> of_seeing_and_following() {
       {"path_mismatch", {}, kUnderWay, {lost_path()}},
       {"no_path", {}, kUnderWay, {unreachable_path()}},
       {"blocked", {}, kUnderWay, {looks_blocked()}},
+      {"keep_out", {}, kUnderWay, {zone_under_the_front()}},
       {"idle_drive", {}, kRolling, {unresponsive_driver()}},
   };
 }

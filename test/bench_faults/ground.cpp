@@ -4,6 +4,7 @@
 #include <rover/path_t.hpp>
 
 #include "common/bus/channels.hpp"
+#include "common/bus/zone_list.hpp"
 #include "test/path_planner/randoms.hpp"
 
 namespace rover::bench_faults {
@@ -97,9 +98,12 @@ void Ground::set_start_pose() {
   send(channel::kGroundCommand, out);
 }
 
-void Ground::give_path(double away_m) {
+void Ground::give_path(double away_m, bool forbid_front) {
   using planning::testing_support::uniform;
   Pose2 at = rover_.pose();
+  Zone front{"front", false, {}};
+  for (const Eigen::Vector2d& p : {Eigen::Vector2d(0.5, -1.0), {2.0, -1.0}, {2.0, 1.0}, {0.5, 1.0}})
+    front.points.push_back(Eigen::Vector2d(at.x_m, at.y_m) + Eigen::Rotation2Dd(at.yaw_rad) * p);
   at.x_m -= away_m * std::sin(at.yaw_rad);
   at.y_m += away_m * std::cos(at.yaw_rad);
   path_t out{};
@@ -119,6 +123,7 @@ void Ground::give_path(double away_m) {
     at.yaw_rad += (i % 2 == 0 ? 1.0 : -1.0) * to_rad(uniform(random_, 70.0, 120.0));
   }
   out.point_count = static_cast<std::int32_t>(out.x_m.size());
+  if (forbid_front) zones_to({front}, out);
   send(channel::kGlobalPath, out);
 }
 

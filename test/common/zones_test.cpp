@@ -66,13 +66,15 @@ TEST(Zones, ANarrowZoneUnderTheRectangleIsNotMissed) {
 TEST(Zones, WhatIsNoZoneIsNamed) {
   EXPECT_EQ(zones_problem({square("a", 0.0, 0.0, 1.0), square("b", 0.0, 0.0, 1.0, true)}), "");
   EXPECT_EQ(zones_problem({square("", 0.0, 0.0, 1.0)}), "a zone has no name");
+  EXPECT_NE(zones_problem({square("two\nlines", 0.0, 0.0, 1.0)}), "");
+  EXPECT_NE(zones_problem({square(std::string(65, 'a'), 0.0, 0.0, 1.0)}), "");
   EXPECT_EQ(zones_problem({square("a", 0.0, 0.0, 1.0), square("a", 0.0, 0.0, 1.0)}), "zone 'a' is there twice");
   EXPECT_EQ(zones_problem({{"line", false, {{0, 0}, {1, 1}}}}), "zone 'line' has fewer than 3 corners");
   EXPECT_EQ(zones_problem({{"flat", false, {{0, 0}, {1, 1}, {2, 2}}}}), "zone 'flat' encloses no area");
   EXPECT_EQ(zones_problem({{"nan", false, {{0, 0}, {1, 0}, {1, kNaN}}}}),
             "zone 'nan' has a corner that is out of range");
   EXPECT_NE(zones_problem(std::vector<Zone>(kMaxZones + 1)), "");
-  EXPECT_NE(zones_problem({{"many", false, std::vector<Eigen::Vector2d>(kMaxZonePoints + 1)}}), "");
+  EXPECT_NE(zones_problem({{"many", false, std::vector<Eigen::Vector2d>(kMaxZoneCorners + 1)}}), "");
 }
 
 }  // namespace

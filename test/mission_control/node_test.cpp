@@ -211,6 +211,28 @@ TEST_F(MissionControlTest, ZonesComeWithThePathUnderWayAndWithLaterOnes) {
   EXPECT_EQ(paths_->back().x_m, (std::vector<double>{20.0, 30.0}));
 }
 
+TEST_F(MissionControlTest, ZonesNeedAPathAndAreNotLostBeforeTheirAcknowledgement) {
+  tick(2);
+  const size_t before = paths_->size();
+  CommandReply reply;
+  std::thread page([&] { reply = shared_->commands.submit(zones({}), std::chrono::milliseconds(20'000)); });
+  for (int i = 0; i < 2000 && reply.reason.empty(); ++i) {
+    tick();
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  page.join();
+  EXPECT_EQ(reply.outcome, CommandReply::Outcome::kRefused);
+  EXPECT_EQ(reply.reason, "the rover has no path yet");
+  EXPECT_EQ(paths_->size(), before);
+  finish_plan();
+  operate(zones({{"dune", false, {{22.0, 21.0}, {24.0, 21.0}, {24.0, 23.0}}}}), std::nullopt);
+  Command path;
+  path.kind = CommandKind::kPath;
+  path.points = {{20.0, 20.0}, {30.0, 30.0}};
+  operate(path, true);
+  EXPECT_EQ(paths_->back().zone_count, 1) << "its acknowledgement was lost";
+}
+
 // The ground behind the rover may be forbidden after it has passed.
 TEST_F(MissionControlTest, AZoneOverTheStartLeavesTheRestOfThePath) {
   finish_plan();

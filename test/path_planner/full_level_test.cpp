@@ -116,15 +116,15 @@ TEST_F(FullLevelTest, APlanThatReversesIsOnePath) {
   EXPECT_EQ(out.path->kind, PathKind::kContinuous);
   EXPECT_GT(out.status.goal_distance_m, 25.0);
   const Route route(out.path->points);
-  const Leg back = route.leg_at(0.0);
+  const PathSegment back = route.segment_at(0.0);
   ASSERT_TRUE(back.reverse);
   EXPECT_LT(route.point_at(back.end_m).x_m, -2.0);
   EXPECT_NEAR(out.path->points.back().p.x_m, 30.0, 1e-6);
-  // Driven over the cusp the path stays, and the rover's place on it is never taken for one on the other leg.
+  // Driven over the cusp the path stays, and the rover's place on it is never taken for one on the other segment.
   double before_m = 0.0;
   for (double s = 0.0; s <= back.end_m + 1.0; s += 0.05) {
     rig_.odom = route.pose_at(s);
-    rig_.forward_mps = route.leg_at(s).reverse ? -0.2 : 0.2;
+    rig_.forward_mps = route.segment_at(s).reverse ? -0.2 : 0.2;
     if (std::abs(s - back.end_m) < 0.1) rig_.forward_mps = 0.0;
     EXPECT_FALSE(rig_.look().path) << s;
     const double at_m = rig_.planner.active_path().progress_m();
@@ -132,6 +132,22 @@ TEST_F(FullLevelTest, APlanThatReversesIsOnePath) {
     EXPECT_GE(at_m, before_m - 0.05);
     before_m = at_m;
   }
+}
+
+// What lies behind a cusp is over: a controller that takes the path anew shall not drive it again.
+TEST_F(FullLevelTest, PastACuspAPathBeginsThere) {
+  send_map(channel_map);
+  rig_.step();
+  const Route route(path().points);
+  const PathSegment back = route.segment_at(0.0);
+  ASSERT_TRUE(back.reverse);
+  rig_.odom = route.pose_at(back.end_m);
+  rig_.look(2);
+  rig_.T_map_odom = {0.0, 0.3, 0.0};
+  const PlannerOutput out = rig_.step();
+  ASSERT_TRUE(out.path) << "the correction moves its end";
+  EXPECT_FALSE(out.path->points.front().reverse);
+  EXPECT_LT(distance(out.path->points.front().p, position(rig_.odom)), 0.05);
 }
 
 TEST_F(FullLevelTest, RestartedWhileItReversesItKeepsThePath) {
@@ -145,13 +161,13 @@ TEST_F(FullLevelTest, RestartedWhileItReversesItKeepsThePath) {
   rig_.step();
   EXPECT_EQ(path().id, kFirstId) << "the id of the restored path";
   EXPECT_EQ(path().points.size(), points);
-  EXPECT_TRUE(rig_.planner.active_path().leg().reverse);
+  EXPECT_TRUE(rig_.planner.active_path().segment().reverse);
 }
 
 TEST_F(FullLevelTest, AReversingRoverOffItsPathIsStoppedBeforeAHazard) {
   send_map(channel_map);
   rig_.step();
-  ASSERT_TRUE(rig_.planner.active_path().leg().reverse);
+  ASSERT_TRUE(rig_.planner.active_path().segment().reverse);
   rig_.forward_mps = -0.2;
   rig_.odom.x_m = -0.3;
   EXPECT_TRUE(std::isinf(rig_.look().status.blocked_in_m));

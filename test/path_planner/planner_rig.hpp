@@ -60,7 +60,7 @@ class PlannerRig {
     for (double gone_m = 0.0; gone_m < distance_m; gone_m += kStepM) {
       const ActivePath& active = planner.active_path();
       odom = active.route().pose_at(std::min(active.progress_m() + kStepM, active.route().length_m()));
-      forward_mps = active.leg().reverse ? -0.2 : 0.2;
+      forward_mps = active.segment().reverse ? -0.2 : 0.2;
       out = look();
       if (out.status.blocked_in_m < 0.3) break;
     }

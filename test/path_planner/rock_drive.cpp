@@ -47,7 +47,7 @@ class Follower {
 
   void take(const LocalPath& path) {
     route_ = Route(path.points);
-    progress_m_ = route_.closest(position(odom_), 0.0, std::min(1.0, route_.leg_at(0.0).end_m));
+    progress_m_ = route_.closest(position(odom_), 0.0, std::min(1.0, route_.segment_at(0.0).end_m));
     set_direction();
     const bool turn = std::abs(heading_error()) > (turning_ ? kTurnStopRad : kTurnStartRad);
     if (turn && !turning_) begin_turn();
@@ -80,7 +80,7 @@ class Follower {
   double heading_error() const { return wrap_angle(route_.pose_at(progress_m_).yaw_rad - odom_.yaw_rad); }
 
   void set_direction() {
-    const double direction = route_.leg_at(progress_m_).reverse ? -1.0 : 1.0;
+    const double direction = route_.segment_at(progress_m_).reverse ? -1.0 : 1.0;
     if (direction != direction_) curvature_ = -curvature_;
     direction_ = direction;
   }
@@ -96,14 +96,15 @@ class Follower {
     const auto& corners = route_.corners();
     const auto next =
         std::find_if(corners.begin(), corners.end(), [&](size_t i) { return route_.s_at(i) > progress_m_; });
-    const Leg leg = route_.leg_at(progress_m_);
-    const double begin = std::max(leg.begin_m, next == corners.begin() ? 0.0 : route_.s_at(*std::prev(next)) + 1e-6);
-    const double end = std::min(leg.end_m, next == corners.end() ? leg.end_m : route_.s_at(*next));
+    const PathSegment segment = route_.segment_at(progress_m_);
+    const double begin =
+        std::max(segment.begin_m, next == corners.begin() ? 0.0 : route_.s_at(*std::prev(next)) + 1e-6);
+    const double end = std::min(segment.end_m, next == corners.end() ? segment.end_m : route_.s_at(*next));
     progress_m_ = route_.closest(position(odom_), std::max(progress_m_ - 0.3, begin), std::min(progress_m_ + 0.5, end));
     if (end < route_.length_m() && end - progress_m_ < 0.03 && !turning_) {
       progress_m_ = end + 1e-3;
       set_direction();
-      if (end < leg.end_m) begin_turn();
+      if (end < segment.end_m) begin_turn();
     }
     return end;
   }

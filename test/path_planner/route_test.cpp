@@ -73,14 +73,14 @@ TEST(Route, AtACuspTheBodyKeepsItsHeading) {
   EXPECT_TRUE(route.corners().empty());
   EXPECT_NEAR(route.pose_at(0.5).yaw_rad, 0.0, 0.1);
   EXPECT_NEAR(route.pose_at(2.5).yaw_rad, -0.15, 0.1);
-  const Leg there = route.leg_at(1.99), back = route.leg_at(2.0);
+  const PathSegment there = route.segment_at(1.99), back = route.segment_at(2.0);
   EXPECT_FALSE(there.reverse);
   EXPECT_TRUE(back.reverse);
   EXPECT_EQ(there.begin_m, 0.0);
   EXPECT_EQ(there.end_m, 2.0);
   EXPECT_EQ(back.begin_m, 2.0);
   EXPECT_EQ(back.end_m, route.length_m());
-  EXPECT_EQ(route.leg_at(100.0).end_m, route.length_m());
+  EXPECT_EQ(route.segment_at(100.0).end_m, route.length_m());
 }
 
 TEST(Route, BeyondItsEndsTheRouteIsItsEndPoint) {

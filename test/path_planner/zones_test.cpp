@@ -78,6 +78,55 @@ TEST(PlannerZones, ARestartKeepsThem) {
   EXPECT_LT(out.status.blocked_in_m, 5.0);
 }
 
+// POSE may come later than the first tick.
+TEST(PlannerZones, APathAfterARestartHasThem) {
+  PlannerRig rig;
+  rig.planner.set_global_path(path_with({box("dune", {8.0, -1.0}, {10.0, 1.0})}));
+  rig.look(3);
+  PathPlanner restarted(planner_config(), 1000);
+  ASSERT_TRUE(restarted.restore(rig.planner.save()));
+  rig.planner = restarted;
+  EXPECT_FALSE(rig.step_without_pose().path);
+  const PlannerOutput out = rig.step();
+  ASSERT_TRUE(out.path);
+  EXPECT_EQ(out.path->zones.size(), 1u);
+}
+
+// A correction puts the border of a zone under the left wheels: the rover may back out of it.
+TEST(PlannerZones, OutOfAZoneThatACorrectionPutUnderItItBacksUp) {
+  PlannerRig rig;
+  rig.planner.set_start_area({0.0, 0.0}, 5.0, rig.now);
+  ASSERT_EQ(rig.planner.set_global_path(path_with({box("dune", {2.5, 0.75}, {9.0, 3.0})})), "");
+  rig.step();
+  rig.move_to(2.5, 0.0);
+  rig.T_map_odom = {0.0, 0.45, 0.0};
+  rig.step();
+  rig.planner.request_back_up(true);
+  rig.look(2);
+  EXPECT_EQ(rig.planner.mode(), Mode::kBackingUp);
+}
+
+TEST(PlannerZones, FromOneKeepInItDrivesIntoAnotherThatOverlaps) {
+  const std::vector<Zone> zones = {box("west", {-3.0, -4.0}, {9.0, 4.0}, true),
+                                   box("east", {7.0, -3.0}, {23.0, 5.0}, true)};
+  PlannerRig rig;
+  ASSERT_EQ(rig.planner.set_global_path(path_with(zones)), "");
+  rig.look();
+  for (int i = 0; i < 200 && rig.odom.x_m < 15.0; ++i) rig.go(0.2);
+  EXPECT_GT(rig.odom.x_m, 14.9);
+}
+
+// A side may be as long as the planet.
+TEST(PlannerZones, FarCornersCostNothing) {
+  PlannerRig rig;
+  std::vector<Zone> zones;
+  for (int i = 0; i < 50; ++i)
+    zones.push_back({"far " + std::to_string(i), false, {{30.0 + i, -9e5}, {9e5, -9e5}, {9e5, 9e5}, {30.0 + i, 9e5}}});
+  ASSERT_EQ(rig.planner.set_global_path(path_with(zones)), "");
+  rig.look(20);
+  EXPECT_EQ(rig.planner.mode(), Mode::kFollowing);
+}
+
 TEST(PlannerZones, EnclosedByAZoneThereIsNoPath) {
   // Open behind the rover, but narrower than it.
   const Zone ring{"ring",

@@ -19,7 +19,7 @@ class SupervisorTest : public testing::Test {
     if (pose_alive_) {
       pose_.utime = pose_.vo_utime = made;
       pose_.usable = pose_usable_;
-      pose_.speed_mps = speed_;
+      pose_.speed_mps = pose_.forward_mps = speed_;
       pose_.turn_rate_radps = 0.0;
       supervisor_.on_pose(pose_);
     }
@@ -281,7 +281,7 @@ TEST_F(SupervisorTest, AZoneStopsTheRoverAtItsStoppingDistance) {
   path.path_id = planner_.path_id;
   path.zones = {{"dune", false, {{3, -5}, {6, -5}, {6, 5}, {3, 5}}}};
   supervisor_.on_path(path);
-  pose_.forward_mps = pose_.speed_mps = 0.2;
+  speed_ = 0.2;
   pose_.odom.x_m = 1.0;
   run(1.0);
   ASSERT_TRUE(out_.permit.granted);
@@ -290,8 +290,8 @@ TEST_F(SupervisorTest, AZoneStopsTheRoverAtItsStoppingDistance) {
     pose_.odom.x_m = stopped_at_m = x_m;
     run(0.02);
   }
-  EXPECT_LT(stopped_at_m + config_.body_half_length_m + 0.2 * 0.2 / (2.0 * config_.deceleration_mps2), 3.0);
-  EXPECT_GT(stopped_at_m + config_.body_half_length_m, 2.6);
+  EXPECT_LT(stopped_at_m + config_.footprint_half_length_m + 0.2 * 0.2 / (2.0 * config_.deceleration_mps2), 3.0);
+  EXPECT_GT(stopped_at_m + config_.footprint_half_length_m, 2.6);
   EXPECT_EQ(changes_.back().cause, "keep_out");
 }
 

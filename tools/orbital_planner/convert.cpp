@@ -69,14 +69,14 @@ json zone_feature(const Zone& zone, const ToLonLat& to_lon_lat) {
           {"properties", {{"name", zone.name}, {"kind", zone.keep_in ? "keep_in" : "keep_out"}, {"map_xy_m", map_xy}}}};
 }
 
-Zone zone_of(const json& feature, size_t number) {
+Zone zone_of(const json& feature, const json& geometry, size_t number) {
   const json properties = feature.value("properties", json::object());
   Zone zone{"zone " + std::to_string(number), false, {}};
   if (properties.is_object()) {
     zone.name = properties.value("name", zone.name);
     zone.keep_in = properties.value("kind", "keep_out") == "keep_in";
   }
-  for (const json& p : feature.at("geometry").at("coordinates").at(0)) zone.points.emplace_back(p.at(0), p.at(1));
+  for (const json& p : geometry.at("coordinates").at(0)) zone.points.emplace_back(p.at(0), p.at(1));
   if (zone.points.size() > 1 && zone.points.front() == zone.points.back()) zone.points.pop_back();
   return zone;
 }
@@ -142,10 +142,15 @@ std::vector<Zone> zones_from_geojson(const std::string& text, const std::string&
   try {
     const json root = json::parse(text);
     const json features = root.value("type", "") == "FeatureCollection" ? root.at("features") : json::array({root});
-    for (const json& feature : features)
-      if (feature.at("geometry").at("type") == "Polygon") zones.push_back(zone_of(feature, zones.size() + 1));
+    for (const json& feature : features) {
+      const json geometry = feature.value("geometry", feature);
+      const std::string type = geometry.is_object() ? geometry.value("type", "") : "";
+      if (type == "MultiPolygon" || (type == "Polygon" && geometry.at("coordinates").size() != 1))
+        throw ConfigError(file + ": only polygons of one ring can be zones");
+      if (type == "Polygon") zones.push_back(zone_of(feature, geometry, zones.size() + 1));
+    }
   } catch (const json::exception&) {
-    throw ConfigError(file + ": no GeoJSON feature or feature collection with polygons");
+    throw ConfigError(file + ": no GeoJSON with polygons");
   }
   if (zones.empty()) throw ConfigError(file + ": has no polygon");
   return zones;

@@ -19,8 +19,8 @@ bool check_waypoints(const Line& waypoints, const CostMap& costs, Plan& plan) {
   for (size_t i = 0; i < waypoints.size(); ++i) {
     plan.status = check_waypoint(plan.terrain, costs, waypoints[i]);
     plan.waypoint = i;
-    if (plan.status == PlanStatus::kNotClear && forbidding_zone(plan.zones, waypoints[i]))
-      plan.status = PlanStatus::kForbidden;
+    const bool on_map = plan.status == PlanStatus::kPlanned || plan.status == PlanStatus::kNotClear;
+    if (on_map && forbidding_zone(plan.zones, waypoints[i])) plan.status = PlanStatus::kForbidden;
     if (plan.status == PlanStatus::kNotClear)
       plan.obstacle_distance_m = costs.obstacle_distance_m[cell_at(costs.grid, waypoints[i])];
     if (plan.status != PlanStatus::kPlanned) return false;

@@ -9,6 +9,22 @@
 namespace rover::orbital {
 namespace {
 
+constexpr double kMaxSteps = 1e6;
+
+// The cells that the sides of a keep-out pass: it may lie between the centres of cells.
+void close_border(const Zone& zone, const TerrainLayers& layers, std::vector<std::uint8_t>& closed) {
+  if (zone.keep_in) return;
+  for (size_t i = 0; i < zone.points.size(); ++i) {
+    const Eigen::Vector2d a = zone.points[i], b = zone.points[(i + 1) % zone.points.size()];
+    const int steps = 1 + static_cast<int>(std::min((b - a).norm() / (0.5 * layers.cell_m), kMaxSteps));
+    for (int k = 0; k < steps; ++k) {
+      const Eigen::Vector2d cell = (a + static_cast<double>(k) / steps * (b - a)) / layers.cell_m;
+      if (cell.minCoeff() >= 0.0 && cell.x() < layers.width && cell.y() < layers.height)
+        closed[static_cast<size_t>(cell.y()) * static_cast<size_t>(layers.width) + static_cast<size_t>(cell.x())] = 1;
+    }
+  }
+}
+
 // Distance to obstacles, forbidden and unknown ground; outside of the map is unknown.
 std::vector<double> distance_to_closed(const TerrainLayers& layers, const std::vector<Zone>& zones) {
   std::vector<std::uint8_t> closed(layers.terrain_class.size());
@@ -20,6 +36,7 @@ std::vector<double> distance_to_closed(const TerrainLayers& layers, const std::v
     const auto y = static_cast<double>(i / static_cast<size_t>(layers.width));
     if (forbidding_zone(zones, layers.cell_m * Eigen::Vector2d(x + 0.5, y + 0.5))) closed[i] = 1;
   }
+  for (const Zone& zone : zones) close_border(zone, layers, closed);
   std::vector<double> distance = distance_field(closed, layers.width, layers.height, layers.cell_m);
   for (int y = 0; y < layers.height; ++y)
     for (int x = 0; x < layers.width; ++x) {

@@ -11,6 +11,7 @@ namespace {
 constexpr double kMinAreaM2 = 1e-4;
 constexpr double kMaxCoordinateM = 1e6;
 constexpr double kSampleM = 0.1;
+constexpr size_t kMaxNameBytes = 64;
 
 using Points = std::vector<Eigen::Vector2d>;
 
@@ -61,13 +62,17 @@ double depth_m(const std::vector<Zone>& zones, const Eigen::Vector2d& p) {
 std::string zones_problem(const std::vector<Zone>& zones) {
   if (zones.size() > kMaxZones) return "more than " + std::to_string(kMaxZones) + " zones";
   std::set<std::string> names;
+  size_t corners = 0;
   for (const Zone& zone : zones) {
     const std::string name = "zone '" + zone.name + "'";
     if (zone.name.empty()) return "a zone has no name";
+    const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
+    if (zone.name.size() > kMaxNameBytes || std::any_of(zone.name.begin(), zone.name.end(), is_control))
+      return "the name of a zone is too long or has control characters";
     if (!names.insert(zone.name).second) return name + " is there twice";
     if (zone.points.size() < 3) return name + " has fewer than 3 corners";
-    if (zone.points.size() > kMaxZonePoints)
-      return name + " has more than " + std::to_string(kMaxZonePoints) + " corners";
+    corners += zone.points.size();
+    if (corners > kMaxZoneCorners) return "zones with more than " + std::to_string(kMaxZoneCorners) + " corners";
     for (const Eigen::Vector2d& p : zone.points)
       if (!p.allFinite() || p.cwiseAbs().maxCoeff() > kMaxCoordinateM)
         return name + " has a corner that is out of range";

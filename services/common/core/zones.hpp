@@ -17,9 +17,9 @@ struct Zone {
 };
 
 constexpr size_t kMaxZones = 100;
-constexpr size_t kMaxZonePoints = 500;
+constexpr size_t kMaxZoneCorners = 1000;  // of all zones: each is tested many times a second
 
-// Why these are no zones; empty if they are: named once each, 3 to kMaxZonePoints finite corners that enclose an area.
+// Why these are no zones; empty if they are: named once each, three or more finite corners that enclose an area.
 std::string zones_problem(const std::vector<Zone>& zones);
 // The zone that forbids the point; null if none does.
 const Zone* forbidding_zone(const std::vector<Zone>& zones, const Eigen::Vector2d& p);

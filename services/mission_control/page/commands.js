@@ -38,6 +38,8 @@ export function readWaypoints(text) {
 export function readZones(text, name) {
   const root = JSON.parse(text);
   const features = root.type === "FeatureCollection" ? root.features : root.type === "Feature" ? [root] : [{ geometry: root, properties: {} }];
+  if (features.some((f) => f.geometry?.type === "MultiPolygon" || (f.geometry?.type === "Polygon" && f.geometry.coordinates.length !== 1)))
+    throw new Error("only polygons of one ring can be zones");
   const zones = features.filter((f) => f.geometry?.type === "Polygon").map((f, i) => {
     const ring = f.geometry.coordinates[0].map((p) => [Number(p[0]), Number(p[1])]);
     const closed = ring.length > 1 && ring[0][0] === ring.at(-1)[0] && ring[0][1] === ring.at(-1)[1];

@@ -82,18 +82,18 @@ Costmap::Costmap(const CostmapConfig& config, const BeliefMap& belief, Point2 ro
   unknown_ = filled(unknown_, cells_);
 
   std::vector<std::uint8_t> hazard(count, 0);
-  add_walls(zones, hazard);
+  const std::vector<std::uint8_t> walls = walls_of(zones);
   cost_.resize(count);
   for (size_t i = 0; i < count; ++i) {
     if (i % static_cast<size_t>(cells_) == 0) row_begin_.push_back(hazards_.size());
     const CellBelief& cell = belief_of(i);
     const double p = cell.known ? belief.probability(cell) : 0.0;
     const bool unmeasured = unknown_[i] && unmeasurable[i];
-    const bool low = !unmeasured && !hazard[i] && belief.low(cell);
+    const bool low = !unmeasured && !walls[i] && belief.low(cell);
     cost_[i] =
         static_cast<float>((low ? kLowFraction : 1.0) * config.hazard_cost * p + config.difficulty_cost * cell.cost);
-    if (p >= config.hazard_probability || unmeasured) hazard[i] = 1;
-    if (hazard[i]) hazards_.push_back({center_of(static_cast<int>(i)), low});
+    hazard[i] = p >= config.hazard_probability || unmeasured || walls[i] ? 1 : 0;
+    if (hazard[i]) hazards_.push_back({center_of(static_cast<int>(i)), low, walls[i] != 0});
   }
   row_begin_.push_back(hazards_.size());
   cost_ = widened(cost_, cells_, static_cast<int>(config.wheel_reach_m / cell_m_));
@@ -102,16 +102,42 @@ Costmap::Costmap(const CostmapConfig& config, const BeliefMap& belief, Point2 ro
   unknown_distance_ = distance_field(unknown_, cells_, cells_, cell_m_);
 }
 
-void Costmap::add_walls(const std::vector<Zone>& zones, std::vector<std::uint8_t>& hazard) const {
-  for (const Zone& zone : zones)
+// The part of the side from a along `along` that lies within the window, as fractions; none: first > second.
+std::pair<double, double> Costmap::within(const Eigen::Vector2d& a, const Eigen::Vector2d& along) const {
+  double from = 0.0, to = 1.0;
+  const Eigen::Vector2d low(corner_.x_m, corner_.y_m);
+  for (int axis = 0; axis < 2; ++axis) {
+    const double at = a[axis] - low[axis];
+    if (along[axis] == 0.0) {
+      if (at < 0.0 || at > side_m_) return {1.0, 0.0};
+      continue;
+    }
+    const double u = -at / along[axis], v = (side_m_ - at) / along[axis];
+    from = std::max(from, std::min(u, v));
+    to = std::min(to, std::max(u, v));
+  }
+  return {from, to};
+}
+
+// Within another keep-in the border of a keep-in is none.
+std::vector<std::uint8_t> Costmap::walls_of(const std::vector<Zone>& zones) const {
+  std::vector<std::uint8_t> walls(static_cast<size_t>(cells_) * static_cast<size_t>(cells_), 0);
+  for (const Zone& zone : zones) {
+    std::vector<Zone> others;
+    for (const Zone& other : zones)
+      if (zone.keep_in && other.keep_in && &other != &zone) others.push_back(other);
     for (size_t i = 0; i < zone.points.size(); ++i) {
-      const Eigen::Vector2d from = zone.points[i], along = zone.points[(i + 1) % zone.points.size()] - from;
-      const int steps = 1 + static_cast<int>(along.norm() / (0.5 * cell_m_));
-      for (int k = 0; k < steps; ++k) {
-        const Eigen::Vector2d p = from + static_cast<double>(k) / steps * along;
-        if (contains({p.x(), p.y()})) hazard[static_cast<size_t>(cell_of({p.x(), p.y()}))] = 1;
+      const Eigen::Vector2d a = zone.points[i], along = zone.points[(i + 1) % zone.points.size()] - a;
+      const auto [from, to] = within(a, along);
+      const int steps = 1 + static_cast<int>(std::max(0.0, to - from) * along.norm() / (0.5 * cell_m_));
+      for (int k = 0; from <= to && k <= steps; ++k) {
+        const Eigen::Vector2d p = a + (from + (to - from) * k / steps) * along;
+        const bool inner = !others.empty() && forbidding_zone(others, p) == nullptr;
+        if (!inner && contains({p.x(), p.y()})) walls[static_cast<size_t>(cell_of({p.x(), p.y()}))] = 1;
       }
     }
+  }
+  return walls;
 }
 
 std::span<const Hazard> Costmap::hazards_near(Point2 p, double reach_m) const {

@@ -22,8 +22,9 @@ struct CostmapConfig {
 };
 
 struct Hazard {
-  Point2 p;          // centre of a cell
-  bool low = false;  // the body passes over it, the wheels do not
+  Point2 p;           // centre of a cell
+  bool low = false;   // the body passes over it, the wheels do not
+  bool wall = false;  // of a zone: a correction may put it under the rover
 };
 
 class Costmap {
@@ -64,7 +65,8 @@ class Costmap {
   double cost(int cell) const { return cost_[cell]; }
 
  private:
-  void add_walls(const std::vector<Zone>& zones, std::vector<std::uint8_t>& hazard) const;
+  std::pair<double, double> within(const Eigen::Vector2d& a, const Eigen::Vector2d& along) const;
+  std::vector<std::uint8_t> walls_of(const std::vector<Zone>& zones) const;
 
   int cells_;
   double cell_m_;

@@ -24,7 +24,7 @@ bool FootprintCheck::violates(const Pose2& pose, const Hazard& hazard) const {
   const double d = distance_m(pose, hazard);
   if (d >= margin_m_) return false;
   const double at_start = distance_m(start_, hazard);
-  return d < std::min(margin_m_, std::max(at_start, 0.0) - approach_m_);
+  return d < std::min(margin_m_, (hazard.wall ? at_start : std::max(at_start, 0.0)) - approach_m_);
 }
 
 bool FootprintCheck::clear(const Pose2& pose) const {

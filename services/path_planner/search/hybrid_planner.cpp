@@ -6,7 +6,7 @@ namespace {
 constexpr double kKnownMarginM = 0.04;  // the rover follows a path within centimetres
 constexpr double kApproachM = 0.005;    // less than the path monitor's
 constexpr double kMaxClearanceM = 1.5;
-// The lattice first lets through what almost fits, and ends where its best way is much better than others. If that
+// The lattice first lets through what almost fits, and ends where its best path is much better than others. If that
 // misleads the search, it holds only what surely fits, and all of it.
 constexpr std::array<LatticeExtent, 2> kExtents = {LatticeExtent{0.03, 10.0}, LatticeExtent{-0.03, kInfinity}};
 

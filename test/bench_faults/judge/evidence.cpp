@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "common/bus/channels.hpp"
+#include "common/bus/convert.hpp"
 #include "common/bus/streams.hpp"
+#include "common/bus/zone_list.hpp"
 #include "common/core/frames.hpp"
 
 namespace rover::bench_faults {
@@ -59,6 +61,7 @@ void Evidence::take(const Delivery& delivery) {
   if (from == channel::kImu) imu_ = decoded<imu_t>(delivery);
   if (from == channel::kWheelState) add_wheels(decoded<wheel_state_t>(delivery));
   if (from == channel::kPlannerStatus) planner_ = decoded<planner_status_t>(delivery);
+  if (from == channel::kPath) path_ = decoded<path_t>(delivery);
   if (from == channel::kControlStatus) control_ = decoded<control_status_t>(delivery);
   if (from == channel::kSlip) slip_ = decoded<slip_t>(delivery);
   if (from == channel::kSlamPose) slam_ = decoded<slam_pose_t>(delivery);
@@ -248,6 +251,7 @@ Measurement Evidence::measure_followed(const Row& row) const {
     const bool strays = std::abs(control_.cross_track_m) > kStraysFrom * half_m;
     return controlled(std::isnan(ratio) || (ratio > row.limit && strays));
   }
+  if (q == "keep_out_depth_m") return of(pose_.header, above(keep_out_depth_m(), row.limit));
   if (q == "blocked") {
     const bool waits = state_.state == supervisor_state_t::HAZARD_STOP || state_.state == supervisor_state_t::REPAIRING;
     const bool unseen = planner_.block_kind == planner_status_t::UNSEEN;
@@ -255,6 +259,26 @@ Measurement Evidence::measure_followed(const Row& row) const {
     return planned(waits && (planner_.path_id < 0 || !(planner_.blocked_in_m > stop_m)));
   }
   return {};
+}
+
+// Of the footprint now, and until it stands if it brakes in 0.2 s.
+double Evidence::keep_out_depth_m() const {
+  const std::vector<Zone> zones = zones_from(path_);
+  const Pose2 now = planar(pose_from(pose_.position_odom_body_m, pose_.quat_odom_body_wxyz));
+  constexpr double kReactionS = 0.2;
+  const double v = pose_.velocity_body_mps[0], rate = pose_.rate_body_radps[2], a = settings_.deceleration_mps2;
+  const double way_m = v * kReactionS + 0.5 * v * std::abs(v) / a;
+  const bool drives = std::abs(v) > settings_.stationary_speed_mps;
+  const double turn =
+      drives ? way_m * rate / v : rate * kReactionS + 0.5 * rate * std::abs(rate) * settings_.half_length_m / a;
+  double deepest_m = 0.0;
+  for (const double u : {0.0, 0.5, 1.0}) {
+    const double course = now.yaw_rad + 0.5 * u * turn;
+    const Pose2 then{now.x_m + u * way_m * std::cos(course), now.y_m + u * way_m * std::sin(course),
+                     now.yaw_rad + u * turn};
+    deepest_m = std::max(deepest_m, forbidden_depth_m(zones, then, settings_.half_length_m, settings_.half_width_m));
+  }
+  return deepest_m;
 }
 
 Measurement Evidence::measure_full(const Row& row) const {

@@ -10,6 +10,7 @@
 #include <rover/hazards_t.hpp>
 #include <rover/heartbeat_t.hpp>
 #include <rover/imu_t.hpp>
+#include <rover/path_t.hpp>
 #include <rover/planner_status_t.hpp>
 #include <rover/pose_t.hpp>
 #include <rover/slam_pose_t.hpp>
@@ -61,6 +62,7 @@ class Evidence {
   Measurement measure_wheels(const Row& row) const;
   Measurement measure_seen(const Row& row) const;
   Measurement measure_followed(const Row& row) const;
+  double keep_out_depth_m() const;
   Measurement measure_full(const Row& row) const;
   Measurement measure_service(const Row& row) const;
   Measurement measure_own(const Row& row) const;
@@ -77,6 +79,7 @@ class Evidence {
   hazards_t hazards_{};
   planner_status_t planner_{};
   control_status_t control_{};
+  path_t path_{};
   slip_t slip_{};
   slam_pose_t slam_{};
   double terrain_at_m_ = kNaN;  // travelled distance at the newest TRAVERSABILITY

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "common/bus/config.hpp"
+#include "common/bus/vehicle_config.hpp"
 #include "common/core/frames.hpp"
 
 namespace rover::bench_faults {
@@ -92,6 +93,10 @@ Settings read_settings(const std::string& config_dir) {
   out.wheel_radius_m = vehicle.section("wheels").number("radius_m", kAny);
   out.drive_nominal_a = vehicle.section("drive").number("current_nominal_a", kAny);
   out.steer_nominal_a = vehicle.section("steering").number("current_nominal_a", kAny);
+  const Vehicle geometry = load_vehicle(config_dir);
+  out.half_length_m = geometry.footprint_half_length_m();
+  out.half_width_m = geometry.footprint_half_width_m();
+  out.deceleration_mps2 = geometry.deceleration_mps2;
   return out;
 }
 

@@ -34,6 +34,9 @@ struct Settings {
   double unseen_stop_m = 0.0;
   double stationary_speed_mps = 0.0;
   double stationary_rate_radps = 0.0;
+  double half_length_m = 0.0;
+  double half_width_m = 0.0;
+  double deceleration_mps2 = 0.0;
 };
 
 Settings read_settings(const std::string& config_dir);
