@@ -261,20 +261,20 @@ Measurement Evidence::measure_followed(const Row& row) const {
   return {};
 }
 
-// Of the footprint now, and until it stands if it brakes in 0.2 s.
+// Of the footprint now, and until it is stationary if it brakes 0.2 s from now.
 double Evidence::keep_out_depth_m() const {
   const std::vector<Zone> zones = zones_from(path_);
   const Pose2 now = planar(pose_from(pose_.position_odom_body_m, pose_.quat_odom_body_wxyz));
   constexpr double kReactionS = 0.2;
   const double v = pose_.velocity_body_mps[0], rate = pose_.rate_body_radps[2], a = settings_.deceleration_mps2;
-  const double way_m = v * kReactionS + 0.5 * v * std::abs(v) / a;
+  const double stop_m = v * kReactionS + 0.5 * v * std::abs(v) / a;
   const bool drives = std::abs(v) > settings_.stationary_speed_mps;
   const double turn =
-      drives ? way_m * rate / v : rate * kReactionS + 0.5 * rate * std::abs(rate) * settings_.half_length_m / a;
+      drives ? stop_m * rate / v : rate * kReactionS + 0.5 * rate * std::abs(rate) * settings_.half_length_m / a;
   double deepest_m = 0.0;
   for (const double u : {0.0, 0.5, 1.0}) {
     const double course = now.yaw_rad + 0.5 * u * turn;
-    const Pose2 then{now.x_m + u * way_m * std::cos(course), now.y_m + u * way_m * std::sin(course),
+    const Pose2 then{now.x_m + u * stop_m * std::cos(course), now.y_m + u * stop_m * std::sin(course),
                      now.yaw_rad + u * turn};
     deepest_m = std::max(deepest_m, forbidden_depth_m(zones, then, settings_.half_length_m, settings_.half_width_m));
   }
