@@ -9,8 +9,8 @@ namespace rover::bench_faults {
 namespace {
 
 // Images and the large inputs of the planner would fill the disk.
-const std::set<std::string> kLeftOut = {channel::kDisparity, channel::kDone,         channel::kVo,
-                                        channel::kPath,      channel::kServiceState, channel::kWheelCommand};
+const std::set<std::string> kLeftOut = {channel::kDisparity, channel::kDone, channel::kVo, channel::kServiceState,
+                                        channel::kWheelCommand};
 
 }  // namespace
 
