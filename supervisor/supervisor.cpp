@@ -10,7 +10,7 @@ using enum State;
 
 constexpr StateSet kDriveInProgress = {kDriving, kHazardStop, kRepairing};
 constexpr double kMinApproachMps = 0.05;  // towards the place where the rover stops
-constexpr double kReactionS = 0.5;        // at 0.2 m/s 0.1 m, as of hazard_stop_m
+constexpr double kReactionS = 0.2;        // from a pose to the wheels, as response_delay_s of trajectory_control
 
 std::optional<Fact> fact_of(CommandKind kind) {
   switch (kind) {

@@ -121,7 +121,11 @@ class CellClassifier {
       if (!is_open(seed)) continue;
       int tall = 0, over = 0, over_seen = 0;
       const std::vector<int> rock = connected(seed, is_open, visited);
-      for (int i : rock) tall += evidence(i).tall, over += evidence(i).over, over_seen += evidence(i).over_seen;
+      for (int i : rock) {
+        tall += evidence(i).tall;
+        over += evidence(i).over;
+        over_seen += evidence(i).over_seen;
+      }
       const bool top_seen = over > 0 && over_seen >= config_.min_free_fraction * over;
       if (tall >= config_.min_cell_samples || !top_seen) continue;
       for (int i : rock) cell(i) = Cell::kLow;

@@ -154,8 +154,10 @@ void HazardDetector::classify_samples(const Disparity& disparity, const GroundPl
       };
       const int below = cell_at(depth_px16 / reference), over = cell_at(at_body_height * depth_px16 / reference);
       if (below >= 0) ++evidence_[static_cast<size_t>(below)].expected;
-      if (over >= 0)
-        ++evidence_[static_cast<size_t>(over)].over, evidence_[static_cast<size_t>(over)].over_seen += d > 0;
+      if (over >= 0) {
+        ++evidence_[static_cast<size_t>(over)].over;
+        evidence_[static_cast<size_t>(over)].over_seen += d > 0;
+      }
     }
     const int cell = cell_of_sample_[k];
     if (cell < 0) continue;

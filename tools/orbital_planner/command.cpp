@@ -83,8 +83,7 @@ std::string problem_of(const Plan& plan, const ElevationMap& map, const Line& wa
     }
     case PlanStatus::kNotClear:
       return fmt::format(
-          "lies {:.1f} m from an obstacle, a zone or unknown ground; {:.1f} m are required "
-          "(cost.clearance_m)",
+          "lies {:.1f} m from an obstacle, a zone or unknown ground; {:.1f} m are required (cost.clearance_m)",
           plan.obstacle_distance_m, config.cost.clearance_m);
     case PlanStatus::kUnreachable:
       return "cannot be reached: no traversable path leads there";

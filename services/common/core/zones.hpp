@@ -1,4 +1,4 @@
-// Keep-out and keep-in zones: polygons in map that come with the global path. The footprint must stay outside of every
+// Keep-out and keep-in zones: polygons that come with a path. Every point of the footprint must stay outside of each
 // keep-out and, if there are keep-ins, inside one of them.
 #pragma once
 
@@ -13,7 +13,7 @@ namespace rover {
 struct Zone {
   std::string name;
   bool keep_in = false;
-  std::vector<Eigen::Vector2d> points;  // corners in map; the last one is joined to the first
+  std::vector<Eigen::Vector2d> points;  // corners, in the frame of the path; the last one is joined to the first
 };
 
 constexpr size_t kMaxZones = 100;

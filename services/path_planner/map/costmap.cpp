@@ -119,7 +119,7 @@ std::pair<double, double> Costmap::within(const Eigen::Vector2d& a, const Eigen:
   return {from, to};
 }
 
-// Within another keep-in the border of a keep-in is none.
+// The border of a keep-in is no wall where another keep-in contains it.
 std::vector<std::uint8_t> Costmap::walls_of(const std::vector<Zone>& zones) const {
   std::vector<std::uint8_t> walls(static_cast<size_t>(cells_) * static_cast<size_t>(cells_), 0);
   for (const Zone& zone : zones) {
