@@ -264,7 +264,7 @@ TEST_F(PlanCommand, BadInputPrintsOneLineAndExits2) {
       {kGale + " --start 137.4,-4.6 --goal 120,600 --lonlat", "--goal 120,600: no longitude and latitude"},
       {kGale + " --start 60,270 --goal 120,60 --config " + folder_.file("none"), "none/orbital_planner.yaml"},
       {kGale + " --start 60,270 --goal 120,60 --zones " + folder_.file("none"), "none: "},
-      {kGale + " --start 60,270 --goal 120,60 --zones " + kGale, "has no"},
+      {kGale + " --start 60,270 --goal 120,60 --zones " + kGale, "tif: no GeoJSON with polygons"},
   };
   for (const auto& [words, expected] : cases) refusal(words, expected);
   EXPECT_EQ(execute(kGale).first, 2);
