@@ -1,5 +1,7 @@
 #include "path_planner/active_path.hpp"
 
+#include "path_planner/search/footprint_check.hpp"
+
 namespace rover::planning {
 namespace {
 
@@ -10,6 +12,7 @@ constexpr double kPastCornerM = 0.2;
 constexpr double kChordM = 0.15;
 constexpr double kMaxCurvature = 1.0;
 constexpr double kSamePlaceM = 1e-6;
+constexpr double kLookStepM = 0.3;
 constexpr double kAtRestMps = 0.02;
 
 bool same_place(const PlanPose& a, const PlanPose& b) {
@@ -104,6 +107,20 @@ std::vector<PlanPose> ActivePath::plan_until(double at_m) const {
   for (double s = std::max(now.begin_m, progress_m_ - kBehindM); s < at_m; s += 0.5 * 0.1)
     out.push_back({route_.pose_at(s), now.reverse, 0.0});
   return out;
+}
+
+std::vector<Pose2> ActivePath::views_until(double at_m) const {
+  std::vector<Pose2> views;
+  for (const size_t i : route_.corners()) {
+    if (route_.s_at(i) <= progress_m_ - kPastCornerM || route_.s_at(i) > at_m) continue;
+    const Point2 p = route_.points()[i].p;
+    const double yaw_rad = route_.yaw_into(i);
+    const double turn_rad = wrap_angle(route_.yaw_out_of(i) - yaw_rad);
+    for (const Pose2& view : turn_views(yaw_rad, {p.x_m, p.y_m, yaw_rad + turn_rad})) views.push_back(view);
+  }
+  for (double s = progress_m_ + kLookStepM; s < at_m; s += kLookStepM) views.push_back(route_.pose_at(s));
+  if (at_m > progress_m_) views.push_back(route_.pose_at(at_m));
+  return views;
 }
 
 }  // namespace rover::planning

@@ -68,6 +68,8 @@ class ActivePath {
   // The plan from there on; empty if there is none.
   std::vector<PlanPose> plan_from(double at_m) const;
   std::vector<PlanPose> plan_until(double at_m) const;
+  // Poses from which the LocCam looks on the way there.
+  std::vector<Pose2> views_until(double at_m) const;
 
  private:
   Route route_;

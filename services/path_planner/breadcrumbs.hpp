@@ -1,6 +1,7 @@
 // Where the rover has been, in odom, to back up along.
 #pragma once
 
+#include <algorithm>
 #include <deque>
 #include <vector>
 
@@ -14,8 +15,14 @@ class Breadcrumbs {
   static constexpr double kMaxLengthM = 10.0;
   static constexpr double kRetraceM = 1.0;
 
+  // Where the rover comes back to its track, the loop is left out.
   void extend(Point2 rover) {
-    if (!points_.empty() && distance(points_.back(), rover) < kStepM) return;
+    const auto passed =
+        std::find_if(points_.begin(), points_.end(), [&](Point2 p) { return distance(p, rover) < kStepM; });
+    if (passed != points_.end()) {
+      points_.erase(passed + 1, points_.end());
+      return;
+    }
     points_.push_back(rover);
     if (static_cast<double>(points_.size()) * kStepM > kMaxLengthM) points_.pop_front();
   }

@@ -373,6 +373,7 @@ void PathPlanner::request_plan() {
   request.start = job.start.pose;
   request.start_curvature_per_m = job.start.curvature_per_m;
   request.start_reverse = job.start.reverse;
+  if (!std::isnan(job.start.at_m)) request.views = active_.views_until(job.start.at_m);
   request.goal_tolerance_m = kGoalToleranceRatio * global_->goal_tolerance_m;
   if (!std::isnan(job.start.at_m) && clear()) request.incumbent = active_.plan_from(job.start.at_m);
   if (length_m(request.incumbent) < kMinIncumbentM) request.incumbent.clear();

@@ -11,6 +11,8 @@ using Who = const std::string&;
 
 const std::vector<Phase> kEver = {kStraight, kPointTurn, kHazardStop, kRepair, kStandstill};
 const std::vector<Phase> kUnderWay = {kStraight, kPointTurn, kHazardStop, kRepair};
+// There planning is continuous: no path is a repair.
+const std::vector<Phase> kUnderWayAtFull = {kStraight, kPointTurn, kHazardStop};
 const std::vector<Phase> kRolling = {kStraight, kPointTurn, kRepair};
 // Sideways is off the path.
 const std::vector<Phase> kAlongPath = {kStraight, kHazardStop, kRepair};
@@ -282,11 +284,11 @@ std::vector<Case> of_the_full_level() {
       {"terrain_distance", {}, kRolling, {drop("TRAVERSABILITY", 25.0)}, true},
       {"sweep_timeout", {}, kRolling, {drop("TRAVERSABILITY", 100.0)}, true},
       {"slam_lost", {}, kUnderWay, {slam_lost(8.0)}, true},
-      {"full_heartbeat", kFull, kUnderWay, {hang(2.0)}, true},
+      {"full_heartbeat", kFull, kUnderWayAtFull, {hang(2.0)}, true},
       {"full_idle_heartbeat", kFull, kEver, {hang(2.0)}},
-      {"full_service_fault", kFull, kUnderWay, {reports(heartbeat_t::FAULT, false)}, true},
-      {"full_starts", kFull, kUnderWay, {restart_loop()}, true},
-      {"full_restart_failed", kFull, kUnderWay, {reports(heartbeat_t::FAULT, true)}, true},
+      {"full_service_fault", kFull, kUnderWayAtFull, {reports(heartbeat_t::FAULT, false)}, true},
+      {"full_starts", kFull, kUnderWayAtFull, {restart_loop()}, true},
+      {"full_restart_failed", kFull, kUnderWayAtFull, {reports(heartbeat_t::FAULT, true)}, true},
   };
 }
 

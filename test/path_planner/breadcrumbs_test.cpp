@@ -57,6 +57,16 @@ TEST(Breadcrumbs, AStationaryRoverKeepsItsTrack) {
   EXPECT_GE(track.points().size() + 1, before);
 }
 
+TEST(Breadcrumbs, ALoopIsLeftOut) {
+  Breadcrumbs track = straight_track(3.0);
+  for (double angle = 0.0; angle < 2.0 * kPi; angle += 0.02)
+    track.extend({3.0 + on_arc(angle, 1.0).x_m, on_arc(angle, 1.0).y_m});
+  const std::vector<Point2> back = track.back(1.0);
+  EXPECT_NEAR(back.front().x_m, 3.0, 0.15);
+  EXPECT_NEAR(back.back().x_m, back.front().x_m - 1.0, 0.15);
+  EXPECT_NEAR(back.back().y_m, 0.0, 0.05);
+}
+
 TEST(Breadcrumbs, WithoutATrackNothingLeadsBack) {
   Breadcrumbs track;
   track.retrace({0.0, 0.0});

@@ -482,5 +482,18 @@ TEST(HybridPlanner, DifficultGroundIsDrivenAroundIfTheDetourIsShort) {
   EXPECT_LT(y_at(plan_on(plan_request(belief)), 3.0), -0.4);
 }
 
+// The committed path ends past a point turn, which will show the ground ahead.
+TEST(HybridPlanner, CountsWhatTheRoverSeesOnTheWayToTheStart) {
+  const BeliefMap belief = certain_belief([](Point2 p) { return p.y_m < 1.3 ? Ground::kFree : Ground::kUnknown; });
+  PlanRequest request = plan_request(belief, {0.0, 0.0, 0.5 * kPi}, {{0.0, -3.0}, {0.0, 30.0}});
+  request.rover = {};
+  const Plan blind = plan_on(request);
+  EXPECT_TRUE(blind.needs_unseen_ground);
+  request.views = turn_views(0.0, request.start);
+  const Plan plan = plan_on(request);
+  ASSERT_TRUE(plan.found);
+  EXPECT_LT(plan.cost, blind.cost - 1.0);
+}
+
 }  // namespace
 }  // namespace rover::planning

@@ -3,6 +3,7 @@
 namespace rover::planning {
 namespace {
 
+constexpr double kTurnViewRad = 0.4;
 constexpr double kShadowM = 0.5;  // of a rock of 0.2 m, seen from 1.2 m
 
 }  // namespace
@@ -41,6 +42,14 @@ double FootprintCheck::clearance_m(const Pose2& pose, double max) const {
   for (const Hazard& hazard : costmap_.hazards_near(position(pose), footprint_.radius_m() + max))
     nearest = std::min(nearest, distance_m(pose, hazard));
   return nearest;
+}
+
+std::vector<Pose2> turn_views(double from_yaw_rad, const Pose2& to) {
+  const double turn_rad = to.yaw_rad - from_yaw_rad;
+  const int steps = 1 + static_cast<int>(std::abs(turn_rad) / kTurnViewRad);
+  std::vector<Pose2> views;
+  for (int k = 1; k <= steps; ++k) views.push_back({to.x_m, to.y_m, from_yaw_rad + turn_rad * k / steps});
+  return views;
 }
 
 bool Visibility::covers(const Pose2& pose) const {

@@ -57,6 +57,9 @@ bool FootprintCheck::all_unknown(const Pose2& pose, F&& f) const {
   return true;
 }
 
+// Poses of a point turn from which the LocCam looks, the end among them.
+std::vector<Pose2> turn_views(double from_yaw_rad, const Pose2& to);
+
 // Whether the ground under a footprint is known, or comes into the LocCam's view on the path to it. A hazard hides the
 // ground behind it.
 class Visibility {

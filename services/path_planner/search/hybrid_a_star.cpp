@@ -13,7 +13,6 @@ constexpr double kPlaceBinM = 0.2;
 constexpr int kCurvatures = 5;
 constexpr double kMaxChange = 1.1;  // of the curvature in one motion, relative to the largest
 constexpr double kTurnSampleRad = 0.0524;
-constexpr double kTurnViewRad = 0.4;
 // Of the heuristic, for pruning: arcs and clearances of the lattice are not quite those of a plan.
 constexpr double kLatticeBound = 0.85;
 constexpr std::array<double, kCurvatures> kLevels = {0.0, 0.5, -0.5, 1.0, -1.0};  // of the largest curvature
@@ -216,16 +215,14 @@ class HybridAStar {
     }
   }
 
-  // What the LocCam sees on the path to a node. At the start it has seen what there is to see.
+  // What the LocCam sees on the path to a node; from where the rover is now it has seen what there is to see.
   void set_views(int index) {
     pricer_.clear_views();
     for (int i = index; nodes_[i].parent >= 0; i = nodes_[i].parent) {
-      pricer_.add_view(nodes_[i].pose);
-      if (nodes_[i].kind != Node::Kind::kTurned) continue;
-      const Pose2& to = nodes_[i].pose;
-      const double turn = to.yaw_rad - nodes_[nodes_[i].parent].pose.yaw_rad;
-      const int views = static_cast<int>(std::abs(turn) / kTurnViewRad);
-      for (int k = 1; k <= views; ++k) pricer_.add_view({to.x_m, to.y_m, to.yaw_rad - turn * k / (views + 1)});
+      if (nodes_[i].kind == Node::Kind::kTurned)
+        pricer_.add_turn_views(nodes_[nodes_[i].parent].pose.yaw_rad, nodes_[i].pose);
+      else
+        pricer_.add_view(nodes_[i].pose);
     }
   }
 

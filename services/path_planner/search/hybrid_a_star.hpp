@@ -34,10 +34,20 @@ Plan search_hybrid_a_star(const HybridAStarConfig& config, const MotionCosts& co
 class PathPricer {
  public:
   PathPricer(const MotionCosts& costs, const SearchProblem& problem)
-      : costs_(costs), problem_(problem), visibility_(*problem.request.costmap, problem.min, problem.view) {}
+      : costs_(costs), problem_(problem), visibility_(*problem.request.costmap, problem.min, problem.view) {
+    clear_views();
+  }
 
-  void clear_views() { visibility_.clear(); }
+  // But for those on the way to the start.
+  void clear_views() {
+    visibility_.clear();
+    for (const Pose2& view : problem_.request.views) add_view(view);
+  }
   void add_view(const Pose2& from) { visibility_.add_view(from); }
+  // During a point turn to the pose, and at its end.
+  void add_turn_views(double from_yaw_rad, const Pose2& to) {
+    for (const Pose2& view : turn_views(from_yaw_rad, to)) add_view(view);
+  }
   // A metre that ends at the pose, `distance_m` forward from the start [s/m]; infinity: not allowed.
   double cost_per_m(const Pose2& pose, double distance_m, bool reverse);
   bool covers(const Pose2& pose) const { return visibility_.covers(pose); }
