@@ -9,7 +9,8 @@ namespace {
 constexpr double kSettleS = 0.5;  // minimum recovery time after the cause
 constexpr double kMostRecoveryS = 150.0;
 constexpr double kLostS = 400.0;
-constexpr double kSeekS = 120.0;   // timeout for a phase, then the operator sends another path
+constexpr double kSeekS = 120.0;  // timeout for a phase, then the operator sends another path
+constexpr double kRepairedS = 10.0;
 constexpr double kWayLeftM = 4.0;  // minimum remaining distance, so that the goal is not reached meanwhile
 constexpr double kRockAheadM = 1.55;
 constexpr Utime kRockPeriodUs = 8'000'000;
@@ -70,9 +71,11 @@ void Injector::seek(const Planned& wanted) {
   if (full != wanted.what->full && hands_.now % 1'000'000 == 0)
     hands_.ground.command(ground_command_t::FORCE_LEVEL, "",
                           wanted.what->full ? ground_command_t::FULL : ground_command_t::EFFICIENT);
-  if (is_before_rocks(wanted.phase) && sought % kRockPeriodUs == 0 && seen_.phase() == Phase::kStraight)
+  const bool repairs = seen_.phase() == Phase::kRepair;
+  if (is_before_rocks(wanted.phase) && sought % kRockPeriodUs == 0 && (repairs || seen_.phase() == Phase::kStraight))
     field_.lay_rocks(hands_.rover.pose(), kRockAheadM);
-  if (to_seconds(sought) < kSeekS) return;
+  // A repaired path leads far; another one is the global path again.
+  if (to_seconds(sought) < (repairs && wanted.phase == Phase::kStraight ? kRepairedS : kSeekS)) return;
   leave();
   seeking_since_ = 0;
 }
