@@ -178,7 +178,7 @@ Cause lost_path() {
   return {"the new path is lost", 2.5,
           [](Hands& h, Who, int) {
             h.tap("drop", "PATH", 1.0, 2.5);
-            h.ground.give_path(0.0);
+            h.ground.give_path();
           },
           nullptr, nullptr};
 }
@@ -192,11 +192,11 @@ Cause looks_blocked() {
   return cause;
 }
 Cause zone_under_the_front() {
-  return {"a zone under the front", 4.0, [](Hands& h, Who, int) { h.ground.give_path(0.0, true); },
-          [](Hands& h, Who) { h.ground.give_path(0.0); }, nullptr};
+  return {"a zone under the front", 4.0, [](Hands& h, Who, int) { h.ground.give_path(true); },
+          [](Hands& h, Who) { h.ground.give_path(); }, nullptr};
 }
-Cause unreachable_path() {
-  return {"path starts too far away", 40.0, [](Hands& h, Who, int) { h.ground.give_path(25.0); },
+Cause enclosed() {
+  return {"enclosed by rocks", 240.0, [](Hands& h, Who, int) { h.ground.enclose(); },
           [](Hands& h, Who) {
             h.ground.forget_path();
             h.ground.command(ground_command_t::STOP);
@@ -271,7 +271,7 @@ std::vector<Case> of_seeing_and_following() {
       {"corridor_predicted", {}, kUnderWay, {nan("CONTROL_STATUS.predicted_corridor_error_m", 0.3), straying()}},
       {"out_of_corridor", {}, kAlongPath, {shove()}},
       {"path_mismatch", {}, kUnderWay, {lost_path()}},
-      {"no_path", {}, kUnderWay, {unreachable_path()}},
+      {"no_path", {}, kUnderWay, {enclosed()}},
       {"blocked", {}, kUnderWay, {looks_blocked()}},
       {"keep_out", {}, kUnderWay, {zone_under_the_front()}},
       {"idle_drive", {}, kRolling, {unresponsive_driver()}},

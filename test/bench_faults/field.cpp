@@ -10,6 +10,7 @@ constexpr double kAbundance = 0.03;  // Golombek's k: a hazard every 30 m
 constexpr double kLeastDiameterM = 0.2;
 constexpr double kLaidRadiusM = 0.2;
 constexpr double kLaidHeightM = 0.3;
+constexpr double kRingM = 1.55;
 constexpr double kLaidApartM = 0.45;
 
 }  // namespace
@@ -19,6 +20,12 @@ void Field::lay_rocks(const Pose2& pose, double ahead_m) {
   for (const double left_m : {-kLaidApartM, 0.0, kLaidApartM})
     laid_.push_back(
         {{pose.x_m + ahead_m * c - left_m * s, pose.y_m + ahead_m * s + left_m * c}, kLaidRadiusM, kLaidHeightM});
+}
+
+void Field::enclose(const Pose2& pose) {
+  for (double angle = 0.0; angle < 2.0 * kPi; angle += 0.2)
+    laid_.push_back(
+        {{pose.x_m + kRingM * std::cos(angle), pose.y_m + kRingM * std::sin(angle)}, kLaidRadiusM, kLaidHeightM});
 }
 
 const std::vector<Rock>& Field::tile(int ix, int iy) {

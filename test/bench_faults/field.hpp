@@ -19,6 +19,8 @@ class Field {
 
   // A row of rocks across the path ahead.
   void lay_rocks(const Pose2& pose, double ahead_m);
+  // A ring of rocks around the rover, in which it can neither turn nor get out.
+  void enclose(const Pose2& pose);
   void remove_rocks() { laid_.clear(); }
   // In body axes of the pose, within reach_m.
   std::vector<Rock> around(const Pose2& pose, double reach_m);

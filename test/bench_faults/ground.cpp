@@ -63,7 +63,7 @@ void Ground::drive() {
     case supervisor_state_t::STANDBY:
       if (has_path_ && seen_.planner().path_id >= 0) return command(ground_command_t::GO);
       set_start_pose();
-      give_path(0.0);
+      give_path();
       has_path_ = true;
       return;
     case supervisor_state_t::PAUSED:
@@ -73,7 +73,7 @@ void Ground::drive() {
     case supervisor_state_t::BOOT:
       if (seen_.planner().path_id < 0) {
         set_start_pose();
-        give_path(0.0);
+        give_path();
       }
       return;
     default:
@@ -98,14 +98,12 @@ void Ground::set_start_pose() {
   send(channel::kGroundCommand, out);
 }
 
-void Ground::give_path(double away_m, bool forbid_front) {
+void Ground::give_path(bool forbid_front) {
   using planning::testing_support::uniform;
   Pose2 at = rover_.pose();
   Zone front{"front", false, {}};
   for (const Eigen::Vector2d& p : {Eigen::Vector2d(0.5, -1.0), {2.0, -1.0}, {2.0, 1.0}, {0.5, 1.0}})
     front.points.push_back(Eigen::Vector2d(at.x_m, at.y_m) + Eigen::Rotation2Dd(at.yaw_rad) * p);
-  at.x_m -= away_m * std::sin(at.yaw_rad);
-  at.y_m += away_m * std::cos(at.yaw_rad);
   path_t out{};
   out.path_id = ++command_id_;
   out.frame = path_t::MAP;

@@ -23,9 +23,10 @@ class Ground {
   void set_time(Utime now) { now_ = now; }
   void wish(Wish wish) { wish_ = wish; }
   void command(std::int8_t kind, const std::string& target = "", std::int8_t level = ground_command_t::AUTO);
-  // Starts `away_m` to the left of the rover, with a keep-out under its front if wanted.
-  void give_path(double away_m, bool forbid_front = false);
+  // Starts at the rover, with a keep-out under its front if wanted.
+  void give_path(bool forbid_front = false);
   void clear_path() { field_.remove_rocks(); }
+  void enclose() { field_.enclose(rover_.pose()); }
   // Discards the path: the next drive starts with another one.
   void forget_path() { has_path_ = false; }
 
