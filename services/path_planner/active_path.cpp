@@ -12,7 +12,6 @@ constexpr double kPastCornerM = 0.2;
 constexpr double kChordM = 0.15;
 constexpr double kMaxCurvature = 1.0;
 constexpr double kSamePlaceM = 1e-6;
-constexpr double kLookStepM = 0.3;
 constexpr double kAtRestMps = 0.02;
 
 bool same_place(const PlanPose& a, const PlanPose& b) {
@@ -118,7 +117,7 @@ std::vector<Pose2> ActivePath::views_until(double at_m) const {
     const double turn_rad = wrap_angle(route_.yaw_out_of(i) - yaw_rad);
     for (const Pose2& view : turn_views(yaw_rad, {p.x_m, p.y_m, yaw_rad + turn_rad})) views.push_back(view);
   }
-  for (double s = progress_m_ + kLookStepM; s < at_m; s += kLookStepM) views.push_back(route_.pose_at(s));
+  for (double s = progress_m_ + kViewStepM; s < at_m; s += kViewStepM) views.push_back(route_.pose_at(s));
   if (at_m > progress_m_) views.push_back(route_.pose_at(at_m));
   return views;
 }

@@ -5,7 +5,6 @@ namespace {
 
 constexpr double kStepM = 0.05;
 constexpr double kTurnStepRad = 0.0524;
-constexpr double kViewStepM = 0.3;
 constexpr double kMonitorApproachM = 0.025;  // a path is not its plan to the millimetre
 constexpr double kMergeM = 1.0;              // over about this distance the controller removes a cross-track error
 

@@ -19,7 +19,7 @@ class Field {
 
   // A row of rocks across the path ahead.
   void lay_rocks(const Pose2& pose, double ahead_m);
-  // A ring of rocks around the rover, in which it can neither turn nor get out.
+  // A ring of rocks around the rover: it can turn in it, but not leave it.
   void enclose(const Pose2& pose);
   void remove_rocks() { laid_.clear(); }
   // In body axes of the pose, within reach_m.

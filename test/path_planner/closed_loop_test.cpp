@@ -83,7 +83,7 @@ TEST(SecondPlanner, IsChosenByItsName) {
   EXPECT_GT(r.replans, 0);
 }
 
-// maze_study drives many. In the last one the planner once oscillated before a point turn whose views it did not count.
+// maze_study drives many. In the last one plans begin behind point turns that show their ground.
 TEST(Mazes, TheGoalIsReachedOrThereIsNoPath) {
   const std::vector<std::pair<int, std::uint64_t>> mazes = {{3, 1}, {3, 2}, {4, 3}};
   for (const auto& [aside, seed] : mazes) {

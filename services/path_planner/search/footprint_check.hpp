@@ -57,6 +57,8 @@ bool FootprintCheck::all_unknown(const Pose2& pose, F&& f) const {
   return true;
 }
 
+// Between the poses of a path from which the LocCam looks.
+constexpr double kViewStepM = 0.3;
 // Poses of a point turn from which the LocCam looks, the end among them.
 std::vector<Pose2> turn_views(double from_yaw_rad, const Pose2& to);
 

@@ -56,11 +56,12 @@ double HybridPlanner::incumbent_cost(const SearchProblem& problem) const {
   for (size_t i = 1; i < poses.size() && std::isfinite(cost); ++i) {
     const double step_m = distance(position(poses[i - 1].pose), position(poses[i].pose));
     if (!poses[i].reverse) distance_m += step_m;
-    if (step_m > 0.0) cost += step_m * pricer.cost_per_m(poses[i].pose, distance_m, poses[i].reverse);
-    if (step_m > 0.0)
+    if (step_m > 0.0) {
+      cost += step_m * pricer.cost_per_m(poses[i].pose, distance_m, poses[i].reverse);
       pricer.add_view(poses[i].pose);
-    else
+    } else {
       pricer.add_turn_views(poses[i - 1].pose.yaw_rad, poses[i].pose);
+    }
   }
   return cost + problem.pose_cost_to_go.cost_beyond(position(poses.back().pose));
 }
