@@ -128,8 +128,8 @@ TEST(Costmap, DifficultGroundCostsAsFarAsTheWheelsReach) {
   BeliefMap belief = belief_with_box(0, 0, Ground::kFree);
   belief.cells().at(belief.cells().index_of(kMiddle.x_m, kMiddle.y_m)).cost = 0.6F;
   const Costmap costmap = costmap_from(belief);
-  const auto cost = [&](double dx_m, double dy_m) {
-    return costmap.cost(costmap.cell_of({kMiddle.x_m + dx_m, kMiddle.y_m + dy_m}));
+  const auto cost = [&, costs = costmap.costs()](double dx_m, double dy_m) {
+    return costs[costmap.cell_of({kMiddle.x_m + dx_m, kMiddle.y_m + dy_m})];
   };
   const double easy = cost(3.0, 3.0);
   EXPECT_NEAR(easy, 1.0, 0.01);
@@ -143,12 +143,13 @@ TEST(Costmap, AProbableHazardCostsMoreAndUnknownGroundALittle) {
   const CostmapConfig config;
   BeliefMap belief = belief_with_box(2, 2, Ground::kUnknown);
   const Costmap unknown = costmap_from(belief);
-  EXPECT_NEAR(unknown.cost(unknown.cell_of(kMiddle)), 1.0 + config.unknown_cost, 0.02);
+  EXPECT_NEAR(unknown.costs()[unknown.cell_of(kMiddle)], 1.0 + config.unknown_cost, 0.02);
   CellBelief& cell = belief.cells().at(belief.cells().index_of(2.05, 2.05));
   cell.evidence = static_cast<float>(BeliefConfig{}.hit);
   const Costmap probable = costmap_from(belief);
   EXPECT_TRUE(probable.hazards().empty());
-  EXPECT_NEAR(probable.cost(probable.cell_of({2.05, 2.05})), 1.0 + config.hazard_cost * belief.probability(cell), 1e-5);
+  EXPECT_NEAR(probable.costs()[probable.cell_of({2.05, 2.05})], 1.0 + config.hazard_cost * belief.probability(cell),
+              1e-5);
 }
 
 }  // namespace

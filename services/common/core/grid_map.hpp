@@ -77,7 +77,10 @@ class GridMap {
   }
 
  private:
-  int wrap(int i) const { return ((i % cells_) + cells_) % cells_; }
+  int wrap(int i) const {
+    const int rest = i % cells_;
+    return rest < 0 ? rest + cells_ : rest;
+  }
   size_t slot(CellIndex i) const { return static_cast<size_t>(wrap(i.iy)) * cells_ + wrap(i.ix); }
 
   // Clears the columns (or rows) that leave the grid in the move from `from` to `to`.

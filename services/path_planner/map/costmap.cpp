@@ -26,6 +26,7 @@ std::vector<std::uint8_t> filled(const std::vector<std::uint8_t>& unknown, int c
 }
 
 std::vector<std::uint8_t> wide_parts(const std::vector<std::uint8_t>& mask, int cells) {
+  if (std::find(mask.begin(), mask.end(), 1) == mask.end()) return mask;
   const int n = cells + 1;
   std::vector<int> sum(static_cast<size_t>(n) * n, 0);
   for (int y = 0; y < cells; ++y)
@@ -45,25 +46,29 @@ std::vector<std::uint8_t> wide_parts(const std::vector<std::uint8_t>& mask, int 
 
 // The largest value within so many cells, along rows and columns.
 std::vector<float> widened(const std::vector<float>& values, int cells, int reach) {
-  const auto along = [&](const std::vector<float>& in, int step, int across) {
-    std::vector<float> out(in.size());
-    for (int line = 0; line < cells; ++line)
-      for (int k = 0; k < cells; ++k) {
-        float largest = 0.0F;
-        for (int j = std::max(0, k - reach); j <= std::min(cells - 1, k + reach); ++j)
-          largest = std::max(largest, in[line * across + j * step]);
-        out[line * across + k * step] = largest;
+  const auto n = static_cast<size_t>(cells);
+  std::vector<float> along_rows = values;
+  for (size_t row = 0; row < n * n; row += n)
+    for (size_t by = 1; by <= static_cast<size_t>(reach); ++by)
+      for (size_t x = 0; x + by < n; ++x) {
+        along_rows[row + x] = std::max(along_rows[row + x], values[row + x + by]);
+        along_rows[row + x + by] = std::max(along_rows[row + x + by], values[row + x]);
       }
-    return out;
-  };
-  return along(along(values, 1, cells), cells, 1);
+  std::vector<float> out = along_rows;
+  for (size_t by = n; by <= n * static_cast<size_t>(reach); by += n)
+    for (size_t i = 0; i + by < n * n; ++i) {
+      out[i] = std::max(out[i], along_rows[i + by]);
+      out[i + by] = std::max(out[i + by], along_rows[i]);
+    }
+  return out;
 }
 
 }  // namespace
 
 Costmap::Costmap(const CostmapConfig& config, const BeliefMap& belief, Point2 rover, double side_m,
                  const std::vector<Zone>& zones)
-    : cells_(std::min(belief.cells().cells(), static_cast<int>(std::lround(side_m / belief.cells().cell_m())))),
+    : config_(config),
+      cells_(std::min(belief.cells().cells(), static_cast<int>(std::lround(side_m / belief.cells().cell_m())))),
       cell_m_(belief.cells().cell_m()),
       side_m_(cells_ * cell_m_) {
   const GridMap<CellBelief>& map = belief.cells();
@@ -71,35 +76,41 @@ Costmap::Costmap(const CostmapConfig& config, const BeliefMap& belief, Point2 ro
   const CellIndex origin{center.ix - cells_ / 2, center.iy - cells_ / 2};
   corner_ = {origin.ix * cell_m_, origin.iy * cell_m_};
   const size_t count = static_cast<size_t>(cells_) * static_cast<size_t>(cells_);
-  const auto belief_of = [&](size_t i) -> const CellBelief& {
-    return map.get({origin.ix + static_cast<int>(i) % cells_, origin.iy + static_cast<int>(i) / cells_});
-  };
+  std::vector<const CellBelief*> cells;
+  cells.reserve(count);
+  for (int iy = 0; iy < cells_; ++iy)
+    for (int ix = 0; ix < cells_; ++ix) cells.push_back(&map.get({origin.ix + ix, origin.iy + iy}));
   std::vector<std::uint8_t> unmeasurable(count);
-  for (size_t i = 0; i < count; ++i) unmeasurable[i] = belief.unmeasurable(belief_of(i)) ? 1 : 0;
+  for (size_t i = 0; i < count; ++i) unmeasurable[i] = belief.unmeasurable(*cells[i]) ? 1 : 0;
   const std::vector<std::uint8_t> wide = wide_parts(unmeasurable, cells_);
   unknown_.resize(count);
-  for (size_t i = 0; i < count; ++i) unknown_[i] = belief_of(i).known && !wide[i] ? 0 : 1;
+  for (size_t i = 0; i < count; ++i) unknown_[i] = cells[i]->known && !wide[i] ? 0 : 1;
   unknown_ = filled(unknown_, cells_);
 
   std::vector<std::uint8_t> hazard(count, 0);
   const std::vector<std::uint8_t> walls = walls_of(zones);
-  cost_.resize(count);
+  own_cost_.resize(count);
   for (size_t i = 0; i < count; ++i) {
     if (i % static_cast<size_t>(cells_) == 0) row_begin_.push_back(hazards_.size());
-    const CellBelief& cell = belief_of(i);
+    const CellBelief& cell = *cells[i];
     const double p = cell.known ? belief.probability(cell) : 0.0;
     const bool unmeasured = unknown_[i] && unmeasurable[i];
     const bool low = !unmeasured && !walls[i] && belief.low(cell);
-    cost_[i] =
+    own_cost_[i] =
         static_cast<float>((low ? kLowFraction : 1.0) * config.hazard_cost * p + config.difficulty_cost * cell.cost);
     hazard[i] = p >= config.hazard_probability || unmeasured || walls[i] ? 1 : 0;
     if (hazard[i]) hazards_.push_back({center_of(static_cast<int>(i)), low, walls[i] != 0});
   }
   row_begin_.push_back(hazards_.size());
-  cost_ = widened(cost_, cells_, static_cast<int>(config.wheel_reach_m / cell_m_));
-  for (size_t i = 0; i < count; ++i) cost_[i] += static_cast<float>(1.0 + (unknown_[i] ? config.unknown_cost : 0.0));
   hazard_distance_ = distance_field(hazard, cells_, cells_, cell_m_);
   unknown_distance_ = distance_field(unknown_, cells_, cells_, cell_m_);
+}
+
+std::vector<float> Costmap::costs() const {
+  std::vector<float> out = widened(own_cost_, cells_, static_cast<int>(config_.wheel_reach_m / cell_m_));
+  for (size_t i = 0; i < out.size(); ++i)
+    out[i] += static_cast<float>(1.0 + (unknown_[i] ? config_.unknown_cost : 0.0));
+  return out;
 }
 
 // The part of the side from a along `along` that lies within the window, as fractions; none: first > second.

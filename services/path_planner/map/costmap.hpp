@@ -61,19 +61,20 @@ class Costmap {
   bool unknown(Point2 p) const { return !contains(p) || unknown_[cell_of(p)] != 0; }
   bool unknown(int cell) const { return unknown_[cell] != 0; }
   double unknown_distance_m(Point2 p) const { return contains(p) ? unknown_distance_[cell_of(p)] : 0.0; }
-  // Of a metre with the body origin there, relative to a metre on easy ground: at least 1.
-  double cost(int cell) const { return cost_[cell]; }
+  // Of a metre with the body origin in each cell, relative to a metre on easy ground: at least 1.
+  std::vector<float> costs() const;
 
  private:
   std::pair<double, double> within(const Eigen::Vector2d& a, const Eigen::Vector2d& along) const;
   std::vector<std::uint8_t> walls_of(const std::vector<Zone>& zones) const;
 
+  CostmapConfig config_;
   int cells_;
   double cell_m_;
   double side_m_;
   Point2 corner_;
   std::vector<std::uint8_t> unknown_;
-  std::vector<float> cost_;
+  std::vector<float> own_cost_;  // beside the metre itself, of the ground in each cell
   std::vector<Hazard> hazards_;
   std::vector<size_t> row_begin_;  // in hazards_, one more than there are rows
   std::vector<double> hazard_distance_;

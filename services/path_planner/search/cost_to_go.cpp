@@ -21,6 +21,7 @@ CostToGo::CostToGo(const CostToGoConfig& config, const PlanRequest& request, con
                    double margin_m)
     : config_(config),
       costmap_(*request.costmap),
+      ground_cost_(costmap_.costs()),
       half_width_m_(footprint.half_width_m),
       margin_m_(margin_m),
       rover_(position(request.rover)),
@@ -43,7 +44,7 @@ double CostToGo::cost_per_m(int cell) const {
     return at_rover ? config_.seconds_per_m * kTightCost : kInfinity;
   }
   const double lack = std::clamp(1.0 - room / config_.clearance_distance_m, 0.0, 1.0);
-  return config_.seconds_per_m * (costmap_.cost(cell) + config_.clearance_cost * lack * lack);
+  return config_.seconds_per_m * (ground_cost_[cell] + config_.clearance_cost * lack * lack);
 }
 
 double CostToGo::goal_cost(Point2 p) const {

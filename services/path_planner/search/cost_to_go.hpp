@@ -43,6 +43,7 @@ class CostToGo {
 
   CostToGoConfig config_;
   const Costmap& costmap_;
+  std::vector<float> ground_cost_;  // of each cell, relative to driving
   double half_width_m_;
   double margin_m_;
   Point2 rover_;

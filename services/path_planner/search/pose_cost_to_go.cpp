@@ -142,12 +142,15 @@ double PoseCostToGo::cost_beyond(Point2 p) const {
   return (std::isfinite(goal) ? goal : cost_to_go_.at(p)) - common_;
 }
 
-double PoseCostToGo::end_cost(const Pose2& pose) const {
-  const Point2 p = position(pose);
-  if (std::isfinite(cost_to_go_.goal_cost(p))) return cost_beyond(p);
-  if (!at_horizon(p)) return kInfinity;
-  const double turn = std::abs(wrap_angle(cost_to_go_.descent_rad(p) - pose.yaw_rad));
-  return cost_beyond(p) + kHeadingCostS * std::max(0.0, turn - kFreeHeadingRad);
+PoseCostToGo::End PoseCostToGo::end_at(Point2 p) const {
+  if (std::isfinite(cost_to_go_.goal_cost(p))) return {cost_beyond(p), kNaN};
+  if (!at_horizon(p)) return {};
+  return {cost_beyond(p), cost_to_go_.descent_rad(p)};
+}
+
+double PoseCostToGo::End::cost(double yaw_rad) const {
+  if (std::isnan(best_yaw_rad)) return any_heading;
+  return any_heading + kHeadingCostS * std::max(0.0, std::abs(wrap_angle(best_yaw_rad - yaw_rad)) - kFreeHeadingRad);
 }
 
 void PoseCostToGo::seed() {
@@ -164,13 +167,13 @@ void PoseCostToGo::seed() {
   if (std::isinf(least)) return;
   common_ = least;
   from_start_to_goal_ -= least;
-  for (const int cell : ends)
-    for (int heading = 0; heading < kHeadings; ++heading) {
-      if (clearance(cell, heading) == kBlocked) continue;
-      const Point2 p = center_of(cell);
-      const double cost = end_cost({p.x_m, p.y_m, yaw_of(heading)});
-      if (std::isfinite(cost)) offer(kForward, cell, heading, static_cast<float>(cost));
-    }
+  for (const int cell : ends) {
+    const End end = end_at(center_of(cell));
+    if (std::isinf(end.any_heading)) continue;
+    for (int heading = 0; heading < kHeadings; ++heading)
+      if (clearance(cell, heading) != kBlocked)
+        offer(kForward, cell, heading, static_cast<float>(end.cost(yaw_of(heading))));
+  }
 }
 
 void PoseCostToGo::offer(Motion motion, int cell, int heading, float cost) {

@@ -38,7 +38,7 @@ class PoseCostToGo {
     return dx * dx + dy * dy >= horizon_m_ * horizon_m_;
   }
   // What follows a plan that ends at the pose [s]; infinity: it may not end there.
-  double end_cost(const Pose2& pose) const;
+  double end_cost(const Pose2& pose) const { return end_at(position(pose)).cost(pose.yaw_rad); }
   // What follows a plan that ends at the place, heading aside [s].
   double cost_beyond(Point2 p) const;
 
@@ -60,6 +60,13 @@ class PoseCostToGo {
     float extra;  // cost beside the ground's [s]
   };
 
+  // Of a plan at one place.
+  struct End {
+    double any_heading = kInfinity;  // [s]
+    double best_yaw_rad = kNaN;      // other headings cost more; NaN: none does
+    double cost(double yaw_rad) const;
+  };
+
   void make_arcs();
   void classify();
   void rasterise(double margin_m, Clearance value);
@@ -69,6 +76,7 @@ class PoseCostToGo {
   void spread_forward(int cell, int heading, float cost);
   void spread_reverse(int cell, int heading, float cost);
   void spread_turn(int cell, int heading, float cost);
+  End end_at(Point2 p) const;
   void offer(Motion motion, int cell, int heading, float cost);
   float arc_cost(int cell, const Arc& arc) const;
   float cost_per_m(int cell, int heading) const;
