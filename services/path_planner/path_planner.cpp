@@ -322,7 +322,9 @@ std::uint16_t PathPlanner::facts(Utime now) {
   if (failed) facts |= kFailed;
   const bool wanted = back_up_wanted_ && wanted_back_ups_ < kMaxWantedBackUps;
   if (wanted) facts |= kBackUpWanted;
-  if ((failed || wanted) && back_ups_ < config_.max_back_ups && back_up_points().size() >= 2) facts |= kCanBackUp;
+  // If all ways are known to be blocked, backing up helps only to see them once more from farther off.
+  const int max_back_ups = failed && closed_in_ ? 1 : config_.max_back_ups;
+  if ((failed || wanted) && back_ups_ < max_back_ups && back_up_points().size() >= 2) facts |= kCanBackUp;
   if (mode_ == Mode::kBackingUp &&
       (active_.at_end(position(rover())) || strayed() || replan_wanted_ || hazard_ahead_m() < config_.stop_hazard_m))
     facts |= kBackedUp;
@@ -401,6 +403,7 @@ void PathPlanner::adopt(const Plan& plan, const Job& job) {
   if (!plan.found && !plan.keeps_incumbent) {
     ++failures_;
     needs_unseen_ground_ = plan.needs_unseen_ground;
+    closed_in_ = plan.closed_in;
     return;
   }
   if (plan.keeps_incumbent) {

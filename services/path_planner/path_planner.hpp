@@ -182,6 +182,7 @@ class PathPlanner {
   std::optional<Job> job_;
   int failures_ = 0;                  // plans not found, in a row
   bool needs_unseen_ground_ = false;  // the last of them
+  bool closed_in_ = false;            // the same
   int back_ups_ = 0;                  // since the rover last made progress
   int wanted_back_ups_ = 0;           // of them, those that FDIR wanted
   bool full_level_ = false;

@@ -362,6 +362,7 @@ TEST(HybridPlanner, EnclosedThereIsNoPlan) {
   EXPECT_FALSE(plan.found);
   EXPECT_TRUE(plan.poses.empty());
   EXPECT_FALSE(plan.needs_unseen_ground);
+  EXPECT_TRUE(plan.closed_in);
 }
 
 TEST(HybridPlanner, SaysThatUnseenGroundWouldBeNeeded) {
@@ -369,6 +370,7 @@ TEST(HybridPlanner, SaysThatUnseenGroundWouldBeNeeded) {
       [](Point2 p) { return search_config().footprint.distance_m(p) < 0.15 ? Ground::kFree : Ground::kUnknown; });
   EXPECT_FALSE(plan.found);
   EXPECT_TRUE(plan.needs_unseen_ground);
+  EXPECT_FALSE(plan.closed_in);
 }
 
 TEST(HybridPlanner, TheSameRequestGivesTheSamePlan) {

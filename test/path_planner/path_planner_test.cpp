@@ -292,10 +292,10 @@ TEST(PathPlanner, OnUnknownGroundItSaysThatThereIsNoPath) {
 }
 
 // Never finds a plan.
-class NoPlanBackground final : public Background {
- public:
+struct NoPlanBackground final : Background {
   bool start(PlanJob /*job*/, Utime /*now*/) override { return true; }
-  std::optional<Plan> result(Utime /*now*/) override { return Plan{}; }
+  std::optional<Plan> result(Utime /*now*/) override { return Plan{.closed_in = closed_in}; }
+  bool closed_in = false;
 };
 
 // A rover at the end of a driven track.
@@ -323,7 +323,8 @@ class BackUpTest : public testing::Test {
     rig_.forward_mps = 0.0;
     rig_.look();
   }
-  PlannerRig rig_{std::make_shared<NoPlanBackground>()};
+  std::shared_ptr<NoPlanBackground> background_ = std::make_shared<NoPlanBackground>();
+  PlannerRig rig_{background_};
 };
 
 TEST_F(BackUpTest, WithoutAPathItBacksUpOverTheDrivenTrack) {
@@ -349,6 +350,14 @@ TEST_F(BackUpTest, ItBacksUpFurtherEachTimeUntilTheTrackEnds) {
   wait_for_back_up();
   back_up();
   EXPECT_NEAR(rig_.odom.x_m, 0.0, 0.3);
+  EXPECT_EQ(rig_.look(patience() + 2).status.state, PlannerState::kNoPath);
+}
+
+TEST_F(BackUpTest, WhereNoWayIsOpenItBacksUpOnce) {
+  background_->closed_in = true;
+  wait_for_back_up();
+  ASSERT_EQ(rig_.planner.mode(), Mode::kBackingUp);
+  back_up();
   EXPECT_EQ(rig_.look(patience() + 2).status.state, PlannerState::kNoPath);
 }
 

@@ -54,14 +54,17 @@ double CostToGo::goal_cost(Point2 p) const {
   return config_.seconds_per_m * config_.goal_miss_cost * std::max(0.0, miss - goal_tolerance_m_);
 }
 
-// From a cell at the border: straight to where the global path is met again, and along it to the goal.
-double CostToGo::beyond(const PlanRequest& request, Point2 p) const {
-  const Route& path = *request.global_path;
-  const double nearest = path.closest(p, request.global_progress_m, request.global_progress_m + 2.0 * kReturnWithinM);
-  const double last = std::min(path.length_m(), std::max(nearest, request.global_progress_m) + kReturnWithinM);
+// From a cell at the border: straight to where the global path is met again, and along it to the goal. `ahead`: points
+// of the global path each kGlobalStepM from the rover on, with `left_m` to the goal from the first.
+double CostToGo::beyond(const std::vector<Point2>& ahead, double left_m, Point2 p) const {
+  constexpr auto kReturn = static_cast<size_t>(kReturnWithinM / kGlobalStepM);
+  std::vector<double> away_m;
+  for (size_t i = 0; i < std::min(ahead.size(), 3 * kReturn); ++i) away_m.push_back(distance(p, ahead[i]));
+  const auto nearest = std::min_element(away_m.begin(), away_m.begin() + std::min(away_m.size(), 2 * kReturn));
+  const size_t last = static_cast<size_t>(nearest - away_m.begin()) + kReturn;
   double least = kInfinity;
-  for (double s = request.global_progress_m; s <= last; s += kGlobalStepM)
-    least = std::min(least, config_.off_path_factor * distance(p, path.point_at(s)) + path.length_m() - s);
+  for (size_t i = 0; i < away_m.size() && i <= last; ++i)
+    least = std::min(least, config_.off_path_factor * away_m[i] + left_m - static_cast<double>(i) * kGlobalStepM);
   return config_.seconds_per_m * least;
 }
 
@@ -70,6 +73,10 @@ void CostToGo::march_from_goal(const PlanRequest& request) {
   const auto count = static_cast<size_t>(coarse_cells_) * coarse_cells_;
   MarchGrid grid{coarse_cells_, coarse_cells_, kCoarse * costmap_.cell_m(), std::vector<double>(count, kInfinity)};
   std::vector<double> seed(count, kInfinity);
+  const Route& path = *request.global_path;
+  std::vector<Point2> ahead;
+  for (double s = request.global_progress_m; s <= path.length_m(); s += kGlobalStepM) ahead.push_back(path.point_at(s));
+  const double left_m = path.length_m() - request.global_progress_m;
   for (int cell = 0; cell < n * n; ++cell) {
     const double cost = cost_per_m(cell);
     if (std::isinf(cost)) continue;
@@ -80,7 +87,7 @@ void CostToGo::march_from_goal(const PlanRequest& request) {
     const double inside = costmap_.inside_m(p);
     if (inside < kBorderM || inside > kBorderM + kBorderBandM || std::isfinite(seed[coarse])) continue;
     // If all paths through the costmap are blocked, one may lead around it.
-    seed[coarse] = goal_inside_ ? config_.seconds_per_m * kAroundFactor * distance(p, goal_) : beyond(request, p);
+    seed[coarse] = goal_inside_ ? config_.seconds_per_m * kAroundFactor * distance(p, goal_) : beyond(ahead, left_m, p);
   }
   std::vector<Seed> seeds;
   for (size_t i = 0; i < count; ++i)

@@ -39,7 +39,7 @@ class CostToGo {
     return cell / costmap_.cells() / kCoarse * coarse_cells_ + cell % costmap_.cells() / kCoarse;
   }
   void march_from_goal(const PlanRequest& request);
-  double beyond(const PlanRequest& request, Point2 p) const;
+  double beyond(const std::vector<Point2>& ahead, double left_m, Point2 p) const;
 
   CostToGoConfig config_;
   const Costmap& costmap_;

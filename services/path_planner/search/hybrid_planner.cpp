@@ -38,7 +38,9 @@ Plan HybridPlanner::plan(const PlanRequest& request) const {
       }
       if (plan.found || plan.keeps_incumbent || !plan.needs_unseen_ground) break;
     }
-    if (plan.found || plan.keeps_incumbent) break;
+    plan.closed_in = !plan.found && !plan.keeps_incumbent && !pose_cost_to_go.reaches(request.start);
+    plan.needs_unseen_ground = plan.needs_unseen_ground && !plan.closed_in;
+    if (plan.found || plan.keeps_incumbent || plan.closed_in) break;
   }
   if (!plan.found) return plan;
   plan.clearance_m = kMaxClearanceM;

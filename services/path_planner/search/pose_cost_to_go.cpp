@@ -14,6 +14,7 @@ constexpr double kMaxArcM = 0.62;
 constexpr double kArcStepM = 0.01;
 constexpr double kBandM = 0.7;           // around the horizon, in which the lattice begins
 constexpr double kNearRoverM = 0.10;     // hazards nearer to the rover than the margin and this do not block its place
+constexpr int kCoarse = 2;               // cells of the lattice per cell of the march, in x and y
 constexpr float kMarchBound = 0.9F;      // of fast marching: its circles are wider than round, its cells coarse
 constexpr double kFreeHeadingRad = 0.3;  // at the horizon, between plan and descent
 constexpr double kHeadingCostS = 4.0;    // per radian beyond
@@ -70,8 +71,8 @@ void PoseCostToGo::make_arcs() {
                 wrapped(heading + turn),
                 cells(end.x_m),
                 cells(end.y_m),
-                cells(middle.x_m),
-                cells(middle.y_m),
+                cells(end.y_m) * cells_ + cells(end.x_m),
+                cells(middle.y_m) * cells_ + cells(middle.x_m),
                 wrapped(heading + turn / 2),
                 static_cast<float>(length),
                 static_cast<float>(costs_.curvature * costs_.seconds_per_m * relative * relative * length)};
@@ -83,18 +84,24 @@ void PoseCostToGo::make_arcs() {
 
 void PoseCostToGo::classify() {
   const size_t count = static_cast<size_t>(cells_) * cells_;
+  const int coarse_cells = (cells_ + kCoarse - 1) / kCoarse;
+  const auto coarse = [&](size_t i) {
+    const int cell = static_cast<int>(i);
+    return static_cast<size_t>(cell / cells_ / kCoarse * coarse_cells + cell % cells_ / kCoarse);
+  };
+  MarchGrid grid{coarse_cells, coarse_cells, kCoarse * cell_m_, {}};
+  grid.cost_per_m.assign(static_cast<size_t>(coarse_cells) * coarse_cells, kInfinity);
   ground_.assign(count, kNone);
-  from_start_.resize(count);
   for (size_t i = 0; i < count; ++i) {
     const Point2 p = center_of(static_cast<int>(i));
     if (!request_.costmap->contains(p)) continue;
-    const int cell = request_.costmap->cell_of(p);
-    ground_[i] = static_cast<float>(cost_to_go_.cost_per_m(cell));
+    const double cost = cost_to_go_.cost_per_m(request_.costmap->cell_of(p));
+    ground_[i] = static_cast<float>(cost);
+    grid.cost_per_m[coarse(i)] = std::min(grid.cost_per_m[coarse(i)], cost);
   }
-  const MarchGrid grid{cells_, cells_, cell_m_, {ground_.begin(), ground_.end()}};
-  const int start = cells_ / 2 * cells_ + cells_ / 2;
-  const std::vector<double> from_start = march(grid, {{start, 0.0}}, -1, 0.0);
-  for (size_t i = 0; i < count; ++i) from_start_[i] = kMarchBound * static_cast<float>(from_start[i]);
+  const std::vector<double> from_start = march(grid, {{static_cast<int>(coarse(count / 2)), 0.0}}, -1, 0.0);
+  from_start_.resize(count);
+  for (size_t i = 0; i < count; ++i) from_start_[i] = kMarchBound * static_cast<float>(from_start[coarse(i)]);
   classes_.assign(count * kClearanceHeadings, kComfort);
   rasterise(clearances_.comfort_m - extent_.slack_m, kTight);
   rasterise(clearances_.turn_m - extent_.slack_m, kNoTurn);
@@ -219,10 +226,10 @@ void PoseCostToGo::spread() {
   }
 }
 
-int PoseCostToGo::shifted(int cell, int dx, int dy) const {
+bool PoseCostToGo::inside(int cell, int dx, int dy) const {
   const int x = cell % cells_ + dx;
   const int y = cell / cells_ + dy;
-  return x < 0 || y < 0 || x >= cells_ || y >= cells_ ? -1 : y * cells_ + x;
+  return x >= 0 && y >= 0 && x < cells_ && y < cells_;
 }
 
 float PoseCostToGo::cost_per_m(int cell, int heading) const {
@@ -231,20 +238,21 @@ float PoseCostToGo::cost_per_m(int cell, int heading) const {
   return here == kComfort ? ground_[cell] : static_cast<float>(costs_.tight_factor) * ground_[cell];
 }
 
+// Of the arc from the cell; both ends lie inside.
 float PoseCostToGo::arc_cost(int cell, const Arc& arc) const {
-  const int end = shifted(cell, arc.dx, arc.dy);
-  if (end < 0) return kNone;
   const float here = cost_per_m(cell, arc.from_heading);
-  const float between = cost_per_m(cell + arc.middle_dy * cells_ + arc.middle_dx, arc.middle_heading);
-  const float there = cost_per_m(end, arc.to_heading);
+  const float between = cost_per_m(cell + arc.to_middle, arc.middle_heading);
+  const float there = cost_per_m(cell + arc.to_end, arc.to_heading);
   return arc.length_m * 0.25F * (here + 2.0F * between + there) + arc.extra;
 }
 
 // To the poses from which an arc ends here, and to the end of a point turn or of a path in reverse.
 void PoseCostToGo::spread_forward(int cell, int heading, float cost) {
-  for (const Arc& arc : arcs_to_[heading])
-    if (const int from = shifted(cell, -arc.dx, -arc.dy); from >= 0)
+  for (const Arc& arc : arcs_to_[heading]) {
+    const int from = cell - arc.to_end;
+    if (inside(cell, -arc.dx, -arc.dy) && cost < cost_[state_of(kForward, from, arc.from_heading)])
       offer(kForward, from, arc.from_heading, cost + arc_cost(from, arc));
+  }
   offer(kTurn, cell, heading, cost);
   offer(kReverse, cell, heading, cost + static_cast<float>(costs_.cusp_s));
 }
@@ -252,11 +260,11 @@ void PoseCostToGo::spread_forward(int cell, int heading, float cost) {
 // In reverse the rover came over the arcs that begin here, over known ground.
 void PoseCostToGo::spread_reverse(int cell, int heading, float cost) {
   for (const Arc& arc : arcs_from_[heading]) {
+    const int from = cell + arc.to_end;
+    if (!inside(cell, arc.dx, arc.dy) || !(cost < cost_[state_of(kReverse, from, arc.to_heading)])) continue;
     const float length_cost = arc_cost(cell, arc);
-    if (length_cost == kNone) continue;
-    const int from = shifted(cell, arc.dx, arc.dy);
-    if (request_.costmap->unknown(center_of(from))) continue;
-    offer(kReverse, from, arc.to_heading, cost + static_cast<float>(costs_.reverse_factor) * length_cost);
+    if (length_cost != kNone && !request_.costmap->unknown(center_of(from)))
+      offer(kReverse, from, arc.to_heading, cost + static_cast<float>(costs_.reverse_factor) * length_cost);
   }
   offer(kForward, cell, heading, cost + static_cast<float>(costs_.cusp_s));
 }

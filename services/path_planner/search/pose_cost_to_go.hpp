@@ -30,6 +30,9 @@ class PoseCostToGo {
   double forward(const Pose2& pose) const { return nearby(pose, kForward); }
   double turning(const Pose2& pose) const { return nearby(pose, kTurn); }
   double reverse(const Pose2& pose) const { return nearby(pose, kReverse); }
+  bool reaches(const Pose2& pose) const {
+    return std::isfinite(std::min({forward(pose), turning(pose), reverse(pose)}));
+  }
   int expansions() const { return expansions_; }
   // Whether a plan may end at the place: at the horizon, or at the goal.
   bool at_horizon(Point2 p) const {
@@ -53,8 +56,8 @@ class PoseCostToGo {
     int to_heading;
     int dx;  // cells
     int dy;
-    int middle_dx;
-    int middle_dy;
+    int to_end;  // difference of cell numbers
+    int to_middle;
     int middle_heading;
     float length_m;
     float extra;  // cost beside the ground's [s]
@@ -93,7 +96,7 @@ class PoseCostToGo {
   Point2 center_of(int cell) const {
     return {corner_.x_m + (cell % cells_ + 0.5) * cell_m_, corner_.y_m + (cell / cells_ + 0.5) * cell_m_};
   }
-  int shifted(int cell, int dx, int dy) const;  // -1: outside
+  bool inside(int cell, int dx, int dy) const;
 
   MotionCosts costs_;
   Clearances clearances_;
