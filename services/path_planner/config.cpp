@@ -7,11 +7,9 @@ namespace rover::planning {
 namespace {
 
 void add_belief(Parameters p, BeliefConfig& c) {
-  p.add("cell_m", c.cell_m, {0.05, 0.2}, "side of a cell");
   double side_m = c.cells * c.cell_m;
   p.add("side_m", side_m, {10.0, 60.0}, "side of the map, which moves with the rover");
   c.cells = static_cast<int>(std::lround(side_m / c.cell_m));
-  p.add("prior_log_odds", c.prior, {-10.0, 0.0}, "of a hazard in a cell that no map of the NavCam covers");
   p.add("hit_log_odds", c.hit, {0.0, 10.0}, "evidence of a hazard in one frame of the LocCam");
   p.add("miss_log_odds", c.miss, {0.0, 10.0}, "evidence of free ground, from within near_range_m");
   p.add("max_log_odds", c.max_evidence, {0.5, 20.0}, "bound of the evidence of all frames");
@@ -23,21 +21,10 @@ void add_belief(Parameters p, BeliefConfig& c) {
         "frames in a row, within near_range_m, that do not measure ground in view: it becomes a hazard");
 }
 
-void add_view(Parameters p, ViewArea& c) {
-  p.add("camera_x_m", c.camera.x_m, {-5.0, 5.0}, "position of the LocCam, rounded from cameras.yaml");
-  p.add("camera_y_m", c.camera.y_m, {-5.0, 5.0}, "the same, to the left");
-  p.add("near_m", c.near_m, {0.0, 5.0}, "the LocCam's 0.97 m less half a cell");
-  p.add("far_m", c.far_m, {1.0, 20.0}, "far edge");
-  p.check(c.far_m > c.near_m, "far_m", "must be larger than near_m");
-  p.add("near_half_width_m", c.near_half_width_m, {0.1, 5.0}, "half width at the near edge");
-  p.add("far_half_width_m", c.far_half_width_m, {0.1, 20.0}, "half width at the far edge");
-}
-
 void add_clearance(Parameters p, PathPlannerConfig& c) {
   p.add("comfort_m", c.planner.clearances.comfort_m, {0.0, 1.0}, "below, motions cost more");
   p.add("point_turn_m", c.planner.clearances.turn_m, {0.0, 1.0}, "minimum of a point turn, and of the global path");
   p.add("min_m", c.planner.clearances.min_m, {0.0, 1.0}, "minimum of a plan");
-  p.add("tolerance_m", c.clearance_tolerance_m, {0.0, 1.0}, "a plan is blocked below min_m less this: hazards grow");
 }
 
 void add_ground(Parameters p, PathPlannerConfig& c) {
@@ -46,30 +33,23 @@ void add_ground(Parameters p, PathPlannerConfig& c) {
   p.add("difficulty_cost", c.costmap.difficulty_cost, {0.0, 50.0}, "at ground that is just traversable");
   p.add("unknown_cost", c.costmap.unknown_cost, {0.0, 20.0}, "unknown ground");
   p.add("clearance_cost", c.planner.cost_to_go.clearance_cost, {0.0, 20.0}, "at the minimum clearance");
-  p.add("clearance_distance_m", c.planner.cost_to_go.clearance_distance_m, {0.05, 5.0}, "from there to no cost");
 }
 
 void add_motion(Parameters p, MotionCosts& c) {
   p.add("point_turn_s", c.point_turn_s, {0.0, 200.0}, "steering to it and back");
   p.add("point_turn_s_per_rad", c.point_turn_s_per_rad, {0.0, 200.0}, "turning");
-  p.add("point_turn_steering_s", c.point_turn_steering_s, {0.0, 200.0}, "more, from the largest curvature");
   p.add("curvature_change_s", c.curvature_change_s, {0.0, 50.0}, "by the largest curvature, quadratic below");
-  p.add("curvature_factor", c.curvature, {0.0, 5.0}, "at the largest curvature");
   p.add("cusp_s", c.cusp_s, {0.0, 200.0}, "between forward and reverse");
   p.add("reverse_factor", c.reverse_factor, {1.0, 20.0}, "on the cost in reverse");
   p.add("tight_factor", c.tight_factor, {1.0, 20.0}, "on the cost below clearance.comfort_m");
-  p.add("tight_turn_factor", c.tight_turn_factor, {1.0, 20.0}, "the same, of a point turn");
 }
 
 void add_search(Parameters p, HybridPlannerConfig& c) {
   p.add("horizon_m", c.horizon_m, {2.0, 12.0}, "of headings and clearances; beyond, the 2-D cost-to-go");
   p.add("known_free_m", c.search.known_free_m, {0.1, 20.0},
         "first part of a plan whose ground is known, or seen before the rover is there");
-  p.add("min_known_free_m", c.search.min_known_free_m, {0.1, 20.0}, "the same, if the longer one allows no plan");
   p.add("switching_cost_s", c.switching_cost_s, {0.0, 200.0},
         "a plan replaces the driven one if it is cheaper by this");
-  p.add("step_m", c.search.step_m, {0.1, 1.0}, "length of a motion");
-  p.add("heuristic_weight", c.search.heuristic_weight, {1.0, 5.0}, "of weighted A*");
   p.add("max_expansions", c.search.max_expansions, {10, 1000000}, "then no path is found");
 }
 
@@ -105,22 +85,19 @@ PathPlannerConfig load_config(const std::string& config_dir, ParameterList* list
   p.add("corridor_half_width_m", c.corridor_half_width_m, {0.1, 5.0},
         "if the global path has none (HDPR: 0.75 to 1.5 m)");
   p.add("min_corridor_half_width_m", c.min_corridor_m, {0.05, 1.0},
-        "of a path between hazards; the controller keeps within 0.1 m");
+        "of a path between hazards, or over the driven track; the controller keeps within 0.1 m");
   p.add("blocked_goal_radius_m", c.planner.cost_to_go.blocked_goal_radius_m, {0.0, 3.0},
         "a path may end this far from a goal with hazards");
-  p.add("max_start_offset_m", c.max_start_offset_m, {0.05, 5.0},
-        "farther from the global path, a path to it is planned");
   p.add("hazard_stop_distance_m", c.stop_hazard_m, {0.1, 5.0}, "nearer hazards on the path need another one at once");
   p.add("unseen_stop_distance_m", c.stop_unknown_m, {0.05, 5.0}, "the same, unseen ground");
   p.add("patience", c.patience, {1, 100}, "plans that find no path before the rover backs up");
   p.add("backtrack_m", c.back_up_m, {0.5, 5.0},
         "reverse along the driven track if there is no path; each one in a row is this much longer");
   p.add("max_backtracks", c.max_back_ups, {0, 100}, "in a row, without progress along the global path");
-  p.add("backtrack_corridor_half_width_m", c.back_up_corridor_m, {0.05, 1.0}, "of a backtracking path");
-  p.add("map_shift_m", c.correction_m, {0.005, 1.0}, "movement of map against odom that updates the path");
+  p.add("view_range_m", c.belief.view.far_m, {1.0, 20.0}, "ground ahead that the LocCam sees as far as this");
+  c.belief.view = view_of(load_stereo_rig(config_dir, "loccam"), c.ground_z_m, c.belief.view.far_m);
+  p.check(c.belief.view.far_half_width_m > 0.0, "view_range_m", "the LocCam of cameras.yaml does not see so far");
   add_belief(p.section("belief", "probability that a wheel cannot pass a cell"), c.belief);
-  add_view(p.section("view", "ground that the LocCam sees, body axes; slightly less than its geometry gives"),
-           c.belief.view);
   add_clearance(p.section("clearance", "footprint to the centre of a hazard cell, of which half a cell is the cell"),
                 c);
   add_ground(p.section("ground", "cost of a metre, relative to a metre of easy ground"), c);

@@ -81,19 +81,4 @@ struct Footprint {
   }
 };
 
-// The ground that the LocCam sees: a trapezoid ahead of the body origin.
-struct ViewArea {
-  Point2 camera{0.53, 0.07};  // an obstacle hides what lies behind it from here
-  double near_m = 0.92;
-  double far_m = 3.9;
-  double near_half_width_m = 0.37;
-  double far_half_width_m = 1.8;
-
-  bool sees(Point2 in_body) const {
-    if (in_body.x_m < near_m || in_body.x_m > far_m) return false;
-    const double u = (in_body.x_m - near_m) / (far_m - near_m);
-    return std::abs(in_body.y_m) <= near_half_width_m + u * (far_half_width_m - near_half_width_m);
-  }
-};
-
 }  // namespace rover::planning

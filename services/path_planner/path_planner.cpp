@@ -15,7 +15,7 @@ constexpr double kStationaryMps = 0.02;
 constexpr double kStationaryRadps = 0.02;
 constexpr double kCreepMps = 0.05;  // of the body origin while the rover turns on the spot
 constexpr double kMaxRoverCurvature = 1.0;
-constexpr double kHalfCellM = 0.05;
+constexpr double kHalfCellM = 0.5 * BeliefConfig::cell_m;
 constexpr double kControlM = 0.05;
 constexpr double kGoalNearM = 1.0;
 constexpr double kGoalToleranceRatio = 0.6;  // of the goal's tolerance, for a plan
@@ -494,7 +494,7 @@ void PathPlanner::back_up() {
   failures_ = 0;
   back_up_wanted_ = replan_wanted_ = turning_ = false;
   job_.reset();
-  active_.set_route(next_path_id_++, PathKind::kBacktrack, Route(std::move(points)), config_.back_up_corridor_m,
+  active_.set_route(next_path_id_++, PathKind::kBacktrack, Route(std::move(points)), config_.min_corridor_m,
                     position(rover()));
   blockage_ = {};
 }

@@ -73,19 +73,5 @@ TEST(Geometry, DistanceToTheFootprintIsThatToTheNearestPointOfItsEdge) {
   }
 }
 
-TEST(Geometry, TheViewIsATrapezoidAhead) {
-  const ViewArea view;
-  EXPECT_TRUE(view.sees({2.0, 0.0}));
-  EXPECT_FALSE(view.sees({view.near_m - 0.01, 0.0}));
-  EXPECT_FALSE(view.sees({view.far_m + 0.01, 0.0}));
-  EXPECT_FALSE(view.sees({-2.0, 0.0}));
-  for (const double side : {-1.0, 1.0}) {
-    EXPECT_TRUE(view.sees({view.near_m, side * (view.near_half_width_m - 0.01)}));
-    EXPECT_FALSE(view.sees({view.near_m, side * (view.near_half_width_m + 0.01)}));
-    EXPECT_TRUE(view.sees({view.far_m, side * (view.far_half_width_m - 0.01)}));
-    EXPECT_FALSE(view.sees({view.far_m, side * (view.far_half_width_m + 0.01)}));
-  }
-}
-
 }  // namespace
 }  // namespace rover::planning

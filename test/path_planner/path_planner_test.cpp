@@ -332,7 +332,7 @@ TEST_F(BackUpTest, WithoutAPathItBacksUpOverTheDrivenTrack) {
   ASSERT_EQ(rig_.planner.mode(), Mode::kBackingUp);
   const LocalPath path = rig_.paths.back();
   EXPECT_EQ(path.kind, PathKind::kBacktrack);
-  EXPECT_EQ(path.corridor_half_width_m, planner_config().back_up_corridor_m);
+  EXPECT_EQ(path.corridor_half_width_m, planner_config().min_corridor_m);
   EXPECT_NEAR(distance(path.points.front().p, position(rig_.odom)), 0.0, 0.11);
   for (const RoutePoint& point : path.points) EXPECT_NEAR(point.p.y_m, 0.0, 1e-9);
   EXPECT_NEAR(path.points.back().p.x_m, rig_.odom.x_m - planner_config().back_up_m, 0.21);

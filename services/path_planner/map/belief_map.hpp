@@ -6,14 +6,15 @@
 
 #include "common/core/grid_map.hpp"
 #include "path_planner/map/input_grids.hpp"
+#include "path_planner/map/view_area.hpp"
 
 namespace rover::planning {
 
 struct BeliefConfig {
   int cells = 280;
-  double cell_m = 0.1;
+  static constexpr double cell_m = 0.1;
   // LocCam: evidence of one frame, in log-odds. Frames are correlated, so each counts less than its error rate allows.
-  double prior = -2.0;
+  static constexpr double prior = -2.0;
   double hit = 1.5;
   double miss = 0.7;  // within near_range_m; further off in proportion to 1 / range
   double max_evidence = 4.0;

@@ -204,7 +204,7 @@ class HybridAStar {
           plan_.needs_unseen_ground = true;
           return;
         }
-        const double factor = problem_.comfort.clear(next.pose) ? 1.0 : costs_.tight_turn_factor;
+        const double factor = problem_.comfort.clear(next.pose) ? 1.0 : costs_.tight_factor;
         cost += factor * costs_.point_turn_s_per_rad * kTurnSampleRad;
       }
       add_motion_cost(next, cost);

@@ -275,7 +275,7 @@ void PoseCostToGo::spread_turn(int cell, int heading, float cost) {
     const int from = wrapped(heading + turn);
     const Clearance there = clearance(cell, from);
     if (there >= kNoTurn) continue;
-    const double factor = there == kTight ? costs_.tight_turn_factor : 1.0;
+    const double factor = there == kTight ? costs_.tight_factor : 1.0;
     offer(kTurn, cell, from, cost + static_cast<float>(factor * costs_.point_turn_s_per_rad * yaw_of(1)));
   }
   offer(kForward, cell, heading, cost + static_cast<float>(costs_.point_turn_s));
