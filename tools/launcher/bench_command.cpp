@@ -190,7 +190,8 @@ void run_jobs(const Bench& bench, const std::vector<Job>& jobs, Rows& rows) {
 // Until as many runs as seeds are valid, or the spare seeds are used up.
 void run_scenario(const Bench& bench, const std::string& scenario, Rows& rows) {
   std::vector<std::int64_t> seeds = bench.seeds;
-  for (int spare = 0; spare <= bench.suite.spare_seeds; ++spare) {
+  const size_t last = bench.seeds.size() + static_cast<size_t>(bench.suite.spare_seeds);
+  for (;;) {
     std::vector<Job> todo;
     size_t counted = 0;
     for (const std::int64_t seed : seeds) {
@@ -198,7 +199,7 @@ void run_scenario(const Bench& bench, const std::string& scenario, Rows& rows) {
       if (row == nullptr) todo.push_back({scenario, seed});
       if (row != nullptr && counts(scenario, *row)) ++counted;
     }
-    if (todo.empty() && counted >= bench.seeds.size()) break;
+    if (todo.empty() && (counted >= bench.seeds.size() || seeds.size() == last)) break;
     if (todo.empty())
       seeds.push_back(seeds.back() + 1);
     else
