@@ -40,7 +40,9 @@ struct MissionControl {
         node(context.node, load_mission_plan(context.config_dir), shared, config.path, [this] {
           if (page) page->update();
         }) {
-    if (page) page->start();
+    if (!page) return;
+    context.node.share_bus();
+    page->start();
   }
 };
 

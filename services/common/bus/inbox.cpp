@@ -104,6 +104,12 @@ void Inbox::enqueue(Subscription& subscription, Pending pending, Utime delay) {
   pending_.push_back(std::move(pending));
 }
 
+std::vector<std::string> Inbox::channels() const {
+  std::vector<std::string> out;
+  for (const auto& subscription : subscriptions_) out.push_back(subscription->channel);
+  return out;
+}
+
 bool Inbox::misses(const stream_seq_t& stream) const {
   const bool taken = std::any_of(subscriptions_.begin(), subscriptions_.end(), [&](const auto& subscription) {
     return subscription->channel == stream.channel || subscription->channel == ".*";

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdio>
 
+#include "common/bus/channel_filter.hpp"
 #include "common/core/frames.hpp"
 
 namespace rover {
@@ -105,8 +106,16 @@ void Node::publish_heartbeat() {
 }
 
 void Node::send_bytes(lcm::LCM& lcm, const std::string& channel, const std::vector<std::uint8_t>& bytes) {
-  if (lcm.publish(channel, bytes.data(), static_cast<unsigned int>(bytes.size())) != 0)
+  const bool too_large = bytes.size() > kDatagramBytes && fits_a_datagram(channel);
+  if (too_large || lcm.publish(channel, bytes.data(), static_cast<unsigned int>(bytes.size())) != 0)
     log("ERROR", "NOT_PUBLISHED channel=" + channel);
+}
+
+void Node::filter_bus(int port) const {
+  std::vector<std::string> channels = inbox_.channels();
+  channels.emplace_back(channel::kTick);
+  const bool all = std::find(channels.begin(), channels.end(), ".*") != channels.end();
+  if (!all && !shares_bus_) take_only(channels, port);
 }
 
 bool Node::handle(int timeout_ms) {

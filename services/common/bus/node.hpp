@@ -84,6 +84,10 @@ class Node {
   bool follows_clock() const { return lockstep_.follows_clock(); }
   const NodeOptions& options() const { return options_; }
 
+  // Other subscribers share the node's LCM.
+  void share_bus() { shares_bus_ = true; }
+  // After the last subscription, on a bus of this UDP port: what the node does not take no longer wakes the process.
+  void filter_bus(int port) const;
   // Announces the node, then handles messages while `running`.
   void run(const std::function<bool()>& running);
   // Handles waiting messages for at most timeout_ms; false if the bus failed.
@@ -109,6 +113,7 @@ class Node {
   std::function<void(Utime)> step_;
   std::function<void()> tick_timeout_;
   std::function<void(const injection_t&)> on_injection_;
+  bool shares_bus_ = false;
   Utime now_ = kNever;
   Utime promise_ = kNever;
   std::int8_t status_ = heartbeat_t::OK;
