@@ -46,7 +46,7 @@ class ChannelFilterTest : public testing::Test {
 };
 
 TEST_F(ChannelFilterTest, OnlyTheseChannelsArrive) {
-  take_only({"POSE", "WHEEL_STATE", "VO"}, port_);
+  keep_channels({"POSE", "WHEEL_STATE", "VO"}, port_);
   const std::vector<std::pair<std::string, size_t>> others = {
       {"POS", 40},          {"POSE2", 40},      {"IMU", 40}, {"XPOSE", 40},
       {"WHEEL_STATES", 40}, {"WHEEL_STAT", 40}, {"V", 40},   {"", 40}};
@@ -56,25 +56,25 @@ TEST_F(ChannelFilterTest, OnlyTheseChannelsArrive) {
 }
 
 TEST_F(ChannelFilterTest, LargeMessagesArriveWhereAChannelMayHaveThem) {
-  take_only({channel::kPath, channel::kPose}, port_);
+  keep_channels({channel::kPath, channel::kPose}, port_);
   EXPECT_EQ(taken_of({{"IMU", kSmallBytes}, {"PATH", kLargeBytes}, {"POSE", kSmallBytes}}),
             (Taken{{"PATH", kLargeBytes}, {"POSE", kSmallBytes}}));
 }
 
 TEST_F(ChannelFilterTest, FragmentsAreDroppedWhereNoChannelMayHaveThem) {
-  take_only({channel::kImu, channel::kPose}, port_);
+  keep_channels({channel::kImu, channel::kPose}, port_);
   EXPECT_EQ(taken_of({{"PATH", kLargeBytes}, {"POSE", kLargeBytes}, {"IMU", kSmallBytes}}),
             (Taken{{"IMU", kSmallBytes}}));
 }
 
 TEST_F(ChannelFilterTest, ALaterFilterReplacesTheFirst) {
-  take_only({"POSE"}, port_);
-  take_only({"IMU"}, port_);
+  keep_channels({"POSE"}, port_);
+  keep_channels({"IMU"}, port_);
   EXPECT_EQ(taken_of({{"POSE", kSmallBytes}, {"IMU", kSmallBytes}}), (Taken{{"IMU", kSmallBytes}}));
 }
 
 TEST_F(ChannelFilterTest, SocketsOfOtherPortsAreLeftAlone) {
-  take_only({"POSE"}, port_ + 1);
+  keep_channels({"POSE"}, port_ + 1);
   EXPECT_EQ(taken_of({{"IMU", kSmallBytes}, {"POSE", kSmallBytes}}),
             (Taken{{"IMU", kSmallBytes}, {"POSE", kSmallBytes}}));
 }

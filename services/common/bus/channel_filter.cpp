@@ -87,7 +87,7 @@ std::vector<sock_filter> channel_program(const std::vector<std::string>& channel
   return program;
 }
 
-void take_only(const std::vector<std::string>& channels, int port) {
+void keep_channels(const std::vector<std::string>& channels, int port) {
   std::vector<sock_filter> program = channel_program(channels);
   const sock_fprog filter{static_cast<unsigned short>(program.size()), program.data()};
   for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {

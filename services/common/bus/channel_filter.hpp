@@ -19,6 +19,6 @@ bool fits_a_datagram(const std::string& channel);
 std::vector<sock_filter> channel_program(const std::vector<std::string>& channels);
 
 // For the sockets of this process that are bound to the UDP port. Without the right to do so nothing is filtered.
-void take_only(const std::vector<std::string>& channels, int port);
+void keep_channels(const std::vector<std::string>& channels, int port);
 
 }  // namespace rover

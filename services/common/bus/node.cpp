@@ -115,7 +115,7 @@ void Node::filter_bus(int port) const {
   std::vector<std::string> channels = inbox_.channels();
   channels.emplace_back(channel::kTick);
   const bool all = std::find(channels.begin(), channels.end(), ".*") != channels.end();
-  if (!all && !shares_bus_) take_only(channels, port);
+  if (!all && !shares_bus_) keep_channels(channels, port);
 }
 
 bool Node::handle(int timeout_ms) {

@@ -13,7 +13,6 @@ constexpr double kAroundFactor = 2.0;    // from the border to a goal inside of 
 constexpr double kAtRoverM = 1.2;        // the rover may be closer to a hazard than it would drive
 constexpr double kTightCost = 6.0;       // relative to driving, there
 constexpr double kScrapeM = 0.05;
-constexpr double kHalfDiagonal = 0.71;
 
 }  // namespace
 
@@ -39,7 +38,7 @@ CostToGo::CostToGo(const CostToGoConfig& config, const PlanRequest& request, con
 double CostToGo::cost_per_m(int cell) const {
   // Over a low hazard the rover may pass, with the right heading.
   const double room = tall_distance_m_[cell] - half_width_m_ - margin_m_;
-  if (room < -kHalfDiagonal * costmap_.cell_m()) {
+  if (room < 0.0) {
     const bool at_rover = room > -margin_m_ - kScrapeM && distance(costmap_.center_of(cell), rover_) < kAtRoverM;
     return at_rover ? config_.seconds_per_m * kTightCost : kInfinity;
   }

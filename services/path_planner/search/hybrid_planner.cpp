@@ -14,7 +14,8 @@ constexpr std::array<LatticeExtent, 2> kExtents = {LatticeExtent{0.03, 10.0}, La
 
 Plan HybridPlanner::plan(const PlanRequest& request) const {
   const Clearances& margins = config_.clearances;
-  const CostToGo cost_to_go(config_.cost_to_go, request, config_.footprint, margins.min_m);
+  // The places of both fields are the same: where no pose of the lattice fits, no way of the 2-D field leads.
+  const CostToGo cost_to_go(config_.cost_to_go, request, config_.footprint, margins.min_m - kExtents.front().slack_m);
   const auto check = [&](double margin_m) {
     return FootprintCheck(*request.costmap, config_.footprint, margin_m, kApproachM, kKnownMarginM, request.rover);
   };
