@@ -111,11 +111,12 @@ void Node::send_bytes(lcm::LCM& lcm, const std::string& channel, const std::vect
     log("ERROR", "NOT_PUBLISHED channel=" + channel);
 }
 
-void Node::filter_bus(int port) const {
+void Node::filter_bus(int port) {
   std::vector<std::string> channels = inbox_.channels();
   channels.emplace_back(channel::kTick);
   const bool all = std::find(channels.begin(), channels.end(), ".*") != channels.end();
-  if (!all && !shares_bus_) keep_channels(channels, port);
+  filters_bus_ = !all && !shares_bus_;
+  if (filters_bus_) keep_channels(channels, port);
 }
 
 bool Node::handle(int timeout_ms) {

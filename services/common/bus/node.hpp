@@ -21,6 +21,7 @@
 #include "common/bus/inbox.hpp"
 #include "common/bus/lockstep.hpp"
 #include "common/bus/streams.hpp"
+#include "common/core/check.hpp"
 #include "common/core/time.hpp"
 
 namespace rover {
@@ -87,7 +88,7 @@ class Node {
   // Other subscribers share the node's LCM.
   void share_bus() { shares_bus_ = true; }
   // After the last subscription, on a bus of this UDP port: what the node does not take no longer wakes the process.
-  void filter_bus(int port) const;
+  void filter_bus(int port);
   // Announces the node, then handles messages while `running`.
   void run(const std::function<bool()>& running);
   // Handles waiting messages for at most timeout_ms; false if the bus failed.
@@ -114,6 +115,7 @@ class Node {
   std::function<void()> tick_timeout_;
   std::function<void(const injection_t&)> on_injection_;
   bool shares_bus_ = false;
+  bool filters_bus_ = false;
   Utime now_ = kNever;
   Utime promise_ = kNever;
   std::int8_t status_ = heartbeat_t::OK;
@@ -127,6 +129,7 @@ void Node::subscribe(const std::string& channel, std::function<void(const Messag
 
 template <class Message>
 void Node::subscribe_slow(const std::string& channel, Utime latency, std::function<void(const Message&)> handler) {
+  ROVER_CHECK(!filters_bus_, channel);
   const auto shared = std::make_shared<const std::function<void(const Message&)>>(std::move(handler));
   inbox_.add(channel, Message::getHash(), latency, [shared](const RawMessage& raw) -> Inbox::Deliver {
     const auto message = std::make_shared<Message>();
