@@ -136,6 +136,8 @@ SimulationSummary Simulator::run(const std::function<bool()>& running) {
     now_ = t;
     if (const auto outcome = end_.outcome_at(t)) {
       summary_.outcome = *outcome;
+      if (!options_.realtime)
+        wait_for_barrier(t, running);  // the services finish the last tick before they are stopped
       break;
     }
     apply_faults(t, running);
