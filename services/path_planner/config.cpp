@@ -85,7 +85,7 @@ PathPlannerConfig load_config(const std::string& config_dir, ParameterList* list
   p.add("corridor_half_width_m", c.corridor_half_width_m, {0.1, 5.0},
         "if the global path has none (HDPR: 0.75 to 1.5 m)");
   p.add("min_corridor_half_width_m", c.min_corridor_m, {0.05, 1.0},
-        "of a path between hazards, or over the driven track; the controller keeps within 0.1 m");
+        "of a path between hazards or back; the controller keeps within 0.1 m");
   p.add("blocked_goal_radius_m", c.planner.cost_to_go.blocked_goal_radius_m, {0.0, 3.0},
         "a path may end this far from a goal with hazards");
   p.add("hazard_stop_distance_m", c.stop_hazard_m, {0.1, 5.0}, "nearer hazards on the path need another one at once");
@@ -94,7 +94,7 @@ PathPlannerConfig load_config(const std::string& config_dir, ParameterList* list
   p.add("backtrack_m", c.back_up_m, {0.5, 5.0},
         "reverse along the driven track if there is no path; each one in a row is this much longer");
   p.add("max_backtracks", c.max_back_ups, {0, 100}, "in a row, without progress along the global path");
-  p.add("view_range_m", c.belief.view.far_m, {1.0, 20.0}, "ground ahead that the LocCam sees as far as this");
+  p.add("view_range_m", c.belief.view.far_m, {1.0, 20.0}, "the LocCam sees the ground this far ahead");
   c.belief.view = view_of(load_stereo_rig(config_dir, "loccam"), c.ground_z_m, c.belief.view.far_m);
   p.check(c.belief.view.far_half_width_m > 0.0, "view_range_m", "the LocCam of cameras.yaml does not see so far");
   add_belief(p.section("belief", "probability that a wheel cannot pass a cell"), c.belief);

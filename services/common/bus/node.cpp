@@ -39,6 +39,7 @@ Node::Node(NodeOptions options, lcm::LCM& lcm, lcm::LCM* reports)
 }
 
 void Node::subscribe_raw(std::function<void(const RawMessage&)> handler, FindChannelType types) {
+  ROVER_CHECK(!filters_bus_);
   const auto shared = std::make_shared<const std::function<void(const RawMessage&)>>(std::move(handler));
   const auto decode = [shared, types](RawMessage raw) -> Inbox::Deliver {
     const ChannelType* type = types(raw.channel);
@@ -108,7 +109,7 @@ void Node::publish_heartbeat() {
 void Node::send_bytes(lcm::LCM& lcm, const std::string& channel, const std::vector<std::uint8_t>& bytes) {
   const bool too_large = bytes.size() > kDatagramBytes && fits_a_datagram(channel);
   if (too_large || lcm.publish(channel, bytes.data(), static_cast<unsigned int>(bytes.size())) != 0)
-    log("ERROR", "NOT_PUBLISHED channel=" + channel);
+    log("ERROR", "NOT_PUBLISHED channel=" + channel + " bytes=" + std::to_string(bytes.size()));
 }
 
 void Node::filter_bus(int port) {

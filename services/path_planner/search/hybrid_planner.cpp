@@ -39,8 +39,8 @@ Plan HybridPlanner::plan(const PlanRequest& request) const {
       }
       if (plan.found || plan.keeps_incumbent || !plan.needs_unseen_ground) break;
     }
-    plan.closed_in = !plan.found && !plan.keeps_incumbent && !pose_cost_to_go.reaches(request.start);
-    plan.needs_unseen_ground = plan.needs_unseen_ground && !plan.closed_in;
+    plan.closed_in =
+        !plan.found && !plan.keeps_incumbent && !plan.needs_unseen_ground && !pose_cost_to_go.reaches(request.start);
     if (plan.found || plan.keeps_incumbent || plan.closed_in) break;
   }
   if (!plan.found) return plan;
