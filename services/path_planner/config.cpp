@@ -7,9 +7,9 @@ namespace rover::planning {
 namespace {
 
 void add_belief(Parameters p, BeliefConfig& c) {
-  double side_m = c.cells * c.cell_m;
+  double side_m = c.cells * BeliefConfig::kCellM;
   p.add("side_m", side_m, {10.0, 60.0}, "side of the map, which moves with the rover");
-  c.cells = static_cast<int>(std::lround(side_m / c.cell_m));
+  c.cells = static_cast<int>(std::lround(side_m / BeliefConfig::kCellM));
   p.add("hit_log_odds", c.hit, {0.0, 10.0}, "evidence of a hazard in one frame of the LocCam");
   p.add("miss_log_odds", c.miss, {0.0, 10.0}, "evidence of free ground, from within near_range_m");
   p.add("max_log_odds", c.max_evidence, {0.5, 20.0}, "bound of the evidence of all frames");

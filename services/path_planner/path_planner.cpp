@@ -15,7 +15,7 @@ constexpr double kStationaryMps = 0.02;
 constexpr double kStationaryRadps = 0.02;
 constexpr double kCreepMps = 0.05;  // of the body origin while the rover turns on the spot
 constexpr double kMaxRoverCurvature = 1.0;
-constexpr double kHalfCellM = 0.5 * BeliefConfig::cell_m;
+constexpr double kHalfCellM = 0.5 * BeliefConfig::kCellM;
 constexpr double kControlM = 0.05;
 constexpr double kGoalNearM = 1.0;
 constexpr double kGoalToleranceRatio = 0.6;  // of the goal's tolerance, for a plan
@@ -206,7 +206,7 @@ void PathPlanner::set_global_in_odom() {
 // From here on; if the rover is far off, a path to it has to be planned.
 void PathPlanner::follow_global_path() {
   const Point2 start = global_odom_->point_at(global_progress_m_);
-  if (distance(start, position(rover())) > config_.max_start_offset_m) return;
+  if (distance(start, position(rover())) > PathPlannerConfig::kMaxStartOffsetM) return;
   std::vector<RoutePoint> points;
   const size_t count = global_odom_->points().size();
   const size_t next = std::min(global_odom_->vertex_after(global_progress_m_), count - 1);
@@ -262,7 +262,7 @@ void PathPlanner::follow_correction() {
   const auto moved_m = [&](Point2 p) { return distance(from_body(inverse(T_now), from_body(T_map_odom_, p)), p); };
   const double change =
       std::max(moved_m(position(rover())), moved_m(active_.route().point_at(active_.progress_m() + 10.0)));
-  if (change < config_.correction_m) return;
+  if (change < PathPlannerConfig::kCorrectionM) return;
   set_global_in_odom();
   if (mode_ == Mode::kBackingUp) {  // over the driven track, which lies in odom; only the zones move
     if (!zones_odom_.empty()) active_.replace_route(next_path_id_++, active_.route());
@@ -286,7 +286,8 @@ void PathPlanner::follow_correction() {
 double PathPlanner::margin_m() const {
   if (mode_ == Mode::kBackingUp) return kBackUpMarginM;
   const Clearances& clearances = config_.planner.clearances;
-  return active_.kind() == PathKind::kGlobal ? clearances.turn_m : clearances.min_m - config_.clearance_tolerance_m;
+  return active_.kind() == PathKind::kGlobal ? clearances.turn_m
+                                             : clearances.min_m - PathPlannerConfig::kClearanceToleranceM;
 }
 
 Costmap PathPlanner::costmap_around(double side_m) const {

@@ -32,20 +32,20 @@ struct PathPlannerConfig {
   double pose_max_age_s = 0.5;
   double release_latency_s = 0.1;   // of a path, message time
   double planning_latency_s = 0.1;  // of a plan, message time
-  static constexpr double clearance_tolerance_m =
+  static constexpr double kClearanceToleranceM =
       0.03;                             // a path is blocked below the smallest clearance less this: hazards grow
   double corridor_half_width_m = 0.75;  // if the global path has none
   double min_corridor_m = 0.25;         // of a path between hazards, or over the driven track
   double goal_tolerance_m = 0.5;        // if the global path has none
-  static constexpr double max_start_offset_m = 0.5;  // farther from the global path, a path to it is planned
-  double turn_threshold_rad = to_rad(40.0);          // as trajectory_control: larger heading errors start a point turn
-  double turn_stop_rad = to_rad(2.0);                // and it ends here
-  double stop_hazard_m = 0.6;                        // a hazard nearer along the path stops the rover
-  double stop_unknown_m = 0.35;                      // and unknown ground
-  int patience = 4;                                  // plans not found before the rover backs up
-  double back_up_m = 1.2;                            // the first time; twice that the second time
-  int max_back_ups = 5;                              // without progress along the global path
-  static constexpr double correction_m = 0.05;       // movement of map against odom that updates the path
+  static constexpr double kMaxStartOffsetM = 0.5;  // farther from the global path, a path to it is planned
+  double turn_threshold_rad = to_rad(40.0);        // as trajectory_control: larger heading errors start a point turn
+  double turn_stop_rad = to_rad(2.0);              // and it ends here
+  double stop_hazard_m = 0.6;                      // a hazard nearer along the path stops the rover
+  double stop_unknown_m = 0.35;                    // and unknown ground
+  int patience = 4;                                // plans not found before the rover backs up
+  double back_up_m = 1.2;                          // the first time; twice that the second time
+  int max_back_ups = 5;                            // without progress along the global path
+  static constexpr double kCorrectionM = 0.05;     // movement of map against odom that updates the path
 };
 
 struct GlobalPath {

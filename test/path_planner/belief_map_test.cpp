@@ -314,7 +314,7 @@ TEST_F(BeliefMapTest, LocCamHitsOverruleFreeGroundOfTheNavCam) {
 
 TEST_F(BeliefMapTest, HazardsAreKeptOutOfViewAndForgottenOutsideTheGrid) {
   see(HazardGrid::kObstacle, 2);
-  const double half_m = 0.5 * config_.cells * config_.cell_m;
+  const double half_m = 0.5 * config_.cells * BeliefConfig::kCellM;
   for (double x = 0.0; x < kRock.x_m + half_m - 0.2; x += 0.1) {
     belief_.move_to({x, 0.0});
     ASSERT_TRUE(is_hazard()) << x;

@@ -144,7 +144,7 @@ void expect_seen_in_time(const Plan& plan, const PlanRequest& request) {
     if (!at.reverse) forward_m += distance(position(before), position(at.pose));
     if (at.reverse) {
       EXPECT_TRUE(check.known(at.pose)) << "pose " << i;
-    } else if (forward_m <= config.search.min_known_free_m) {
+    } else if (forward_m <= HybridAStarConfig::kMinKnownFreeM) {
       EXPECT_TRUE(visibility.covers(at.pose)) << "pose " << i;
     }
     const double turned = at.pose.yaw_rad - before.yaw_rad;

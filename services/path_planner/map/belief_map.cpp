@@ -147,14 +147,14 @@ void BeliefMap::add(const TraversabilityGrid& grid, Point2 rover) {
 double BeliefMap::probability(const CellBelief& cell) const {
   if (cell.driven) return 0.0;
   const double navcam = cell.step_sigma == CellBelief::kNoSigma
-                            ? config_.prior
+                            ? BeliefConfig::kPrior
                             : std::clamp(log_odds_above_limit(cell.step_ratio, cell.step_sigma),
                                          -config_.max_navcam_evidence, config_.max_navcam_evidence);
   return 1.0 / (1.0 + std::exp(-navcam - cell.evidence));
 }
 
 void BeliefMap::mark_driven(const Pose2& pose, const Footprint& footprint) {
-  const double rim = 0.5 * std::numbers::sqrt2 * config_.cell_m;  // cells that the edge passes through
+  const double rim = 0.5 * std::numbers::sqrt2 * BeliefConfig::kCellM;  // cells that the edge passes through
   const double r = footprint.radius_m() + rim;
   for_cells_in(map_, {pose.x_m - r, pose.y_m - r}, {pose.x_m + r, pose.y_m + r}, [&](CellBelief& cell, Point2 p) {
     const double d = footprint.distance_m(pose, p);

@@ -12,9 +12,9 @@ namespace rover::planning {
 
 struct BeliefConfig {
   int cells = 280;
-  static constexpr double cell_m = 0.1;
+  static constexpr double kCellM = 0.1;
   // LocCam: evidence of one frame, in log-odds. Frames are correlated, so each counts less than its error rate allows.
-  static constexpr double prior = -2.0;
+  static constexpr double kPrior = -2.0;
   double hit = 1.5;
   double miss = 0.7;  // within near_range_m; further off in proportion to 1 / range
   double max_evidence = 4.0;
@@ -45,7 +45,7 @@ struct CellBelief {
 
 class BeliefMap {
  public:
-  explicit BeliefMap(const BeliefConfig& config) : config_(config), map_(config.cells, config.cell_m) {}
+  explicit BeliefMap(const BeliefConfig& config) : config_(config), map_(config.cells, BeliefConfig::kCellM) {}
 
   void move_to(Point2 rover) { map_.move_to(rover.x_m, rover.y_m); }
   void clear() { map_.clear(); }

@@ -42,7 +42,7 @@ double CostToGo::cost_per_m(int cell) const {
     const bool at_rover = room > -margin_m_ - kScrapeM && distance(costmap_.center_of(cell), rover_) < kAtRoverM;
     return at_rover ? config_.seconds_per_m * kTightCost : kInfinity;
   }
-  const double lack = std::clamp(1.0 - room / config_.clearance_distance_m, 0.0, 1.0);
+  const double lack = std::clamp(1.0 - room / CostToGoConfig::kClearanceDistanceM, 0.0, 1.0);
   return config_.seconds_per_m * (ground_cost_[cell] + config_.clearance_cost * lack * lack);
 }
 

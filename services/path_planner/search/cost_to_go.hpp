@@ -10,9 +10,9 @@
 namespace rover::planning {
 
 struct CostToGoConfig {
-  double seconds_per_m = 5.0;                          // at cruise speed
-  static constexpr double clearance_distance_m = 0.6;  // a cell costs more within this distance beyond the margin
-  double clearance_cost = 0.5;                         // relative to driving, at the margin
+  double seconds_per_m = 5.0;                         // at cruise speed
+  static constexpr double kClearanceDistanceM = 0.6;  // a cell costs more within this distance beyond the margin
+  double clearance_cost = 0.5;                        // relative to driving, at the margin
   double off_path_factor = 1.05;  // beyond the costmap the rover returns to the global path; it costs this much more
   double goal_miss_cost = 3.0;    // relative to driving, per metre that a plan ends off the goal
   double blocked_goal_radius_m = 1.2;  // a plan may end this far from a goal with hazards

@@ -131,7 +131,7 @@ class HybridAStar {
     // The start may lie closer to hazards than the lattice allows; its successors need not.
     if (node.parent >= 0 && (std::isinf(remaining) || node.cost + kLatticeBound * remaining >= plan_.cost)) return;
     nodes_.push_back(node);
-    open_.emplace_back(node.cost + (std::isinf(remaining) ? 0.0 : config_.heuristic_weight * remaining),
+    open_.emplace_back(node.cost + (std::isinf(remaining) ? 0.0 : HybridAStarConfig::kHeuristicWeight * remaining),
                        static_cast<int>(nodes_.size()) - 1);
     std::push_heap(open_.begin(), open_.end(), std::greater<>());
   }
@@ -165,7 +165,7 @@ class HybridAStar {
     pending.kind = Node::Kind::kTurnPending;
     pending.curvature_per_m = 0.0;
     add_motion_cost(pending,
-                    costs_.point_turn_s + costs_.point_turn_steering_s * std::abs(relative(from.curvature_per_m)));
+                    costs_.point_turn_s + MotionCosts::kPointTurnSteeringS * std::abs(relative(from.curvature_per_m)));
     push(pending);
   }
 
@@ -177,9 +177,9 @@ class HybridAStar {
     next.curvature_per_m = level * costs_.max_curvature_per_m;
     const double change = std::abs(level - relative(from.curvature_per_m));
     if (change > kMaxChange) return;
-    add_motion_cost(next, costs_.curvature_change_s * change * change +
-                              costs_.curvature * costs_.seconds_per_m * level * level * config_.step_m);
-    Motion motion(from, next.curvature_per_m, config_.step_m);
+    add_motion_cost(next, costs_.curvature_change_s * change * change + MotionCosts::kCurvature * costs_.seconds_per_m *
+                                                                            level * level * HybridAStarConfig::kStepM);
+    Motion motion(from, next.curvature_per_m, HybridAStarConfig::kStepM);
     for (int i = 0; i < motion.samples(); ++i) {
       next.pose = motion.next();
       if (!from.reverse) next.distance_m += motion.step_m();
@@ -249,7 +249,7 @@ class HybridAStar {
       if (to.kind == Node::Kind::kTurned) {
         plan_.poses.push_back({to.pose, false, to.motion_cost});
       } else if (to.kind == Node::Kind::kMotion) {
-        Motion motion(from, to.curvature_per_m, config_.step_m);
+        Motion motion(from, to.curvature_per_m, HybridAStarConfig::kStepM);
         for (int i = 0; i < motion.samples(); ++i) plan_.poses.push_back({motion.next(), to.reverse, to.motion_cost});
       }
     }

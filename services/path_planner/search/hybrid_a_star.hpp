@@ -8,10 +8,10 @@
 namespace rover::planning {
 
 struct HybridAStarConfig {
-  static constexpr double step_m = 0.3;  // length of a motion
-  static constexpr double heuristic_weight = 1.1;
-  double known_free_m = 2.5;                       // of a plan: this far, ground is known or comes into view in time
-  static constexpr double min_known_free_m = 0.6;  // the same, if that allows no plan
+  static constexpr double kStepM = 0.3;  // length of a motion
+  static constexpr double kHeuristicWeight = 1.1;
+  double known_free_m = 2.5;                     // of a plan: this far, ground is known or comes into view in time
+  static constexpr double kMinKnownFreeM = 0.6;  // the same, if that allows no plan
   int max_expansions = 3000;
 };
 

@@ -26,7 +26,7 @@ Plan HybridPlanner::plan(const PlanRequest& request) const {
   for (const LatticeExtent& extent : kExtents) {
     const PoseCostToGo pose_cost_to_go(config_.motion, margins, config_.footprint, request, cost_to_go,
                                        config_.horizon_m, extent);
-    for (const double known_free_m : {config_.search.known_free_m, config_.search.min_known_free_m}) {
+    for (const double known_free_m : {config_.search.known_free_m, HybridAStarConfig::kMinKnownFreeM}) {
       SearchProblem problem{request, cost_to_go, pose_cost_to_go, comfort, min, turn, config_.view, known_free_m};
       const double incumbent = incumbent_cost(problem);
       problem.max_cost = incumbent - config_.switching_cost_s;

@@ -75,7 +75,7 @@ void PoseCostToGo::make_arcs() {
                 cells(middle.y_m) * cells_ + cells(middle.x_m),
                 wrapped(heading + turn / 2),
                 static_cast<float>(length),
-                static_cast<float>(costs_.curvature * costs_.seconds_per_m * relative * relative * length)};
+                static_cast<float>(MotionCosts::kCurvature * costs_.seconds_per_m * relative * relative * length)};
       }
       arcs_to_[best.to_heading].push_back(best);
       arcs_from_[heading].push_back(best);
