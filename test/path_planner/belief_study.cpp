@@ -1,6 +1,6 @@
 // Replays the maps of runs into the belief map and compares it with the true surface: how often a cell that is believed
 // to be a hazard with probability P is one, by distance, and how often cells change their side of the threshold.
-//   belief_study RUN_DIR... (runs of the simulator, with their logs)
+//   belief_study RUN_DIR... (runs of the simulator; from the project folder, whose config it takes)
 #include <cstdio>
 #include <map>
 #include <rover/hazards_t.hpp>
@@ -161,7 +161,8 @@ void print(const Tally& tally) {
                   c.places);
     }
   }
-  std::printf("\n\nChanges per cell between passable and hazard: %.3f", static_cast<double>(tally.changes) / tally.cells);
+  std::printf("\n\nChanges per cell between passable and hazard: %.3f",
+              static_cast<double>(tally.changes) / tally.cells);
   for (const auto& [i, name] : {std::pair(0, "HAZARDS"), std::pair(1, "TRAVERSABILITY")})
     if (tally.map_cells[i] > 0.0)
       std::printf("; %s as it comes: %.3f", name, tally.map_changes[i] / tally.map_cells[i]);
@@ -174,11 +175,12 @@ void print(const Tally& tally) {
 int main(int argc, char** argv) {
   using namespace rover;
   try {
+    const planning::PathPlannerConfig config = planning::load_config("config");
     planning::Tally tally;
     for (int i = 1; i < argc; ++i) {
       const report::Study study = report::study_run(argv[i], "config");
       if (study.world && study.world->height_m && !study.run.truth.empty())
-        planning::Replay(study, planning::load_config(std::string(argv[i]) + "/config"), tally);
+        planning::Replay(study, config, tally);
       else
         std::fprintf(stderr, "%s: no truth\n", argv[i]);
     }
