@@ -35,14 +35,13 @@ struct MissionControl {
   MissionControlNode node;
 
   MissionControl(const NodeContext& context, const PageConfig& config)
-      : page(config.served ? std::make_unique<PageServer>(config, page_context(context), *shared, context.lcm)
-                           : nullptr),
+      : page(config.served
+                 ? std::make_unique<PageServer>(config, page_context(context), *shared, context.node.share_bus())
+                 : nullptr),
         node(context.node, load_mission_plan(context.config_dir), shared, config.path, [this] {
           if (page) page->update();
         }) {
-    if (!page) return;
-    context.node.share_bus();
-    page->start();
+    if (page) page->start();
   }
 };
 

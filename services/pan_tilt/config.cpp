@@ -52,7 +52,7 @@ NodeConfig load_config(const std::string& config_dir, ParameterList* list) {
   p.add("arrival_margin_s", c.arrival_margin_s, {0.1, 60.0}, "beyond the longest move: unit timed out");
   p.add_deg("arrival_deg", c.arrival_rad, {0.01, 10.0}, "the unit has arrived within this angle");
   add_ahead(p.section("ahead", "view along the path"), c.ahead);
-  add_sweep(p.section("sweep", "ten views in about 16 s"), c.sweep);
+  add_sweep(p.section("sweep", "ten views in about 17 s"), c.sweep);
   p.finish();
   return config;
 }

@@ -2,6 +2,7 @@
 #include <cstdio>
 
 #include "common/bus/bus_url.hpp"
+#include "common/bus/channel_filter.hpp"
 #include "common/bus/command_line.hpp"
 #include "common/bus/interrupt.hpp"
 #include "rover_simulator/setup.hpp"
@@ -24,6 +25,11 @@ int simulate(const Arguments& arguments) {
   lcm::LCM reports(rover::reports_url(arguments.bus));
   if (!lcm.good() || !reports.good()) throw rover::ConfigError("bus: cannot join " + arguments.bus);
   rover::Simulator simulator(rover::with_scenario(arguments.options, scenario), *rover_and_world, lcm, &reports);
+  if (const auto address = rover::parse_udpm(arguments.bus)) {
+    std::vector<std::string> inputs;
+    for (const auto& [channel, count] : simulator.malformed()) inputs.push_back(channel);
+    rover::keep_channels(inputs, address->port);
+  }
   const rover::SimulationSummary summary = simulator.run(rover::keep_running);
   for (const std::string& left : summary.left) std::printf("%s\n", left.c_str());
   if (!arguments.run_dir.empty()) rover::write_summary(arguments.run_dir, summary);

@@ -32,7 +32,7 @@ struct Suite {
 const std::vector<Suite>& suites() {
   static const std::vector<Suite> kSuites = {
       {"seed", "1..10", "", {"seed_traverse_1", "seed_traverse_2"}, 10},
-      {"default", "101..140", "efficient", {"default"}},
+      {"default", "201..240", "efficient", {"default"}},
   };
   return kSuites;
 }

@@ -25,7 +25,7 @@ constexpr sock_filter kTake = BPF_STMT(BPF_RET | BPF_K, UINT32_MAX);
 constexpr sock_filter kDrop = BPF_STMT(BPF_RET | BPF_K, 0);
 
 // Small, whatever the configuration.
-constexpr std::array<std::string_view, 17> kSmall = {channel::kTick,
+constexpr std::array<std::string_view, 18> kSmall = {channel::kTick,
                                                      channel::kImu,
                                                      channel::kWheelState,
                                                      channel::kPtuState,
@@ -41,6 +41,7 @@ constexpr std::array<std::string_view, 17> kSmall = {channel::kTick,
                                                      channel::kDrivePermit,
                                                      channel::kState,
                                                      channel::kCorrection,
+                                                     channel::kGroundCommand,
                                                      channel::kCommandAck};
 
 // Loads and comparisons of the name, four bytes at a time; where it differs, the next name follows.
@@ -87,13 +88,18 @@ std::vector<sock_filter> channel_program(const std::vector<std::string>& channel
   return program;
 }
 
-void keep_channels(const std::vector<std::string>& channels, int port) {
+bool keep_channels(const std::vector<std::string>& channels, int port) {
   std::vector<sock_filter> program = channel_program(channels);
   const sock_fprog filter{static_cast<unsigned short>(program.size()), program.data()};
-  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
+  bool attached = false;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd", error)) {
     const int fd = std::stoi(entry.path().filename());
-    if (bound_to(fd, port)) setsockopt(fd, SOL_SOCKET, SO_ATTACH_FILTER, &filter, sizeof(filter));
+    if (!bound_to(fd, port)) continue;
+    attached = setsockopt(fd, SOL_SOCKET, SO_ATTACH_FILTER, &filter, sizeof(filter)) == 0;
+    if (!attached) return false;
   }
+  return attached;
 }
 
 }  // namespace rover

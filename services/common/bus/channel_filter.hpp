@@ -18,7 +18,8 @@ bool fits_a_datagram(const std::string& channel);
 // them. Datagrams that are not LCM's are dropped.
 std::vector<sock_filter> channel_program(const std::vector<std::string>& channels);
 
-// For the sockets of this process that are bound to the UDP port. Without the right to do so nothing is filtered.
-void keep_channels(const std::vector<std::string>& channels, int port);
+// For the sockets of this process that are bound to the UDP port. False if the kernel refuses: a program of many
+// channels may exceed net.core.optmem_max. Nothing is filtered then.
+bool keep_channels(const std::vector<std::string>& channels, int port);
 
 }  // namespace rover

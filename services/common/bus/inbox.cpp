@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "common/bus/channels.hpp"
+#include "common/core/check.hpp"
 
 namespace rover {
 namespace {
@@ -53,6 +54,8 @@ Inbox::~Inbox() {
 
 void Inbox::add(const std::string& channel, std::int64_t fingerprint, Utime slow, Decode decode,
                 FindChannelType types) {
+  // LCM takes names as regular expressions; sequence numbers and the filter of the bus go by names.
+  ROVER_CHECK(channel == ".*" || channel.find_first_of(".*+?[](){}|\\^$") == std::string::npos, channel);
   subscriptions_.push_back(std::make_unique<Subscription>(
       Subscription{channel, fingerprint, slow, std::move(decode), types, no_input_yet(channel)}));
   struct Context {
@@ -102,12 +105,6 @@ void Inbox::enqueue(Subscription& subscription, Pending pending, Utime delay) {
   pending.subscription = &subscription;
   pending.slow = subscription.slow;
   pending_.push_back(std::move(pending));
-}
-
-std::vector<std::string> Inbox::channels() const {
-  std::vector<std::string> out;
-  for (const auto& subscription : subscriptions_) out.push_back(subscription->channel);
-  return out;
 }
 
 bool Inbox::misses(const stream_seq_t& stream) const {

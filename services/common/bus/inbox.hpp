@@ -75,8 +75,6 @@ class Inbox {
   void count_malformed(input_health_t& health, const std::string& channel, const std::string& why);
   // The content of a message was not usable: counts as malformed.
   void reject(const std::string& channel, const std::string& why);
-  // As they were added; ".*": all.
-  std::vector<std::string> channels() const;
   // Null if the channel is not subscribed.
   const input_health_t* health(const std::string& channel) const;
   std::vector<input_health_t> health() const;

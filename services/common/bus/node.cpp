@@ -39,7 +39,7 @@ Node::Node(NodeOptions options, lcm::LCM& lcm, lcm::LCM* reports)
 }
 
 void Node::subscribe_raw(std::function<void(const RawMessage&)> handler, FindChannelType types) {
-  ROVER_CHECK(!filters_bus_);
+  ROVER_CHECK(!subscriptions_closed_);
   const auto shared = std::make_shared<const std::function<void(const RawMessage&)>>(std::move(handler));
   const auto decode = [shared, types](RawMessage raw) -> Inbox::Deliver {
     const ChannelType* type = types(raw.channel);
@@ -100,24 +100,35 @@ void Node::publish_heartbeat() {
   heartbeat.rss_mb = process_rss_mb();
   heartbeat.step_p50_ms = timer_.quantile_ms(0.5);
   heartbeat.step_p99_ms = timer_.quantile_ms(0.99);
-  heartbeat.inputs = inbox_.health();
-  heartbeat.inputs.push_back(lockstep_.health());
+  heartbeat.inputs = inputs();
   heartbeat.input_count = static_cast<std::int32_t>(heartbeat.inputs.size());
   publish(channel::kHeartbeat, heartbeat, now_);
 }
 
+std::vector<input_health_t> Node::inputs() const {
+  std::vector<input_health_t> all = inbox_.health();
+  all.push_back(lockstep_.health());
+  return all;
+}
+
 void Node::send_bytes(lcm::LCM& lcm, const std::string& channel, const std::vector<std::uint8_t>& bytes) {
-  const bool too_large = bytes.size() > kDatagramBytes && fits_a_datagram(channel);
-  if (too_large || lcm.publish(channel, bytes.data(), static_cast<unsigned int>(bytes.size())) != 0)
+  ROVER_CHECK(bytes.size() <= kDatagramBytes || !fits_a_datagram(channel), channel, bytes.size());
+  if (lcm.publish(channel, bytes.data(), static_cast<unsigned int>(bytes.size())) != 0)
     log("ERROR", "NOT_PUBLISHED channel=" + channel + " bytes=" + std::to_string(bytes.size()));
 }
 
-void Node::filter_bus(int port) {
-  std::vector<std::string> channels = inbox_.channels();
-  channels.emplace_back(channel::kTick);
-  const bool all = std::find(channels.begin(), channels.end(), ".*") != channels.end();
-  filters_bus_ = !all && !shares_bus_;
-  if (filters_bus_) keep_channels(channels, port);
+lcm::LCM& Node::share_bus() {
+  ROVER_CHECK(!subscriptions_closed_);
+  shares_bus_ = true;
+  return lcm_;
+}
+
+void Node::close_subscriptions(int port) {
+  subscriptions_closed_ = true;
+  std::vector<std::string> channels;
+  for (const input_health_t& input : inputs()) channels.push_back(input.channel);
+  if (shares_bus_ || std::find(channels.begin(), channels.end(), ".*") != channels.end()) return;
+  if (!keep_channels(channels, port)) log("WARN", "BUS_NOT_FILTERED channels=" + std::to_string(channels.size()));
 }
 
 bool Node::handle(int timeout_ms) {

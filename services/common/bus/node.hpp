@@ -85,10 +85,10 @@ class Node {
   bool follows_clock() const { return lockstep_.follows_clock(); }
   const NodeOptions& options() const { return options_; }
 
-  // Other subscribers share the node's LCM.
-  void share_bus() { shares_bus_ = true; }
-  // After the last subscription, on a bus of this UDP port: what the node does not take no longer wakes the process.
-  void filter_bus(int port);
+  // For other subscribers in the node's thread. The process is then woken by all messages.
+  lcm::LCM& share_bus();
+  // No subscription follows. On a bus of this UDP port, what the node does not take no longer wakes the process.
+  void close_subscriptions(int port);
   // Announces the node, then handles messages while `running`.
   void run(const std::function<bool()>& running);
   // Handles waiting messages for at most timeout_ms; false if the bus failed.
@@ -100,6 +100,7 @@ class Node {
   void process(const tick_t& tick);
   void apply_injection(const injection_t& injection);
   void publish_heartbeat();
+  std::vector<input_health_t> inputs() const;
   template <class Message>
   void send(lcm::LCM& lcm, const std::string& channel, const Message& message);
   void send_bytes(lcm::LCM& lcm, const std::string& channel, const std::vector<std::uint8_t>& bytes);
@@ -115,7 +116,7 @@ class Node {
   std::function<void()> tick_timeout_;
   std::function<void(const injection_t&)> on_injection_;
   bool shares_bus_ = false;
-  bool filters_bus_ = false;
+  bool subscriptions_closed_ = false;
   Utime now_ = kNever;
   Utime promise_ = kNever;
   std::int8_t status_ = heartbeat_t::OK;
@@ -129,7 +130,7 @@ void Node::subscribe(const std::string& channel, std::function<void(const Messag
 
 template <class Message>
 void Node::subscribe_slow(const std::string& channel, Utime latency, std::function<void(const Message&)> handler) {
-  ROVER_CHECK(!filters_bus_, channel);
+  ROVER_CHECK(!subscriptions_closed_, channel);
   const auto shared = std::make_shared<const std::function<void(const Message&)>>(std::move(handler));
   inbox_.add(channel, Message::getHash(), latency, [shared](const RawMessage& raw) -> Inbox::Deliver {
     const auto message = std::make_shared<Message>();

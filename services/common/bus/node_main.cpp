@@ -73,8 +73,8 @@ int node_main(int argc, char** argv, const std::string& service, const ConfigLoa
     lcm::LCM reports(reports_url(bus));
     if (!lcm.good() || !reports.good()) throw ConfigError("bus: cannot join " + bus);
     Node node(options, lcm, parse_udpm(bus) ? &reports : nullptr);
-    const std::shared_ptr<void> keep = factory({node, config_dir, lcm});
-    if (const auto address = parse_udpm(bus)) node.filter_bus(address->port);
+    const std::shared_ptr<void> keep = factory({node, config_dir});
+    if (const auto address = parse_udpm(bus)) node.close_subscriptions(address->port);
     node.log("INFO", "STARTED boot=" + std::to_string(options.boot_id));
     node.run(keep_running);
     node.log("INFO", "STOPPED");

@@ -16,7 +16,6 @@ namespace rover {
 struct NodeContext {
   Node& node;
   std::string config_dir;  // contains vehicle.yaml, <service>.yaml, ...
-  lcm::LCM& lcm;           // the node's bus, for other subscribers in its thread
 };
 
 // Builds the service on the node and returns the object that keeps it alive.
