@@ -8,6 +8,7 @@ pairs: mean and its 95 % bootstrap interval (10,000 samples, seeded).
 """
 import random
 import re
+import statistics
 import subprocess
 import sys
 
@@ -56,7 +57,7 @@ def main():
     for group in sorted({key[:2] for key in a.keys() & b.keys()}):
         keys = [key for key in sorted(a.keys() & b.keys()) if key[:2] == group]
         both = [key for key in keys if a[key][0] and b[key][0]]
-        medians = [f"{sorted(t[k][1] for k in both)[len(both) // 2]:.3f}" if both else "-" for t in (a, b)]
+        medians = [f"{statistics.median(t[k][1] for k in both):.3f}" if both else "-" for t in (a, b)]
         print(f"| {' '.join(group).strip()} | {len(keys)} | {sum(a[k][0] for k in keys)}, {sum(b[k][0] for k in keys)} "
               f"| {', '.join(medians)} | {difference([(a[k][1], b[k][1]) for k in both])} "
               f"| {difference([(a[k][2], b[k][2]) for k in keys])} |")
