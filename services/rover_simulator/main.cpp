@@ -28,7 +28,7 @@ int simulate(const Arguments& arguments) {
   if (const auto address = rover::parse_udpm(arguments.bus)) {
     std::vector<std::string> inputs;
     for (const auto& [channel, count] : simulator.malformed()) inputs.push_back(channel);
-    rover::keep_channels(inputs, address->port);
+    if (!rover::keep_channels(inputs, address->port)) std::printf("WARN rover_simulator BUS_NOT_FILTERED\n");
   }
   const rover::SimulationSummary summary = simulator.run(rover::keep_running);
   for (const std::string& left : summary.left) std::printf("%s\n", left.c_str());

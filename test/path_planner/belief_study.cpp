@@ -1,8 +1,7 @@
-// Replays the maps of runs into the belief map and compares it with the true surface: how often a cell that is believed
-// to be a hazard with probability P is one, by distance, and how often cells change their side of the threshold.
-//   belief_study RUN_DIR... (runs of the simulator; from the project folder, whose config it takes)
+// How often a cell that the belief map calls a hazard with probability P is one, and how often cells change.
+//   belief_study RUN_DIR... (runs of the simulator with their logs; from the project folder, whose config it takes)
+#include <array>
 #include <cstdio>
-#include <map>
 #include <rover/hazards_t.hpp>
 #include <rover/pose_t.hpp>
 #include <rover/traversability_t.hpp>
@@ -13,6 +12,7 @@
 #include "path_planner/config.hpp"
 #include "path_planner/convert.hpp"
 #include "path_planner/map/belief_map.hpp"
+#include "tools/report/rock_evaluation.hpp"
 #include "tools/report/study.hpp"
 #include "tools/report/track.hpp"
 #include "tools/report/true_relief.hpp"
@@ -22,16 +22,13 @@ namespace {
 
 constexpr std::array kProbabilities = {0.02, 0.1, 0.3, 0.5, 0.7, 0.9, 1.0};  // upper ends of the classes
 constexpr std::array kRangesM = {2.0, 4.0, 8.0};
-constexpr double kRockM = 0.15;     // of a hazard for a wheel
-constexpr double kPlaceM = 0.1;     // looks at one place are correlated: it is one trial
-constexpr int kFramesPerLook = 5;   // 2 s
-constexpr double kQuarterM = 0.05;  // of the relief
+constexpr int kFramesPerLook = 5;  // 2 s
 
 struct Class {
   int looks = 0;
   int hazards = 0;
   double sum_probability = 0.0;
-  int places = 0;
+  int places = 0;  // looks at one place are correlated: it is one trial
 };
 
 struct Tally {
@@ -116,14 +113,14 @@ class Replay {
 
   void count(const Eigen::Vector2d& p_map, double range_m, double probability, Place& place) {
     float rise_m = 0.0F;
-    for (const double u : {-0.5, 0.5})
-      for (const double v : {-0.5, 0.5})
-        rise_m = std::max(rise_m, relief_.at(p_map + Eigen::Vector2d(u, v) * kQuarterM).rise_m);
+    for (const double u : {-0.25, 0.25})
+      for (const double v : {-0.25, 0.25})
+        rise_m = std::max(rise_m, relief_.at(p_map + BeliefConfig::kCellM * Eigen::Vector2d(u, v)).rise_m);
     const size_t row = class_of(probability, kProbabilities);
     const size_t column = class_of(range_m, kRangesM);
     Class& c = tally_.classes[row][column];
     ++c.looks;
-    c.hazards += rise_m >= kRockM ? 1 : 0;
+    c.hazards += rise_m >= report::kHazardRockM ? 1 : 0;
     c.sum_probability += probability;
     const std::uint32_t bit = 1U << (row * kRangesM.size() + column);
     c.places += (place.classes & bit) == 0 ? 1 : 0;
@@ -135,7 +132,7 @@ class Replay {
   PoseHistory history_;
   report::TrueTrack truth_;
   report::TrueRelief relief_;
-  oracle::TiledGrid<Place> places_{kPlaceM};
+  oracle::TiledGrid<Place> places_{BeliefConfig::kCellM};
   int frames_ = 0;
   Tally& tally_;
 };
