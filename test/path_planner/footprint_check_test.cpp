@@ -107,6 +107,18 @@ TEST(FootprintCheck, ARoverThatTouchesAHazardMayLeaveItButNotDriveOverIt) {
   EXPECT_FALSE(check.clear({0.6, -0.03, 0.0})) << "towards another one";
 }
 
+TEST(FootprintCheck, ARoverBesideUnknownGroundMayLeaveItButNotEnterIt) {
+  const Costmap costmap = costmap_of([](Point2 p) {
+    return p.x_m > 0.6 && p.y_m < -0.4 ? Ground::kUnknown : Ground::kFree;  // under a corner of the footprint
+  });
+  EXPECT_FALSE(check_of(costmap).known({0.0, 0.0, 0.0}));
+  const FootprintCheck check = check_of(costmap, {});
+  EXPECT_TRUE(check.known({0.0, 0.0, 0.0}));
+  EXPECT_TRUE(check.known({-0.05, 0.0, 0.0}));
+  EXPECT_TRUE(check.known({0.0, 0.0, 0.1}));
+  EXPECT_FALSE(check.known({0.0, -0.05, 0.0}));
+}
+
 class VisibilityTest : public testing::Test {
  protected:
   // Only the ground under the rover is known.

@@ -28,6 +28,12 @@ bool FootprintCheck::violates(const Pose2& pose, const Hazard& hazard) const {
   return d < std::min(margin_m_, (hazard.wall ? at_start : std::max(at_start, 0.0)) - approach_m_);
 }
 
+bool FootprintCheck::enters(const Pose2& pose, Point2 unknown) const {
+  if (!costmap_.contains(unknown)) return true;
+  const Point2 cell = costmap_.center_of(costmap_.cell_of(unknown));
+  return footprint_.distance_m(pose, cell) < footprint_.distance_m(start_, cell) - approach_m_;
+}
+
 bool FootprintCheck::clear(const Pose2& pose) const {
   const double reach = footprint_.radius_m() + margin_m_;
   if (costmap_.hazard_distance_m(position(pose)) > reach + costmap_.cell_m()) return true;

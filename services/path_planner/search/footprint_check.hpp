@@ -7,8 +7,8 @@
 
 namespace rover::planning {
 
-// Keeps the footprint clear of hazards by a margin. The rover may leave a hazard that is nearer at `start`, but not
-// approach it by more than `approach_m`.
+// Keeps the footprint clear of hazards by a margin, and on known ground. The rover may leave a hazard or unknown ground
+// that is nearer at `start`, but not approach it by more than `approach_m`.
 class FootprintCheck {
  public:
   // `known_margin_m`: how far around the footprint ground must be known.
@@ -18,8 +18,8 @@ class FootprintCheck {
   bool clear(const Pose2& pose) const;
   // From the footprint to the nearest centre of a hazard cell; `max` if none is as near.
   double clearance_m(const Pose2& pose, double max) const;
-  // Calls f(point) for each unknown point under the edge of the footprint until it returns false; false then. A moving
-  // footprint covers only ground that its edge has passed.
+  // Calls f(point) for each unknown point that the edge of the footprint enters, until it returns false; false then. A
+  // moving footprint covers only ground that its edge has passed.
   template <class F>
   bool all_unknown(const Pose2& pose, F&& f) const;
   bool known(const Pose2& pose) const {
@@ -33,6 +33,7 @@ class FootprintCheck {
     return footprint_.hazard_distance_m(pose, hazard.p, hazard.low);
   }
   bool violates(const Pose2& pose, const Hazard& hazard) const;
+  bool enters(const Pose2& pose, Point2 unknown) const;
 
   const Costmap& costmap_;
   Footprint footprint_;
@@ -49,7 +50,7 @@ bool FootprintCheck::all_unknown(const Pose2& pose, F&& f) const {
   const double s = std::sin(pose.yaw_rad);
   for (size_t i = 0; i < edge_.size();) {
     const Point2 p{pose.x_m + c * edge_[i].x_m - s * edge_[i].y_m, pose.y_m + s * edge_[i].x_m + c * edge_[i].y_m};
-    if (costmap_.unknown(p) && !f(p)) return false;
+    if (costmap_.unknown(p) && enters(pose, p) && !f(p)) return false;
     // Neighbours on the edge are at most a cell apart: skip those that unknown ground is farther from.
     const double known_m = std::min(costmap_.unknown_distance_m(p), costmap_.inside_m(p));
     i += 1 + static_cast<size_t>(std::max(0.0, known_m / costmap_.cell_m() - kCellDiagonals));
