@@ -18,7 +18,7 @@ void add_belief(Parameters p, BeliefConfig& c) {
   p.add("navcam_sigma_per_m", c.sigma_per_m, {0.0, 1.0}, "added per metre of range");
   p.add("navcam_max_log_odds", c.max_navcam_evidence, {0.1, 20.0}, "bound of its evidence");
   p.add("unmeasured_frames", c.unmeasured_frames, {1, 200},
-        "frames in a row, within near_range_m, that do not measure ground in view: it becomes a hazard");
+        "frames in a row, within near_range_m, that do not measure ground in view: a hazard, unless it is surely free");
 }
 
 void add_clearance(Parameters p, PathPlannerConfig& c) {

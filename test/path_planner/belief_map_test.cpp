@@ -226,6 +226,17 @@ TEST_F(BeliefMapTest, UnmeasuredGroundInViewNearbyBecomesAHazard) {
   EXPECT_EQ(hazards(), 0u);
 }
 
+TEST_F(BeliefMapTest, GroundThatIsSurelyFreeMayBeUnmeasuredFromNear) {
+  const Point2 shadow{1.55, 0.05};
+  for (const int looks : {1, 8}) {
+    belief_.clear();
+    see_everywhere(HazardGrid::kFree, looks, {-1.5, 0.0, 0.0});
+    see_everywhere(HazardGrid::kUnseen, 300);
+    EXPECT_EQ(belief_.unmeasurable(at(shadow)), looks == 1) << looks;
+  }
+  EXPECT_EQ(hazards(), 0u);
+}
+
 TEST_F(BeliefMapTest, OneMeasurementBeforeTheLastFrameStartsTheCountAgain) {
   see_everywhere(HazardGrid::kUnseen, config_.unmeasured_frames - 1);
   see_everywhere(HazardGrid::kFree);

@@ -115,7 +115,7 @@ void BeliefMap::add_unmeasured(CellBelief& cell, const HazardGrid& grid, Point2 
   if (hidden(grid, config_.view.camera, in_body)) return;
   const auto range_m = static_cast<float>(std::hypot(in_body.x_m, in_body.y_m));
   cell.unmeasured_range_m = cell.unmeasured == 0 ? range_m : std::min(cell.unmeasured_range_m, range_m);
-  if (!unmeasurable(cell)) ++cell.unmeasured;
+  if (cell.unmeasured < config_.unmeasured_frames) ++cell.unmeasured;
 }
 
 // Successive maps share their heights, so a look as good as the last one replaces half of it and never makes it surer.

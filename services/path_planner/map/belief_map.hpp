@@ -23,7 +23,8 @@ struct BeliefConfig {
   double sigma = 0.05;
   double sigma_per_m = 0.008;
   double max_navcam_evidence = 2.5;  // less than the LocCam's, whose picture of near ground is the sharper one
-  int unmeasured_frames = 6;         // in a row, in view within near_range_m: the cell counts as a hazard
+  static constexpr double kSurelyFree = 0.02;  // below this probability no place proved to be a hazard (belief.md)
+  int unmeasured_frames = 6;  // in a row, in view within near_range_m: a hazard, unless it is surely free
   ViewArea view;
 };
 
@@ -63,8 +64,12 @@ class BeliefMap {
   bool low(const CellBelief& cell) const {
     return cell.tall_evidence + config_.max_navcam_evidence * (2.0 * cell.tall_fraction - 1.0) < 0.0;
   }
-  // Seen from afar perhaps, but not from near, where the picture is sharper. Only a look from as near changes that.
-  bool unmeasurable(const CellBelief& cell) const { return cell.unmeasured >= config_.unmeasured_frames; }
+  // Not measured from near, where the picture is sharper, and not seen often enough from afar to be surely free. Only a
+  // look from as near changes that.
+  bool unmeasurable(const CellBelief& cell) const {
+    return cell.unmeasured >= config_.unmeasured_frames &&
+           !(cell.known && probability(cell) < BeliefConfig::kSurelyFree);
+  }
   const GridMap<CellBelief>& cells() const { return map_; }
   GridMap<CellBelief>& cells() { return map_; }
 
