@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace rover::control {
 namespace {
@@ -13,7 +14,6 @@ constexpr double kMaxLengthM = 1e5;
 constexpr double kSearchWindowM = 0.5;      // around the arc length of the smoothed curve
 constexpr double kHeadingWeightM = 0.3;     // 1 rad of heading error costs as much as this distance
 constexpr double kCandidateFraction = 0.5;  // of the half width: parts this close are candidates
-constexpr double kPastCuspM = 0.05;         // a part beyond a cusp must be this much closer
 
 Points without_duplicates(const Points& points) {
   Points out;
@@ -262,22 +262,25 @@ void TrackedPath::add_part(const Points& part, bool reverse, const TrackedPathCo
 
 PathPosition TrackedPath::locate(const Pose2& pose) const {
   const Eigen::Vector2d p(pose.x_m, pose.y_m);
+  const auto cusp = std::find_if(segments_.begin(), segments_.end(), [&](const PathSegment& segment) {
+    return segment.reverse() != segments_[0].reverse();
+  });
+  const std::span<const PathSegment> part(segments_.begin(), cusp);
   double nearest_m = kInfinity;
-  for (const PathSegment& segment : segments_)
+  for (const PathSegment& segment : part)
     for (const PathSample& sample : segment.samples()) nearest_m = std::min(nearest_m, (sample.p - p).norm());
   const double candidate_distance_m = std::max(nearest_m, kCandidateFraction * corridor_half_width_m_);
 
   PathPosition best;
   double min_cost = kInfinity;
-  for (size_t l = 0; l < segments_.size(); ++l) {
-    const double heading_rad = pose.yaw_rad + (segments_[l].reverse() ? kPi : 0.0);
-    const double step_m = segments_[l].length_m() / static_cast<double>(segments_[l].samples().size() - 1);
-    for (const size_t i : local_minima(segments_[l].samples(), p)) {
-      const PathSample& sample = segments_[l].samples()[i];
+  for (size_t l = 0; l < part.size(); ++l) {
+    const double heading_rad = pose.yaw_rad + (part[l].reverse() ? kPi : 0.0);
+    const double step_m = part[l].length_m() / static_cast<double>(part[l].samples().size() - 1);
+    for (const size_t i : local_minima(part[l].samples(), p)) {
+      const PathSample& sample = part[l].samples()[i];
       const double distance_m = (sample.p - p).norm();
       const double cost = std::hypot(distance_m, kHeadingWeightM * wrap_angle(sample.yaw_rad - heading_rad));
-      const double handicap_m = segments_[l].reverse() == segments_[best.segment].reverse() ? 0.0 : kPastCuspM;
-      if (distance_m > candidate_distance_m || cost + handicap_m >= min_cost) continue;
+      if (distance_m > candidate_distance_m || cost >= min_cost) continue;
       min_cost = cost;
       best = {l, step_m * static_cast<double>(i)};
     }

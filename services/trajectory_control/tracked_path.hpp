@@ -95,9 +95,9 @@ class TrackedPath {
   double corridor_half_width_m() const { return corridor_half_width_m_; }
   double length_m() const { return segments_.back().start_m() + segments_.back().length_m(); }
   const std::vector<PathSegment>& segments() const { return segments_; }
-  // Closest sample to the pose on the whole path. If several parts pass within kCandidateFraction of the corridor half
-  // width, the heading selects among their closest samples, so a path that starts with a point turn starts at the
-  // rover. Beside a cusp, where both parts have the same heading, the first is taken unless the other is much nearer.
+  // Closest sample to the pose up to the first cusp: a path begins with the part that is being driven, and what follows
+  // may pass the same place. If several segments pass within kCandidateFraction of the corridor half width, the heading
+  // selects among their closest samples, so a path that starts with a point turn starts at the rover.
   PathPosition locate(const Pose2& pose) const;
 
  private:

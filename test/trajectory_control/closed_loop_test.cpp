@@ -323,22 +323,45 @@ TEST(ClosedLoop, DrivesOverCuspsWithoutPointTurns) {
   EXPECT_LT((path.points.back() - Eigen::Vector2d(loop.rover.pose().x_m, loop.rover.pose().y_m)).norm(), 0.06);
 }
 
-// A restarted controller gets the whole path, wherever the rover is on it.
+// From the part on which the rover is.
+PathInput without_parts(PathInput path, int driven) {
+  size_t begin = 0;
+  for (int part = 0; part < driven; ++part)
+    begin = static_cast<size_t>(
+        std::find(path.reverse.begin() + static_cast<long>(begin), path.reverse.end(), !path.reverse[begin]) -
+        path.reverse.begin());
+  path.points.erase(path.points.begin(), path.points.begin() + static_cast<long>(begin));
+  path.reverse.erase(path.reverse.begin(), path.reverse.begin() + static_cast<long>(begin));
+  return path;
+}
+
+// PATH begins with the part that is being driven, so a restarted controller gets the rest of the path.
 TEST(ClosedLoop, RestartedAnywhereOnAPathWithCuspsItDrivesToTheEnd) {
   const PathInput path = path_with_cusps();
   DriveLoop first;
   ASSERT_TRUE(first.controller.set_path(path));
-  std::vector<Pose2> places;
+  struct Place {
+    Pose2 pose;
+    int driven;
+  };
+  std::vector<Place> places;
+  int driven = 0;
+  bool reverse = false;
   for (int i = 0; first.output.state != ControlState::kPathEnd && i < 10'000; ++i) {
     first.tick();
-    if (i % 50 == 0) places.push_back(first.rover.pose());
+    const double speed_mps = first.output.command.speed_mps;
+    if (speed_mps != 0.0 && (speed_mps < 0.0) != reverse) {
+      reverse = !reverse;
+      ++driven;
+    }
+    if (i % 50 == 0) places.push_back({first.rover.pose(), driven});
   }
   ASSERT_GT(places.size(), 20u);
-  for (const Pose2& place : places) {
-    SCOPED_TRACE(::testing::Message() << place.x_m << " " << place.y_m);
+  for (const Place& place : places) {
+    SCOPED_TRACE(::testing::Message() << place.pose.x_m << " " << place.pose.y_m);
     DriveLoop loop;
-    loop.rover.put(place);
-    ASSERT_TRUE(loop.controller.set_path(path));
+    loop.rover.put(place.pose);
+    ASSERT_TRUE(loop.controller.set_path(without_parts(path, place.driven)));
     double largest_m = 0.0;
     for (loop.tick(); loop.output.state != ControlState::kPathEnd && loop.now < to_utime(200.0); loop.tick()) {
       ASSERT_NE(loop.output.state, ControlState::kOutOfCorridor);
@@ -347,6 +370,24 @@ TEST(ClosedLoop, RestartedAnywhereOnAPathWithCuspsItDrivesToTheEnd) {
     EXPECT_EQ(loop.output.state, ControlState::kPathEnd);
     EXPECT_LT(largest_m, 0.2);
   }
+}
+
+// To see the ground ahead, a plan may back up on the line that it drives afterwards.
+TEST(ClosedLoop, DrivesEachPartOfAPathThatLiesOnItself) {
+  PathInput path{1, 0.25, {}, {}};
+  for (int i = 0; i <= 2; ++i) path.points.emplace_back(0.1 * i, 0.02);
+  path.reverse.assign(2, false);
+  for (int i = 1; i >= -3; --i) path.points.emplace_back(0.1 * i, 0.0);
+  path.reverse.resize(path.points.size() - 1, true);
+  for (int i = -2; i <= 10; ++i) path.points.emplace_back(0.1 * i, 0.0);
+  path.reverse.resize(path.points.size(), false);
+  DriveLoop loop;
+  ASSERT_TRUE(loop.controller.set_path(path));
+  double least_x_m = 0.0;
+  for (loop.tick(); loop.output.state != ControlState::kPathEnd && loop.now < to_utime(100.0); loop.tick())
+    least_x_m = std::min(least_x_m, loop.rover.pose().x_m);
+  EXPECT_EQ(loop.output.state, ControlState::kPathEnd);
+  EXPECT_NEAR(least_x_m, -0.3, 0.06);
 }
 
 TEST(ClosedLoop, ResendingTheSamePathChangesNothing) {

@@ -67,8 +67,7 @@ class BeliefMap {
   // Not measured from near, where the picture is sharper, and not seen often enough from afar to be surely free. Only a
   // look from as near changes that.
   bool unmeasurable(const CellBelief& cell) const {
-    return cell.unmeasured >= config_.unmeasured_frames &&
-           !(cell.known && probability(cell) < BeliefConfig::kSurelyFree);
+    return cell.unmeasured >= config_.unmeasured_frames && probability(cell) >= BeliefConfig::kSurelyFree;
   }
   const GridMap<CellBelief>& cells() const { return map_; }
   GridMap<CellBelief>& cells() { return map_; }
