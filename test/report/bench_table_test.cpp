@@ -144,6 +144,19 @@ TEST(BenchTable, ProgressRegretAndTimeByCauseAreInTheTable) {
   EXPECT_NE(table.find("Time by cause [%]: straight 60.0, point turn 39.0, fault 1.0.\n"), std::string::npos);
 }
 
+TEST(BenchTable, ConsistencyOfThePoseIsTheMeanOfTheDrivesThatCount) {
+  std::vector<BenchRow> rows = full_bench();
+  for (BenchRow& row : rows) row.anees_x = row.anees_y = row.anees_yaw = row.anees_xyyaw = 1.0;
+  rows[0].anees_x = 3.0;
+  const std::string line =
+      "ANEES of POSE, mean of 20 drives: x 1.10, y 1.00, yaw 1.00 (consistent: 0.48 to 1.71); together 1.00 (0.67 to "
+      "1.39).";
+  const std::string table = bench_table({"seed", "cmd", "cpu", 2}, rows);
+  EXPECT_NE(table.find(line), std::string::npos) << table;
+  rows[1].anees_yaw = kNaN;
+  EXPECT_NE(bench_table({"seed", "cmd", "cpu", 2}, rows).find("yaw n/a"), std::string::npos) << "unknown is not good";
+}
+
 // Four drives at the Efficient level: two reach the goal, one gives up, one died without metrics.
 std::vector<BenchRow> four_drives() {
   std::vector<BenchRow> rows;
@@ -227,7 +240,8 @@ TEST(Suites, AreFoundByName) {
 TEST(BenchRows, ReadsFiguresAndNull) {
   const std::vector<BenchRow> rows = parse_rows(
       R"({"scenario":"seed_traverse_1","seed":7,"commit":"c","deterministic":true,"duty":0.8,"rocks_missed":null,)"
-      R"("progress":0.7,"oracle_feasible":true,"seconds":{"straight":3.5}})"
+      R"("progress":0.7,"oracle_feasible":true,"seconds":{"straight":3.5},)"
+      R"("anees":{"x":0.5,"y":0.6,"yaw":null,"xyyaw":0.7}})"
       "\n\n",
       "rows.jsonl");
   ASSERT_EQ(rows.size(), 1u);
@@ -237,6 +251,9 @@ TEST(BenchRows, ReadsFiguresAndNull) {
   EXPECT_TRUE(std::isnan(rows[0].regret));
   EXPECT_EQ(rows[0].oracle_feasible, true);
   EXPECT_EQ(rows[0].seconds.at("straight"), 3.5);
+  EXPECT_EQ(rows[0].anees_x, 0.5);
+  EXPECT_EQ(rows[0].anees_xyyaw, 0.7);
+  EXPECT_TRUE(std::isnan(rows[0].anees_yaw));
   EXPECT_TRUE(rows[0].deterministic);
   EXPECT_TRUE(std::isnan(rows[0].rocks_missed));
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/core/statistics.hpp"
 #include "tools/report/time_account.hpp"
 
 namespace rover::report {
@@ -93,6 +94,22 @@ std::string time_by_cause(const BenchRows& rows) {
     out += fmt::format("{}{} {:.1f}", out.empty() ? "" : ", ", name, percent);
   }
   return out;
+}
+
+std::string consistency_line(const BenchRows& rows) {
+  if (rows.empty()) return "ANEES of POSE: n/a.";
+  const auto mean = [&](const RowFigure& figure) {
+    double sum = 0.0;
+    for (const double value : values(rows, figure)) sum += value;
+    return decimal(sum / static_cast<double>(rows.size()), 2);
+  };
+  const Interval single = mean_nees_bounds(static_cast<double>(rows.size()));
+  const Interval together = mean_nees_bounds(3.0 * static_cast<double>(rows.size()));
+  return fmt::format(
+      "ANEES of POSE, mean of {} drives: x {}, y {}, yaw {} (consistent: {:.2f} to {:.2f}); together {} ({:.2f} to "
+      "{:.2f}). More is overconfident.",
+      rows.size(), mean(&BenchRow::anees_x), mean(&BenchRow::anees_y), mean(&BenchRow::anees_yaw), single.low,
+      single.high, mean(&BenchRow::anees_xyyaw), together.low, together.high);
 }
 
 }  // namespace rover::report

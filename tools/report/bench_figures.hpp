@@ -34,4 +34,7 @@ std::string median_line(const std::string& what, const BenchRows& rows, const st
 // Percentages of the whole time, e.g. "straight 33.1, curve 49.0"; causes below 0.05 % are left out.
 std::string time_by_cause(const BenchRows& rows);
 
+// ANEES of POSE over all rows, with the bounds of a consistent filter. The errors of a row are one correlated value.
+std::string consistency_line(const BenchRows& rows);
+
 }  // namespace rover::report

@@ -57,6 +57,12 @@ BenchRow row_from(const nlohmann::json& row) {
   out.hazard_clearance_m = number_at(row, "hazard_clearance_m");
   if (const auto seconds = row.find("seconds"); seconds != row.end() && seconds->is_object())
     out.seconds = seconds->get<std::map<std::string, double>>();
+  if (const auto anees = row.find("anees"); anees != row.end() && anees->is_object()) {
+    out.anees_x = number_at(*anees, "x");
+    out.anees_y = number_at(*anees, "y");
+    out.anees_yaw = number_at(*anees, "yaw");
+    out.anees_xyyaw = number_at(*anees, "xyyaw");
+  }
   return out;
 }
 

@@ -185,9 +185,9 @@ std::string bench_table(const BenchContext& context, const std::vector<BenchRow>
   const auto mid = [&](const RowFigure& figure, int decimals) {
     return decimal(median(values(runs, figure)), decimals);
   };
-  out += fmt::format("\nMedian progress {}, regret {}, duty {}, mean speed {} m/h.\n\nTime by cause [%]: {}.\n",
+  out += fmt::format("\nMedian progress {}, regret {}, duty {}, mean speed {} m/h.\n\nTime by cause [%]: {}.\n\n{}\n",
                      mid(&BenchRow::progress, 3), mid(&BenchRow::regret, 3), mid(&BenchRow::duty, 3),
-                     mid(&BenchRow::mean_speed_m_per_h, 0), time_by_cause(runs));
+                     mid(&BenchRow::mean_speed_m_per_h, 0), time_by_cause(runs), consistency_line(runs));
   out +=
       "\nRuns share the machine when there is more than one at a time; real time is measured by `./rover bench "
       "speed`.\n";

@@ -44,6 +44,11 @@ struct BenchRow {
   double reverse_m = kNaN;
   double hazard_clearance_m = kNaN;
   std::map<std::string, double> seconds;  // by cause
+  // Of POSE against the truth before the first correction, see pose_consistency.hpp.
+  double anees_x = kNaN;
+  double anees_y = kNaN;
+  double anees_yaw = kNaN;
+  double anees_xyyaw = kNaN;
 };
 
 struct BenchContext {

@@ -104,8 +104,9 @@ std::string failures_text(const BenchRows& rows) {
 
 std::string level_section(const BenchRows& rows) {
   std::string out = fmt::format(
-      "\n## Level `{}`\n\n- commit: `{}`\n- command: `{}`\n- failures: {}\n- time by cause [%]: {}\n\n",
-      rows.front().level, rows.front().commit, rows.back().command, failures_text(rows), time_by_cause(rows));
+      "\n## Level `{}`\n\n- commit: `{}`\n- command: `{}`\n- failures: {}\n- time by cause [%]: {}\n- {}\n\n",
+      rows.front().level, rows.front().commit, rows.back().command, failures_text(rows), time_by_cause(rows),
+      consistency_line(rows));
   out += runs_head(success_columns());
   for (const BenchRow& row : rows) out += run_line(row, success_columns());
   return out + median_line(rows.front().scenario, rows, success_columns());
