@@ -237,6 +237,22 @@ TEST_F(BeliefMapTest, GroundThatIsSurelyFreeMayBeUnmeasuredFromNear) {
   EXPECT_EQ(hazards(), 0u);
 }
 
+TEST_F(BeliefMapTest, GroundThatTheNavCamSawFreeMayBeUnmeasuredByTheLocCam) {
+  const Point2 shadow{1.55, 0.05};
+  struct Look {
+    std::uint8_t cost;
+    double range_m;
+    bool unmeasurable;
+  };
+  for (const Look& look : {Look{0, 2.0, false}, Look{0, 6.0, false}, Look{120, 2.0, false}, Look{120, 9.0, true},
+                           Look{240, 2.0, true}, Look{TraversabilityGrid::kImpassable, 2.0, true}}) {
+    belief_.clear();
+    see_cost(look.cost, look.range_m + kRock.x_m - shadow.x_m);
+    see_everywhere(HazardGrid::kUnseen, 300);
+    EXPECT_EQ(belief_.unmeasurable(at(shadow)), look.unmeasurable) << int(look.cost) << " at " << look.range_m << " m";
+  }
+}
+
 TEST_F(BeliefMapTest, OneMeasurementBeforeTheLastFrameStartsTheCountAgain) {
   see_everywhere(HazardGrid::kUnseen, config_.unmeasured_frames - 1);
   see_everywhere(HazardGrid::kFree);

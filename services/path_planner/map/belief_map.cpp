@@ -50,9 +50,14 @@ bool hidden(const HazardGrid& grid, Point2 camera, Point2 in_body) {
   return false;
 }
 
-// Logistic approximation of the normal distribution function: log-odds of N(mean, sigma) > 1.
-double log_odds_above_limit(double mean, double sigma) {
-  return 1.702 * (mean - 1.0) / sigma;
+// Log-odds that the step is above the limit, N(mean, sigma) > 1: logistic approximation of the distribution function.
+double navcam_evidence(const CellBelief& cell) {
+  if (cell.step_sigma == CellBelief::kNoSigma) return BeliefConfig::kPrior;
+  return 1.702 * (cell.step_ratio - 1.0) / cell.step_sigma;
+}
+
+double probability_of(double log_odds) {
+  return 1.0 / (1.0 + std::exp(-log_odds));
 }
 
 }  // namespace
@@ -146,11 +151,14 @@ void BeliefMap::add(const TraversabilityGrid& grid, Point2 rover) {
 
 double BeliefMap::probability(const CellBelief& cell) const {
   if (cell.driven) return 0.0;
-  const double navcam = cell.step_sigma == CellBelief::kNoSigma
-                            ? BeliefConfig::kPrior
-                            : std::clamp(log_odds_above_limit(cell.step_ratio, cell.step_sigma),
-                                         -config_.max_navcam_evidence, config_.max_navcam_evidence);
-  return 1.0 / (1.0 + std::exp(-navcam - cell.evidence));
+  const double bound = config_.max_navcam_evidence;
+  return probability_of(cell.evidence + std::clamp(navcam_evidence(cell), -bound, bound));
+}
+
+// Where the LocCam measures nothing it has no sharper picture than the NavCam, whose evidence then counts in full.
+bool BeliefMap::unmeasurable(const CellBelief& cell) const {
+  return cell.unmeasured >= config_.unmeasured_frames &&
+         probability_of(cell.evidence + navcam_evidence(cell)) >= BeliefConfig::kSurelyFree;
 }
 
 void BeliefMap::mark_driven(const Pose2& pose, const Footprint& footprint) {

@@ -64,11 +64,9 @@ class BeliefMap {
   bool low(const CellBelief& cell) const {
     return cell.tall_evidence + config_.max_navcam_evidence * (2.0 * cell.tall_fraction - 1.0) < 0.0;
   }
-  // Not measured from near, where the picture is sharper, and not seen often enough from afar to be surely free. Only a
-  // look from as near changes that.
-  bool unmeasurable(const CellBelief& cell) const {
-    return cell.unmeasured >= config_.unmeasured_frames && probability(cell) >= BeliefConfig::kSurelyFree;
-  }
+  // Not measured by the LocCam from near, where its picture is sharper, and not surely free by what both cameras have
+  // seen from afar. Only a look from as near changes that.
+  bool unmeasurable(const CellBelief& cell) const;
   const GridMap<CellBelief>& cells() const { return map_; }
   GridMap<CellBelief>& cells() { return map_; }
 
