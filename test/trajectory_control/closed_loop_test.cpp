@@ -383,11 +383,11 @@ TEST(ClosedLoop, DrivesEachPartOfAPathThatLiesOnItself) {
   path.reverse.resize(path.points.size(), false);
   DriveLoop loop;
   ASSERT_TRUE(loop.controller.set_path(path));
-  double least_x_m = 0.0;
+  double min_x_m = 0.0;
   for (loop.tick(); loop.output.state != ControlState::kPathEnd && loop.now < to_utime(100.0); loop.tick())
-    least_x_m = std::min(least_x_m, loop.rover.pose().x_m);
+    min_x_m = std::min(min_x_m, loop.rover.pose().x_m);
   EXPECT_EQ(loop.output.state, ControlState::kPathEnd);
-  EXPECT_NEAR(least_x_m, -0.3, 0.06);
+  EXPECT_NEAR(min_x_m, -0.3, 0.06);
 }
 
 TEST(ClosedLoop, ResendingTheSamePathChangesNothing) {
