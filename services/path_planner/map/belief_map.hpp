@@ -23,7 +23,7 @@ struct BeliefConfig {
   double sigma = 0.05;
   double sigma_per_m = 0.008;
   double max_navcam_evidence = 2.5;  // less than the LocCam's, whose picture of near ground is the sharper one
-  static constexpr double kSurelyFree = 0.02;  // below this probability no place proved to be a hazard (belief.md)
+  static constexpr double kSurelyFree = 0.02;  // of places below it at most 1 in 1,000 is a hazard (belief.md)
   int unmeasured_frames = 6;  // in a row, in view within near_range_m: a hazard, unless it is surely free
   ViewArea view;
 };
