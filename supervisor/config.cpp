@@ -126,9 +126,8 @@ void add_services(Parameters& p, FdirConfig& c) {
 }
 
 void add_hazard_stop(Parameters& p, SupervisorConfig& c) {
-  p.add("hazard_stop_m", c.hazard_stop_m, {0.1, 5.0},
-        "stop at this distance to a hazard along the path; at 0.2 m/s reaction takes 0.1 m and braking 0.05 m");
-  p.add("unseen_stop_m", c.unseen_stop_m, {0.05, 5.0}, "the same to unseen ground");
+  p.add("stop_distance_m", c.stop_distance_m, {0.1, 5.0},
+        "the rover stops at this distance to a hazard or unseen ground along the path, to which it brakes");
   p.add("stop_hysteresis_m", c.stop_hysteresis_m, {0.0, 2.0}, "added for resuming, unless the path is new");
   p.add("stationary_speed_mps", c.stationary_speed_mps, {0.001, 0.1}, "below it and the next the rover is stationary");
   p.add_deg("stationary_rate_degps", c.stationary_rate_radps, {0.05, 10.0}, "yaw rate");
@@ -139,7 +138,8 @@ void add_sweep(Parameters& p, SupervisorConfig& c) {
         "known fraction of the Full-level map ahead, 1.2 to 3 m; below it the rover stops and sweeps");
   p.add("terrain_known_around", c.terrain_known_around, {0.01, 1.0},
         "known fraction on each side, 1.5 to 4 m, that ends a sweep ...");
-  p.add("sweep_timeout_s", c.sweep_timeout_s, {1.0, 600.0}, "... or this time; a full sweep takes 17 s");
+  p.add("sweep_around_s", c.sweep_around_s, {1.0, 600.0},
+        "... or, after this time, the first alone; all views of a sweep take 17 s");
 }
 
 void add_level(Parameters p, LevelConfig& c) {

@@ -51,8 +51,6 @@ PlannerReport report_from(const planner_status_t& message) {
   out.state = static_cast<PlannerState>(message.state);
   out.path_id = message.path_id;
   out.blocked_in_m = message.blocked_in_m;
-  // Unknown kinds count as hazards, which have the longer stopping distance.
-  out.block_kind = message.block_kind == planner_status_t::UNSEEN ? BlockKind::kUnseen : BlockKind::kHazard;
   out.goal_distance_m = message.goal_distance_m;
   out.replans = message.replans;
   return out;

@@ -34,14 +34,12 @@ struct HazardsReport {
 };
 
 enum class PlannerState : std::int8_t { kIdle = 0, kFollowing = 1, kRepairing = 2, kNoPath = 3 };
-enum class BlockKind : std::int8_t { kNone = 0, kHazard = 1, kUnseen = 2 };
 
 struct PlannerReport {
   Utime utime = kNever;
   PlannerState state = PlannerState::kIdle;
   std::int64_t path_id = -1;
   double blocked_in_m = kNaN;
-  BlockKind block_kind = BlockKind::kNone;
   double goal_distance_m = kNaN;
   int replans = 0;
 };

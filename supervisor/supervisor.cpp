@@ -112,8 +112,8 @@ MonitorContext Supervisor::monitor_context(Utime now) const {
   const bool waiting = state_ == kHazardStop || state_ == kRepairing;
   const bool backtracking =
       backtracking_path_id_ >= 0 && backtracking_path_id_ == inputs_.planner.path_id && state_ != kTeleop;
-  return {inputs_,        derived_.values(), now,          stationary(), waiting,
-          blocked_in_m(), stop_distance_m(), sweep_s(now), backtracking, keep_out_depth_m()};
+  return {inputs_,        derived_.values(),       now,          stationary(), waiting,
+          blocked_in_m(), config_.stop_distance_m, sweep_s(now), backtracking, keep_out_depth_m()};
 }
 
 // Of the footprint now, and on the circle that the rover is on until it has reacted and braked. On the spot its ends
@@ -211,7 +211,7 @@ double Supervisor::sweep_s(Utime now) const {
 void Supervisor::terrain_fact(FactSet& facts, Utime now) {
   const KnownFractions& known = inputs_.terrain.known;
   const bool swept =
-      state_ != kSweeping || known.around >= config_.terrain_known_around || sweep_s(now) > config_.sweep_timeout_s;
+      state_ != kSweeping || known.around >= config_.terrain_known_around || sweep_s(now) > config_.sweep_around_s;
   const bool ahead = known.ahead >= config_.terrain_known_ahead;
   set_fact(facts, Fact::kTerrainKnown, terrain_fresh() && ahead && swept,
            {"terrain_known_ahead", terrain_fresh() ? known.ahead : 0.0, config_.terrain_known_ahead, 0.0,
@@ -258,7 +258,7 @@ void Supervisor::path_facts(FactSet& facts, double planner_age_s) {
   const PlannerReport& planner = inputs_.planner;
   const bool present = planner.path_id >= 0;
   const double distance_m = blocked_in_m();
-  const double stop = stop_distance_m();
+  const double stop = config_.stop_distance_m;
   // Hysteresis against oscillation by measurement noise; it does not apply to a new path.
   const double clear = planner.path_id == blocked_path_id_ ? stop + config_.stop_hysteresis_m : stop;
   set_fact(facts, Fact::kPathPresent, present, {"path_id", double(planner.path_id), 0.0, 0.0, planner_age_s});
@@ -296,10 +296,6 @@ bool Supervisor::alive(const std::vector<std::string>& services, Utime now) cons
 bool Supervisor::stationary() const {
   return inputs_.pose.speed_mps < config_.stationary_speed_mps &&
          std::abs(inputs_.pose.turn_rate_radps) < config_.stationary_rate_radps;
-}
-
-double Supervisor::stop_distance_m() const {
-  return inputs_.planner.block_kind == BlockKind::kUnseen ? config_.unseen_stop_m : config_.hazard_stop_m;
 }
 
 // NaN and a missing path count as blocked at 0 m.
@@ -396,7 +392,7 @@ Permit Supervisor::permit(FactSet facts, Utime now) const {
 double Supervisor::speed_limit_mps() const {
   if (state_ == kTeleop) return std::min(config_.teleop_speed_mps, fdir_.speed_limit_mps());
   // At any time the rover can brake before the stopping distance; a plan that comes a little late costs no stop.
-  const double free_m = std::max(0.0, blocked_in_m() - stop_distance_m());
+  const double free_m = std::max(0.0, blocked_in_m() - config_.stop_distance_m);
   const double braking_mps = std::sqrt(2.0 * config_.deceleration_mps2 * free_m);
   return std::min({config_.max_speed_mps, std::max(braking_mps, kMinApproachMps), fdir_.speed_limit_mps()});
 }

@@ -39,9 +39,8 @@ struct SupervisorConfig {
   double terrain_max_distance_m = 1.5;  // distance driven since the newest Full-level map
   double terrain_known_ahead = 0.3;
   double terrain_known_around = 0.5;  // ends a sweep if both are reached ...
-  double sweep_timeout_s = 25.0;      // ... after this time the known ground ahead is enough
-  double hazard_stop_m = 0.5;
-  double unseen_stop_m = 0.25;
+  double sweep_around_s = 25.0;       // ... after this time the known ground ahead is enough
+  double stop_distance_m = 0.25;
   double stop_hysteresis_m = 0.15;
   double goal_tolerance_m = 0.5;
   double stationary_speed_mps = 0.03;
@@ -180,7 +179,6 @@ class Supervisor {
   bool inputs_ready(Utime now) const;
   bool alive(const std::vector<std::string>& services, Utime now) const;
   bool stationary() const;
-  double stop_distance_m() const;
   double blocked_in_m() const;
   void set_fact(FactSet& facts, Fact fact, bool on, const Evidence& evidence);
   void set_level_fact(LevelFactSet& facts, LevelFact fact, bool on, const Evidence& evidence);

@@ -273,7 +273,7 @@ class Drive {
 
   // As the supervisor: stops before a block, and goes on when it has receded or the path is another.
   bool permitted(const PlannerStatus& status) const {
-    const double stop = status.block_kind == BlockKind::kUnseen ? config_.unseen_stop_m : config_.hazard_stop_m;
+    const double stop = config_.stop_distance_m;
     if (status.path_id < 0 || status.blocked_in_m <= stop || !rover_.has_path()) return false;
     return going_ || status.path_id != stopped_path_ || status.blocked_in_m > stop + kGoOnM;
   }
@@ -282,7 +282,7 @@ class Drive {
     const bool go = permitted(status);
     if (going_ && !go) {
       ++result_.stops;
-      if (status.block_kind == BlockKind::kHazard && status.blocked_in_m <= config_.hazard_stop_m)
+      if (status.block_kind == BlockKind::kHazard && status.blocked_in_m <= config_.stop_distance_m)
         ++result_.hazard_stops;
       stopped_path_ = status.path_id;
     }

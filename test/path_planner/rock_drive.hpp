@@ -24,10 +24,9 @@ struct DriveConfig {
   Utime frame_latency_us = 240'000;
   double speed_mps = 0.2;
   double turn_rate_radps = 0.2;
-  double turn_overhead_s = 8.0;  // steering to the point turn and back
-  double hazard_stop_m = 0.5;    // as the supervisor
-  double unseen_stop_m = 0.25;
-  double no_path_s = 20.0;  // then the drive is given up
+  double turn_overhead_s = 8.0;   // steering to the point turn and back
+  double stop_distance_m = 0.25;  // as the supervisor
+  double no_path_s = 20.0;        // then the drive is given up
   double timeout_s = 1500.0;
   std::vector<Zone> zones;
 };

@@ -428,17 +428,16 @@ TEST_F(SupervisorTest, HazardAheadStopsRepairsAndResumes) {
   start_driving();
   speed_ = 0.2;
   planner_.state = PlannerState::kRepairing;
-  planner_.block_kind = BlockKind::kHazard;
-  planner_.blocked_in_m = 0.51;
+  planner_.blocked_in_m = 0.26;
   run(1.0);
   EXPECT_TRUE(out_.permit.granted);
-  planner_.blocked_in_m = 0.49;
+  planner_.blocked_in_m = 0.24;
   tick();
   EXPECT_FALSE(out_.permit.granted);
   EXPECT_EQ(supervisor_.state(), State::kHazardStop);
   EXPECT_EQ(supervisor_.hazard_stops(), 1);
   EXPECT_EQ(changes_.back().evidence.quantity, "blocked_in_m");
-  EXPECT_EQ(changes_.back().evidence.value, 0.49);
+  EXPECT_EQ(changes_.back().evidence.value, 0.24);
   run(0.5);
   EXPECT_EQ(supervisor_.state(), State::kHazardStop);
   speed_ = 0.0;
@@ -454,10 +453,9 @@ TEST_F(SupervisorTest, HazardAheadStopsRepairsAndResumes) {
 
 TEST_F(SupervisorTest, ThePermittedSpeedFallsWithTheFreeDistance) {
   start_driving();
-  planner_.block_kind = BlockKind::kHazard;
   double last = config_.max_speed_mps;
   for (const double free_m : {1.0, 0.15, 0.1, 0.05, 0.02}) {
-    planner_.blocked_in_m = config_.hazard_stop_m + free_m;
+    planner_.blocked_in_m = config_.stop_distance_m + free_m;
     tick();
     ASSERT_TRUE(out_.permit.granted);
     const double v = out_.permit.max_speed_mps;
@@ -466,33 +464,21 @@ TEST_F(SupervisorTest, ThePermittedSpeedFallsWithTheFreeDistance) {
     last = v;
   }
   EXPECT_LT(last, 0.08);
-  planner_.blocked_in_m = config_.hazard_stop_m + 1e-4;
+  planner_.blocked_in_m = config_.stop_distance_m + 1e-4;
   tick();
   EXPECT_GT(out_.permit.max_speed_mps, 0.0) << "it comes to its stop";
 }
 
 TEST_F(SupervisorTest, StopHysteresisAppliesToTheSamePathOnly) {
   start_driving();
-  planner_.block_kind = BlockKind::kHazard;
-  planner_.blocked_in_m = 0.49;
+  planner_.blocked_in_m = 0.24;
   tick();
-  planner_.blocked_in_m = 0.6;
+  planner_.blocked_in_m = 0.35;
   run(1.0);
   EXPECT_FALSE(out_.permit.granted);
   planner_.path_id = control_.path_id = 2;
   tick();
   EXPECT_TRUE(out_.permit.granted);
-}
-
-TEST_F(SupervisorTest, UnseenGroundHasAShorterStoppingDistance) {
-  start_driving();
-  planner_.block_kind = BlockKind::kUnseen;
-  planner_.blocked_in_m = 0.26;
-  run(1.0);
-  EXPECT_TRUE(out_.permit.granted);
-  planner_.blocked_in_m = 0.24;
-  tick();
-  EXPECT_EQ(supervisor_.state(), State::kHazardStop);
 }
 
 TEST_F(SupervisorTest, NanBlockDistanceAndMissingPathCountAsBlocked) {
@@ -510,8 +496,7 @@ TEST_F(SupervisorTest, NanBlockDistanceAndMissingPathCountAsBlocked) {
 
 TEST_F(SupervisorTest, FaultDuringAHazardStopReturnsToHazardStop) {
   start_driving();
-  planner_.block_kind = BlockKind::kHazard;
-  planner_.blocked_in_m = 0.3;
+  planner_.blocked_in_m = 0.2;
   tick();
   pose_alive_ = false;
   run(1.0);
@@ -526,8 +511,7 @@ TEST_F(SupervisorTest, FaultDuringAHazardStopReturnsToHazardStop) {
 TEST_F(SupervisorTest, NoPathStopsWithThatCauseAndIsLatched) {
   start_driving();
   planner_.state = PlannerState::kNoPath;
-  planner_.block_kind = BlockKind::kHazard;
-  planner_.blocked_in_m = 0.4;
+  planner_.blocked_in_m = 0.2;
   run(19.0);
   EXPECT_EQ(supervisor_.state(), State::kHazardStop);
   run(2.0);
@@ -543,7 +527,7 @@ TEST_F(SupervisorTest, NoPathStopsWithThatCauseAndIsLatched) {
 TEST_F(SupervisorTest, ActiveConditionIsNotClearedByCommand) {
   start_driving();
   planner_.state = PlannerState::kNoPath;
-  planner_.blocked_in_m = 0.4;
+  planner_.blocked_in_m = 0.2;
   run(21.0);
   EXPECT_FALSE(command(CommandKind::kClearFault, "no_path").accepted);
   EXPECT_FALSE(command(CommandKind::kClearFault, "unknown").accepted);
@@ -552,8 +536,7 @@ TEST_F(SupervisorTest, ActiveConditionIsNotClearedByCommand) {
 
 TEST_F(SupervisorTest, BlockedForSixtySecondsEndsTheDrive) {
   start_driving();
-  planner_.block_kind = BlockKind::kHazard;
-  planner_.blocked_in_m = 0.4;
+  planner_.blocked_in_m = 0.2;
   run(59.0);
   EXPECT_EQ(supervisor_.state(), State::kHazardStop);
   run(2.0);
@@ -846,7 +829,7 @@ TEST_F(SupervisorTest, TeleoperationNeedsFreshCommandsAndIsSlow) {
 TEST_F(SupervisorTest, RestartKeepsLatchedFaults) {
   start_driving();
   planner_.state = PlannerState::kNoPath;
-  planner_.blocked_in_m = 0.4;
+  planner_.blocked_in_m = 0.2;
   run(21.0);
   ASSERT_EQ(supervisor_.active_faults(), std::vector<std::string>{"no_path"});
   restart_supervisor();
@@ -946,7 +929,7 @@ TEST_F(SupervisorTest, RefusedClearFaultKeepsTheCounters) {
   start_driving();
   restart_services(3);
   planner_.state = PlannerState::kNoPath;
-  planner_.blocked_in_m = 0.4;
+  planner_.blocked_in_m = 0.2;
   run(21.0);
   EXPECT_FALSE(command(CommandKind::kClearFault, "no_path").accepted);
   EXPECT_FALSE(command(CommandKind::kClearFault, "unknown").accepted);

@@ -85,8 +85,7 @@ Settings read_settings(const std::string& config_dir) {
                              words(supervisor.text("full_services"))});
   out.restart_window_s = supervisor.section("restarts").number("window_s", kAny);
   out.motor_time_s = supervisor.number("motor_thermal_time_s", kAny);
-  out.hazard_stop_m = supervisor.number("hazard_stop_m", kAny);
-  out.unseen_stop_m = supervisor.number("unseen_stop_m", kAny);
+  out.stop_distance_m = supervisor.number("stop_distance_m", kAny);
   out.stationary_speed_mps = supervisor.number("stationary_speed_mps", kAny);
   out.stationary_rate_radps = to_rad(supervisor.number("stationary_rate_degps", kAny));
   const Config vehicle = Config::load(config_dir + "/vehicle.yaml");

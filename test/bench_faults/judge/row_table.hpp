@@ -30,8 +30,7 @@ struct Settings {
   double steer_nominal_a = 0.0;
   double motor_time_s = 0.0;
   double restart_window_s = 0.0;
-  double hazard_stop_m = 0.0;
-  double unseen_stop_m = 0.0;
+  double stop_distance_m = 0.0;
   double stationary_speed_mps = 0.0;
   double stationary_rate_radps = 0.0;
   double half_length_m = 0.0;
