@@ -42,8 +42,8 @@ const Suite& find_suite(const std::string& name) {
     if (suite.name == name) return suite;
   throw ConfigError(
       "bench: no suite '" + name +
-      "'; known suites: default, seed, full, cost, perception, slam, correction, speed, micro, faults, restarts, page, "
-      "data, wild, fuzz");
+      "'; known suites: default, seed, full, cost, perception, slam, correction, speed, budget, micro, faults, "
+      "restarts, page, data, wild, fuzz");
 }
 
 struct Job {
