@@ -1,6 +1,7 @@
 # Table of ./rover bench budget. Inputs: $e, $f, $t, the metrics.json of the drives at the Efficient and the Full level and
 # in real time.
 def r(n): if . == null then "-" else (. * pow(10; n) | round) / pow(10; n) | tostring end;
+def ms: if . == 0 then "-" else r(1) end;  # 0: a service without a main step of its own
 def services: .services | to_entries | map(select(.key != "recorder"));
 def per_m(field): [services[].value[field] | values] | add;
 $e[0] as $e | $f[0] as $f | $t[0] as $t
@@ -21,4 +22,4 @@ $e[0] as $e | $f[0] as $f | $t[0] as $t
 "| service | CPU s per metre: Efficient | Full | memory [MB]: Efficient | Full | main step in real time [ms]: p50 | p99 |",
 "|---|---|---|---|---|---|---|",
 ($f.services | to_entries | sort_by(-.value.cpu_s_per_m_full)[] | .key as $s
- | "| \($s) | \($e.services[$s].cpu_s_per_m_efficient | r(3)) | \(.value.cpu_s_per_m_full | r(3)) | \($e.services[$s].rss_mb | r(0)) | \(.value.rss_mb | r(0)) | \($t.services[$s].p50_ms | r(1)) | \($t.services[$s].p99_ms | r(1)) |")
+ | "| \($s) | \($e.services[$s].cpu_s_per_m_efficient | r(3)) | \(.value.cpu_s_per_m_full | r(3)) | \($e.services[$s].rss_mb | r(0)) | \(.value.rss_mb | r(0)) | \($t.services[$s].p50_ms | ms) | \($t.services[$s].p99_ms | ms) |")
