@@ -139,7 +139,7 @@ void add_sweep(Parameters& p, SupervisorConfig& c) {
   p.add("terrain_known_around", c.terrain_known_around, {0.01, 1.0},
         "known fraction on each side, 1.5 to 4 m, that ends a sweep ...");
   p.add("sweep_around_s", c.sweep_around_s, {1.0, 600.0},
-        "... or, after this time, the first alone; all views of a sweep take 17 s");
+        "... or, after this time, the first alone; a whole sweep takes 17 s");
 }
 
 void add_level(Parameters p, LevelConfig& c) {

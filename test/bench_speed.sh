@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Speed of the whole stack, one run at a time on an idle machine: the default scenario from command to end, the real-time
-# factor and CPU time per service of a seed traverse, and the same traverse with one core loaded, which must give the same
-# result. Writes test/results/speed.md.
+# factor of a seed traverse, and the same traverse with one core loaded, which must give the same result. Writes
+# test/results/speed.md.
 # Called by ./rover bench speed.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
@@ -51,12 +51,6 @@ same=no
   echo "| \`seed_traverse_1\` at least 3 times real time | $(figure seed_traverse_1 '.realtime_factor * 100 | round / 100') ($(figure seed_traverse_1 '.sim_s | round') s in $(figure seed_traverse_1 '.wall_s | round') s), $(figure seed_traverse_1 .outcome) |"
   echo "| \`default --realtime\` reaches its goal | $(figure realtime .outcome), $(figure realtime '(.realtime_factor // 0) * 100 | round / 100') times real time |"
   echo "| \`seed_traverse_1\` again with a core loaded: identical final pose, counts and lengths | $same ($(figure loaded '.realtime_factor * 100 | round / 100') times real time) |"
-  echo
-  echo "CPU time of each service on \`seed_traverse_1\`, seed 1:"
-  echo
-  echo "| service | CPU s per metre | CPU per simulated time |"
-  echo "|---|---|---|"
-  figure seed_traverse_1 '.sim_s as $t | .services | to_entries | sort_by(-.value.cpu_s)[] | "| \(.key) | \(.value.cpu_s_per_m * 1000 | round / 1000) | \(.value.cpu_s / $t * 1000 | round / 10) % |"'
 } >$OUT.new
 mv $OUT.new $OUT
 cat $OUT
