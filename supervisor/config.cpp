@@ -37,7 +37,7 @@ void read_armed(const Config& c, MonitorRow& row) {
   if (armed == "efficient") row.level = Level::kEfficient;
 }
 
-FdirLine read_line(const Config& c, const Vehicle& vehicle) {
+FdirLine read_line(const Config& c, const Vehicle& vehicle, double cpu_scale) {
   FdirLine line;
   MonitorRow& row = line.row;
   row.id = c.text("id");
@@ -65,17 +65,18 @@ FdirLine read_line(const Config& c, const Vehicle& vehicle) {
   c.read("stops", row.stops);
   if (!row.stops && row.response != Response::kRestartService) c.fail("stops", "belongs to restart_service");
   read_armed(c, row);
+  if (quantity->of_computing) row.limit *= cpu_scale;
   return line;
 }
 
 // Skips IMU rows if the vehicle has no IMU. Motor current limits must not exceed those of vehicle.yaml.
-std::vector<FdirLine> read_lines(const std::string& config_dir, const Vehicle& vehicle) {
+std::vector<FdirLine> read_lines(const std::string& config_dir, const Vehicle& vehicle, double cpu_scale) {
   const bool has_imu = Config::load(config_dir + "/vehicle.yaml").has("imu");
   const Config config = Config::load(config_dir + "/fdir.yaml");
   std::vector<FdirLine> lines;
   std::set<std::string> ids;
   for (const Config& c : config.list("rows")) {
-    const FdirLine line = read_line(c, vehicle);
+    const FdirLine line = read_line(c, vehicle, cpu_scale);
     if (!ids.insert(line.row.id).second) c.fail("id", "'" + line.row.id + "' is there twice");
     if (line.quantity == "drive_current_a" && line.row.limit > vehicle.drive_current_limit_a)
       c.fail("limit", "is above drive.current_limit_a of vehicle.yaml");
@@ -193,7 +194,7 @@ SupervisorConfig load_config(const std::string& config_dir, ParameterList* list)
   p.finish();
   c.derived.start_window_s = c.restarts.window_s;
   if (list != nullptr) return c;
-  c.fdir.lines = read_lines(config_dir, vehicle);
+  c.fdir.lines = read_lines(config_dir, vehicle, navigation.cpu_scale);
   apply_row_ages(c);
   apply_terrain_distance(c);
   return c;

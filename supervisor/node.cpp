@@ -119,7 +119,7 @@ void SupervisorNode::publish_faults(const SupervisorOutput& output, Utime now) {
     publish_fault(change, now);
     node_.log(change.active ? "WARN" : "INFO", text_of(change));
   }
-  if (output.faults.empty() && now % kFaultPeriodUs == 0)
+  if (output.faults.empty() && node_.once_in(kFaultPeriodUs))
     for (const FaultChange& active : supervisor_.active_report()) publish_fault(active, now);
 }
 
@@ -133,7 +133,7 @@ void SupervisorNode::publish_states(const SupervisorOutput& output, Utime now) {
     publish_state(change, now);
     node_.log("INFO", text_of(change));
   }
-  if (output.changes.empty() && now % kStatePeriodUs == 0) publish_state(supervisor_.last_change(), now);
+  if (output.changes.empty() && node_.once_in(kStatePeriodUs)) publish_state(supervisor_.last_change(), now);
 }
 
 void SupervisorNode::publish_state(const StateChange& change, Utime now) {

@@ -185,6 +185,7 @@ Reading derived_above(const MonitorContext& context, const Subject&, double limi
 
 using enum Expansion;
 using P = PoseReport;
+constexpr bool kOfComputing = true;
 
 constexpr std::array kQuantities = {
     Quantity{"slip_ratio", kOne, slip_ratio},
@@ -204,8 +205,8 @@ constexpr std::array kQuantities = {
     Quantity{"pose_age_s", kOne, age<&Inputs::pose>},
     Quantity{"pose_lost", kOne, pose_lost},
     Quantity{"pose_sigma_m", kOne, pose_above<&P::sigma_m>},
-    Quantity{"vo_age_s", kOne, vo_age},
-    Quantity{"hazards_age_s", kOne, age<&Inputs::hazards>},
+    Quantity{"vo_age_s", kOne, vo_age, kOfComputing},
+    Quantity{"hazards_age_s", kOne, age<&Inputs::hazards>, kOfComputing},
     Quantity{"blind_frames", kOne, blind_frames},
     Quantity{"stereo_coverage", kOne, stereo_coverage},
     Quantity{"planner_age_s", kOne, age<&Inputs::planner>},
@@ -218,14 +219,14 @@ constexpr std::array kQuantities = {
     Quantity{"no_path", kOne, no_path},
     Quantity{"blocked", kOne, blocked},
     Quantity{"keep_out_depth_m", kOne, keep_out_depth},
-    Quantity{"heartbeat_age_s", kEachRequired, heartbeat_age},
-    Quantity{"optional_heartbeat_age_s", kEachOptional, optional_heartbeat_age},
+    Quantity{"heartbeat_age_s", kEachRequired, heartbeat_age, kOfComputing},
+    Quantity{"optional_heartbeat_age_s", kEachOptional, optional_heartbeat_age, kOfComputing},
     Quantity{"service_fault", kEachRequired, service_status<ServiceStatus::kFault>},
     Quantity{"log_lost", kOne, log_lost},
     Quantity{"starts_per_minute", kEachRequired, service_starts},
     Quantity{"restart_attempts", kEachRequired, restart_attempts},
-    Quantity{"full_heartbeat_age_s", kEachFull, heartbeat_age},
-    Quantity{"full_idle_heartbeat_age_s", kEachFull, optional_heartbeat_age},
+    Quantity{"full_heartbeat_age_s", kEachFull, heartbeat_age, kOfComputing},
+    Quantity{"full_idle_heartbeat_age_s", kEachFull, optional_heartbeat_age, kOfComputing},
     Quantity{"full_service_fault", kEachFull, service_status<ServiceStatus::kFault>},
     Quantity{"full_starts_per_minute", kEachFull, service_starts},
     Quantity{"full_restart_attempts", kEachFull, restart_attempts},

@@ -51,6 +51,7 @@ struct Quantity {
   const char* name;
   Expansion expansion;
   Reading (*read)(const MonitorContext& context, const Subject& subject, double limit);
+  bool of_computing = false;  // an age that a slower computer makes larger
 };
 
 std::span<const Quantity> quantities();

@@ -1,5 +1,7 @@
 #include "localization/config.hpp"
 
+#include "common/bus/navigation_config.hpp"
+
 namespace rover::loc {
 namespace {
 
@@ -103,6 +105,9 @@ LocalizationConfig load_config(const std::string& config_dir, ParameterList* lis
   add_status(p.section("status", "of POSE"), c.status);
   add_camera_only(p.section("camera_only", "for recordings without IMU and wheels"), c.camera_only);
   p.finish();
+  const double cpu_scale = load_navigation(config_dir).cpu_scale;
+  c.slip.max_visual_age_s *= cpu_scale;
+  c.status.visual_degraded_s *= cpu_scale;
   return c;
 }
 

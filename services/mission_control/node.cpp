@@ -251,8 +251,8 @@ void MissionControlNode::step(Utime now) {
     changed_ = true;
     send(*issued);
   }
-  if (now % kHeartbeatCheckPeriodUs == 0) check_heartbeats(now);
-  if (now % kTrendPeriodUs == 0) sample(now);
+  if (node_.once_in(kHeartbeatCheckPeriodUs)) check_heartbeats(now);
+  if (node_.once_in(kTrendPeriodUs)) sample(now);
   report_status();
   save(now);
   if (each_tick_) each_tick_();

@@ -73,7 +73,8 @@ PathPlannerConfig load_config(const std::string& config_dir, ParameterList* list
   PathPlannerConfig c;
   const Vehicle vehicle = load_vehicle(config_dir);
   set_vehicle(vehicle, c);
-  set_navigation(load_navigation(config_dir), c);
+  const NavigationConfig navigation = load_navigation(config_dir);
+  set_navigation(navigation, c);
   Parameters p(config_dir + "/path_planner.yaml",
                "Belief map, planning and recovery at both levels. Footprint, minimum turn radius and deceleration: "
                "vehicle.yaml. Goal tolerance and point turns: navigation.yaml.",
@@ -104,6 +105,7 @@ PathPlannerConfig load_config(const std::string& config_dir, ParameterList* list
   add_motion(p.section("motion", "cost of motions"), c.planner.motion);
   add_search(p.section("search", "hybrid A*"), c.planner);
   p.finish();
+  c.planning_latency_s *= navigation.cpu_scale;
   return c;
 }
 

@@ -9,15 +9,19 @@ constexpr Utime kMaxVoAgeUs = 800'000;  // frame period 0.4 s and latency 0.3 s;
 
 }  // namespace
 
+DeadReckonedDistance::DeadReckonedDistance(double cpu_scale)
+    : max_vo_age_(static_cast<Utime>(static_cast<double>(kMaxVoAgeUs) * cpu_scale)) {}
+
 double DeadReckonedDistance::add(const pose_t& pose) {
   const double step_m = pose.travelled_m - travelled_m_;  // NaN for the first POSE
   travelled_m_ = pose.travelled_m;
-  const bool stale_vo = pose.last_vo_utime < 0 || pose.header.utime - pose.last_vo_utime > kMaxVoAgeUs;
+  const bool stale_vo = pose.last_vo_utime < 0 || pose.header.utime - pose.last_vo_utime > max_vo_age_;
   if (stale_vo && step_m > 0.0) distance_m_ += step_m;
   return distance_m_;
 }
 
-SlamNode::SlamNode(Node& node, const NodeConfig& config) : node_(node), checkpoint_(node), slam_(config.core) {
+SlamNode::SlamNode(Node& node, const NodeConfig& config)
+    : node_(node), checkpoint_(node), slam_(config.core), dead_reckoned_(node.options().cpu_scale) {
   node_.subscribe<supervisor_state_t>(channel::kState, [this](const supervisor_state_t& m) { on_state(m); });
   node_.subscribe<pose_t>(channel::kPose, [this](const pose_t& m) { on_pose(m); });
   node_.subscribe_slow<cloud_t>(channel::kCloud, config.latency_us, [this](const cloud_t& m) { on_cloud(m); });

@@ -149,6 +149,73 @@ TEST_F(NodeTest, SlowWorkPromisesFirstAndReleasesAtThePromise) {
   EXPECT_EQ(poses_[0].header.release_utime, 140'000);
 }
 
+// A node whose work on a frame takes five ticks, on a computer that needs `cpu_scale` times as long.
+class SlowNode {
+ public:
+  SlowNode(lcm::LCM& bus, double cpu_scale) : node({.name = "node", .cpu_scale = cpu_scale}, bus) {
+    for (const char* channel : {channel::kSlip, channel::kImu})
+      node.subscribe_slow<slip_t>(channel, 100'000, [this](const slip_t& m) { taken.push_back(m.header.utime); });
+  }
+  Node node;
+  std::vector<Utime> taken;
+};
+
+TEST_F(NodeTest, ANodeThatIsBusyLeavesNewerFramesOut) {
+  const auto taken_of = [&](double cpu_scale) {
+    SlowNode slow(bus_, cpu_scale);
+    for (Utime now = 20'000; now <= 600'000; now += 20'000) {
+      slip_t message = slip(1.0, now, now);
+      if (now % 120'000 == 0) bus_.publish(channel::kSlip, &message);
+      tick(slow.node, now);
+    }
+    return slow.taken;
+  };
+  EXPECT_EQ(taken_of(1.0), (std::vector<Utime>{120'000, 240'000, 360'000, 480'000, 600'000}));
+  EXPECT_EQ(taken_of(2.0), (std::vector<Utime>{120'000, 360'000, 600'000}));
+}
+
+TEST_F(NodeTest, WhatComesLateOfTheFrameThatANodeWorksOnIsTaken) {
+  SlowNode slow(bus_, 1.0);
+  slip_t left = slip(1.0, 10'000, 20'000);
+  bus_.publish(channel::kSlip, &left);
+  tick(slow.node, 20'000);
+  slip_t right{};
+  right.header = world_.next(channel::kImu, 10'000, 40'000);
+  bus_.publish(channel::kImu, &right);
+  tick(slow.node, 40'000);
+  EXPECT_EQ(slow.taken, (std::vector<Utime>{10'000, 10'000}));
+}
+
+TEST_F(NodeTest, OfFramesThatWaitTheNewestIsTaken) {
+  SlowNode slow(bus_, 1.0);
+  for (const Utime utime : {10'000, 12'000, 14'000}) {
+    slip_t message = slip(1.0, utime, 20'000);
+    bus_.publish(channel::kSlip, &message);
+  }
+  tick(slow.node, 20'000);
+  EXPECT_EQ(slow.taken, std::vector<Utime>{14'000});
+}
+
+TEST_F(NodeTest, ByTheClockALateNodeGoesOnWithTheNewestTick) {
+  Node node({.name = "node"}, bus_);
+  std::vector<Utime> steps;
+  node.on_step([&](Utime now) { steps.push_back(now); });
+  for (const std::int8_t mode : {tick_t::REALTIME, tick_t::LOCKSTEP}) {
+    const Utime begin = steps.empty() ? 0 : steps.back();
+    for (int i = 1; i <= 3; ++i) {
+      tick_t tick{};
+      tick.header = world_.next(channel::kTick, begin + i * kTickUs, begin + i * kTickUs);
+      tick.mode = mode;
+      tick.members = {"node"};
+      tick.member_count = 1;
+      bus_.publish(channel::kTick, &tick);
+      bus_.handleTimeout(0);  // received, but the node is late
+    }
+    node.handle(0);
+  }
+  EXPECT_EQ(steps, (std::vector<Utime>{60'000, 80'000, 100'000, 120'000}));
+}
+
 TEST_F(NodeTest, WaitsForWhatTheTickLists) {
   Node node({.name = "node"}, bus_);
   std::vector<double> taken;

@@ -6,6 +6,7 @@
 
 #include "common/bus/command_line.hpp"
 #include "common/bus/interrupt.hpp"
+#include "common/bus/navigation_config.hpp"
 #include "common/bus/service_names.hpp"
 #include "rover_simulator/setup.hpp"
 #include "tools/one_process/services.hpp"
@@ -59,7 +60,7 @@ int simulate(const Arguments& arguments) {
   Perception perception(*rover_and_world, rover::ground_appearance(scenario, arguments.seed), arguments.seed,
                         arguments.config_dir);
   lcm::LCM bus("memq://");
-  rover::Stack stack(bus, arguments.run_dir, false);
+  rover::Stack stack(bus, arguments.run_dir, false, rover::load_navigation(arguments.config_dir).cpu_scale);
   rover::SimulatorOptions options;
   options.participants = rover::service_names(arguments.with_full);
   for (const std::string& name : options.participants) stack.add(name, factory(name, arguments, perception));

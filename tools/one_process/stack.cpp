@@ -30,6 +30,7 @@ void Stack::start(Process& process) {
   options.boot_id = ++process.boots;
   options.run_dir = run_dir_;
   options.allow_injection = allow_injection_;
+  options.cpu_scale = cpu_scale_;
   process.node = std::make_unique<Node>(options, bus_);
   process.service = process.factory(*process.node);
 }

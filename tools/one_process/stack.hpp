@@ -18,8 +18,8 @@ class Stack {
   using Factory = std::function<std::shared_ptr<void>(Node& node)>;
 
   // `run_dir`: folder of the checkpoints. `allow_injection`: the services apply the faults of INJECT.
-  Stack(lcm::LCM& bus, std::string run_dir, bool allow_injection)
-      : bus_(bus), run_dir_(std::move(run_dir)), allow_injection_(allow_injection) {}
+  Stack(lcm::LCM& bus, std::string run_dir, bool allow_injection, double cpu_scale = 1.0)
+      : bus_(bus), run_dir_(std::move(run_dir)), allow_injection_(allow_injection), cpu_scale_(cpu_scale) {}
 
   void add(const std::string& service, Factory factory);
   // Starts all; they report to a clock master on the bus.
@@ -60,6 +60,7 @@ class Stack {
   lcm::LCM& bus_;
   std::string run_dir_;
   bool allow_injection_;
+  double cpu_scale_;
   Utime now_ = 0;
   StreamCounter ticks_{"rover_simulator", 1};
   std::vector<std::unique_ptr<Process>> processes_;

@@ -19,11 +19,6 @@ namespace {
 
 constexpr Utime kStateHistory = 2'000'000;
 
-// Release of a slow service's output: `latency` after the tick at which it began.
-Utime beyond_a_tick(Utime latency) {
-  return latency - kTickUs;
-}
-
 class GeometricStereoNode {
  public:
   GeometricStereoNode(Node& node, const std::string& config_dir, GeometricPerception& perception)
@@ -34,7 +29,8 @@ class GeometricStereoNode {
         stereo_(config_.rig, perception.rover.true_loccam(), camera_, perception.view.scene()),
         errors_(errors_of(config_.core.matcher, camera_), camera_.width, camera_.height, perception.seed) {
     node.on_step([this](Utime now) {
-      while (const auto exposure = perception_.loccam.take(now)) publish(*exposure);
+      while (const auto exposure = perception_.loccam.take(now))
+        if (node_.begin_slow(config_.latency_us)) publish(*exposure);
     });
   }
 
@@ -45,7 +41,7 @@ class GeometricStereoNode {
     const Disparity disparity = perception_.view.expose(stereo_, errors_, ground, exposure.T_map_left, exposure.utime);
     disparity_t message{};
     disparity_to(disparity, camera_, message);
-    node_.publish(channel::kDisparity, message, exposure.utime, beyond_a_tick(config_.latency_us));
+    node_.publish(channel::kDisparity, message, exposure.utime);
   }
 
   Node& node_;
@@ -62,10 +58,13 @@ class GeometricOdometryNode {
       : node_(node),
         perception_(perception),
         T_left_body_(perception.rover.true_loccam().T_body_left.inverse()),
-        latency_(stereo::load_config(config_dir).latency_us + to_utime(vo::load_config(config_dir).latency_s)),
+        stereo_latency_(stereo::load_config(config_dir).latency_us),
+        latency_(to_utime(vo::load_config(config_dir).latency_s)),
         errors_(perception.seed) {
     node.on_step([this](Utime now) {
-      while (const auto exposure = perception_.loccam_motion.take(now)) publish(*exposure);
+      // While it works on one pair, stereo works on the next.
+      while (const auto exposure = perception_.loccam_motion.take(now))
+        if (node_.begin_slow(std::max(stereo_latency_, latency_))) publish(*exposure);
     });
   }
 
@@ -75,12 +74,13 @@ class GeometricOdometryNode {
     if (!result) return;
     vo_motion_t message{};
     vo::motion_to(*result, message);
-    node_.publish(channel::kVo, message, exposure.utime, beyond_a_tick(latency_));
+    node_.publish(channel::kVo, message, exposure.utime, node_.scaled(stereo_latency_ + latency_) - kTickUs);
   }
 
   Node& node_;
   GeometricPerception& perception_;
   Eigen::Isometry3d T_left_body_;
+  Utime stereo_latency_;
   Utime latency_;
   MotionErrors errors_;
 };
@@ -102,7 +102,8 @@ class GeometricCloudNode {
       while (states_.front().header.utime < state.header.utime - kStateHistory) states_.pop_front();
     });
     node.on_step([this](Utime now) {
-      while (const auto exposure = perception_.navcam.take(now)) publish(*exposure);
+      while (const auto exposure = perception_.navcam.take(now))
+        if (node_.begin_slow(config_.latency_us)) publish(*exposure);
     });
   }
 
@@ -119,7 +120,7 @@ class GeometricCloudNode {
                              state->pan_rad, state->tilt_rad);
     cloud_t message{};
     cloud::cloud_to(result, message);
-    node_.publish(channel::kCloud, message, exposure.utime, beyond_a_tick(config_.latency_us));
+    node_.publish(channel::kCloud, message, exposure.utime);
   }
 
   Node& node_;

@@ -17,7 +17,7 @@ class HazardsNode {
   HazardsNode(Node& node, const TruthPerception& perception, const hazard::NodeConfig& config,
               const stereo::NodeConfig& stereo)
       : node_(node),
-        extra_latency_us_(kCameraLatency + stereo.latency_us + config.latency_us - kTickUs),
+        extra_latency_us_(kCameraLatency + node.scaled(stereo.latency_us + config.latency_us) - kTickUs),
         hazards_(config.core, stereo::Stereo(stereo.core, stereo.rig, stereo.origin_height_m).camera(),
                  perception.surface) {
     node_.subscribe<truth_t>(channel::kTruth, [this](const truth_t& message) { on_truth(message); });

@@ -189,6 +189,10 @@ void Inbox::dispatch(const Pending& pending) {
   pending.deliver();
 }
 
+void Inbox::leave_out(const Pending& pending) {
+  in_order(*pending.subscription, pending.channel, pending.header);
+}
+
 void Inbox::count_malformed(input_health_t& health, const std::string& channel, const std::string& why) {
   ++health.malformed;
   const std::int64_t count = ++malformed_[{health.channel, channel}];

@@ -68,6 +68,8 @@ class Inbox {
   std::vector<Pending> take_released(Utime until);
   // Calls its handler, unless it is out of order.
   void dispatch(const Pending& pending);
+  // Instead of dispatch: the message is not needed, and not missing.
+  void leave_out(const Pending& pending);
   // A restarted process drops messages from before its first tick, because which of them it received depends on how
   // fast it started.
   void forget_before(Utime first_tick);

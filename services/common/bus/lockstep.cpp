@@ -63,6 +63,8 @@ void Lockstep::receive(const lcm::ReceiveBuffer* buffer, const std::string& chan
 }
 
 std::optional<tick_t> Lockstep::next() {
+  const auto by_clock = [](const QueuedTick& queued) { return queued.tick.mode == tick_t::REALTIME; };
+  while (ticks_.size() > 1 && by_clock(ticks_[0]) && by_clock(ticks_[1])) ticks_.pop_front();
   if (ticks_.empty() || !holds_all_for(ticks_.front())) return std::nullopt;
   tick_t tick = std::move(ticks_.front().tick);
   ticks_.pop_front();

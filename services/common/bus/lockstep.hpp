@@ -28,7 +28,7 @@ class Lockstep {
   Lockstep(const Lockstep&) = delete;
   Lockstep& operator=(const Lockstep&) = delete;
 
-  // The next tick, once all messages that it lists are in the inbox.
+  // The next tick, once all messages that it lists are in the inbox. A node that is late by the clock gets the newest.
   std::optional<tick_t> next();
   // The tick is done, or begun (busy). The node publishes nothing with a release before `promise`.
   void done(Utime tick, Utime promise, std::vector<stream_seq_t> updated, bool busy);

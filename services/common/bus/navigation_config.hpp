@@ -18,6 +18,7 @@ struct NavigationConfig {
   double hazard_roi_far_m = 3.0;
   double steep_slope_rad = to_rad(10.0);  // both of paths planned or drawn on the orbital map
   double max_slope_rad = to_rad(15.0);
+  double cpu_scale = 1.0;
 };
 
 NavigationConfig load_navigation(const std::string& config_dir, ParameterList* list = nullptr);

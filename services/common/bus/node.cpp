@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 
 #include "common/bus/channel_filter.hpp"
@@ -58,21 +59,52 @@ void Node::apply_injection(const injection_t& injection) {
 
 void Node::process(const tick_t& tick) {
   if (now_ == kNever && options_.boot_id > 1) inbox_.forget_before(tick.header.utime);
+  before_ = now_;
   now_ = tick.header.utime;
   const bool lockstep = tick.mode == tick_t::LOCKSTEP;
   const std::vector<Inbox::Pending> released = inbox_.take_released(now_);
-  Utime slow = 0;
-  for (const Inbox::Pending& pending : released) slow = std::max(slow, pending.slow);
-  if (slow > 0) {
-    promise_ = std::max(promise_, now_ + slow);
+  const bool slow = begin_slow(released);
+  if (slow) {
     if (lockstep) lockstep_.done(now_, promise_, streams_.take_updated(), true);
     timer_.begin();
   }
-  for (const Inbox::Pending& pending : released) inbox_.dispatch(pending);
-  if (slow > 0) timer_.end();
+  for (const Inbox::Pending& pending : released) {
+    if (pending.slow > 0 && pending.header.utime != frame_)
+      inbox_.leave_out(pending);
+    else
+      inbox_.dispatch(pending);
+  }
+  if (slow) timer_.end();
   if (step_) step_(now_);
-  if (now_ % kHeartbeatPeriod == 0) publish_heartbeat();
+  if (once_in(kHeartbeatPeriod)) publish_heartbeat();
   if (lockstep) lockstep_.done(now_, promise_, streams_.take_updated(), false);
+}
+
+// The newest frame that waits; while the node is busy, what comes late of the frame it works on.
+bool Node::begin_slow(const std::vector<Inbox::Pending>& released) {
+  Utime newest = kNever;
+  for (const Inbox::Pending& pending : released)
+    if (pending.slow > 0) newest = std::max(newest, pending.header.utime);
+  if (promise_ <= now_) frame_ = newest;
+  Utime latency = 0;
+  for (const Inbox::Pending& pending : released)
+    if (pending.header.utime == frame_) latency = std::max(latency, pending.slow);
+  if (latency > 0) promise_ = std::max(promise_, now_ + scaled(latency));
+  return latency > 0;
+}
+
+bool Node::begin_slow(Utime latency) {
+  if (promise_ > now_) return false;
+  promise_ = now_ + scaled(latency);
+  return true;
+}
+
+Utime Node::scaled(Utime latency) const {
+  return static_cast<Utime>(std::llround(static_cast<double>(latency) * options_.cpu_scale));
+}
+
+bool Node::once_in(Utime period) const {
+  return before_ == kNever ? now_ % period == 0 : now_ / period != before_ / period;
 }
 
 double Node::age_s(const std::string& channel) const {

@@ -32,6 +32,7 @@ struct NodeOptions {
   std::string run_dir;             // folder of checkpoints; empty: none
   bool allow_injection = false;    // apply the faults of INJECT
   std::vector<std::string> muted;  // channels to ignore
+  double cpu_scale = 1.0;          // multiplies the latencies of slow work
 };
 
 class Node {
@@ -46,7 +47,8 @@ class Node {
   void subscribe(const std::string& channel, std::function<void(const Message&)> handler);
 
   // For slow work: before the handlers of a tick with such a message, the node promises to publish nothing before
-  // tick + latency. Its outputs are released then.
+  // tick + latency. Its outputs are released then. Until then it takes no newer frame (utime): a node that is too slow
+  // for its input leaves frames out. Of several that wait it takes the newest.
   template <class Message>
   void subscribe_slow(const std::string& channel, Utime latency, std::function<void(const Message&)> handler);
 
@@ -81,8 +83,14 @@ class Node {
   void log(const char* level, const std::string& event);
 
   Utime now() const { return now_; }
+  // Once in each such period of message time, also if ticks are missing.
+  bool once_in(Utime period) const;
   // True if the newest ticks were paced by the clock, not by lockstep.
   bool follows_clock() const { return lockstep_.follows_clock(); }
+  // For slow work that begins in a step instead of with a message: false while earlier work is not done.
+  bool begin_slow(Utime latency);
+  // On the modelled computer.
+  Utime scaled(Utime latency) const;
   const NodeOptions& options() const { return options_; }
 
   // For other subscribers in the node's thread. The process is then woken by all messages.
@@ -98,6 +106,7 @@ class Node {
 
  private:
   void process(const tick_t& tick);
+  bool begin_slow(const std::vector<Inbox::Pending>& released);
   void apply_injection(const injection_t& injection);
   void publish_heartbeat();
   std::vector<input_health_t> inputs() const;
@@ -118,7 +127,9 @@ class Node {
   bool shares_bus_ = false;
   bool subscriptions_closed_ = false;
   Utime now_ = kNever;
+  Utime before_ = kNever;  // the tick before
   Utime promise_ = kNever;
+  Utime frame_ = kNever;  // of the slow work, until the promise
   std::int8_t status_ = heartbeat_t::OK;
   std::string status_text_;
 };

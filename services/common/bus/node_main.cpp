@@ -10,6 +10,7 @@
 #include "common/bus/bus_url.hpp"
 #include "common/bus/command_line.hpp"
 #include "common/bus/interrupt.hpp"
+#include "common/bus/navigation_config.hpp"
 
 namespace rover {
 namespace {
@@ -68,6 +69,7 @@ int node_main(int argc, char** argv, const std::string& service, const ConfigLoa
       std::printf("%s", to_format(list, parameters).c_str());
       return 0;
     }
+    options.cpu_scale = load_navigation(config_dir).cpu_scale;
     if (bus.empty()) bus = load_bus_url(config_dir);
     lcm::LCM lcm(bus);
     lcm::LCM reports(reports_url(bus));
