@@ -129,6 +129,8 @@ void add_services(Parameters& p, FdirConfig& c) {
 void add_hazard_stop(Parameters& p, SupervisorConfig& c) {
   p.add("stop_distance_m", c.stop_distance_m, {0.1, 5.0},
         "the rover stops at this distance to a hazard or unseen ground along the path, to which it brakes");
+  p.add("advance_per_frame_m", c.advance_per_frame_m, {0.02, 1.0},
+        "the rover drives at most this far from one frame of HAZARDS to the next");
   p.add("stop_hysteresis_m", c.stop_hysteresis_m, {0.0, 2.0}, "added for resuming, unless the path is new");
   p.add("stationary_speed_mps", c.stationary_speed_mps, {0.001, 0.1}, "below it and the next the rover is stationary");
   p.add_deg("stationary_rate_degps", c.stationary_rate_radps, {0.05, 10.0}, "yaw rate");

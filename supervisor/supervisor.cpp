@@ -60,6 +60,7 @@ void Supervisor::on_service(const std::string& name, const ServiceReport& report
 }
 
 void Supervisor::on_hazards(const HazardsReport& hazards) {
+  if (inputs_.hazards.utime != kNever) frame_interval_s_ = to_seconds(hazards.utime - inputs_.hazards.utime);
   inputs_.hazards = hazards;
   inputs_.consecutive_blind_frames = hazards.blind ? inputs_.consecutive_blind_frames + 1 : 0;
 }
@@ -394,7 +395,10 @@ double Supervisor::speed_limit_mps() const {
   // At any time the rover can brake before the stopping distance; a plan that comes a little late costs no stop.
   const double free_m = std::max(0.0, blocked_in_m() - config_.stop_distance_m);
   const double braking_mps = std::sqrt(2.0 * config_.deceleration_mps2 * free_m);
-  return std::min({config_.max_speed_mps, std::max(braking_mps, kMinApproachMps), fdir_.speed_limit_mps()});
+  // What a look from afar did not show is seen once more before the rover is there.
+  const double looking_mps = frame_interval_s_ > 0.0 ? config_.advance_per_frame_m / frame_interval_s_ : kInfinity;
+  return std::min(
+      {config_.max_speed_mps, std::max(braking_mps, kMinApproachMps), looking_mps, fdir_.speed_limit_mps()});
 }
 
 void Supervisor::restore(const PersistentState& persistent_state) {

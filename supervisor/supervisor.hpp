@@ -41,6 +41,7 @@ struct SupervisorConfig {
   double terrain_known_around = 0.5;  // ends a sweep if both are reached ...
   double sweep_around_s = 25.0;       // ... after this time the known ground ahead is enough
   double stop_distance_m = 0.25;
+  double advance_per_frame_m = 0.25;
   double stop_hysteresis_m = 0.15;
   double goal_tolerance_m = 0.5;
   double stationary_speed_mps = 0.03;
@@ -196,6 +197,7 @@ class Supervisor {
 
   SupervisorConfig config_;
   Inputs inputs_;
+  double frame_interval_s_ = 0.0;  // of the last two HAZARDS; 0: not known yet
   PathLevels path_;
   std::int64_t backtracking_path_id_ = -1;  // path that recovers from a stop_backtrack fault; -1: none
   std::vector<GroundCommand> commands_;

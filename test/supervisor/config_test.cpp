@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The default configuration with one text of fdir.yaml replaced.
+// The default configuration with one text of a file replaced.
 class ConfigTest : public testing::Test {
  protected:
   ConfigTest() : dir_(fs::path(testing::TempDir()) / "supervisor_config_test") {
@@ -23,13 +23,13 @@ class ConfigTest : public testing::Test {
   }
   ~ConfigTest() override { fs::remove_all(dir_); }
 
-  SupervisorConfig load_with(const std::string& from, const std::string& to) {
-    std::stringstream text;
-    text << std::ifstream(dir_ / "fdir.yaml").rdbuf();
-    std::string fdir = text.str();
-    const size_t at = fdir.find(from);
+  SupervisorConfig load_with(const std::string& from, const std::string& to, const std::string& file = "fdir.yaml") {
+    std::stringstream stream;
+    stream << std::ifstream(dir_ / file).rdbuf();
+    std::string text = stream.str();
+    const size_t at = text.find(from);
     EXPECT_NE(at, std::string::npos);
-    std::ofstream(dir_ / "fdir.yaml") << fdir.replace(at, from.size(), to);
+    std::ofstream(dir_ / file) << text.replace(at, from.size(), to);
     return load_config(dir_);
   }
 
@@ -42,6 +42,14 @@ TEST_F(ConfigTest, PermitAgesFollowTheFdirRows) {
   EXPECT_EQ(config.hazards_max_age_s, 1.2);
   EXPECT_EQ(config.wheels_max_age_s, 0.2);
   EXPECT_NEAR(config.heartbeat_max_age_s, 1.05, 1e-9);
+}
+
+TEST_F(ConfigTest, ASlowerComputerMayBeLateWithWhatItComputesAndNotWithTheRest) {
+  const SupervisorConfig config = load_with("cpu_scale: 1.0", "cpu_scale: 3.0", "navigation.yaml");
+  EXPECT_NEAR(config.hazards_max_age_s, 3.6, 1e-9);
+  EXPECT_NEAR(config.heartbeat_max_age_s, 2.65, 1e-9);  // with its persistence
+  EXPECT_EQ(config.pose_max_age_s, 0.3);
+  EXPECT_EQ(config.wheels_max_age_s, 0.2);
 }
 
 TEST_F(ConfigTest, LogRowsDoNotChangePermitAges) {

@@ -38,7 +38,7 @@ class SupervisorTest : public testing::Test {
       control_.utime = made;
       supervisor_.on_control(control_);
     }
-    if (hazards_alive_ && now_ % 400'000 == 0) supervisor_.on_hazards({now_ - 240'000, blind_, coverage_});
+    if (hazards_alive_ && now_ % hazards_period_ == 0) supervisor_.on_hazards({now_ - 240'000, blind_, coverage_});
     if (now_ % 200'000 == 0) heartbeats(made);
     supervisor_.on_slip({made, slip_valid_, slip_});
     out_ = supervisor_.step(now_);
@@ -148,6 +148,7 @@ class SupervisorTest : public testing::Test {
   bool control_alive_ = true;
   ControlReport control_ = following();
   bool hazards_alive_ = true;
+  Utime hazards_period_ = 400'000;
   bool blind_ = false;
   double slip_ = 0.05;
   bool slip_valid_ = true;
@@ -467,6 +468,20 @@ TEST_F(SupervisorTest, ThePermittedSpeedFallsWithTheFreeDistance) {
   planner_.blocked_in_m = config_.stop_distance_m + 1e-4;
   tick();
   EXPECT_GT(out_.permit.max_speed_mps, 0.0) << "it comes to its stop";
+}
+
+TEST_F(SupervisorTest, TheRoverDrivesAtMostSoFarFromOneFrameToTheNext) {
+  start_driving();
+  run(1.0);
+  EXPECT_EQ(out_.permit.max_speed_mps, config_.max_speed_mps);
+  config_.advance_per_frame_m = 0.06;
+  supervisor_ = Supervisor(config_);
+  start_driving();
+  run(1.0);
+  EXPECT_NEAR(out_.permit.max_speed_mps, 0.06 / 0.4, 1e-9);
+  hazards_period_ = 800'000;
+  run(2.0);
+  EXPECT_NEAR(out_.permit.max_speed_mps, 0.06 / 0.8, 1e-9);
 }
 
 TEST_F(SupervisorTest, StopHysteresisAppliesToTheSamePathOnly) {
