@@ -14,7 +14,7 @@ namespace {
 constexpr Utime kRepeatPeriodUs = 1'000'000;       // of PATH: a restarted controller has none
 constexpr Utime kFaultClearsUs = 4'000'000;        // a row on the path is cleared by good ones for 1-2 s (fdir.yaml)
 constexpr Utime kBackUpPatienceUs = 10'000'000;    // of a fault that may be over by itself
-constexpr Utime kOldestMapUs = 5'000'000;          // at its arrival
+constexpr double kOldestMapS = 5.0;                // at its arrival
 constexpr std::int64_t kPathsPerBoot = 1'000'000;  // keeps the path ids of two processes apart
 constexpr double kMostClearRadiusM = 5.0;          // more than an operator would certify
 
@@ -93,7 +93,8 @@ void PathPlannerNode::on_traversability(const traversability_t& message) {
   const TraversabilityGrid map = traversability_from(message);
   if (const std::string fault = map.fault(); !fault.empty()) return node_.reject(channel::kTraversability, fault);
   if (map.utime > node_.now()) return node_.reject(channel::kTraversability, "map is from the future");
-  if (node_.now() - map.utime > kOldestMapUs) return node_.reject(channel::kTraversability, "map is too old");
+  if (to_seconds(node_.now() - map.utime) > kOldestMapS * node_.options().cpu_scale)
+    return node_.reject(channel::kTraversability, "map is too old");
   planner_.add_traversability(map);
 }
 

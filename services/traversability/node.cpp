@@ -34,7 +34,7 @@ void TraversabilityNode::on_elevation(const elevation_t& message) {
 std::string TraversabilityNode::rejection_of(const elevation_t& message) const {
   const double age_s = to_seconds(node_.now() - message.header.utime);
   if (age_s < 0.0) return "from the future";
-  if (age_s > config_.max_map_age_s) return "stale";
+  if (age_s > config_.max_map_age_s * node_.options().cpu_scale) return "stale";
   if (message.header.utime <= last_map_utime_) return "not newer than the last map";
   return fault_of(message);
 }
