@@ -97,11 +97,11 @@ TEST_F(OdometryNodeTest, InvalidInputsAreCountedAndIgnored) {
   drive_to(a, 0.0);
   disparity_t nan_camera = disparity_message(a);
   nan_camera.focal_px = kNaN;
-  world_.send(channel::kDisparity, nan_camera, now_ + 1);
+  world_.send(channel::kDisparity, nan_camera, now_);
   image_t short_image{};
   short_image.width = 512;
   short_image.height = 384;
-  world_.send(channel::kLocCamRectLeft, short_image, now_ + 1);
+  world_.send(channel::kLocCamRectLeft, short_image, now_);
   imu_t imu{};
   imu.dt_s = 0.02;
   imu.delta_angle_rad[0] = kNaN;
