@@ -38,6 +38,13 @@ for channel in TRUTH POSE HAZARDS PATH WHEEL_COMMAND STATE; do
   [ $(($(cat "${files[@]}" | wc -l) - 2 * lines)) -le 6 ] || fail "$channel: a run is longer"
 done
 
+# A computer ten times slower: stereo takes 1.2 s for a pair, so each third of those every 0.4 s is used.
+drive "$WORK/slow" "$WORK/flat.yaml" --perception geometric --headless --cpu-scale 10 >"$WORK/said" || fail "slow: $(cat "$WORK/said")"
+messages_of "$WORK/slow"
+frames() { awk -F, 'NR > 1' "$1/csv/csv/HAZARDS.csv" | wc -l; }
+fast=$(frames "$WORK/geometric-a") slow=$(frames "$WORK/slow")
+[ $((slow * 5)) -le $((fast * 2)) ] && [ $((slow * 4)) -ge "$fast" ] || fail "$slow frames of HAZARDS of $fast"
+
 refuses() {  # WHAT ARGS...
   local what=$1
   shift
@@ -49,6 +56,7 @@ printf 'faults:\n  - {at_s: 5, fault: imu_dead}\n' | cat "$WORK/flat.yaml" - >"$
 refuses 'has faults, which need' "$WORK/faults.yaml"
 refuses 'not with --realtime' "$WORK/flat.yaml" --realtime
 refuses 'not with --allow-injection' "$WORK/flat.yaml" --allow-injection
+refuses 'cpu-scale' "$WORK/flat.yaml" --cpu-scale 0
 refuses 'hazard_detector.yaml.*margin_m' "$WORK/flat.yaml" --set hazard_detector.limits.margin_m=-3
 
 # A drive ends with the launcher.
