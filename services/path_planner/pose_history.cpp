@@ -5,7 +5,7 @@
 namespace rover::planning {
 namespace {
 
-constexpr double kRememberS = 20.0;  // HAZARDS of a computer that is thirty times slower
+constexpr double kRememberS = 20.0;  // longer than HAZARDS of a computer thirty times slower take
 
 }  // namespace
 

@@ -33,7 +33,7 @@ void add_run_options(CLI::App& command, rover::RunArguments& run) {
       .add_option_function<std::string>(
           "--cpu-scale", [&run](const std::string& scale) { run.set.push_back("navigation.cpu_scale=" + scale); },
           "how many times slower the modelled computer is; default: 1")
-      ->check(CLI::Range(0.1, 100.0));
+      ->check(CLI::Range(1.0, 100.0));
   rover::repeatable(
       command.add_option("--set", run.set, "set a value of the configuration: file.key=value, repeatable"));
 }

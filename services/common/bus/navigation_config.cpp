@@ -24,7 +24,7 @@ NavigationConfig load_navigation(const std::string& config_dir, ParameterList* l
   p.add("hazard_roi_far_m", c.hazard_roi_far_m, {0.1, 20.0}, "its end");
   p.check(c.hazard_roi_far_m > c.hazard_roi_near_m, "hazard_roi_far_m", "must be beyond hazard_roi_near_m");
   p.add(
-      "cpu_scale", c.cpu_scale, {0.1, 100.0},
+      "cpu_scale", c.cpu_scale, {1.0, 100.0},
       "modelled computer: multiplies the latencies of the services, and the limits in fdir.yaml of the ages that they "
       "cause");
   p.finish();
