@@ -14,6 +14,8 @@ class Breadcrumbs {
   static constexpr double kStepM = 0.1;
   static constexpr double kMaxLengthM = 10.0;
   static constexpr double kRetraceM = 1.0;
+  static constexpr double kChordM =
+      0.25;  // shorter ones show where the rover slid in a point turn, not where it headed
 
   // Where the rover comes back to its track, the loop is left out.
   void extend(Point2 rover) {
@@ -44,7 +46,7 @@ class Breadcrumbs {
     double sum = 0.0;
     for (size_t i = points_.size(); i-- > 0 && sum < distance_m;) {
       const double step = distance(out.back(), points_[i]);
-      if (step < kStepM) continue;
+      if (step < kChordM && i > 0) continue;
       sum += step;
       out.push_back(points_[i]);
     }

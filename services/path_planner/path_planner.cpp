@@ -482,6 +482,8 @@ std::vector<Point2> PathPlanner::back_up_points() const {
   const double clear_m = std::min(route.length_m(), blockage.hazard_m - kBackUpReserveM);
   std::vector<Point2> out;
   for (size_t i = 0; i < track.size() && route.s_at(i) <= clear_m; ++i) out.push_back(track[i]);
+  if (!out.empty() && clear_m - route.s_at(out.size() - 1) > Breadcrumbs::kStepM)
+    out.push_back(route.point_at(clear_m));
   if (out.size() < 2 || distance(out.front(), out.back()) < kMinBackUpM) return {};
   return out;
 }

@@ -50,6 +50,28 @@ TEST(Breadcrumbs, TheRestOfTheTrackLeadsFurtherBackWhenTheRoverBacksUpBesideIt) 
     EXPECT_LT(distance(back[i], on_arc(0.0, 1.0)), distance(back[i - 1], on_arc(0.0, 1.0)));
 }
 
+// In a point turn from 33 to 7 deg the rover slid by 8 cm; it never headed across.
+TEST(Breadcrumbs, TheTrackDoesNotHeadWhereTheRoverSlid) {
+  Breadcrumbs track;
+  Point2 rover{0.0, 0.0};
+  const auto go = [&](double distance_m, double heading_deg) {
+    for (double s = 0.0; s < distance_m; s += 0.01) {
+      rover.x_m += 0.01 * std::cos(to_rad(heading_deg));
+      rover.y_m += 0.01 * std::sin(to_rad(heading_deg));
+      track.extend(rover);
+    }
+  };
+  go(1.0, 33.0);
+  go(0.08, 100.0);
+  go(0.4, 7.0);
+  const std::vector<Point2> back = track.back(1.2);
+  for (size_t i = 1; i < back.size(); ++i) {
+    const double heading_deg = to_deg(std::atan2(back[i - 1].y_m - back[i].y_m, back[i - 1].x_m - back[i].x_m));
+    EXPECT_GT(heading_deg, -3.0) << i;
+    EXPECT_LT(heading_deg, 47.0) << i;
+  }
+}
+
 TEST(Breadcrumbs, AStationaryRoverKeepsItsTrack) {
   Breadcrumbs track = straight_track(3.0);
   const size_t before = track.points().size();

@@ -29,13 +29,14 @@ class GeometricStereoNode {
         stereo_(config_.rig, perception.rover.true_loccam(), camera_, perception.view.scene()),
         errors_(errors_of(config_.core.matcher, camera_), camera_.width, camera_.height, perception.seed) {
     node.on_step([this](Utime now) {
-      while (const auto exposure = perception_.loccam.take(now))
-        if (node_.begin_slow(config_.latency_us)) publish(*exposure);
+      if (node_.busy()) return;
+      if (const auto exposure = perception_.loccam.newest(now)) publish(*exposure);
     });
   }
 
  private:
   void publish(const Exposure& exposure) {
+    node_.begin_slow(config_.latency_us);
     const DisparityPlane ground =
         config_.core.ground_reference ? ground_reference(camera_, config_.origin_height_m) : DisparityPlane{};
     const Disparity disparity = perception_.view.expose(stereo_, errors_, ground, exposure.T_map_left, exposure.utime);
@@ -62,14 +63,14 @@ class GeometricOdometryNode {
         latency_(to_utime(vo::load_config(config_dir).latency_s)),
         errors_(perception.seed) {
     node.on_step([this](Utime now) {
-      // While it works on one pair, stereo works on the next.
-      while (const auto exposure = perception_.loccam_motion.take(now))
-        if (node_.begin_slow(std::max(stereo_latency_, latency_))) publish(*exposure);
+      if (node_.busy()) return;
+      if (const auto exposure = perception_.loccam_motion.newest(now)) publish(*exposure);
     });
   }
 
  private:
   void publish(const Exposure& exposure) {
+    node_.begin_slow(std::max(stereo_latency_, latency_));  // stereo works on the next pair meanwhile
     const auto result = errors_.step(exposure.utime, exposure.T_map_left * T_left_body_);
     if (!result) return;
     vo_motion_t message{};
@@ -102,8 +103,8 @@ class GeometricCloudNode {
       while (states_.front().header.utime < state.header.utime - kStateHistory) states_.pop_front();
     });
     node.on_step([this](Utime now) {
-      while (const auto exposure = perception_.navcam.take(now))
-        if (node_.begin_slow(config_.latency_us)) publish(*exposure);
+      if (node_.busy()) return;
+      if (const auto exposure = perception_.navcam.newest(now)) publish(*exposure);
     });
   }
 
@@ -114,6 +115,7 @@ class GeometricCloudNode {
     });
     if (state == states_.end()) return node_.reject(channel::kNavCamLeft, "no PTU_STATE of the exposure");
     if (state->moving != 0) return node_.reject(channel::kNavCamLeft, "exposed while the unit moved");
+    node_.begin_slow(config_.latency_us);
     const DisparityPlane ground = ground_reference(core_.camera_at(state->tilt_rad), config_.ground_below_m);
     const auto result =
         core_.from_disparity(perception_.view.expose(stereo_, errors_, ground, exposure.T_map_left, exposure.utime),
@@ -134,10 +136,12 @@ class GeometricCloudNode {
 
 }  // namespace
 
-std::optional<Exposure> Exposures::take(Utime now) {
-  if (waiting_.empty() || waiting_.front().utime + kCameraLatency > now) return std::nullopt;
-  const Exposure exposure = waiting_.front();
-  waiting_.pop_front();
+std::optional<Exposure> Exposures::newest(Utime now) {
+  std::optional<Exposure> exposure;
+  while (!waiting_.empty() && waiting_.front().utime + kCameraLatency <= now) {
+    exposure = waiting_.front();
+    waiting_.pop_front();
+  }
   return exposure;
 }
 

@@ -24,8 +24,8 @@ struct Exposure {
 class Exposures {
  public:
   void add(Utime utime, const Eigen::Isometry3d& T_map_left) { waiting_.push_back({utime, T_map_left}); }
-  // The next one whose images would have arrived by now.
-  std::optional<Exposure> take(Utime now);
+  // The newest whose images would have arrived by now; removes it and the older ones.
+  std::optional<Exposure> newest(Utime now);
 
  private:
   std::deque<Exposure> waiting_;

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "common/bus/channel_filter.hpp"
 #include "common/core/frames.hpp"
@@ -62,17 +63,20 @@ void Node::process(const tick_t& tick) {
   before_ = now_;
   now_ = tick.header.utime;
   const bool lockstep = tick.mode == tick_t::LOCKSTEP;
-  const std::vector<Inbox::Pending> released = inbox_.take_released(now_);
+  std::vector<Inbox::Pending> released = std::exchange(waiting_, {});
+  for (Inbox::Pending& pending : inbox_.take_released(now_)) released.push_back(std::move(pending));
   const bool slow = begin_slow(released);
   if (slow) {
     if (lockstep) lockstep_.done(now_, promise_, streams_.take_updated(), true);
     timer_.begin();
   }
-  for (const Inbox::Pending& pending : released) {
-    if (pending.slow > 0 && pending.header.utime != frame_)
-      inbox_.leave_out(pending);
-    else
+  for (Inbox::Pending& pending : released) {
+    if (pending.slow == 0 || pending.header.utime == frame_)
       inbox_.dispatch(pending);
+    else if (pending.header.utime > frame_)
+      wait(std::move(pending));
+    else
+      inbox_.leave_out(pending);
   }
   if (slow) timer_.end();
   if (step_) step_(now_);
@@ -85,7 +89,7 @@ bool Node::begin_slow(const std::vector<Inbox::Pending>& released) {
   Utime newest = kNever;
   for (const Inbox::Pending& pending : released)
     if (pending.slow > 0) newest = std::max(newest, pending.header.utime);
-  if (promise_ <= now_) frame_ = newest;
+  if (!busy()) frame_ = newest;
   Utime latency = 0;
   for (const Inbox::Pending& pending : released)
     if (pending.header.utime == frame_) latency = std::max(latency, pending.slow);
@@ -93,10 +97,15 @@ bool Node::begin_slow(const std::vector<Inbox::Pending>& released) {
   return latency > 0;
 }
 
-bool Node::begin_slow(Utime latency) {
-  if (promise_ > now_) return false;
-  promise_ = now_ + scaled(latency);
-  return true;
+// Of the frames that wait only the newest will be taken.
+void Node::wait(Inbox::Pending pending) {
+  const Utime newest = waiting_.empty() ? kNever : waiting_.front().header.utime;
+  if (pending.header.utime < newest) return inbox_.leave_out(pending);
+  if (pending.header.utime > newest) {
+    for (const Inbox::Pending& older : waiting_) inbox_.leave_out(older);
+    waiting_.clear();
+  }
+  waiting_.push_back(std::move(pending));
 }
 
 Utime Node::scaled(Utime latency) const {

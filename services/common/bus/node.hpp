@@ -47,8 +47,8 @@ class Node {
   void subscribe(const std::string& channel, std::function<void(const Message&)> handler);
 
   // For slow work: before the handlers of a tick with such a message, the node promises to publish nothing before
-  // tick + latency. Its outputs are released then. Until then it takes no newer frame (utime): a node that is too slow
-  // for its input leaves frames out. Of several that wait it takes the newest.
+  // tick + latency. Its outputs are released then. Until then newer frames (utime) wait, and of these it takes the
+  // newest: a node that is too slow for its input leaves frames out.
   template <class Message>
   void subscribe_slow(const std::string& channel, Utime latency, std::function<void(const Message&)> handler);
 
@@ -87,8 +87,9 @@ class Node {
   bool once_in(Utime period) const;
   // True if the newest ticks were paced by the clock, not by lockstep.
   bool follows_clock() const { return lockstep_.follows_clock(); }
-  // For slow work that begins in a step instead of with a message: false while earlier work is not done.
-  bool begin_slow(Utime latency);
+  // For slow work that begins in a step instead of with a message, while the node is not busy.
+  bool busy() const { return promise_ > now_; }
+  void begin_slow(Utime latency) { promise_ = now_ + scaled(latency); }
   // On the modelled computer.
   Utime scaled(Utime latency) const;
   const NodeOptions& options() const { return options_; }
@@ -107,6 +108,7 @@ class Node {
  private:
   void process(const tick_t& tick);
   bool begin_slow(const std::vector<Inbox::Pending>& released);
+  void wait(Inbox::Pending pending);
   void apply_injection(const injection_t& injection);
   void publish_heartbeat();
   std::vector<input_health_t> inputs() const;
@@ -129,7 +131,8 @@ class Node {
   Utime now_ = kNever;
   Utime before_ = kNever;  // the tick before
   Utime promise_ = kNever;
-  Utime frame_ = kNever;  // of the slow work, until the promise
+  Utime frame_ = kNever;                 // of the slow work, until the promise
+  std::vector<Inbox::Pending> waiting_;  // of one newer frame
   std::int8_t status_ = heartbeat_t::OK;
   std::string status_text_;
 };
