@@ -38,7 +38,7 @@ class Breadcrumbs {
     points_.resize(std::min(nearest + 1, points_.size()));
   }
   void clear() { points_.clear(); }
-  // Back along the track, about `distance_m` long. Not from the rover itself: it may have slid sideways in a point
+  // Back along the track, at most `distance_m` long. Not from the rover itself: it may have slid sideways in a point
   // turn, and the track turns nowhere that the rover did not.
   std::vector<Point2> back(double distance_m) const {
     if (points_.empty()) return {};
@@ -46,9 +46,11 @@ class Breadcrumbs {
     double sum = 0.0;
     for (size_t i = points_.size(); i-- > 0 && sum < distance_m;) {
       const double step = distance(out.back(), points_[i]);
-      if (step < kChordM && i > 0) continue;
+      if (step < (i > 0 ? kChordM : kStepM)) continue;
+      const double part = std::min(1.0, (distance_m - sum) / step);
       sum += step;
-      out.push_back(points_[i]);
+      const Point2 from = out.back();
+      out.push_back({from.x_m + part * (points_[i].x_m - from.x_m), from.y_m + part * (points_[i].y_m - from.y_m)});
     }
     return out;
   }
