@@ -40,7 +40,7 @@ done
   echo "## Slower computers"
   echo
   echo "Seed traverse 2, seed 1, with \`--cpu-scale\`: latencies times the scale (exposure to HAZARDS 0.24 s, to PATH 0.44 s at scale"
-  echo "1); a service leaves out frames that come while it is busy."
+  echo "1); while a service is busy newer frames wait, and it takes the newest."
   echo
   echo "| scale | level | outcome | driven / planned | progress | hazard stops | collisions | rocks missed | frames of odometry | drift [%] |"
   echo "|---|---|---|---|---|---|---|---|---|---|"

@@ -46,9 +46,8 @@ class Node {
   template <class Message>
   void subscribe(const std::string& channel, std::function<void(const Message&)> handler);
 
-  // For slow work: before the handlers of a tick with such a message, the node promises to publish nothing before
-  // tick + latency. Its outputs are released then. Until then newer frames (utime) wait, and of these it takes the
-  // newest: a node that is too slow for its input leaves frames out.
+  // For slow work: outputs are released at tick + latency, which the node promises before the handlers begin. Until
+  // then newer frames (utime) wait, and of these it takes the newest.
   template <class Message>
   void subscribe_slow(const std::string& channel, Utime latency, std::function<void(const Message&)> handler);
 
