@@ -164,18 +164,29 @@ YAML::Node rig_node(const StereoRig& rig) {
   return node;
 }
 
+// The modelled computer keeps up with the images: each pair counts in an evaluation.
+double latency_for_each_pair_s(const StereoDataSet& set) {
+  Utime shortest = to_utime(0.1);
+  for (size_t i = 1; i < set.pairs.size(); ++i)
+    shortest = std::min(shortest, set.pairs[i].since_first - set.pairs[i - 1].since_first);
+  return to_seconds(std::max<Utime>(1, shortest / kTickUs) * kTickUs);
+}
+
 // Project configuration for the data set's cameras, without ground plane, IMU, wheels and the rover's speed limit.
 void write_configuration(const ImportOptions& options, const StereoDataSet& set, const fs::path& dir) {
   fs::create_directory(dir);
   for (const auto& entry : fs::directory_iterator(options.config_dir))
     if (entry.path().extension() == ".yaml") fs::copy_file(entry.path(), dir / entry.path().filename());
   change_yaml(dir / "cameras.yaml", [&](YAML::Node& cameras) { cameras["loccam"] = rig_node(set.rig); });
+  const double latency_s = latency_for_each_pair_s(set);
   change_yaml(dir / "stereo.yaml", [&](YAML::Node& stereo) {
+    stereo["latency_s"] = latency_s;
     stereo["ground_reference"] = false;
     stereo["matcher"]["residual_min_px"] = 0;
     stereo["matcher"]["residual_count_px"] = options.max_disparity_px;
   });
   change_yaml(dir / "visual_odometry.yaml", [&](YAML::Node& odometry) {
+    odometry["latency_s"] = latency_s;
     odometry["stereo"]["max_disparity_px"] = static_cast<double>(options.max_disparity_px);
     // Per pair, and pairs may be metres apart.
     odometry["odometry"]["max_position_sigma_m"] = 0.2;
