@@ -6,6 +6,7 @@
 
 #include "common/bus/config.hpp"
 #include "common/bus/navigation_config.hpp"
+#include "common/bus/service_names.hpp"
 #include "common/bus/vehicle_config.hpp"
 
 namespace rover::supervisor {
@@ -154,6 +155,7 @@ void add_level(Parameters p, LevelConfig& c) {
   p.add("easy_distance_m", c.easy_distance_m, {0.0, 1000.0}, "... over this distance: lower");
   p.add("failing_starts", c.failing_starts, {1, 100}, "starts of one of full_services within restarts.window_s: lower");
   p.add("failing_sweep_s", c.failing_sweep_s, {1.0, 600.0}, "sweep without known ground for this long: lower");
+  p.add("linger_s", c.linger_s, {1.0, 1e6}, "services of the Full level are stopped after so long without need");
 }
 
 void add_restarts(Parameters p, ServiceRestarterConfig& c) {
@@ -185,6 +187,7 @@ SupervisorConfig load_config(const std::string& config_dir, ParameterList* list)
                "tolerance and age of operator commands from navigation.yaml.",
                list);
   add_services(p, c.fdir);
+  c.on_demand_services.assign(kFullServiceNames.begin(), kFullServiceNames.end());
   p.add("permit_validity_s", c.permit_validity_s, {0.04, 0.2}, "of DRIVE_PERMIT; without a newer one the rover stops");
   p.add("teleop_speed_mps", c.teleop_speed_mps, {0.01, vehicle.top_speed_mps}, "speed limit in TELEOP");
   p.add("motor_thermal_time_s", c.derived.motor_thermal_time_s, {1.0, 3600.0},

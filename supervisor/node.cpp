@@ -42,8 +42,12 @@ std::string text_of(const CommandAnswer& answer) {
 
 }  // namespace
 
-SupervisorNode::SupervisorNode(Node& node, const SupervisorConfig& config, Kill kill)
-    : node_(node), checkpoint_(node), kill_(std::move(kill)), supervisor_(config) {
+SupervisorNode::SupervisorNode(Node& node, const SupervisorConfig& config, Control control)
+    : node_(node),
+      checkpoint_(node),
+      control_(std::move(control)),
+      on_demand_services_(config.on_demand_services),
+      supervisor_(config) {
   restore();
   subscribe();
   subscribe_vehicle();
@@ -95,6 +99,7 @@ void SupervisorNode::step(Utime now) {
   publish_states(output, now);
   publish_answers(output.answers, now);
   for (const std::string& service : output.restarts) restart(service);
+  if (output.run_full) run_full(*output.run_full);
   save();
 }
 
@@ -139,15 +144,24 @@ void SupervisorNode::publish_states(const SupervisorOutput& output, Utime now) {
 void SupervisorNode::publish_state(const StateChange& change, Utime now) {
   supervisor_state_t message =
       state_message(change, supervisor_.since(), supervisor_.hazard_stops(), supervisor_.active_faults());
+  message.full_services = supervisor_.full_services_wanted() ? 1 : 0;
   node_.publish(channel::kState, message, now);
 }
 
 // s6 restarts crashed processes by itself; only a running (hung) one must be killed.
 void SupervisorNode::restart(const std::string& service) {
   const bool running = process_alive(pids_[service]);
-  const bool killed = running && kill_(service);
+  const bool killed = running && control_(service, "-k");
   node_.log("WARN", "RESTART service=" + service + " why=" + (running ? "hang" : "crash") +
                         (running && !killed ? " not possible" : ""));
+}
+
+void SupervisorNode::run_full(bool run) {
+  int controlled = 0;
+  for (const std::string& service : on_demand_services_)
+    if (control_(service, run ? "-u" : "-d")) ++controlled;
+  node_.log("INFO",
+            std::string(run ? "FULL_SERVICES started=" : "FULL_SERVICES stopped=") + std::to_string(controlled));
 }
 
 void SupervisorNode::restore() {

@@ -12,9 +12,9 @@ namespace rover::supervisor {
 
 class SupervisorNode {
  public:
-  // Kills a service so that s6 restarts it; returns false on failure.
-  using Kill = std::function<bool(const std::string& service)>;
-  SupervisorNode(Node& node, const SupervisorConfig& config, Kill kill);
+  // Applies an option of s6-svc(8) to a service; false if s6 does not supervise it.
+  using Control = std::function<bool(const std::string& service, const char* option)>;
+  SupervisorNode(Node& node, const SupervisorConfig& config, Control control);
 
  private:
   void subscribe();
@@ -29,10 +29,12 @@ class SupervisorNode {
   void publish_state(const StateChange& change, Utime now);
   void publish_fault(const FaultChange& change, Utime now);
   void restart(const std::string& service);
+  void run_full(bool run);
 
   Node& node_;
   CheckpointStore checkpoint_;
-  Kill kill_;
+  Control control_;
+  std::vector<std::string> on_demand_services_;
   Pose2 body_odom_{};  // newest pose
   Supervisor supervisor_;
   PersistentState saved_;

@@ -50,9 +50,11 @@ Supervisor::Supervisor(const SupervisorConfig& config)
       derived_(config.derived),
       fdir_(config.fdir),
       restarter_(config.restarts),
-      level_selector_(config.level) {}
+      level_selector_(config.level),
+      on_demand_(config.level.linger_s) {}
 
 void Supervisor::on_service(const std::string& name, const ServiceReport& report) {
+  if (on_demand_.state() == OnDemand::State::kStopped && on_demand(name)) return;
   ServiceReport& newest = inputs_.services[name];
   if (report.utime < newest.utime || report.boot_id < newest.boot_id) return;
   derived_.on_service(name, newest, report);
@@ -148,7 +150,27 @@ void Supervisor::run_monitors(Utime now, SupervisorOutput& out) {
 
 void Supervisor::run_level(Utime now, SupervisorOutput& out) {
   level_selector_.step(now, inputs_, hazard_stops_, kDriveInProgress.has(state_));
-  if (const LevelTransition* row = next_level(level_, level_facts(now))) fire(*row, out);
+  LevelFactSet facts = level_facts(now);
+  run_full_services(now, facts, out);
+  if (const LevelTransition* row = next_level(level_, facts)) fire(*row, out);
+}
+
+// They are wanted at the Full level, and if being ready would raise the level.
+void Supervisor::run_full_services(Utime now, LevelFactSet& facts, SupervisorOutput& out) {
+  LevelFactSet if_ready = facts;
+  if_ready.insert(LevelFact::kFullReady);
+  const LevelTransition* row = next_level(level_, if_ready);
+  const bool wanted = row == nullptr ? level_ == Level::kFull : row->to == Level::kFull;
+  const bool changed = on_demand_.step(now, wanted);
+  if (!full_services_wanted()) facts.erase(LevelFact::kFullReady);
+  if (!changed || on_demand_.state() == OnDemand::State::kLeaving) return;
+  out.run_full = full_services_wanted();
+  if (!*out.run_full) std::erase_if(inputs_.services, [this](const auto& service) { return on_demand(service.first); });
+}
+
+bool Supervisor::on_demand(const std::string& service) const {
+  const std::vector<std::string>& all = config_.on_demand_services;
+  return std::find(all.begin(), all.end(), service) != all.end();
 }
 
 LevelFactSet Supervisor::level_facts(Utime now) {
@@ -337,7 +359,7 @@ CommandAnswer Supervisor::force_level(const GroundCommand& command, Utime now) {
   const bool known = command.level == ForcedLevel::kEfficient || command.level == ForcedLevel::kFull ||
                      command.level == ForcedLevel::kAuto;
   if (!known) return {command.id, false, "no such level"};
-  if (command.level == ForcedLevel::kFull && !level_facts(now).has(LevelFact::kFullReady))
+  if (command.level == ForcedLevel::kFull && full_services_wanted() && !level_facts(now).has(LevelFact::kFullReady))
     return {command.id, false, "the services of the Full level are not running"};
   forced_ = command.level;
   return {command.id, true, ""};

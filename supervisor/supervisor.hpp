@@ -11,6 +11,7 @@
 #include "supervisor/fdir.hpp"
 #include "supervisor/inputs.hpp"
 #include "supervisor/level_selector.hpp"
+#include "supervisor/on_demand.hpp"
 #include "supervisor/path_level.hpp"
 #include "supervisor/service_restarter.hpp"
 #include "supervisor/state_machine.hpp"
@@ -22,6 +23,8 @@ struct SupervisorConfig {
   DerivedValueConfig derived;
   LevelConfig level;
   ServiceRestarterConfig restarts;
+  // Run only while the Full level needs them; there FDIR requires fdir.full_services of them.
+  std::vector<std::string> on_demand_services;
   double max_speed_mps = 0.2;
   double deceleration_mps2 = 0.118;
   double footprint_half_length_m = 0.9;
@@ -108,6 +111,7 @@ struct SupervisorOutput {
   std::vector<FaultChange> faults;
   std::vector<CommandAnswer> answers;
   std::vector<std::string> restarts;  // services to kill so that s6 restarts them
+  std::optional<bool> run_full;       // start or stop the services of the Full level
 };
 
 // State that survives a restart of the supervisor: what limits motion, and what the operator sees. These start anew,
@@ -160,6 +164,7 @@ class Supervisor {
   Utime since() const { return since_; }
   const StateChange& last_change() const { return last_change_; }
   int hazard_stops() const { return hazard_stops_; }
+  bool full_services_wanted() const { return on_demand_.state() == OnDemand::State::kRunning; }
   // Ids in the order of raising.
   const std::vector<std::string>& active_faults() const { return fdir_.active(); }
   std::vector<FaultChange> active_report() const { return fdir_.report(); }
@@ -171,6 +176,8 @@ class Supervisor {
   void run_monitors(Utime now, SupervisorOutput& out);
   void run_level(Utime now, SupervisorOutput& out);
   LevelFactSet level_facts(Utime now);
+  bool on_demand(const std::string& service) const;
+  void run_full_services(Utime now, LevelFactSet& facts, SupervisorOutput& out);
   void full_failing_fact(LevelFactSet& facts, Utime now);
   double failing_starts() const;
   FactSet facts(Utime now);
@@ -206,6 +213,7 @@ class Supervisor {
   Fdir fdir_;
   ServiceRestarter restarter_;
   LevelSelector level_selector_;
+  OnDemand on_demand_;
   std::array<Evidence, kFactCount> evidence_;
   std::array<Evidence, kLevelFactCount> level_evidence_;
   std::string blocking_fault_;  // first active fault that stops the rover

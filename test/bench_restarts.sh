@@ -40,5 +40,6 @@ done
     "| simulator killed: no permit after 0.5 s of wall time | maximum \($clock | worst("withdrawn_s")) s of \($clock | length) |",
     "", "| service | kills | first message, median [s] | maximum [s] | drive continues after, median [s] | maximum [s] |", "|---|---|---|---|---|---|",
     ($kills | group_by(.service)[] | "| \(.[0].service) | \(length) | \(middle("first_message_s")) | \(worst("first_message_s")) | \(middle("drives_again_s")) | \(worst("drives_again_s")) |")' "$LOGS/rows.jsonl"
-} >"$OUT"
+} >"$OUT.new"
+mv "$OUT.new" "$OUT"
 cat "$OUT"

@@ -5,6 +5,7 @@
 
 #include "common/bus/convert.hpp"
 #include "common/bus/s6_client.hpp"
+#include "common/bus/service_names.hpp"
 #include "common/bus/state_names.hpp"
 
 namespace rover::mission {
@@ -61,6 +62,7 @@ void TelemetryStore::add(const heartbeat_t& message, double wall_s) {
 void TelemetryStore::add(const supervisor_state_t& m) {
   view_.state = {m.header.utime, state_name(m.state), level_name(m.level), m.since_utime, m.cause, m.quantity,
                  m.value,        m.threshold,         m.hazard_stops,      m.faults};
+  if (!std::exchange(full_services_run_, m.full_services != 0) && full_services_run_) ++starts_on_demand_;
 }
 
 void TelemetryStore::add(const fault_t& m) {
@@ -221,20 +223,26 @@ Pose2 TelemetryStore::odom_at(Utime utime) const {
   return poses_.empty() ? Pose2{kNaN, kNaN, kNaN} : poses_.back().second;
 }
 
-ServiceView TelemetryStore::view_of(const ServiceRecord& record) const {
+ServiceView TelemetryStore::view_of(const std::string& name, const ServiceRecord& record) const {
+  const bool full = is_full_service(name);
   ServiceView out;
   if (record.last_heartbeat == kNever) {
     if (first_tick_ != kNever && to_seconds(view_.now - first_tick_) > kStartupGraceS) out.health = Health::kLost;
     return out;
   }
+  const bool lost = view_.now - record.last_heartbeat > kHeartbeatTimeoutUs || !process_alive(record.pid);
+  if (lost && full && !full_services_run_) {
+    out.health = Health::kStopped;
+    return out;
+  }
   out.age_s = std::max(0.0, to_seconds(view_.now - record.last_heartbeat));
   out.rss_mb = record.rss_mb;
   out.text = record.text;
-  if (record.boot_id < kMaxCountedBoots) out.restarts = static_cast<int>(record.boot_id) - 1;
+  if (record.boot_id < kMaxCountedBoots)
+    out.restarts = std::max(0, static_cast<int>(record.boot_id) - 1 - (full ? starts_on_demand_ : 0));
   const auto& [wall_0, cpu_0] = record.cpu.front();
   const auto& [wall_1, cpu_1] = record.cpu.back();
   if (wall_1 - wall_0 > 0.3) out.cpu_percent = 100.0 * (cpu_1 - cpu_0) / (wall_1 - wall_0);
-  const bool lost = out.age_s > to_seconds(kHeartbeatTimeoutUs) || !process_alive(record.pid);
   out.health = lost                                     ? Health::kLost
                : record.status == heartbeat_t::OK       ? Health::kOk
                : record.status == heartbeat_t::DEGRADED ? Health::kDegraded
@@ -248,7 +256,7 @@ View TelemetryStore::view(double wall_s) {
     view_.tick_age_s = wall_s - ticks_.back().second;
     view_.realtime_factor = span_s > 0.5 ? to_seconds(ticks_.back().first - ticks_.front().first) / span_s : kNaN;
   }
-  for (const auto& [name, record] : services_) view_.services[name] = view_of(record);
+  for (const auto& [name, record] : services_) view_.services[name] = view_of(name, record);
   View out = view_;
   view_.motion.drive_current_a.fill(kNaN);
   return out;

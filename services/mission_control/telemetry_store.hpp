@@ -89,7 +89,7 @@ class TelemetryStore {
     std::string text;
     std::deque<std::pair<double, double>> cpu;  // wall time, processor time
   };
-  ServiceView view_of(const ServiceRecord& record) const;
+  ServiceView view_of(const std::string& name, const ServiceRecord& record) const;
   Pose2 odom_at(Utime utime) const;
   void select_loccam_image();
   void show(const std::string& name, const std::shared_ptr<const image_t>& image);
@@ -102,6 +102,8 @@ class TelemetryStore {
   TruthView truth_;
   std::optional<StereoCamera> camera_;
   std::map<std::string, ServiceRecord> services_;
+  bool full_services_run_ = true;
+  int starts_on_demand_ = 0;                           // of the services of the Full level
   std::deque<std::pair<Utime, double>> ticks_;         // with wall time
   std::deque<std::pair<Utime, Pose2>> poses_;          // odom
   std::deque<std::shared_ptr<const image_t>> loccam_;  // waiting for their hazard grids

@@ -72,7 +72,7 @@ struct MotionView {
 constexpr Utime kHeartbeatTimeoutUs = 1'000'000;
 
 // kWaiting: just subscribed. kLost: no process, or heartbeat timeout.
-enum class Health { kOk, kDegraded, kFault, kLost, kWaiting };
+enum class Health { kOk, kDegraded, kFault, kLost, kWaiting, kStopped };
 
 struct ServiceView {
   Health health = Health::kWaiting;

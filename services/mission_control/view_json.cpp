@@ -8,7 +8,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array kHealth = {"ok", "degraded", "fault", "lost", "waiting"};
+constexpr std::array kHealth = {"ok", "degraded", "fault", "lost", "waiting", "stopped"};
 
 // Rounds to the displayed digits to save bandwidth.
 json rounded(double value, double step) {

@@ -11,6 +11,7 @@
 
 #include "common/bus/channels.hpp"
 #include "common/bus/s6_client.hpp"
+#include "common/bus/service_names.hpp"
 #include "common/bus/streams.hpp"
 #include "rover_simulator/convert.hpp"
 #include "rover_simulator/exposure_times.hpp"
@@ -152,7 +153,7 @@ SimulationSummary Simulator::run(const std::function<bool()>& running) {
     else
       wait_for_barrier(t, running);
     publish_tick(t);
-    process_states(t);
+    process_states(t, running);
   }
   if (summary_.outcome.empty()) summary_.outcome = "stopped";
   if (options_.realtime) summary_.deterministic = false;
@@ -162,7 +163,7 @@ SimulationSummary Simulator::run(const std::function<bool()>& running) {
 }
 
 // In lockstep, all messages released by t have arrived.
-void Simulator::process_states(Utime t) {
+void Simulator::process_states(Utime t, const std::function<bool()>& running) {
   while (lcm_.handleTimeout(0) > 0) {
   }
   if (options_.realtime)
@@ -171,7 +172,22 @@ void Simulator::process_states(Utime t) {
   while (!states_.empty() && states_.front().header.release_utime <= t) {
     end_.phase(phase_of(states_.front()), states_.front().header.utime);
     script_.entered(states_.front().state);
+    run_full_services(states_.front().full_services != 0, t, running);
     states_.pop_front();
+  }
+}
+
+// The supervisor stops and starts their processes. In one process they only become idle.
+void Simulator::run_full_services(bool run, Utime t, const std::function<bool()>& running) {
+  if (in_process_.run_services || std::exchange(full_services_run_, run) == run) return;
+  for (const std::string& name : barrier_.participants()) {
+    if (!is_full_service(name)) continue;
+    if (run) {
+      barrier_.expect(name, t, kRejoinDelay);
+      continue;
+    }
+    if (!options_.realtime && !wait_until_idle(name, running)) summary_.deterministic = false;
+    barrier_.stop(name);
   }
 }
 

@@ -108,7 +108,8 @@ class Simulator {
   bool wait_until_idle(const std::string& service, const std::function<bool()>& running);
   void update_driven_distance();
   void on_inject(const lcm::ReceiveBuffer* buffer, const std::string& channel);
-  void process_states(Utime t);
+  void process_states(Utime t, const std::function<bool()>& running);
+  void run_full_services(bool run, Utime t, const std::function<bool()>& running);
   std::vector<stream_seq_t> take_released_streams(Utime t);
   WheelCommand command_at(Utime t);
   void on_done(const lcm::ReceiveBuffer* buffer, const std::string& channel);
@@ -138,6 +139,7 @@ class Simulator {
   std::deque<supervisor_state_t> states_;
   std::optional<wheel_command_t> command_;
   bool ptu_enabled_ = false;  // switched on by its first command
+  bool full_services_run_ = true;
   Camera loccam_;
   Camera navcam_;
   Utime now_ = kNever;

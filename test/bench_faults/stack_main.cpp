@@ -77,8 +77,11 @@ class Bench {
   void add_services() {
     for (const char* name : {"localization", "hazard_detector", "path_planner", "trajectory_control", "locomotion"})
       stack_.add(name, service_factory(name, arguments_.config));
-    stack_.add("supervisor", [this, core = supervisor::load_config(arguments_.config)](Node& n) {
-      return std::make_shared<supervisor::SupervisorNode>(n, core, [this](const std::string& who) {
+    supervisor::SupervisorConfig core = supervisor::load_config(arguments_.config);
+    core.level.linger_s = kInfinity;  // the rows of idle services are judged too
+    stack_.add("supervisor", [this, core](Node& n) {
+      return std::make_shared<supervisor::SupervisorNode>(n, core, [this](const std::string& who, const char* option) {
+        if (std::string_view(option) != "-k") return false;
         injection_t note{};
         note.target = who;
         log_.note(kKillOrdered, note);

@@ -108,7 +108,7 @@ const std::map<std::string, Factory>& factories() {
       {"supervisor",
        [](Node& n) {
          return std::make_shared<supervisor::SupervisorNode>(n, supervisor_config(),
-                                                             [](const std::string&) { return false; });
+                                                             [](const std::string&, const char*) { return false; });
        }},
       {"mission_control", [](Node& n) { return std::make_shared<MissionControlNode>(n, plan()); }},
       {"recorder", make_test_recorder},

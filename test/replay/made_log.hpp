@@ -18,26 +18,31 @@ class MadeLog {
  public:
   static Utime tick_time(int k) { return 1'000'000 + (k - 1) * kTickUs; }
 
-  // mode "a": append to the file, as `cat` joins logs. From tick `jump_at` on, the clock is shifted by `jump`.
-  MadeLog(const std::string& path, int count, const char* mode = "w", int jump_at = 0, Utime jump = 0)
+  // mode "a": append to the file, as `cat` joins logs. From tick `jump_at` on, the clock is shifted by `jump`. The
+  // ticks are without the service from `left_at` on, until after 20 of them another process of it replies with 1000 +
+  // k.
+  MadeLog(const std::string& path, int count, const char* mode = "w", int jump_at = 0, Utime jump = 0, int left_at = 0)
       : path_(path), log_(path, mode), world_("world", 1), echo_("echo", 1) {
+    const auto first = [left_at](int k) { return left_at == 0 || k < left_at; };
+    const auto second = [left_at](int k) { return left_at > 0 && k >= left_at + 20; };
     for (int k = 1; k <= count; ++k) {
       const Utime t = tick_time(k) + (jump_at > 0 && k >= jump_at ? jump : 0);
       imu_t imu{};
       imu.header = world_.next(channel::kImu, t, t);
       imu.dt_s = k;
       write(channel::kImu, encoded(imu), t);
-      if (k > 1) {
+      if (second(k) && !second(k - 1)) echo_ = StreamCounter("echo", 2);
+      if (k > 1 && (first(k - 1) || second(k - 1))) {
         slip_t slip{};
         slip.header = echo_.next(channel::kSlip, t - kTickUs, t);
-        slip.slip_ratio = k - 1;
+        slip.slip_ratio = k - 1 + (second(k) ? 1000 : 0);
         write(channel::kSlip, encoded(slip), t);
       }
       tick_t tick{};
       tick.header = world_.next(channel::kTick, t, t);
       tick.mode = tick_t::LOCKSTEP;
-      tick.members = {"echo"};
-      tick.member_count = 1;
+      if (first(k) || second(k)) tick.members = {"echo"};
+      tick.member_count = static_cast<std::int32_t>(tick.members.size());
       tick.stream_count = 0;
       write(channel::kTick, encoded(tick), t);
     }

@@ -75,6 +75,38 @@ TEST_F(PlayerTest, DifferentLiveServiceIsDetected) {
   EXPECT_EQ(first->kind, Difference::Kind::kContent);
 }
 
+// What its later processes published is played from the log.
+TEST_F(PlayerTest, ServiceThatEndedInTheLogIsLiveUntilThen) {
+  { const MadeLog ended(path_, 200, "w", 0, 0, 100); }
+  const Echo echo;
+  RecordedLog log(path_);
+  EXPECT_EQ(log.left(), (std::map<std::string, Utime>{{"echo", MadeLog::tick_time(100)}}));
+  lcm::LCM bus(kBus), reports(reports_url(kBus));
+  std::vector<double> heard;
+  bus.subscribeFunction(
+         channel::kSlip,
+         +[](const lcm::ReceiveBuffer* buffer, const std::string&, std::vector<double>* out) {
+           slip_t slip{};
+           if (decode_message(buffer->data, static_cast<int>(buffer->data_size), slip)) out->push_back(slip.slip_ratio);
+         },
+         &heard)
+      ->setQueueCapacity(0);
+  Comparison comparison;
+  PlayerOptions options{.live = {"echo"}, .speed = 0.0};
+  options.ended["echo"] = {1, MadeLog::tick_time(100), MadeLog::tick_time(100)};
+  Player player(options, log, bus, reports, &comparison);
+  const PlayResult played = player.play({});
+  const auto results = comparison.finish(played.last);
+  ASSERT_EQ(results.size(), 1U);
+  EXPECT_EQ(results[0].identical, 99);
+  EXPECT_FALSE(results[0].first);
+  while (bus.handleTimeout(100) > 0) {
+  }
+  ASSERT_EQ(heard.size(), 99U + 80U);
+  EXPECT_EQ(heard[98], 99.0);
+  EXPECT_EQ(heard[99], 1120.0);
+}
+
 // Everything that is published on an in-memory bus when a log is played without live services.
 struct Heard {
   std::vector<std::string> channels;

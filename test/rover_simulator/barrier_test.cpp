@@ -41,6 +41,25 @@ TEST_F(BarrierTest, DeadProcessRejoinsOnlyWithNewerBootId) {
   EXPECT_EQ(barrier_.admit(12 * kTickUs), Names{"node"});
 }
 
+TEST_F(BarrierTest, StoppedParticipantReturnsWhenItIsExpected) {
+  barrier_.stop("node");
+  EXPECT_FALSE(waits_at(1'000 * kTickUs));
+  barrier_.ready("node", 6, 101);
+  EXPECT_TRUE(barrier_.admit(1'000 * kTickUs).empty());
+  barrier_.expect("node", 1'000 * kTickUs, 10 * kTickUs);
+  EXPECT_TRUE(barrier_.admit(1'009 * kTickUs).empty());
+  EXPECT_EQ(barrier_.admit(1'010 * kTickUs), Names{"node"});
+}
+
+TEST_F(BarrierTest, TicksWaitForAnExpectedParticipant) {
+  barrier_.stop("node");
+  barrier_.expect("node", 1'000 * kTickUs, 10 * kTickUs);
+  EXPECT_FALSE(waits_at(1'004 * kTickUs));
+  EXPECT_TRUE(waits_at(1'005 * kTickUs));
+  barrier_.ready("node", 6, 101);
+  EXPECT_FALSE(waits_at(1'005 * kTickUs));
+}
+
 TEST_F(BarrierTest, IsIdleOnlyAfterFinalReportOfTick) {
   EXPECT_TRUE(barrier_.idle("node"));
   barrier_.admit(kTickUs);

@@ -60,7 +60,9 @@ TEST_F(Folder, ServicesDownInS6AreDead) {
   fs::create_directories(dir / "services" / "stereo");
   fs::create_directories(dir / "services" / "recorder");
   fs::create_directories(dir / "boots");
-  std::ofstream(dir / "boots" / "stereo") << "3\n";
+  fs::create_directories(dir / "exits");
+  std::ofstream(dir / "boots" / "stereo") << "4\n";
+  std::ofstream(dir / "exits" / "stereo") << "256 9\n0 0\n256 9\n";  // one was stopped
   Processes processes(dir);
   processes.sample({{"stereo", getpid()}}, 0.0);
   ASSERT_EQ(processes.figures().size(), 2u);

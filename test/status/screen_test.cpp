@@ -77,6 +77,12 @@ TEST(Screen, ColoursChangeNothingElse) {
   EXPECT_NE(coloured.find("\033[31m     3.50\033[0m"), std::string::npos) << "a stream at rest";
 }
 
+TEST(Screen, ServiceThatTheLevelDoesNotNeedIsNotDead) {
+  Snapshot status = example_status();
+  status.services.at("stereo").wanted = false;
+  EXPECT_NE(screen(status, {}).find("stereo                     -  stopped"), std::string::npos);
+}
+
 TEST(Screen, FitsTheTerminal) {
   for (const size_t rows : {5u, 24u, 34u, 35u, 50u, 200u}) {
     const std::string text = screen(crowded(), {.rows = rows});

@@ -28,7 +28,8 @@ namespace {
 class SupervisorNodeTest : public testing::Test {
  protected:
   SupervisorNodeTest()
-      : node_({.name = "supervisor"}, world_.bus), service_(node_, config_, [](const std::string&) { return false; }) {
+      : node_({.name = "supervisor"}, world_.bus),
+        service_(node_, config_, [](const std::string&, const char*) { return false; }) {
     permits_ = world_.listen<drive_permit_t>(channel::kDrivePermit);
     states_ = world_.listen<supervisor_state_t>(channel::kState);
     acks_ = world_.listen<command_ack_t>(channel::kCommandAck);
@@ -146,7 +147,8 @@ TEST(SupervisorCheckpoint, MotorHeatIsSavedEachSecond) {
   std::filesystem::create_directories(dir);
   test::BusWorld world;
   Node node({.name = "supervisor", .run_dir = dir}, world.bus);
-  const SupervisorNode service(node, load_config(ROVER_SOURCE_DIR "/config"), [](const std::string&) { return false; });
+  const SupervisorNode service(node, load_config(ROVER_SOURCE_DIR "/config"),
+                               [](const std::string&, const char*) { return false; });
   wheel_state_t wheels{};
   wheels.drive_current_a[2] = 4.0;
   for (int i = 0; i < 175; ++i) {

@@ -13,7 +13,7 @@ RowsRig::RowsRig(Bus bus)
     : bus_(bus),
       config_(load_config(ROVER_SOURCE_DIR "/config")),
       node_({.name = "supervisor"}, world.bus),
-      service_(node_, config_, [](const std::string&) { return false; }),
+      service_(node_, config_, [](const std::string&, const char*) { return false; }),
       permits_(world.listen<drive_permit_t>(channel::kDrivePermit)),
       acks_(world.listen<command_ack_t>(channel::kCommandAck)),
       faults_(world.listen<fault_t>(channel::kFault)) {

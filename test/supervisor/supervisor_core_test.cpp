@@ -45,6 +45,7 @@ class SupervisorTest : public testing::Test {
     for (const StateChange& change : out_.changes) changes_.push_back(change);
     for (const FaultChange& change : out_.faults) faults_.push_back(change);
     restarts_.insert(restarts_.end(), out_.restarts.begin(), out_.restarts.end());
+    if (out_.run_full) run_full_.push_back(*out_.run_full);
     EXPECT_TRUE(!out_.permit.granted || supervisor_.state() == State::kDriving ||
                 supervisor_.state() == State::kTeleop);
     EXPECT_TRUE(!out_.permit.granted || out_.permit.valid_until == now_ + 200'000);
@@ -130,6 +131,7 @@ class SupervisorTest : public testing::Test {
   std::vector<StateChange> changes_;
   std::vector<FaultChange> faults_;
   std::vector<std::string> restarts_;
+  std::vector<bool> run_full_;  // of the services of the Full level
   Utime now_ = 0;
   std::int64_t command_id_ = 0;
   PoseReport pose_;
@@ -1135,6 +1137,43 @@ TEST_F(LevelTest, NoFullLevelWithoutItsServices) {
   drive(300.0, 0.01);
   EXPECT_EQ(supervisor_.level(), Level::kEfficient);
   EXPECT_FALSE(command(CommandKind::kForceLevel, "", static_cast<ForcedLevel>(7)).accepted);
+}
+
+TEST_F(LevelTest, ServicesOfTheFullLevelRunOnDemand) {
+  config_.on_demand_services = config_.fdir.full_services;
+  supervisor_ = Supervisor(config_);
+  begin();
+  drive(25.0, 0.15);
+  EXPECT_EQ(run_full_, std::vector<bool>{true});
+  EXPECT_TRUE(supervisor_.full_services_wanted());
+  drive(10.0, 0.15);
+  EXPECT_FALSE(supervisor_.full_services_wanted());
+  EXPECT_EQ(run_full_, (std::vector<bool>{true, false}));
+  full_alive_ = false;  // as s6 was told
+  drive(60.0, 0.15);
+  EXPECT_TRUE(restarts_.empty());
+
+  EXPECT_TRUE(command(CommandKind::kForceLevel, "", ForcedLevel::kFull).accepted);
+  drive(1.0, 0.15);
+  EXPECT_EQ(run_full_, (std::vector<bool>{true, false, true}));
+  EXPECT_EQ(supervisor_.level(), Level::kEfficient) << "not before they are ready";
+  full_alive_ = true;
+  drive(1.0, 0.15);
+  EXPECT_EQ(supervisor_.level(), Level::kFull);
+  EXPECT_TRUE(restarts_.empty());
+  drive(60.0, 0.15);
+  EXPECT_TRUE(supervisor_.full_services_wanted());
+}
+
+TEST_F(LevelTest, LevelDoesNotRiseWithServicesThatAreAboutToStop) {
+  begin();
+  while (supervisor_.full_services_wanted()) drive(0.02, 0.15);
+  EXPECT_TRUE(command(CommandKind::kForceLevel, "", ForcedLevel::kFull).accepted);
+  drive(0.4, 0.15);
+  EXPECT_EQ(supervisor_.level(), Level::kEfficient);
+  drive(1.0, 0.15);
+  EXPECT_EQ(run_full_, (std::vector<bool>{true, false, true}));
+  EXPECT_EQ(supervisor_.level(), Level::kFull);
 }
 
 TEST_F(LevelTest, EmptyMapIsSweptBeforeDriving) {

@@ -101,15 +101,12 @@ void set_range(const ReplayArguments& arguments, const RecordedLog& log, replay:
 // A restarted service has another state, so it is compared only until the last message of its first process.
 void end_at_restarts(const std::vector<std::string>& live, const RecordedLog& log, replay::PlayerOptions& player) {
   for (const std::string& name : live) {
+    const auto left = log.left().find(name);
     const auto boots = replay::boots_of(log, name);
-    if (boots.size() < 2) continue;
-    const Utime end = boots.begin()->second;
-    if (player.until != kNever && player.until <= end) continue;
-    player.until = end;
-    std::printf("%s was restarted in the log: checked until %.2f s\n", name.c_str(), to_seconds(end));
+    if (left == log.left().end() || boots.empty()) continue;
+    player.ended[name] = {boots.begin()->first, boots.begin()->second, left->second};
+    std::printf("%s ended in the log: checked until %.2f s\n", name.c_str(), to_seconds(boots.begin()->second));
   }
-  if (player.until != kNever && player.until < log.ticks().front())
-    throw ConfigError("the log begins with a restart: nothing of it can be checked");
 }
 
 // Without its images a log cannot be recomputed.

@@ -39,7 +39,7 @@ std::shared_ptr<void> make_mission_control(Node& node, const std::string& config
 
 std::shared_ptr<void> make_supervisor(Node& node, const std::string& config_dir) {
   return std::make_shared<supervisor::SupervisorNode>(node, supervisor::load_config(config_dir),
-                                                      [](const std::string&) { return false; });
+                                                      [](const std::string&, const char*) { return false; });
 }
 
 template <class Service, auto load_config>

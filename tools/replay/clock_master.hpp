@@ -31,6 +31,8 @@ class ClockMaster {
   // Registers a published message; the next tick lists it.
   void list(const std::string& channel, const header_t& header);
   // Publishes TICK(t) after all services have published what precedes it.
+  // The service gets no more ticks; it is idle.
+  void stop(const std::string& service) { barrier_.stop(service); }
   void publish_tick(Utime t, const Running& running);
   // Waits until all services have finished the work of the last tick.
   void wait_until_idle(const Running& running);

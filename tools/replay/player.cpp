@@ -32,10 +32,26 @@ void Player::on_message(const lcm::ReceiveBuffer* buffer, const std::string& cha
   header_t header{};
   const auto* begin = static_cast<const std::uint8_t*>(buffer->data);
   if (channel == channel::kHeartbeat || channel == channel::kTick || channel == channel::kDone) return;
-  if (!peek_header(begin, static_cast<int>(buffer->data_size), header) || !is_live(header.publisher)) return;
+  if (!peek_header(begin, static_cast<int>(buffer->data_size), header) || !is_live(header)) return;
+  const auto ended = options_.ended.find(header.publisher);
+  if (ended != options_.ended.end() && header.release_utime > ended->second.last_release) return;
   arrivals_.arrived(channel, header);
   comparison_->add_live({channel, header.publisher, header.boot_id, header.seq, header.utime, header.release_utime},
                         {begin, begin + buffer->data_size});
+}
+
+bool Player::is_live(const header_t& header) const {
+  if (!live_.contains(header.publisher)) return false;
+  const auto ended = options_.ended.find(header.publisher);
+  return ended == options_.ended.end() || header.boot_id <= ended->second.boot_id;
+}
+
+void Player::stop_ended(Utime t, const PlayerHooks& hooks) {
+  for (const auto& [service, process] : options_.ended) {
+    if (process.left != t) continue;
+    ticks_.wait_until_idle(hooks.running);
+    ticks_.stop(service);
+  }
 }
 
 PlayResult Player::play(const PlayerHooks& hooks) {
@@ -65,8 +81,9 @@ PlayResult Player::play(const PlayerHooks& hooks) {
 }
 
 void Player::play_group(const TickGroup& group, const PlayerHooks& hooks) {
+  stop_ended(group.tick, hooks);
   for (const LogMessage& message : group.messages) {
-    if (message.header && is_live(message.header->publisher)) {
+    if (message.header && is_live(*message.header)) {
       if (comparison_ == nullptr || message.channel == channel::kHeartbeat) continue;
       const header_t& h = *message.header;
       comparison_->add_recorded({message.channel, h.publisher, h.boot_id, h.seq, h.utime, h.release_utime},

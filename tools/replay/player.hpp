@@ -4,6 +4,7 @@
 #include <chrono>
 #include <functional>
 #include <lcm/lcm-cpp.hpp>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -19,8 +20,15 @@ namespace rover::replay {
 
 struct PlayerOptions {
   std::vector<std::string> live;  // running services; their recorded messages are muted
-  double speed = 1.0;             // 0: as fast as possible
-  Utime from = kNever;            // first and last tick to play; kNever: those of the log
+  struct Process {
+    std::int64_t boot_id = 0;
+    Utime last_release = kNever;  // of its messages
+    Utime left = kNever;          // first tick without it
+  };
+  // First process of a live service whose process ended in the log: after it the recorded messages are played.
+  std::map<std::string, Process> ended;
+  double speed = 1.0;   // 0: as fast as possible
+  Utime from = kNever;  // first and last tick to play; kNever: those of the log
   Utime until = kNever;
 };
 
@@ -48,7 +56,8 @@ class Player {
  private:
   using Clock = std::chrono::steady_clock;
   double wall_s() const { return std::chrono::duration<double>(Clock::now() - started_).count(); }
-  bool is_live(const std::string& publisher) const { return live_.contains(publisher); }
+  bool is_live(const header_t& header) const;
+  void stop_ended(Utime t, const PlayerHooks& hooks);
   void play_group(const TickGroup& group, const PlayerHooks& hooks);
   void publish(const LogMessage& message);
   bool wait_until_due(Utime t, const PlayerHooks& hooks);

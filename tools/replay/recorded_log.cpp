@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <rover/tick_t.hpp>
 #include <tuple>
+#include <utility>
 
 #include "common/bus/channel_types.hpp"
 #include "common/bus/channels.hpp"
@@ -76,6 +77,7 @@ void RecordedLog::scan() {
   std::map<StreamKey, RecordedStream> streams;
   LogPlace group = run_.begin;
   std::int64_t since_tick = 0;
+  std::vector<std::string> members;  // of the tick before
   open(run_.begin);
   while (const auto message = next_message()) {
     if (!can_be_sent(*message)) {
@@ -87,6 +89,8 @@ void RecordedLog::scan() {
     const auto tick = tick_of(*message);
     if (!tick || (!ticks_.empty() && tick->header.utime <= ticks_.back())) continue;  // a tick repeated for a late node
     by_the_clock_ = by_the_clock_ || tick->mode == tick_t::REALTIME;
+    for (const std::string& name : std::exchange(members, tick->members))
+      if (std::find(members.begin(), members.end(), name) == members.end()) left_.try_emplace(name, tick->header.utime);
     ticks_.push_back(tick->header.utime);
     places_.push_back(group);
     group = place_;

@@ -47,6 +47,8 @@ class RecordedLog {
   const std::vector<RecordedStream>& streams() const { return streams_; }
   // True if ticks were paced by the wall clock; such a run is not reproducible.
   bool by_the_clock() const { return by_the_clock_; }
+  // The first tick without a service that was a member before: it was killed, or stopped on demand.
+  const std::map<std::string, Utime>& left() const { return left_; }
   // Messages in no group: after the last tick, or on channels whose names LCM cannot send.
   std::int64_t skipped_messages() const { return left_messages_; }
 
@@ -68,6 +70,7 @@ class RecordedLog {
   std::vector<Utime> ticks_;
   std::vector<LogPlace> places_;  // position of the first record after the previous tick
   std::vector<RecordedStream> streams_;
+  std::map<std::string, Utime> left_;
   bool by_the_clock_ = false;
   std::int64_t left_messages_ = 0;
   Utime newest_tick_ = kNever;  // newest tick returned

@@ -5,9 +5,11 @@
 #include <limits>
 #include <rover/elevation_t.hpp>
 #include <tuple>
+#include <utility>
 
 #include "common/bus/channel_types.hpp"
 #include "common/bus/channels.hpp"
+#include "common/bus/service_names.hpp"
 #include "common/bus/streams.hpp"
 #include "tools/report/convert.hpp"
 
@@ -146,9 +148,12 @@ class Reader {
     const StateChange change = state_from(message);
     if (run_.states.empty() || run_.states.back().state != change.state || run_.states.back().full != change.full)
       run_.states.push_back(change);
+    if (std::exchange(full_services_run_, message.full_services != 0) || !full_services_run_) return;
+    for (auto& [name, service] : run_.services) service.starts_on_demand += is_full_service(name) ? 1 : 0;
   }
 
   RunRecord run_;
+  bool full_services_run_ = true;
   Eigen::Vector3d elevation_at_ = Eigen::Vector3d::Constant(kInfinity);  // odom, at the newest stored map
   BusCounter counter_;
   std::map<std::string, std::function<bool(const LogEvent&)>> handlers_;

@@ -301,7 +301,7 @@ void evaluate_services(const RunRecord& run, Metrics& m) {
     evaluate_memory(record, m.window, figures);
     figures.p50_ms = record.p50_ms;
     figures.p99_ms = record.p99_ms;
-    figures.restarts = static_cast<int>(record.cpu_s_of_boot.size()) - 1;
+    figures.restarts = std::max(0, static_cast<int>(record.cpu_s_of_boot.size()) - 1 - record.starts_on_demand);
     m.services[name] = figures;
     for (const auto& [input, gaps] : record.gaps) m.bus_lost += gaps;
   }

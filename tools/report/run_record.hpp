@@ -178,6 +178,7 @@ struct HeartbeatSample {
 
 struct ServiceRecord {
   std::map<std::int64_t, double> cpu_s_of_boot;
+  int starts_on_demand = 0;  // after having been stopped, because the level needs it
   std::vector<HeartbeatSample> heartbeats;
   double p50_ms = 0.0;
   double p99_ms = 0.0;

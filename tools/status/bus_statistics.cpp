@@ -114,6 +114,8 @@ void BusStatistics::add_services(Snapshot& out, const Window& window) const {
     out.services[name].age_s = clock_.age_s(heartbeat.utime);
   }
   for (auto& [name, service] : out.services) {
+    service.wanted =
+        !state_ || std::find(state_->stopped.begin(), state_->stopped.end(), name) == state_->stopped.end();
     if (service.heartbeat) continue;
     if (name == clock_publisher_) {
       service.age_s = out.tick_silence_s;

@@ -12,6 +12,7 @@ constexpr double kPeriods = 3.0;
 }  // namespace
 
 Piece condition_of(const ServiceStatus& service) {
+  if (!service.wanted && !service.process.alive) return {"stopped", Colour::kPlain};
   if (!service.process.alive) return {"dead", Colour::kRed};
   if (service.quiet_s > kStaleS) return {"silent", Colour::kRed};
   if (std::isnan(service.age_s)) return {"waiting", Colour::kYellow};

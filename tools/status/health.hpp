@@ -8,8 +8,8 @@
 
 namespace rover::status {
 
-// OK, DEGRADED, FAULT: as reported. dead: no process; stale: no HEARTBEAT for 1 s; silent: never any; waiting: no tick
-// yet.
+// OK, DEGRADED, FAULT: as reported. stopped: not needed at this level; dead: no process; stale: no HEARTBEAT for 1 s;
+// silent: never any; waiting: no tick yet.
 Piece condition_of(const ServiceStatus& service);
 Colour colour_of_state(const std::string& state);
 // True if a periodic channel has stopped.

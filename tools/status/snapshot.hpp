@@ -17,6 +17,7 @@ struct StateReport {
   Utime utime = kNever;
   std::string state;
   std::string level;
+  std::vector<std::string> stopped;  // services that the level does not need
   Utime since = kNever;
   std::string cause;
   std::string quantity;  // of the cause, else empty
@@ -73,6 +74,7 @@ struct ServiceStatus {
   double age_s = kNaN;    // since the last HEARTBEAT, see BusStatistics
   double quiet_s = kNaN;  // age unknown: lower bound of it
   std::optional<Heartbeat> heartbeat;
+  bool wanted = true;  // false: stopped until its level needs it
 };
 
 struct ChannelStatus {

@@ -68,10 +68,21 @@ void Barrier::leave(const std::string& name, Cause cause, Utime now, Utime retur
   member.may_wake = cause == Cause::kSilent;
   if (cause == Cause::kDied) member.pid = 0;
   member.clear_until = member.finished = kNever;
+  expect(name, now, return_after);
+  if (const auto successor = std::exchange(member.successor, {})) ready(name, successor->boot_id, successor->pid);
+}
+
+void Barrier::stop(const std::string& name) {
+  leave(name, Cause::kDied, 0, 0);
+  give_up(name);
+  members_.at(name).expected_from = kNotExpected;
+}
+
+void Barrier::expect(const std::string& name, Utime now, Utime return_after) {
+  Member& member = members_.at(name);
   member.awaited = true;
   member.up_from = now + return_after / 2;
   member.expected_from = now + return_after;
-  if (const auto successor = std::exchange(member.successor, {})) ready(name, successor->boot_id, successor->pid);
 }
 
 void Barrier::give_up(const std::string& name) {

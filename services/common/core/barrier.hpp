@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -35,6 +36,10 @@ class Barrier {
   void leave(const std::string& name, Cause cause, Utime now, Utime return_after);
   // Ticks no longer wait for the absent participant. It returns when it reports.
   void give_up(const std::string& name);
+  // The idle participant is not needed; a newer process returns, not before expect().
+  void stop(const std::string& name);
+  // The ticks wait for the stopped participant as after leave().
+  void expect(const std::string& name, Utime now, Utime return_after);
   // Whether it is a member of the ticks.
   bool takes_part(const std::string& name) const;
   // Whether it has finished the last tick.
@@ -47,6 +52,7 @@ class Barrier {
 
  private:
   enum class State { kAbsent, kReady, kWorking };
+  static constexpr Utime kNotExpected = std::numeric_limits<Utime>::max();
   struct Process {
     std::int64_t boot_id = 0;
     int pid = 0;

@@ -140,7 +140,7 @@ export function createPanels(setup, commands) {
       if (service.health === "lost") redUntil.set(service.name, now + RED_HOLD_MS);
       const health = redUntil.get(service.name) > now ? "lost" : service.health;
       tr.className = health;
-      tr.title = service.text || (health === "lost" ? "no heartbeat" : "");
+      tr.title = service.text || ({ lost: "no heartbeat", stopped: "stopped: this level does not need it" }[health] ?? "");
       cells[1].textContent = fixed(service.age_s, 1, " s");
       cells[2].textContent = fixed(service.cpu, 0, " %");
       cells[3].textContent = service.restarts ?? "–";
