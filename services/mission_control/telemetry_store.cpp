@@ -225,14 +225,15 @@ Pose2 TelemetryStore::odom_at(Utime utime) const {
 
 ServiceView TelemetryStore::view_of(const std::string& name, const ServiceRecord& record) const {
   const bool full = is_full_service(name);
+  const bool never = record.last_heartbeat == kNever;
+  const bool lost = never || view_.now - record.last_heartbeat > kHeartbeatTimeoutUs || !process_alive(record.pid);
   ServiceView out;
-  if (record.last_heartbeat == kNever) {
-    if (first_tick_ != kNever && to_seconds(view_.now - first_tick_) > kStartupGraceS) out.health = Health::kLost;
-    return out;
-  }
-  const bool lost = view_.now - record.last_heartbeat > kHeartbeatTimeoutUs || !process_alive(record.pid);
   if (lost && full && !full_services_run_) {
     out.health = Health::kStopped;
+    return out;
+  }
+  if (never) {
+    if (first_tick_ != kNever && to_seconds(view_.now - first_tick_) > kStartupGraceS) out.health = Health::kLost;
     return out;
   }
   out.age_s = std::max(0.0, to_seconds(view_.now - record.last_heartbeat));

@@ -77,6 +77,24 @@ TEST(TelemetryStore, ServiceWithoutHeartbeatIsLostAfterStartup) {
   EXPECT_EQ(health(store, 1.0), Health::kLost);
 }
 
+TEST(TelemetryStore, ServiceThatTheLevelDoesNotNeedIsStopped) {
+  TelemetryStore store({"slam", "stereo"});
+  supervisor_state_t state{};
+  store.add(state);
+  store.add(tick_at(5'000'000), 1.0);
+  EXPECT_EQ(store.view(1.0).services.at("slam").health, Health::kStopped);
+  state.full_services = 1;
+  store.add(state);
+  EXPECT_EQ(store.view(1.0).services.at("slam").health, Health::kWaiting);
+  store.add(tick_at(10'000'000), 3.0);
+  EXPECT_EQ(health(store, 3.0), Health::kLost);
+  EXPECT_EQ(store.view(3.0).services.at("slam").health, Health::kLost);
+  heartbeat_t heartbeat = heartbeat_at(10'000'000, 1.0, getpid(), 2);
+  heartbeat.service = "slam";
+  store.add(heartbeat, 3.0);
+  EXPECT_EQ(store.view(3.0).services.at("slam").restarts, 0) << "started on demand";
+}
+
 TEST(TelemetryStore, CpuLoadIsRelativeToWallTime) {
   TelemetryStore store({"stereo"});
   for (int i = 0; i <= 10; ++i) store.add(heartbeat_at(i * 200'000, 0.05 * i), 0.1 * i);
