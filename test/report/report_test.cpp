@@ -372,6 +372,16 @@ TEST_F(ReportTest, MessagesLeftOutOfAReducedLogStillCount) {
   EXPECT_EQ(bus.bytes, 11 * message.getEncodedSize());
 }
 
+TEST_F(ReportTest, TimeThatTheLogLacksIsStated) {
+  const std::string file = folder_->file("full_disk.lcm");
+  {
+    MessageLog log(file);
+    for (const Utime t : {1'000'000, 1'020'000, 81'020'000, 81'040'000})
+      log.put("TICK", tick_t{}, t, "rover_simulator");
+  }
+  EXPECT_DOUBLE_EQ(read_log(choose_run(file)).bus.missing_s, 80.0);
+}
+
 TEST(RunFolder, EachFaultIsOneLineThatNamesTheFile) {
   const auto message = [](const std::string& dir) -> std::string {
     try {

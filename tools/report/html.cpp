@@ -119,7 +119,8 @@ std::string figures_table(const Metrics& m) {
        shown(m.rocks_encountered) + ", " + shown(m.rocks_detected) + ", " + shown(m.rocks_missed)},
       {"Bus messages: total, lost", fmt::format("{}, {}", m.bus.messages, m.bus_lost)},
       {"Bus volume", shown(static_cast<double>(m.bus.bytes) / 1e6, 0, "MB")},
-      {"Damaged records in the log", std::to_string(m.bus.damaged_events)},
+      {"Log: damaged records, missing time",
+       fmt::format("{}, {}", m.bus.damaged_events, shown(m.bus.missing_s, 1, "s"))},
   };
   std::string left;
   std::string right;

@@ -91,6 +91,11 @@ class Reader {
       return;
     }
     counter_.add(event, header);
+    if (event.channel == channel::kTick) {
+      if (last_tick_ != kNever && header.utime > last_tick_ + kLongestTickGap)
+        run_.bus.missing_s += to_seconds(header.utime - last_tick_);
+      last_tick_ = header.utime;
+    }
     const auto handler = handlers_.find(event.channel);
     if (handler == handlers_.end()) return;
     const bool whole = find_channel_type(event.channel)->decodes(event.data, event.size);
@@ -153,6 +158,8 @@ class Reader {
   }
 
   RunRecord run_;
+  static constexpr Utime kLongestTickGap = 1'000'000;
+  Utime last_tick_ = kNever;
   bool full_services_run_ = true;
   Eigen::Vector3d elevation_at_ = Eigen::Vector3d::Constant(kInfinity);  // odom, at the newest stored map
   BusCounter counter_;

@@ -211,7 +211,8 @@ Json metrics_json(const Metrics& m) {
   json["bus"] = {{"messages", m.bus.messages},
                  {"lost", m.bus_lost},
                  {"bytes", m.bus.bytes},
-                 {"damaged_log_records", m.bus.damaged_events}};
+                 {"damaged_log_records", m.bus.damaged_events},
+                 {"missing_s", m.bus.missing_s}};
   json["realtime_factor"] = number(m.realtime_factor);
   json["sim_s"] = optional(m.info.sim_s);
   json["wall_s"] = optional(m.info.wall_s);

@@ -189,6 +189,7 @@ struct BusRecord {
   std::int64_t messages = 0;  // published messages, by sequence numbers
   std::int64_t bytes = 0;
   int damaged_events = 0;  // undecodable records of the log
+  double missing_s = 0.0;  // parts of the log without a TICK for over a second: the disk was full, or the clock jumped
 };
 
 struct RunRecord {
