@@ -99,7 +99,7 @@ void SupervisorNode::step(Utime now) {
   publish_states(output, now);
   publish_answers(output.answers, now);
   for (const std::string& service : output.restarts) restart(service);
-  if (output.run_full) run_full(*output.run_full);
+  run_full_services(output.run_full);
   save();
 }
 
@@ -156,12 +156,16 @@ void SupervisorNode::restart(const std::string& service) {
                         (running && !killed ? " not possible" : ""));
 }
 
-void SupervisorNode::run_full(bool run) {
-  int controlled = 0;
-  for (const std::string& service : on_demand_services_)
-    if (control_(service, run ? "-u" : "-d")) ++controlled;
-  node_.log("INFO",
-            std::string(run ? "FULL_SERVICES started=" : "FULL_SERVICES stopped=") + std::to_string(controlled));
+// One in a tick: s6-svc takes milliseconds, and the permit must not wait for all of them.
+void SupervisorNode::run_full_services(std::optional<bool> run) {
+  if (run) {
+    option_ = *run ? "-u" : "-d";
+    to_control_ = on_demand_services_;
+    node_.log("INFO", *run ? "FULL_SERVICES started" : "FULL_SERVICES stopped");
+  }
+  if (to_control_.empty()) return;
+  control_(to_control_.back(), option_);
+  to_control_.pop_back();
 }
 
 void SupervisorNode::restore() {

@@ -3,6 +3,9 @@
 
 #include <functional>
 #include <map>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "common/bus/checkpoint_store.hpp"
 #include "common/bus/node.hpp"
@@ -29,12 +32,14 @@ class SupervisorNode {
   void publish_state(const StateChange& change, Utime now);
   void publish_fault(const FaultChange& change, Utime now);
   void restart(const std::string& service);
-  void run_full(bool run);
+  void run_full_services(std::optional<bool> run);
 
   Node& node_;
   CheckpointStore checkpoint_;
   Control control_;
   std::vector<std::string> on_demand_services_;
+  std::vector<std::string> to_control_;  // of them, with the option
+  const char* option_ = "";
   Pose2 body_odom_{};  // newest pose
   Supervisor supervisor_;
   PersistentState saved_;
