@@ -18,7 +18,7 @@ struct LevelConfig {
   double easy_distance_m = 8.0;
   int failing_starts = 2;         // starts of one Full-level service within a minute: lower the level
   double failing_sweep_s = 40.0;  // sweep without known ground for that long: lower the level
-  double linger_s = 30.0;         // services of the Full level run on for so long unwanted
+  double linger_s = 10.0;         // services of the Full level run on for so long unwanted
 };
 
 class LevelSelector {

@@ -1143,10 +1143,10 @@ TEST_F(LevelTest, ServicesOfTheFullLevelRunOnDemand) {
   config_.on_demand_services = config_.fdir.full_services;
   supervisor_ = Supervisor(config_);
   begin();
-  drive(25.0, 0.15);
+  drive(5.0, 0.15);
   EXPECT_EQ(run_full_, std::vector<bool>{true});
   EXPECT_TRUE(supervisor_.full_services_wanted());
-  drive(10.0, 0.15);
+  drive(4.0, 0.15);
   EXPECT_FALSE(supervisor_.full_services_wanted());
   EXPECT_EQ(run_full_, (std::vector<bool>{true, false}));
   full_alive_ = false;  // as s6 was told
