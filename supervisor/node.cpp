@@ -144,7 +144,7 @@ void SupervisorNode::publish_states(const SupervisorOutput& output, Utime now) {
 void SupervisorNode::publish_state(const StateChange& change, Utime now) {
   supervisor_state_t message =
       state_message(change, supervisor_.since(), supervisor_.hazard_stops(), supervisor_.active_faults());
-  message.full_services = supervisor_.full_services_wanted() ? 1 : 0;
+  message.full_stopped = supervisor_.full_services_wanted() ? 0 : 1;
   node_.publish(channel::kState, message, now);
 }
 

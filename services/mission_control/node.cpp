@@ -192,8 +192,8 @@ void MissionControlNode::on_state(const supervisor_state_t& state) {
     add_event(tone_of(state.state), "state", state_name(state.state) + cause_text(state));
   if (state_ && state.level != state_->level)
     add_event(Tone::kInfo, "level", "level " + level_name(state.level) + cause_text(state));
-  if (state_ && state.full_services != state_->full_services) {
-    const bool run = state.full_services != 0;
+  if (state_ && state.full_stopped != state_->full_stopped) {
+    const bool run = state.full_stopped == 0;
     add_event(Tone::kInfo, "service",
               std::string("services of the Full level ") + (run ? "are started" : "are stopped"));
     if (!run) std::erase_if(liveness_, [](const auto& service) { return is_full_service(service.first); });
@@ -215,7 +215,7 @@ void MissionControlNode::on_fault(const fault_t& fault) {
 }
 
 void MissionControlNode::on_heartbeat(const heartbeat_t& heartbeat) {
-  if (state_ && state_->full_services == 0 && is_full_service(heartbeat.service)) return;
+  if (state_ && state_->full_stopped != 0 && is_full_service(heartbeat.service)) return;
   ServiceLiveness& liveness = liveness_[heartbeat.service];
   if (liveness.last_heartbeat != kNever && heartbeat.header.boot_id != liveness.boot_id)
     add_event(Tone::kGood, "service", heartbeat.service + " restarted");

@@ -62,7 +62,7 @@ void TelemetryStore::add(const heartbeat_t& message, double wall_s) {
 void TelemetryStore::add(const supervisor_state_t& m) {
   view_.state = {m.header.utime, state_name(m.state), level_name(m.level), m.since_utime, m.cause, m.quantity,
                  m.value,        m.threshold,         m.hazard_stops,      m.faults};
-  if (!std::exchange(full_services_run_, m.full_services != 0) && full_services_run_) ++starts_on_demand_;
+  if (!std::exchange(full_services_run_, m.full_stopped == 0) && full_services_run_) ++starts_on_demand_;
 }
 
 void TelemetryStore::add(const fault_t& m) {

@@ -172,7 +172,7 @@ void Simulator::process_states(Utime t, const std::function<bool()>& running) {
   while (!states_.empty() && states_.front().header.release_utime <= t) {
     end_.phase(phase_of(states_.front()), states_.front().header.utime);
     script_.entered(states_.front().state);
-    run_full_services(states_.front().full_services != 0, t, running);
+    run_full_services(states_.front().full_stopped == 0, t, running);
     states_.pop_front();
   }
 }

@@ -141,7 +141,6 @@ void MadeUpDrive::say_supervision(Utime now) {
   supervisor_state_t state{};
   state.state = supervisor_state_t::DRIVING;
   state.level = supervisor_state_t::FULL;
-  state.full_services = 1;
   state.cause = "slow_progress";
   state.quantity = "effective_speed_mps";
   state.value = 0.043;

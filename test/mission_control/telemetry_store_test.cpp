@@ -80,10 +80,11 @@ TEST(TelemetryStore, ServiceWithoutHeartbeatIsLostAfterStartup) {
 TEST(TelemetryStore, ServiceThatTheLevelDoesNotNeedIsStopped) {
   TelemetryStore store({"slam", "stereo"});
   supervisor_state_t state{};
+  state.full_stopped = 1;
   store.add(state);
   store.add(tick_at(5'000'000), 1.0);
   EXPECT_EQ(store.view(1.0).services.at("slam").health, Health::kStopped);
-  state.full_services = 1;
+  state.full_stopped = 0;
   store.add(state);
   EXPECT_EQ(store.view(1.0).services.at("slam").health, Health::kWaiting);
   store.add(tick_at(10'000'000), 3.0);

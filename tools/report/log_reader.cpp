@@ -153,7 +153,7 @@ class Reader {
     const StateChange change = state_from(message);
     if (run_.states.empty() || run_.states.back().state != change.state || run_.states.back().full != change.full)
       run_.states.push_back(change);
-    if (std::exchange(full_services_run_, message.full_services != 0) || !full_services_run_) return;
+    if (std::exchange(full_services_run_, message.full_stopped == 0) || !full_services_run_) return;
     for (auto& [name, service] : run_.services) service.starts_on_demand += is_full_service(name) ? 1 : 0;
   }
 

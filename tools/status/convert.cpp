@@ -59,7 +59,7 @@ StateReport report_from(const supervisor_state_t& message) {
   out.utime = message.header.utime;
   out.state = state_name(message.state);
   out.level = level_name(message.level);
-  if (message.full_services == 0) out.stopped.assign(kFullServiceNames.begin(), kFullServiceNames.end());
+  if (message.full_stopped != 0) out.stopped.assign(kFullServiceNames.begin(), kFullServiceNames.end());
   out.since = message.since_utime;
   out.cause = message.cause;
   out.quantity = message.quantity;
