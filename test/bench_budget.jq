@@ -5,7 +5,7 @@ def ms: if . == 0 then "-" else r(1) end;  # 0: a service without a main step of
 def services: .services | to_entries | map(select(.key != "recorder"));
 def per_m(field): [services[].value[field] | values] | add;
 $e[0] as $e | $f[0] as $f | $t[0] as $t
-| "Seed traverse 2, seed 1, at the Efficient level with the services of the Full level waiting, and at the Full level; `default`",
+| "Seed traverse 2, seed 1, at the Efficient level with the services of the Full level on demand, and at the Full level; `default`",
 "at the Full level in real time with a core loaded. Without simulator; sums without recorder.",
 "",
 "| | Efficient | Full | Full, real time |", "|---|---|---|---|",

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # What the services compute, and what the bus carries: the second seed traverse at the Efficient level with the services of
-# the Full level waiting, the same at the Full level, and the default scenario at the Full level in real time with a core
+# the Full level on demand, the same at the Full level, and the default scenario at the Full level in real time with a core
 # loaded. Then both levels on slower computers. Writes test/results/budget.md.
 # Called by ./rover bench budget.
 set -euo pipefail
