@@ -48,7 +48,7 @@ bool Player::is_live(const header_t& header) const {
 
 void Player::stop_ended(Utime t, const PlayerHooks& hooks) {
   for (const auto& [service, process] : options_.ended) {
-    if (process.left != t) continue;
+    if (t < process.left || !stopped_.insert(service).second) continue;
     ticks_.wait_until_idle(hooks.running);
     ticks_.stop(service);
   }

@@ -70,6 +70,7 @@ class Player {
 
   PlayerOptions options_;
   std::set<std::string> live_;
+  std::set<std::string> stopped_;  // of them
   RecordedLog& log_;
   lcm::LCM& bus_;
   Comparison* comparison_;
