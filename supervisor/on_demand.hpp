@@ -1,4 +1,4 @@
-// When the services of the Full level run: at that level, while a rise to it waits for them, and a while longer.
+// When the services of the Full level run: while they are wanted, and a while longer.
 #pragma once
 
 #include <utility>
@@ -13,8 +13,7 @@ class OnDemand {
   // do.
   enum class State { kRunning, kLeaving, kStopped };
 
-  // linger_s: how long they run on unwanted. They run at first, so that no drive begins with services that cannot
-  // start.
+  // linger_s: how long they run on unwanted.
   explicit OnDemand(double linger_s) : linger_(to_utime(linger_s)) {}
 
   // Each step; true at the first and if the state has changed.

@@ -155,13 +155,14 @@ void Supervisor::run_level(Utime now, SupervisorOutput& out) {
   if (const LevelTransition* row = next_level(level_, facts)) fire(*row, out);
 }
 
-// They are wanted at the Full level, and if being ready would raise the level.
+// They are wanted before a drive, at the Full level, and if being ready would raise the level.
 void Supervisor::run_full_services(Utime now, LevelFactSet& facts, SupervisorOutput& out) {
   LevelFactSet if_ready = facts;
   if_ready.insert(LevelFact::kFullReady);
   const LevelTransition* row = next_level(level_, if_ready);
-  const bool wanted = row == nullptr ? level_ == Level::kFull : row->to == Level::kFull;
-  const bool changed = on_demand_.step(now, wanted);
+  const bool before_drive = state_ == kBoot || state_ == kStandby;
+  const bool full = row == nullptr ? level_ == Level::kFull : row->to == Level::kFull;
+  const bool changed = on_demand_.step(now, before_drive || full);
   if (!full_services_wanted()) facts.erase(LevelFact::kFullReady);
   if (!changed || on_demand_.state() == OnDemand::State::kLeaving) return;
   out.run_full = full_services_wanted();
