@@ -18,9 +18,8 @@ class MadeLog {
  public:
   static Utime tick_time(int k) { return 1'000'000 + (k - 1) * kTickUs; }
 
-  // mode "a": append to the file, as `cat` joins logs. From tick `jump_at` on, the clock is shifted by `jump`. The
-  // ticks are without the service from `left_at` on, until after 20 of them another process of it replies with 1000 +
-  // k.
+  // mode "a": append to the file, as `cat` joins logs. From tick `jump_at` on, the clock is shifted by `jump`. For 20
+  // ticks from `left_at` on there is no service; then another process of it adds 1000 to its replies.
   MadeLog(const std::string& path, int count, const char* mode = "w", int jump_at = 0, Utime jump = 0, int left_at = 0)
       : path_(path), log_(path, mode), world_("world", 1), echo_("echo", 1) {
     const auto first = [left_at](int k) { return left_at == 0 || k < left_at; };

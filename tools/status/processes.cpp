@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -25,13 +26,14 @@ int s6_pid(const fs::path& service_dir) {
   return output >> up >> pid && up == "true" ? pid : 0;
 }
 
-// exits/NAME has a line for each process that ended, "0 0" if it was stopped.
+// boots/NAME counts the starts; exits/NAME has a line for each process that ended, "0 0" if it was stopped.
 std::optional<int> restarts_of(const fs::path& run_dir, const std::string& service) {
-  if (!fs::exists(run_dir / "boots" / service)) return std::nullopt;
+  int starts = 0;
+  if (!(std::ifstream(run_dir / "boots" / service) >> starts)) return std::nullopt;
   std::ifstream exits(run_dir / "exits" / service);
   int failed = 0;
   for (std::string line; std::getline(exits, line);) failed += line != "0 0" ? 1 : 0;
-  return failed;
+  return std::min(failed, starts - 1);  // one that cannot read its configuration is not started again
 }
 
 std::map<std::string, ProcessFigures> s6_services(const fs::path& run_dir) {
