@@ -155,14 +155,16 @@ void Supervisor::run_level(Utime now, SupervisorOutput& out) {
   if (const LevelTransition* row = next_level(level_, facts)) fire(*row, out);
 }
 
-// They are wanted before a drive, at the Full level, and if being ready would raise the level.
+// They are wanted before a drive, at the Full level, and if being ready would raise the level. Only those that are
+// ready are stopped: what does not run then, is missing or has failed.
 void Supervisor::run_full_services(Utime now, LevelFactSet& facts, SupervisorOutput& out) {
   LevelFactSet if_ready = facts;
   if_ready.insert(LevelFact::kFullReady);
   const LevelTransition* row = next_level(level_, if_ready);
   const bool before_drive = state_ == kBoot || state_ == kStandby;
   const bool full = row == nullptr ? level_ == Level::kFull : row->to == Level::kFull;
-  const bool changed = on_demand_.step(now, before_drive || full);
+  const bool not_ready = full_services_wanted() && !facts.has(LevelFact::kFullReady);
+  const bool changed = on_demand_.step(now, before_drive || full || not_ready);
   if (!full_services_wanted()) facts.erase(LevelFact::kFullReady);
   if (!changed || on_demand_.state() == OnDemand::State::kLeaving) return;
   out.run_full = full_services_wanted();

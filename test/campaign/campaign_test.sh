@@ -28,7 +28,7 @@ campaign "$WORK/c.yaml" --jobs 4 --out "$WORK/killed" --resume >/dev/null
 cmp "$WORK/whole/rows.jsonl" "$WORK/killed/rows.jsonl" || fail "rows after kill and resume differ"
 campaign "$WORK/c.yaml" --out "$WORK/killed" --resume | grep -q "complete" || fail "resume of a complete campaign"
 
-# SIGTERM: one line, and the drives have ended.
+# SIGTERM: one line, and the drives end.
 begin "$WORK/c.yaml" --jobs 4 --out "$WORK/stopped" >/dev/null 2>"$WORK/stopped.said"
 wait_until "3 rows" has_rows "$WORK/stopped" 3
 refused 2 "two campaigns" "another campaign runs in this folder" "$WORK/c.yaml" --out "$WORK/stopped" --resume
@@ -37,7 +37,7 @@ status=0
 wait $pid || status=$?
 [ $status = 1 ] || fail "stopped: exit status $status"
 said "stopped" "^$WORK/stopped: stopped; continue with --resume$" "$WORK/stopped.said"
-no_workers_in "$WORK/stopped" || fail "drives of a stopped campaign go on"
+wait_until "the drives of a stopped campaign end" no_workers_in "$WORK/stopped"
 refused 2 "no --resume" "has a campaign; continue it with --resume" "$WORK/c.yaml" --out "$WORK/stopped"
 mkdir "$WORK/other"
 campaign_file "$WORK/other/c.yaml" 1..13

@@ -31,7 +31,8 @@ def look(page, pictures, name):
     wait_for(f"{name}: the NavCam's picture", lambda: page.script("return document.getElementById('camera').width") == 640, 60)
     wait_for(f"{name}: difficulty, SLAM and correction", lambda: page.number("difficulty") > 0 and page.text("slam") == "ok"
              and page.text("correction") == "0.36 m", 60)
-    check(f"{name}: the NavCam's direction", page.text("navcam-at") == "ahead" or "°" in page.text("navcam-at"))
+    direction = page.text("navcam-at")
+    check(f"{name}: the NavCam's direction", direction == "ahead" or "°" in direction)
     rover, terrain = page.script(ROVER), layer(page, "traversability")
     check(f"{name}: the map of 20 m lies around the rover",
           max(abs(terrain["x"] - rover[0]), abs(terrain["y"] - rover[1])) < 0.15 * terrain["width"])

@@ -1136,6 +1136,7 @@ TEST_F(LevelTest, NoFullLevelWithoutItsServices) {
   EXPECT_FALSE(command(CommandKind::kForceLevel, "", ForcedLevel::kFull).accepted);
   drive(300.0, 0.01);
   EXPECT_EQ(supervisor_.level(), Level::kEfficient);
+  EXPECT_FALSE(command(CommandKind::kForceLevel, "", ForcedLevel::kFull).accepted) << "missing, not stopped";
   EXPECT_FALSE(command(CommandKind::kForceLevel, "", static_cast<ForcedLevel>(7)).accepted);
 }
 
@@ -1146,7 +1147,7 @@ TEST_F(LevelTest, ServicesOfTheFullLevelRunOnDemand) {
   drive(5.0, 0.15);
   EXPECT_EQ(run_full_, std::vector<bool>{true});
   EXPECT_TRUE(supervisor_.full_services_wanted());
-  drive(4.0, 0.15);
+  drive(6.0, 0.15);
   EXPECT_FALSE(supervisor_.full_services_wanted());
   EXPECT_EQ(run_full_, (std::vector<bool>{true, false}));
   full_alive_ = false;  // as s6 was told

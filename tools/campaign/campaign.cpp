@@ -113,7 +113,10 @@ class Campaign {
       throw;
     }
     const bool ended = may_go_on();
-    if (!ended) engine_->stop();
+    if (!ended) {
+      session_.close();  // a worker that the engine has just begun ends by itself
+      engine_->stop();
+    }
     session_.collect(store_);
     return ended && require_begun(jobs, attempt, true);
   }
