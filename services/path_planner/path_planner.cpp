@@ -321,11 +321,11 @@ std::uint16_t PathPlanner::facts(Utime now) {
   if (!stationary()) return facts;
   const bool failed = failures_ >= config_.patience && (mapped_ || !full_level_);
   if (failed) facts |= kFailed;
-  const bool wanted = back_up_wanted_ && wanted_back_ups_ < kMaxWantedBackUps;
-  if (wanted) facts |= kBackUpWanted;
+  if (back_up_wanted_) facts |= kBackUpWanted;
   // If all ways are known to be blocked, backing up helps only to see them once more from farther off.
   const int max_back_ups = failed && closed_in_ ? 1 : config_.max_back_ups;
-  if ((failed || wanted) && back_ups_ < max_back_ups && back_up_points().size() >= 2) facts |= kCanBackUp;
+  const bool may = back_up_wanted_ ? wanted_back_ups_ < kMaxWantedBackUps : failed;
+  if (may && back_ups_ < max_back_ups && back_up_points().size() >= 2) facts |= kCanBackUp;
   if (mode_ == Mode::kBackingUp &&
       (active_.at_end(position(rover())) || strayed() || replan_wanted_ || hazard_ahead_m() < config_.stop_hazard_m))
     facts |= kBackedUp;
@@ -333,7 +333,7 @@ std::uint16_t PathPlanner::facts(Utime now) {
 }
 
 bool PathPlanner::wants_plan() const {
-  if (job_) return false;
+  if (job_ || back_up_wanted_) return false;
   if (mode_ == Mode::kPlanning || mode_ == Mode::kNoPath) return new_ground_ || failures_ == 0;
   if (mode_ != Mode::kFollowing || turning_) return false;
   if (full_level_ && new_map_) return true;
@@ -523,8 +523,9 @@ PlannerStatus PathPlanner::status(Utime now) const {
     return status;
   }
   status.corridor_offset_m = distance(global_odom_->point_at(global_progress_m_), position(rover()));
-  const std::string failure =
-      needs_unseen_ground_ ? "no path: the ground ahead does not come into view" : "no path: hazards on all sides";
+  const std::string failure = back_up_wanted_        ? "cannot back up from the fault"
+                              : needs_unseen_ground_ ? "no path: the ground ahead does not come into view"
+                                                     : "no path: hazards on all sides";
   if (active_.empty()) {
     status.state = PlannerState::kNoPath;
     status.text = "cannot reach the global path: " + failure;
@@ -538,7 +539,7 @@ PlannerStatus PathPlanner::status(Utime now) const {
                                         : PlannerState::kFollowing;
   if (leads_to_goal() && short_of_goal_m() > global_->goal_tolerance_m)
     status.text = "the goal is blocked: the path ends beside it";
-  if (failures_ > 0) status.text = failure;
+  if (failures_ > 0 || mode_ == Mode::kNoPath) status.text = failure;
   const double hazard = hazard_ahead_m();
   const double unknown = unknown_ahead_m();
   status.blocked_in_m = std::max(0.0, std::min(hazard, unknown));

@@ -11,15 +11,17 @@ constexpr std::array kTransitions = {
     Transition{Mode::kIdle, kReady | kClear, 0, Mode::kFollowing},
     Transition{Mode::kIdle, kReady, 0, Mode::kPlanning},
     Transition{Mode::kFollowing, kBackUpWanted | kCanBackUp, 0, Mode::kBackingUp},
+    Transition{Mode::kFollowing, kBackUpWanted, kCanBackUp, Mode::kNoPath},
     Transition{Mode::kFollowing, 0, kClear, Mode::kPlanning},
     Transition{Mode::kPlanning, kBackUpWanted | kCanBackUp, 0, Mode::kBackingUp},
+    Transition{Mode::kPlanning, kBackUpWanted, kCanBackUp, Mode::kNoPath},
     Transition{Mode::kPlanning, kClear, 0, Mode::kFollowing},
     Transition{Mode::kPlanning, kFailed | kCanBackUp, 0, Mode::kBackingUp},
     Transition{Mode::kPlanning, kFailed, kCanBackUp, Mode::kNoPath},
     Transition{Mode::kBackingUp, kBackedUp, 0, Mode::kPlanning},
-    Transition{Mode::kNoPath, kNewLevel, 0, Mode::kPlanning},
     Transition{Mode::kNoPath, kBackUpWanted | kCanBackUp, 0, Mode::kBackingUp},
-    Transition{Mode::kNoPath, kClear, 0, Mode::kFollowing},
+    Transition{Mode::kNoPath, kNewLevel, kBackUpWanted, Mode::kPlanning},
+    Transition{Mode::kNoPath, kClear, kBackUpWanted, Mode::kFollowing},
 };
 
 }  // namespace

@@ -432,6 +432,21 @@ TEST(PathPlanner, OnRequestItBacksUpTwiceAtMost) {
     EXPECT_EQ(rig.planner.mode(), Mode::kFollowing) << "from there it drives on";
   }
   EXPECT_EQ(back_ups, 2);
+  PlannerOutput out = rig.look(20);
+  EXPECT_EQ(out.status.state, PlannerState::kNoPath);
+  EXPECT_EQ(out.status.text, "cannot back up from the fault");
+  rig.planner.request_back_up(false);
+  out = rig.look(3);
+  EXPECT_EQ(rig.planner.mode(), Mode::kFollowing) << "the fault is over";
+}
+
+TEST(PathPlanner, OnRequestARoverThatHasNotDrivenYetCannotBackUp) {
+  PlannerRig rig;
+  rig.send_path(kAhead);
+  rig.look();
+  rig.planner.request_back_up(true);
+  EXPECT_EQ(rig.look(3).status.text, "cannot back up from the fault");
+  EXPECT_EQ(rig.planner.mode(), Mode::kNoPath);
 }
 
 TEST(PathPlanner, OnRequestAClearPathIsReplacedOnce) {
