@@ -2,7 +2,7 @@
 # What the path costs, the map or the policy: full_hard (Full) and seed_traverse_2 (Efficient) with maps made from the
 # truth, from rays and from images, and with single parameters changed. Each variant is a campaign in logs/bench/cost, so
 # --resume continues. Writes the tables of test/results/cost.md. Called by ./rover bench cost: BUILD [--seeds a..b]
-# [--resume] [--jobs N].
+# [--variants a,b] [--resume] [--jobs N].
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
 BUILD=$1
@@ -11,10 +11,13 @@ OUT=test/results/cost.md
 LOGS=logs/bench/cost
 SEEDS=11..30
 RENDERED_SEEDS=11..16  # rendered drives take ten times as long
+ONLY='[a-z_]*'
+COMMAND="./rover bench cost"
 arguments=()
 while [ $# -gt 0 ]; do
   case $1 in
-    --seeds) SEEDS=$2 RENDERED_SEEDS=$2 && shift ;;
+    --seeds) COMMAND+=" $1 $2" SEEDS=$2 RENDERED_SEEDS=$2 && shift ;;
+    --variants) COMMAND+=" $1 $2" ONLY=${2//,/|} && shift ;;
     *) arguments+=("$1") ;;
   esac
   shift
@@ -32,7 +35,8 @@ clearance | seed_traverse_2 full_hard | path_planner.clearance.min_m: 0.05
 switching | seed_traverse_2 full_hard | path_planner.search.switching_cost_s: 1.0
 horizon | seed_traverse_2 full_hard | path_planner.search.horizon_m: 9.0
 together | seed_traverse_2 full_hard | traversability.step.mean_height_ratio: 1.0, traversability.step.grow_height_m: 0.12, path_planner.ground.hazard_cost: 1.0, path_planner.clearance.min_m: 0.05'
-variants() { sed 's/ *| */|/g' <<<"$VARIANTS"; }
+variants() { sed 's/ *| */|/g' <<<"$VARIANTS" | grep -E "^($ONLY)\|"; }
+variants >/dev/null || { echo "bench cost: no such variant: ${ONLY//|/,}" >&2; exit 2; }
 
 level_of() { [ "$1" = full_hard ] && echo full || echo efficient; }
 drive() {  # NAME SCENARIOS CHANGES
@@ -74,7 +78,7 @@ done < <(variants)
 {
   echo "# What the path costs: the map or the policy"
   echo
-  echo "Command: \`./rover bench cost\`; commit $(git describe --always --dirty --abbrev=12); $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1), $(nproc) cores; seeds $SEEDS, rendered $RENDERED_SEEDS."
+  echo "Command: \`$COMMAND\`; commit $(git describe --always --dirty --abbrev=12); $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1), $(nproc) cores; seeds $SEEDS, rendered $RENDERED_SEEDS."
   for scenario in full_hard seed_traverse_2; do
     echo
     echo "## \`$scenario\`, level $(level_of "$scenario")"
@@ -87,7 +91,7 @@ done < <(variants)
   echo "Variants:"
   echo
   variants | while IFS='|' read -r name scenarios changes; do echo "* \`$name\`: $changes"; done
-  for variant in truth rendered; do
+  for variant in $(variants | sed -n 's/^\(truth\|rendered\)|.*/\1/p'); do
     echo
     compare $variant
   done
