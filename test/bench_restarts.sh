@@ -26,14 +26,15 @@ done
   echo
   echo "Command: \`./rover bench restarts\`; commit $(git describe --always --dirty --abbrev=12); $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1), $(nproc) cores."
   echo
-  jq -rs '
+  # A drive that ends early (SAFE on a machine that is too busy) leaves kills out.
+  jq -rs --argjson due "$((3 * ROUNDS * $(ls -d "$LOGS"/run-1/services/*/ | grep -vc rover_simulator)))" '
     def worst(k): [.[][k] | select(. >= 0)] | if length == 0 then "-" else max * 1000 | round / 1000 end;
     def middle(k): [.[][k] | select(. >= 0)] | if length == 0 then "-" else (sort | .[length / 2 | floor]) * 1000 | round / 1000 end;
     def missing(k): map(select(.[k] < 0)) | length;
     map(select(.service != "rover_simulator")) as $kills | map(select(.service == "rover_simulator")) as $clock |
     ($kills | map(select(.service == "supervisor"))) as $supervisor |
     "| requirement | measured |", "|---|---|",
-    "| kills of a service | \($kills | length) |",
+    "| kills of a service | \($kills | length) of \($due) |",
     "| from SIGKILL to the first message of the new process at most 1 s (99 %) | median \($kills | middle("first_message_s")) s, maximum \($kills | worst("first_message_s")) s, \($kills | missing("first_message_s")) not restarted |",
     "| the drive continues without an operator | \($kills | length - ($kills | missing("drives_again_s"))) of \($kills | length), maximum \($kills | worst("drives_again_s")) s |",
     "| supervisor killed: stop command to the wheels within 0.3 s of message time | maximum \($supervisor | worst("stop_begun_s")) s; stationary by command after \($supervisor | worst("still_s")) s |",
