@@ -155,8 +155,8 @@ void Supervisor::run_level(Utime now, SupervisorOutput& out) {
   if (const LevelTransition* row = next_level(level_, facts)) fire(*row, out);
 }
 
-// They are wanted before a drive, at the Full level, and if being ready would raise the level. Only those that are
-// ready are stopped: what does not run then, is missing or has failed.
+// They are wanted before a drive, at the Full level, and if being ready would raise the level. Only if all
+// are ready are they stopped: otherwise one is missing or has failed.
 void Supervisor::run_full_services(Utime now, LevelFactSet& facts, SupervisorOutput& out) {
   LevelFactSet if_ready = facts;
   if_ready.insert(LevelFact::kFullReady);
