@@ -63,6 +63,8 @@ void add_map(Parameters p, MapAlignmentConfig& c) {
         "added to the pose's sigma if a correction fails the gate: a third of the smallest search window of "
         "global_localization");
   p.add_deg("inflation_deg", c.inflation_rad, {0, 90}, "the same, yaw");
+  p.add("slam_sigma_m", c.slam_sigma_m, {0.0001, 1}, "error of SLAM's motion of map against odom, cloud to cloud");
+  p.add_deg("slam_sigma_deg", c.slam_sigma_rad, {0.0001, 10}, "the same, yaw");
   p.add("slam_rate_mps", c.slam_rate_mps, {0, 1}, "limit of the motion of map against odom by SLAM");
   p.add_deg("slam_rate_degps", c.slam_rate_radps, {0, 90}, "the same, yaw");
 }

@@ -100,8 +100,12 @@ FilterState Filter::propagate(FilterState state, const MotionRecord& record, dou
   F.block<3, 3>(kPosition, kAttitude) = -skew(displacement);
   if (gyro) F.block<3, 3>(kAttitude, kBias) = -R * dt;
   state.P = F * state.P * F.transpose();
-  state.P.diagonal().segment<3>(kPosition).array() += square(config_.wheel_noise_m_rtm) * displacement.norm();
-  state.P.block<3, 3>(kAttitude, kAttitude) += R * rotation_variance(record).asDiagonal() * R.transpose();
+  const double position_noise = square(config_.wheel_noise_m_rtm) * displacement.norm();
+  const Matrix3d rotation_noise = R * rotation_variance(record).asDiagonal() * R.transpose();
+  state.P.diagonal().segment<3>(kPosition).array() += position_noise;
+  state.P.block<3, 3>(kAttitude, kAttitude) += rotation_noise;
+  state.noise_m2 += position_noise;
+  state.noise_rad2 += rotation_noise(2, 2);
   add_bias_random_walk(state, dt);
   state.T_odom_body.translation() += displacement;
   if (rotating) {
@@ -198,6 +202,10 @@ std::optional<FilterState> Filter::fuse_visual(const FilterState& at_from, const
   G.block<3, 3>(kPosition, kVisualPosition) = -R;
   G.block<3, 3>(kAttitude, kVisualRotation) = -R;
   state.P = G * joint * G.transpose();
+  const Matrix3d position_noise = R * joint.block<3, 3>(kVisualPosition, kVisualPosition) * R.transpose();
+  const Matrix3d rotation_noise = R * joint.block<3, 3>(kVisualRotation, kVisualRotation) * R.transpose();
+  state.noise_m2 += 0.5 * position_noise.topLeftCorner<2, 2>().trace();
+  state.noise_rad2 += rotation_noise(2, 2);
   add_bias_random_walk(state, to_seconds(visual.to - visual.from));
   for (const MotionRecord& r : records)
     if (r.settled && r.gyro_valid) update_gyro_bias(state, r);

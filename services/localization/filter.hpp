@@ -48,6 +48,10 @@ struct FilterState {
   Eigen::Isometry3d T_odom_body = Eigen::Isometry3d::Identity();
   Eigen::Vector3d gyro_bias_radps = Eigen::Vector3d::Zero();
   ErrorCov P = ErrorCov::Zero();
+  // Variance that random errors of odometry have added to x or y, and to yaw, since the start. Unlike P without the
+  // errors of the start pose, biases and scale, which are the same all the way.
+  double noise_m2 = 0.0;
+  double noise_rad2 = 0.0;
 };
 
 // Relative motion from visual odometry.

@@ -73,6 +73,7 @@ std::string_view Localization::set_start_pose(const StartPose& start) {
   if (const auto error = validation_error(start); !error.empty()) return error;
   if (!initialised_) return "not level yet: the rover has to stand, with IMU and wheels alive";
   map_.set_start(start, predicted_.T_odom_body);
+  slam_queue_.clear();
   reset_covariance(start);
   return {};
 }
@@ -86,6 +87,7 @@ std::string_view Localization::apply_correction(const MapMeasurement& measuremen
   const auto rejection =
       map_.apply_correction(measurement, *T_odom_body, outside_gate ? map_.inflated(predicted_.P) : predicted_.P);
   if (!rejection.empty()) return rejection;
+  slam_queue_.clear();
   for (ErrorCov* P : {&fused_.P, &predicted_.P, &chain_.anchor().P})
     *P = map_.updated_cov(outside_gate ? map_.inflated(*P) : *P, measurement.cov);
   return {};
@@ -95,7 +97,20 @@ std::string_view Localization::add_slam_pose(const MapMeasurement& measurement) 
   if (const auto error = validation_error(measurement); !error.empty()) return error;
   const auto T_odom_body = pose_at(measurement.utime);
   if (!T_odom_body) return "of a time that is forgotten or to come";
-  return map_.add_slam_pose(measurement, *T_odom_body, predicted_.P);
+  const auto rejection = map_.rejection(measurement, *T_odom_body, predicted_.P);
+  if (rejection.empty()) slam_queue_.push_back(measurement);
+  return rejection;
+}
+
+// Odometry at the time of a cloud is settled by the next visual motion; it changes no more if that is overdue, because
+// then it will not span the gap.
+void Localization::fuse_slam(Utime now) {
+  for (; !slam_queue_.empty(); slam_queue_.pop_front()) {
+    const MapMeasurement& slam = slam_queue_.front();
+    const bool settled = fused_.utime >= slam.utime;
+    if (!settled && to_seconds(now - slam.utime) < config_.status.visual_degraded_s) return;
+    map_.add_slam_pose(slam, settled ? fused_ : propagate_to(fused_, slam.utime));
+  }
 }
 
 void Localization::reset_covariance(const StartPose& start) {
@@ -127,7 +142,10 @@ void Localization::step(Utime now) {
       initialise(*record);
     else
       predict(*record);
-    if (initialised_) update_pose(*record);
+    if (initialised_) {
+      fuse_slam(now);
+      update_pose(*record);
+    }
   }
   update_status(now);
 }

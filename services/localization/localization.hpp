@@ -119,6 +119,7 @@ class Localization {
   MotionRecord without_suspect_gyro(const MotionRecord& record) const;
   double traction(const MotionRecord& record) const;
   bool gyro_suspect() const { return consecutive_conflicts_ >= config_.status.conflicts_until_gyro_suspect; }
+  void fuse_slam(Utime now);
   std::string_view fuse_visual_motion(const VisualMotion& motion);
   std::optional<FilterState> fuse_chain(const VisualChain& chain);
   void apply_fused_state(const FilterState& fused);
@@ -168,6 +169,7 @@ class Localization {
   Eigen::Vector3d last_chord_end_m_ = Eigen::Vector3d::Zero();
   double travelled_m_ = 0.0;
   std::deque<StampedPose> poses_;
+  std::deque<MapMeasurement> slam_queue_;  // until odometry at their times is settled
   PoseEstimate pose_;
 };
 

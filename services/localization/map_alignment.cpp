@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace rover::loc {
 namespace {
@@ -29,13 +30,12 @@ Eigen::Matrix3d planar_rotation(const Eigen::Isometry3d& T) {
 void MapAlignment::set_start(const StartPose& start, const Eigen::Isometry3d& T_odom_body) {
   const double yaw = wrap_angle(start.yaw_rad - yaw_of(T_odom_body));
   const Eigen::Matrix3d R = rotation_from_rpy(0.0, 0.0, yaw);
-  T_map_odom_ = make_pose(R, start.position_map_m - R * T_odom_body.translation());
-  pending_.setZero();
-  known_ = true;
+  restore(make_pose(R, start.position_map_m - R * T_odom_body.translation()));
 }
 
 void MapAlignment::restore(const Eigen::Isometry3d& T_map_odom) {
   T_map_odom_ = T_map_odom;
+  slam_.reset();
   pending_.setZero();
   known_ = true;
 }
@@ -90,24 +90,38 @@ ErrorCov MapAlignment::inflated(ErrorCov P) const {
   return P;
 }
 
+std::string_view MapAlignment::rejection(const MapMeasurement& m, const Eigen::Isometry3d& T_odom_body,
+                                         const ErrorCov& P) const {
+  if (!known_) return "no start pose yet";
+  if (m.utime <= newest_correction_utime_) return "older than a correction already taken";
+  if (!within_gate(m, T_odom_body, P)) return "further off than its covariance and ours allow";
+  return {};
+}
+
 std::string_view MapAlignment::apply_correction(const MapMeasurement& m, const Eigen::Isometry3d& T_odom_body,
                                                 const ErrorCov& P) {
-  if (!known_) return "no start pose yet";
-  if (m.utime <= newest_correction_utime_) return "older than one already taken";
-  if (!within_gate(m, T_odom_body, P)) return "further off than its covariance and ours allow";
+  if (const auto reason = rejection(m, T_odom_body, P); !reason.empty()) return reason;
   newest_correction_utime_ = m.utime;
+  slam_.reset();
   pending_.setZero();
   shift(correction(innovation(m, T_odom_body), P, m.cov), T_odom_body);
   return {};
 }
 
-std::string_view MapAlignment::add_slam_pose(const MapMeasurement& m, const Eigen::Isometry3d& T_odom_body,
-                                             const ErrorCov& P) {
-  if (!known_) return "no start pose yet";
-  if (m.utime <= newest_correction_utime_) return "older than a correction already taken";
-  if (!within_gate(m, T_odom_body, P)) return "further off than its covariance and ours allow";
-  pending_ = correction(innovation(m, T_odom_body), P, m.cov);
-  return {};
+void MapAlignment::add_slam_pose(const MapMeasurement& m, const FilterState& odometry) {
+  const auto before = std::exchange(slam_, SlamPose{m, odometry.noise_m2, odometry.noise_rad2});
+  // SLAM's covariance counts from its anchor. If it shrinks the anchor is new, and the step no motion.
+  if (!before || m.cov(0, 0) < before->measurement.cov(0, 0)) return;
+  const auto weight = [](double noise, double noise_before, double sigma) {
+    const double gained = std::max(0.0, noise - noise_before);
+    return gained / (gained + sigma * sigma);
+  };
+  const double position = weight(odometry.noise_m2, before->noise_m2, config_.slam_sigma_m);
+  const double yaw = weight(odometry.noise_rad2, before->noise_rad2, config_.slam_sigma_rad);
+  const Eigen::Vector3d moved = (from_planar(m.T_map_odom) * odometry.T_odom_body).translation() -
+                                (from_planar(before->measurement.T_map_odom) * odometry.T_odom_body).translation();
+  pending_ += Eigen::Vector3d(position * moved.x(), position * moved.y(),
+                              yaw * wrap_angle(m.T_map_odom.yaw_rad - before->measurement.T_map_odom.yaw_rad));
 }
 
 void MapAlignment::step(double dt_s, const Eigen::Isometry3d& T_odom_body) {

@@ -18,6 +18,8 @@ struct MapAlignmentConfig {
   // global_localization, so that every match it finds passes here.
   double inflation_m = 4.0;
   double inflation_rad = to_rad(4.0);
+  double slam_sigma_m = 0.005;  // error of SLAM from cloud to cloud
+  double slam_sigma_rad = to_rad(0.005);
   double slam_rate_mps = 0.02;  // limit of the motion of map against odom by SLAM
   double slam_rate_radps = to_rad(0.3);
 };
@@ -38,10 +40,15 @@ class MapAlignment {
   bool within_gate(const MapMeasurement& m, const Eigen::Isometry3d& T_odom_body, const ErrorCov& P) const;
   // For a pose whose covariance proved too small.
   ErrorCov inflated(ErrorCov P) const;
+  // Why a correction or SLAM pose cannot be used; empty if it can.
+  std::string_view rejection(const MapMeasurement& m, const Eigen::Isometry3d& T_odom_body, const ErrorCov& P) const;
   // Takes effect at once. Empty text if accepted.
   std::string_view apply_correction(const MapMeasurement& m, const Eigen::Isometry3d& T_odom_body, const ErrorCov& P);
-  // Takes effect gradually, in step(). Empty text if accepted.
-  std::string_view add_slam_pose(const MapMeasurement& m, const Eigen::Isometry3d& T_odom_body, const ErrorCov& P);
+  // Takes effect gradually, in step(). `odometry`: at the measurement's time. SLAM is predicted with odometry, so its
+  // pose is no independent measurement: its motion of map against odom since the last one is weighted against the noise
+  // that odometry gained meanwhile. That is little with visual odometry, and nearly all of it where the wheels bridged
+  // alone.
+  void add_slam_pose(const MapMeasurement& m, const FilterState& odometry);
   void step(double dt_s, const Eigen::Isometry3d& T_odom_body);
 
   // Covariance after a measurement of x, y, yaw in map with noise `R_map`. Other errors are consider states
@@ -61,6 +68,11 @@ class MapAlignment {
   bool known_ = false;
   Eigen::Isometry3d T_map_odom_ = Eigen::Isometry3d::Identity();
   Utime newest_correction_utime_ = kNever;
+  struct SlamPose {
+    MapMeasurement measurement;
+    double noise_m2, noise_rad2;  // of odometry until then
+  };
+  std::optional<SlamPose> slam_;                       // the newest, since map was last moved otherwise
   Eigen::Vector3d pending_ = Eigen::Vector3d::Zero();  // SLAM correction not yet applied
 };
 

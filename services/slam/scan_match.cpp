@@ -108,34 +108,41 @@ MatchFit ScanMatcher::fit(const Pose2& pose, int iterations) const {
   return evaluate(plane);
 }
 
-// Negative log-likelihood, by finite differences over several centimetres: height noise averages out over this step
-// and is not mistaken for information.
-Eigen::Matrix3d ScanMatcher::hessian(const Pose2& pose) const {
+// By finite differences over several centimetres: height noise averages out over this step and is not mistaken for
+// information.
+void ScanMatcher::differentiate(const Pose2& pose, Eigen::Vector3d& gradient, Eigen::Matrix3d& hessian) const {
   const Eigen::Vector3d step(config_.hessian_step_m, config_.hessian_step_m,
                              config_.hessian_step_m / config_.yaw_lever_m);
   const auto at = [&](const Eigen::Vector3d& offset) {
     return fit({pose.x_m + offset.x(), pose.y_m + offset.y(), pose.yaw_rad + offset.z()}).log_likelihood;
   };
   const double center = at(Eigen::Vector3d::Zero());
-  Eigen::Matrix3d H;  // in units of `step`
+  Eigen::Matrix3d H;  // in units of `step`, as the gradient is
   const auto second_difference = [&](const Eigen::Vector3d& direction) {
     const Eigen::Vector3d offset = step.cwiseProduct(direction);
     return 2.0 * center - at(offset) - at(-offset);
   };
-  for (int i = 0; i < 3; ++i) H(i, i) = second_difference(Eigen::Vector3d::Unit(i));
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector3d offset = step.cwiseProduct(Eigen::Vector3d::Unit(i));
+    const double ahead = at(offset), behind = at(-offset);
+    gradient(i) = 0.5 * (behind - ahead);
+    H(i, i) = 2.0 * center - ahead - behind;
+  }
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < i; ++j) {
       const double both = second_difference((Eigen::Vector3d::Unit(i) + Eigen::Vector3d::Unit(j)) * std::sqrt(0.5));
       H(i, j) = H(j, i) = both - 0.5 * (H(i, i) + H(j, j));
     }
   const Eigen::Vector3d per_step = step.cwiseInverse();
-  return per_step.asDiagonal() * H * per_step.asDiagonal();
+  gradient = gradient.cwiseProduct(per_step).eval();
+  hessian = per_step.asDiagonal() * H * per_step.asDiagonal();
 }
 
 MatchInformation ScanMatcher::information(const Pose2& pose) const {
   MatchInformation info;
   if (!has_enough_points()) return info;
-  info.matrix = hessian(pose);
+  Eigen::Vector3d gradient;
+  differentiate(pose, gradient, info.matrix);
   const Eigen::DiagonalMatrix<double, 3> scale(1.0, 1.0, config_.yaw_lever_m),
       unscale(1.0, 1.0, 1.0 / config_.yaw_lever_m);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(unscale * info.matrix * unscale);
@@ -148,6 +155,7 @@ MatchInformation ScanMatcher::information(const Pose2& pose) const {
     ++info.observable_directions;
   }
   info.observable = unscale * projector * scale;
+  info.to_best = -info.observable * info.matrix.ldlt().solve(gradient);
   return info;
 }
 

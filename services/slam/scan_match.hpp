@@ -39,6 +39,7 @@ struct MatchInformation {
   Eigen::Matrix3d observable = Eigen::Matrix3d::Zero();  // projector onto the observable directions
   int observable_directions = 0;                         // 0 .. 3
   double weakest_information = 0.0;  // 1 / standard deviation [1/m] of the weakest, yaw at yaw_lever_m; 0: none
+  Eigen::Vector3d to_best = Eigen::Vector3d::Zero();  // from the pose to the best fit [m, m, rad]; a Newton step
 };
 
 class ScanMatcher {
@@ -67,7 +68,8 @@ class ScanMatcher {
     float u(const Point& p) const { return x + cos * p.x - sin * p.y; }
     float v(const Point& p) const { return y + sin * p.x + cos * p.y; }
   };
-  Eigen::Matrix3d hessian(const Pose2& pose) const;
+  // Of the negative log-likelihood.
+  void differentiate(const Pose2& pose, Eigen::Vector3d& gradient, Eigen::Matrix3d& hessian) const;
   void compute_residuals(const Pose2& pose) const;
   Eigen::Vector3f refit_plane(const Eigen::Vector3f& from) const;
   MatchFit evaluate(const Eigen::Vector3f& plane) const;

@@ -1,5 +1,6 @@
 #include "slam/slam.hpp"
 
+#include <Eigen/LU>
 #include <cmath>
 
 namespace rover::slam {
@@ -27,6 +28,7 @@ Slam::Slam(const SlamConfig& config)
       map_(config.map),
       binner_(config.map.patches),
       matcher_(config.match),
+      match_error_(config.match_error),
       filter_(config.filter),
       anchor_(config.anchor) {}
 
@@ -123,6 +125,8 @@ void Slam::predict(const Odometry& odometry, Utime utime, Random& random) {
   // Slow growth is scale error, constant from cloud to cloud: not noise.
   const double position_growth =
       std::max(0.0, odometry.position_sigma_m - previous_.position_sigma_m - m.scale_error_per_m * distance_m);
+  growth_per_m_ =
+      std::max(0.0, odometry.position_sigma_m - previous_.position_sigma_m) / std::max(distance_m, m.min_noise_m);
   const double yaw_growth = utime_ == kNever ? 0.0 : yaw_noise_rad(odometry, utime - utime_);
   const double dead_reckoned =
       m.dead_reckoned_sigma_per_m * std::max(0.0, odometry.dead_reckoned_m - previous_.dead_reckoned_m);
@@ -134,6 +138,8 @@ void Slam::predict(const Odometry& odometry, Utime utime, Random& random) {
       random);
   z_m_ += moved.z();
   travelled_m_ += distance_m;
+  match_error_.predict(distance_m);
+  if (odometry.dead_reckoned_m > previous_.dead_reckoned_m) gap_at_m_ = travelled_m_;
   previous_ = odometry;
   const Pose2 mean = filter_.mean();
   map_.move_to(mean.x_m, mean.y_m);
@@ -145,22 +151,41 @@ Slam::MatchOutcome Slam::match_cloud(const AlignedCloud& cloud, Random& random) 
   const MatchSurface surface(map_, z_m_, travelled_m_);
   matcher_.prepare(binner_.bin_cloud(cloud, Pose2{}), surface, predicted);
   if (!matcher_.has_enough_points()) return match;
+  const Pose2 bias = match_error_.bias();
+  const auto log_likelihood = [&](const Pose2& pose) {
+    return matcher_.fit(compose(pose, bias)).log_likelihood / match_error_.scatter();
+  };
   ParticleFilter trial = filter_;
-  trial.update([&](const Pose2& pose) { return matcher_.fit(pose).log_likelihood; });
-  const MatchInformation info = matcher_.information(trial.mean());
+  trial.update(log_likelihood);
+  const Pose2 matched = compose(trial.mean(), bias);
+  const MatchInformation info = matcher_.information(matched);
+  // Only if visual odometry had no gap since the map that is matched was seen.
+  if (info.observable_directions > 0 && travelled_m_ - gap_at_m_ > config_.match.max_range_m)
+    learn_match_error(matched, info);
   if (info.observable_directions == 3) filter_ = std::move(trial);
   // Unobservable directions must not change the weights.
   if (info.observable_directions == 1 || info.observable_directions == 2)
-    filter_.update([&](const Pose2& pose) {
-      return matcher_.fit(project_to_observable(pose, predicted, info.observable)).log_likelihood;
-    });
+    filter_.update(
+        [&](const Pose2& pose) { return log_likelihood(project_to_observable(pose, predicted, info.observable)); });
   match.status = info.observable_directions > 0 ? Status::kOk : Status::kNoInformation;
   match.information = info.weakest_information;
-  const MatchFit fit = matcher_.fit(filter_.mean(), 2);
+  const MatchFit fit = matcher_.fit(compose(filter_.mean(), bias), 2);
   match.plane = fit.plane;
   if (fit.inlier_ratio < config_.min_inlier_ratio) match.status = Status::kLost;
   filter_.resample(random);
   return match;
+}
+
+// Before the particles take the match: their mean is the predicted pose.
+void Slam::learn_match_error(const Pose2& matched, const MatchInformation& info) {
+  const Pose2 predicted = filter_.mean();
+  const Pose2 fit = between(predicted, {matched.x_m + info.to_best.x(), matched.y_m + info.to_best.y(), 0.0});
+  const Eigen::Matrix2d R = Eigen::Rotation2Dd(predicted.yaw_rad).toRotationMatrix();
+  const Eigen::Matrix2d covariance = info.matrix.topLeftCorner<2, 2>().inverse();
+  // Odometry errs since the map that is matched was seen, too.
+  const double pose_sigma_m = std::hypot(std::sqrt(0.5 * filter_.covariance().topLeftCorner<2, 2>().trace()),
+                                         growth_per_m_ * config_.match.max_range_m);
+  match_error_.update({fit.x_m, fit.y_m}, R.transpose() * covariance * R, pose_sigma_m);
 }
 
 void Slam::insert_cloud(AlignedCloud cloud, const MatchOutcome& match) {

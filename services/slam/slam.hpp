@@ -12,6 +12,7 @@
 #include "slam/cloud.hpp"
 #include "slam/elevation_map.hpp"
 #include "slam/map_anchor.hpp"
+#include "slam/match_error.hpp"
 #include "slam/particle_filter.hpp"
 #include "slam/scan_match.hpp"
 
@@ -44,6 +45,7 @@ struct DriftConfig {
 struct SlamConfig {
   ElevationConfig map;
   MatchConfig match;
+  MatchErrorConfig match_error;
   FilterConfig filter;
   MotionConfig motion;
   AttitudeNoise attitude;
@@ -115,6 +117,7 @@ class Slam {
   double yaw_noise_rad(const Odometry& odometry, Utime dt) const;
   void predict(const Odometry& odometry, Utime utime, Random& random);
   MatchOutcome match_cloud(const AlignedCloud& cloud, Random& random);
+  void learn_match_error(const Pose2& matched, const MatchInformation& info);
   void insert_cloud(AlignedCloud cloud, const MatchOutcome& match);
   void anchor();
   Eigen::Matrix3d covariance() const;
@@ -123,13 +126,16 @@ class Slam {
   ElevationMap map_;
   PatchBinner binner_;
   ScanMatcher matcher_;
+  MatchError match_error_;
   ParticleFilter filter_;
   MapAnchor anchor_;
   Utime utime_ = kNever;  // of the newest accepted cloud
   Odometry previous_;
   std::optional<Odometry> jump_candidate_;  // pose after a jump, until the next cloud confirms it
   Utime jump_utime_ = kNever;
-  double z_m_ = 0.0;  // of the body in the slam frame
+  double gap_at_m_ = 0.0;      // distance travelled at the newest gap of visual odometry
+  double growth_per_m_ = 0.0;  // of odometry's standard deviation since the cloud before
+  double z_m_ = 0.0;           // of the body in the slam frame
   double travelled_m_ = 0.0;
   double anchor_travelled_m_ = 0.0;
   int lost_count_ = 0;

@@ -8,7 +8,7 @@
 namespace rover::slam {
 namespace {
 
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 
 bool is_finite_pose(const Pose2& pose) {
   return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.yaw_rad);
@@ -87,6 +87,8 @@ std::vector<std::uint8_t> Slam::save() const {
   out.put(z_m_);
   out.put(travelled_m_);
   out.put(anchor_travelled_m_);
+  out.put(gap_at_m_);
+  out.put(match_error_.state());
   out.put(lost_count_);
   out.put(anchor_.state());
   out.put(static_cast<std::uint64_t>(filter_.particles().size()));
@@ -106,12 +108,16 @@ bool Slam::restore(const std::vector<std::uint8_t>& bytes) {
   fresh.z_m_ = in.get<double>();
   fresh.travelled_m_ = in.get<double>();
   fresh.anchor_travelled_m_ = in.get<double>();
+  fresh.gap_at_m_ = in.get<double>();
+  const auto match_error = in.get<MatchError::State>();
+  fresh.match_error_.restore(match_error);
   fresh.lost_count_ = in.get<int>();
   const auto anchor = in.get<MapAnchor::State>();
   fresh.anchor_.restore(anchor);
   std::vector<Particle> particles(in.count(sizeof(Particle)));
   bool valid = !particles.empty() && is_finite_pose(anchor.T_map_slam) && is_finite_pose(anchor.T_map_odom) &&
-               is_finite(fresh.previous_.T_odom_body) && std::isfinite(fresh.z_m_);
+               is_finite(fresh.previous_.T_odom_body) && std::isfinite(fresh.z_m_) &&
+               is_finite_pose(match_error.bias) && match_error.bias_variance_m2 >= 0.0 && match_error.scatter >= 1.0;
   for (Particle& particle : particles) {
     particle = in.get<Particle>();
     valid = valid && is_finite_pose(particle.pose) && std::isfinite(particle.log_weight);

@@ -78,23 +78,60 @@ TEST(MapAlignment, RejectsOutliersAndOldMeasurements) {
   EXPECT_EQ(map.apply_correction(m, T, wide_cov()), "");
   m.utime = 5;
   EXPECT_NE(map.apply_correction(m, T, wide_cov()), "") << "older";
-  EXPECT_NE(map.add_slam_pose(m, T, wide_cov()), "") << "older than the correction";
+  EXPECT_NE(map.rejection(m, T, wide_cov()), "") << "a SLAM pose older than the correction";
 }
 
-TEST(MapAlignment, SlamMovesMapAtBoundedRate) {
-  MapAlignment map({});
-  const Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-  map.set_start({{0.0, 0.0, 0.0}, 0.0, 0.1, 0.1}, T);
-  MapMeasurement m;
-  m.utime = 1;
-  m.T_map_odom.x_m = 0.1;
-  m.cov = Vector3d(1e-9, 1e-9, 1e-9).asDiagonal();
-  ASSERT_EQ(map.add_slam_pose(m, T, wide_cov()), "");
-  EXPECT_EQ(map.T_map_odom().translation().x(), 0.0);
-  map.step(1.0, T);
-  EXPECT_NEAR(map.T_map_odom().translation().x(), 0.02, 1e-9);
-  for (int i = 0; i < 10; ++i) map.step(1.0, T);
-  EXPECT_NEAR(map.T_map_odom().translation().x(), 0.1, 1e-6);
+class SlamSteps : public ::testing::Test {
+ protected:
+  SlamSteps() { map_.set_start({{0.0, 0.0, 0.0}, 0.0, 0.1, 0.1}, Eigen::Isometry3d::Identity()); }
+  // One cloud, at x of map -> odom; odometry has gained this much noise since the start.
+  void slam_at(double x_m, double noise_m2, double sigma_m) {
+    MapMeasurement m;
+    m.T_map_odom.x_m = x_m;
+    m.cov = Eigen::Matrix3d::Identity() * sigma_m * sigma_m;
+    odometry_.noise_m2 = noise_m2;
+    map_.add_slam_pose(m, odometry_);
+  }
+  double x_m() const { return map_.T_map_odom().translation().x(); }
+  void settle() {
+    for (int i = 0; i < 20; ++i) map_.step(1.0, odometry_.T_odom_body);
+  }
+  MapAlignment map_{{}};
+  FilterState odometry_;
+};
+
+TEST_F(SlamSteps, NoiseOfOdometryBetweenCloudsDecides) {
+  slam_at(0.0, 0.0, 0.1);
+  slam_at(0.1, 25e-6, 0.1);  // as large as SLAM's own error
+  map_.step(1.0, odometry_.T_odom_body);
+  EXPECT_NEAR(x_m(), 0.02, 1e-9) << "bounded rate";
+  settle();
+  EXPECT_NEAR(x_m(), 0.05, 1e-9);
+  slam_at(0.2, 25e-6, 0.1);
+  settle();
+  EXPECT_NEAR(x_m(), 0.05, 1e-9) << "odometry gained none";
+  slam_at(0.3, 1.0, 0.1);
+  settle();
+  EXPECT_NEAR(x_m(), 0.15, 1e-4);
+}
+
+TEST_F(SlamSteps, NewAnchorIsNoMotion) {
+  slam_at(0.0, 0.0, 0.1);
+  slam_at(0.1, 1.0, 0.05);
+  settle();
+  EXPECT_EQ(x_m(), 0.0);
+}
+
+TEST_F(SlamSteps, StepOverACorrectionIsNoMotion) {
+  slam_at(0.0, 0.0, 0.1);
+  MapMeasurement correction;
+  correction.utime = 1;
+  correction.T_map_odom.x_m = 0.2;
+  correction.cov = Eigen::Matrix3d::Identity() * 1e-9;
+  ASSERT_EQ(map_.apply_correction(correction, odometry_.T_odom_body, wide_cov()), "");
+  slam_at(0.2, 1.0, 0.1);
+  settle();
+  EXPECT_NEAR(x_m(), 0.2, 1e-6);
 }
 
 }  // namespace
