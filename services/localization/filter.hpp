@@ -48,8 +48,8 @@ struct FilterState {
   Eigen::Isometry3d T_odom_body = Eigen::Isometry3d::Identity();
   Eigen::Vector3d gyro_bias_radps = Eigen::Vector3d::Zero();
   ErrorCov P = ErrorCov::Zero();
-  // Variance that random errors of odometry have added to x or y, and to yaw, since the start. Unlike P without the
-  // errors of the start pose, biases and scale, which are the same all the way.
+  // Variance that random errors have added to x or y, and to yaw, since the start: P without the errors of start pose,
+  // biases and scale, which are constant over a drive.
   double noise_m2 = 0.0;
   double noise_rad2 = 0.0;
 };

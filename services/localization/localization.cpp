@@ -102,8 +102,8 @@ std::string_view Localization::add_slam_pose(const MapMeasurement& measurement) 
   return rejection;
 }
 
-// Odometry at the time of a cloud is settled by the next visual motion; it changes no more if that is overdue, because
-// then it will not span the gap.
+// The next visual motion changes odometry at the time of a cloud for the last time. If it is overdue, it will not span
+// the gap.
 void Localization::fuse_slam(Utime now) {
   for (; !slam_queue_.empty(); slam_queue_.pop_front()) {
     const MapMeasurement& slam = slam_queue_.front();

@@ -110,8 +110,8 @@ std::string_view MapAlignment::apply_correction(const MapMeasurement& m, const E
 
 void MapAlignment::add_slam_pose(const MapMeasurement& m, const FilterState& odometry) {
   const auto before = std::exchange(slam_, SlamPose{m, odometry.noise_m2, odometry.noise_rad2});
-  // SLAM's covariance counts from its anchor. If it shrinks the anchor is new, and the step no motion.
-  if (!before || m.cov(0, 0) < before->measurement.cov(0, 0)) return;
+  // SLAM's yaw variance grows from its anchor on. If it shrinks, the anchor is new, and the step is no motion.
+  if (!before || m.cov(2, 2) < before->measurement.cov(2, 2)) return;
   const auto weight = [](double noise, double noise_before, double sigma) {
     const double gained = std::max(0.0, noise - noise_before);
     return gained / (gained + sigma * sigma);

@@ -44,10 +44,8 @@ class MapAlignment {
   std::string_view rejection(const MapMeasurement& m, const Eigen::Isometry3d& T_odom_body, const ErrorCov& P) const;
   // Takes effect at once. Empty text if accepted.
   std::string_view apply_correction(const MapMeasurement& m, const Eigen::Isometry3d& T_odom_body, const ErrorCov& P);
-  // Takes effect gradually, in step(). `odometry`: at the measurement's time. SLAM is predicted with odometry, so its
-  // pose is no independent measurement: its motion of map against odom since the last one is weighted against the noise
-  // that odometry gained meanwhile. That is little with visual odometry, and nearly all of it where the wheels bridged
-  // alone.
+  // Takes effect gradually, in step(). SLAM is predicted with odometry, so only its motion of map against odom since
+  // the last pose counts, weighted by the noise that odometry gained meanwhile. `odometry`: at the time of `m`.
   void add_slam_pose(const MapMeasurement& m, const FilterState& odometry);
   void step(double dt_s, const Eigen::Isometry3d& T_odom_body);
 

@@ -40,7 +40,7 @@ void add_match(Parameters p, MatchConfig& c) {
 void add_match_error(Parameters p, MatchErrorConfig& c) {
   p.add("bias_sigma_m", c.bias_sigma_m, {0.0, 1.0}, "constant error along x or y, before the first match");
   p.add("bias_m_rtm", c.bias_m_rtm, {0.0, 1.0}, "its random walk, standard deviation after 1 m");
-  p.add("scatter_matches", c.scatter_matches, {1.0, 1e6}, "that the scatter of matches is averaged over");
+  p.add("scatter_matches", c.scatter_matches, {1.0, 1e6}, "number of matches that the scatter is averaged over");
 }
 
 void add_filter(Parameters p, FilterConfig& c) {
@@ -107,7 +107,7 @@ NodeConfig load_config(const std::string& config_dir, ParameterList* list) {
   p.add("lost_clouds", c.lost_clouds, {1, 100}, "in a row: the map restarts");
   add_map(p.section("map", "elevation map"), c.map);
   add_match(p.section("match", "a cloud with the map"), c.match);
-  add_match_error(p.section("match_error", "learnt while visual odometry has no gaps"), c.match_error);
+  add_match_error(p.section("match_error", "estimated while visual odometry has no gaps"), c.match_error);
   add_filter(p.section("filter", "particle filter"), c.filter);
   add_motion(p.section("motion", "noise of the prediction, standard deviations"), c.motion);
   add_attitude(p.section("attitude", "errors of odometry's attitude and height"), c.attitude);

@@ -6,7 +6,7 @@
 namespace rover::slam {
 namespace {
 
-constexpr double kGateSigma = 4.0;  // matches farther off teach nothing
+constexpr double kGateSigma = 4.0;  // of the innovation; larger ones are outliers
 
 }  // namespace
 

@@ -1,8 +1,6 @@
-// What is known of the error of a match beyond its own likelihood: a constant part, in the rover's axes, and how much
-// more than the likelihood says single matches scatter. An error of the camera's calibration moves points by the square
-// of their range, so a cloud fits the map, which was seen from farther away, some centimetres ahead or behind; errors
-// of neighbouring points are correlated, so their likelihood is too sure. Both are learnt where odometry knows the
-// pose.
+// Error of a match that its likelihood does not contain: a constant bias in the rover's axes (the camera's calibration
+// moves points by the square of their range), and a larger scatter (the errors of neighbouring points are correlated).
+// Both are estimated while odometry knows the pose.
 #pragma once
 
 #include <Eigen/Core>

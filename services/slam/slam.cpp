@@ -159,7 +159,7 @@ Slam::MatchOutcome Slam::match_cloud(const AlignedCloud& cloud, Random& random) 
   trial.update(log_likelihood);
   const Pose2 matched = compose(trial.mean(), bias);
   const MatchInformation info = matcher_.information(matched);
-  // Only if visual odometry had no gap since the map that is matched was seen.
+  // Only if visual odometry had no gap since the matched part of the map was seen.
   if (info.observable_directions > 0 && travelled_m_ - gap_at_m_ > config_.match.max_range_m)
     learn_match_error(matched, info);
   if (info.observable_directions == 3) filter_ = std::move(trial);
@@ -182,7 +182,7 @@ void Slam::learn_match_error(const Pose2& matched, const MatchInformation& info)
   const Pose2 fit = between(predicted, {matched.x_m + info.to_best.x(), matched.y_m + info.to_best.y(), 0.0});
   const Eigen::Matrix2d R = Eigen::Rotation2Dd(predicted.yaw_rad).toRotationMatrix();
   const Eigen::Matrix2d covariance = info.matrix.topLeftCorner<2, 2>().inverse();
-  // Odometry errs since the map that is matched was seen, too.
+  // Odometry also drifted since the matched part of the map was seen.
   const double pose_sigma_m = std::hypot(std::sqrt(0.5 * filter_.covariance().topLeftCorner<2, 2>().trace()),
                                          growth_per_m_ * config_.match.max_range_m);
   match_error_.update({fit.x_m, fit.y_m}, R.transpose() * covariance * R, pose_sigma_m);

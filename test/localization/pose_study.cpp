@@ -1,5 +1,5 @@
-// Localization and SLAM at work on recorded drives, optionally without a part of the visual motions: how far odometry,
-// SLAM and POSE end from the truth. A tool; the services' own code, without a bus.
+// Runs the cores of localization and SLAM on recorded drives, optionally without some of the visual motions, and prints
+// the errors of odometry, SLAM and POSE against the truth. A tool.
 //   pose_study [--lost FROM_S,PERIOD_S,DURATION_S] [--config DIR] RUN...
 #include <fmt/format.h>
 
@@ -31,8 +31,9 @@ struct Loss {
 };
 
 struct Ends {
-  double driven_m = 0.0, odometry_m = 0.0, slam_m = 0.0, pose_m = 0.0;  // way, and errors at its end
-  double pose_rms_m = 0.0, nees = 0.0;  // of x and y of POSE; normalised by its covariance
+  double driven_m = 0.0;
+  double odometry_m = 0.0, slam_m = 0.0, pose_m = 0.0;  // errors at the end
+  double pose_rms_m = 0.0, nees = 0.0;                  // of x and y of POSE; normalised by its covariance
 };
 
 template <class Message>
@@ -116,14 +117,14 @@ class Drive {
     sample.odometry.dead_reckoned_m = dead_reckoned_.add(message);
     poses_.add(sample);
     slam_.add_pose(sample.utime, sample.T_map_odom, sample.odometry.T_odom_body);
-    covariances_[sample.utime] = {sample.T_map_odom, localization_.pose().cov};
+    published_[sample.utime] = {sample.T_map_odom, localization_.pose().cov};
   }
 
-  // Against the truth since the first cloud, so that the start pose's error is in none of them.
+  // Errors since the first cloud: without that of the start pose.
   void judge(Utime utime, const slam::Odometry& odometry, const slam::SlamResult& result) {
     const auto truth = truths_.find(utime);
-    const auto published = covariances_.find(utime);
-    if (truth == truths_.end() || published == covariances_.end()) return;
+    const auto published = published_.find(utime);
+    if (truth == truths_.end() || published == published_.end()) return;
     const Pose2 body = planar(odometry.T_odom_body), T_map_odom = planar(published->second.first);
     if (samples_ == 0) {
       start_ = T_map_odom;
@@ -156,7 +157,7 @@ class Drive {
   bool full_ = false;
   std::deque<std::pair<Utime, slam_pose_t>> slam_poses_;  // until their release
   std::map<Utime, Pose2> truths_;
-  std::map<Utime, std::pair<Eigen::Isometry3d, Matrix6d>> covariances_;
+  std::map<Utime, std::pair<Eigen::Isometry3d, Matrix6d>> published_;
   Pose2 start_, error_, last_;
   Ends ends_;
   double squares_ = 0.0;
@@ -174,15 +175,22 @@ int main(int argc, char** argv) {
   app.add_option("--config", config_dir, "configuration folder");
   app.add_option("runs", runs, "run folders")->required();
   CLI11_PARSE(app, argc, argv);
+  if (!lost.empty() && !(lost[1] > 0.0)) {
+    std::fprintf(stderr, "pose_study: --lost: the period must be above 0 s\n");
+    return 2;
+  }
   const Loss loss = lost.empty() ? Loss{} : Loss{lost[0], lost[1], lost[2]};
   fmt::print(
-      "| drive | way | odometry | SLAM | POSE | POSE, rms | squared error of x, y over its variance "
+      "| drive | driven | odometry | SLAM | POSE | POSE, rms | squared error of x, y over its variance "
       "|\n|---|---|---|---|---|---|---|\n");
-  for (const std::string& run : runs) {
-    const Ends e = Drive(run, config_dir, loss).run();
-    const auto percent = [&](double error_m) { return 100.0 * error_m / std::max(e.driven_m, 1.0); };
-    fmt::print("| {} | {:.1f} m | {:.2f} % | {:.2f} % | {:.2f} % | {:.3f} m | {:.2f} |\n", run, e.driven_m,
-               percent(e.odometry_m), percent(e.slam_m), percent(e.pose_m), e.pose_rms_m, 0.5 * e.nees);
-    std::fflush(stdout);
-  }
+  for (const std::string& run : runs) try {
+      const Ends e = Drive(run, config_dir, loss).run();
+      const auto percent = [&](double error_m) { return 100.0 * error_m / std::max(e.driven_m, 1.0); };
+      fmt::print("| {} | {:.1f} m | {:.2f} % | {:.2f} % | {:.2f} % | {:.3f} m | {:.2f} |\n", run, e.driven_m,
+                 percent(e.odometry_m), percent(e.slam_m), percent(e.pose_m), e.pose_rms_m, 0.5 * e.nees);
+      std::fflush(stdout);
+    } catch (const std::exception& error) {
+      std::fprintf(stderr, "pose_study: %s: %s\n", run.c_str(), error.what());
+      return 2;
+    }
 }
