@@ -111,7 +111,7 @@ double normalised_innovation_squared(const SearchConfig& config, const Prior& pr
 
 }  // namespace
 
-GlobalLocalization::GlobalLocalization(const GlobalConfig& config, HeightGrid orbital, double local_cell_m)
+GlobalLocalization::GlobalLocalization(const GlobalConfig& config, OrbitalMap orbital, double local_cell_m)
     : config_(config), orbital_(std::move(orbital)), mosaic_(config.mosaic_side_m, local_cell_m) {}
 
 void GlobalLocalization::add_elevation(const ElevationView& view, const Eigen::Vector2d& p_odom_body) {
@@ -126,7 +126,7 @@ Correction GlobalLocalization::correct(const Prior& prior) const {
   }
   PlaneConfig filter = config_.filter;
   filter.sigma_cells = std::hypot(filter.sigma_cells, config_.map_blur_cells);
-  TerrainTemplate terrain = terrain_template(mosaic_.resampled(orbital_.lattice.cell_m), filter);
+  TerrainTemplate terrain = terrain_template(mosaic_.resampled(orbital_.lattice().cell_m), filter);
   terrain.drift_information = drift_information(terrain, config_.height_drift, noise_density());
   out.area_m2 = terrain.area_m2();
   const Eigen::Matrix3d expected =
@@ -146,14 +146,14 @@ Correction GlobalLocalization::correct(const Prior& prior) const {
 
 // Noise power density of the orbital heights [m^4].
 double GlobalLocalization::noise_density() const {
-  const double side_m = config_.map_noise_cells * orbital_.lattice.cell_m;
+  const double side_m = config_.map_noise_cells * orbital_.lattice().cell_m;
   return config_.map_noise_m * config_.map_noise_m * side_m * side_m;
 }
 
 bool GlobalLocalization::featured(const Correction& c) const {
   const AcceptanceConfig& limits = config_.acceptance;
   return c.area_m2 >= limits.min_area_m2 &&
-         c.expected_sigma_m <= limits.max_expected_sigma_cells * orbital_.lattice.cell_m &&
+         c.expected_sigma_m <= limits.max_expected_sigma_cells * orbital_.lattice().cell_m &&
          c.expected_sigma_rad <= limits.max_expected_sigma_rad;
 }
 
@@ -175,7 +175,7 @@ void GlobalLocalization::match(const Prior& prior, const TerrainTemplate& terrai
     out.second_score = matches[1].fit.correlation;
     out.second_residual_m = matches[1].fit.residual_m;
   }
-  const double sigma_m = config_.filter.sigma_cells * orbital_.lattice.cell_m;
+  const double sigma_m = config_.filter.sigma_cells * orbital_.lattice().cell_m;
   const Eigen::Matrix3d cov = covariance_at_minimum(orbital, terrain, best, independent_samples(terrain, sigma_m));
   out.sigma_m = largest_sigma(cov);
   const double rotation = config_.map_sigma_rad, shift = config_.map_sigma_m;
@@ -200,23 +200,8 @@ void GlobalLocalization::match(const Prior& prior, const TerrainTemplate& terrai
 
 // Filters only the search area, because the orbital map can be large.
 OrbitalSection GlobalLocalization::orbital_section(const Eigen::Vector2d& center_map, double half_width_m) const {
-  const Lattice& all = orbital_.lattice;
-  const double margin_m = half_width_m + (3.0 * config_.filter.sigma_cells + 4.0) * all.cell_m;
-  const auto cell = [&](double offset_m, int max_index) {
-    return static_cast<int>(std::clamp(std::floor(offset_m / all.cell_m), 0.0, static_cast<double>(max_index)));
-  };
-  const Eigen::Vector2d p = center_map - Eigen::Vector2d(all.x0_m, all.y0_m);
-  const int first_column = cell(p.x() - margin_m, all.columns), end_column = cell(p.x() + margin_m, all.columns);
-  const int first_row = cell(p.y() - margin_m, all.rows), end_row = cell(p.y() + margin_m, all.rows);
-  HeightGrid section;
-  section.lattice = {end_column - first_column, end_row - first_row, all.cell_m, all.x0_m + first_column * all.cell_m,
-                     all.y0_m + first_row * all.cell_m};
-  for (int row = first_row; row < end_row; ++row)
-    for (int column = first_column; column < end_column; ++column) {
-      section.z_m.push_back(orbital_.z_m[all.index(column, row)]);
-      section.weight.push_back(orbital_.weight[all.index(column, row)]);
-    }
-  return OrbitalSection(plane_field(section, config_.filter));
+  const double margin_m = (3.0 * config_.filter.sigma_cells + 4.0) * orbital_.lattice().cell_m;
+  return OrbitalSection(plane_field(orbital_.around(center_map, half_width_m + margin_m), config_.filter));
 }
 
 }  // namespace rover::global

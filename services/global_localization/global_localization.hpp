@@ -7,8 +7,8 @@
 
 #include "common/core/frames.hpp"
 #include "global_localization/correlation_search.hpp"
-#include "global_localization/height_grid.hpp"
 #include "global_localization/local_mosaic.hpp"
+#include "global_localization/orbital_map.hpp"
 #include "global_localization/plane_field.hpp"
 #include "global_localization/refinement.hpp"
 
@@ -81,11 +81,12 @@ struct Correction {
 class GlobalLocalization {
  public:
   // `orbital`: in the map frame. `local_cell_m`: cell size of the elevation maps passed to add_elevation.
-  GlobalLocalization(const GlobalConfig& config, HeightGrid orbital, double local_cell_m);
+  GlobalLocalization(const GlobalConfig& config, OrbitalMap orbital, double local_cell_m);
 
   void add_elevation(const ElevationView& view, const Eigen::Vector2d& p_odom_body);
   // Discards the local map, for example after odom has jumped.
   void clear_local_map() { mosaic_.clear(); }
+  // Throws what reading the orbital map throws.
   Correction correct(const Prior& prior) const;
   // Whether the terrain of this attempt has enough relief, accepted or not.
   bool featured(const Correction& correction) const;
@@ -96,7 +97,7 @@ class GlobalLocalization {
   OrbitalSection orbital_section(const Eigen::Vector2d& center_map, double half_width_m) const;
 
   GlobalConfig config_;
-  HeightGrid orbital_;
+  OrbitalMap orbital_;
   LocalMosaic mosaic_;
 };
 

@@ -25,7 +25,7 @@ GlobalLocalizationNode::GlobalLocalizationNode(Node& node, const NodeConfig& con
 
 void GlobalLocalizationNode::load_map() {
   try {
-    core_.emplace(config_.core, load_orbital_map(node_.options().run_dir), config_.local_cell_m);
+    core_.emplace(config_.core, open_orbital_map(node_.options().run_dir), config_.local_cell_m);
   } catch (const DtmError& error) {  // the rover can drive without an orbital map
     node_.set_status(heartbeat_t::DEGRADED, error.what());
     node_.log("WARN", std::string("NO_ORBITAL_MAP ") + error.what());
@@ -76,10 +76,21 @@ void GlobalLocalizationNode::check_for_odometry_jump(const Prior& prior) {
   last_travelled_m_ = pose_.travelled_m;
 }
 
+Correction GlobalLocalizationNode::correct(const Prior& prior) {
+  Correction none;
+  none.reason = "no orbital map";
+  if (!core_) return none;
+  try {
+    return core_->correct(prior);
+  } catch (const DtmError& error) {  // the file can be damaged where the rover comes only now
+    node_.set_status(heartbeat_t::DEGRADED, error.what());
+    none.reason = "orbital map cannot be read";
+    return none;
+  }
+}
+
 void GlobalLocalizationNode::attempt_correction(const Prior& prior, Utime utime) {
-  Correction correction;
-  correction.reason = "no orbital map";
-  if (core_) correction = core_->correct(prior);
+  const Correction correction = correct(prior);
   schedule_.record_attempt(pose_.travelled_m, correction.accepted);
   correction_t message{};
   correction_to(correction, prior, message);

@@ -27,6 +27,7 @@ class GlobalLocalizationNode {
   std::string rejection_reason(const elevation_t& message) const;
   std::optional<Prior> fresh_prior() const;
   void check_for_odometry_jump(const Prior& prior);
+  Correction correct(const Prior& prior);
   void attempt_correction(const Prior& prior, Utime utime);
 
   Node& node_;

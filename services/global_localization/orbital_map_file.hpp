@@ -1,14 +1,14 @@
-// Loads the orbital map of a run.
+// The orbital map of a run.
 #pragma once
 
 #include <string>
 
-#include "global_localization/height_grid.hpp"
+#include "global_localization/orbital_map.hpp"
 
 namespace rover::global {
 
-// Reads orbital_map.tif from the run's folder; cells without data get weight 0.
-// Throws DtmError with one line if the file is missing, has no metric georeference or no data.
-HeightGrid load_orbital_map(const std::string& run_dir);
+// Opens orbital_map.tif in the run's folder; cells without data get weight 0. Throws DtmError with one line if the file
+// is missing or has no metric georeference; reading a part does, if the file is damaged there.
+OrbitalMap open_orbital_map(const std::string& run_dir);
 
 }  // namespace rover::global

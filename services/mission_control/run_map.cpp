@@ -1,6 +1,7 @@
 #include "mission_control/run_map.hpp"
 
 #include "common/geo/elevation_map.hpp"
+#include "common/geo/elevation_map_file.hpp"
 
 namespace rover::mission {
 
@@ -27,10 +28,7 @@ RunMap::Bytes RunMap::picture(const std::string& name) {
 void RunMap::read() {
   if (run_dir_.empty()) return;
   try {
-    const std::string file = run_dir_ + "/orbital_map.tif";
-    ElevationMap map = read_elevation_map(file);
-    require_no_voids(map, file);
-    ElevationRaster& raster = map.raster;
+    ElevationRaster raster = read_for_display(run_dir_ + "/orbital_map.tif");
     map_ = std::make_unique<GroundMap>(
         GroundHeights{raster.width, raster.height, raster.resolution_m, std::move(raster.z_m)}, limits_,
         rover_length_m_);

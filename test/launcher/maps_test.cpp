@@ -99,6 +99,31 @@ TEST_F(UsersMaps, DriveWritesTheMapInMetres) {
   }
 }
 
+// 6,500 x 6,500 pixels of 0 m that take no space.
+TEST_F(UsersMaps, DriveRefersToALargeMap) {
+  GDALAllRegister();
+  CPLStringList options;
+  options.SetNameValue("SPARSE_OK", "TRUE");
+  const auto large = [&](const std::string& name, const std::string& reference, double pixel) {
+    GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GTiff");
+    const std::unique_ptr<GDALDataset> dataset(
+        driver->Create(folder_.file(name).c_str(), 6500, 6500, 1, GDT_Float32, options.List()));
+    double transform[6] = {0.0, pixel, 0.0, 6500 * pixel, 0.0, -pixel};
+    dataset->SetGeoTransform(transform);
+    dataset->SetProjection(reference.c_str());
+  };
+  large("large.tif", testing_support::mars_plane(), 0.25);
+  large("degrees.tif", testing_support::kMars, 1e-5);
+  const RunFolder run = make_drive_folder(drive_with("large.tif"));
+  EXPECT_EQ(fs::read_symlink(run.dir + "/orbital_map.tif"), fs::canonical(folder_.file("large.tif")));
+  ASSERT_EQ(run.map_notes.size(), 1u);
+  EXPECT_NE(run.map_notes[0].find("not copied"), std::string::npos) << run.map_notes[0];
+  remove_run_folder(run);
+  EXPECT_TRUE(fs::exists(folder_.file("large.tif")));
+  const std::string line = refusal([&] { make_drive_folder(drive_with("degrees.tif")); });
+  EXPECT_NE(line.find("--map degrees.tif: is not in metres, north up"), std::string::npos) << line;
+}
+
 TEST_F(UsersMaps, RunAcceptsTheSameMaps) {
   for (const char* name : {"degrees.tif", "mercator.tif"}) {
     const RunFolder run = make_run_folder(run_with(name));

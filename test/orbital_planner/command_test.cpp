@@ -25,6 +25,7 @@
 #include "test/common/temp_folder.hpp"
 #include "test/geo/map_files.hpp"
 #include "tools/orbital_planner/picture.hpp"
+#include "tools/orbital_planner/planning_map.hpp"
 #include "wild.hpp"
 
 namespace rover::orbital {
@@ -44,6 +45,23 @@ std::string yaml_path_of(const std::string& scenario_text) {
   const size_t from = scenario_text.find("path:\n");
   const size_t to = scenario_text.find("\nsun:", from);
   return scenario_text.substr(from, to + 1 - from);
+}
+
+TEST(PlanningMap, StripsGiveTheTerrainOfTheWhole) {
+  for (const int n : {1, 2, 3}) {
+    const ElevationRaster whole = read_elevation_map(kGale).raster;
+    const TerrainLayers expected = analyse(whole, {}, n);
+    const PlanningMap strips = read_planning_map(kGale, {}, {0, expected.width * expected.height + 500});
+    EXPECT_EQ(strips.map.raster.width, expected.width);
+    EXPECT_DOUBLE_EQ(strips.map.raster.resolution_m, n * whole.resolution_m);
+    ASSERT_EQ(strips.terrain.terrain_class, expected.terrain_class);
+    for (size_t i = 0; i < expected.terrain_class.size(); ++i) {
+      if (expected.terrain_class[i] == TerrainClass::kUnknown) continue;
+      ASSERT_EQ(strips.terrain.slope_rad[i], expected.slope_rad[i]) << i;
+      ASSERT_EQ(strips.terrain.step_m[i], expected.step_m[i]) << i;
+    }
+    ASSERT_EQ(strips.map.notes.size(), 1u);
+  }
 }
 
 class PlanCommand : public testing::Test {

@@ -10,6 +10,10 @@
 namespace rover::orbital {
 namespace {
 
+Plan plan(const ElevationRaster& map, const Line& waypoints, const PlannerConfig& config) {
+  return orbital::plan(analyse(map, config.terrain), waypoints, config);
+}
+
 // A ridge from south to north at x = 60 m, 6 m high, too steep to climb; it ends at y = 75 m.
 double ridge(double x, double y) {
   const double along = std::clamp((80.0 - y) / 5.0, 0.0, 1.0);

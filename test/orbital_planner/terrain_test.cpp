@@ -68,6 +68,22 @@ TEST(Terrain, ABoulderAndAnEdgeAreObstacles) {
   }
 }
 
+TEST(Terrain, MergedPixelsKeepTheirPlaneAndTheirLargestStep) {
+  const auto boulder = [](double x, double y) { return 0.1 * x + (x == 10.125 && y == 10.375 ? 0.8 : 0.0); };
+  const TerrainLayers layers = analyse(map_of(84, 82, 0.25, boulder), {}, 4);
+  ASSERT_EQ(layers.width, 21);
+  ASSERT_EQ(layers.height, 20);
+  EXPECT_DOUBLE_EQ(layers.cell_m, 1.0);
+  EXPECT_EQ(layers.terrain_class[at(layers, 10, 10)], TerrainClass::kObstacle);
+  EXPECT_EQ(layers.terrain_class[at(layers, 11, 10)], TerrainClass::kSloping);
+  EXPECT_NEAR(layers.slope_rad[at(layers, 3, 3)], std::atan(0.1), 1e-4);
+  EXPECT_NEAR(layers.step_m[at(layers, 3, 3)], 0.0, 1e-4);
+  const auto hole = [](double x, double y) { return x == 10.125 && y == 10.375 ? kVoid : 0.0; };
+  const TerrainLayers holed = analyse(map_of(84, 80, 0.25, hole), {}, 4);
+  EXPECT_EQ(holed.terrain_class[at(holed, 10, 10)], TerrainClass::kUnknown);
+  EXPECT_EQ(holed.terrain_class[at(holed, 11, 10)], TerrainClass::kLevel);
+}
+
 TEST(Terrain, CellsWithoutHeightAreUnknownAndIgnoredByNeighbours) {
   const double g = std::tan(to_rad(8.0));
   const TerrainLayers layers =

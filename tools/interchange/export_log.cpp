@@ -17,7 +17,7 @@
 #include "common/bus/log_runs.hpp"
 #include "common/bus/streams.hpp"
 #include "common/bus/user_files.hpp"
-#include "common/geo/elevation_map.hpp"
+#include "common/geo/elevation_map_file.hpp"
 #include "common/geo/geography.hpp"
 #include "tools/interchange/csv_table.hpp"
 #include "tools/interchange/foxglove.hpp"
@@ -165,7 +165,7 @@ ToLonLat planet_of(const fs::path& log) {
   const fs::path map = log.parent_path() / "orbital_map.tif";
   if (!fs::exists(map)) return {};
   try {
-    const auto geography = std::make_shared<Geography>(read_elevation_map(map.string()).raster);
+    const auto geography = std::make_shared<Geography>(ElevationMapFile(map.string()).frame());
     if (!geography->is_known()) return {};
     return [geography](const Eigen::Vector2d& p) { return geography->to_lon_lat(p); };
   } catch (const std::exception&) {  // no projection: use metres

@@ -4,6 +4,7 @@
 
 #include "common/bus/config.hpp"
 #include "common/geo/elevation_map.hpp"
+#include "common/geo/elevation_map_file.hpp"
 #include "common/geo/geotiff_writer.hpp"
 
 namespace rover {
@@ -27,26 +28,28 @@ void check_inputs(const DriveArguments& arguments) {
                       "examples/driver/ground.yaml and select it with --ground");
 }
 
-ElevationMap read_map(const std::string& file) try {
+// Written in metres, so that all readers of the run folder agree. A large map must be so already: it is linked.
+void place_map(const std::string& file, RunFolder& folder) try {
+  const std::string placed = folder.dir + "/orbital_map.tif";
+  if (is_large_map(file)) {
+    const ElevationMapFile check(file);
+    fs::create_symlink(fs::canonical(file), placed);
+    folder.map_notes = {file + ": not copied, the run's folder refers to it"};
+    return;
+  }
   ElevationMap map = read_elevation_map(file);
   require_no_voids(map, file);
-  return map;
+  write_geotiff(placed, map.raster);
+  folder.map_notes = std::move(map.notes);
 } catch (const DtmError& error) {
   throw ConfigError("--map " + std::string(error.what()));
-}
-
-// Written in metres, so that all readers of the run folder agree.
-void write_map(const std::string& file, RunFolder& folder) {
-  ElevationMap map = read_map(file);
-  write_geotiff(folder.dir + "/orbital_map.tif", map.raster);
-  folder.map_notes = std::move(map.notes);
 }
 
 void fill(const DriveArguments& arguments, RunFolder& folder) {
   copy_configuration(config_dir_of(arguments), folder.config_dir);
   fs::copy_file(ground_of(arguments), fs::path(folder.config_dir) / "ground.yaml",
                 fs::copy_options::overwrite_existing);
-  if (!arguments.map.empty()) write_map(arguments.map, folder);
+  if (!arguments.map.empty()) place_map(arguments.map, folder);
   if (arguments.headless) apply_setting("mission_control.page=false", folder.config_dir);
   if (!arguments.record.empty()) apply_setting("recorder.record=" + arguments.record, folder.config_dir);
   for (const std::string& setting : arguments.set) apply_setting(setting, folder.config_dir);

@@ -181,7 +181,7 @@ RunFolder make_replay_folder(const RunArguments& arguments, const std::string& n
   try {
     copy_configuration(config_from, folder.config_dir);
     const fs::path orbital_map = fs::path(log_dir) / "orbital_map.tif";
-    if (fs::exists(orbital_map)) fs::copy_file(orbital_map, dir / "orbital_map.tif");
+    if (fs::exists(orbital_map)) fs::copy(orbital_map, dir / "orbital_map.tif", fs::copy_options::copy_symlinks);
     apply_arguments(arguments, folder);
   } catch (const std::exception& error) {
     remove_run_folder(folder);

@@ -14,6 +14,7 @@
 #include "tools/orbital_planner/config.hpp"
 #include "tools/orbital_planner/convert.hpp"
 #include "tools/orbital_planner/files.hpp"
+#include "tools/orbital_planner/planning_map.hpp"
 
 namespace rover::orbital {
 namespace {
@@ -142,14 +143,15 @@ std::string run(const Arguments& arguments) {
   const ToolConfig config = load_config(arguments.config_dir);
   const std::string target = arguments.out.empty() ? default_folder(arguments.map) : arguments.out;
   NewFolder out(target);
-  const ElevationMap map = read_elevation_map(arguments.map);
+  PlanningMap ground = read_planning_map(arguments.map, config.planner.terrain);
+  const ElevationMap& map = ground.map;
   const Geography geography(map.raster);
   if (arguments.lon_lat && !geography.is_known())
     throw ConfigError("--lonlat: " + arguments.map + " has no planet; give X,Y in metres from its lower left corner");
   const Line waypoints = on_map(places, geography, arguments.lon_lat);
   check_distances(places, waypoints, config.terms.goal_tolerance_m);
   const std::vector<Zone> zones = zones_of(arguments, geography);
-  const Plan result = plan(map.raster, waypoints, config.planner, zones);
+  const Plan result = plan(std::move(ground.terrain), waypoints, config.planner, zones);
   check(result, places, map, waypoints, config.planner);
   if (const std::string problem = path_length_problem(result.length_m); !problem.empty()) throw ConfigError(problem);
   write_files(out.dir(), map, geography, result, waypoints, config.terms);

@@ -77,12 +77,11 @@ void measure(const MarchGrid& grid, Plan& plan) {
 
 }  // namespace
 
-Plan plan(const ElevationRaster& map, const Line& waypoints, const PlannerConfig& config,
-          const std::vector<Zone>& zones) {
+Plan plan(TerrainLayers terrain, const Line& waypoints, const PlannerConfig& config, const std::vector<Zone>& zones) {
   ROVER_CHECK(waypoints.size() >= 2, waypoints.size());
   Plan plan;
   plan.zones = zones;
-  plan.terrain = analyse(map, config.terrain);
+  plan.terrain = std::move(terrain);
   const CostMap costs = travel_cost(plan.terrain, config.cost, zones);
   if (!check_waypoints(waypoints, costs, plan) || !connect_waypoints(waypoints, costs.grid, plan)) return plan;
   plan.line = drivable(plan.line, costs.grid, config.route);

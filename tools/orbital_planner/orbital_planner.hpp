@@ -50,8 +50,9 @@ struct Plan {
   double cost_m = 0.0;  // equivalent distance on level ground
 };
 
-// Waypoints in map coordinates: start, any number of intermediate points, goal. The path keeps the clearance to zones.
-Plan plan(const ElevationRaster& map, const Line& waypoints, const PlannerConfig& config,
+// `terrain`: of analyse(). Waypoints in map coordinates: start, any number of intermediate points, goal. The path keeps
+// the clearance to zones.
+Plan plan(TerrainLayers terrain, const Line& waypoints, const PlannerConfig& config,
           const std::vector<Zone>& zones = {});
 
 }  // namespace rover::orbital

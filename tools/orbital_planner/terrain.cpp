@@ -53,14 +53,18 @@ class Window {
     return moments.n < min_known_ ? std::nullopt : moments.plane();
   }
 
+  // NaN if the pixel is void.
   double step_m(int column, int row, const Plane& plane) const {
     const float middle = map_.at(column, row);
+    if (!std::isfinite(middle)) return kNaN;
     double largest = 0.0;
     for_known(column, row, 1, [&](int dx, int dy, float z) {
       largest = std::max(largest, std::abs(z - middle - plane.gradient_x * dx - plane.gradient_y * dy));
     });
     return largest;
   }
+
+  double pixel_m() const { return map_.resolution_m; }
 
  private:
   template <class F>
@@ -83,12 +87,26 @@ TerrainClass classify(double slope_rad, double roughness_m, double step_m, const
   return slope_rad > config.sloping_rad ? TerrainClass::kSloping : TerrainClass::kLevel;
 }
 
-void classify_cell(const Window& window, int column, int row, const TerrainConfig& config, TerrainLayers& layers) {
-  const std::optional<Plane> plane = window.plane_at(column, row);
+// NaN if a pixel of the block is void.
+double largest_step_m(const Window& window, int column, int row, int n, const Plane& plane) {
+  double largest = 0.0;
+  for (int y = row; y < row + n; ++y)
+    for (int x = column; x < column + n; ++x) {
+      const double step = window.step_m(x, y, plane);
+      if (std::isnan(step)) return kNaN;
+      largest = std::max(largest, step);
+    }
+  return largest;
+}
+
+void classify_cell(const Window& window, int column, int row, int n, const TerrainConfig& config,
+                   TerrainLayers& layers) {
+  const std::optional<Plane> plane = window.plane_at(column * n + n / 2, row * n + n / 2);
   if (!plane) return;
+  const double step = largest_step_m(window, column * n, row * n, n, *plane);
+  if (std::isnan(step)) return;
   const size_t i = static_cast<size_t>(row) * layers.width + column;
-  const double slope = std::atan(std::hypot(plane->gradient_x, plane->gradient_y) / layers.cell_m);
-  const double step = window.step_m(column, row, *plane);
+  const double slope = std::atan(std::hypot(plane->gradient_x, plane->gradient_y) / window.pixel_m());
   const double worst =
       std::max({slope / config.max_slope_rad, plane->rms_m / config.max_roughness_m, step / config.max_step_m});
   layers.slope_rad[i] = static_cast<float>(slope);
@@ -106,17 +124,18 @@ const char* name_of(TerrainClass c) {
   return kNames[static_cast<size_t>(c)];
 }
 
-TerrainLayers analyse(const ElevationRaster& map, const TerrainConfig& config) {
+TerrainLayers analyse(const ElevationRaster& map, const TerrainConfig& config, int n) {
   TerrainLayers layers;
-  layers.width = map.width;
-  layers.height = map.height;
-  layers.cell_m = map.resolution_m;
+  layers.width = map.width / n;
+  layers.height = map.height / n;
+  layers.cell_m = map.resolution_m * n;
+  const size_t cells = static_cast<size_t>(layers.width) * layers.height;
   for (std::vector<float>* layer : {&layers.slope_rad, &layers.roughness_m, &layers.step_m, &layers.difficulty})
-    layer->assign(map.z_m.size(), kNoValue);
-  layers.terrain_class.assign(map.z_m.size(), TerrainClass::kUnknown);
+    layer->assign(cells, kNoValue);
+  layers.terrain_class.assign(cells, TerrainClass::kUnknown);
   const Window window(map, config);
-  for (int row = 0; row < map.height; ++row)
-    for (int column = 0; column < map.width; ++column) classify_cell(window, column, row, config, layers);
+  for (int row = 0; row < layers.height; ++row)
+    for (int column = 0; column < layers.width; ++column) classify_cell(window, column, row, n, config, layers);
   return layers;
 }
 

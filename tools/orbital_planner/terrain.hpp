@@ -38,7 +38,9 @@ struct TerrainLayers {
   std::vector<TerrainClass> terrain_class;
 };
 
-TerrainLayers analyse(const ElevationRaster& map, const TerrainConfig& config);
+// A cell of the layers is a block of n x n pixels, with the plane about its middle and its largest step. Pixels that
+// fill no block are left out.
+TerrainLayers analyse(const ElevationRaster& map, const TerrainConfig& config, int n = 1);
 
 // Fraction of each class in the map.
 std::array<double, kTerrainClasses> class_fractions(const TerrainLayers& layers);

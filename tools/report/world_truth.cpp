@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "common/geo/elevation_map.hpp"
+#include "common/geo/elevation_map_file.hpp"
 #include "rover_simulator/world/scenario.hpp"
 
 namespace rover::report {
@@ -43,9 +44,7 @@ std::optional<TrueWorld> load_true_world(const RunFolder& folder, const Box& aro
 HeightRaster load_orbital_map(const RunFolder& folder) {
   if (folder.orbital_map.empty()) return {};
   try {
-    ElevationMap map = read_elevation_map(folder.orbital_map);
-    require_no_voids(map, folder.orbital_map);
-    ElevationRaster& raster = map.raster;
+    ElevationRaster raster = read_for_display(folder.orbital_map);
     return {raster.width, raster.height, raster.resolution_m, std::move(raster.z_m)};
   } catch (const DtmError& error) {
     std::fprintf(stderr, "%s: the map has no hill shading\n", error.what());

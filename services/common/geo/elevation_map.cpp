@@ -5,14 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <memory>
 #include <utility>
 
 #include "common/geo/gdal_session.hpp"
-#include "common/geo/height_band.hpp"
-#include "common/geo/placement.hpp"
+#include "common/geo/open_map.hpp"
 #include "common/geo/undeclared_voids.hpp"
 
 namespace rover {
@@ -20,24 +18,19 @@ namespace {
 
 using Dataset = std::unique_ptr<GDALDataset>;
 
-constexpr std::int64_t kMaxPixels = 40'000'000;  // planning needs about 60 bytes per pixel
-
-Dataset open_map(const std::string& file, const GdalSession& gdal) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) throw DtmError(file + ": not found");
-  Dataset dataset(GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
-  if (!dataset) throw DtmError(file + ": not a readable map" + gdal.last_error());
-  if (dataset->GetRasterCount() < 1)
-    throw DtmError(file + ": contains no map, or several; gdalinfo lists them, gdal_translate extracts one");
-  return dataset;
+std::int64_t pixels_of(const OpenMap& map) {
+  return static_cast<std::int64_t>(map.dataset->GetRasterXSize()) * map.dataset->GetRasterYSize();
 }
 
-void check_size(const Placement& placement, const TargetGrid& grid, GDALDataset& dataset, const std::string& file) {
-  const std::int64_t given = static_cast<std::int64_t>(dataset.GetRasterXSize()) * dataset.GetRasterYSize();
-  if (std::max(given, grid.width * grid.height) > kMaxPixels)
+void check_size(const OpenMap& map, const TargetGrid& grid) {
+  if (std::max(pixels_of(map), grid.width * grid.height) > kMaxPixelsInMemory)
     throw DtmError(
-        fmt::format("{}: too large ({}); cut out a part of up to {} million pixels (gdal_translate -projwin)", file,
-                    placement.size(), kMaxPixels / 1'000'000));
+        fmt::format("{}: too large ({}); cut out a part of up to {} million pixels (gdal_translate -projwin)", map.file,
+                    map.placement.size(), kMaxPixelsInMemory / 1'000'000));
+}
+
+ElevationRaster whole(const HeightBand& band) {
+  return band.read(band.all());
 }
 
 void remove_voids(const Placement& placement, const std::string& file, ElevationMap& map) {
@@ -109,27 +102,24 @@ ElevationRaster reprojected(GDALDataset& file, ElevationRaster raster, const Tar
   const Dataset source = in_memory(file, raster);
   const Dataset target = source ? warped(*source, grid) : nullptr;
   if (!target || gdal.failed()) throw DtmError(name + ": cannot be reprojected to metres" + gdal.last_error());
-  ElevationRaster result = HeightBand(*target, name).read();
+  ElevationRaster result = whole(HeightBand(*target, name));
   place(grid, result);
   return result;
 }
 
 ElevationMap read(const std::string& file) {
-  const GdalSession gdal;
-  const Dataset dataset = open_map(file, gdal);
-  const Placement placement(*dataset, file);
-  const HeightBand band(*dataset, file);
-  const bool metric = placement.is_metric();
-  const TargetGrid grid = metric ? placement.own_grid() : placement.plane_grid();
-  check_size(placement, grid, *dataset, file);
+  const OpenMap open(file);
+  const bool metric = open.placement.is_metric();
+  const TargetGrid grid = metric ? open.placement.own_grid() : open.placement.plane_grid();
+  check_size(open, grid);
   ElevationMap map;
-  map.raster = band.read();
-  remove_voids(placement, file, map);
-  map.converted = !metric || !band.is_metres();
+  map.raster = whole(open.band);
+  remove_voids(open.placement, file, map);
+  map.converted = !metric || !open.band.is_metres();
   if (metric)
     place(grid, map.raster);
   else
-    map.raster = reprojected(*dataset, std::move(map.raster), grid, file);
+    map.raster = reprojected(*open.dataset, std::move(map.raster), grid, file);
   if (map.converted)
     map.notes.push_back(fmt::format("{}: converted to metres, north up, {:.4g} m per pixel", file, grid.resolution_m));
   return map;
@@ -147,6 +137,10 @@ ElevationMap read_elevation_map(const std::string& file) {
   } catch (const std::exception& error) {  // of a GDAL driver
     throw DtmError(file + ": not a readable map (" + error.what() + ")");
   }
+}
+
+bool is_large_map(const std::string& file, std::int64_t max_pixels) {
+  return pixels_of(OpenMap(file)) > max_pixels;
 }
 
 void require_no_voids(const ElevationMap& map, const std::string& file) {

@@ -29,6 +29,12 @@ struct ElevationMap {
 // DtmError.
 ElevationMap read_elevation_map(const std::string& file);
 
+// Larger maps are refused; they can be read in parts (elevation_map_file.hpp).
+constexpr std::int64_t kMaxPixelsInMemory = 40'000'000;
+
+// Throws DtmError.
+bool is_large_map(const std::string& file, std::int64_t max_pixels = kMaxPixelsInMemory);
+
 // Throws DtmError with the number and place of missing heights.
 void require_no_voids(const ElevationMap& map, const std::string& file);
 

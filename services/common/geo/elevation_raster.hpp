@@ -8,6 +8,14 @@
 
 namespace rover {
 
+// Columns from the west, rows from the south.
+struct PixelBox {
+  int column = 0;
+  int row = 0;
+  int width = 0;
+  int height = 0;
+};
+
 struct ElevationRaster {
   int width = 0;
   int height = 0;

@@ -137,9 +137,9 @@ std::pair<double, double> limits_of(GDALDataType type) {
   }
 }
 
-CPLErr read_line(GDALRasterBand& band, int line, std::vector<double>& values) {
-  const int width = band.GetXSize();
-  return band.RasterIO(GF_Read, 0, line, width, 1, values.data(), width, 1, GDT_Float64, 0, 0, nullptr);
+CPLErr read_line(GDALRasterBand& band, int column, int line, std::vector<double>& values) {
+  const int width = static_cast<int>(values.size());
+  return band.RasterIO(GF_Read, column, line, width, 1, values.data(), width, 1, GDT_Float64, 0, 0, nullptr);
 }
 
 }  // namespace
@@ -161,22 +161,23 @@ float HeightBand::height_of(double value, bool masked) const {
   return known ? static_cast<float>(z_m) : std::numeric_limits<float>::quiet_NaN();
 }
 
-ElevationRaster HeightBand::read() const {
+ElevationRaster HeightBand::read(const PixelBox& box) const {
   const GdalSession gdal;
   ElevationRaster raster;
-  raster.width = band_.GetXSize();
-  raster.height = band_.GetYSize();
+  raster.width = box.width;
+  raster.height = box.height;
   raster.z_m.resize(static_cast<size_t>(raster.width) * raster.height);
-  const int width = raster.width;
-  std::vector<double> values(width), valid(width, 255.0);
+  if (raster.z_m.empty()) return raster;
+  std::vector<double> values(box.width), valid(box.width, 255.0);
   GDALRasterBand* mask = alpha_;
   if (mask == nullptr && (band_.GetMaskFlags() & GMF_ALL_VALID) == 0) mask = band_.GetMaskBand();
-  for (int line = 0; line < raster.height; ++line) {
-    CPLErr error = read_line(band_, line, values);
-    if (mask != nullptr && error == CE_None) error = read_line(*mask, line, valid);
+  const int last_line = band_.GetYSize() - 1 - box.row;  // GDAL's lines run from the north
+  for (int row = box.height - 1; row >= 0; --row) {
+    CPLErr error = read_line(band_, box.column, last_line - row, values);
+    if (mask != nullptr && error == CE_None) error = read_line(*mask, box.column, last_line - row, valid);
     if (error != CE_None) throw DtmError(file_ + ": truncated or damaged" + gdal.last_error());
-    for (int column = 0; column < width; ++column)
-      raster.at(column, raster.height - 1 - line) = height_of(values[column], valid[column] == 0.0);
+    for (int column = 0; column < box.width; ++column)
+      raster.at(column, row) = height_of(values[column], valid[column] == 0.0);
   }
   return raster;
 }

@@ -16,8 +16,9 @@ class HeightBand {
 
   // Whether the stored values are metres.
   bool is_metres() const { return scale_ == 1.0 && offset_ == 0.0; }
+  PixelBox all() const { return {0, 0, band_.GetXSize(), band_.GetYSize()}; }
   // Row 0 of the raster is the last line; NaN for masked and invalid values. Throws DtmError if unreadable.
-  ElevationRaster read() const;
+  ElevationRaster read(const PixelBox& box) const;
 
  private:
   float height_of(double value, bool masked) const;

@@ -70,12 +70,14 @@ Placement::Placement(GDALDataset& dataset, const std::string& file)
   reference_ = *reference;
   reference_.StripVertical();
   const bool flat = reference_.IsLocal() || reference_.IsProjected() || reference_.IsGeographic();
-  if (!flat) throw DtmError(file + ": its coordinate system is not a map projection; reproject it with gdalwarp -t_srs");
+  if (!flat)
+    throw DtmError(file + ": its coordinate system is not a map projection; reproject it with gdalwarp -t_srs");
   if (is_local() && !is_metric()) throw DtmError(file + ": is not north-up with square pixels; gdalwarp makes it so");
   if (is_local()) return;
   if (const auto geographic = geographic_of(reference_)) to_lon_lat_ = change(reference_, *geographic);
   if (const double area = std::abs(middle_pixel().determinant()); !(area > 0.0 && std::isfinite(area)))
-    throw DtmError(file + ": its projection does not lead to longitude and latitude; reproject it with gdalwarp -t_srs");
+    throw DtmError(file +
+                   ": its projection does not lead to longitude and latitude; reproject it with gdalwarp -t_srs");
 }
 
 Vector2d Placement::at(double column, double line) const {
