@@ -22,7 +22,8 @@ void add_filter(Parameters p, PlaneConfig& c) {
 void add_search(Parameters p, SearchConfig& c) {
   p.add("min_half_width_m", c.min_half_width_m, {1.0, 50.0},
         "lower bound: covariances are optimistic after long drives");
-  p.add("max_half_width_m", c.max_half_width_m, {1.0, 50.0}, "upper bound: takes 0.3 s on one core at 0.5 m/px");
+  p.add("max_half_width_m", c.max_half_width_m, {1.0, 1000.0},
+        "upper bound, of a lost rover: a start pose with a large sigma_m");
   p.check(c.max_half_width_m >= c.min_half_width_m, "max_half_width_m", "must not be below min_half_width_m");
   p.add_deg("min_half_width_deg", c.min_half_width_rad, {1.0, 45.0}, "the same, yaw");
   p.add_deg("max_half_width_deg", c.max_half_width_rad, {1.0, 45.0}, "the same, yaw");
@@ -32,6 +33,7 @@ void add_search(Parameters p, SearchConfig& c) {
   p.add("min_overlap", c.min_overlap, {0.1, 1.0}, "fraction of the local map with orbital data");
   p.add("min_peak_distance_m", c.min_peak_distance_m, {0.5, 20.0}, "between two peaks of the correlation");
   p.add("max_peaks", c.max_peaks, {2, 50}, "to refine");
+  p.add("max_cells", c.max_cells, {50, 2000}, "side of the window; a wider one is searched in blocks of cells first");
 }
 
 void add_refinement(Parameters p, RefinementConfig& c) {

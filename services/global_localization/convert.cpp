@@ -43,6 +43,8 @@ void correction_to(const Correction& correction, const Prior& prior, correction_
   message.score = correction.score;
   message.second_score = correction.second_score;
   message.reason = correction.reason;
+  if (correction.reason.starts_with("ambiguous"))
+    message.reason += " (" + std::to_string(correction.similar_places) + " places)";
 }
 
 }  // namespace rover::global

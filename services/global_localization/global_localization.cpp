@@ -10,6 +10,8 @@
 namespace rover::global {
 namespace {
 
+constexpr int kCoarsePeaks = 64;  // of a coarse search, to refine
+
 Eigen::Vector2d transformed(const Pose2& T, const Eigen::Vector2d& p) {
   return Eigen::Vector2d(T.x_m, T.y_m) + Eigen::Rotation2Dd(T.yaw_rad) * p;
 }
@@ -26,8 +28,12 @@ bool is_valid(const Prior& prior) {
          (prior.cov.diagonal().array() >= 0.0).all();
 }
 
+double largest_position_sigma(const Prior& prior) {
+  return std::sqrt(std::max(prior.cov(0, 0), prior.cov(1, 1)));
+}
+
 SearchWindow search_window(const SearchConfig& config, const Prior& prior, const TerrainTemplate& terrain) {
-  const double sigma_m = std::sqrt(std::max(prior.cov(0, 0), prior.cov(1, 1))), sigma_rad = std::sqrt(prior.cov(2, 2));
+  const double sigma_m = largest_position_sigma(prior), sigma_rad = std::sqrt(prior.cov(2, 2));
   SearchWindow window;
   window.prior = {transformed(prior.T_map_odom, terrain.center_odom), prior.T_map_odom.yaw_rad};
   window.half_width_rad = std::clamp(config.sigmas * sigma_rad, config.min_half_width_rad, config.max_half_width_rad);
@@ -57,25 +63,33 @@ void refine_adjacent_yaws(const OrbitalSection& orbital, const TerrainTemplate& 
   }
 }
 
-// Refined candidates by increasing residual, without duplicates of the best.
-std::vector<Match> best_matches(const OrbitalSection& orbital, const TerrainTemplate& terrain,
-                                const SearchWindow& window, const GlobalConfig& config) {
-  const int min_compared =
-      static_cast<int>(std::ceil(window.min_overlap * static_cast<double>(terrain.samples.size())));
-  std::vector<Match> matches;
-  for (const Peak& peak :
-       find_peaks(orbital, terrain, window, config.search.min_peak_distance_m, config.search.max_peaks)) {
-    const Match match = refine(orbital, terrain, peak.pose, min_compared, config.refinement);
-    if (match.fit.compared >= min_compared) matches.push_back(match);
-  }
+int min_compared(const TerrainTemplate& terrain, double min_overlap) {
+  return static_cast<int>(std::ceil(min_overlap * static_cast<double>(terrain.samples.size())));
+}
+
+void sort_by_residual(std::vector<Match>& matches) {
   std::stable_sort(matches.begin(), matches.end(),
                    [](const Match& a, const Match& b) { return a.fit.residual_m < b.fit.residual_m; });
-  if (!matches.empty()) refine_adjacent_yaws(orbital, terrain, min_compared, config, matches.front());
+}
+
+void remove_duplicates_of_best(std::vector<Match>& matches, double distance_m) {
   const auto same = [&](const Match& other) {
-    const double distance_m = (other.pose.center_map - matches.front().pose.center_map).norm();
-    return distance_m < 0.5 * config.search.min_peak_distance_m;
+    return (other.pose.center_map - matches.front().pose.center_map).norm() < distance_m;
   };
   if (!matches.empty()) matches.erase(std::remove_if(matches.begin() + 1, matches.end(), same), matches.end());
+}
+
+// Refined peaks of the correlation by increasing residual.
+std::vector<Match> refined_peaks(const OrbitalSection& orbital, const TerrainTemplate& terrain,
+                                 const SearchWindow& window, double min_distance_m, int max_peaks,
+                                 const RefinementConfig& config) {
+  const int least = min_compared(terrain, window.min_overlap);
+  std::vector<Match> matches;
+  for (const Peak& peak : find_peaks(orbital, terrain, window, min_distance_m, max_peaks)) {
+    const Match match = refine(orbital, terrain, peak.pose, least, config);
+    if (match.fit.compared >= least) matches.push_back(match);
+  }
+  sort_by_residual(matches);
   return matches;
 }
 
@@ -111,6 +125,10 @@ double normalised_innovation_squared(const SearchConfig& config, const Prior& pr
 
 }  // namespace
 
+bool is_lost(const SearchConfig& config, const Prior& prior) {
+  return config.sigmas * largest_position_sigma(prior) > config.min_half_width_m;
+}
+
 GlobalLocalization::GlobalLocalization(const GlobalConfig& config, OrbitalMap orbital, double local_cell_m)
     : config_(config), orbital_(std::move(orbital)), mosaic_(config.mosaic_side_m, local_cell_m) {}
 
@@ -124,10 +142,7 @@ Correction GlobalLocalization::correct(const Prior& prior) const {
     out.reason = "invalid pose";
     return out;
   }
-  PlaneConfig filter = config_.filter;
-  filter.sigma_cells = std::hypot(filter.sigma_cells, config_.map_blur_cells);
-  TerrainTemplate terrain = terrain_template(mosaic_.resampled(orbital_.lattice().cell_m), filter);
-  terrain.drift_information = drift_information(terrain, config_.height_drift, noise_density());
+  const TerrainTemplate terrain = template_of(1);
   out.area_m2 = terrain.area_m2();
   const Eigen::Matrix3d expected =
       covariance_at_body(noise_density() * expected_covariance(terrain), prior.p_odom_body - terrain.center_odom);
@@ -144,6 +159,15 @@ Correction GlobalLocalization::correct(const Prior& prior) const {
   return out;
 }
 
+// At the resolution of blocks of n x n cells of the orbital map, and blurred like them.
+TerrainTemplate GlobalLocalization::template_of(int n) const {
+  PlaneConfig filter = config_.filter;
+  filter.sigma_cells = std::hypot(filter.sigma_cells, config_.map_blur_cells / n);
+  TerrainTemplate terrain = terrain_template(mosaic_.resampled(n * orbital_.lattice().cell_m), filter);
+  terrain.drift_information = drift_information(terrain, config_.height_drift, noise_density());
+  return terrain;
+}
+
 // Noise power density of the orbital heights [m^4].
 double GlobalLocalization::noise_density() const {
   const double side_m = config_.map_noise_cells * orbital_.lattice().cell_m;
@@ -157,16 +181,57 @@ bool GlobalLocalization::featured(const Correction& c) const {
          c.expected_sigma_rad <= limits.max_expected_sigma_rad;
 }
 
+// The whole window at the orbital map's resolution.
+GlobalLocalization::Candidates GlobalLocalization::search(const SearchWindow& window,
+                                                          const TerrainTemplate& terrain) const {
+  const double reach_m = std::sqrt(2.0) * window.half_width_m + terrain.radius_m;
+  Candidates found{{}, orbital_section(window.prior.center_map, reach_m, 1)};
+  found.matches = refined_peaks(found.section, terrain, window, config_.search.min_peak_distance_m,
+                                config_.search.max_peaks, config_.refinement);
+  return found;
+}
+
+// The window in blocks of n x n cells, and the best places there at the orbital map's resolution.
+GlobalLocalization::Candidates GlobalLocalization::search_coarse_to_fine(const SearchWindow& window,
+                                                                         const TerrainTemplate& terrain, int n) const {
+  const TerrainTemplate coarse = template_of(n);
+  SearchWindow around = window;
+  around.prior.center_map = transformed(transform_of(window.prior, terrain.center_odom), coarse.center_odom);
+  const double reach_m = std::sqrt(2.0) * window.half_width_m + coarse.radius_m;
+  std::vector<Match> places = refined_peaks(orbital_section(around.prior.center_map, reach_m, n), coarse, around,
+                                            n * config_.search.min_peak_distance_m, kCoarsePeaks, config_.refinement);
+  if (static_cast<int>(places.size()) > config_.search.max_peaks) places.resize(config_.search.max_peaks);
+  RefinementConfig refinement = config_.refinement;
+  refinement.half_width_cells *= n;
+  const int least = min_compared(terrain, window.min_overlap);
+  Candidates found;
+  for (const Match& place : places) {
+    const CandidatePose start{transformed(transform_of(place.pose, coarse.center_odom), terrain.center_odom),
+                              place.pose.yaw_rad};
+    const double cells = 2.0 * refinement.half_width_cells;
+    OrbitalSection section = orbital_section(start.center_map, terrain.radius_m + cells * orbital_.lattice().cell_m, 1);
+    const Match match = refine(section, terrain, start, least, refinement);
+    if (match.fit.compared < least) continue;
+    if (found.matches.empty() || match.fit.residual_m < found.matches.front().fit.residual_m)
+      found.section = std::move(section);
+    found.matches.push_back(match);
+    sort_by_residual(found.matches);
+  }
+  return found;
+}
+
 void GlobalLocalization::match(const Prior& prior, const TerrainTemplate& terrain, Correction& out) const {
   const AcceptanceConfig& limits = config_.acceptance;
   const SearchWindow window = search_window(config_.search, prior, terrain);
-  const OrbitalSection orbital =
-      orbital_section(window.prior.center_map, std::sqrt(2.0) * window.half_width_m + terrain.radius_m);
-  const std::vector<Match> matches = best_matches(orbital, terrain, window, config_);
+  const double cells = 2.0 * window.half_width_m / orbital_.lattice().cell_m;
+  const int n = static_cast<int>(std::ceil(cells / config_.search.max_cells));
+  auto [matches, orbital] = n > 1 ? search_coarse_to_fine(window, terrain, n) : search(window, terrain);
   if (matches.empty()) {
     out.reason = "no similar terrain on the orbital map";
     return;
   }
+  refine_adjacent_yaws(orbital, terrain, min_compared(terrain, window.min_overlap), config_, matches.front());
+  remove_duplicates_of_best(matches, 0.5 * config_.search.min_peak_distance_m);
   const Match& best = matches.front();
   out.T_map_odom = transform_of(best.pose, terrain.center_odom);
   out.score = best.fit.correlation;
@@ -175,6 +240,9 @@ void GlobalLocalization::match(const Prior& prior, const TerrainTemplate& terrai
     out.second_score = matches[1].fit.correlation;
     out.second_residual_m = matches[1].fit.residual_m;
   }
+  out.similar_places = static_cast<int>(std::count_if(matches.begin(), matches.end(), [&](const Match& other) {
+    return limits.max_residual_ratio * other.fit.residual_m < best.fit.residual_m;
+  }));
   const double sigma_m = config_.filter.sigma_cells * orbital_.lattice().cell_m;
   const Eigen::Matrix3d cov = covariance_at_minimum(orbital, terrain, best, independent_samples(terrain, sigma_m));
   out.sigma_m = largest_sigma(cov);
@@ -185,8 +253,8 @@ void GlobalLocalization::match(const Prior& prior, const TerrainTemplate& terrai
 
   if (out.score < limits.min_score || out.residual_m > limits.max_residual_m) {
     out.reason = "best match not similar enough";
-  } else if (out.residual_m > limits.max_residual_ratio * out.second_residual_m) {
-    out.reason = "ambiguous: second-best match is almost as good";
+  } else if (out.similar_places > 1) {
+    out.reason = "ambiguous: other places are almost as similar";
   } else if (at_border(window, best.pose)) {
     out.reason = "best match at the border of the search window";
   } else if (!(out.sigma_m <= limits.max_sigma_m && cov(2, 2) <= limits.max_sigma_rad * limits.max_sigma_rad)) {
@@ -199,9 +267,10 @@ void GlobalLocalization::match(const Prior& prior, const TerrainTemplate& terrai
 }
 
 // Filters only the search area, because the orbital map can be large.
-OrbitalSection GlobalLocalization::orbital_section(const Eigen::Vector2d& center_map, double half_width_m) const {
-  const double margin_m = (3.0 * config_.filter.sigma_cells + 4.0) * orbital_.lattice().cell_m;
-  return OrbitalSection(plane_field(orbital_.around(center_map, half_width_m + margin_m), config_.filter));
+OrbitalSection GlobalLocalization::orbital_section(const Eigen::Vector2d& center_map, double half_width_m,
+                                                   int n) const {
+  const double margin_m = (3.0 * config_.filter.sigma_cells + 4.0) * n * orbital_.lattice().cell_m;
+  return OrbitalSection(plane_field(orbital_.around(center_map, half_width_m + margin_m, n), config_.filter));
 }
 
 }  // namespace rover::global

@@ -16,14 +16,15 @@ namespace rover::global {
 
 struct SearchConfig {
   double min_half_width_m = 12.0;  // lower bound of the half width: covariances are optimistic after long drives
-  double max_half_width_m = 15.0;
+  double max_half_width_m = 500.0;
   double min_half_width_rad = to_rad(12.0);
   double max_half_width_rad = to_rad(12.0);
   double sigmas = 3.0;  // half width in pose standard deviations, clamped to these bounds
   double yaw_step_rad = to_rad(2.0);
   double min_overlap = 0.8;  // fraction of the template with orbital data
   double min_peak_distance_m = 4.0;
-  int max_peaks = 8;  // number of peaks to refine
+  int max_peaks = 8;    // number of peaks to refine
+  int max_cells = 600;  // side of the window; a wider one is searched coarse to fine
 };
 
 struct AcceptanceConfig {
@@ -63,6 +64,9 @@ struct Prior {
   Eigen::Matrix3d cov = Eigen::Matrix3d::Zero();  // x, y [m] and yaw [rad] of the body, map axes
 };
 
+// Whether the prior is less certain than the smallest search window.
+bool is_lost(const SearchConfig& config, const Prior& prior);
+
 struct Correction {
   bool accepted = false;
   std::string_view reason = {};  // why the match was rejected; empty if accepted
@@ -72,6 +76,7 @@ struct Correction {
   double second_score = 0.0;                              // and of the second best
   double residual_m = kNaN;                               // rms height difference of the best match
   double second_residual_m = kNaN;                        // and of the second best
+  int similar_places = 0;                                 // too similar to decide between, the best included
   double area_m2 = 0.0;                                   // observed
   double expected_sigma_m = kNaN;  // of the body, from relief and map noise, along the largest principal axis
   double expected_sigma_rad = kNaN;
@@ -92,9 +97,17 @@ class GlobalLocalization {
   bool featured(const Correction& correction) const;
 
  private:
+  struct Candidates {
+    std::vector<Match> matches;            // by increasing residual
+    OrbitalSection section{PlaneField{}};  // of the orbital map, about the best
+  };
+
   void match(const Prior& prior, const TerrainTemplate& terrain, Correction& out) const;
   double noise_density() const;
-  OrbitalSection orbital_section(const Eigen::Vector2d& center_map, double half_width_m) const;
+  TerrainTemplate template_of(int n) const;
+  OrbitalSection orbital_section(const Eigen::Vector2d& center_map, double half_width_m, int n) const;
+  Candidates search(const SearchWindow& window, const TerrainTemplate& terrain) const;
+  Candidates search_coarse_to_fine(const SearchWindow& window, const TerrainTemplate& terrain, int n) const;
 
   GlobalConfig config_;
   OrbitalMap orbital_;

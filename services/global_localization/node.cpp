@@ -44,7 +44,8 @@ void GlobalLocalizationNode::on_elevation(const elevation_t& message) {
   if (!prior) return;
   check_for_odometry_jump(*prior);
   if (core_) core_->add_elevation(view_from(message), prior->p_odom_body);
-  if (schedule_.due(pose_.travelled_m)) attempt_correction(*prior, message.header.utime);
+  if (schedule_.due(pose_.travelled_m, is_lost(config_.core.search, *prior)))
+    attempt_correction(*prior, message.header.utime);
 }
 
 std::string GlobalLocalizationNode::rejection_reason(const elevation_t& message) const {

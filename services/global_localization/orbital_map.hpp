@@ -25,8 +25,9 @@ class OrbitalMap {
 
   // Of the whole map.
   const Lattice& lattice() const { return lattice_; }
-  // The cells within the square about the centre; those outside of the map are left out.
-  HeightGrid around(const Eigen::Vector2d& center, double half_width_m) const;
+  // The cells within the square about the centre, in blocks of n x n with their mean height and weight; those outside
+  // of the map are left out.
+  HeightGrid around(const Eigen::Vector2d& center, double half_width_m, int n = 1) const;
 
  private:
   Lattice lattice_;

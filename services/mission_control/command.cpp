@@ -29,6 +29,7 @@ constexpr std::array kForms = {Form{"go", CommandKind::kGo, nullptr},
                                Form{"clear_safe", CommandKind::kClearSafe, nullptr},
                                Form{"force_level", CommandKind::kForceLevel, "level"},
                                Form{"clear_fault", CommandKind::kClearFault, "fault"},
+                               Form{"locate", CommandKind::kLocate, "within_m"},
                                Form{"path", CommandKind::kPath, "points"},
                                Form{"zones", CommandKind::kZones, "zones"},
                                Form{"kill", CommandKind::kKill, "service"},
@@ -102,12 +103,24 @@ std::string read_zones(const json& value, Command& command) {
   return zones_problem(command.zones);
 }
 
+std::string whole(double value) {
+  return std::to_string(std::lround(value));
+}
+
+std::string read_within(const json& value, const CommandLimits& limits, Command& command) {
+  if (value.is_number()) command.within_m = value.get<double>();
+  return command.within_m > 0.0 && command.within_m <= limits.max_within_m
+             ? ""
+             : "within_m: a number of metres above 0, up to " + whole(limits.max_within_m) + ", is required";
+}
+
 std::string read_argument(const Form& form, const json& request, const CommandLimits& limits, Command& command) {
   if (form.argument == nullptr) return "";
   const auto value = request.find(form.argument);
   if (value == request.end()) return std::string(form.argument) + " is missing";
   if (form.kind == CommandKind::kPath) return read_path(request, limits, command);
   if (form.kind == CommandKind::kZones) return read_zones(*value, command);
+  if (form.kind == CommandKind::kLocate) return read_within(*value, limits, command);
   if (form.kind == CommandKind::kForceLevel) {
     const auto level = level_from(*value);
     if (!level) return "level: must be efficient, full or auto";
@@ -170,6 +183,7 @@ std::string description(const Command& command) {
   if (command.kind == CommandKind::kForceLevel) text += std::string(" ") + name(command.level);
   if (command.kind == CommandKind::kPath) text += " with " + std::to_string(command.points.size()) + " waypoints";
   if (command.kind == CommandKind::kZones) text += " (" + std::to_string(command.zones.size()) + ")";
+  if (command.kind == CommandKind::kLocate) text += " within " + whole(command.within_m) + " m";
   return command.target.empty() ? text : text + " " + command.target;
 }
 

@@ -19,6 +19,7 @@ enum class CommandKind {
   kClearSafe,
   kForceLevel,
   kClearFault,
+  kLocate,
   kPath,
   kZones,
   kKill,
@@ -33,11 +34,13 @@ struct Command {
   std::string target;                   // kClearFault: the fault's id; kKill, kHang: the service
   std::vector<Eigen::Vector2d> points;  // kPath: waypoints in map coordinates [m]
   std::vector<Zone> zones;              // kZones: in place of all before
+  double within_m = 0.0;                // kLocate: of the estimated position
 };
 
 struct CommandLimits {
   size_t max_points = 500;
   double max_coordinate_m = 1e6;
+  double max_within_m = 1000.0;
 };
 
 struct ParsedCommand {

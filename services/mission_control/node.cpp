@@ -303,6 +303,7 @@ void MissionControlNode::send(const mission::CommandQueue::Pending& waiting) {
   if (mission::stops(command.kind) || command.kind == CommandKind::kPath) sequence_.cancel();
   if (command.kind == CommandKind::kPath) return publish_path(id, path_of(command, current_path().zones, path_config_));
   if (command.kind == CommandKind::kZones) return send_zones(id, command.zones);
+  if (command.kind == CommandKind::kLocate) return locate(id, command.within_m);
   ground_command_t message = command_message(kind_of(command.kind), id);
   message.level = level_of(command.level);
   message.target = command.target;
@@ -318,6 +319,23 @@ void MissionControlNode::publish_start_pose(std::int64_t command_id) {
   message.sigma_m = plan_.start.sigma_m;
   message.sigma_yaw_rad = plan_.start.sigma_yaw_rad;
   message.clear_radius_m = plan_.start.clear_radius_m;
+  publish(message);
+}
+
+// The start pose again, as uncertain as the operator says: global_localization then searches for the rover there.
+void MissionControlNode::locate(std::int64_t command_id, double within_m) {
+  constexpr double kSigmas = 3.0;  // of the search window
+  const auto refuse = [&](const char* why) { shared_->commands.acknowledge(command_id, false, why); };
+  if (!p_map_body_) return refuse("the rover has no position yet");
+  if (!state_ || state_->level != supervisor_state_t::FULL) return refuse("only the Full level maps the ground");
+  if (state_->state == supervisor_state_t::DRIVING) return refuse("the rover drives; pause it first");
+  const Eigen::Isometry3d T_map_body = pose_from(pose_.position_map_odom_m, pose_.quat_map_odom_wxyz) *
+                                       pose_from(pose_.position_odom_body_m, pose_.quat_odom_body_wxyz);
+  ground_command_t message = command_message(ground_command_t::SET_START_POSE, command_id);
+  Eigen::Map<Eigen::Vector3d>(message.position_map_m) = T_map_body.translation();
+  message.yaw_rad = rpy_of(T_map_body.rotation()).z();
+  message.sigma_m = within_m / kSigmas;
+  message.sigma_yaw_rad = std::sqrt(pose_.covariance[35]);
   publish(message);
 }
 

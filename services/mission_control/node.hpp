@@ -49,6 +49,7 @@ class MissionControlNode {
   void send(const MissionSequence::Issued& issued);
   void send(const mission::CommandQueue::Pending& waiting);
   void publish_start_pose(std::int64_t command_id);
+  void locate(std::int64_t command_id, double within_m);
   GlobalPath current_path() const;
   void send_zones(std::int64_t command_id, const std::vector<Zone>& zones);
   void publish_path(std::int64_t command_id, const GlobalPath& path);

@@ -66,6 +66,30 @@ TEST(GlobalLocalization, CorrectsOffsetsInAllDirections) {
   }
 }
 
+// The window is wider than max_cells: searched in blocks of 2 x 2 to 4 x 4 cells first.
+TEST(GlobalLocalization, FindsALostRoverCoarseToFine) {
+  for (int max_cells : {70, 100, 130}) {
+    GlobalConfig config = config_for_test();
+    config.search.max_cells = max_cells;
+    GlobalLocalization core(config, orbital_of(hills, 0.5, 0.05), kCellM);
+    for (double back : {16.0, 8.0, 0.0}) {
+      const Eigen::Vector2d p = kPlace - Eigen::Vector2d(back, 0.0);
+      core.add_elevation(view_of(hills, kTruth, p), p);
+    }
+    for (const auto& [x, y, turn] : {std::array{40.0, 20.0, 8.0}, std::array{-35.0, 30.0, -9.0}}) {
+      Prior lost = prior({x, y}, turn);
+      EXPECT_FALSE(is_lost(config.search, lost));
+      lost.cov(0, 0) = lost.cov(1, 1) = 400.0;
+      EXPECT_TRUE(is_lost(config.search, lost));
+      const Correction c = core.correct(lost);
+      ASSERT_TRUE(c.accepted) << c.reason << " " << max_cells;
+      EXPECT_LT(error_m(c), 0.2);
+      EXPECT_LT(error_deg(c), 0.3);
+      EXPECT_EQ(c.similar_places, 1);
+    }
+  }
+}
+
 TEST(GlobalLocalization, ErrorFromMapNoiseIsWithinCovariance) {
   for (double cell_m : {0.5, 1.0}) {
     const Correction c = driven(hills, cell_m, all_seen, 0.1).correct(prior({4.0, -5.0}, 6.0));
@@ -142,7 +166,8 @@ TEST(GlobalLocalization, RejectsAmbiguousPeriodicTerrain) {
   const auto dunes = [](double x, double y) { return 0.6 * std::sin(x * 2 * kPi / 9.0) * std::cos(y * 2 * kPi / 9.0); };
   const Correction c = driven(dunes, 0.5, all_seen, 0.1).correct(prior({2.0, 1.0}, 1.0));
   EXPECT_FALSE(c.accepted);
-  EXPECT_EQ(c.reason, "ambiguous: second-best match is almost as good");
+  EXPECT_EQ(c.reason, "ambiguous: other places are almost as similar");
+  EXPECT_GE(c.similar_places, 2);
 }
 
 TEST(GlobalLocalization, RejectsTruePoseOutsideSearchWindow) {

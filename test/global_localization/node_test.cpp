@@ -137,6 +137,21 @@ TEST_F(GlobalLocalizationNodeTest, CorrectsAfterFirstDistanceAndAgainAfterInterv
   EXPECT_EQ(corrections_.size(), 2u);
 }
 
+// By a start pose of the operator with a large sigma_m; the rover stands.
+TEST_F(GlobalLocalizationNodeTest, ALostRoverIsSearchedForAtOnce) {
+  write_map();
+  start();
+  drive(16.0);
+  ASSERT_EQ(corrections_.size(), 1u);
+  pose_t lost = pose();
+  Matrix6d cov = Matrix6d::Zero();
+  cov.diagonal() << 400.0, 400.0, 0.1, 0.001, 0.001, 0.002;
+  matrix6_to(cov, lost.covariance);
+  for (int k = 0; k < 3; ++k) publish_inputs(lost, elevation());
+  ASSERT_EQ(corrections_.size(), 2u);
+  EXPECT_EQ(corrections_[1].accepted, 1) << corrections_[1].reason;
+}
+
 TEST_F(GlobalLocalizationNodeTest, IsIdleAtLevelEfficient) {
   write_map();
   start(supervisor_state_t::EFFICIENT);

@@ -482,6 +482,28 @@ TEST(Localization, CorrectionOutsideGateIsAcceptedWithInflatedCovariance) {
   EXPECT_LT(std::sqrt(after.cov(0, 0)), 0.4);
 }
 
+// A start pose that is off by much and says so: mission_control's locate, and global_localization's fix.
+TEST(Localization, ALostRoverTakesAFixFromFarOff) {
+  SyntheticDrive drive({}, 17);
+  drive.command = arc;
+  drive.align_and_start(0.1, 0.005);
+  drive.run(20.0);
+  const PoseEstimate before = drive.localization.pose();
+  const Eigen::Isometry3d T_map_body = before.T_map_odom * before.T_odom_body;
+  EXPECT_EQ(drive.localization.set_start_pose(
+                {T_map_body.translation(), rpy_of(T_map_body.linear()).z(), 500.0 / 3.0, to_rad(3.0)}),
+            "");
+  drive.run(1.0);
+  const PoseEstimate lost = drive.localization.pose();
+  EXPECT_NEAR(std::sqrt(lost.cov(0, 0)), 500.0 / 3.0, 1.0);
+  EXPECT_EQ(drive.localization.apply_correction(offset_measurement(lost, 300.0, 0.05, 0.3)), "");
+  drive.run(0.02);
+  const PoseEstimate found = drive.localization.pose();
+  EXPECT_NEAR(std::abs(found.T_map_odom.translation().x() - lost.T_map_odom.translation().x()), 300.0, 1.0);
+  EXPECT_LT(std::sqrt(found.cov(0, 0)), 0.5);
+  EXPECT_LT((found.T_odom_body.translation() - lost.T_odom_body.translation()).norm(), 0.02);
+}
+
 // SLAM moves map by 0.3 m against odom within 5 s.
 double map_moved_by_slam(bool visual) {
   LocalizationConfig config;

@@ -42,6 +42,10 @@ TEST(Command, ParsesArguments) {
   const auto kill = parse_command(R"({"command":"kill","service":"stereo"})", kLimits);
   ASSERT_TRUE(kill.command);
   EXPECT_EQ(kill.command->target, "stereo");
+  const auto locate = parse_command(R"({"command":"locate","within_m":500})", kLimits);
+  ASSERT_TRUE(locate.command);
+  EXPECT_EQ(locate.command->within_m, 500.0);
+  EXPECT_EQ(description(*locate.command), "locate within 500 m");
   const auto path = parse_command(R"({"command":"path","points":[[1,2],[3.5,-4]],"level":"full"})", kLimits);
   ASSERT_TRUE(path.command);
   ASSERT_EQ(path.command->points.size(), 2U);
@@ -70,6 +74,11 @@ TEST(Command, RefusesInvalidCommandsWithReason) {
                                         R"({"command":"kill","service":"a;reboot"})",
                                         R"({"command":"kill"})",
                                         R"({"command":"hang","service":["stereo"]})",
+                                        R"({"command":"locate"})",
+                                        R"({"command":"locate","within_m":"500"})",
+                                        R"({"command":"locate","within_m":0})",
+                                        R"({"command":"locate","within_m":-5})",
+                                        R"({"command":"locate","within_m":1e9})",
                                         R"({"command":"path"})",
                                         R"({"command":"path","points":[]})",
                                         R"({"command":"path","points":[[1,2]]})",

@@ -58,9 +58,11 @@ class MissionControlTest : public testing::Test {
     tick(2);
   }
 
-  void say_state(std::int8_t state, const std::string& cause = "go") {
+  void say_state(std::int8_t state, const std::string& cause = "go",
+                 std::int8_t level = supervisor_state_t::EFFICIENT) {
     supervisor_state_t message{};
     message.state = state;
+    message.level = level;
     message.cause = cause;
     world_.send(channel::kState, message, "supervisor");
     tick(2);
@@ -90,6 +92,16 @@ class MissionControlTest : public testing::Test {
     if (answer) acknowledge(id, *answer, reason);
     page.join();
     return result;
+  }
+
+  // Of mission_control itself: nothing is sent whose arrival could be awaited.
+  std::string refusal(const Command& command) {
+    auto page = std::async(std::launch::async,
+                           [&] { return shared_->commands.submit(command, std::chrono::milliseconds(20'000)); });
+    while (page.wait_for(std::chrono::milliseconds(1)) != std::future_status::ready) tick();
+    const CommandReply reply = page.get();
+    EXPECT_EQ(reply.outcome, CommandReply::Outcome::kRefused);
+    return reply.reason;
   }
 
   bool noted(const std::string& text) {
@@ -215,13 +227,7 @@ TEST_F(MissionControlTest, ZonesComeWithThePathUnderWayAndWithLaterOnes) {
 TEST_F(MissionControlTest, ZonesNeedAPathAndAreNotLostBeforeTheirAcknowledgement) {
   tick(2);
   const size_t before = paths_->size();
-  // Refused by mission_control itself, so nothing is sent whose arrival could be awaited.
-  auto page = std::async(std::launch::async,
-                         [&] { return shared_->commands.submit(zones({}), std::chrono::milliseconds(20'000)); });
-  while (page.wait_for(std::chrono::milliseconds(1)) != std::future_status::ready) tick();
-  const CommandReply reply = page.get();
-  EXPECT_EQ(reply.outcome, CommandReply::Outcome::kRefused);
-  EXPECT_EQ(reply.reason, "the rover has no path yet");
+  EXPECT_EQ(refusal(zones({})), "the rover has no path yet");
   EXPECT_EQ(paths_->size(), before);
   finish_plan();
   operate(zones({{"dune", false, {{22.0, 21.0}, {24.0, 21.0}, {24.0, 23.0}}}}), std::nullopt);
@@ -243,6 +249,32 @@ TEST_F(MissionControlTest, AZoneOverTheStartLeavesTheRestOfThePath) {
   operate(zones({{"start", false, {{19.0, 19.0}, {21.0, 19.0}, {21.0, 21.0}, {19.0, 21.0}}}}), true);
   EXPECT_EQ(paths_->back().x_m, (std::vector<double>{23.0, 25.0}));
   EXPECT_EQ(paths_->back().y_m, (std::vector<double>{20.1, 20.0}));
+}
+
+TEST_F(MissionControlTest, ALostRoverIsSearchedForAboutItsEstimatedPosition) {
+  Command command;
+  command.kind = CommandKind::kLocate;
+  command.within_m = 300.0;
+  finish_plan();
+  EXPECT_EQ(refusal(command), "the rover has no position yet");
+  pose_t pose{};
+  pose_to(from_planar({3.0, 4.0, 0.5}), pose.position_odom_body_m, pose.quat_odom_body_wxyz);
+  pose_to(from_planar({100.0, 50.0, 0.0}), pose.position_map_odom_m, pose.quat_map_odom_wxyz);
+  pose.covariance[35] = 0.01;
+  world_.send(channel::kPose, pose, "localization");
+  EXPECT_EQ(refusal(command), "only the Full level maps the ground");
+  say_state(supervisor_state_t::DRIVING, "go", supervisor_state_t::FULL);
+  EXPECT_EQ(refusal(command), "the rover drives; pause it first");
+  say_state(supervisor_state_t::PAUSED, "pause", supervisor_state_t::FULL);
+  EXPECT_EQ(operate(command, true).outcome, CommandReply::Outcome::kAccepted);
+  const ground_command_t& sent = commands_->back();
+  EXPECT_EQ(sent.kind, +ground_command_t::SET_START_POSE);
+  EXPECT_DOUBLE_EQ(sent.position_map_m[0], 103.0);
+  EXPECT_DOUBLE_EQ(sent.position_map_m[1], 54.0);
+  EXPECT_NEAR(sent.yaw_rad, 0.5, 1e-12);
+  EXPECT_DOUBLE_EQ(sent.sigma_m, 100.0);
+  EXPECT_DOUBLE_EQ(sent.sigma_yaw_rad, 0.1);
+  EXPECT_EQ(sent.clear_radius_m, 0.0);
 }
 
 // The plan's GO must not follow a stop.

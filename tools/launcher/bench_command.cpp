@@ -42,7 +42,7 @@ const Suite& find_suite(const std::string& name) {
     if (suite.name == name) return suite;
   throw ConfigError(
       "bench: no suite '" + name +
-      "'; known suites: default, seed, full, cost, perception, slam, correction, speed, budget, micro, faults, "
+      "'; known suites: default, seed, full, cost, perception, slam, correction, large_map, speed, budget, micro, faults, "
       "restarts, page, data, wild, fuzz");
 }
 

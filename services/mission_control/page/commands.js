@@ -1,7 +1,7 @@
 // Sends the operator's commands and shows the replies.
 const byId = (id) => document.getElementById(id);
 const words = (name) => name.replaceAll("_", " ");
-const describe = (c) => [words(c.command), c.level && c.command === "force_level" ? c.level : "", c.service || c.fault || ""].filter(Boolean).join(" ");
+const describe = (c) => [words(c.command), c.level && c.command === "force_level" ? c.level : "", c.service || c.fault || (c.within_m ? `within ${c.within_m} m` : "")].filter(Boolean).join(" ");
 
 async function post(url, body) {
   const response = await fetch(url, { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(body) });
@@ -73,6 +73,8 @@ export function createCommands(setup, map, charts) {
   byId("levels").addEventListener("click", ({ target }) => {
     if (target.dataset.level) send({ command: "force_level", level: target.dataset.level });
   });
+
+  byId("locate").onclick = () => send({ command: "locate", within_m: 500 });
 
   // Path drawing.
   const tools = { draw: byId("draw"), load: byId("load"), undo: byId("undo"), send: byId("send"), cancel: byId("cancel") };
@@ -189,6 +191,7 @@ export function createCommands(setup, map, charts) {
     showZones,
     show(view) {
       byId("clear-safe").hidden = view.state.name !== "SAFE";
+      byId("locate").hidden = view.state.level !== "FULL" || view.state.name === "DRIVING";
       const forced = (view.book.forced || "auto").toLowerCase();
       for (const button of byId("levels").children) button.classList.toggle("on", button.dataset.level === forced);
     },
