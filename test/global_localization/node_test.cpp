@@ -137,7 +137,7 @@ TEST_F(GlobalLocalizationNodeTest, CorrectsAfterFirstDistanceAndAgainAfterInterv
   EXPECT_EQ(corrections_.size(), 2u);
 }
 
-// By a start pose of the operator with a large sigma_m; the rover stands.
+// By a start pose of the operator with a large sigma_m, while stationary.
 TEST_F(GlobalLocalizationNodeTest, ALostRoverIsSearchedForAtOnce) {
   write_map();
   start();
