@@ -1,5 +1,4 @@
-// Schedules correction attempts by distance driven: after the first map, after a fix, sooner after a rejection, at once
-// when the rover gets lost.
+// Schedules correction attempts by distance driven: after the first map, after a fix, sooner after a rejection.
 #pragma once
 
 namespace rover::global {
@@ -14,14 +13,12 @@ class AttemptSchedule {
  public:
   explicit AttemptSchedule(const ScheduleConfig& config) : config_(config) {}
 
-  // `travelled_m`: total distance driven. `lost`: the pose is less certain than the usual search window.
-  bool due(double travelled_m, bool lost) {
+  // `travelled_m`: total distance driven.
+  bool due(double travelled_m) {
     if (!started_) {
       started_ = true;
       next_m_ = travelled_m + config_.first_interval_m;
     }
-    if (lost && !lost_) next_m_ = travelled_m;
-    lost_ = lost;
     return travelled_m >= next_m_;
   }
   void record_attempt(double travelled_m, bool accepted) {
@@ -33,7 +30,6 @@ class AttemptSchedule {
  private:
   ScheduleConfig config_;
   bool started_ = false;
-  bool lost_ = false;
   double next_m_ = 0.0;
 };
 

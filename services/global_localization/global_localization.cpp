@@ -46,8 +46,8 @@ SearchWindow search_window(const SearchConfig& config, const Prior& prior, const
   return window;
 }
 
-bool at_border(const SearchWindow& window, const CandidatePose& found) {
-  const Eigen::Array2d off = (found.center_map - window.prior.center_map).array().abs();
+bool at_border(const SearchWindow& window, const CandidatePose& found, const Eigen::Matrix2d& located) {
+  const Eigen::Array2d off = (located * (found.center_map - window.prior.center_map)).array().abs();
   return off.maxCoeff() >= window.half_width_m ||
          std::abs(found.yaw_rad - window.prior.yaw_rad) >= window.half_width_rad;
 }
@@ -72,9 +72,9 @@ void sort_by_residual(std::vector<Match>& matches) {
                    [](const Match& a, const Match& b) { return a.fit.residual_m < b.fit.residual_m; });
 }
 
-void remove_duplicates_of_best(std::vector<Match>& matches, double distance_m) {
+void remove_duplicates_of_best(std::vector<Match>& matches, const Eigen::Matrix2d& located, double distance_m) {
   const auto same = [&](const Match& other) {
-    return (other.pose.center_map - matches.front().pose.center_map).norm() < distance_m;
+    return (located * (other.pose.center_map - matches.front().pose.center_map)).norm() < distance_m;
   };
   if (!matches.empty()) matches.erase(std::remove_if(matches.begin() + 1, matches.end(), same), matches.end());
 }
@@ -106,9 +106,29 @@ Eigen::Matrix3d covariance_at_body(const Eigen::Matrix3d& cov, const Eigen::Vect
   return J * cov * J.transpose();
 }
 
-double largest_sigma(const Eigen::Matrix3d& cov) {
+// Principal axes of the position, the most certain first.
+Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> principal_axes(const Eigen::Matrix3d& cov) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(cov.topLeftCorner<2, 2>());
+}
+
+// Of the position, along the axes that `located` projects on.
+double largest_sigma(const Eigen::Matrix3d& cov, const Eigen::Matrix2d& located = Eigen::Matrix2d::Identity()) {
   if (!cov.allFinite()) return kNaN;
-  return std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(cov.topLeftCorner<2, 2>()).eigenvalues()(1));
+  const Eigen::Matrix2d position = located * cov.topLeftCorner<2, 2>() * located;
+  return std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(position).eigenvalues()(1));
+}
+
+// A fix along one axis: nothing is known across it and of yaw, so the prior's are kept.
+void restrict_to_axis(const Eigen::Matrix2d& located, const Prior& prior, const SearchWindow& window, Correction& out) {
+  const Eigen::Vector2d p_prior = transformed(prior.T_map_odom, prior.p_odom_body);
+  const Eigen::Vector2d p = p_prior + located * (transformed(out.T_map_odom, prior.p_odom_body) - p_prior);
+  const double yaw_rad = prior.T_map_odom.yaw_rad;
+  const Eigen::Vector2d t = p - Eigen::Rotation2Dd(yaw_rad) * prior.p_odom_body;
+  out.T_map_odom = {t.x(), t.y(), yaw_rad};
+  const Eigen::Matrix2d position = out.cov.topLeftCorner<2, 2>(), across = Eigen::Matrix2d::Identity() - located;
+  out.cov.setZero();
+  out.cov.topLeftCorner<2, 2>() = located * position * located + window.half_width_m * window.half_width_m * across;
+  out.cov(2, 2) = window.half_width_rad * window.half_width_rad;
 }
 
 // Squared Mahalanobis distance of the correction under prior plus match covariance (NIS).
@@ -146,14 +166,17 @@ Correction GlobalLocalization::correct(const Prior& prior) const {
   out.area_m2 = terrain.area_m2();
   const Eigen::Matrix3d expected =
       covariance_at_body(noise_density() * expected_covariance(terrain), prior.p_odom_body - terrain.center_odom);
+  const auto principal = principal_axes(expected);
   out.expected_sigma_m = largest_sigma(expected);
   out.expected_sigma_rad = std::sqrt(expected(2, 2));
+  const double limit_m = config_.acceptance.max_expected_sigma_cells * orbital_.lattice().cell_m;
+  out.axes = featured(out) ? 2 : principal.eigenvalues()(0) <= limit_m * limit_m ? 1 : 0;
   if (out.area_m2 < config_.acceptance.min_area_m2) {
     out.reason = "local map too small";
-  } else if (!featured(out)) {
+  } else if (out.axes == 0) {
     out.reason = "not enough relief";
   } else {
-    match(prior, terrain, out);
+    match(prior, terrain, principal.eigenvectors().col(0), out);
   }
   out.accepted = out.reason.empty();
   return out;
@@ -220,7 +243,8 @@ GlobalLocalization::Candidates GlobalLocalization::search_coarse_to_fine(const S
   return found;
 }
 
-void GlobalLocalization::match(const Prior& prior, const TerrainTemplate& terrain, Correction& out) const {
+void GlobalLocalization::match(const Prior& prior, const TerrainTemplate& terrain, const Eigen::Vector2d& axis_odom,
+                               Correction& out) const {
   const AcceptanceConfig& limits = config_.acceptance;
   const SearchWindow window = search_window(config_.search, prior, terrain);
   const double cells = 2.0 * window.half_width_m / orbital_.lattice().cell_m;
@@ -231,7 +255,10 @@ void GlobalLocalization::match(const Prior& prior, const TerrainTemplate& terrai
     return;
   }
   refine_adjacent_yaws(orbital, terrain, min_compared(terrain, window.min_overlap), config_, matches.front());
-  remove_duplicates_of_best(matches, 0.5 * config_.search.min_peak_distance_m);
+  const Eigen::Vector2d axis = Eigen::Rotation2Dd(matches.front().pose.yaw_rad) * axis_odom;
+  const Eigen::Matrix2d located =
+      out.axes == 2 ? Eigen::Matrix2d::Identity() : Eigen::Matrix2d(axis * axis.transpose());
+  remove_duplicates_of_best(matches, located, 0.5 * config_.search.min_peak_distance_m);
   const Match& best = matches.front();
   out.T_map_odom = transform_of(best.pose, terrain.center_odom);
   out.score = best.fit.correlation;
@@ -244,22 +271,26 @@ void GlobalLocalization::match(const Prior& prior, const TerrainTemplate& terrai
     return limits.max_residual_ratio * other.fit.residual_m < best.fit.residual_m;
   }));
   const double sigma_m = config_.filter.sigma_cells * orbital_.lattice().cell_m;
-  const Eigen::Matrix3d cov = covariance_at_minimum(orbital, terrain, best, independent_samples(terrain, sigma_m));
-  out.sigma_m = largest_sigma(cov);
+  const Eigen::Matrix3d cov =
+      covariance_at_minimum(orbital, terrain, best, independent_samples(terrain, sigma_m), window.half_width_m);
+  out.sigma_m = largest_sigma(cov, located);
   const double rotation = config_.map_sigma_rad, shift = config_.map_sigma_m;
   // Map rotation about the matched terrain displaces the body by the lever arm.
   const Eigen::Matrix3d distortion = Eigen::Vector3d(shift * shift, shift * shift, rotation * rotation).asDiagonal();
   out.cov = covariance_at_body(cov + distortion, transformed(out.T_map_odom, prior.p_odom_body) - best.pose.center_map);
+  const double body_sigma_m = largest_sigma(out.cov, located);
+  const bool yaw_certain = out.axes == 1 || cov(2, 2) <= limits.max_sigma_rad * limits.max_sigma_rad;
+  if (out.axes == 1) restrict_to_axis(located, prior, window, out);
 
   if (out.score < limits.min_score || out.residual_m > limits.max_residual_m) {
     out.reason = "best match not similar enough";
   } else if (out.similar_places > 1) {
     out.reason = "ambiguous: other places are almost as similar";
-  } else if (at_border(window, best.pose)) {
+  } else if (at_border(window, best.pose, located)) {
     out.reason = "best match at the border of the search window";
-  } else if (!(out.sigma_m <= limits.max_sigma_m && cov(2, 2) <= limits.max_sigma_rad * limits.max_sigma_rad)) {
+  } else if (!(out.sigma_m <= limits.max_sigma_m && yaw_certain)) {
     out.reason = "match too uncertain";
-  } else if (!(largest_sigma(out.cov) <= limits.max_body_sigma_m)) {
+  } else if (!(body_sigma_m <= limits.max_body_sigma_m)) {
     out.reason = "too far from the matched terrain";
   } else if (normalised_innovation_squared(config_.search, prior, out) > limits.gate_chi2) {
     out.reason = "innovation larger than the pose's covariance allows";

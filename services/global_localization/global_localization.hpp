@@ -29,7 +29,8 @@ struct SearchConfig {
 
 struct AcceptanceConfig {
   double min_area_m2 = 100.0;  // observed
-  // Expected accuracy of a match, from the relief and the map's noise; terrain within it is "featured".
+  // Expected accuracy of a match, from the relief and the map's noise; terrain within it is "featured". Within
+  // max_expected_sigma_cells along one axis only, as beside a ridge, a match gives a fix along that axis.
   double max_expected_sigma_cells = 0.2;
   double max_expected_sigma_rad = to_rad(0.25);
   double min_score = 0.5;           // correlation of the gradients
@@ -69,8 +70,9 @@ bool is_lost(const SearchConfig& config, const Prior& prior);
 
 struct Correction {
   bool accepted = false;
-  std::string_view reason = {};  // why the match was rejected; empty if accepted
-  Pose2 T_map_odom{kNaN, kNaN, kNaN};
+  std::string_view reason = {};        // why the match was rejected; empty if accepted
+  int axes = 0;                        // along which the relief locates the rover: 2 (and yaw), 1 or 0
+  Pose2 T_map_odom{kNaN, kNaN, kNaN};  // with one axis: the prior's across it, and its yaw
   Eigen::Matrix3d cov = Eigen::Matrix3d::Constant(kNaN);  // as Prior::cov
   double score = 0.0;                                     // gradient correlation of the best match
   double second_score = 0.0;                              // and of the second best
@@ -102,7 +104,9 @@ class GlobalLocalization {
     OrbitalSection section{PlaneField{}};  // of the orbital map, about the best
   };
 
-  void match(const Prior& prior, const TerrainTemplate& terrain, Correction& out) const;
+  // `axis_odom`: of the largest information, if out.axes is 1.
+  void match(const Prior& prior, const TerrainTemplate& terrain, const Eigen::Vector2d& axis_odom,
+             Correction& out) const;
   double noise_density() const;
   TerrainTemplate template_of(int n) const;
   OrbitalSection orbital_section(const Eigen::Vector2d& center_map, double half_width_m, int n) const;

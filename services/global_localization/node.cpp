@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <rover/correction_t.hpp>
+#include <rover/ground_command_t.hpp>
 
 #include "common/bus/elevation_message.hpp"
 #include "common/geo/elevation_map.hpp"
@@ -19,6 +20,10 @@ GlobalLocalizationNode::GlobalLocalizationNode(Node& node, const NodeConfig& con
     full_ = message.level == supervisor_state_t::FULL;
   });
   node_.subscribe<pose_t>(channel::kPose, [this](const pose_t& message) { pose_ = message; });
+  node_.subscribe<ground_command_t>(channel::kGroundCommand, [this](const ground_command_t& message) {
+    if (message.kind == ground_command_t::SET_START_POSE) start_pose_at_ = message.header.utime;
+  });
+  node_.on_step([this](Utime) { search_if_lost(); });
   node_.subscribe_slow<elevation_t>(channel::kElevation, config.latency_us,
                                     [this](const elevation_t& message) { on_elevation(message); });
 }
@@ -44,8 +49,19 @@ void GlobalLocalizationNode::on_elevation(const elevation_t& message) {
   if (!prior) return;
   check_for_odometry_jump(*prior);
   if (core_) core_->add_elevation(view_from(message), prior->p_odom_body);
-  if (schedule_.due(pose_.travelled_m, is_lost(config_.core.search, *prior)))
-    attempt_correction(*prior, message.header.utime);
+  if (schedule_.due(pose_.travelled_m)) attempt_correction(*prior, message.header.utime);
+}
+
+// A start pose less certain than the usual search window: the rover is searched for at once, also without new maps,
+// because none come while it is stationary.
+void GlobalLocalizationNode::search_if_lost() {
+  if (start_pose_at_ == kNever || !full_ || node_.busy()) return;
+  const std::optional<Prior> prior = fresh_prior();
+  if (!prior || pose_.header.utime <= start_pose_at_) return;
+  start_pose_at_ = kNever;
+  if (!is_lost(config_.core.search, *prior)) return;
+  node_.begin_slow(config_.latency_us);
+  attempt_correction(*prior, pose_.header.utime);
 }
 
 std::string GlobalLocalizationNode::rejection_reason(const elevation_t& message) const {

@@ -24,6 +24,7 @@ class GlobalLocalizationNode {
  private:
   void load_map();
   void on_elevation(const elevation_t& message);
+  void search_if_lost();
   std::string rejection_reason(const elevation_t& message) const;
   std::optional<Prior> fresh_prior() const;
   void check_for_odometry_jump(const Prior& prior);
@@ -36,6 +37,7 @@ class GlobalLocalizationNode {
   AttemptSchedule schedule_;
   pose_t pose_{};
   bool full_ = false;
+  Utime start_pose_at_ = kNever;  // of a start pose that POSE does not contain yet
   Utime last_map_ = kNever;
   std::optional<Eigen::Vector2d> last_position_;  // in odom
   double last_travelled_m_ = 0.0;

@@ -70,14 +70,16 @@ Match refine(const OrbitalSection& orbital, const TerrainTemplate& terrain, cons
 }
 
 Eigen::Matrix3d covariance_at_minimum(const OrbitalSection& orbital, const TerrainTemplate& terrain, const Match& match,
-                                      double independent_samples) {
+                                      double independent_samples, double max_sigma_m) {
   const Objective f = objective_at(orbital, terrain, match.pose, match.fit.compared / 2);
   const double mean_square = std::max(match.fit.residual_m * match.fit.residual_m, 1e-8);
   const Eigen::Matrix3d H = hessian(f, orbital.field().lattice.cell_m);
-  const Eigen::LLT<Eigen::Matrix3d> information(0.5 * independent_samples / mean_square * H);
-  if (!H.allFinite() || information.info() != Eigen::Success) return Eigen::Matrix3d::Constant(kNaN);
+  if (!H.allFinite()) return Eigen::Matrix3d::Constant(kNaN);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(0.5 * independent_samples / mean_square * H);
+  const Eigen::Vector3d variances = axes.eigenvalues().cwiseMax(1.0 / (max_sigma_m * max_sigma_m)).cwiseInverse();
   const Eigen::Vector3d scale(1.0, 1.0, 1.0 / f.radius_m);
-  return scale.asDiagonal() * information.solve(Eigen::Matrix3d::Identity()) * scale.asDiagonal();
+  return scale.asDiagonal() * axes.eigenvectors() * variances.asDiagonal() * axes.eigenvectors().transpose() *
+         scale.asDiagonal();
 }
 
 }  // namespace rover::global

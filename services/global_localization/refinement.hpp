@@ -23,8 +23,9 @@ Match refine(const OrbitalSection& orbital, const TerrainTemplate& terrain, cons
              int min_compared, const RefinementConfig& config);
 
 // Covariance of the template's centre and yaw from the Hessian of the log-likelihood -n/2 log(residual^2) with n
-// independent samples. NaN if the Hessian is not positive definite.
+// independent samples. `max_sigma_m`: of directions without curvature; of yaw, at the template's radius. NaN beside the
+// map's border.
 Eigen::Matrix3d covariance_at_minimum(const OrbitalSection& orbital, const TerrainTemplate& terrain, const Match& match,
-                                      double independent_samples);
+                                      double independent_samples, double max_sigma_m);
 
 }  // namespace rover::global

@@ -66,6 +66,24 @@ TEST(GlobalLocalization, CorrectsOffsetsInAllDirections) {
   }
 }
 
+// Parallel ridges: nothing tells how far the rover is along them, nor must the fix pretend it.
+TEST(GlobalLocalization, RidgesGiveAFixAcrossThem) {
+  const Height ridges = [](double x, double) { return hills(x, 30.5); };
+  const GlobalLocalization core = driven(ridges, 0.5, all_seen, 0.05);
+  for (const auto& [x, y, turn] : {std::array{5.0, 3.0, 1.0}, std::array{-6.5, -4.0, -2.0}}) {
+    const Correction c = core.correct(prior({x, y}, turn));
+    EXPECT_EQ(c.axes, 1);
+    EXPECT_FALSE(core.featured(c));
+    ASSERT_TRUE(c.accepted) << c.reason;
+    const Eigen::Vector2d error = transformed(c.T_map_odom, kPlace) - transformed(kTruth, kPlace);
+    EXPECT_NEAR(error.x(), 0.0, 0.15);
+    EXPECT_NEAR(error.y(), y, 0.3) << "the prior's";
+    EXPECT_DOUBLE_EQ(c.T_map_odom.yaw_rad, prior({x, y}, turn).T_map_odom.yaw_rad);
+    EXPECT_LT(std::sqrt(c.cov(0, 0)), 1.0);
+    EXPECT_GT(std::sqrt(c.cov(1, 1)), 10.0);
+  }
+}
+
 // The window is wider than max_cells: searched in blocks of 2 x 2 to 4 x 4 cells first.
 TEST(GlobalLocalization, FindsALostRoverCoarseToFine) {
   for (int max_cells : {70, 100, 130}) {

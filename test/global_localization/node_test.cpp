@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <rover/correction_t.hpp>
+#include <rover/ground_command_t.hpp>
 
 #include "common/bus/convert.hpp"
 #include "common/geo/elevation_map.hpp"
@@ -143,13 +144,27 @@ TEST_F(GlobalLocalizationNodeTest, ALostRoverIsSearchedForAtOnce) {
   start();
   drive(16.0);
   ASSERT_EQ(corrections_.size(), 1u);
-  pose_t lost = pose();
-  Matrix6d cov = Matrix6d::Zero();
-  cov.diagonal() << 400.0, 400.0, 0.1, 0.001, 0.001, 0.002;
-  matrix6_to(cov, lost.covariance);
-  for (int k = 0; k < 3; ++k) publish_inputs(lost, elevation());
+  const auto say = [&](double sigma_m) {
+    ground_command_t command{};
+    command.kind = ground_command_t::SET_START_POSE;
+    world_->send(channel::kGroundCommand, command, now_);
+    pose_t message = pose();
+    Matrix6d cov = Matrix6d::Zero();
+    cov.diagonal() << sigma_m * sigma_m, sigma_m * sigma_m, 0.1, 0.001, 0.001, 0.002;
+    matrix6_to(cov, message.covariance);
+    for (int k = 0; k < 20; ++k) {
+      now_ += 100'000;
+      world_->send(channel::kPose, message, now_ - kTickUs);
+      world_->tick(now_);
+    }
+  };
+  say(1.0);
+  EXPECT_EQ(corrections_.size(), 1u) << "not lost";
+  say(20.0);
   ASSERT_EQ(corrections_.size(), 2u);
   EXPECT_EQ(corrections_[1].accepted, 1) << corrections_[1].reason;
+  say(20.0);
+  EXPECT_EQ(corrections_.size(), 3u) << "once for each command";
 }
 
 TEST_F(GlobalLocalizationNodeTest, IsIdleAtLevelEfficient) {

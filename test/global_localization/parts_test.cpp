@@ -196,22 +196,17 @@ TEST(Refinement, TiltOfLocalMapDoesNotBiasPosition) {
 
 TEST(AttemptSchedule, AttemptsAreDueByDistanceDriven) {
   AttemptSchedule schedule({10.0, 20.0, 5.0});
-  EXPECT_FALSE(schedule.due(300.0, false));  // the first map, late in a drive
-  EXPECT_FALSE(schedule.due(309.9, false));
-  EXPECT_TRUE(schedule.due(310.0, false));
+  EXPECT_FALSE(schedule.due(300.0));  // the first map, late in a drive
+  EXPECT_FALSE(schedule.due(309.9));
+  EXPECT_TRUE(schedule.due(310.0));
   schedule.record_attempt(310.0, false);
-  EXPECT_FALSE(schedule.due(314.9, false));
-  EXPECT_TRUE(schedule.due(315.0, false));
+  EXPECT_FALSE(schedule.due(314.9));
+  EXPECT_TRUE(schedule.due(315.0));
   schedule.record_attempt(315.0, true);
-  EXPECT_FALSE(schedule.due(334.9, false));
-  EXPECT_TRUE(schedule.due(335.0, false));
+  EXPECT_FALSE(schedule.due(334.9));
+  EXPECT_TRUE(schedule.due(335.0));
   schedule.restart();
-  EXPECT_FALSE(schedule.due(336.0, false));
-  schedule.record_attempt(400.0, true);
-  EXPECT_TRUE(schedule.due(401.0, true));  // lost: at once
-  schedule.record_attempt(401.0, false);
-  EXPECT_FALSE(schedule.due(402.0, true));
-  EXPECT_TRUE(schedule.due(406.0, true));
+  EXPECT_FALSE(schedule.due(336.0));
 }
 
 }  // namespace
