@@ -27,6 +27,9 @@ TABLE=$("$BUILD/test/tools/correction_bench") || STATUS=$?
   echo "the attempts on featured maps are accepted, p95 is at most half a cell and 0.5 deg, and no attempt takes more than 0.3 s;"
   echo "for the others: if no match is accepted. The rows with distortion are harder than required and not evaluated."
   echo
+  echo "*Along one axis*: relief that is sufficient in its strongest direction only gives a fix along that axis, with an error measured"
+  echo "along it. A place outside of the window can be inside along the axis, and is then right."
+  echo
   echo "$TABLE"
 } >$OUT.new
 mv $OUT.new $OUT
