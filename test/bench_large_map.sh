@@ -9,7 +9,10 @@ GALE=config/terrain/gale/gale_hirise_dtm_1m_348x337.tif
 mkdir -p test/results
 cmake --build "$BUILD" --target make_large_map lost_bench >&2
 WORK=$(mktemp -d -t rover-large-map-XXXXXX)
-trap 'rm -rf "$WORK"' EXIT
+BUS='udpm://239.255.76.67:7691?ttl=0&recv_buf_size=4194304'
+"$BUILD/bin/example_driver" --bus "$BUS" >&2 &
+DRIVER=$!
+trap 'kill "$DRIVER"; rm -rf "$WORK"' EXIT
 "$BUILD/test/tools/make_large_map" "$GALE" 3162.5 0.25 "$WORK/map.tif"
 
 # Seconds and MB of a program.
@@ -27,7 +30,7 @@ started() { # NAME MAP
   local dir=$WORK/$1 launcher begin now
   begin=$(date +%s.%N)
   "$BUILD/bin/rover_launcher" drive --ground examples/driver/ground.yaml --map "$2" --headless --level efficient \
-    --out "$dir" --bus 'udpm://239.255.76.67:7691?ttl=0&recv_buf_size=4194304' >&2 &
+    --out "$dir" --bus "$BUS" >&2 &
   launcher=$!
   until [ "$(ls "$dir/services" 2>/dev/null | wc -l)" -gt 10 ] && ! s6-svstat -o pid "$dir"/services/* | grep -q '^-1'; do
     kill -0 "$launcher"
@@ -38,7 +41,7 @@ started() { # NAME MAP
   for service in "$dir"/services/*; do
     awk '/^VmRSS/ { print $2 }' "/proc/$(s6-svstat -o pid "$service")/status"
   done | awk -v from="$begin" -v to="$now" '{ kb += $1 } END { printf "%.1f %.0f\n", to - from, kb / 1024 }'
-  kill -INT "$launcher"
+  kill "$launcher"
   wait "$launcher" || true
 }
 
