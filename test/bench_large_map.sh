@@ -25,22 +25,28 @@ print(f"{time.monotonic() - start:.1f} {resource.getrusage(resource.RUSAGE_CHILD
 sys.exit(status)' "$@"
 }
 
-# Seconds until every service is up, and MB of all of them.
+pid_of() { s6-svstat -o pid "$1" 2>/dev/null || echo -1; }
+
+# Seconds until every service is up, and MB of all of them 3 s later.
 started() { # NAME MAP
-  local dir=$WORK/$1 launcher begin now
+  local dir=$WORK/$1 launcher begin now service pid kb=0
   begin=$(date +%s.%N)
   "$BUILD/bin/rover_launcher" drive --ground examples/driver/ground.yaml --map "$2" --headless --level efficient \
     --out "$dir" --bus "$BUS" >&2 &
   launcher=$!
-  until [ "$(ls "$dir/services" 2>/dev/null | wc -l)" -gt 10 ] && ! s6-svstat -o pid "$dir"/services/* | grep -q '^-1'; do
-    kill -0 "$launcher"
-    sleep 0.05
+  for service in localization path_planner supervisor mission_control; do
+    until [ "$(pid_of "$dir/services/$service")" -gt 0 ]; do
+      kill -0 "$launcher" || return 1
+      sleep 0.05
+    done
   done
   now=$(date +%s.%N)
   sleep 3
   for service in "$dir"/services/*; do
-    awk '/^VmRSS/ { print $2 }' "/proc/$(s6-svstat -o pid "$service")/status"
-  done | awk -v from="$begin" -v to="$now" '{ kb += $1 } END { printf "%.1f %.0f\n", to - from, kb / 1024 }'
+    pid=$(pid_of "$service")
+    [ "$pid" -lt 0 ] || kb=$((kb + $(awk '/^VmRSS/ { print $2 }' "/proc/$pid/status")))
+  done
+  awk -v from="$begin" -v to="$now" -v kb="$kb" 'BEGIN { printf "%.1f %.0f\n", to - from, kb / 1024 }'
   kill "$launcher"
   wait "$launcher" || true
 }

@@ -46,8 +46,8 @@ SearchWindow search_window(const SearchConfig& config, const Prior& prior, const
   return window;
 }
 
-bool at_border(const SearchWindow& window, const CandidatePose& found, const Eigen::Matrix2d& located) {
-  const Eigen::Array2d off = (located * (found.center_map - window.prior.center_map)).array().abs();
+bool at_border(const SearchWindow& window, const CandidatePose& found) {
+  const Eigen::Array2d off = (found.center_map - window.prior.center_map).array().abs();
   return off.maxCoeff() >= window.half_width_m ||
          std::abs(found.yaw_rad - window.prior.yaw_rad) >= window.half_width_rad;
 }
@@ -286,7 +286,7 @@ void GlobalLocalization::match(const Prior& prior, const TerrainTemplate& terrai
     out.reason = "best match not similar enough";
   } else if (out.similar_places > 1) {
     out.reason = "ambiguous: other places are almost as similar";
-  } else if (at_border(window, best.pose, located)) {
+  } else if (at_border(window, best.pose)) {
     out.reason = "best match at the border of the search window";
   } else if (!(out.sigma_m <= limits.max_sigma_m && yaw_certain)) {
     out.reason = "match too uncertain";
