@@ -9,10 +9,6 @@ GALE=config/terrain/gale/gale_hirise_dtm_1m_348x337.tif
 mkdir -p test/results
 cmake --build "$BUILD" --target make_large_map lost_bench >&2
 WORK=$(mktemp -d -t rover-large-map-XXXXXX)
-BUS='udpm://239.255.76.67:7691?ttl=0&recv_buf_size=4194304'
-"$BUILD/bin/example_driver" --bus "$BUS" >&2 &
-DRIVER=$!
-trap 'kill "$DRIVER"; rm -rf "$WORK"' EXIT
 "$BUILD/test/tools/make_large_map" "$GALE" 3162.5 0.25 "$WORK/map.tif"
 
 # Seconds and MB of a program.
@@ -29,10 +25,12 @@ pid_of() { s6-svstat -o pid "$1" 2>/dev/null || echo -1; }
 
 # Seconds until every service is up, and MB of all of them 3 s later.
 started() { # NAME MAP
-  local dir=$WORK/$1 launcher begin now service pid kb=0
+  local dir=$WORK/$1 bus='udpm://239.255.76.67:7691?ttl=0&recv_buf_size=4194304' launcher driver begin now service pid kb=0
+  "$BUILD/bin/example_driver" --bus "$bus" >&2 &
+  driver=$!
   begin=$(date +%s.%N)
   "$BUILD/bin/rover_launcher" drive --ground examples/driver/ground.yaml --map "$2" --headless --level efficient \
-    --out "$dir" --bus "$BUS" >&2 &
+    --out "$dir" --bus "$bus" >&2 &
   launcher=$!
   for service in localization path_planner supervisor mission_control; do
     until [ "$(pid_of "$dir/services/$service")" -gt 0 ]; do
@@ -46,9 +44,9 @@ started() { # NAME MAP
     pid=$(pid_of "$service")
     [ "$pid" -lt 0 ] || kb=$((kb + $(awk '/^VmRSS/ { print $2 }' "/proc/$pid/status")))
   done
+  kill "$launcher" "$driver"
+  wait "$launcher" "$driver" || true
   awk -v from="$begin" -v to="$now" -v kb="$kb" 'BEGIN { printf "%.1f %.0f\n", to - from, kb / 1024 }'
-  kill "$launcher"
-  wait "$launcher" || true
 }
 
 read -r PLAN_S PLAN_MB < <(measured "$BUILD/bin/rover_orbital_planner" "$WORK/map.tif" --start 300,300 --goal 2800,2800 --out "$WORK/plan")

@@ -170,7 +170,9 @@ Correction GlobalLocalization::correct(const Prior& prior) const {
   out.expected_sigma_m = largest_sigma(expected);
   out.expected_sigma_rad = std::sqrt(expected(2, 2));
   const double limit_m = config_.acceptance.max_expected_sigma_cells * orbital_.lattice().cell_m;
-  out.axes = featured(out) ? 2 : principal.eigenvalues()(0) <= limit_m * limit_m ? 1 : 0;
+  // A fix along one axis does not find a lost rover, and in a wide window other ridges are similar.
+  const bool along_one = principal.eigenvalues()(0) <= limit_m * limit_m && !is_lost(config_.search, prior);
+  out.axes = featured(out) ? 2 : along_one ? 1 : 0;
   if (out.area_m2 < config_.acceptance.min_area_m2) {
     out.reason = "local map too small";
   } else if (out.axes == 0) {
