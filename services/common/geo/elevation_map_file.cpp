@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kStripRows = 500;  // read at once
 
-// Errors of a GDAL driver in the words of this file's.
+// Exceptions of GDAL's drivers become DtmError.
 template <class F>
 auto naming_errors(const std::string& file, F&& f) {
   try {
