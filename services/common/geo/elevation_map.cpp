@@ -128,19 +128,11 @@ ElevationMap read(const std::string& file) {
 }  // namespace
 
 ElevationMap read_elevation_map(const std::string& file) {
-  try {
-    return read(file);
-  } catch (const DtmError&) {
-    throw;
-  } catch (const std::bad_alloc&) {
-    throw DtmError(file + ": too large for the memory; cut out a part (gdal_translate -projwin)");
-  } catch (const std::exception& error) {  // of a GDAL driver
-    throw DtmError(file + ": not a readable map (" + error.what() + ")");
-  }
+  return naming_errors(file, [&] { return read(file); });
 }
 
 bool is_large_map(const std::string& file, std::int64_t max_pixels) {
-  return pixels_of(OpenMap(file)) > max_pixels;
+  return naming_errors(file, [&] { return pixels_of(OpenMap(file)) > max_pixels; });
 }
 
 void require_no_voids(const ElevationMap& map, const std::string& file) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <limits>
 
 #include "common/geo/elevation_map.hpp"
@@ -13,18 +12,6 @@ namespace rover {
 namespace {
 
 constexpr int kStripRows = 500;  // read at once
-
-// Exceptions of GDAL's drivers become DtmError.
-template <class F>
-auto naming_errors(const std::string& file, F&& f) {
-  try {
-    return f();
-  } catch (const DtmError&) {
-    throw;
-  } catch (const std::exception& error) {
-    throw DtmError(file + ": not a readable map (" + error.what() + ")");
-  }
-}
 
 // Width and height in blocks of n x n pixels, without heights.
 ElevationRaster in_blocks(ElevationRaster frame, int n) {
