@@ -1,11 +1,25 @@
 #!/usr/bin/env bash
 # What the services compute, and what the bus carries: the second seed traverse at the Efficient level with the services of
 # the Full level on demand, the same at the Full level, and the default scenario at the Full level in real time with a core
-# loaded. Then both levels on slower computers. Writes test/results/budget.md.
-# Called by ./rover bench budget.
+# loaded. Then each saving: the first drive without it; and both levels on slower computers. Writes test/results/budget.md.
+# Called by ./rover bench budget [--before FOLDER]: a built checkout of an older commit, driven too.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
 BUILD=$1
+shift
+before=
+while [ $# -gt 0 ]; do
+  case $1 in
+    --before)
+      [ $# -gt 1 ] || { echo "bench budget: --before needs a value" >&2; exit 2; }
+      before=$(readlink -f "$2")
+      [ -x "$before/build/bin/rover_launcher" ] || { echo "bench budget: --before: $2 is not a built checkout" >&2; exit 2; }
+      shift
+      ;;
+    *) echo "bench budget: '$1' is not an option; known options: --before FOLDER" >&2 && exit 2 ;;
+  esac
+  shift
+done
 OUT=test/results/budget.md
 LOGS=logs/bench/budget
 mkdir -p test/results "$LOGS"
@@ -17,6 +31,15 @@ drive() {
 }
 
 drive efficient seed_traverse_2 --seed 1 --level auto
+always_on=(seed_traverse_2 --seed 1 --level auto --set supervisor.level.linger_s=1e6)
+drive efficient-filtered "${always_on[@]}"
+g++ -shared -fPIC -o "$LOGS/unfiltered_bus.so" test/unfiltered_bus.cpp
+LD_PRELOAD=$PWD/$LOGS/unfiltered_bus.so drive efficient-unfiltered "${always_on[@]}"
+if [ -n "$before" ]; then
+  (cd "$before" && rm -rf "$OLDPWD/$LOGS/efficient-before" &&
+    build/bin/rover_launcher run config/scenarios/seed_traverse_2.yaml --headless --seed 1 --level auto \
+      --out "$OLDPWD/$LOGS/efficient-before")
+fi
 drive full seed_traverse_2 --seed 1 --level full
 yes >/dev/null &
 load=$!
@@ -36,6 +59,22 @@ done
   echo
   jq -rn --slurpfile e "$LOGS/efficient/metrics.json" --slurpfile f "$LOGS/full/metrics.json" \
     --slurpfile t "$LOGS/realtime/metrics.json" -f test/bench_budget.jq
+  echo
+  echo "## Savings"
+  echo
+  echo "The drive at the Efficient level, each row with one saving more. Without simulator and recorder."
+  echo
+  echo "| | CPU s per driven metre |"
+  echo "|---|---|"
+  cost() {  # NAME TEXT
+    jq -r --arg text "$2" '"| \($text) | \((([.services | to_entries[] |
+      select(.key != "recorder" and .key != "rover_simulator").value.cpu_s] | add) / .driven_length_m * 1000 | round) / 1000) |"' \
+      "$LOGS/$1/metrics.json"
+  }
+  [ -z "$before" ] || cost efficient-before "commit $(git -C "$before" describe --always --dirty --abbrev=12)"
+  cost efficient-unfiltered "this commit, every service takes every datagram and runs always"
+  cost efficient-filtered "datagrams that a service does not take are dropped in the kernel"
+  cost efficient "services of the Full level on demand"
   echo
   echo "## Slower computers"
   echo

@@ -27,12 +27,13 @@ const char* to_string(PoseStatus status) {
 
 LocalizationNode::LocalizationNode(Node& node, const LocalizationConfig& config, const Vehicle& vehicle)
     : node_(node), checkpoint_(node), localization_(config, vehicle) {
+  if (!config.camera_only.enabled) subscribe_vehicle();
   subscribe();
   restore();
   node_.on_step([this](Utime now) { on_step(now); });
 }
 
-void LocalizationNode::subscribe() {
+void LocalizationNode::subscribe_vehicle() {
   node_.subscribe<imu_t>(channel::kImu,
                          [this](const imu_t& m) { check(channel::kImu, localization_.add_imu(imu_from(m))); });
   node_.subscribe<wheel_state_t>(channel::kWheelState, [this](const wheel_state_t& m) {
@@ -41,6 +42,9 @@ void LocalizationNode::subscribe() {
   node_.subscribe<wheel_command_t>(channel::kWheelCommand, [this](const wheel_command_t& m) {
     check(channel::kWheelCommand, localization_.add_wheel_command(wheel_command_from(m)));
   });
+}
+
+void LocalizationNode::subscribe() {
   node_.subscribe<vo_motion_t>(channel::kVo, [this](const vo_motion_t& m) {
     check(channel::kVo, localization_.add_visual_motion(visual_from(m)));
   });

@@ -17,6 +17,7 @@ class LocalizationNode {
   LocalizationNode(Node& node, const LocalizationConfig& config, const Vehicle& vehicle);
 
  private:
+  void subscribe_vehicle();  // IMU and wheels
   void subscribe();
   void on_ground_command(const ground_command_t& command);
   void on_step(Utime now);

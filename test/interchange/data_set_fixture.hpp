@@ -55,6 +55,11 @@ class ImportTest : public testing::Test {
                "#timestamp [ns],filename\r\n1000000000,a.png\r\n1020000000,x.png\r\n1050000000,b.png\r\n");
     for (const char* camera : {"cam0", "cam1"})
       for (const char* name : {"a.png", "b.png"}) write_picture(data_ / "mav0" / camera / "data" / name, 50);
+    write_text(data_ / "mav0/imu0/sensor.yaml", "T_BS:\n  data: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]\n");
+    // Turns about the optical axis, against which gravity pulls.
+    write_text(data_ / "mav0/imu0/data.csv",
+               "#timestamp [ns],w,w,w,a,a,a\n985000000,0,0,0.1,0,0,9.8\n995000000,0,0,0.3,0,0,9.8\n"
+               "1015000000,0,0,0.4,0,0,9.8\n");
     write_text(data_ / "mav0/state_groundtruth_estimate0/data.csv",
                "#timestamp, p, q\n1000000000,1,2,3,0.92387953,0,0.38268343,0\n"
                "1045000000,1,2,4,0.92387953,0,0.38268343,0\n1055000000,1,2,6,0.92387953,0,0.38268343,0\n");

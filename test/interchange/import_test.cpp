@@ -3,6 +3,7 @@
 #include <cmath>
 #include <rover/ground_command_t.hpp>
 #include <rover/image_t.hpp>
+#include <rover/imu_t.hpp>
 #include <rover/tick_t.hpp>
 #include <rover/truth_t.hpp>
 
@@ -53,6 +54,40 @@ TEST_F(ImportTest, EurocPairsHaveEqualTimeAndInterpolatedTruth) {
   EXPECT_TRUE(set.pairs[0].T_map_body->linear().col(2).isApprox(Vector3d(0.0, 0.0, 1.0), 1e-9));
   const Eigen::Isometry3d T_map_left = *set.pairs[0].T_map_body * set.rig.T_body_left;
   EXPECT_TRUE(T_map_left.linear().col(2).isApprox(Vector3d(std::sqrt(0.5), 0.0, std::sqrt(0.5)), 1e-6));
+}
+
+// The camera looks along x of the body, before the body is level; level is what the truth says, 45 deg lower.
+TEST_F(ImportTest, EurocImuIsInBodyAxesAndOnePerTick) {
+  make_euroc();
+  std::ofstream(data_ / "mav0/imu0/data.csv", std::ios::app) << "1025000000,0,0,nan,0,0,9.8\n";
+  const StereoDataSet set = read_stereo_data_set(data_.string(), "", 10.0);
+  ASSERT_EQ(set.imu.size(), 3U);
+  EXPECT_EQ(set.skipped.at("IMU readings that are not a number"), 1);
+  EXPECT_EQ(set.imu[0].since_first, -15'000);
+  const Vector3d optical_axis = set.rig.T_body_left.linear().col(2);
+  EXPECT_TRUE(set.imu[0].rate_radps.isApprox(0.1 * optical_axis, 1e-9));
+  EXPECT_TRUE(set.imu[0].force_mps2.isApprox(9.8 * optical_axis, 1e-9));
+  EXPECT_NEAR(optical_axis.x(), std::sqrt(0.5), 1e-6);
+  import_data_set(options());
+  std::vector<imu_t> ticks;
+  for_each_event((out_ / "traverse.lcm").string(), [&](const LogEvent& event) {
+    imu_t imu{};
+    if (event.channel == channel::kImu && decode_message(event.data, event.size, imu)) ticks.push_back(imu);
+  });
+  ASSERT_EQ(ticks.size(), 2U) << "two readings in the tick of the first pair, one in the next";
+  EXPECT_TRUE(Vector3d(ticks[0].delta_angle_rad).isApprox(0.2 * 0.02 * optical_axis, 1e-9));
+  EXPECT_TRUE(Vector3d(ticks[1].delta_angle_rad).isApprox(0.4 * 0.02 * optical_axis, 1e-9));
+  EXPECT_EQ(ticks[1].header.utime - ticks[0].header.utime, kTickUs);
+}
+
+TEST_F(ImportTest, KittiPosesOfTheOdometryDataSetAreFound) {
+  make_kitti();
+  const fs::path sequences = folder_.path() / "kitti" / "sequences";
+  fs::create_directories(sequences.parent_path() / "poses");
+  fs::rename(data_ / "poses.txt", sequences.parent_path() / "poses" / "06.txt");
+  fs::create_directories(sequences);
+  fs::rename(data_, sequences / "06");
+  EXPECT_TRUE(read_stereo_data_set((sequences / "06").string(), "", 10.0).pairs[2].T_map_body.has_value());
 }
 
 TEST_F(ImportTest, LogContainsPairsTruthAndStartPose) {
@@ -124,6 +159,9 @@ TEST_F(ImportTest, BadEurocInputPrintsOneLineAndLeavesNothing) {
   make_euroc();
   write_text(data_ / "mav0/cam0/sensor.yaml", "camera_model: omni\n");
   expect_refused("camera_model");
+  make_euroc();
+  write_text(data_ / "mav0/imu0/data.csv", "985000000,0,0,0.1\n");
+  expect_refused("imu0/data.csv:1: too few columns");
 }
 
 TEST_F(ImportTest, RefusesImagesLargerThanAMessage) {

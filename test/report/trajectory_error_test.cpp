@@ -11,7 +11,7 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 // Half a step off the samples, so that rounding does not matter.
-const std::vector<double> kLengths = {9.5, 19.5, 29.5, 39.5, 49.5};
+const SegmentRule kLengths{{9.5, 19.5, 29.5, 39.5, 49.5}};
 
 // A curve of `length_m` in 1 m steps: truth, and an estimate with scale and heading error in its own frame.
 std::vector<PosePair> curve(int length_m, double scale, double turn_rad) {
@@ -45,7 +45,7 @@ TEST(TrajectoryError, FindsAnErrorOfScale) {
   for (int i = 0; i <= 60; ++i)
     poses.push_back({make_pose(Eigen::Matrix3d::Identity(), {1.0 * i, 0, 0}),
                      make_pose(Eigen::Matrix3d::Identity(), {1.02 * i, 0, 0})});
-  const TrajectoryError error = trajectory_error(poses);
+  const TrajectoryError error = trajectory_error(poses, segment_rule(60.0));
   EXPECT_NEAR(error.end_error_percent, 2.0, 1e-9);
   for (const SegmentError& segment : error.segments) EXPECT_NEAR(segment.translation_percent, 2.0, 1e-9);
   EXPECT_NEAR(error.all_segments.rotation_deg_per_m, 0.0, 1e-9);
@@ -61,8 +61,44 @@ TEST(TrajectoryError, FindsAnErrorOfHeading) {
   const TrajectoryError error = trajectory_error(curve(60, 1.0, turn_rad), kLengths);
   for (const SegmentError& segment : error.segments)
     EXPECT_NEAR(segment.rotation_deg_per_m, 0.01 * (segment.length_m + 0.5) / segment.length_m, 1e-9);
+  EXPECT_NEAR(error.rpe_rmse_deg, 0.01, 1e-9);
+  EXPECT_NEAR(error.rpe_rmse_m, 0.0, 1e-9) << "in the frame of the second pose";
   EXPECT_GT(error.end_error_m, 0.1);
   EXPECT_LT(error.ate_rmse_m, error.end_error_m);
+}
+
+// The formulas of Geiger et al. 2012 and of evo's relative pose error, computed with matrices on a trajectory of 950 m.
+TEST(TrajectoryError, OfALongTrajectoryIsThatOfThePublishedFormulas) {
+  std::vector<PosePair> poses = curve(980, 1.004, to_rad(0.02));
+  for (PosePair& pose : poses)  // steps that no length is a multiple of
+    for (Isometry3d* T : {&pose.truth, &pose.estimate}) T->translation() *= 0.97;
+  const TrajectoryError error = trajectory_error(poses, segment_rule(trajectory_length_m(poses)));
+  ASSERT_EQ(error.segments.size(), 8U);
+  std::vector<double> driven_m = {0.0};
+  for (size_t i = 1; i < poses.size(); ++i)
+    driven_m.push_back(driven_m.back() + (poses[i].truth.translation() - poses[i - 1].truth.translation()).norm());
+  const auto relative = [&](size_t i, size_t j) {
+    const Eigen::Matrix4d result = poses[i].estimate.matrix().inverse() * poses[j].estimate.matrix();
+    const Eigen::Matrix4d truth = poses[i].truth.matrix().inverse() * poses[j].truth.matrix();
+    return Eigen::Matrix4d(result.inverse() * truth);
+  };
+  double sum_m = 0.0, sum_rad = 0.0, steps_m2 = 0.0;
+  int count = 0;
+  for (size_t first = 0; first < poses.size(); first += 10)
+    for (double length_m = 100.0; length_m <= 800.0; length_m += 100.0) {
+      size_t last = first;
+      while (last < poses.size() && driven_m[last] <= driven_m[first] + length_m) ++last;
+      if (last == poses.size()) continue;
+      const Eigen::Matrix4d off = relative(first, last);
+      sum_m += off.topRightCorner<3, 1>().norm() / length_m;
+      sum_rad += std::acos(0.5 * (off.topLeftCorner<3, 3>().trace() - 1.0)) / length_m;
+      ++count;
+    }
+  EXPECT_EQ(error.all_segments.count, count);
+  EXPECT_NEAR(error.all_segments.translation_percent, 100.0 * sum_m / count, 1e-6);
+  EXPECT_NEAR(error.all_segments.rotation_deg_per_m, to_deg(sum_rad / count), 1e-6);
+  for (size_t i = 1; i < poses.size(); ++i) steps_m2 += relative(i - 1, i).topRightCorner<3, 1>().squaredNorm();
+  EXPECT_NEAR(error.rpe_rmse_m, std::sqrt(steps_m2 / 980.0), 1e-9);
 }
 
 TEST(TrajectoryError, LengthsBeyondTheTrajectoryHaveNoFigure) {
@@ -70,7 +106,7 @@ TEST(TrajectoryError, LengthsBeyondTheTrajectoryHaveNoFigure) {
   EXPECT_EQ(error.segments[1].count, 6);
   EXPECT_EQ(error.segments[2].count, 0);
   EXPECT_TRUE(std::isnan(error.segments[2].translation_percent));
-  EXPECT_TRUE(std::isnan(trajectory_error({}).end_error_m));
+  EXPECT_TRUE(std::isnan(trajectory_error({}, kLengths).end_error_m));
 }
 
 RunRecord seen_run(const std::vector<bool>& lost) {
@@ -96,13 +132,13 @@ TEST(VisualPoses, AMotionAfterALostPairSpansIt) {
   const RunRecord run = seen_run({false, true, false});
   const auto poses = visual_poses(run, TrueTrack(run.truth));
   ASSERT_EQ(poses.size(), 3U);
-  EXPECT_NEAR(trajectory_error(poses).end_error_m, 0.0, 1e-12);
+  EXPECT_NEAR(trajectory_error(poses, kLengths).end_error_m, 0.0, 1e-12);
 }
 
 TEST(VisualPoses, UnobservedMotionCountsAsError) {
   RunRecord run = seen_run({false, false, false});
   run.visual.erase(run.visual.begin() + 1);
-  EXPECT_NEAR(trajectory_error(visual_poses(run, TrueTrack(run.truth))).end_error_m, 1.0, 1e-12);
+  EXPECT_NEAR(trajectory_error(visual_poses(run, TrueTrack(run.truth)), kLengths).end_error_m, 1.0, 1e-12);
 }
 
 // Ground truth that starts late, ends early or has a gap: poses without truth are not evaluated.
@@ -113,8 +149,8 @@ TEST(VisualPoses, AreEvaluatedOnlyWhereTruthIsKnown) {
   run.truth.erase(run.truth.begin() + 3, run.truth.begin() + 5);
   const auto poses = visual_poses(run, TrueTrack(run.truth));
   ASSERT_EQ(poses.size(), 10U);
-  EXPECT_NEAR(trajectory_error(poses).end_error_m, 0.0, 1e-12);
-  EXPECT_NEAR(trajectory_error(poses).length_m, 11.0, 1e-12);
+  EXPECT_NEAR(trajectory_error(poses, kLengths).end_error_m, 0.0, 1e-12);
+  EXPECT_NEAR(trajectory_error(poses, kLengths).length_m, 11.0, 1e-12);
 }
 
 }  // namespace

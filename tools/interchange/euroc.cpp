@@ -190,6 +190,26 @@ void add_truth(const fs::path& dir, const std::vector<std::int64_t>& times_ns, S
                       std::to_string(times_ns.front()) + " ns");
 }
 
+// Gyro and accelerometer, turned into body axes.
+void add_imu(const fs::path& dir, std::int64_t first_ns, StereoDataSet& set) {
+  if (!fs::exists(dir / "data.csv")) return;
+  const Eigen::Isometry3d T_sensors_body = set.rig.T_body_left * T_body_left_camera().inverse();
+  const Eigen::Matrix3d R_body_imu =
+      T_sensors_body.linear().transpose() * read_T_BS(Config::load((dir / "sensor.yaml").string())).linear();
+  TextRows rows((dir / "data.csv").string(), ',');
+  while (rows.next()) {
+    if (rows.cells().size() < 7) rows.fail("too few columns; time, three rates and three accelerations are expected");
+    const Utime since_first = (time_of(rows) - first_ns) / 1000;
+    if (!set.imu.empty() && since_first <= set.imu.back().since_first) rows.fail("times do not increase");
+    Eigen::Matrix<double, 6, 1> v;
+    for (int i = 0; i < 6; ++i) v[i] = rows.number(static_cast<size_t>(i) + 1);
+    if (v.allFinite())
+      set.imu.push_back({since_first, R_body_imu * v.head<3>(), R_body_imu * v.tail<3>()});
+    else
+      ++set.skipped["IMU readings that are not a number"];
+  }
+}
+
 }  // namespace
 
 StereoDataSet read_euroc(const std::string& dir) {
@@ -202,6 +222,7 @@ StereoDataSet read_euroc(const std::string& dir) {
   const PictureList lefts = read_pictures(root / "cam0");
   pair_up(lefts, read_pictures(root / "cam1"), set, times_ns);
   add_truth(root / "state_groundtruth_estimate0", times_ns, set);
+  if (!times_ns.empty()) add_imu(root / "imu0", times_ns.front(), set);
   set.rig.T_body_left = T_body_left_camera();
   return set;
 }

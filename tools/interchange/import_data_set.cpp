@@ -9,7 +9,9 @@
 #include <functional>
 #include <lcm/lcm-cpp.hpp>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <rover/ground_command_t.hpp>
+#include <rover/imu_t.hpp>
 #include <rover/tick_t.hpp>
 #include <rover/truth_t.hpp>
 
@@ -99,6 +101,24 @@ ground_command_t start_command(const Eigen::Isometry3d& T_map_body) {
   return command;
 }
 
+// Increments over the tick that ends at t: the mean of its readings. Empty without one.
+std::optional<imu_t> imu_message(const std::vector<ImuReading>& imu, Utime t) {
+  const auto later = [](Utime time, const ImuReading& reading) { return time < kFirstPair + reading.since_first; };
+  const auto end = std::upper_bound(imu.begin(), imu.end(), t, later);
+  const auto begin = std::upper_bound(imu.begin(), end, t - kTickUs, later);
+  if (begin == end) return std::nullopt;
+  imu_t message{};
+  message.dt_s = to_seconds(kTickUs);
+  const double share_s = message.dt_s / static_cast<double>(end - begin);
+  for (auto reading = begin; reading != end; ++reading) {
+    Eigen::Map<Eigen::Vector3d>(message.delta_angle_rad) += share_s * reading->rate_radps;
+    Eigen::Map<Eigen::Vector3d>(message.delta_velocity_mps) += share_s * reading->force_mps2;
+  }
+  message.fog_delta_yaw_rad = kNaN;
+  message.status = imu_t::OK;
+  return message;
+}
+
 void write_log(const StereoDataSet& set, const std::string& path, const std::string& name) {
   LogWriter log(path);
   const Utime last = kFirstPair + set.pairs.back().since_first + kAfterLast;
@@ -114,6 +134,7 @@ void write_log(const StereoDataSet& set, const std::string& path, const std::str
       log.write(channel::kLocCamRight, image_message(pair->right, set.rig), exposure);
       if (pair->T_map_body) log.write(channel::kTruth, truth_message(*pair->T_map_body), exposure);
     }
+    if (const auto imu = imu_message(set.imu, t)) log.write(channel::kImu, *imu, t);
     tick_t tick{};
     tick.mode = tick_t::LOCKSTEP;
     tick.member_count = tick.stream_count = 0;
@@ -172,7 +193,8 @@ double latency_for_each_pair_s(const StereoDataSet& set) {
   return to_seconds(std::max<Utime>(1, shortest / kTickUs) * kTickUs);
 }
 
-// Project configuration for the data set's cameras, without ground plane, IMU, wheels and the rover's speed limit.
+// Project configuration for the data set's cameras, without ground plane, wheels and the rover's speed limit. An IMU
+// predicts rotations for visual odometry only: localization would need a standstill to learn its biases.
 void write_configuration(const ImportOptions& options, const StereoDataSet& set, const fs::path& dir) {
   fs::create_directory(dir);
   for (const auto& entry : fs::directory_iterator(options.config_dir))
@@ -195,7 +217,7 @@ void write_configuration(const ImportOptions& options, const StereoDataSet& set,
     localization["max_speed_mps"] = options.max_speed_mps;
     localization["camera_only"]["enabled"] = true;
     localization["smoothing_s"] = 0.02;
-    localization["filter"]["no_gyro_noise_rad_rts"] = 10.0;  // no IMU: rotation is known from images only
+    localization["filter"]["no_gyro_noise_rad_rts"] = 10.0;  // rotation is known from images only
     localization["status"]["max_dead_reckoned_m"] = 100.0;
   });
 }
@@ -254,6 +276,8 @@ std::vector<std::string> summary(const StereoDataSet& set, const std::string& ou
   for (const auto& [what, count] : set.skipped)
     if (count > 0) lines.push_back("skipped: " + std::to_string(count) + " " + what);
   for (const std::string& note : set.notes) lines.push_back("note: " + note);
+  if (!set.imu.empty())
+    lines.push_back("IMU: " + std::to_string(set.imu.size()) + " readings, to predict rotations for visual odometry");
   lines.push_back("imported: " + out);
   lines.push_back("next: ./rover replay " + out + " --services stereo,visual_odometry,localization --speed max");
   return lines;

@@ -12,12 +12,12 @@ int main(int argc, char** argv) {
   options.config_dir = rover::project_dir() + "/config";
   CLI::App app(
       "./rover import: a stereo data set in KITTI's or EuRoC's layout as the log of a run. Example:\n"
-      "./rover import kitti/sequences/06 --poses kitti/poses/06.txt --out logs/kitti06");
+      "./rover import kitti/sequences/06 --out logs/kitti06");
   app.name("./rover import");
   app.add_option("data_set", options.data_set, "folder of the data set")->required()->transform(rover::is_user_path());
   app.add_option("--out", options.out, "new run folder; default: logs/<name of the data set>")
       ->transform(rover::is_user_path());
-  app.add_option("--poses", options.poses, "KITTI: ground truth; default: poses.txt in the folder")
+  app.add_option("--poses", options.poses, "KITTI: ground truth; default: poses.txt in the folder, or poses/NN.txt of the data set")
       ->transform(rover::is_user_path());
   app.add_option("--rate", options.rate_hz, "KITTI without times.txt: pairs per second")
       ->check(CLI::Range(0.1, 1000.0))

@@ -132,6 +132,12 @@ std::map<std::int64_t, Eigen::Isometry3d> read_truth(const fs::path& file, const
   return truth;
 }
 
+// The odometry data set keeps the poses of sequences/NN in poses/NN.txt.
+fs::path truth_file(const fs::path& root, const std::string& name) {
+  const fs::path beside = root / ".." / ".." / "poses" / (name + ".txt");
+  return fs::exists(root / "poses.txt") || !fs::exists(beside) ? root / "poses.txt" : beside;
+}
+
 }  // namespace
 
 StereoDataSet read_kitti(const std::string& dir, const std::string& poses, double rate_hz) {
@@ -144,7 +150,7 @@ StereoDataSet read_kitti(const std::string& dir, const std::string& poses, doubl
   const Pictures left = numbered_pictures(first_folder(root, {"image_0", "image_l"}), set.skipped);
   Pictures right = numbered_pictures(first_folder(root, {"image_1", "image_r"}), set.skipped);
   const auto times_ns = read_times(root / "times.txt", left, rate_hz);
-  const fs::path pose_file = poses.empty() ? root / "poses.txt" : fs::path(poses);
+  const fs::path pose_file = poses.empty() ? truth_file(root, set.name) : fs::path(poses);
   std::map<std::int64_t, Eigen::Isometry3d> truth;
   if (!poses.empty() || fs::exists(pose_file)) truth = read_truth(pose_file, left, set.skipped);
   std::optional<std::int64_t> first_ns;

@@ -23,12 +23,18 @@ void start_at_truth(StereoDataSet& set) {
   const Utime first_time = begin->since_first;
   set.pairs.erase(set.pairs.begin(), begin);
   for (StereoPair& pair : set.pairs) pair.since_first -= first_time;
+  for (ImuReading& reading : set.imu) reading.since_first -= first_time;
   const auto first = set.pairs.front().T_map_body;
   const Eigen::Matrix3d R_level = rotation_from_rpy(0.0, 0.0, yaw_of(*first));
   const Eigen::Isometry3d T_body_level = make_pose(first->linear().transpose() * R_level, Eigen::Vector3d::Zero());
   set.rig.T_body_left = T_body_level.inverse() * set.rig.T_body_left;
   for (StereoPair& pair : set.pairs)
     if (pair.T_map_body) pair.T_map_body = *pair.T_map_body * T_body_level;
+  const Eigen::Matrix3d R_level_body = T_body_level.linear().transpose();
+  for (ImuReading& reading : set.imu) {
+    reading.rate_radps = R_level_body * reading.rate_radps;
+    reading.force_mps2 = R_level_body * reading.force_mps2;
+  }
 }
 
 namespace {

@@ -18,11 +18,19 @@ struct StereoPair {
   std::optional<Eigen::Isometry3d> T_map_body;  // ground truth; body origin: left camera
 };
 
+// In body axes; the sample holds from the one before it on.
+struct ImuReading {
+  Utime since_first = 0;  // negative before the first pair
+  Eigen::Vector3d rate_radps;
+  Eigen::Vector3d force_mps2;  // specific force
+};
+
 struct StereoDataSet {
   std::string layout;  // "KITTI", "EuRoC"
   std::string name;
   StereoRig rig;  // width and height 0 if not in the calibration
   std::vector<StereoPair> pairs;
+  std::vector<ImuReading> imu;         // empty: none
   std::map<std::string, int> skipped;  // reason and count
   std::vector<std::string> notes;      // further information for the user
 };
@@ -37,9 +45,10 @@ Eigen::Isometry3d T_body_left_camera();
 void start_at_truth(StereoDataSet& set);
 
 // KITTI odometry: image_0, image_1 (or image_l, image_r), calib.txt, times.txt (else `rate_hz`), `poses` (default:
-// poses.txt).
+// poses.txt, or poses/NN.txt beside the folder sequences).
 StereoDataSet read_kitti(const std::string& dir, const std::string& poses, double rate_hz);
-// EuRoC MAV: cam0, cam1, state_groundtruth_estimate0, each with data.csv and sensor.yaml; in the folder or in mav0.
+// EuRoC MAV: cam0, cam1, state_groundtruth_estimate0, imu0, each with data.csv and sensor.yaml; in the folder or in
+// mav0.
 StereoDataSet read_euroc(const std::string& dir);
 // Detects the layout. All of these throw ConfigError. Reads text and file names only, no images.
 StereoDataSet read_stereo_data_set(const std::string& dir, const std::string& poses, double rate_hz);

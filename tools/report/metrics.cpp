@@ -365,8 +365,10 @@ RunEvaluation evaluate(const RunRecord& run, const RunInfo& info, const Footprin
   evaluate_slam(run, truth, m);
   evaluate_estimate(run, truth, m);
   evaluate_goal(run, truth, m);
-  m.visual_odometry = trajectory_error(visual_poses(run, truth));
-  m.published_pose = trajectory_error(published_poses(run, truth));
+  const std::vector<PosePair> odometry = visual_poses(run, truth);
+  const SegmentRule rule = segment_rule(trajectory_length_m(odometry));
+  m.visual_odometry = trajectory_error(odometry, rule);
+  m.published_pose = trajectory_error(published_poses(run, truth), rule);
   m.replans = count_replans(run, m.window);
   evaluate_states(run, truth, m);
   evaluate_corrections(run, truth, m);

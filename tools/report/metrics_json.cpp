@@ -160,6 +160,8 @@ Json trajectory_json(const TrajectoryError& error) {
           {"end_error_percent", number(error.end_error_percent)},
           {"ate_rmse_m", number(error.ate_rmse_m)},
           {"ate_max_m", number(error.ate_max_m)},
+          {"rpe_rmse_m", number(error.rpe_rmse_m)},
+          {"rpe_rmse_deg", number(error.rpe_rmse_deg)},
           {"segments", segments},
           {"all_segments", segment(error.all_segments)}};
 }

@@ -39,13 +39,12 @@ class Mean {
   double rotation_ = 0.0;
 };
 
-void evaluate_segments(const std::vector<PosePair>& poses, const std::vector<double>& lengths_m,
-                       TrajectoryError& error) {
+void evaluate_segments(const std::vector<PosePair>& poses, const SegmentRule& rule, TrajectoryError& error) {
   const std::vector<double> arc_m = arc_lengths_m(poses);
   Mean all;
-  for (const double length_m : lengths_m) {
+  for (const double length_m : rule.lengths_m) {
     Mean mean;
-    for (size_t i = 0; i < poses.size(); ++i) {
+    for (size_t i = 0; i < poses.size(); i += static_cast<size_t>(rule.step)) {
       const auto end = std::lower_bound(arc_m.begin(), arc_m.end(), arc_m[i] + length_m);
       if (end == arc_m.end()) break;
       const Isometry3d off = motion_error(poses[i], poses[static_cast<size_t>(end - arc_m.begin())]);
@@ -71,17 +70,39 @@ void evaluate_aligned(const std::vector<PosePair>& poses, TrajectoryError& error
   error.ate_max_m = off.colwise().norm().maxCoeff();
 }
 
+void evaluate_steps(const std::vector<PosePair>& poses, TrajectoryError& error) {
+  double sum_m2 = 0.0, sum_rad2 = 0.0;
+  for (size_t i = 1; i < poses.size(); ++i) {
+    const Isometry3d off = motion_error(poses[i - 1], poses[i]);
+    sum_m2 += off.translation().squaredNorm();
+    sum_rad2 += log_so3(off.linear()).squaredNorm();
+  }
+  const auto steps = static_cast<double>(poses.size() - 1);
+  error.rpe_rmse_m = std::sqrt(sum_m2 / steps);
+  error.rpe_rmse_deg = to_deg(std::sqrt(sum_rad2 / steps));
+}
+
 }  // namespace
 
-TrajectoryError trajectory_error(const std::vector<PosePair>& poses, const std::vector<double>& lengths_m) {
+SegmentRule segment_rule(double trajectory_m) {
+  if (trajectory_m < 100.0) return {{10.0, 20.0, 30.0, 40.0, 50.0}, 1};
+  return {{100.0, 200.0, 300.0, 400.0, 500.0, 600.0, 700.0, 800.0}, 10};
+}
+
+double trajectory_length_m(const std::vector<PosePair>& poses) {
+  return poses.empty() ? 0.0 : arc_lengths_m(poses).back();
+}
+
+TrajectoryError trajectory_error(const std::vector<PosePair>& poses, const SegmentRule& rule) {
   TrajectoryError error;
   error.poses = static_cast<int>(poses.size());
   if (poses.size() < 2) return error;
-  error.length_m = arc_lengths_m(poses).back();
+  error.length_m = trajectory_length_m(poses);
   error.end_error_m = motion_error(poses.front(), poses.back()).translation().norm();
   if (error.length_m > 0.0) error.end_error_percent = 100.0 * error.end_error_m / error.length_m;
   evaluate_aligned(poses, error);
-  evaluate_segments(poses, lengths_m, error);
+  evaluate_segments(poses, rule, error);
+  evaluate_steps(poses, error);
   return error;
 }
 

@@ -15,7 +15,16 @@ struct PosePair {
   Eigen::Isometry3d estimate;  // in any other
 };
 
-// KITTI metric (Geiger, Lenz and Urtasun 2012): relative error over all segments of a length, per metre.
+// Segments of the KITTI metric (Geiger, Lenz and Urtasun 2012).
+struct SegmentRule {
+  std::vector<double> lengths_m;
+  int step = 1;  // poses from the begin of a segment to that of the next
+};
+
+// Those of KITTI's development kit from 100 m on, for a shorter trajectory lengths that suit it.
+SegmentRule segment_rule(double trajectory_m);
+
+// KITTI metric: relative error over all segments of a length, per metre.
 struct SegmentError {
   double length_m = 0.0;
   int count = 0;
@@ -30,13 +39,17 @@ struct TrajectoryError {
   double end_error_percent = kNaN;
   double ate_rmse_m = kNaN;  // absolute trajectory error after rigid alignment (Umeyama 1991, without scale)
   double ate_max_m = kNaN;
+  double rpe_rmse_m = kNaN;  // relative pose error from pose to pose, as evo_rpe computes it by default
+  double rpe_rmse_deg = kNaN;
   std::vector<SegmentError> segments;
   SegmentError all_segments;  // over all lengths
 };
 
-// All NaN below two poses. KITTI uses lengths of 100 to 800 m; these suit shorter tracks.
-TrajectoryError trajectory_error(const std::vector<PosePair>& poses,
-                                 const std::vector<double>& lengths_m = {10.0, 20.0, 30.0, 40.0, 50.0});
+// All NaN below two poses.
+TrajectoryError trajectory_error(const std::vector<PosePair>& poses, const SegmentRule& rule);
+
+// Of the true trajectory, 3-D.
+double trajectory_length_m(const std::vector<PosePair>& poses);
 
 // Integrated VO motions at each exposure. A motion after a gap is appended without it: unobserved motion counts as
 // error.
