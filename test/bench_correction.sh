@@ -14,7 +14,7 @@ TABLE=$("$BUILD/test/tools/correction_bench") || STATUS=$?
   echo
   echo "Command: \`./rover bench correction\`; commit $(git describe --always --dirty --abbrev=12); $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1), $(nproc) cores, one used."
   echo
-  echo "Simulated drives of 150 m over Gale crater's DTM (rock areas 2-12 %), each each in its own world. Along each drive the"
+  echo "Simulated drives of 150 m over Gale crater's DTM (rock areas 2-12 %), each in its own world. Along each drive the"
   echo "elevation maps of the mapping are simulated: the view of a NavCam (occluded ground, patches without texture,"
   echo "lost points and images) with errors of stereo, attitude and odometry. Local maps are 5 m apart. Each is"
   echo "matched from poses with errors of 0-10 m in any direction and up to 10 deg of yaw, with a sigma of 4 m and 4 deg."
@@ -29,6 +29,8 @@ TABLE=$("$BUILD/test/tools/correction_bench") || STATUS=$?
   echo
   echo "*Along one axis*: relief that is sufficient in its strongest direction only gives a fix along that axis, with an error measured"
   echo "along it. A place outside of the window can be inside along the axis, and is then right."
+  echo "*NEES*: mean normalised error squared against the truth, per degree of freedom (x, y, yaw); 1 is consistent. The"
+  echo "covariance includes the distortion of the map, which the other rows do not have."
   echo
   echo "$TABLE"
 } >$OUT.new

@@ -11,16 +11,13 @@
 #include <cmath>
 #include <cstdio>
 #include <numeric>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "common/core/frames.hpp"
 #include "common/geo/elevation_map.hpp"
-#include "global_localization/attempt_schedule.hpp"
 #include "global_localization/config.hpp"
 #include "global_localization/global_localization.hpp"
-#include "localization/map_alignment.hpp"
 #include "rover_simulator/world/noise.hpp"
 #include "test/global_localization/bench_world.hpp"
 #include "test/global_localization/mapped_drive.hpp"
@@ -34,7 +31,6 @@ namespace {
 constexpr int kDrives = 12;
 constexpr double kDriveM = 150.0, kFirstMapM = 40.0, kMapEveryM = 5.0;
 constexpr int kTriesPerMap = 7;
-constexpr int kFixesFused = 3;
 const std::string kOtherPlace = "map of another place", kFlat = "flat ground";
 constexpr double kOffsetM = 10.0, kOffsetRad = to_rad(10.0);
 constexpr double kResolutions[] = {0.5, 1.0};
@@ -70,8 +66,7 @@ struct Row {
   bool demanded = true;       // else the row is shown, and not judged
   int maps = 0, featured_maps = 0, tries = 0, featured_tries = 0, accepted = 0, one_axis = 0, wrong = 0;
   std::vector<double> error_m, error_deg, truth_m, along_m, time_s;
-  std::vector<double> nees;                // of fixes along two axes, against the truth
-  std::vector<double> fused_m, fused_deg;  // of the fused pose, after each fix from kFixesFused on
+  std::vector<double> nees;  // of fixes along two axes against the truth, per degree of freedom: 1 if consistent
 };
 
 struct Trial {
@@ -135,82 +130,25 @@ void attempt_once(const GlobalLocalization& core, const MappedDrive& drive, cons
   row.nees.push_back(e.dot(found.cov.inverse() * e) / 3.0);
 }
 
-// The pose of one drive as localization fuses its fixes, from a start pose that is wrong like that of an attempt.
-class FusedDrive {
- public:
-  FusedDrive(const ScheduleConfig& schedule, const Prior& start) : schedule_(schedule) {
-    alignment_.restore(from_planar(start.T_map_odom));
-    for (int i = 0; i < 3; ++i) P_(kPlanar[i], kPlanar[i]) = start.cov(i, i);
-  }
-
-  void advance(const GlobalLocalization& core, const MappedDrive& drive, const MapDistortion& distortion,
-               double reach_m, Row& row) {
-    if (!schedule_.due(drive.driven_m())) return;
-    const Eigen::Vector2d p_odom_body = drive.T_odom_body().translation();
-    const Correction found = core.correct(prior(p_odom_body));
-    schedule_.record_attempt(drive.driven_m(), found.accepted);
-    if (!found.accepted) return;
-    const loc::MapMeasurement fix{++utime_, found.T_map_odom, found.cov};
-    const Eigen::Isometry3d T_odom_body = from_planar({p_odom_body.x(), p_odom_body.y(), yaw_of(drive.T_odom_body())});
-    if (!alignment_.apply_correction(fix, T_odom_body, P_).empty()) return;
-    P_ = alignment_.updated_cov(P_, fix.cov);
-    if (found.axes < 2 || ++fixes_ < 1) return;
-    const Eigen::Isometry2d on_map = distortion.rigid(drive.seen_ground(reach_m)) * drive.T_map_odom();
-    const Eigen::Isometry2d T = isometry(planar(alignment_.T_map_odom()));
-    row.fused_m.push_back((T * p_odom_body - on_map * p_odom_body).norm());
-    row.fused_deg.push_back(to_deg(std::abs(wrap_angle(yaw_of(T) - yaw_of(on_map)))));
-    std::fprintf(stderr, "DBG %s %.1f n %d yaw %.3f m %.3f at %.1f\n", row.name.c_str(), row.cell_m, fixes_, row.fused_deg.back(), row.fused_m.back(), drive.driven_m());
-  }
-
- private:
-  static constexpr int kPlanar[] = {loc::kPosition, loc::kPosition + 1, loc::kAttitude + 2};
-
-  Prior prior(const Eigen::Vector2d& p_odom_body) const {
-    Prior prior;
-    prior.p_odom_body = p_odom_body;
-    prior.T_map_odom = planar(alignment_.T_map_odom());
-    Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
-    R.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(prior.T_map_odom.yaw_rad).matrix();
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) prior.cov(i, j) = P_(kPlanar[i], kPlanar[j]);
-    prior.cov = R * prior.cov * R.transpose();
-    return prior;
-  }
-
-  loc::MapAlignment alignment_{loc::MapAlignmentConfig{}};
-  loc::ErrorCov P_ = loc::ErrorCov::Zero();
-  AttemptSchedule schedule_;
-  Utime utime_ = 0;  // a counter: corrections must be newer than the last one
-  int fixes_ = 0;    // along two axes
-};
-
 struct OrbitalCase {
   GlobalLocalization core;
   MapDistortion distortion;
   Row* row;
   double min_offset_m, max_offset_m;
   int tries;
-  std::optional<FusedDrive> fused;
 };
 
-void drive_through(const Surface& world, const Line& line, std::uint64_t seed, const NodeConfig& config,
+void drive_through(const Surface& world, const Line& line, std::uint64_t seed, const GlobalConfig& config,
                    std::vector<OrbitalCase>& cases) {
   MappedDrive drive(world, line, DriveErrors{}, seed);
   HashStream random(hash_cell(kTrialSeed, static_cast<std::int64_t>(seed), 0));
-  HashStream starts(hash_cell(kTrialSeed, static_cast<std::int64_t>(seed), 1));
-  for (OrbitalCase& c : cases)
-    if (!c.row->must_abstain)
-      c.fused.emplace(config.attempts, prior_of(drive, drive.T_map_odom(), draw(starts, 0.0, kOffsetM)));
   double next_m = kFirstMapM;
   while (drive.driven_m() < kDriveM) {
     drive.advance();
-    for (OrbitalCase& c : cases) {
-      c.core.add_elevation(drive.view(), drive.T_odom_body().translation());
-      if (c.fused) c.fused->advance(c.core, drive, c.distortion, 0.5 * config.core.mosaic_side_m, *c.row);
-    }
+    for (OrbitalCase& c : cases) c.core.add_elevation(drive.view(), drive.T_odom_body().translation());
     if (drive.driven_m() < next_m) continue;
     next_m += kMapEveryM;
-    const std::vector<Eigen::Vector2d> ground = drive.seen_ground(0.5 * config.core.mosaic_side_m);
+    const std::vector<Eigen::Vector2d> ground = drive.seen_ground(0.5 * config.mosaic_side_m);
     for (OrbitalCase& c : cases) {
       const Eigen::Isometry2d on_map = c.distortion.rigid(ground) * drive.T_map_odom();
       const int featured = c.row->featured_tries;
@@ -230,7 +168,7 @@ ElevationRaster mirrored(ElevationRaster raster) {
 }
 
 struct Bench {
-  NodeConfig config;
+  GlobalConfig config;
   std::vector<Row> rows;
 
   Row& row(const std::string& name, double cell_m, bool must_abstain, bool demanded = true) {
@@ -240,10 +178,6 @@ struct Bench {
     return rows.back();
   }
 
-  GlobalLocalization core_of(const ElevationRaster& map) const {
-    return {config.core, grid_of(map), config.local_cell_m};
-  }
-
   void add_cases(const WorldConfig& world_config, const ElevationRaster& dtm, std::uint64_t seed, double cell_m,
                  std::vector<OrbitalCase>& cases) {
     WorldConfig straight = world_config;
@@ -251,16 +185,12 @@ struct Bench {
     const World plain(straight, dtm, seed), bent(world_config, dtm, seed);
     const ElevationRaster plain_map = plain.orbital_map(cell_m);
     const MapDistortion none(straight, dtm, seed, cell_m);
-    cases.push_back({core_of(plain_map), none, &row("noise 0.1 m", cell_m, false), 0.0, kOffsetM, kTriesPerMap, {}});
-    cases.push_back({core_of(bent.orbital_map(cell_m)),
-                     MapDistortion(world_config, dtm, seed, cell_m),
-                     &row("noise 0.1 m, distortion 0.3 m", cell_m, false, false),
-                     0.0,
-                     kOffsetM,
-                     kTriesPerMap,
-                     {}});
-    cases.push_back({core_of(plain_map), none, &row("true place outside the window", cell_m, true), 22.0, 30.0, 2, {}});
-    cases.push_back({core_of(mirrored(plain_map)), none, &row(kOtherPlace, cell_m, true), 0.0, kOffsetM, 2, {}});
+    const auto core = [&](const ElevationRaster& map) { return GlobalLocalization(config, grid_of(map), 0.1); };
+    cases.push_back({core(plain_map), none, &row("noise 0.1 m", cell_m, false), 0.0, kOffsetM, kTriesPerMap});
+    cases.push_back({core(bent.orbital_map(cell_m)), MapDistortion(world_config, dtm, seed, cell_m),
+                     &row("noise 0.1 m, distortion 0.3 m", cell_m, false, false), 0.0, kOffsetM, kTriesPerMap});
+    cases.push_back({core(plain_map), none, &row("true place outside the window", cell_m, true), 22.0, 30.0, 2});
+    cases.push_back({core(mirrored(plain_map)), none, &row(kOtherPlace, cell_m, true), 0.0, kOffsetM, 2});
   }
 
   void drive(const ElevationRaster& dtm, const Line& line, int number) {
@@ -283,13 +213,8 @@ struct Bench {
     const World world(world_config, dtm, seed);
     std::vector<OrbitalCase> cases;
     for (double cell_m : kResolutions)
-      cases.push_back({core_of(world.orbital_map(cell_m)),
-                       MapDistortion(world_config, dtm, seed, cell_m),
-                       &row(kFlat, cell_m, true),
-                       0.0,
-                       kOffsetM,
-                       2,
-                       {}});
+      cases.push_back({GlobalLocalization(config, grid_of(world.orbital_map(cell_m)), 0.1),
+                       MapDistortion(world_config, dtm, seed, cell_m), &row(kFlat, cell_m, true), 0.0, kOffsetM, 2});
     const Line line{{50.0, 120.0}, 0.1};
     drive_through(world, line, kDriveSeed + 100 + static_cast<std::uint64_t>(number), config, cases);
   }
@@ -299,7 +224,7 @@ bool holds(const Row& row) {
   const bool quick = quantile(row.time_s, 1.0) <= 0.3;
   if (row.must_abstain) return quick && row.accepted == 0 && row.wrong == 0;
   return quick && row.wrong == 0 && row.accepted >= 0.9 * row.featured_tries &&
-         quantile(row.error_m, 0.95) <= 0.5 * row.cell_m && quantile(row.fused_deg, 0.95) <= 0.5;
+         quantile(row.error_m, 0.95) <= 0.5 * row.cell_m && quantile(row.error_deg, 0.95) <= 0.5;
 }
 
 void print_quantiles(const std::vector<double>& values, std::initializer_list<double> ps) {
@@ -322,8 +247,6 @@ void print(const Row& row) {
   print_quantiles(row.truth_m, {0.95});
   print_quantiles(row.error_deg, {0.5, 0.95});
   print_quantiles(row.nees.empty() ? row.nees : std::vector<double>{mean(row.nees)}, {1.0});
-  print_quantiles(row.fused_deg, {0.5, 0.95, 1.0});
-  print_quantiles(row.fused_m, {0.95, 1.0});
   std::printf("%.0f / %.0f | %s |\n", 1e3 * quantile(row.time_s, 0.5), 1e3 * quantile(row.time_s, 1.0),
               !row.demanded ? "not judged"
               : holds(row)  ? "yes"
@@ -335,7 +258,7 @@ void print(const Row& row) {
 int main() {
   const std::string root = ROVER_SOURCE_DIR;
   const ElevationRaster dtm = read_elevation_map(root + "/config/terrain/gale/gale_hirise_dtm_1m_348x337.tif").raster;
-  Bench bench{load_config(root + "/config"), {}};
+  Bench bench{load_config(root + "/config").core, {}};
   bench.rows.reserve(20);  // rows are pointed to
   const std::vector<Line> lines = drivable_lines(World(WorldConfig{}, dtm, kWorldSeed), kDriveM, kDrives, kLineSeed);
   for (size_t i = 0; i < lines.size(); ++i) bench.drive(dtm, lines[i], static_cast<int>(i));
@@ -347,11 +270,8 @@ int main() {
       "axis | a "
       "fix, of all | wrong by more than a cell | error on the map p50 / p95 / max m | along one axis p95 / max m | "
       "against "
-      "truth p95 m | yaw p50 / p95 deg | NEES / 3 against truth, mean | fused yaw p50 / p95 / max deg | fused position "
-      "p95 / max m | CPU p50 / max ms "
-      "| "
-      "holds |\n"
-      "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+      "truth p95 m | yaw p50 / p95 deg | NEES | CPU p50 / max ms | holds |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   bool all = true;
   for (const Row& row : bench.rows) {
     print(row);
