@@ -17,6 +17,7 @@ constexpr double kLaidApartM = 0.45;
 
 void Field::lay_rocks(const Pose2& pose, double ahead_m) {
   const double c = std::cos(pose.yaw_rad), s = std::sin(pose.yaw_rad);
+  ahead_m += kLaidRadiusM;
   for (const double left_m : {-kLaidApartM, 0.0, kLaidApartM})
     laid_.push_back(
         {{pose.x_m + ahead_m * c - left_m * s, pose.y_m + ahead_m * s + left_m * c}, kLaidRadiusM, kLaidHeightM});

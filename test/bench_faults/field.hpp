@@ -17,7 +17,7 @@ class Field {
  public:
   explicit Field(std::uint64_t seed) : seed_(seed) {}
 
-  // A row of rocks across the path ahead.
+  // A row of rocks across the path, with its near side this far ahead.
   void lay_rocks(const Pose2& pose, double ahead_m);
   // A ring of rocks around the rover: it can turn in it, but not leave it.
   void enclose(const Pose2& pose);

@@ -12,7 +12,6 @@ constexpr double kLostS = 400.0;
 constexpr double kSeekS = 120.0;  // timeout for a phase, then the operator sends another path
 constexpr double kRepairedS = 10.0;
 constexpr double kWayLeftM = 4.0;  // minimum remaining distance, so that the goal is not reached meanwhile
-constexpr double kRockAheadM = 1.55;
 constexpr Utime kRockPeriodUs = 8'000'000;
 
 bool is_before_rocks(Phase phase) {
@@ -21,9 +20,9 @@ bool is_before_rocks(Phase phase) {
 
 }  // namespace
 
-Injector::Injector(const std::vector<Case>& cases, int per_row, size_t most, const Observer& seen, Hands& hands,
-                   Field& field, Log& log, std::uint64_t seed)
-    : cases_(cases), seen_(seen), hands_(hands), field_(field), log_(log), random_(seed) {
+Injector::Injector(const std::vector<Case>& cases, int per_row, size_t most, double rocks_at_m, const Observer& seen,
+                   Hands& hands, Field& field, Log& log, std::uint64_t seed)
+    : cases_(cases), rocks_at_m_(rocks_at_m), seen_(seen), hands_(hands), field_(field), log_(log), random_(seed) {
   plan(per_row, most);
 }
 
@@ -73,7 +72,7 @@ void Injector::seek(const Planned& wanted) {
                           wanted.what->full ? ground_command_t::FULL : ground_command_t::EFFICIENT);
   const bool repairs = seen_.phase() == Phase::kRepair;
   if (is_before_rocks(wanted.phase) && sought % kRockPeriodUs == 0 && (repairs || seen_.phase() == Phase::kStraight))
-    field_.lay_rocks(hands_.rover.pose(), kRockAheadM);
+    field_.lay_rocks(hands_.rover.pose(), rocks_at_m_);
   // A repaired path leads far; another one is the global path again.
   if (to_seconds(sought) < (repairs && wanted.phase == Phase::kStraight ? kRepairedS : kSeekS)) return;
   leave();

@@ -13,8 +13,9 @@ namespace rover::bench_faults {
 class Injector {
  public:
   // Each row at least `per_row` times, spread over its phases, motors and services; at most `most` in total.
-  Injector(const std::vector<Case>& cases, int per_row, size_t most, const Observer& seen, Hands& hands, Field& field,
-           Log& log, std::uint64_t seed);
+  // `rocks_at_m`: ahead of the body origin, so near that the rover stops before it finds a way around.
+  Injector(const std::vector<Case>& cases, int per_row, size_t most, double rocks_at_m, const Observer& seen,
+           Hands& hands, Field& field, Log& log, std::uint64_t seed);
 
   void step(Utime now);
   // A cause is active: the operator does not intervene.
@@ -45,6 +46,7 @@ class Injector {
   bool well() const;
 
   const std::vector<Case>& cases_;
+  double rocks_at_m_;
   const Observer& seen_;
   Hands& hands_;
   Field& field_;

@@ -44,7 +44,9 @@ class Bench {
         stack_(bus_, arguments.out, true),
         hands_(bus_, rover_, blindness_, stack_, ground_),
         cases_(cases_of(arguments.rows)),
-        injector_(cases_, arguments.per_row, arguments.most, seen_, hands_, field_, log_, arguments.seed) {
+        injector_(cases_, arguments.per_row, arguments.most,
+                  vehicle_.footprint_half_length_m() + supervisor::load_config(arguments.config).stop_distance_m, seen_,
+                  hands_, field_, log_, arguments.seed) {
     add_stand_ins();
     add_services();
     bus_.subscribeFunction(
@@ -78,7 +80,7 @@ class Bench {
     for (const char* name : {"localization", "hazard_detector", "path_planner", "trajectory_control", "locomotion"})
       stack_.add(name, service_factory(name, arguments_.config));
     supervisor::SupervisorConfig core = supervisor::load_config(arguments_.config);
-    core.level.linger_s = kInfinity;  // the rows of idle services are judged too
+    core.level.linger_s = 1e6;  // the rows of idle services are judged too
     stack_.add("supervisor", [this, core](Node& n) {
       return std::make_shared<supervisor::SupervisorNode>(n, core, [this](const std::string& who, const char* option) {
         if (std::string_view(option) != "-k") return false;
