@@ -1,6 +1,8 @@
 // Schedules correction attempts by distance driven: after the first map, after a fix, sooner after a rejection.
 #pragma once
 
+#include "common/core/frames.hpp"
+
 namespace rover::global {
 
 struct ScheduleConfig {
@@ -22,15 +24,22 @@ class AttemptSchedule {
     return travelled_m >= next_m_;
   }
   void record_attempt(double travelled_m, bool accepted) {
+    if (accepted) fix_m_ = travelled_m;
     next_m_ = travelled_m + (accepted ? config_.interval_m : config_.retry_interval_m);
   }
+  // Distance driven since the last fix; infinity: none in the local map.
+  double since_fix_m(double travelled_m) const { return travelled_m - fix_m_; }
   // The local map was cleared.
-  void restart() { started_ = false; }
+  void restart() {
+    started_ = false;
+    fix_m_ = -kInfinity;
+  }
 
  private:
   ScheduleConfig config_;
   bool started_ = false;
   double next_m_ = 0.0;
+  double fix_m_ = -kInfinity;
 };
 
 }  // namespace rover::global

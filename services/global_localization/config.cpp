@@ -77,8 +77,9 @@ NodeConfig load_config(const std::string& config_dir, ParameterList* list) {
   p.add("map_noise_cells", c.map_noise_cells, {0.1, 20.0}, "correlation length of that noise");
   p.add("map_blur_cells", c.map_blur_cells, {0.0, 3.0},
         "Gaussian blur in the orbital map; the local map gets the same");
-  p.add("map_sigma_m", c.map_sigma_m, {0.0, 5.0}, "distortion of the orbital map: shift of the matched terrain");
-  p.add_deg("map_sigma_deg", c.map_sigma_rad, {0.0, 5.0}, "the same, rotation: 0.3 m in waves of 60 m");
+  p.add("map_sigma_m", c.map_sigma_m, {0.0, 5.0}, "distortion of the orbital map, along each axis");
+  p.add("map_sigma_length_m", c.map_sigma_length_m, {1.0, 1000.0},
+        "length within which it is alike: correlated by 0.6; a third of a wave");
   add_attempts(p.section("attempts", "distance driven until the next attempt"), config.attempts);
   add_height_drift(p.section("height_drift", "of odometry over the local map, removed from the residual"),
                    c.height_drift);

@@ -11,6 +11,7 @@ namespace rover::global {
 namespace {
 
 constexpr int kCoarsePeaks = 64;  // of a coarse search, to refine
+constexpr double kMinSinceFixM = 1.0;
 
 Eigen::Vector2d transformed(const Pose2& T, const Eigen::Vector2d& p) {
   return Eigen::Vector2d(T.x_m, T.y_m) + Eigen::Rotation2Dd(T.yaw_rad) * p;
@@ -276,11 +277,19 @@ void GlobalLocalization::match(const Prior& prior, const TerrainTemplate& terrai
   const Eigen::Matrix3d cov =
       covariance_at_minimum(orbital, terrain, best, independent_samples(terrain, sigma_m), window.half_width_m);
   out.sigma_m = largest_sigma(cov, located);
-  const double rotation = config_.map_sigma_rad, shift = config_.map_sigma_m;
-  // Map rotation about the matched terrain displaces the body by the lever arm.
-  const Eigen::Matrix3d distortion = Eigen::Vector3d(shift * shift, shift * shift, rotation * rotation).asDiagonal();
-  out.cov = covariance_at_body(cov + distortion, transformed(out.T_map_odom, prior.p_odom_body) - best.pose.center_map);
+  Eigen::Matrix3d R_map_odom = Eigen::Matrix3d::Identity();
+  R_map_odom.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(best.pose.yaw_rad).toRotationMatrix();
+  const Eigen::Matrix3d distortion = R_map_odom *
+                                     distortion_covariance(terrain, config_.map_sigma_m, config_.map_sigma_length_m) *
+                                     R_map_odom.transpose();
+  // A rotation about the matched terrain displaces the body by the lever arm.
+  const Eigen::Vector2d arm = transformed(out.T_map_odom, prior.p_odom_body) - best.pose.center_map;
+  out.cov = covariance_at_body(cov + distortion, arm);
   const double body_sigma_m = largest_sigma(out.cov, located);
+  // The last fix saw the same distortion on the terrain that both share: what is new brings its part of the
+  // information.
+  const double shared = std::max(1.0, 2.0 * terrain.radius_m / std::max(prior.since_fix_m, kMinSinceFixM));
+  out.cov += (shared - 1.0) * covariance_at_body(distortion, arm);
   const bool yaw_certain = out.axes == 1 || cov(2, 2) <= limits.max_sigma_rad * limits.max_sigma_rad;
   if (out.axes == 1) restrict_to_axis(located, prior, window, out);
 

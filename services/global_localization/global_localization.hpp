@@ -53,9 +53,9 @@ struct GlobalConfig {
   SearchConfig search;
   RefinementConfig refinement;
   AcceptanceConfig acceptance;
-  // Distortion of the orbital map, as a shift and a rotation of the matched terrain; part of the covariance.
+  // Distortion of the orbital map, along each axis, and the length within which it is alike; part of the covariance.
   double map_sigma_m = 0.3;
-  double map_sigma_rad = to_rad(1.2);
+  double map_sigma_length_m = 20.0;
 };
 
 // Current pose estimate.
@@ -63,6 +63,7 @@ struct Prior {
   Pose2 T_map_odom;
   Eigen::Vector2d p_odom_body = Eigen::Vector2d::Zero();
   Eigen::Matrix3d cov = Eigen::Matrix3d::Zero();  // x, y [m] and yaw [rad] of the body, map axes
+  double since_fix_m = kInfinity;                 // distance driven since the last fix
 };
 
 // Whether the prior is less certain than the smallest search window.

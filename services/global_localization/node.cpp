@@ -56,10 +56,11 @@ void GlobalLocalizationNode::on_elevation(const elevation_t& message) {
 // because none come while it is stationary.
 void GlobalLocalizationNode::search_if_lost() {
   if (start_pose_at_ == kNever || !full_ || node_.busy()) return;
-  const std::optional<Prior> prior = fresh_prior();
+  std::optional<Prior> prior = fresh_prior();
   if (!prior || pose_.header.utime <= start_pose_at_) return;
   start_pose_at_ = kNever;
   if (!is_lost(config_.core.search, *prior)) return;
+  prior->since_fix_m = kInfinity;  // the start pose owes nothing to the last fix
   node_.begin_slow(config_.latency_us);
   attempt_correction(*prior, pose_.header.utime);
 }
@@ -78,7 +79,9 @@ std::string GlobalLocalizationNode::rejection_reason(const elevation_t& message)
 std::optional<Prior> GlobalLocalizationNode::fresh_prior() const {
   const double age_s = to_seconds(node_.now() - pose_.header.utime);
   if (pose_.header.utime == kNever || age_s < 0.0 || age_s > config_.max_pose_age_s) return std::nullopt;
-  return prior_from(pose_);
+  std::optional<Prior> prior = prior_from(pose_);
+  if (prior) prior->since_fix_m = schedule_.since_fix_m(pose_.travelled_m);
+  return prior;
 }
 
 // A jump of odom invalidates the local map; this happens only after a fault.

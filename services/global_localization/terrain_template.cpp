@@ -7,7 +7,8 @@
 namespace rover::global {
 namespace {
 
-constexpr double kRegularisation = 1e-9;  // regularisation, keeps the matrices of featureless terrain invertible
+constexpr size_t kDistortedSamples = 300;  // enough for a field that is smooth over many
+constexpr double kRegularisation = 1e-9;   // regularisation, keeps the matrices of featureless terrain invertible
 
 DriftBasis drift_basis_at(const Eigen::Vector2d& p) {
   DriftBasis drift_basis;
@@ -73,6 +74,30 @@ Eigen::Matrix3d expected_covariance(const TerrainTemplate& terrain) {
   }
   information = terrain.sample_area_m2 * (information - cross * drift_matrix.ldlt().solve(cross.transpose()));
   return (information + kRegularisation * Eigen::Matrix3d::Identity()).inverse();
+}
+
+Eigen::Matrix3d distortion_covariance(const TerrainTemplate& terrain, double sigma_m, double length_m) {
+  using Jacobian = Eigen::Matrix<double, 2, 3>;  // of a sample's displacement by the rigid motion
+  const size_t step = 1 + terrain.samples.size() / kDistortedSamples;
+  std::vector<Eigen::Vector2d> places;
+  std::vector<Jacobian> jacobians;
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero(), spread = Eigen::Matrix3d::Zero();
+  for (size_t i = 0; i < terrain.samples.size(); i += step) {
+    const Eigen::Vector2d& p = terrain.samples[i].p;
+    Jacobian J;
+    J << 1.0, 0.0, -p.y(), 0.0, 1.0, p.x();
+    normal += J.transpose() * J;
+    for (size_t j = 0; j < places.size(); ++j) {
+      const double alike = std::exp(-0.5 * (p - places[j]).squaredNorm() / (length_m * length_m));
+      const Eigen::Matrix3d pair = alike * J.transpose() * jacobians[j];
+      spread += pair + pair.transpose();
+    }
+    spread += J.transpose() * J;
+    places.push_back(p);
+    jacobians.push_back(J);
+  }
+  const Eigen::Matrix3d inverse = (normal + kRegularisation * Eigen::Matrix3d::Identity()).inverse();
+  return sigma_m * sigma_m * inverse * spread * inverse;
 }
 
 }  // namespace rover::global

@@ -16,7 +16,6 @@ const Eigen::Vector2d kPlace(22.0, -14.0);
 GlobalConfig config_for_test() {
   GlobalConfig config;
   config.map_sigma_m = 0.2;
-  config.map_sigma_rad = to_rad(0.3);
   config.refinement.half_width_rad = 0.05;
   return config;
 }
@@ -126,24 +125,45 @@ TEST(GlobalLocalization, MapRotationCorrelatesPositionAndYawThroughLeverArm) {
   const Eigen::Rotation2Dd R(c.T_map_odom.yaw_rad);
   const Eigen::Vector2d along = R * Eigen::Vector2d::UnitX(), across = R * Eigen::Vector2d::UnitY();
   const Eigen::Matrix2d place = c.cov.topLeftCorner<2, 2>();
-  const double arm_m = 24.0, turn_rad = config_for_test().map_sigma_rad;
-  EXPECT_NEAR(across.dot(place * across) - along.dot(place * along), std::pow(arm_m * turn_rad, 2), 0.003);
-  EXPECT_NEAR(across.dot(c.cov.block<2, 1>(0, 2)), arm_m * turn_rad * turn_rad, 1e-4);
+  const double arm_m = 24.0, turn_rad2 = c.cov(2, 2);
+  EXPECT_NEAR(across.dot(place * across) - along.dot(place * along), arm_m * arm_m * turn_rad2, 0.003);
+  EXPECT_NEAR(across.dot(c.cov.block<2, 1>(0, 2)), arm_m * turn_rad2, 1e-4);
+}
+
+// Soon after a fix the same terrain is matched again: its distortion is not known better for it.
+TEST(GlobalLocalization, TerrainThatTwoFixesShareCountsOnce) {
+  const GlobalLocalization core = driven(hills, 0.5, all_seen, 0.0);
+  Prior again = prior({1.0, 1.0}, 1.0);
+  const Correction first = core.correct(again);
+  again.since_fix_m = 1000.0;
+  EXPECT_TRUE(core.correct(again).cov.isApprox(first.cov));
+  const auto excess = [&](double since_fix_m) {
+    again.since_fix_m = since_fix_m;
+    const Correction second = core.correct(again);
+    EXPECT_TRUE(second.accepted) << second.reason;
+    return (second.cov - first.cov).topLeftCorner<2, 2>().trace();
+  };
+  const double after_2_m = excess(2.0), after_4_m = excess(4.0);
+  EXPECT_GT(after_4_m, 0.05);
+  EXPECT_GT(after_2_m, 2.0 * after_4_m) << "extent / distance - 1";
+  EXPECT_TRUE(std::isfinite(excess(0.0)));
 }
 
 // At level EFFICIENT nothing is mapped, so the matched terrain falls behind the body.
 TEST(GlobalLocalization, RejectsMatchFarFromBody) {
   GlobalConfig config = config_for_test();
-  config.map_sigma_rad = to_rad(3.0);
+  config.map_sigma_m = 0.6;
   config.acceptance.max_body_sigma_m = 0.8;
   GlobalLocalization core(config, orbital_of(hills, 0.5, 0.0), kCellM);
   core.add_elevation(view_of(hills, kTruth, kPlace, all_seen), kPlace);
-  const double limit_m = config.acceptance.max_body_sigma_m / config.map_sigma_rad;
   const auto on_by = [&](double distance_m) {
     Prior further = prior({1.0, 1.0}, 1.0);
     further.p_odom_body += Eigen::Vector2d(distance_m, 0.0);
     return core.correct(further);
   };
+  const Correction here = on_by(0.0);
+  const double place_m2 = here.cov.topLeftCorner<2, 2>().trace() / 2.0;
+  const double limit_m = std::sqrt((0.8 * 0.8 - place_m2) / here.cov(2, 2));
   EXPECT_EQ(on_by(0.9 * limit_m).reason, "");
   EXPECT_EQ(on_by(1.1 * limit_m).reason, "too far from the matched terrain");
 }

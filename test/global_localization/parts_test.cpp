@@ -144,6 +144,32 @@ TEST(Relief, InformationEqualsMeanSquareHeightChangePerMetre) {
   EXPECT_NEAR(relief_of(terrain).shift_m2 / terrain.area_m2(), mean, 0.15 * mean);
 }
 
+// Samples on a rectangle about the centre, 0.5 m apart.
+TerrainTemplate rectangle(double length_m, double width_m) {
+  TerrainTemplate terrain;
+  for (double x = -0.5 * length_m; x <= 0.5 * length_m; x += 0.5)
+    for (double y = -0.5 * width_m; y <= 0.5 * width_m; y += 0.5) terrain.samples.push_back({{x, y}, 0.0, {0.0, 0.0}});
+  return terrain;
+}
+
+// A small piece moves and turns with the field: half the difference of its two slopes, each sigma / length. A long one
+// takes the mean.
+TEST(DistortionCovariance, IsThatOfTheBestRigidFit) {
+  constexpr double kSigmaM = 0.3, kLengthM = 20.0;
+  const Eigen::Matrix3d small = distortion_covariance(rectangle(2.0, 2.0), kSigmaM, kLengthM);
+  EXPECT_NEAR(std::sqrt(small(0, 0)), kSigmaM, 0.005);
+  EXPECT_NEAR(std::sqrt(small(2, 2)), kSigmaM / kLengthM / std::sqrt(2.0), 1e-4);
+  EXPECT_NEAR(small(0, 1), 0.0, 1e-6);
+  const Eigen::Matrix3d strip = distortion_covariance(rectangle(2.0, 0.0), kSigmaM, kLengthM);
+  EXPECT_NEAR(std::sqrt(strip(2, 2)), kSigmaM / kLengthM, 5e-4) << "by the field across it alone";
+  constexpr double kLongM = 2000.0;
+  const Eigen::Matrix3d road = distortion_covariance(rectangle(kLongM, 0.5), kSigmaM, kLengthM);
+  EXPECT_NEAR(road(0, 0), kSigmaM * kSigmaM * std::sqrt(2.0 * kPi) * kLengthM / kLongM, 2e-4);
+  EXPECT_NEAR(road(2, 2), 12.0 / (kLongM * kLongM) * road(1, 1), 0.05 * road(2, 2)) << "a line's moment of inertia";
+  const Eigen::Matrix3d path = distortion_covariance(rectangle(60.0, 8.0), kSigmaM, kLengthM);
+  EXPECT_NEAR(to_deg(std::sqrt(path(2, 2))), 0.5, 0.1);
+}
+
 TEST(CorrelationSearch, ComparesOnlyCellsValidInBothMaps) {
   const auto holed = [](int column, int row) { return (column / 9 + row / 9) % 3 != 0; };
   const HeightGrid local = grid_of(hills, 50, 0.5);
