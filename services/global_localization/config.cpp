@@ -79,7 +79,7 @@ NodeConfig load_config(const std::string& config_dir, ParameterList* list) {
         "Gaussian blur in the orbital map; the local map gets the same");
   p.add("map_sigma_m", c.map_sigma_m, {0.0, 5.0}, "distortion of the orbital map, along each axis");
   p.add("map_sigma_length_m", c.map_sigma_length_m, {1.0, 1000.0},
-        "length within which it is alike: correlated by 0.6; a third of a wave");
+        "its correlation length, where the correlation is 0.6; a third of a wave");
   add_attempts(p.section("attempts", "distance driven until the next attempt"), config.attempts);
   add_height_drift(p.section("height_drift", "of odometry over the local map, removed from the residual"),
                    c.height_drift);

@@ -53,7 +53,7 @@ struct GlobalConfig {
   SearchConfig search;
   RefinementConfig refinement;
   AcceptanceConfig acceptance;
-  // Distortion of the orbital map, along each axis, and the length within which it is alike; part of the covariance.
+  // Distortion of the orbital map, along each axis, and its correlation length; part of the covariance.
   double map_sigma_m = 0.3;
   double map_sigma_length_m = 20.0;
 };

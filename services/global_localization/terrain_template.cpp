@@ -88,8 +88,8 @@ Eigen::Matrix3d distortion_covariance(const TerrainTemplate& terrain, double sig
     J << 1.0, 0.0, -p.y(), 0.0, 1.0, p.x();
     normal += J.transpose() * J;
     for (size_t j = 0; j < places.size(); ++j) {
-      const double alike = std::exp(-0.5 * (p - places[j]).squaredNorm() / (length_m * length_m));
-      const Eigen::Matrix3d pair = alike * J.transpose() * jacobians[j];
+      const double correlation = std::exp(-0.5 * (p - places[j]).squaredNorm() / (length_m * length_m));
+      const Eigen::Matrix3d pair = correlation * J.transpose() * jacobians[j];
       spread += pair + pair.transpose();
     }
     spread += J.transpose() * J;

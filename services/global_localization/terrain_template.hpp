@@ -47,7 +47,7 @@ DriftBasis drift_information(const TerrainTemplate& terrain, const DriftConfig& 
 Eigen::Matrix3d expected_covariance(const TerrainTemplate& terrain);
 
 // Covariance of the centre's x, y and yaw of a match on a distorted map: each sample is displaced by `sigma_m` along
-// each axis, alike within `length_m` (correlation exp(-d^2 / 2 length^2)), and the match is the rigid motion that fits
+// each axis, with the correlation exp(-d^2 / 2 length_m^2), and the match is the rigid motion that fits
 // the displacements best.
 Eigen::Matrix3d distortion_covariance(const TerrainTemplate& terrain, double sigma_m, double length_m);
 
