@@ -19,7 +19,8 @@ class MotorThermalModel {
     const double dt_s = utime_ == kNever ? 0.0 : std::clamp(to_seconds(utime - utime_), 0.0, time_constant_s_);
     utime_ = utime;
     if (!std::isfinite(current_a)) return;
-    const double square = current_a * current_a / (nominal_a_ * nominal_a_);
+    const double ratio = std::min(std::abs(current_a) / nominal_a_, kMostRatio);
+    const double square = ratio * ratio;
     load_ += (square - load_) * dt_s / time_constant_s_;
   }
   double load() const { return load_; }
@@ -30,6 +31,7 @@ class MotorThermalModel {
   }
 
  private:
+  static constexpr double kMostRatio = 100.0;  // no motor takes more; the load stays finite
   double nominal_a_;
   double time_constant_s_;
   double load_ = 0.0;

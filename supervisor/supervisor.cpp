@@ -421,7 +421,8 @@ double Supervisor::speed_limit_mps() const {
   const double free_m = std::max(0.0, blocked_in_m() - config_.stop_distance_m);
   const double braking_mps = std::sqrt(2.0 * config_.deceleration_mps2 * free_m);
   // What a look from afar did not show is seen once more before the rover is there.
-  const double looking_mps = frame_interval_s_ > 0.0 ? config_.advance_per_frame_m / frame_interval_s_ : kInfinity;
+  const double looking_mps =
+      frame_interval_s_ > 0.0 ? config_.advance_per_frame_m / frame_interval_s_ : kMinApproachMps;
   return std::min(
       {config_.max_speed_mps, std::max(braking_mps, kMinApproachMps), looking_mps, fdir_.speed_limit_mps()});
 }

@@ -4,6 +4,7 @@
 # loaded. Then each saving: the first drive without it; and both levels on slower computers. Writes test/results/budget.md.
 # Called by ./rover bench budget [--before FOLDER]: a built checkout of an older commit, driven too.
 set -euo pipefail
+USERS=$PWD
 cd "$(dirname "$(readlink -f "$0")")/.."
 BUILD=$1
 shift
@@ -12,7 +13,7 @@ while [ $# -gt 0 ]; do
   case $1 in
     --before)
       [ $# -gt 1 ] || { echo "bench budget: --before needs a value" >&2; exit 2; }
-      before=$(readlink -f "$2")
+      before=$(cd "$USERS" && realpath -m "$2")
       [ -x "$before/build/bin/rover_launcher" ] || { echo "bench budget: --before: $2 is not a built checkout" >&2; exit 2; }
       shift
       ;;

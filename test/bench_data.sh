@@ -19,6 +19,7 @@ mkdir -p test/results "$LOGS"
 rows=
 segments=
 unread=
+found=
 
 # judge NAME FOLDER
 judge() {
@@ -28,8 +29,11 @@ judge() {
     unread+="- $1: $(tail -1 "$run.txt" | sed "s#$DATA/##g")"$'\n'
     return
   fi
-  "$BUILD/bin/rover_launcher" replay "$run-log" --services stereo,visual_odometry,localization --speed max \
-    --out "$run" --bus "$BUS" >>"$run.txt" 2>&1 || { echo "$1: replay failed, see $run.txt" >&2; exit 1; }
+  if ! "$BUILD/bin/rover_launcher" replay "$run-log" --services stereo,visual_odometry,localization --speed max \
+    --out "$run" --bus "$BUS" >>"$run.txt" 2>&1; then
+    unread+="- $1: $(tail -1 "$run.txt")"$'\n'
+    return
+  fi
   "$BUILD/bin/rover_report" "$run" >>"$run.txt"
   rm -rf "$run-log" "$run"/*.lcm*
   for source in visual_odometry published_pose; do
@@ -56,8 +60,10 @@ rm -rf "$LOGS/rendered-set"
 while read -r set; do
   name=${set#"$DATA"}
   name=${name#/}
+  found=yes
   judge "${name:-$(basename "$DATA")}" "$set"
-done < <(find -L "$DATA" -maxdepth 5 \( -name calib.txt -o -type d -name mav0 \) -printf '%h\n' 2>/dev/null | sort -u)
+done < <(find -L "$DATA" -maxdepth 5 \( -name calib.txt -o -type d -name cam0 \) -printf '%h\n' 2>/dev/null | sed 's#/mav0$##' | sort -u)
+[ $# -lt 2 ] || [ -n "$found" ] || { echo "bench data: $2: no data set in KITTI's odometry layout or EuRoC's below it" >&2; exit 2; }
 {
   echo "# Drift on stereo data sets"
   echo

@@ -86,8 +86,10 @@ std::optional<Prior> GlobalLocalizationNode::fresh_prior() const {
 
 // A jump of odom invalidates the local map; this happens only after a fault.
 void GlobalLocalizationNode::check_for_odometry_jump(const Prior& prior) {
-  const double driven_m = std::abs(pose_.travelled_m - last_travelled_m_);
-  if (last_position_ && (prior.p_odom_body - *last_position_).norm() > driven_m + config_.max_jump_m) {
+  const double driven_m = pose_.travelled_m - last_travelled_m_;
+  const bool started_anew = driven_m < -config_.max_jump_m;  // localization without its checkpoint
+  if (last_position_ &&
+      (started_anew || (prior.p_odom_body - *last_position_).norm() > std::abs(driven_m) + config_.max_jump_m)) {
     node_.log("WARN", "ODOMETRY_JUMPED local map cleared");
     if (core_) core_->clear_local_map();
     schedule_.restart();

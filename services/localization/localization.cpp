@@ -84,12 +84,12 @@ std::string_view Localization::apply_correction(const MapMeasurement& measuremen
   if (!T_odom_body) return "of a time that is forgotten or to come";
   // The pose's covariance is optimistic after long drives: inflate it if the correction lies outside the gate.
   const bool outside_gate = map_.known() && !map_.within_gate(measurement, *T_odom_body, predicted_.P);
-  const auto rejection =
-      map_.apply_correction(measurement, *T_odom_body, outside_gate ? map_.inflated(predicted_.P) : predicted_.P);
+  const auto rejection = map_.apply_correction(
+      measurement, *T_odom_body, outside_gate ? map_.inflated(predicted_.P, measurement.cov) : predicted_.P);
   if (!rejection.empty()) return rejection;
   slam_queue_.clear();
   for (ErrorCov* P : {&fused_.P, &predicted_.P, &chain_.anchor().P})
-    *P = map_.updated_cov(outside_gate ? map_.inflated(*P) : *P, measurement.cov);
+    *P = map_.updated_cov(outside_gate ? map_.inflated(*P, measurement.cov) : *P, measurement.cov);
   return {};
 }
 

@@ -1,5 +1,6 @@
 #include "localization/map_alignment.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
@@ -82,10 +83,16 @@ bool MapAlignment::within_gate(const MapMeasurement& m, const Eigen::Isometry3d&
   return residual.dot(S.inverse() * residual) <= config_.gate_chi2;
 }
 
-ErrorCov MapAlignment::inflated(ErrorCov P) const {
-  for (const int i : kPlanar) {
-    const double sigma = i == kAttitude + 2 ? config_.inflation_rad : config_.inflation_m;
-    P(i, i) += sigma * sigma;
+ErrorCov MapAlignment::inflated(ErrorCov P, const PlanarCov& R_map) const {
+  const Eigen::DiagonalMatrix<double, 3> sigma(config_.inflation_m, config_.inflation_m, config_.inflation_rad);
+  const Eigen::Matrix3d rotation = planar_rotation(T_map_odom_);
+  const Eigen::Matrix3d R = sigma.inverse() * (rotation.transpose() * R_map * rotation) * sigma.inverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(R);
+  const PlanarRows H = planar_rows();
+  for (int i = 0; i < 3; ++i) {
+    if (axes.eigenvalues()(i) > 1.0) continue;
+    const Eigen::Vector3d along = sigma * axes.eigenvectors().col(i);
+    P += H.transpose() * (along * along.transpose()) * H;
   }
   return P;
 }

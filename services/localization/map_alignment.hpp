@@ -38,8 +38,9 @@ class MapAlignment {
 
   // Chi-square test of the innovation. `T_odom_body`: at the measurement's time; `P`: of the newest state.
   bool within_gate(const MapMeasurement& m, const Eigen::Isometry3d& T_odom_body, const ErrorCov& P) const;
-  // For a pose whose covariance proved too small.
-  ErrorCov inflated(ErrorCov P) const;
+  // For a pose whose covariance proved too small: along what a measurement with noise `R_map` knows better than the
+  // inflation. A fix along one axis says nothing of the others.
+  ErrorCov inflated(ErrorCov P, const PlanarCov& R_map) const;
   // Why a correction or SLAM pose cannot be used; empty if it can.
   std::string_view rejection(const MapMeasurement& m, const Eigen::Isometry3d& T_odom_body, const ErrorCov& P) const;
   // Takes effect at once. Empty text if accepted.

@@ -1,14 +1,21 @@
 #include "slam/map_anchor.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "slam/particle_filter.hpp"
 
 namespace rover::slam {
+namespace {
+
+constexpr double kMaxGapS = 1.0;
+
+}  // namespace
 
 bool MapAnchor::add_pose(Utime utime, const Eigen::Isometry3d& T_map_odom, const Eigen::Isometry3d& T_odom_body) {
   const Pose2 T_new = planar(T_map_odom), T_old = T_map_odom_;
-  const double dt_s = to_seconds(utime - utime_);
+  // After a pause of SLAM's own anything can have changed; an anchor too many does no harm.
+  const double dt_s = std::min(kMaxGapS, to_seconds(utime - utime_));
   const bool known = utime_ != kNever;
   utime_ = utime;
   T_map_odom_ = T_new;

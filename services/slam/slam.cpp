@@ -1,5 +1,6 @@
 #include "slam/slam.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <cmath>
 
@@ -159,9 +160,14 @@ Slam::MatchOutcome Slam::match_cloud(const AlignedCloud& cloud, Random& random) 
   trial.update(log_likelihood);
   const Pose2 matched = compose(trial.mean(), bias);
   const MatchInformation info = matcher_.information(matched);
+  const MatchFit best = matcher_.fit(matched, 2);
+  match.plane = best.plane;
+  if (best.inlier_ratio < config_.min_inlier_ratio) {
+    match.status = Status::kLost;
+    return match;
+  }
   // Only if visual odometry had no gap since the matched part of the map was seen.
-  if (info.observable_directions > 0 && travelled_m_ - gap_at_m_ > config_.match.max_range_m)
-    learn_match_error(matched, info);
+  if (travelled_m_ - gap_at_m_ > config_.match.max_range_m) learn_match_error(matched, info);
   if (info.observable_directions == 3) filter_ = std::move(trial);
   // Unobservable directions must not change the weights.
   if (info.observable_directions == 1 || info.observable_directions == 2)
@@ -169,9 +175,7 @@ Slam::MatchOutcome Slam::match_cloud(const AlignedCloud& cloud, Random& random) 
         [&](const Pose2& pose) { return log_likelihood(project_to_observable(pose, predicted, info.observable)); });
   match.status = info.observable_directions > 0 ? Status::kOk : Status::kNoInformation;
   match.information = info.weakest_information;
-  const MatchFit fit = matcher_.fit(compose(filter_.mean(), bias), 2);
-  match.plane = fit.plane;
-  if (fit.inlier_ratio < config_.min_inlier_ratio) match.status = Status::kLost;
+  match.plane = matcher_.fit(compose(filter_.mean(), bias), 2).plane;
   filter_.resample(random);
   return match;
 }
@@ -181,7 +185,10 @@ void Slam::learn_match_error(const Pose2& matched, const MatchInformation& info)
   const Pose2 predicted = filter_.mean();
   const Pose2 fit = between(predicted, {matched.x_m + info.to_best.x(), matched.y_m + info.to_best.y(), 0.0});
   const Eigen::Matrix2d R = Eigen::Rotation2Dd(predicted.yaw_rad).toRotationMatrix();
-  const Eigen::Matrix2d covariance = info.matrix.topLeftCorner<2, 2>().inverse();
+  const Eigen::Matrix2d information = info.matrix.topLeftCorner<2, 2>();
+  const double weakest = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(information).eigenvalues()(0);
+  if (!(weakest * config_.match.unobservable_sigma_m * config_.match.unobservable_sigma_m > 1.0)) return;
+  const Eigen::Matrix2d covariance = information.inverse();
   // Odometry also drifted since the matched part of the map was seen.
   const double pose_sigma_m = std::hypot(std::sqrt(0.5 * filter_.covariance().topLeftCorner<2, 2>().trace()),
                                          growth_per_m_ * config_.match.max_range_m);

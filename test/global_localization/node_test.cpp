@@ -266,6 +266,19 @@ TEST_F(GlobalLocalizationNodeTest, OdometryJumpClearsLocalMap) {
   EXPECT_EQ(corrections_[0].accepted, 1) << corrections_[0].reason;
 }
 
+// Localization without its checkpoint begins odom anew, as far back as the rover had driven.
+TEST_F(GlobalLocalizationNodeTest, OdometryThatBeginsAnewClearsLocalMap) {
+  write_map();
+  start();
+  drive(8.0);
+  place_.x() -= travelled_m_;
+  travelled_m_ = 0.0;
+  drive(8.0);
+  EXPECT_TRUE(corrections_.empty());  // 8 m after the new beginning
+  drive(8.0);
+  EXPECT_EQ(corrections_.size(), 1u);
+}
+
 TEST_F(GlobalLocalizationNodeTest, InvalidOrbitalMapIsNamedInError) {
   const std::string file = (dir_ / "orbital_map.tif").string();
   const auto refusal = [&]() -> std::string {

@@ -162,6 +162,8 @@ TEST_F(ImportTest, BadEurocInputPrintsOneLineAndLeavesNothing) {
   make_euroc();
   write_text(data_ / "mav0/imu0/data.csv", "985000000,0,0,0.1\n");
   expect_refused("imu0/data.csv:1: too few columns");
+  write_text(data_ / "mav0/imu0/data.csv", "985000,0,0,0.1,0,0,9.8\n");
+  expect_refused("imu0/data.csv: no reading is within the time of the images");
 }
 
 TEST_F(ImportTest, RefusesImagesLargerThanAMessage) {

@@ -81,6 +81,26 @@ TEST(MapAlignment, RejectsOutliersAndOldMeasurements) {
   EXPECT_NE(map.rejection(m, T, wide_cov()), "") << "a SLAM pose older than the correction";
 }
 
+// A fix beside a ridge that runs at 30 deg: the pose stays as certain along the ridge as it was.
+TEST(MapAlignment, AFixAlongOneAxisInflatesThatAxisAlone) {
+  MapAlignment map({});
+  map.set_start({{0.0, 0.0, 0.0}, 0.8, 0.1, 0.1}, Eigen::Isometry3d::Identity());
+  const Eigen::Matrix3d ridge = rotation_from_rpy(0.0, 0.0, to_rad(30.0));
+  const Eigen::Matrix3d R = ridge * Vector3d(144.0, 0.16, 0.05).asDiagonal() * ridge.transpose();
+  const ErrorCov P = wide_cov();
+  const ErrorCov inflated = map.inflated(P, R);
+  const Eigen::Matrix3d to_map = rotation_from_rpy(0.0, 0.0, 0.8);
+  Eigen::Matrix3d added = Eigen::Matrix3d::Zero();
+  added.topLeftCorner<2, 2>() = (inflated - P).block<2, 2>(kPosition, kPosition);
+  added = ridge.transpose() * to_map * added * to_map.transpose() * ridge;
+  EXPECT_NEAR(added(0, 0), 0.0, 1e-9) << "along the ridge";
+  EXPECT_NEAR(added(1, 1), 16.0, 1e-9);
+  EXPECT_NEAR(inflated(kAttitude + 2, kAttitude + 2), P(kAttitude + 2, kAttitude + 2), 1e-12);
+  const ErrorCov all = map.inflated(P, Vector3d(0.1, 0.1, 1e-4).asDiagonal());
+  EXPECT_NEAR(all(kPosition, kPosition) - P(kPosition, kPosition), 16.0, 1e-9);
+  EXPECT_NEAR(all(kAttitude + 2, kAttitude + 2) - P(kAttitude + 2, kAttitude + 2), std::pow(to_rad(4.0), 2), 1e-9);
+}
+
 class SlamSteps : public ::testing::Test {
  protected:
   SlamSteps() { map_.set_start({{0.0, 0.0, 0.0}, 0.0, 0.1, 0.1}, Eigen::Isometry3d::Identity()); }

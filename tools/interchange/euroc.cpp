@@ -70,6 +70,7 @@ Camera read_camera(const fs::path& file, StereoRig& rig) {
   const Config sensor = Config::load(file.string());
   sensor.one_of("camera_model", {"pinhole"});
   const auto f = sensor.numbers("intrinsics", {0, 1e5}, 4);
+  if (f[0] < 10.0 || f[1] < 10.0) sensor.fail("intrinsics", "a focal length in pixels is at least 10");
   Camera camera{{f[0], f[1], f[2], f[3], {}}, read_T_BS(sensor)};
   const std::string problem = calibration::set_lens(camera.pinhole, sensor.text("distortion_model"),
                                                     sensor.numbers("distortion_coefficients", {-10, 10}, 0));
@@ -208,6 +209,9 @@ void add_imu(const fs::path& dir, std::int64_t first_ns, StereoDataSet& set) {
     else
       ++set.skipped["IMU readings that are not a number"];
   }
+  if (!set.imu.empty() &&
+      (set.imu.back().since_first < 0 || set.imu.front().since_first > set.pairs.back().since_first))
+    throw ConfigError((dir / "data.csv").string() + ": no reading is within the time of the images");
 }
 
 }  // namespace

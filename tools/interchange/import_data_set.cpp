@@ -275,6 +275,11 @@ std::vector<std::string> summary(const StereoDataSet& set, const std::string& ou
                                     " with ground truth"};
   for (const auto& [what, count] : set.skipped)
     if (count > 0) lines.push_back("skipped: " + std::to_string(count) + " " + what);
+  const auto too_fast = [](const StereoPair& a, const StereoPair& b) {
+    return b.since_first - a.since_first < kTickUs;
+  };
+  if (std::adjacent_find(set.pairs.begin(), set.pairs.end(), too_fast) != set.pairs.end())
+    lines.push_back("note: pairs less than 20 ms apart: of those in one tick the services take the newest");
   for (const std::string& note : set.notes) lines.push_back("note: " + note);
   if (!set.imu.empty())
     lines.push_back("IMU: " + std::to_string(set.imu.size()) + " readings, to predict rotations for visual odometry");

@@ -17,7 +17,8 @@ int main(int argc, char** argv) {
   app.add_option("data_set", options.data_set, "folder of the data set")->required()->transform(rover::is_user_path());
   app.add_option("--out", options.out, "new run folder; default: logs/<name of the data set>")
       ->transform(rover::is_user_path());
-  app.add_option("--poses", options.poses, "KITTI: ground truth; default: poses.txt in the folder, or poses/NN.txt of the data set")
+  app.add_option("--poses", options.poses,
+                 "KITTI: ground truth; default: poses.txt in the folder, or poses/NN.txt of the data set")
       ->transform(rover::is_user_path());
   app.add_option("--rate", options.rate_hz, "KITTI without times.txt: pairs per second")
       ->check(CLI::Range(0.1, 1000.0))
