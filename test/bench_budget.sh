@@ -56,7 +56,7 @@ done
 {
   echo "# Computing budget"
   echo
-  echo "Command: \`./rover bench budget\`; commit $(git describe --always --dirty --abbrev=12); $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1), $(nproc) cores."
+  echo "Command: \`./rover bench budget${before:+ --before FOLDER}\`; commit $(git describe --always --dirty --abbrev=12); $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1), $(nproc) cores."
   echo
   jq -rn --slurpfile e "$LOGS/efficient/metrics.json" --slurpfile f "$LOGS/full/metrics.json" \
     --slurpfile t "$LOGS/realtime/metrics.json" -f test/bench_budget.jq

@@ -10,8 +10,8 @@
 namespace rover::global {
 namespace {
 
-constexpr int kCoarsePeaks = 64;  // of a coarse search, to refine
-constexpr double kMinSinceFixM = 1.0;
+constexpr int kCoarsePeaks = 64;       // of a coarse search, to refine
+constexpr double kMinSinceFixM = 1.0;  // keeps the covariance finite right after a fix
 
 Eigen::Vector2d transformed(const Pose2& T, const Eigen::Vector2d& p) {
   return Eigen::Vector2d(T.x_m, T.y_m) + Eigen::Rotation2Dd(T.yaw_rad) * p;
@@ -286,8 +286,7 @@ void GlobalLocalization::match(const Prior& prior, const TerrainTemplate& terrai
   const Eigen::Vector2d arm = transformed(out.T_map_odom, prior.p_odom_body) - best.pose.center_map;
   out.cov = covariance_at_body(cov + distortion, arm);
   const double body_sigma_m = largest_sigma(out.cov, located);
-  // The last fix saw the same distortion on the terrain that both share: what is new brings its part of the
-  // information.
+  // The last fix saw the same distortion on the terrain that both share, so only what is new adds information.
   const double shared = std::max(1.0, 2.0 * terrain.radius_m / std::max(prior.since_fix_m, kMinSinceFixM));
   out.cov += (shared - 1.0) * covariance_at_body(distortion, arm);
   const bool yaw_certain = out.axes == 1 || cov(2, 2) <= limits.max_sigma_rad * limits.max_sigma_rad;

@@ -8,7 +8,7 @@
 namespace rover::slam {
 namespace {
 
-constexpr double kMaxGapS = 1.0;
+constexpr double kMaxGapS = 1.0;  // between two POSE of a SLAM that runs
 
 }  // namespace
 
