@@ -148,12 +148,15 @@ void SupervisorNode::publish_state(const StateChange& change, Utime now) {
   node_.publish(channel::kState, message, now);
 }
 
-// s6 restarts crashed processes by itself; only a running (hung) one must be killed.
+// s6 restarts crashed processes by itself; only a hung one must be killed. One that sent no heartbeat since the last
+// attempt hangs, too.
 void SupervisorNode::restart(const std::string& service) {
-  const bool running = process_alive(pids_[service]);
-  const bool killed = running && control_(service, "-k");
-  node_.log("WARN", "RESTART service=" + service + " why=" + (running ? "hang" : "crash") +
-                        (running && !killed ? " not possible" : ""));
+  const auto heard = pids_.find(service);
+  const bool hangs = heard == pids_.end() || process_alive(heard->second);
+  const bool killed = hangs && control_(service, "-k");
+  if (heard != pids_.end()) pids_.erase(heard);
+  node_.log("WARN", "RESTART service=" + service + " why=" + (hangs ? "hang" : "crash") +
+                        (hangs && !killed ? " not possible" : ""));
 }
 
 // One in a tick: s6-svc takes milliseconds, and the permit must not wait for all of them.
@@ -161,6 +164,7 @@ void SupervisorNode::run_full_services(std::optional<bool> run) {
   if (run) {
     option_ = *run ? "-u" : "-d";
     to_control_ = on_demand_services_;
+    for (const std::string& service : on_demand_services_) pids_.erase(service);
     node_.log("INFO", *run ? "FULL_SERVICES started" : "FULL_SERVICES stopped");
   }
   if (to_control_.empty()) return;

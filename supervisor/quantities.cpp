@@ -150,6 +150,12 @@ Reading optional_heartbeat_age(const MonitorContext& context, const Subject& sub
                           : age_reading(report.utime, context.utime, limit);
 }
 
+// A service that was started on demand is given as long for its first heartbeat as for the next.
+Reading full_missing(const MonitorContext& context, const Subject& subject, double limit) {
+  const bool silent = age_reading(service(context, subject).utime, context.utime, limit).condition != Condition::kFalse;
+  return above_reading(silent ? context.full_missing_s : 0.0, limit, context.utime, context.utime);
+}
+
 template <ServiceStatus From>
 Reading service_status(const MonitorContext& context, const Subject& subject, double) {
   const ServiceReport& report = service(context, subject);
@@ -227,6 +233,7 @@ constexpr std::array kQuantities = {
     Quantity{"restart_attempts", kEachRequired, restart_attempts},
     Quantity{"full_heartbeat_age_s", kEachFull, heartbeat_age, kOfComputing},
     Quantity{"full_idle_heartbeat_age_s", kEachFull, optional_heartbeat_age, kOfComputing},
+    Quantity{"full_missing_s", kEachFull, full_missing, kOfComputing},
     Quantity{"full_service_fault", kEachFull, service_status<ServiceStatus::kFault>},
     Quantity{"full_starts_per_minute", kEachFull, service_starts},
     Quantity{"full_restart_attempts", kEachFull, restart_attempts},

@@ -44,6 +44,7 @@ struct MonitorContext {
   double stop_distance_m;
   double sweep_s;           // time since the sweep began, 0 if not sweeping
   bool backtracking;        // on a path back that recovers from a stop_backtrack fault
+  double full_missing_s;    // time since path or ground require the Full level, and its services are not ready
   double keep_out_depth_m;  // how far the footprint reaches into a zone, now or where the rover can stop
 };
 

@@ -115,8 +115,9 @@ MonitorContext Supervisor::monitor_context(Utime now) const {
   const bool waiting = state_ == kHazardStop || state_ == kRepairing;
   const bool backtracking =
       backtracking_path_id_ >= 0 && backtracking_path_id_ == inputs_.planner.path_id && state_ != kTeleop;
-  return {inputs_,        derived_.values(),       now,          stationary(), waiting,
-          blocked_in_m(), config_.stop_distance_m, sweep_s(now), backtracking, keep_out_depth_m()};
+  return {inputs_,           derived_.values(),       now,          stationary(), waiting,
+          blocked_in_m(),    config_.stop_distance_m, sweep_s(now), backtracking, full_missing_s(now),
+          keep_out_depth_m()};
 }
 
 // Of the footprint now, and on the circle that the rover is on until it has reacted and braked. On the spot its ends
@@ -164,11 +165,20 @@ void Supervisor::run_full_services(Utime now, LevelFactSet& facts, SupervisorOut
   const bool before_drive = state_ == kBoot || state_ == kStandby;
   const bool full = row == nullptr ? level_ == Level::kFull : row->to == Level::kFull;
   const bool not_ready = full_services_wanted() && !facts.has(LevelFact::kFullReady);
+  full_missing(row, facts.has(LevelFact::kFullReady), now);
   const bool changed = on_demand_.step(now, before_drive || full || not_ready);
   if (!full_services_wanted()) facts.erase(LevelFact::kFullReady);
   if (!changed || on_demand_.state() == OnDemand::State::kLeaving) return;
   out.run_full = full_services_wanted();
   if (!*out.run_full) std::erase_if(inputs_.services, [this](const auto& service) { return on_demand(service.first); });
+}
+
+void Supervisor::full_missing(const LevelTransition* rise_if_ready, bool ready, Utime now) {
+  using enum LevelFact;
+  const bool required = level_ == Level::kEfficient && rise_if_ready != nullptr &&
+                        (rise_if_ready->evidence == kPathFull || rise_if_ready->evidence == kForcedFull);
+  if (!required || ready) full_missing_ = kNever;
+  if (required && !ready && full_missing_ == kNever) full_missing_ = now;
 }
 
 bool Supervisor::on_demand(const std::string& service) const {

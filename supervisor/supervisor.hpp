@@ -178,12 +178,14 @@ class Supervisor {
   LevelFactSet level_facts(Utime now);
   bool on_demand(const std::string& service) const;
   void run_full_services(Utime now, LevelFactSet& facts, SupervisorOutput& out);
+  void full_missing(const LevelTransition* rise_if_ready, bool ready, Utime now);
   void full_failing_fact(LevelFactSet& facts, Utime now);
   double failing_starts() const;
   FactSet facts(Utime now);
   void terrain_fact(FactSet& facts, Utime now);
   bool terrain_fresh() const;
   double sweep_s(Utime now) const;
+  double full_missing_s(Utime now) const { return full_missing_ == kNever ? 0.0 : to_seconds(now - full_missing_); }
   bool inputs_ready(Utime now) const;
   bool alive(const std::vector<std::string>& services, Utime now) const;
   bool stationary() const;
@@ -221,7 +223,8 @@ class Supervisor {
   State state_ = State::kBoot;
   Level level_ = Level::kEfficient;
   bool raised_by_path_ = false;
-  bool path_full_ = false;  // the path requires Full at the last known rover position
+  bool path_full_ = false;       // the path requires Full at the last known rover position
+  Utime full_missing_ = kNever;  // since then path or ground require Full, and its services are not ready
   ForcedLevel forced_ = ForcedLevel::kAuto;
   Utime since_ = kNever;
   Utime teleop_utime_ = kNever;

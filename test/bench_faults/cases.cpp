@@ -150,6 +150,21 @@ Cause hang(double longest_s) {
   return {"hang", longest_s, [](Hands& h, Who who, int) { h.stack.hang(who, true); },
           [](Hands& h, Who who) { h.stack.hang(who, false); }, nullptr};
 }
+// From then on the path requires the Full level.
+Cause hang_until_needed() {
+  return {"hang, persistent after kills, before a segment of the Full level", 12.0,
+          [](Hands& h, Who who, int) {
+            h.stack.hang(who, true);
+            h.stack.set_stuck(who, true);
+          },
+          [](Hands& h, Who who) {
+            h.stack.set_stuck(who, false);
+            h.stack.hang(who, false);
+          },
+          [](Hands& h, Who, double age_s) {
+            if (std::abs(age_s - 2.0) < 0.5 * to_seconds(kTickUs)) h.ground.command(ground_command_t::FORCE_LEVEL);
+          }};
+}
 Cause reports(std::int8_t status, bool for_good) {
   return {for_good ? "reports a fault, persistent after kills" : "reports a fault", for_good ? 20.0 : 2.0,
           [=](Hands& h, Who who, int) {
@@ -278,7 +293,7 @@ std::vector<Case> of_seeing_and_following() {
   };
 }
 
-// In the order of the table; at the Full level except for the row of idle services.
+// In the order of the table; at the Full level except for the rows of idle services.
 std::vector<Case> of_the_full_level() {
   return {
       {"terrain_distance", {}, kRolling, {drop("TRAVERSABILITY", 25.0)}, true},
@@ -286,6 +301,7 @@ std::vector<Case> of_the_full_level() {
       {"slam_lost", {}, kUnderWay, {slam_lost(8.0)}, true},
       {"full_heartbeat", kFull, kUnderWayAtFull, {hang(2.0)}, true},
       {"full_idle_heartbeat", kFull, kEver, {hang(2.0)}},
+      {"full_missing", kFull, kUnderWay, {hang_until_needed()}},
       {"full_service_fault", kFull, kUnderWayAtFull, {reports(heartbeat_t::FAULT, false)}, true},
       {"full_starts", kFull, kUnderWayAtFull, {restart_loop()}, true},
       {"full_restart_failed", kFull, kUnderWayAtFull, {reports(heartbeat_t::FAULT, true)}, true},

@@ -113,7 +113,7 @@ void Ground::give_path(bool forbid_front) {
   for (int i = 0; i <= kBends; ++i) {
     out.x_m.push_back(at.x_m);
     out.y_m.push_back(at.y_m);
-    out.level.push_back(std::int8_t{path_t::EFFICIENT});
+    out.level.push_back(std::int8_t{path_t::FULL});  // commands choose the level
     out.direction.push_back(std::int8_t{path_t::FORWARD});
     const double distance_m = uniform(random_, 5.0, 8.0);
     at.x_m += distance_m * std::cos(at.yaw_rad);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <limits>
 #include <rover/command_ack_t.hpp>
 #include <rover/control_status_t.hpp>
 #include <rover/drive_permit_t.hpp>
@@ -29,7 +30,10 @@ class SupervisorNodeTest : public testing::Test {
  protected:
   SupervisorNodeTest()
       : node_({.name = "supervisor"}, world_.bus),
-        service_(node_, config_, [](const std::string&, const char*) { return false; }) {
+        service_(node_, config_, [this](const std::string& service, const char* option) {
+          controlled_.push_back(service + option);
+          return true;
+        }) {
     permits_ = world_.listen<drive_permit_t>(channel::kDrivePermit);
     states_ = world_.listen<supervisor_state_t>(channel::kState);
     acks_ = world_.listen<command_ack_t>(channel::kCommandAck);
@@ -52,8 +56,10 @@ class SupervisorNodeTest : public testing::Test {
     world_.send(channel::kWheelState, wheel_state_t{});
     world_.send(channel::kImu, imu_t{});
     world_.send(channel::kMotionCommand, motion_command_t{});
+    heartbeat_t beat{};
+    beat.pid = std::numeric_limits<int>::max();  // no such process
     for (const std::string& service : config_.fdir.required_services)
-      world_.send(channel::kHeartbeat, heartbeat_t{}, service);
+      if (service != silent_) world_.send(channel::kHeartbeat, beat, service);
     world_.tick(node_);
     world_.bus.handleTimeout(0);
   }
@@ -67,6 +73,8 @@ class SupervisorNodeTest : public testing::Test {
 
   SupervisorConfig config_ = load_config(ROVER_SOURCE_DIR "/config");
   test::BusWorld world_;
+  std::vector<std::string> controlled_;  // service and option
+  std::string silent_;
   Node node_;
   SupervisorNode service_;
   std::shared_ptr<std::vector<drive_permit_t>> permits_;
@@ -114,6 +122,17 @@ TEST_F(SupervisorNodeTest, NanInThePoseStopsTheRover) {
   EXPECT_EQ(permits_->back().granted, 0);
   EXPECT_EQ(states_->back().state, +supervisor_state_t::FAULT_STOP);
   EXPECT_EQ(states_->back().faults, std::vector<std::string>{"pose_status"});
+}
+
+// A crashed process is started again by s6; if that one sends no heartbeat either, it hangs.
+TEST_F(SupervisorNodeTest, KillsAServiceThatHangsBeforeItsFirstHeartbeat) {
+  for (int i = 0; i < 10; ++i) tick();
+  controlled_.clear();
+  silent_ = "stereo";
+  for (int i = 0; i < 100; ++i) tick();
+  EXPECT_EQ(controlled_, std::vector<std::string>{});
+  for (int i = 0; i < 250; ++i) tick();
+  EXPECT_EQ(controlled_, std::vector<std::string>{"stereo-k"});
 }
 
 TEST_F(SupervisorNodeTest, DoesNotAnswerSetStartPose) {

@@ -236,6 +236,13 @@ std::vector<RowCase> service_cases() {
        [](RowsRig& rig) { rig.services["localization"].status = heartbeat_t::FAULT; },
        [](RowsRig& rig) { rig.services["localization"].status = heartbeat_t::OK; }},
       silent_service("full_idle_heartbeat", "slam", 2.0),
+      {"full_missing", "full_missing.slam",
+       [](RowsRig& rig) {
+         rig.run(15.0);  // the services of the Full level are stopped
+         rig.services["slam"].silent = true;
+         EXPECT_TRUE(rig.command(ground_command_t::FORCE_LEVEL, "", ground_command_t::FULL));
+       },
+       [](RowsRig& rig) { rig.services["slam"].silent = false; }, 8.0},
       restarting("starts", "locomotion"),
       permanently_silent("restart_failed", "stereo"),
       silent_service("optional_heartbeat", "recorder", 8.0),

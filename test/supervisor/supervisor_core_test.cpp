@@ -1166,6 +1166,28 @@ TEST_F(LevelTest, ServicesOfTheFullLevelRunOnDemand) {
   EXPECT_TRUE(supervisor_.full_services_wanted());
 }
 
+// Each of them hangs before its first heartbeat.
+TEST_F(LevelTest, SegmentOfTheFullLevelWaitsForServicesThatHangAtTheirStart) {
+  begin();
+  while (supervisor_.full_services_wanted()) drive(0.02, 0.15);
+  full_alive_ = false;
+  PathLevels path;
+  path.path_id = control_.path_id;
+  path.s_m = {0.0};
+  path.level = {Level::kFull};
+  supervisor_.on_path(path);
+  drive(4.0, 0.15);
+  EXPECT_TRUE(out_.permit.granted) << "they are starting";
+  drive(2.0, 0.15);
+  EXPECT_FALSE(out_.permit.granted);
+  EXPECT_EQ(supervisor_.state(), State::kFaultStop);
+  EXPECT_EQ(restarts_, config_.fdir.full_services);
+  full_alive_ = true;
+  drive(2.0, 0.15);
+  EXPECT_EQ(supervisor_.level(), Level::kFull);
+  EXPECT_EQ(supervisor_.state(), State::kDriving);
+}
+
 TEST_F(LevelTest, LevelDoesNotRiseWithServicesThatAreAboutToStop) {
   begin();
   while (supervisor_.full_services_wanted()) drive(0.02, 0.15);

@@ -124,6 +124,12 @@ void Evidence::tick(Utime now) {
   for (auto& [name, kills] : kills_) forget_older(kills, now - window);
   while (!losses_.empty() && now - losses_.front().utime > to_utime(kLossWindowS)) losses_.pop_front();
   std::erase_if(fault_stops_m_, [&](double at_m) { return pose_.travelled_m - at_m > kFaultStopWayM; });
+  const bool on_path =
+      forced_level_ == ground_command_t::AUTO && std::count(path_.level.begin(), path_.level.end(), path_t::FULL) > 0;
+  const bool full_waits =
+      (on_path || forced_level_ == ground_command_t::FULL) && state_.level != supervisor_state_t::FULL;
+  if (!full_waits) full_waits_since_ = kNever;
+  if (full_waits && full_waits_since_ == kNever) full_waits_since_ = now;
   const bool turning =
       std::any_of(std::begin(wheels_.drive_rate_radps), std::end(wheels_.drive_rate_radps),
                   [&](double rate) { return std::abs(rate) * settings_.wheel_radius_m > kTurningMps; });
@@ -302,6 +308,10 @@ Measurement Evidence::measure_service(const Row& row) const {
   if (known == services_.end()) return {};
   const Service& service = known->second;
   if (q == "heartbeat_age_s" || q == "optional_heartbeat_age_s") return age(service.beat.header.utime);
+  if (q == "missing_s") {
+    const bool silent = to_seconds(now_ - service.beat.header.utime) > row.limit;
+    return counted(silent && full_waits_since_ != kNever ? to_seconds(now_ - full_waits_since_) : 0.0, row);
+  }
   if (q == "log_lost") return of(service.beat.header, service.beat.status != heartbeat_t::OK);
   if (q == "service_fault")
     return of(service.beat.header,

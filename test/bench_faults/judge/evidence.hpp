@@ -7,6 +7,7 @@
 #include <map>
 #include <rover/control_status_t.hpp>
 #include <rover/drive_permit_t.hpp>
+#include <rover/ground_command_t.hpp>
 #include <rover/hazards_t.hpp>
 #include <rover/heartbeat_t.hpp>
 #include <rover/imu_t.hpp>
@@ -36,6 +37,7 @@ class Evidence {
   void kill_ordered(const std::string& service, Utime at) { kills_[service].push_back(at); }
   // Counters of starts, kills and stops are reset by ground command.
   void forget_counts();
+  void force_level(std::int8_t level) { forced_level_ = level; }
   // Once each tick, after its messages.
   void tick(Utime now);
 
@@ -92,8 +94,10 @@ class Evidence {
   Utime beat_utime_ = kNever;
   std::map<std::string, std::deque<Utime>> kills_;
   std::deque<double> fault_stops_m_;
-  Utime turning_since_ = kNever;  // without a permit
-  Utime idle_since_ = kNever;     // with one
+  std::int8_t forced_level_ = ground_command_t::AUTO;
+  Utime full_waits_since_ = kNever;  // Full is required, and the level not yet raised
+  Utime turning_since_ = kNever;     // without a permit
+  Utime idle_since_ = kNever;        // with one
 };
 
 }  // namespace rover::bench_faults

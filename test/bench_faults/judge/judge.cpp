@@ -107,11 +107,14 @@ void Judge::look_at_active(Utime tick) {
 
 void Judge::add_command(const ground_command_t& command) {
   if (command.kind == ground_command_t::CLEAR_FAULT) clear_commands_.insert(command.command_id);
+  if (command.kind == ground_command_t::FORCE_LEVEL) level_commands_[command.command_id] = command.level;
 }
 
 // An accepted CLEAR_FAULT resets all counters.
 void Judge::add_ack(const command_ack_t& ack) {
   if (clear_commands_.erase(ack.command_id) > 0 && ack.accepted) evidence_.forget_counts();
+  const auto level = level_commands_.extract(ack.command_id);
+  if (!level.empty() && ack.accepted) evidence_.force_level(level.mapped());
 }
 
 void Judge::add_permit(const drive_permit_t& permit) {

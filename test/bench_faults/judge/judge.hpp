@@ -100,7 +100,8 @@ class Judge {
   Utime stopping_since_ = kNever;
   std::map<std::string, bool> fault_active_;
   std::set<std::int64_t> clear_commands_;  // not yet answered
-  std::vector<Raised> unproven_;           // raised, not yet visible
+  std::map<std::int64_t, std::int8_t> level_commands_;
+  std::vector<Raised> unproven_;  // raised, not yet visible
   double body_mps_ = 0.0;
   double turn_mps_ = 0.0;  // speed of the corner wheels in the body's turn
   double wheel_mps_ = 0.0;

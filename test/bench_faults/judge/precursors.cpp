@@ -27,6 +27,7 @@ const std::map<std::string, std::set<std::string>> kLower = {{"pose_sigma", {"po
                                                              {"heartbeat", {"heartbeat_late"}},
                                                              {"restart_failed", {"service_fault"}},
                                                              {"full_restart_failed", {"full_service_fault"}},
+                                                             {"full_missing", {"full_idle_heartbeat"}},
                                                              {"sweep_timeout", {"terrain_distance"}},
                                                              {"fault_stops", {"pose_status"}}};
 
