@@ -38,18 +38,20 @@ std::vector<RoutePoint> points_of(const std::vector<PlanPose>& plan, std::int8_t
 
 }  // namespace
 
-void ActivePath::set_route(std::int64_t id, PathKind kind, Route route, double corridor_half_width_m, Point2 rover) {
+void ActivePath::set_route(std::int64_t id, PathKind kind, Route route, double corridor_half_width_m,
+                           const Pose2& rover) {
   clear();
   id_ = id;
   kind_ = kind;
   route_ = std::move(route);
   corridor_half_width_m_ = corridor_half_width_m;
-  progress_m_ = route_.closest(rover, 0.0, std::min(kSearchAheadM, route_.segment_at(0.0).end_m));
+  planned_from_ = rover;
+  progress_m_ = route_.closest(position(rover), 0.0, std::min(kSearchAheadM, route_.segment_at(0.0).end_m));
 }
 
 void ActivePath::set_plan(std::int64_t id, PathKind kind, std::vector<PlanPose> plan,
                           const std::vector<RoutePoint>& tail, double corridor_half_width_m, std::int8_t level,
-                          Point2 rover) {
+                          const Pose2& rover) {
   std::vector<RoutePoint> points = points_of(plan, level);
   const size_t planned = points.size();
   points.insert(points.end(), tail.begin(), tail.end());

@@ -37,16 +37,18 @@ class ActivePath {
   double progress_m() const { return progress_m_; }
   double remaining_m() const { return route_.length_m() - progress_m_; }
   double corridor_half_width_m() const { return corridor_half_width_m_; }
+  // Where the rover was when it got the path.
+  const Pose2& planned_from() const { return planned_from_; }
   PathSegment segment() const { return route_.segment_at(progress_m_); }
   // Of the planned part of the route that is ahead; the rest is the global path.
   double planned_m() const { return plan_end_m_ - progress_m_; }
 
   void clear() { *this = ActivePath(); }
   // The whole path becomes this route, which nothing was planned of.
-  void set_route(std::int64_t id, PathKind kind, Route route, double corridor_half_width_m, Point2 rover);
+  void set_route(std::int64_t id, PathKind kind, Route route, double corridor_half_width_m, const Pose2& rover);
   // A plan that begins at the rover, or `behind` it, followed by `tail`.
   void set_plan(std::int64_t id, PathKind kind, std::vector<PlanPose> plan, const std::vector<RoutePoint>& tail,
-                double corridor_half_width_m, std::int8_t level, Point2 rover);
+                double corridor_half_width_m, std::int8_t level, const Pose2& rover);
   void follow(Point2 rover, double forward_mps);
   // From a checkpoint; the plan is not kept, only the path made from it.
   void restore(std::int64_t id, PathKind kind, Route route, double corridor_half_width_m, double progress_m,
@@ -76,6 +78,7 @@ class ActivePath {
   std::int64_t id_ = -1;
   PathKind kind_ = PathKind::kGlobal;
   double corridor_half_width_m_ = 0.0;
+  Pose2 planned_from_;
   double progress_m_ = 0.0;
   double plan_end_m_ = 0.0;
   std::vector<PlanPose> plan_;

@@ -12,7 +12,7 @@ class Monitor {
  public:
   explicit Monitor(const MonitorQuery& query)
       : query_(query),
-        check_(query.costmap, query.footprint, query.margin_m, kMonitorApproachM, 0.0, query.rover),
+        check_(query.costmap, query.footprint, query.margin_m, kMonitorApproachM, 0.0, query.rover, query.planned_from),
         visibility_(query.costmap, check_, query.view) {}
 
   Blockage run() {

@@ -21,7 +21,7 @@ constexpr double kGoalNearM = 1.0;
 constexpr double kGoalToleranceRatio = 0.6;  // of the goal's tolerance, for a plan
 constexpr double kProgressM = 1.0;           // of the global path, after which backing up counts anew
 constexpr double kMinBackUpM = 0.2;
-constexpr double kBackUpMarginM = 0.03;  // less than the driven track had
+constexpr double kBackUpMarginM = 0.0;  // the driven track touched nothing
 constexpr double kBackUpReserveM = 0.1;
 constexpr int kMaxWantedBackUps = 2;
 constexpr double kPoseStepM = 0.05;
@@ -216,7 +216,7 @@ void PathPlanner::follow_global_path() {
     points.push_back(global_odom_->points()[count - 2]);  // the rover is at the end: the last piece is the path
   for (size_t i = next; i < count; ++i) points.push_back(global_odom_->points()[i]);
   active_.set_route(next_path_id_++, PathKind::kGlobal, Route(std::move(points)), global_->corridor_half_width_m,
-                    position(rover()));
+                    rover());
   track_turn();
   check_path();
 }
@@ -233,7 +233,7 @@ void PathPlanner::follow() {
     for (size_t i = active_.route().vertex_after(from_m) - 1; i < points.size(); ++i) rest.push_back(points[i]);
     if (rest.size() >= 2) {
       active_.set_route(next_path_id_++, PathKind::kGlobal, Route(std::move(rest)), global_->corridor_half_width_m,
-                        position(rover()));
+                        rover());
       check_path();
     }
   }
@@ -296,8 +296,9 @@ Costmap PathPlanner::costmap_around(double side_m) const {
 
 void PathPlanner::check_path() {
   const Costmap costmap = costmap_around(kMonitorSideM);
-  blockage_ = find_blockage({costmap, active_.route(), config_.footprint, active_.progress_m(), rover(), margin_m(),
-                             turning_, config_.turn_threshold_rad, config_.belief.view});
+  blockage_ =
+      find_blockage({costmap, active_.route(), config_.footprint, active_.progress_m(), rover(), active_.planned_from(),
+                     margin_m(), turning_, config_.turn_threshold_rad, config_.belief.view});
   // No camera looks backwards, and the driven track was known.
   if (mode_ == Mode::kBackingUp) blockage_.unknown_m = blockage_.unseen_m = kInfinity;
 }
@@ -425,7 +426,7 @@ void PathPlanner::adopt(const Plan& plan, const Job& job) {
   replan_wanted_ = back_up_wanted_ = false;
   active_.set_plan(next_path_id_++, full_level_ ? PathKind::kContinuous : PathKind::kRepair, poses,
                    tail(poses.back().pose, job.start.pose), corridor_m, global_odom_->level_at(global_progress_m_),
-                   position(rover()));
+                   rover());
   track_turn();
   check_path();
   failures_ = clear() ? 0 : failures_ + 1;  // one that the path monitor refuses is a failure
@@ -477,8 +478,8 @@ std::vector<Point2> PathPlanner::back_up_points() const {
   const Route route(std::move(points));
   const Costmap costmap = costmap_around(kMonitorSideM);
   const bool turning = std::abs(wrap_angle(route.pose_at(0.0).yaw_rad - rover().yaw_rad)) > config_.turn_threshold_rad;
-  const Blockage blockage = find_blockage({costmap, route, config_.footprint, 0.0, rover(), kBackUpMarginM, turning,
-                                           config_.turn_threshold_rad, config_.belief.view});
+  const Blockage blockage = find_blockage({costmap, route, config_.footprint, 0.0, rover(), rover(), kBackUpMarginM,
+                                           turning, config_.turn_threshold_rad, config_.belief.view});
   const double clear_m = std::min(route.length_m(), blockage.hazard_m - kBackUpReserveM);
   std::vector<Point2> out;
   for (size_t i = 0; i < track.size() && route.s_at(i) <= clear_m; ++i) out.push_back(track[i]);
@@ -497,8 +498,7 @@ void PathPlanner::back_up() {
   failures_ = 0;
   back_up_wanted_ = replan_wanted_ = turning_ = false;
   job_.reset();
-  active_.set_route(next_path_id_++, PathKind::kBacktrack, Route(std::move(points)), config_.min_corridor_m,
-                    position(rover()));
+  active_.set_route(next_path_id_++, PathKind::kBacktrack, Route(std::move(points)), config_.min_corridor_m, rover());
   blockage_ = {};
 }
 

@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "path_planner/map/costmap.hpp"
+#include "test/path_planner/rock_world.hpp"
 
 namespace rover::planning {
 namespace {
@@ -147,12 +148,14 @@ TEST_F(BeliefMapTest, HazardsBesideTheRoverAreKeptWhileItTurns) {
 }
 
 TEST_F(BeliefMapTest, DrivenGroundIsFreeWhateverWasSeenThere) {
-  const Footprint footprint{0.875, 0.47};
+  const Footprint footprint = testing_support::planner_config().footprint;
   see(HazardGrid::kObstacle, 5);
   see_cost(TraversabilityGrid::kImpassable, 2.0);
   belief_.mark_driven({kRock.x_m, kRock.y_m + footprint.half_width_m + 0.05, 0.0}, footprint);
   EXPECT_TRUE(is_hazard()) << "beside the driven ground";
-  belief_.mark_driven({kRock.x_m - 0.3, kRock.y_m, 0.2}, footprint);
+  belief_.mark_driven({kRock.x_m - 0.4, kRock.y_m - 0.41, 0.0}, footprint);
+  EXPECT_TRUE(is_hazard()) << "between the wheels of a side";
+  belief_.mark_driven({kRock.x_m - 0.75, kRock.y_m - 0.41, 0.0}, footprint);
   EXPECT_EQ(probability(), 0.0);
   EXPECT_TRUE(at(kRock).known);
   see(HazardGrid::kObstacle, 5);
@@ -182,7 +185,7 @@ TEST_F(BeliefMapTest, FromAfarAnObstacleMayBeLowUntilItIsSeenToBe) {
 }
 
 TEST_F(BeliefMapTest, BetweenTheWheelsALowHazardStaysOne) {
-  const Footprint footprint{0.875, 0.47, 0.35};
+  const Footprint footprint = testing_support::planner_config().footprint;
   see(HazardGrid::kObstacle, 3);
   belief_.mark_driven({kRock.x_m, kRock.y_m, 0.0}, footprint);
   EXPECT_TRUE(is_hazard());
@@ -192,7 +195,7 @@ TEST_F(BeliefMapTest, BetweenTheWheelsALowHazardStaysOne) {
 }
 
 TEST_F(BeliefMapTest, DrivenGroundNeedsNoMeasurement) {
-  belief_.mark_driven({1.5, 0.0, 0.0}, {0.875, 0.47});
+  belief_.mark_driven({0.8, -0.36, 0.0}, testing_support::planner_config().footprint);
   see_everywhere(HazardGrid::kUnseen, 2 * config_.unmeasured_frames);
   EXPECT_FALSE(belief_.unmeasurable(at({1.55, 0.05})));
 }

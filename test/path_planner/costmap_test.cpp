@@ -60,8 +60,8 @@ TEST(Costmap, ListsTheHazardsNearAPoint) {
     for (const double reach_m : {0.0, 0.3, 1.2, 20.0}) {
       size_t within = 0;
       size_t listed = 0;
-      for (const auto& [h, low, wall] : costmap.hazards()) within += std::abs(h.y_m - p.y_m) <= reach_m ? 1 : 0;
-      for (const auto& [h, low, wall] : costmap.hazards_near(p, reach_m)) {
+      for (const auto& [h, low] : costmap.hazards()) within += std::abs(h.y_m - p.y_m) <= reach_m ? 1 : 0;
+      for (const auto& [h, low] : costmap.hazards_near(p, reach_m)) {
         listed += std::abs(h.y_m - p.y_m) <= reach_m ? 1 : 0;
         EXPECT_LE(std::abs(h.y_m - p.y_m), reach_m + costmap.cell_m());
       }

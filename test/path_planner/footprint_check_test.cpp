@@ -26,7 +26,7 @@ Costmap costmap_of(const GroundAt& ground) {
 }
 
 FootprintCheck check_of(const Costmap& costmap, const Pose2& start = {9.0, 9.0, 0.0}) {
-  return FootprintCheck(costmap, kRover, kMarginM, kApproachM, 0.0, start);
+  return FootprintCheck(costmap, kRover, kMarginM, kApproachM, 0.0, start, start);
 }
 
 GroundAt scattered(Ground kind, std::uint64_t seed) {
@@ -105,6 +105,21 @@ TEST(FootprintCheck, ARoverThatTouchesAHazardMayLeaveItButNotDriveOverIt) {
   EXPECT_TRUE(check.clear({-0.5, -0.03, 0.0}));
   EXPECT_FALSE(check.clear({0.0, 0.0, 0.0}));
   EXPECT_FALSE(check.clear({0.6, -0.03, 0.0})) << "towards another one";
+}
+
+// However it came there, it goes no further onto a hazard than where its path was planned.
+TEST(FootprintCheck, ARoverThatStraysOntoAHazardIsStopped) {
+  const Costmap costmap = costmap_of([](Point2 p) {
+    return distance(p, {0.05, 0.45}) < 0.01 ? Ground::kHazard : Ground::kFree;
+  });
+  const auto check = [&](double rover_y_m, double planned_y_m) {
+    return FootprintCheck(costmap, kRover, kMarginM, kApproachM, 0.0, {0.0, rover_y_m, 0.0}, {0.0, planned_y_m, 0.0})
+        .clear({0.0, rover_y_m, 0.0});
+  };
+  EXPECT_TRUE(check(-0.03, -0.2)) << "its edge has not reached the centre of the cell";
+  EXPECT_FALSE(check(0.0, -0.2));
+  EXPECT_TRUE(check(0.0, 0.0)) << "a path that leads away from it";
+  EXPECT_FALSE(check(0.03, 0.0));
 }
 
 TEST(FootprintCheck, ARoverBesideUnknownGroundMayLeaveItButNotEnterIt) {

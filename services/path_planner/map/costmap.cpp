@@ -99,7 +99,7 @@ Costmap::Costmap(const CostmapConfig& config, const BeliefMap& belief, Point2 ro
     own_cost_[i] =
         static_cast<float>((low ? kLowFraction : 1.0) * config.hazard_cost * p + config.difficulty_cost * cell.cost);
     hazard[i] = p >= config.hazard_probability || unmeasured || walls[i] ? 1 : 0;
-    if (hazard[i]) hazards_.push_back({center_of(static_cast<int>(i)), low, walls[i] != 0});
+    if (hazard[i]) hazards_.push_back({center_of(static_cast<int>(i)), low});
   }
   row_begin_.push_back(hazards_.size());
   hazard_distance_ = distance_field(hazard, cells_, cells_, cell_m_);

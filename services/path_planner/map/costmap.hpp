@@ -22,9 +22,8 @@ struct CostmapConfig {
 };
 
 struct Hazard {
-  Point2 p;           // centre of a cell
-  bool low = false;   // the body passes over it, the wheels do not
-  bool wall = false;  // of a zone: a correction may put it under the rover
+  Point2 p;          // centre of a cell
+  bool low = false;  // the body passes over it, the wheels do not
 };
 
 class Costmap {

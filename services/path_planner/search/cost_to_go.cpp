@@ -29,7 +29,7 @@ CostToGo::CostToGo(const CostToGoConfig& config, const PlanRequest& request, con
       goal_inside_(costmap_.inside_m(goal_) > kBorderM),
       coarse_cells_((costmap_.cells() + kCoarse - 1) / kCoarse) {
   std::vector<std::uint8_t> tall(static_cast<size_t>(costmap_.cells()) * costmap_.cells(), 0);
-  for (const auto& [p, low, wall] : costmap_.hazards())
+  for (const auto& [p, low] : costmap_.hazards())
     if (!low) tall[costmap_.cell_of(p)] = 1;
   tall_distance_m_ = distance_field(tall, costmap_.cells(), costmap_.cells(), costmap_.cell_m());
   march_from_goal(request);

@@ -9,8 +9,13 @@ constexpr double kShadowM = 0.5;  // of a rock of 0.2 m, seen from 1.2 m
 }  // namespace
 
 FootprintCheck::FootprintCheck(const Costmap& costmap, const Footprint& footprint, double margin_m, double approach_m,
-                               double known_margin_m, const Pose2& start)
-    : costmap_(costmap), footprint_(footprint), margin_m_(margin_m), approach_m_(approach_m), start_(start) {
+                               double known_margin_m, const Pose2& start, const Pose2& planned_from)
+    : costmap_(costmap),
+      footprint_(footprint),
+      margin_m_(margin_m),
+      approach_m_(approach_m),
+      start_(start),
+      planned_from_(planned_from) {
   const double x = footprint.half_length_m + known_margin_m;
   const double y = footprint.half_width_m + known_margin_m;
   const int nx = static_cast<int>(std::ceil(2.0 * x / costmap.cell_m()));
@@ -24,8 +29,8 @@ FootprintCheck::FootprintCheck(const Costmap& costmap, const Footprint& footprin
 bool FootprintCheck::violates(const Pose2& pose, const Hazard& hazard) const {
   const double d = distance_m(pose, hazard);
   if (d >= margin_m_) return false;
-  const double at_start = distance_m(start_, hazard);
-  return d < std::min(margin_m_, (hazard.wall ? at_start : std::max(at_start, 0.0)) - approach_m_);
+  const double onto_m = std::min(distance_m(planned_from_, hazard) - approach_m_, 0.0);
+  return d < std::min(margin_m_, std::max(distance_m(start_, hazard) - approach_m_, onto_m));
 }
 
 bool FootprintCheck::enters(const Pose2& pose, Point2 unknown) const {

@@ -7,13 +7,14 @@
 
 namespace rover::planning {
 
-// Keeps the footprint clear of hazards by a margin, and on known ground. The rover may leave a hazard or unknown ground
-// that is nearer at `start`, but not approach it by more than `approach_m`.
+// Keeps the footprint clear of hazards by a margin, and on known ground. Of a hazard or unknown ground that is nearer
+// at `start` the rover may come closer by `approach_m`, but not onto a hazard. One that its edge had reached
+// at `planned_from`, when the path was planned, it may leave, or come onto by `approach_m`.
 class FootprintCheck {
  public:
   // `known_margin_m`: how far around the footprint ground must be known.
   FootprintCheck(const Costmap& costmap, const Footprint& footprint, double margin_m, double approach_m,
-                 double known_margin_m, const Pose2& start);
+                 double known_margin_m, const Pose2& start, const Pose2& planned_from);
 
   bool clear(const Pose2& pose) const;
   // From the footprint to the nearest centre of a hazard cell; `max` if none is as near.
@@ -40,6 +41,7 @@ class FootprintCheck {
   double margin_m_;
   double approach_m_;
   Pose2 start_;
+  Pose2 planned_from_;
   std::vector<Point2> edge_;  // points along the edge, the front first
 };
 
