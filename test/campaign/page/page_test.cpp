@@ -39,11 +39,19 @@ class Page : public testing::Test {
   PageInfo info_{"enav",
                  "0123456789ab",
                  "a machine, 2 cores",
+                 "",
                  "./rover campaign config/campaigns/enav.yaml",
                  "./rover campaign page logs/campaigns/enav",
                  "scenario: <enav>\n",
                  [](const Row& row) { return "./rover run --seed " + std::to_string(row.seed); }};
 };
+
+TEST_F(Page, SaysThatDrivesAreMissing) {
+  EXPECT_THAT(table(), Not(HasSubstr("not complete")));
+  info_.part = "20 of 1800 drives";
+  EXPECT_THAT(table(), HasSubstr("- not complete: 20 of 1800 drives\n"));
+  EXPECT_THAT(html(), HasSubstr("20 of 1800 drives"));
+}
 
 TEST_F(Page, CellShowsSuccessNumberIntervalAndInfeasibleDrives) {
   // 15 of 18 feasible drives, 2 infeasible: Wilson's interval is 61 to 94 %.

@@ -1,5 +1,7 @@
 #include "tools/campaign/page/page_command.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -59,6 +61,8 @@ PageInfo info_of(const PageArguments& arguments, const std::vector<Row>& rows) {
   info.name = name_of(arguments.dir);
   info.commit = rows.front().commit;
   info.machine = machine.cpu_model + ", " + std::to_string(machine.cores) + " cores";
+  if (const size_t jobs = read_jobs(arguments.dir).size(); rows.size() < jobs)
+    info.part = fmt::format("{} of {} drives", rows.size(), jobs);
   info.command = read_info(arguments.dir).command;
   info.page_command = arguments.command;
   info.definition = read_text(arguments.dir + "/campaign.yaml", kMaxDefinition);
@@ -96,7 +100,7 @@ std::string heat_map(const PageInfo& info, const Panels& panels, const Drives& d
       "Success of campaign " + info.name,
       "Feasible drives that reach their goal without contact, with the 95 % interval; inf.: infeasible for "
       "the oracle. Commit " +
-          info.commit,
+          info.commit + (info.part.empty() ? "" : ". " + info.part),
       success_pictures(panels, drives), {kSuccessColours, "0 %", "100 %"});
 }
 

@@ -36,10 +36,10 @@ std::string page_header(const PageInfo& info, const Panels& panels, const Succes
                                                  : std::string("Contacts unknown");
   const std::string common = cell_title(panels.common, {});
   return fmt::format(
-      "<header><div><h1>Campaign: {}</h1><div class=\"meta\">{}{}commit {} &middot; {}</div></div>"
+      "<header><div><h1>Campaign: {}</h1><div class=\"meta\">{}{}commit {}{}{} &middot; {}</div></div>"
       "<div class=\"badge {}\">{}</div></header>\n",
       escaped(info.name), escaped(common), common.empty() ? "" : " &middot; ", escaped(info.commit),
-      escaped(info.machine), clean ? "good" : "bad", badge);
+      info.part.empty() ? "" : " &middot; ", info.part, escaped(info.machine), clean ? "good" : "bad", badge);
 }
 
 std::string page_card(const std::string& value, const std::string& what, const char* kind = "") {

@@ -14,6 +14,7 @@ struct PageInfo {
   std::string name;
   std::string commit;
   std::string machine;
+  std::string part;                               // "69 of 1800 drives"; empty: all
   std::string command;                            // that drives the campaign
   std::string page_command;                       // that makes this page
   std::string definition;                         // text of campaign.yaml

@@ -125,8 +125,9 @@ std::string markdown_rule(size_t columns) {
 
 std::string page_table(const PageInfo& info, const Panels& panels, const Drives& drives, const std::string& picture) {
   const std::map<Cell, Drives> cells = by_cell(drives);
-  std::string out = fmt::format("# Campaign `{}`\n\n- commit: `{}`\n- machine: {}\n- command: `{}`, then `{}`\n",
-                                info.name, info.commit, info.machine, info.command, info.page_command);
+  std::string out = fmt::format(
+      "# Campaign `{}`\n\n- commit: `{}`\n- machine: {}\n{}- command: `{}`, then `{}`\n", info.name, info.commit,
+      info.machine, info.part.empty() ? "" : "- not complete: " + info.part + "\n", info.command, info.page_command);
   if (!panels.common.empty()) out += fmt::format("- all drives: {}\n", cell_title(panels.common, {}));
   out += summary(panels, drives, cells);
   out +=
