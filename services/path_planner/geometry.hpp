@@ -59,7 +59,7 @@ struct Footprint {
   double half_length_m = 0.0;
   double half_width_m = 0.0;
   double half_gap_m = 0.0;         // between the wheels of both sides, where the body passes over low obstacles
-  std::array<Point2, 6> wheels{};  // where they stand
+  std::array<Point2, 6> wheels{};  // their axles, seen from above
 
   double radius_m() const { return std::hypot(half_length_m, half_width_m); }
 
@@ -77,7 +77,7 @@ struct Footprint {
     return Footprint{half_length_m, half_width_m - middle}.distance_m({in_body.x_m, std::abs(in_body.y_m) - middle});
   }
   double wheel_distance_m(const Pose2& pose, Point2 p) const { return wheel_distance_m(to_body(pose, p)); }
-  bool wheel_stands_on(const Pose2& pose, Point2 p) const {
+  bool wheel_is_on(const Pose2& pose, Point2 p) const {
     const Point2 in_body = to_body(pose, p);
     return std::any_of(wheels.begin(), wheels.end(),
                        [&](Point2 wheel) { return distance(wheel, in_body) <= 0.5 * (half_width_m - half_gap_m); });

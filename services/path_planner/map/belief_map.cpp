@@ -166,8 +166,8 @@ void BeliefMap::mark_driven(const Pose2& pose, const Footprint& footprint) {
   const double r = footprint.radius_m() + rim;
   for_cells_in(map_, {pose.x_m - r, pose.y_m - r}, {pose.x_m + r, pose.y_m + r}, [&](CellBelief& cell, Point2 p) {
     const double d = footprint.distance_m(pose, p);
-    // A wheel stands on it, or the body is above it: between the wheels of a side there may be a rock.
-    if (footprint.wheel_stands_on(pose, p)) cell = {.known = true, .driven = true};
+    // A wheel is on it, or the body above it; between the wheels of a side there may be a rock.
+    if (footprint.wheel_is_on(pose, p)) cell = {.known = true, .driven = true};
     if (d <= 0.0) cell.known = true, cell.unmeasured = 0, cell.tall_evidence = cell.tall_fraction = 0.0F;
     if (d <= rim) cell.known = true, cell.unmeasured = 0;
   });
