@@ -7,7 +7,8 @@
 
 namespace rover::campaign {
 
-// `picture`: file of the heat map, relative to the table's. A campaign of one cell has none, but the list of its drives.
+// `picture`: file of the heat map, relative to the table's. A campaign of one cell has none, but the list of its
+// drives.
 std::string page_table(const PageInfo& info, const Panels& panels, const Drives& drives, const std::string& picture);
 
 // Cells of one line of a Markdown table, with its pipes escaped.
