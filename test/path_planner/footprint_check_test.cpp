@@ -26,7 +26,7 @@ Costmap costmap_of(const GroundAt& ground) {
 }
 
 FootprintCheck check_of(const Costmap& costmap, const Pose2& start = {9.0, 9.0, 0.0}) {
-  return FootprintCheck(costmap, kRover, kMarginM, kApproachM, 0.0, start, start);
+  return FootprintCheck(costmap, kRover, kMarginM, kApproachM, 0.0, start);
 }
 
 GroundAt scattered(Ground kind, std::uint64_t seed) {

@@ -94,7 +94,7 @@ bool reverses(const Plan& plan) {
 void expect_keeps_clearance(const Plan& plan, const PlanRequest& request) {
   const HybridPlannerConfig config = search_config();
   const auto check = [&](double margin_m) {
-    return FootprintCheck(*request.costmap, config.footprint, margin_m, kApproachM, 0.0, request.rover, request.rover);
+    return FootprintCheck(*request.costmap, config.footprint, margin_m, kApproachM, 0.0, request.rover);
   };
   const FootprintCheck min = check(config.clearances.min_m);
   const FootprintCheck turn = check(config.clearances.turn_m);
@@ -227,13 +227,12 @@ TEST(HybridPlanner, ThePathMonitorAcceptsEachPlan) {
         certain_belief([&](Point2 p) { return distance(p, beside) < 0.06 ? Ground::kHazard : rocks(p); }), start);
     const Plan plan = plan_on(request);
     if (!plan.found) continue;
-    near += FootprintCheck(*request.costmap, config.footprint, config.clearances.min_m, 0.0, 0.0, {9.0, 9.0, 0.0},
-                           {9.0, 9.0, 0.0})
+    near += FootprintCheck(*request.costmap, config.footprint, config.clearances.min_m, 0.0, 0.0, {9.0, 9.0, 0.0})
                     .clear(start)
                 ? 0
                 : 1;
     ActivePath path;
-    path.set_plan(1, PathKind::kRepair, plan.poses, {}, 0.25, 0, position(start));
+    path.set_plan(1, PathKind::kRepair, plan.poses, {}, 0.25, 0, start);
     constexpr double kPointTurnRad = 0.7;
     const bool turning = std::abs(wrap_angle(path.route().pose_at(0.0).yaw_rad - start.yaw_rad)) > kPointTurnRad;
     const Blockage blockage = find_blockage({*request.costmap, path.route(), config.footprint, 0.0, start, start,

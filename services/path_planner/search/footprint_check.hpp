@@ -15,6 +15,10 @@ class FootprintCheck {
   // `known_margin_m`: how far around the footprint ground must be known.
   FootprintCheck(const Costmap& costmap, const Footprint& footprint, double margin_m, double approach_m,
                  double known_margin_m, const Pose2& start, const Pose2& planned_from);
+  // Of a plan from there.
+  FootprintCheck(const Costmap& costmap, const Footprint& footprint, double margin_m, double approach_m,
+                 double known_margin_m, const Pose2& start)
+      : FootprintCheck(costmap, footprint, margin_m, approach_m, known_margin_m, start, start) {}
 
   bool clear(const Pose2& pose) const;
   // From the footprint to the nearest centre of a hazard cell; `max` if none is as near.

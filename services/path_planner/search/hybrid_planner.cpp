@@ -17,8 +17,7 @@ Plan HybridPlanner::plan(const PlanRequest& request) const {
   // The places of both fields are the same: where no pose of the lattice fits, no way of the 2-D field leads.
   const CostToGo cost_to_go(config_.cost_to_go, request, config_.footprint, margins.min_m - kExtents.front().slack_m);
   const auto check = [&](double margin_m) {
-    return FootprintCheck(*request.costmap, config_.footprint, margin_m, kApproachM, kKnownMarginM, request.rover,
-                          request.rover);
+    return FootprintCheck(*request.costmap, config_.footprint, margin_m, kApproachM, kKnownMarginM, request.rover);
   };
   const FootprintCheck comfort = check(margins.comfort_m);
   const FootprintCheck min = check(margins.min_m);
