@@ -75,7 +75,7 @@ void put_map(StateWriter& out, const GridMap<CellBelief>& map) {
   out.put(map.origin());
   out.put(map.cells());
   map.for_each([&](CellIndex, const CellBelief& cell) {
-    out.put(static_cast<std::uint8_t>((cell.known ? 1 : 0) | (cell.driven ? 2 : 0)));
+    out.put(static_cast<std::uint8_t>((cell.known ? 1 : 0) | (cell.driven ? 2 : 0) | (cell.passed ? 4 : 0)));
     if (!cell.known) return;
     out.put(cell.unmeasured);
     out.put(cell.unmeasured_range_m);
@@ -101,6 +101,7 @@ bool get_map(StateReader& in, GridMap<CellBelief>& map) {
     const auto flags = in.get<std::uint8_t>();
     cell.known = (flags & 1) != 0;
     cell.driven = (flags & 2) != 0;
+    cell.passed = (flags & 4) != 0;
     if (!cell.known) return;
     cell.unmeasured = in.get<std::uint8_t>();
     cell.unmeasured_range_m = in.get<float>();

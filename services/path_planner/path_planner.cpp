@@ -290,12 +290,14 @@ double PathPlanner::margin_m() const {
                                              : clearances.min_m - PathPlannerConfig::kClearanceToleranceM;
 }
 
-Costmap PathPlanner::costmap_around(double side_m) const {
-  return Costmap(config_.costmap, belief_, position(rover()), side_m, zones_odom_);
+Costmap PathPlanner::monitor_costmap(bool way_back) const {
+  CostmapConfig config = config_.costmap;
+  config.passed_is_free = way_back;
+  return Costmap(config, belief_, position(rover()), kMonitorSideM, zones_odom_);
 }
 
 void PathPlanner::check_path() {
-  const Costmap costmap = costmap_around(kMonitorSideM);
+  const Costmap costmap = monitor_costmap(mode_ == Mode::kBackingUp);
   blockage_ =
       find_blockage({costmap, active_.route(), config_.footprint, active_.progress_m(), rover(), active_.planned_from(),
                      margin_m(), turning_, config_.turn_threshold_rad, config_.belief.view});
@@ -476,7 +478,7 @@ std::vector<Point2> PathPlanner::back_up_points() const {
   std::vector<RoutePoint> points;
   for (const Point2& p : track) points.push_back({p, kNaN, 0, true});
   const Route route(std::move(points));
-  const Costmap costmap = costmap_around(kMonitorSideM);
+  const Costmap costmap = monitor_costmap(true);
   const bool turning = std::abs(wrap_angle(route.pose_at(0.0).yaw_rad - rover().yaw_rad)) > config_.turn_threshold_rad;
   const Blockage blockage = find_blockage({costmap, route, config_.footprint, 0.0, rover(), rover(), kBackUpMarginM,
                                            turning, config_.turn_threshold_rad, config_.belief.view});

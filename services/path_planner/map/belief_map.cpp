@@ -167,8 +167,8 @@ void BeliefMap::mark_driven(const Pose2& pose, const Footprint& footprint) {
   for_cells_in(map_, {pose.x_m - r, pose.y_m - r}, {pose.x_m + r, pose.y_m + r}, [&](CellBelief& cell, Point2 p) {
     const double d = footprint.distance_m(pose, p);
     // A wheel is on it, or the body above it; between the wheels of a side there may be a rock.
-    if (footprint.wheel_is_on(pose, p)) cell = {.known = true, .driven = true};
-    if (d <= 0.0) cell.known = true, cell.unmeasured = 0, cell.tall_evidence = cell.tall_fraction = 0.0F;
+    if (footprint.wheel_is_on(pose, p)) cell = {.known = true, .driven = true, .passed = true};
+    if (d <= 0.0) cell.known = cell.passed = true, cell.unmeasured = 0, cell.tall_evidence = cell.tall_fraction = 0.0F;
     if (d <= rim) cell.known = true, cell.unmeasured = 0;
   });
 }

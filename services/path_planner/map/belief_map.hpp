@@ -30,7 +30,8 @@ struct BeliefConfig {
 
 struct CellBelief {
   bool known = false;
-  bool driven = false;          // the rover was on it
+  bool driven = false;          // a wheel was on it
+  bool passed = false;          // the footprint was over it
   std::uint8_t unmeasured = 0;  // frames in a row that should have measured it and did not: no texture, or a drop
   std::uint16_t last_hit = 0;   // frame; two cells of a frame may fall into one cell here
   float unmeasured_range_m = 0.0F;
