@@ -10,6 +10,7 @@ namespace {
 
 using testing_support::certain_belief;
 using testing_support::Ground;
+using testing_support::planner_config;
 using testing_support::uniform;
 
 constexpr double kSideM = 10.0;
@@ -44,6 +45,16 @@ Costmap random_costmap(std::uint64_t seed) {
     const auto near = [&](Point2 rock) { return distance(rock, p) < 0.15; };
     return std::any_of(rocks.begin(), rocks.end(), near) ? Ground::kHazard : Ground::kFree;
   }));
+}
+
+TEST(Costmap, OnTheWayBackHazardsThatTheFootprintPassedAreFree) {
+  BeliefMap belief = belief_with_box(1, 1, Ground::kHazard);
+  belief.mark_driven({kMiddle.x_m - 0.4, kMiddle.y_m - 0.41, 0.0}, planner_config().footprint);
+  CostmapConfig config;
+  EXPECT_FALSE(Costmap(config, belief, {}, 10.0).hazards().empty()) << "between the wheels of a side";
+  config.passed_is_free = true;
+  const std::vector<Hazard> left = Costmap(config, belief, {}, 10.0).hazards();
+  for (const Hazard& hazard : left) EXPECT_GT(hazard.p.y_m, kMiddle.y_m) << "beside the footprint";
 }
 
 TEST(Costmap, ListsHazardsRowByRow) {
