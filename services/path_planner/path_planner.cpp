@@ -290,9 +290,9 @@ double PathPlanner::margin_m() const {
                                              : clearances.min_m - PathPlannerConfig::kClearanceToleranceM;
 }
 
-Costmap PathPlanner::monitor_costmap(bool way_back) const {
+Costmap PathPlanner::monitor_costmap(bool backing_up) const {
   CostmapConfig config = config_.costmap;
-  config.passed_is_free = way_back;
+  config.passed_is_free = backing_up;
   return Costmap(config, belief_, position(rover()), kMonitorSideM, zones_odom_);
 }
 

@@ -134,7 +134,7 @@ class PathPlanner {
   void follow_correction();
   void track_progress();
   void track_turn();
-  Costmap monitor_costmap(bool way_back) const;
+  Costmap monitor_costmap(bool backing_up) const;
   void check_path();
   std::uint16_t facts(Utime now);
   bool clear() const;

@@ -47,7 +47,7 @@ Costmap random_costmap(std::uint64_t seed) {
   }));
 }
 
-TEST(Costmap, OnTheWayBackHazardsThatTheFootprintPassedAreFree) {
+TEST(Costmap, ForBackingUpHazardsThatTheFootprintPassedAreFree) {
   BeliefMap belief = belief_with_box(1, 1, Ground::kHazard);
   belief.mark_driven({kMiddle.x_m - 0.4, kMiddle.y_m - 0.41, 0.0}, planner_config().footprint);
   CostmapConfig config;
