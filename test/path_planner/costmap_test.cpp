@@ -54,6 +54,7 @@ TEST(Costmap, ForBackingUpHazardsThatTheFootprintPassedAreFree) {
   EXPECT_FALSE(Costmap(config, belief, {}, 10.0).hazards().empty()) << "between the wheels of a side";
   config.passed_is_free = true;
   const std::vector<Hazard> left = Costmap(config, belief, {}, 10.0).hazards();
+  EXPECT_FALSE(left.empty());
   for (const Hazard& hazard : left) EXPECT_GT(hazard.p.y_m, kMiddle.y_m) << "beside the footprint";
 }
 

@@ -93,8 +93,8 @@ Costmap::Costmap(const CostmapConfig& config, const BeliefMap& belief, Point2 ro
   for (size_t i = 0; i < count; ++i) {
     if (i % static_cast<size_t>(cells_) == 0) row_begin_.push_back(hazards_.size());
     const CellBelief& cell = *cells[i];
-    const bool free = !cell.known || (config.passed_is_free && cell.passed);
-    const double p = free ? 0.0 : belief.probability(cell);
+    const bool judged = cell.known && !(config.passed_is_free && cell.passed);
+    const double p = judged ? belief.probability(cell) : 0.0;
     const bool unmeasured = unknown_[i] && unmeasurable[i];
     const bool low = !unmeasured && !walls[i] && belief.low(cell);
     own_cost_[i] =
