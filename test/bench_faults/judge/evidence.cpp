@@ -124,8 +124,8 @@ void Evidence::tick(Utime now) {
   for (auto& [name, kills] : kills_) forget_older(kills, now - window);
   while (!losses_.empty() && now - losses_.front().utime > to_utime(kLossWindowS)) losses_.pop_front();
   std::erase_if(fault_stops_m_, [&](double at_m) { return pose_.travelled_m - at_m > kFaultStopWayM; });
-  const bool on_path =
-      forced_level_ == ground_command_t::AUTO && std::count(path_.level.begin(), path_.level.end(), path_t::FULL) > 0;
+  const bool on_path = forced_level_ == ground_command_t::AUTO &&
+                       std::count(path_.level.begin(), path_.level.end(), std::int8_t{path_t::FULL}) > 0;
   const bool full_waits =
       (on_path || forced_level_ == ground_command_t::FULL) && state_.level != supervisor_state_t::FULL;
   if (!full_waits) full_waits_since_ = kNever;
