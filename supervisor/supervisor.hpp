@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "supervisor/derived_values.hpp"
@@ -75,7 +76,7 @@ struct GroundCommand {
 };
 
 struct Evidence {
-  std::string quantity;
+  std::string_view quantity;  // a literal, or of the configuration
   double value = kNaN;
   double threshold = kNaN;
   double persistence_s = 0.0;
