@@ -16,7 +16,7 @@ class Monitor {
         visibility_(query.costmap, check_, query.view) {}
 
   Blockage run() {
-    const Pose2 here = query_.route.pose_at(query_.from_m);
+    const Pose2 here = body_on_path(query_.from_m);
     if (query_.turning) check_turn(query_.rover, wrap_angle(here.yaw_rad - query_.rover.yaw_rad), query_.from_m);
     // A point turn shows the ground ahead; until then nothing can be said of it.
     bool view_known = !query_.turning;
@@ -56,9 +56,16 @@ class Monitor {
     }
   }
 
+  // On a side slope the body points uphill of the path.
+  Pose2 body_on_path(double s_m) const {
+    Pose2 pose = query_.route.pose_at(s_m);
+    pose.yaw_rad = query_.side_slip.heading(pose.yaw_rad, query_.route.reverse_at(s_m));
+    return pose;
+  }
+
   // The pose of the path, shifted by what remains of the rover's tracking error.
   Pose2 expected_pose(double s_m, const Pose2& here) const {
-    Pose2 pose = query_.route.pose_at(s_m);
+    Pose2 pose = body_on_path(s_m);
     const double remaining = std::max(0.0, 1.0 - (s_m - query_.from_m) / kMergeM);
     pose.x_m += remaining * (query_.rover.x_m - here.x_m);
     pose.y_m += remaining * (query_.rover.y_m - here.y_m);

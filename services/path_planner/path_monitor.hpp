@@ -5,6 +5,7 @@
 
 #include "path_planner/route.hpp"
 #include "path_planner/search/footprint_check.hpp"
+#include "path_planner/side_slip.hpp"
 
 namespace rover::planning {
 
@@ -19,6 +20,7 @@ struct MonitorQuery {
   bool turning = false;             // the rover turns on the spot to the heading of the route first
   double turn_threshold_rad = 0.7;  // larger corners of the route are point turns
   ViewArea view;
+  SideSlip side_slip;
 };
 
 // Arc lengths along the route; infinity: clear as far as the costmap reaches.

@@ -28,6 +28,8 @@ constexpr double kPoseStepM = 0.05;
 constexpr double kMinIncumbentM = 2.5;  // a shorter rest of the active plan does not bind the next one
 constexpr double kTailRadiusM = 2.0;
 constexpr double kTailAheadM = 3.0;
+constexpr double kStrayingWayM = 5.0;  // over which straying is averaged
+constexpr double kMaxStrayingM = 0.2;  // more is a path that begins beside the rover
 
 double smooth_step(double u) {
   const double v = std::clamp(u, 0.0, 1.0);
@@ -100,6 +102,7 @@ void PathPlanner::add_pose(const PoseSample& sample) {
     return;
   }
   history_.add(sample);
+  side_slip_.learn(rover().yaw_rad, sample.forward_mps, sample.left_mps, to_seconds(kTickUs));
   apply_start_area();
   belief_.move_to(position(rover()));
   belief_.mark_driven(rover(), config_.footprint);
@@ -225,6 +228,7 @@ void PathPlanner::follow() {
   active_.follow(position(rover()), history_.newest().forward_mps);
   track_progress();
   track_turn();
+  track_straying();
   // Past a repair the path is the global path again, with its own corridor.
   if (active_.kind() == PathKind::kRepair && active_.planned_m() < 0.0) {
     std::vector<RoutePoint> rest;
@@ -253,6 +257,14 @@ void PathPlanner::track_turn() {
   const double error = std::abs(wrap_angle(active_.route().pose_at(active_.progress_m()).yaw_rad - rover().yaw_rad));
   const bool driving = std::abs(history_.newest().forward_mps) > kCreepMps;
   turning_ = error > config_.turn_threshold_rad || (turning_ && error > config_.turn_stop_rad && !driving);
+}
+
+// On side slopes and over rocks the rover strays more than on the plain.
+void PathPlanner::track_straying() {
+  const double way_m = std::abs(history_.newest().forward_mps) * to_seconds(kTickUs);
+  const double off_m =
+      std::min(distance(active_.route().point_at(active_.progress_m()), position(rover())), kMaxStrayingM);
+  straying_m2_ += (off_m * off_m - straying_m2_) * std::min(1.0, way_m / kStrayingWayM);
 }
 
 // Map has moved against odom: hazards and plans stay, the part of the path that is global moves, at bounded curvature
@@ -300,7 +312,7 @@ void PathPlanner::check_path() {
   const Costmap costmap = monitor_costmap(mode_ == Mode::kBackingUp);
   blockage_ =
       find_blockage({costmap, active_.route(), config_.footprint, active_.progress_m(), rover(), active_.planned_from(),
-                     margin_m(), turning_, config_.turn_threshold_rad, config_.belief.view});
+                     margin_m(), turning_, config_.turn_threshold_rad, config_.belief.view, side_slip_});
   // No camera looks backwards, and the driven track was known.
   if (mode_ == Mode::kBackingUp) blockage_.unknown_m = blockage_.unseen_m = kInfinity;
 }
@@ -357,7 +369,8 @@ double PathPlanner::stopping_distance_m() const {
 ActivePath::Start PathPlanner::plan_start() const {
   const double committed_m = stopping_distance_m();
   if (mode_ == Mode::kFollowing && !active_.empty()) {
-    const ActivePath::Start start = active_.start_after(committed_m);
+    ActivePath::Start start = active_.start_after(committed_m);
+    start.pose.yaw_rad = side_slip_.heading(start.pose.yaw_rad, start.reverse);
     if (std::min(blockage_.hazard_m, blockage_.unknown_m) > start.at_m) return start;
   }
   const PoseSample& now = history_.newest();
@@ -366,8 +379,8 @@ ActivePath::Start PathPlanner::plan_start() const {
       std::abs(now.forward_mps) > kStationaryMps
           ? std::clamp(now.yaw_rate_radps / now.forward_mps, -kMaxRoverCurvature, kMaxRoverCurvature)
           : 0.0;
-  return {advanced(rover(), std::copysign(committed_m, now.forward_mps), curvature), curvature, now.forward_mps < 0.0,
-          kNaN};
+  return {side_slip_.advanced(rover(), std::copysign(committed_m, now.forward_mps), curvature), curvature,
+          now.forward_mps < 0.0, kNaN};
 }
 
 void PathPlanner::request_plan() {
@@ -380,6 +393,8 @@ void PathPlanner::request_plan() {
   request.start_curvature_per_m = job.start.curvature_per_m;
   request.start_reverse = job.start.reverse;
   if (!std::isnan(job.start.at_m)) request.views = active_.views_until(job.start.at_m);
+  request.side_slip = side_slip_;
+  request.straying_m = std::sqrt(straying_m2_);
   request.goal_tolerance_m = kGoalToleranceRatio * global_->goal_tolerance_m;
   if (!std::isnan(job.start.at_m) && clear()) request.incumbent = active_.plan_from(job.start.at_m);
   if (length_m(request.incumbent) < kMinIncumbentM) request.incumbent.clear();
@@ -481,7 +496,7 @@ std::vector<Point2> PathPlanner::back_up_points() const {
   const Costmap costmap = monitor_costmap(true);
   const bool turning = std::abs(wrap_angle(route.pose_at(0.0).yaw_rad - rover().yaw_rad)) > config_.turn_threshold_rad;
   const Blockage blockage = find_blockage({costmap, route, config_.footprint, 0.0, rover(), rover(), kBackUpMarginM,
-                                           turning, config_.turn_threshold_rad, config_.belief.view});
+                                           turning, config_.turn_threshold_rad, config_.belief.view, side_slip_});
   const double clear_m = std::min(route.length_m(), blockage.hazard_m - kBackUpReserveM);
   std::vector<Point2> out;
   for (size_t i = 0; i < track.size() && route.s_at(i) <= clear_m; ++i) out.push_back(track[i]);

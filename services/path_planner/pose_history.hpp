@@ -15,6 +15,7 @@ struct PoseSample {
   Eigen::Isometry3d T_odom_body = nan_pose();
   Eigen::Isometry3d T_map_odom = nan_pose();
   double forward_mps = 0.0;
+  double left_mps = 0.0;
   double yaw_rate_radps = 0.0;
 };
 

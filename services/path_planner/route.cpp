@@ -120,6 +120,10 @@ std::int8_t Route::level_at(double s_m) const {
   return points_[std::clamp<size_t>(vertex_after(s_m), 1, points_.size()) - 1].level;
 }
 
+bool Route::reverse_at(double s_m) const {
+  return points_[std::clamp<size_t>(vertex_after(s_m), 1, points_.size()) - 1].reverse;
+}
+
 PathSegment Route::segment_at(double s_m) const {
   size_t begin = std::clamp<size_t>(vertex_after(s_m), 1, points_.size() - 1) - 1;
   size_t end = begin + 1;

@@ -40,6 +40,7 @@ class Route {
   double yaw_out_of(size_t i) const { return yaw_out_rad_[i]; }
   Point2 point_at(double s_m) const;
   std::int8_t level_at(double s_m) const;
+  bool reverse_at(double s_m) const;
   // A cusp belongs to the segment that follows it.
   PathSegment segment_at(double s_m) const;
   // Arc length of the closest point with arc length in [from, to].

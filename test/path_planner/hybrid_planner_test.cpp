@@ -189,6 +189,37 @@ TEST(HybridPlanner, OnFreeGroundThePlanIsStraight) {
   EXPECT_GT(plan.clearance_m, 1.0);
 }
 
+// Poses are those of the body, which moves at an angle to its heading.
+TEST(HybridPlanner, OnASideSlopeTheBodyPointsUphillAndKeepsItsClearance) {
+  const BeliefMap belief =
+      certain_belief([](Point2 p) { return hazard_if(p.x_m > 1.5 && p.x_m < 6.0 && std::abs(p.y_m + 0.75) < 0.1); });
+  PlanRequest request = plan_request(belief);
+  request.side_slip.downhill = {0.0, -0.15};
+  const Plan plan = plan_on(request);
+  ASSERT_TRUE(plan.found);
+  expect_keeps_clearance(plan, request);
+  for (size_t i = 1; i < plan.poses.size(); ++i) {
+    const Pose2& from = plan.poses[i - 1].pose;
+    const Pose2& to = plan.poses[i].pose;
+    if (is_point_turn(plan.poses[i - 1], plan.poses[i]) || plan.poses[i].reverse) continue;
+    const double moved_rad = std::atan2(to.y_m - from.y_m, to.x_m - from.x_m);
+    const double slip_rad = wrap_angle(moved_rad - from.yaw_rad - 0.5 * wrap_angle(to.yaw_rad - from.yaw_rad));
+    EXPECT_NEAR(slip_rad, std::atan(request.side_slip.at(from.yaw_rad)), 0.01) << "pose " << i;
+  }
+}
+
+TEST(HybridPlanner, KeepsFartherFromHazardsWhereTheRoverStrays) {
+  const BeliefMap belief = certain_belief(
+      [](Point2 p) { return hazard_if(std::abs(p.x_m - kWallM) < 0.15 && std::abs(p.y_m - 0.5) < 0.1); });
+  PlanRequest request = plan_request(belief);
+  const Plan steady = plan_on(request);
+  request.straying_m = 0.1;
+  const Plan straying = plan_on(request);
+  ASSERT_TRUE(steady.found && straying.found);
+  EXPECT_LT(steady.clearance_m, 0.25);
+  EXPECT_GE(straying.clearance_m, search_config().clearances.min_m + 2.0 * request.straying_m - kApproachM);
+}
+
 TEST(HybridPlanner, OnRandomFieldsItNearlyAlwaysFindsAPlan) {
   EXPECT_GT(static_cast<double>(planned_fields().size()), 0.9 * kFields);
   int bent = 0;

@@ -32,7 +32,8 @@ class PathMonitorTest : public testing::Test {
                           .rover = rover_,
                           .margin_m = kMarginM,
                           .turning = turning_,
-                          .view = ViewArea{}});
+                          .view = ViewArea{},
+                          .side_slip = side_slip_});
   }
   // A spot of a cell.
   static GroundAt spot(Ground kind, Point2 at) {
@@ -44,6 +45,7 @@ class PathMonitorTest : public testing::Test {
   double from_m_ = 2.0;  // where the rover is
   Pose2 rover_;
   bool turning_ = false;
+  SideSlip side_slip_;
 };
 
 TEST_F(PathMonitorTest, OnFreeGroundThePathIsClear) {
@@ -56,6 +58,13 @@ TEST_F(PathMonitorTest, AHazardBlocksWhereTheFrontComesWithinTheMargin) {
   EXPECT_NEAR(blockage(spot(Ground::kHazard, {4.05, 0.35})).hazard_m, expected_m, 0.06);
   EXPECT_TRUE(std::isinf(blockage(spot(Ground::kHazard, {4.05, 0.65})).hazard_m)) << "beside the path";
   EXPECT_TRUE(std::isinf(blockage(spot(Ground::kHazard, {-2.05, 0.05})).hazard_m)) << "behind";
+}
+
+TEST_F(PathMonitorTest, OnASideSlopeTheFrontSwingsUphill) {
+  const GroundAt uphill = spot(Ground::kHazard, {4.05, 0.65});
+  EXPECT_TRUE(std::isinf(blockage(uphill).hazard_m));
+  side_slip_.downhill = {0.0, -0.15};
+  EXPECT_TRUE(std::isfinite(blockage(uphill).hazard_m));
 }
 
 TEST_F(PathMonitorTest, UnknownGroundBlocksWhereTheFrontReachesIt) {

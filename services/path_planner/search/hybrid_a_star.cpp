@@ -38,8 +38,9 @@ struct Node {
 // A motion with evenly changing curvature.
 class Motion {
  public:
-  Motion(const Node& from, double to_curvature_per_m, double length_m)
-      : pose_(from.pose),
+  Motion(const Node& from, double to_curvature_per_m, double length_m, const SideSlip& side_slip)
+      : side_slip_(side_slip),
+        pose_(from.pose),
         from_(from.curvature_per_m),
         slope_((to_curvature_per_m - from.curvature_per_m) / length_m),
         sign_(from.reverse ? -1.0 : 1.0),
@@ -48,11 +49,12 @@ class Motion {
   int samples() const { return samples_; }
   double step_m() const { return step_m_; }
   const Pose2& next() {
-    pose_ = advanced(pose_, sign_ * step_m_, from_ + slope_ * step_m_ * (done_++ + 0.5));
+    pose_ = side_slip_.advanced(pose_, sign_ * step_m_, from_ + slope_ * step_m_ * (done_++ + 0.5));
     return pose_;
   }
 
  private:
+  SideSlip side_slip_;
   Pose2 pose_;
   double from_;
   double slope_;
@@ -179,7 +181,7 @@ class HybridAStar {
     if (change > kMaxChange) return;
     add_motion_cost(next, costs_.curvature_change_s * change * change + MotionCosts::kCurvature * costs_.seconds_per_m *
                                                                             level * level * HybridAStarConfig::kStepM);
-    Motion motion(from, next.curvature_per_m, HybridAStarConfig::kStepM);
+    Motion motion(from, next.curvature_per_m, HybridAStarConfig::kStepM, problem_.request.side_slip);
     for (int i = 0; i < motion.samples(); ++i) {
       next.pose = motion.next();
       if (!from.reverse) next.distance_m += motion.step_m();
@@ -249,7 +251,7 @@ class HybridAStar {
       if (to.kind == Node::Kind::kTurned) {
         plan_.poses.push_back({to.pose, false, to.motion_cost});
       } else if (to.kind == Node::Kind::kMotion) {
-        Motion motion(from, to.curvature_per_m, HybridAStarConfig::kStepM);
+        Motion motion(from, to.curvature_per_m, HybridAStarConfig::kStepM, problem_.request.side_slip);
         for (int i = 0; i < motion.samples(); ++i) plan_.poses.push_back({motion.next(), to.reverse, to.motion_cost});
       }
     }

@@ -6,6 +6,7 @@
 
 #include "path_planner/map/costmap.hpp"
 #include "path_planner/route.hpp"
+#include "path_planner/side_slip.hpp"
 
 namespace rover::planning {
 
@@ -37,6 +38,8 @@ struct PlanRequest {
   bool start_reverse = false;  // the rover comes to the start in reverse
   std::vector<Pose2> views;    // poses from which the LocCam looks on the way from the rover to the start
   double goal_tolerance_m = 0.0;
+  SideSlip side_slip;
+  double straying_m = 0.0;          // rms distance of the rover from its path, lately
   std::vector<PlanPose> incumbent;  // the active plan from the start on; empty: none
 };
 
