@@ -7,7 +7,7 @@
 namespace rover::planning {
 namespace {
 
-constexpr std::uint32_t kVersion = 7;
+constexpr std::uint32_t kVersion = 6;
 
 void put_points(StateWriter& out, const std::vector<RoutePoint>& points) {
   out.put(static_cast<std::uint64_t>(points.size()));
@@ -127,7 +127,6 @@ std::vector<std::uint8_t> PathPlanner::save() const {
   out.put(replans_);
   out.put(back_ups_);
   out.put(furthest_m_);
-  out.put(straying_m2_);
   out.put(static_cast<std::uint8_t>(global_.has_value()));
   if (global_) {
     out.put(global_->id);
@@ -155,7 +154,6 @@ bool PathPlanner::restore(const std::vector<std::uint8_t>& bytes) {
   fresh.replans_ = in.get<std::int32_t>();
   const int back_ups = in.get<int>();
   const double furthest_m = in.get<double>();
-  const double straying_m2 = in.get<double>();
   if (in.get<std::uint8_t>() != 0) {
     GlobalPath global;
     global.id = in.get<std::int64_t>();
@@ -173,9 +171,7 @@ bool PathPlanner::restore(const std::vector<std::uint8_t>& bytes) {
   std::deque<Point2> crumbs(in.count(sizeof(Point2)));
   for (Point2& p : crumbs) p = in.get<Point2>();
   if (!get_map(in, fresh.belief_.cells()) || !in.finished()) return false;
-  if (!std::isfinite(furthest_m) || !(straying_m2 >= 0.0 && straying_m2 < 1.0) ||
-      !std::all_of(crumbs.begin(), crumbs.end(), is_finite))
-    return false;
+  if (!std::isfinite(furthest_m) || !std::all_of(crumbs.begin(), crumbs.end(), is_finite)) return false;
   if (!points.empty()) {
     if (!fresh.global_ || !is_path(points, fresh.global_map_.length_m())) return false;
     if (kind < PathKind::kGlobal || kind > PathKind::kContinuous) return false;
@@ -185,7 +181,6 @@ bool PathPlanner::restore(const std::vector<std::uint8_t>& bytes) {
   fresh.breadcrumbs_.restore(std::move(crumbs));
   fresh.back_ups_ = std::clamp(back_ups, 0, config_.max_back_ups);
   fresh.furthest_m_ = furthest_m;
-  fresh.straying_m2_ = straying_m2;
   fresh.new_ground_ = true;
   *this = std::move(fresh);
   return true;

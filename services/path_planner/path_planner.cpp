@@ -28,8 +28,8 @@ constexpr double kPoseStepM = 0.05;
 constexpr double kMinIncumbentM = 2.5;  // a shorter rest of the active plan does not bind the next one
 constexpr double kTailRadiusM = 2.0;
 constexpr double kTailAheadM = 3.0;
-constexpr double kStrayingWayM = 5.0;  // over which straying is averaged
-constexpr double kMaxStrayingM = 0.2;  // more is a path that begins beside the rover
+constexpr double kStrayingOverM = 5.0;  // over which straying is averaged
+constexpr double kMaxStrayingM = 0.2;   // more is a path that begins beside the rover
 
 double smooth_step(double u) {
   const double v = std::clamp(u, 0.0, 1.0);
@@ -261,10 +261,10 @@ void PathPlanner::track_turn() {
 
 // On side slopes and over rocks the rover strays more than on the plain.
 void PathPlanner::track_straying() {
-  const double way_m = std::abs(history_.newest().forward_mps) * to_seconds(kTickUs);
+  const double driven_m = std::abs(history_.newest().forward_mps) * to_seconds(kTickUs);
   const double off_m =
       std::min(distance(active_.route().point_at(active_.progress_m()), position(rover())), kMaxStrayingM);
-  straying_m2_ += (off_m * off_m - straying_m2_) * std::min(1.0, way_m / kStrayingWayM);
+  straying_m2_ += (off_m * off_m - straying_m2_) * std::min(1.0, driven_m / kStrayingOverM);
 }
 
 // Map has moved against odom: hazards and plans stay, the part of the path that is global moves, at bounded curvature

@@ -4,7 +4,6 @@ namespace rover::planning {
 namespace {
 
 constexpr double kTurnViewRad = 0.4;
-constexpr double kOntoM = 0.025;  // a path is not its plan to the millimetre
 constexpr double kShadowM = 0.5;  // of a rock of 0.2 m, seen from 1.2 m
 
 }  // namespace
@@ -30,8 +29,8 @@ FootprintCheck::FootprintCheck(const Costmap& costmap, const Footprint& footprin
 bool FootprintCheck::violates(const Pose2& pose, const Hazard& hazard) const {
   const double d = distance_m(pose, hazard);
   if (d >= margin_m_) return false;
-  const double onto_m = std::min(distance_m(planned_from_, hazard) - kOntoM, 0.0);
-  return d < std::min(margin_m_, std::max(distance_m(start_, hazard) - approach_m_, onto_m));
+  const double onto_m = std::min(distance_m(planned_from_, hazard) - approach_m_, 0.0);
+  return d < std::min(margin_m_, std::max(distance_m(start_, hazard) - approach_m_ - slide_m_, onto_m));
 }
 
 bool FootprintCheck::enters(const Pose2& pose, Point2 unknown) const {

@@ -20,6 +20,8 @@ class FootprintCheck {
                  double known_margin_m, const Pose2& start)
       : FootprintCheck(costmap, footprint, margin_m, approach_m, known_margin_m, start, start) {}
 
+  // On a side slope the rover slides, also towards hazards, until it has steered against it.
+  void allow_slide(double slide_m) { slide_m_ = slide_m; }
   bool clear(const Pose2& pose) const;
   // From the footprint to the nearest centre of a hazard cell; `max` if none is as near.
   double clearance_m(const Pose2& pose, double max) const;
@@ -44,6 +46,7 @@ class FootprintCheck {
   Footprint footprint_;
   double margin_m_;
   double approach_m_;
+  double slide_m_ = 0.0;
   Pose2 start_;
   Pose2 planned_from_;
   std::vector<Point2> edge_;  // points along the edge, the front first

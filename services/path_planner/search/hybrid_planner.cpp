@@ -7,7 +7,7 @@ constexpr double kKnownMarginM = 0.04;  // the rover follows a path within centi
 constexpr double kApproachM = 0.005;    // less than the path monitor's
 constexpr double kMaxClearanceM = 1.5;
 constexpr double kStrayingSigmas = 2.0;
-constexpr double kSlideWayM = 0.3;  // on a side slope the rover slides until it has steered against it
+constexpr double kSlideOverM = 0.3;  // driven until the rover has steered against a slide
 // The lattice first lets through what almost fits, and ends where its best path is much better than others. If that
 // misleads the search, it holds only what surely fits, and all of it.
 constexpr std::array<LatticeExtent, 2> kExtents = {LatticeExtent{0.03, 10.0}, LatticeExtent{-0.03, kInfinity}};
@@ -19,9 +19,10 @@ Plan HybridPlanner::plan(const PlanRequest& request) const {
   margins.comfort_m = std::max(margins.comfort_m, margins.min_m + kStrayingSigmas * request.straying_m);
   // The places of both fields are the same: where no pose of the lattice fits, no way of the 2-D field leads.
   const CostToGo cost_to_go(config_.cost_to_go, request, config_.footprint, margins.min_m - kExtents.front().slack_m);
-  const double approach_m = kApproachM + kSlideWayM * std::abs(request.side_slip.at(request.rover.yaw_rad));
   const auto check = [&](double margin_m) {
-    return FootprintCheck(*request.costmap, config_.footprint, margin_m, approach_m, kKnownMarginM, request.rover);
+    FootprintCheck out(*request.costmap, config_.footprint, margin_m, kApproachM, kKnownMarginM, request.rover);
+    out.allow_slide(kSlideOverM * std::abs(request.side_slip.at(request.rover.yaw_rad)));
+    return out;
   };
   const FootprintCheck comfort = check(margins.comfort_m);
   const FootprintCheck min = check(margins.min_m);
