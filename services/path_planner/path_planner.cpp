@@ -98,6 +98,7 @@ void PathPlanner::add_pose(const PoseSample& sample) {
   if (!sample.usable) {
     history_.clear();  // what comes after need not fit to what was before
     breadcrumbs_.clear();
+    side_slip_ = {};
     job_.reset();
     return;
   }
@@ -119,6 +120,7 @@ void PathPlanner::apply_start_area() {
   history_.add(newest);
   belief_.clear();
   breadcrumbs_.clear();
+  side_slip_ = {};
   belief_.move_to(position(rover()));
   const Point2 center = from_body(inverse(planar(newest.T_map_odom)), start_area_->center_map);
   if (start_area_->radius_m > 0.0) belief_.mark_known(center, start_area_->radius_m);
