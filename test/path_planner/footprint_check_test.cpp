@@ -61,6 +61,24 @@ TEST(FootprintCheck, IsClearWhereNoHazardIsWithinTheMargin) {
   EXPECT_LT(clear, 900);
 }
 
+TEST(FootprintCheck, AllowsASlideBesideAHazardButNotOntoIt) {
+  constexpr Point2 kBeside{0.05, 0.55};
+  const Costmap costmap =
+      costmap_of([&](Point2 p) { return distance(p, kBeside) < 0.02 ? Ground::kHazard : Ground::kFree; });
+  ASSERT_EQ(costmap.hazards().size(), 1u);
+  const double beside_m = brute_clearance_m(costmap, {});
+  ASSERT_GT(beside_m, 0.05);
+  ASSERT_LT(beside_m, kMarginM);
+  FootprintCheck check = check_of(costmap, {});
+  const Pose2 nearer{0.0, 0.05, 0.0};
+  const Pose2 onto{0.0, beside_m + 0.01, 0.0};
+  EXPECT_FALSE(check.clear(nearer));
+  check.allow_slide(0.05);
+  EXPECT_TRUE(check.clear(nearer));
+  check.allow_slide(1.0);
+  EXPECT_FALSE(check.clear(onto));
+}
+
 // Unknown spots are wider than the gaps between the points that are looked at.
 TEST(FootprintCheck, IsKnownWhereNoUnknownGroundLiesUnderTheEdge) {
   const Costmap costmap = costmap_of(scattered(Ground::kUnknown, 3));
