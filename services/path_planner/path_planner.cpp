@@ -28,8 +28,6 @@ constexpr double kPoseStepM = 0.05;
 constexpr double kMinIncumbentM = 2.5;  // a shorter rest of the active plan does not bind the next one
 constexpr double kTailRadiusM = 2.0;
 constexpr double kTailAheadM = 3.0;
-constexpr double kStrayingOverM = 5.0;  // over which straying is averaged
-constexpr double kMaxStrayingM = 0.2;   // more is a path that begins beside the rover
 
 double smooth_step(double u) {
   const double v = std::clamp(u, 0.0, 1.0);
@@ -230,7 +228,6 @@ void PathPlanner::follow() {
   active_.follow(position(rover()), history_.newest().forward_mps);
   track_progress();
   track_turn();
-  track_straying();
   // Past a repair the path is the global path again, with its own corridor.
   if (active_.kind() == PathKind::kRepair && active_.planned_m() < 0.0) {
     std::vector<RoutePoint> rest;
@@ -259,14 +256,6 @@ void PathPlanner::track_turn() {
   const double error = std::abs(wrap_angle(active_.route().pose_at(active_.progress_m()).yaw_rad - rover().yaw_rad));
   const bool driving = std::abs(history_.newest().forward_mps) > kCreepMps;
   turning_ = error > config_.turn_threshold_rad || (turning_ && error > config_.turn_stop_rad && !driving);
-}
-
-// On side slopes and over rocks the rover strays more than on the plain.
-void PathPlanner::track_straying() {
-  const double driven_m = std::abs(history_.newest().forward_mps) * to_seconds(kTickUs);
-  const double off_m =
-      std::min(distance(active_.route().point_at(active_.progress_m()), position(rover())), kMaxStrayingM);
-  straying_m2_ += (off_m * off_m - straying_m2_) * std::min(1.0, driven_m / kStrayingOverM);
 }
 
 // Map has moved against odom: hazards and plans stay, the part of the path that is global moves, at bounded curvature
@@ -396,7 +385,6 @@ void PathPlanner::request_plan() {
   request.start_reverse = job.start.reverse;
   if (!std::isnan(job.start.at_m)) request.views = active_.views_until(job.start.at_m);
   request.side_slip = side_slip_;
-  request.straying_m = std::sqrt(straying_m2_);
   request.goal_tolerance_m = kGoalToleranceRatio * global_->goal_tolerance_m;
   if (!std::isnan(job.start.at_m) && clear()) request.incumbent = active_.plan_from(job.start.at_m);
   if (length_m(request.incumbent) < kMinIncumbentM) request.incumbent.clear();

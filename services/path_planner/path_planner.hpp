@@ -134,7 +134,6 @@ class PathPlanner {
   void follow_correction();
   void track_progress();
   void track_turn();
-  void track_straying();
   Costmap monitor_costmap(bool backing_up) const;
   void check_path();
   std::uint16_t facts(Utime now);
@@ -180,7 +179,6 @@ class PathPlanner {
   Blockage blockage_;
   bool turning_ = false;  // on the spot, to the heading of the active path
   SideSlip side_slip_;
-  double straying_m2_ = 0.0;  // mean square distance from the active path
   Mode mode_ = Mode::kIdle;
   std::optional<Job> job_;
   int failures_ = 0;                  // plans not found, in a row

@@ -208,18 +208,6 @@ TEST(HybridPlanner, OnASideSlopeTheBodyPointsUphillAndKeepsItsClearance) {
   }
 }
 
-TEST(HybridPlanner, KeepsFartherFromHazardsWhereTheRoverStrays) {
-  const BeliefMap belief = certain_belief(
-      [](Point2 p) { return hazard_if(std::abs(p.x_m - kWallM) < 0.15 && std::abs(p.y_m - 0.5) < 0.1); });
-  PlanRequest request = plan_request(belief);
-  const Plan steady = plan_on(request);
-  request.straying_m = 0.1;
-  const Plan straying = plan_on(request);
-  ASSERT_TRUE(steady.found && straying.found);
-  EXPECT_LT(steady.clearance_m, 0.25);
-  EXPECT_GE(straying.clearance_m, search_config().clearances.min_m + 2.0 * request.straying_m - kApproachM);
-}
-
 TEST(HybridPlanner, OnRandomFieldsItNearlyAlwaysFindsAPlan) {
   EXPECT_GT(static_cast<double>(planned_fields().size()), 0.9 * kFields);
   int bent = 0;

@@ -17,7 +17,7 @@ struct MotionCosts {
 };
 
 struct Clearances {
-  double comfort_m = 0.15;  // footprint to the centre of a hazard cell; below, motions cost more; grows with straying
+  double comfort_m = 0.15;  // footprint to the centre of a hazard cell; below, motions cost more
   double min_m = 0.09;      // never below
   double turn_m = 0.12;     // never below in a point turn: the rover does not stop exactly
 };

@@ -39,7 +39,6 @@ struct PlanRequest {
   std::vector<Pose2> views;    // poses from which the LocCam looks on the way from the rover to the start
   double goal_tolerance_m = 0.0;
   SideSlip side_slip;
-  double straying_m = 0.0;          // rms distance of the rover from its path, lately
   std::vector<PlanPose> incumbent;  // the active plan from the start on; empty: none
 };
 
