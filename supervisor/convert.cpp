@@ -107,6 +107,10 @@ TerrainReport report_from(const traversability_t& message, const Pose2& body_odo
   return out;
 }
 
+VisualReport report_from(const vo_motion_t& message) {
+  return {message.header.utime, message.status == vo_motion_t::DISPLACED};
+}
+
 SlamReport report_from(const slam_pose_t& message) {
   return {message.header.utime, message.status == slam_pose_t::LOST};
 }

@@ -15,6 +15,7 @@
 #include <rover/slip_t.hpp>
 #include <rover/supervisor_state_t.hpp>
 #include <rover/traversability_t.hpp>
+#include <rover/vo_motion_t.hpp>
 #include <rover/wheel_state_t.hpp>
 
 #include "supervisor/supervisor.hpp"
@@ -31,6 +32,7 @@ ImuReport report_from(const imu_t& message);
 // `body_odom`: newest body pose in the odom frame.
 TerrainReport report_from(const traversability_t& message, const Pose2& body_odom);
 SlamReport report_from(const slam_pose_t& message);
+VisualReport report_from(const vo_motion_t& message);
 ServiceReport report_from(const heartbeat_t& message);
 PathLevels levels_from(const path_t& message);
 GroundCommand command_from(const ground_command_t& message);

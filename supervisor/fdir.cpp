@@ -138,6 +138,16 @@ const Monitor* Fdir::first_safe() const {
   return first_active([](const Monitor& m) { return m.row().response == Response::kSafe; });
 }
 
+const Monitor* Fdir::stops_only_at(Level level, Level now) const {
+  const auto stops = [&](const Entry& entry) {
+    const Monitor& m = entry.monitor;
+    return m.row().level == level && m.row().stops_motion() && m.row().response != Response::kRestartService &&
+           (level == now ? m.active() : m.reading().condition != Condition::kFalse);
+  };
+  const auto found = std::find_if(entries_.begin(), entries_.end(), stops);
+  return found == entries_.end() ? nullptr : &found->monitor;
+}
+
 std::vector<std::string> Fdir::services_to_restart() const {
   std::vector<std::string> services;
   for (const std::string& id : active_) {

@@ -62,6 +62,9 @@ class Fdir {
   // First active fault that stops the rover, or that leads to SAFE; null if none.
   const Monitor* first_blocking() const;
   const Monitor* first_safe() const;
+  // First row that stops the rover at `level` only and does so now; at another level: would do so by its reading. Null
+  // if none.
+  const Monitor* stops_only_at(Level level, Level now) const;
   // Lowest slow_mps of the active faults; infinity if none.
   double speed_limit_mps() const;
   // Services with an active restart_service fault.

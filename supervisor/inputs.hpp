@@ -99,10 +99,17 @@ struct ServiceReport {
   std::int64_t lost = 0;      // gaps, malformed
 };
 
+struct VisualReport {
+  Utime utime = kNever;
+  bool displaced = false;  // the cameras of the LocCam have moved against each other
+};
+
 struct Inputs {
   PoseReport pose;
   HazardsReport hazards;
   int consecutive_blind_frames = 0;
+  Utime seen_utime = kNever;  // newest frame of HAZARDS that is not blind
+  VisualReport visual;
   PlannerReport planner;
   ControlReport control;
   SlipReport slip;

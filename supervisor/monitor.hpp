@@ -39,6 +39,8 @@ struct MonitorRow {
   StateSet armed;
   std::optional<Level> level;  // armed only at that level
   bool stops = true;           // restart_service: the rover stops meanwhile
+
+  bool stops_motion() const { return stops && response >= Response::kStop; }
 };
 
 struct Reading {
@@ -63,7 +65,7 @@ class Monitor {
 
   const MonitorRow& row() const { return row_; }
   bool active() const { return active_; }
-  bool blocks_motion() const { return active_ && row_.stops && row_.response >= Response::kStop; }
+  bool blocks_motion() const { return active_ && row_.stops_motion(); }
   const Reading& reading() const { return reading_; }
   double limit() const { return std::isnan(reading_.limit) ? row_.limit : reading_.limit; }
   // Time of the message that completed the persistence.

@@ -73,6 +73,7 @@ void SupervisorNode::subscribe() {
   node_.subscribe<traversability_t>(channel::kTraversability, [this](const traversability_t& m) {
     supervisor_.on_terrain(report_from(m, body_odom_));
   });
+  node_.subscribe<vo_motion_t>(channel::kVo, [this](const vo_motion_t& m) { supervisor_.on_visual(report_from(m)); });
   node_.subscribe<slam_pose_t>(channel::kSlamPose,
                                [this](const slam_pose_t& m) { supervisor_.on_slam(report_from(m)); });
   node_.subscribe<ground_command_t>(channel::kGroundCommand, [this](const ground_command_t& m) {

@@ -41,6 +41,14 @@ Reading blind_frames(const MonitorContext& context, const Subject&, double limit
   return above_reading(context.inputs.consecutive_blind_frames, limit, context.inputs.hazards.utime, context.utime);
 }
 
+Reading loccam_age(const MonitorContext& context, const Subject&, double limit) {
+  return age_reading(context.inputs.seen_utime, context.utime, limit);
+}
+
+Reading loccam_displaced(const MonitorContext& context, const Subject&, double) {
+  return flag_reading(context.inputs.visual.displaced, context.inputs.visual.utime, context.utime);
+}
+
 Reading stereo_coverage(const MonitorContext& context, const Subject&, double limit) {
   return below_reading(context.inputs.hazards.coverage, limit, context.inputs.hazards.utime, context.utime);
 }
@@ -214,6 +222,8 @@ constexpr std::array kQuantities = {
     Quantity{"vo_age_s", kOne, vo_age, kOfComputing},
     Quantity{"hazards_age_s", kOne, age<&Inputs::hazards>, kOfComputing},
     Quantity{"blind_frames", kOne, blind_frames},
+    Quantity{"loccam_age_s", kOne, loccam_age, kOfComputing},
+    Quantity{"loccam_displaced", kOne, loccam_displaced},
     Quantity{"stereo_coverage", kOne, stereo_coverage},
     Quantity{"planner_age_s", kOne, age<&Inputs::planner>},
     Quantity{"control_age_s", kOne, age<&Inputs::control>},

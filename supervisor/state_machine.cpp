@@ -86,7 +86,8 @@ constexpr std::array kPermitRules = {
 using L = LevelFact;
 
 // Priority: ground command, path segment, on-board measures. The end of a segment lowers only a level that a segment
-// raised; failing services lower it unless the path requires Full. Windows are reset at each change (hysteresis).
+// raised; failing services lower it unless the path requires Full or the LocCam does not see. Windows are reset at each
+// change (hysteresis).
 constexpr std::array kLevelTransitions = {
     LevelTransition{Level::kEfficient, {L::kForcedFull, L::kFullReady}, {}, Level::kFull, "forced", L::kForcedFull},
     LevelTransition{Level::kFull, {L::kForcedEfficient}, {}, Level::kEfficient, "forced", L::kForcedEfficient},
@@ -114,21 +115,27 @@ constexpr std::array kLevelTransitions = {
                     Level::kFull,
                     "no_path",
                     L::kNoPath},
+    LevelTransition{Level::kEfficient,
+                    {L::kLocCamOut, L::kFullReady},
+                    {L::kForcedEfficient, L::kFullFailing},
+                    Level::kFull,
+                    "loccam_out",
+                    L::kLocCamOut},
     LevelTransition{Level::kFull,
                     {L::kRaisedByPath},
-                    {L::kPathFull, L::kForcedFull, L::kNoPath},
+                    {L::kPathFull, L::kForcedFull, L::kNoPath, L::kLocCamOut},
                     Level::kEfficient,
                     "path_segment",
                     L::kPathFull},
     LevelTransition{Level::kFull,
                     {L::kEasyAhead},
-                    {L::kPathFull, L::kForcedFull, L::kNoPath},
+                    {L::kPathFull, L::kForcedFull, L::kNoPath, L::kLocCamOut},
                     Level::kEfficient,
                     "easy_terrain",
                     L::kEasyAhead},
     LevelTransition{Level::kFull,
                     {L::kFullFailing},
-                    {L::kPathFull, L::kForcedFull},
+                    {L::kPathFull, L::kForcedFull, L::kLocCamOut},
                     Level::kEfficient,
                     "full_failing",
                     L::kFullFailing},
@@ -140,8 +147,8 @@ constexpr std::array<const char*, kFactCount> kFactNames = {
     "STOP",         "PAUSE",      "RESUME",       "EMERGENCY_STOP", "CLEAR_SAFE",    "TELEOP"};
 constexpr std::array<const char*, 2> kLevelNames = {"EFFICIENT", "FULL"};
 constexpr std::array<const char*, kLevelFactCount> kLevelFactNames = {
-    "full_ready",    "forced_full",  "forced_efficient", "path_full",  "raised_by_path",
-    "slow_progress", "many_hazards", "no_path",          "easy_ahead", "full_failing"};
+    "full_ready",   "forced_full", "forced_efficient", "path_full",    "raised_by_path", "slow_progress",
+    "many_hazards", "no_path",     "easy_ahead",       "full_failing", "loccam_out"};
 
 template <class Enum, size_t N>
 std::string names(EnumSet<Enum> facts, const std::array<const char*, N>& of, const char* prefix) {

@@ -67,8 +67,9 @@ enum class LevelFact : int {
   kNoPath,        // the planner found none with what this level sees
   kEasyAhead,     // terrain difficulty below its limit over easy_distance_m
   kFullFailing,   // a Full-level service restarts repeatedly, or a sweep fails
+  kLocCamOut,     // a fault stops the rover at Efficient that does not at Full
 };
-inline constexpr int kLevelFactCount = 10;
+inline constexpr int kLevelFactCount = 11;
 
 // Bit set of enumerators.
 template <class Enum>

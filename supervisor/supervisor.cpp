@@ -65,6 +65,7 @@ void Supervisor::on_hazards(const HazardsReport& hazards) {
   if (inputs_.hazards.utime != kNever) frame_interval_s_ = to_seconds(hazards.utime - inputs_.hazards.utime);
   inputs_.hazards = hazards;
   inputs_.consecutive_blind_frames = hazards.blind ? inputs_.consecutive_blind_frames + 1 : 0;
+  if (!hazards.blind) inputs_.seen_utime = hazards.utime;
 }
 
 // Backing up for want of a path does not relax limits: only paths that follow a stop_backtrack fault do.
@@ -209,6 +210,9 @@ LevelFactSet Supervisor::level_facts(Utime now) {
       {"hazards_per_m", level_selector_.hazards_per_m(), limits.hazards_per_m, limits.window_s, planner_age});
   const bool no_path = inputs_.planner.state == PlannerState::kNoPath && kDriveInProgress.has(state_) && stationary();
   set_level_fact(out, F::kNoPath, no_path, {"planner_state", double(inputs_.planner.state), 0.0, 0.0, planner_age});
+  const Monitor* fault = fdir_.stops_only_at(Level::kEfficient, level_);
+  set_level_fact(out, F::kLocCamOut, fault != nullptr && kUnderWayOrFaultStop.has(state_),
+                 fault == nullptr ? Evidence{} : evidence_of(*fault));
   set_level_fact(out, F::kEasyAhead, level_selector_.easy_ahead() && terrain_fresh(),
                  {"terrain_difficulty", inputs_.terrain.difficulty, limits.easy_difficulty, 0.0,
                   age_s(inputs_.terrain.utime, now)});

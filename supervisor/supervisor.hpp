@@ -149,6 +149,7 @@ class Supervisor {
   void on_imu(const ImuReport& imu) { inputs_.imu = imu; }
   void on_terrain(const TerrainReport& terrain);
   void on_slam(const SlamReport& slam) { inputs_.slam = slam; }
+  void on_visual(const VisualReport& visual) { inputs_.visual = visual; }
   void on_motion_command(Utime utime) { inputs_.motion_command_utime = utime; }
   void on_path(PathLevels path);
   void on_command(const GroundCommand& command) { commands_.push_back(command); }

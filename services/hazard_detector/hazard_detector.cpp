@@ -8,6 +8,8 @@
 namespace rover::hazard {
 namespace {
 
+constexpr double kNoiseCoverage = 0.05;  // below, what matches is noise: a fogged lens gives 0.001
+
 bool same_camera(const StereoCamera& a, const StereoCamera& b) {
   return a.same_optics(b) && a.T_body_cam.matrix() == b.T_body_cam.matrix();
 }
@@ -50,6 +52,10 @@ HazardResult HazardDetector::step(const Disparity& disparity, const StereoCamera
   update_table(camera);
   HazardResult result;
   result.coverage = accumulate_samples(disparity);
+  if (result.coverage < kNoiseCoverage) {
+    std::fill(evidence_.begin(), evidence_.end(), CellEvidence{});
+    std::fill(cell_of_sample_.begin(), cell_of_sample_.end(), std::int16_t{-1});
+  }
   result.plane = fit_plane(evidence_, shape_, config_);
   classify_samples(disparity, result.plane, fit_local_ground(evidence_, shape_, config_, result.plane));
   result.cells = classify_cells(evidence_, shape_, config_);

@@ -1,5 +1,6 @@
 #include "hazard_detector/node.hpp"
 
+#include <algorithm>
 #include <rover/hazards_t.hpp>
 
 #include "common/bus/convert.hpp"
@@ -8,8 +9,13 @@
 namespace rover::hazard {
 
 HazardNode::HazardNode(Node& node, const NodeConfig& config) : node_(node), core_(config.core) {
+  node_.subscribe<vo_motion_t>(channel::kVo, [this](const vo_motion_t& message) { on_visual_motion(message); });
   node_.subscribe_slow<disparity_t>(channel::kDisparity, config.latency_us,
                                     [this](const disparity_t& message) { on_disparity(message); });
+}
+
+void HazardNode::on_visual_motion(const vo_motion_t& message) {
+  displaced_ = message.status == vo_motion_t::DISPLACED;
 }
 
 void HazardNode::on_disparity(const disparity_t& message) {
@@ -18,7 +24,9 @@ void HazardNode::on_disparity(const disparity_t& message) {
     node_.reject(channel::kDisparity, error);
     return;
   }
-  const HazardResult result = core_.step(disparity_from(message), camera_from(message));
+  Disparity disparity = disparity_from(message);
+  if (displaced_) std::fill(disparity.px16.begin(), disparity.px16.end(), Disparity::kInvalid);
+  const HazardResult result = core_.step(disparity, camera_from(message));
   hazards_t hazards{};
   hazards_to(result, core_.shape(), hazards);
   node_.publish(channel::kHazards, hazards, message.header.utime);
@@ -29,7 +37,8 @@ void HazardNode::report(const HazardResult& result) {
   if (result.status == last_status_) return;
   last_status_ = result.status;
   const bool blind = result.status == Status::kBlind;
-  node_.set_status(blind ? heartbeat_t::DEGRADED : heartbeat_t::OK, blind ? "too little stereo" : "");
+  node_.set_status(blind ? heartbeat_t::DEGRADED : heartbeat_t::OK,
+                   blind ? displaced_ ? "LocCam displaced" : "too little stereo" : "");
   static constexpr const char* kNames[] = {"CLEAR", "HAZARD", "BLIND"};
   node_.log(blind ? "WARN" : "INFO", std::string(kNames[static_cast<int>(result.status)]) +
                                          " coverage=" + std::to_string(result.coverage) +

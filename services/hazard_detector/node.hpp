@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <rover/disparity_t.hpp>
+#include <rover/vo_motion_t.hpp>
 #include <string>
 
 #include "common/bus/node.hpp"
@@ -18,11 +19,13 @@ class HazardNode {
   HazardNode& operator=(const HazardNode&) = delete;
 
  private:
+  void on_visual_motion(const vo_motion_t& message);
   void on_disparity(const disparity_t& message);
   void report(const HazardResult& result);
 
   Node& node_;
   HazardDetector core_;
+  bool displaced_ = false;  // visual odometry says that the cameras have moved against each other
   Status last_status_ = Status::kClear;
 };
 

@@ -72,7 +72,8 @@ void add_map(Parameters p, MapAlignmentConfig& c) {
 void add_status(Parameters p, StatusConfig& c) {
   p.add("wheel_timeout_s", c.wheel_timeout_s, {0.02, 10}, "without wheel encoders: DEGRADED");
   p.add("visual_degraded_s", c.visual_degraded_s, {0.1, 60}, "without visual odometry: DEGRADED");
-  p.add("max_dead_reckoned_m", c.max_dead_reckoned_m, {0, 100}, "distance without visual odometry; more: LOST");
+  p.add("max_dead_reckoned_m", c.max_dead_reckoned_m, {0, 100},
+        "distance without visual odometry and SLAM; more: LOST");
   p.add("imu_lost_s", c.imu_lost_s, {0, 600}, "without IMU: LOST");
   p.add("no_odometry_lost_s", c.no_odometry_lost_s, {0.1, 60}, "without wheels and visual odometry: LOST");
   p.add("conflicts_until_gyro_suspect", c.conflicts_until_gyro_suspect, {1, 1000},

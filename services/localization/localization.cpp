@@ -8,6 +8,7 @@ namespace {
 
 constexpr Utime kFutureUs = 1'000'000;    // later inputs than this after the newest tick are rejected
 constexpr Utime kEncoderGapUs = 500'000;  // wheel travel over a longer gap is unknown
+constexpr double kHistoryMarginS = 2.0;   // what leaves the history next
 constexpr double kMinCoverage = 0.5;      // of a record's time; the mean rate fills the rest
 constexpr double kWheelMotionRad = 0.01;  // smaller rotations are encoder noise
 constexpr double kChordM = 0.05;          // chord length for measuring the travelled distance
@@ -110,6 +111,7 @@ void Localization::fuse_slam(Utime now) {
     const bool settled = fused_.utime >= slam.utime;
     if (!settled && to_seconds(now - slam.utime) < config_.status.visual_degraded_s) return;
     map_.add_slam_pose(slam, settled ? fused_ : propagate_to(fused_, slam.utime));
+    limit_dead_reckoning(slam.utime);
   }
 }
 
@@ -271,6 +273,9 @@ void Localization::initialise(const MotionRecord& record) {
 void Localization::predict(const MotionRecord& record) {
   predicted_ = filter_.propagate(predicted_, without_suspect_gyro(record), traction(record));
   dead_reckoned_m_ += traction(record) * record.wheel_motion.head<2>().norm();
+  // Without visual motions it would fall out of the history, and what the wheels measured since with it.
+  const Utime oldest = record.end - to_utime(config_.history_s) + to_utime(kHistoryMarginS);
+  if (fused_.utime < oldest - to_utime(kHistoryMarginS) / 2) fused_ = propagate_to(fused_, oldest);
 }
 
 double Localization::traction(const MotionRecord& record) const {
@@ -324,12 +329,17 @@ void Localization::apply_fused_state(const FilterState& fused) {
   fused_ = fused;
   const Eigen::Isometry3d before = predicted_.T_odom_body;
   predicted_ = propagate_to(fused_, history_.end());
-  dead_reckoned_m_ = 0.0;
-  for (const MotionRecord& r : history_.slice(fused_.utime, history_.end()))
-    dead_reckoned_m_ += traction(r) * r.wheel_motion.head<2>().norm();
+  limit_dead_reckoning(fused_.utime);
   smoothing_offset_m_ += before.translation() - predicted_.T_odom_body.translation();
   const Eigen::Matrix3d R_out = exp_so3(smoothing_offset_rad_) * before.linear();
   smoothing_offset_rad_ = log_so3(R_out * predicted_.T_odom_body.linear().transpose());
+}
+
+void Localization::limit_dead_reckoning(Utime measured) {
+  double distance_m = 0.0;
+  for (const MotionRecord& r : history_.slice(measured, history_.end()))
+    distance_m += traction(r) * r.wheel_motion.head<2>().norm();
+  dead_reckoned_m_ = std::min(dead_reckoned_m_, distance_m);
 }
 
 // ---- output
@@ -384,16 +394,14 @@ void Localization::update_status(Utime now) {
   const double wheels_age = to_seconds(now - newest_wheels_utime_);
   if (config_.camera_only.enabled) {
     if (visual_age > config_.status.no_odometry_lost_s) return set(PoseStatus::kLost, "no visual odometry");
-    if (dead_reckoned_m_ > config_.status.max_dead_reckoned_m)
-      return set(PoseStatus::kLost, "too far without visual odometry");
+    if (dead_reckoned_m_ > config_.status.max_dead_reckoned_m) return set(PoseStatus::kLost, "too far on wheels alone");
     return set(PoseStatus::kOk, {});
   }
   const bool imu_healthy = imu_monitor_.healthy(now);
   if (imu_healthy) imu_healthy_utime_ = now;
   if (to_seconds(now - imu_healthy_utime_) > config_.status.imu_lost_s)
     return set(PoseStatus::kLost, "no IMU for too long");
-  if (dead_reckoned_m_ > config_.status.max_dead_reckoned_m)
-    return set(PoseStatus::kLost, "too far without visual odometry");
+  if (dead_reckoned_m_ > config_.status.max_dead_reckoned_m) return set(PoseStatus::kLost, "too far on wheels alone");
   if (wheels_age > config_.status.wheel_timeout_s && visual_age > config_.status.no_odometry_lost_s)
     return set(PoseStatus::kLost, "neither wheels nor visual odometry");
   if (!imu_healthy) return set(PoseStatus::kDegraded, imu_monitor_.frozen() ? "IMU frozen" : "no IMU");

@@ -40,7 +40,7 @@ struct StationaryConfig {
 struct StatusConfig {
   double wheel_timeout_s = 0.1;          // wheel encoders count as failed after this long without a sample
   double visual_degraded_s = 1.5;        // without visual odometry: DEGRADED
-  double max_dead_reckoned_m = 2.0;      // distance without visual odometry; more: LOST
+  double max_dead_reckoned_m = 2.0;      // distance without visual odometry and SLAM; more: LOST
   double imu_lost_s = 10.0;              // without IMU: LOST
   double no_odometry_lost_s = 1.0;       // without wheels and visual odometry: LOST
   int conflicts_until_gyro_suspect = 5;  // consecutive visual motions that contradict the gyro
@@ -116,6 +116,8 @@ class Localization {
   void initialise(const MotionRecord& record);
   void predict(const MotionRecord& record);
   FilterState propagate_to(FilterState state, Utime to) const;
+  // Visual odometry or SLAM measured the motion up to this time.
+  void limit_dead_reckoning(Utime measured);
   MotionRecord without_suspect_gyro(const MotionRecord& record) const;
   double traction(const MotionRecord& record) const;
   bool gyro_suspect() const { return consecutive_conflicts_ >= config_.status.conflicts_until_gyro_suspect; }
@@ -160,7 +162,7 @@ class Localization {
   FilterState fused_;                                              // at the end of the newest visual motion
   FilterState predicted_;                                          // at the newest record
   Eigen::Vector3d visual_velocity_mps_ = Eigen::Vector3d::Zero();  // of the newest visual motion, body axes
-  double dead_reckoned_m_ = 0.0;                                   // distance since the newest visual motion
+  double dead_reckoned_m_ = 0.0;  // distance since visual odometry or SLAM measured the motion
   int gyro_conflicts_ = 0;
   int consecutive_conflicts_ = 0;
 

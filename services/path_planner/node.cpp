@@ -52,11 +52,12 @@ PathPlannerNode::PathPlannerNode(Node& node, const PathPlannerConfig& config)
     : node_(node),
       checkpoint_(node),
       path_latency_(std::max<Utime>(0, to_utime(config.release_latency_s) - kTickUs)),
+      dead_reckoned_(node.options().cpu_scale),
       planner_(config, node.options().boot_id * kPathsPerBoot,
                std::make_shared<BackgroundThread>(to_utime(config.planning_latency_s),
                                                   [&node] { return node.follows_clock(); })) {
   node_.subscribe<path_t>(channel::kGlobalPath, [this](const path_t& m) { on_global_path(m); });
-  node_.subscribe<pose_t>(channel::kPose, [this](const pose_t& m) { planner_.add_pose(pose_from(m)); });
+  node_.subscribe<pose_t>(channel::kPose, [this](const pose_t& m) { on_pose(m); });
   node_.subscribe<hazards_t>(channel::kHazards, [this](const hazards_t& m) { on_hazards(m); });
   node_.subscribe<traversability_t>(channel::kTraversability,
                                     [this](const traversability_t& m) { on_traversability(m); });
@@ -81,6 +82,12 @@ void PathPlannerNode::on_global_path(const path_t& message) {
   node_.log(refusal.empty() ? "INFO" : "ERROR", "GLOBAL_PATH id=" + std::to_string(message.path_id) +
                                                     " points=" + std::to_string(message.point_count) +
                                                     (refusal.empty() ? "" : " refused: " + refusal));
+}
+
+void PathPlannerNode::on_pose(const pose_t& message) {
+  PoseSample sample = pose_from(message);
+  sample.dead_reckoned_m = dead_reckoned_.add(message);
+  planner_.add_pose(sample);
 }
 
 void PathPlannerNode::on_hazards(const hazards_t& message) {

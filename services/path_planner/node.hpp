@@ -6,12 +6,14 @@
 #include <rover/ground_command_t.hpp>
 #include <rover/hazards_t.hpp>
 #include <rover/path_t.hpp>
+#include <rover/pose_t.hpp>
 #include <rover/supervisor_state_t.hpp>
 #include <rover/traversability_t.hpp>
 #include <string>
 #include <vector>
 
 #include "common/bus/checkpoint_store.hpp"
+#include "common/bus/dead_reckoned_distance.hpp"
 #include "common/bus/node.hpp"
 #include "path_planner/path_planner.hpp"
 
@@ -23,6 +25,7 @@ class PathPlannerNode {
 
  private:
   void on_global_path(const path_t& message);
+  void on_pose(const pose_t& message);
   void on_hazards(const hazards_t& message);
   void on_traversability(const traversability_t& message);
   void on_state(const supervisor_state_t& message);
@@ -36,6 +39,7 @@ class PathPlannerNode {
   Node& node_;
   CheckpointStore checkpoint_;
   Utime path_latency_;
+  DeadReckonedDistance dead_reckoned_;
   PathPlanner planner_;
   path_t path_{};  // the newest; no points: none
   Utime next_repeat_ = 0;

@@ -1,6 +1,7 @@
 #include "path_planner/path_planner.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "common/core/path_limits.hpp"
 #include "path_planner/dubins.hpp"
@@ -153,7 +154,8 @@ void PathPlanner::set_level(bool full) {
 
 bool PathPlanner::add_traversability(const TraversabilityGrid& map) {
   if (!full_level_ || !map.fault().empty() || history_.empty()) return false;
-  belief_.add(map, position(rover()));
+  const double dead_reckoned_m = history_.newest().dead_reckoned_m;
+  belief_.add(map, position(rover()), dead_reckoned_m - std::exchange(dead_reckoned_m_, dead_reckoned_m));
   new_ground_ = new_map_ = mapped_ = true;
   return true;
 }

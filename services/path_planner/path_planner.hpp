@@ -187,10 +187,11 @@ class PathPlanner {
   int back_ups_ = 0;                  // since the rover last made progress
   int wanted_back_ups_ = 0;           // of them, those that FDIR wanted
   bool full_level_ = false;
-  bool new_ground_ = false;  // since the last step
-  bool new_level_ = false;   // since the last step
-  bool mapped_ = false;      // by the NavCam, since the Full level began
-  bool new_map_ = false;     // of the NavCam, since the last plan
+  bool new_ground_ = false;       // since the last step
+  bool new_level_ = false;        // since the last step
+  double dead_reckoned_m_ = 0.0;  // total at the newest map of the NavCam
+  bool mapped_ = false;           // by the NavCam, since the Full level began
+  bool new_map_ = false;          // of the NavCam, since the last plan
   bool replan_wanted_ = false;
   bool back_up_wanted_ = false;
   std::int64_t next_path_id_;

@@ -17,6 +17,7 @@ struct PoseSample {
   double forward_mps = 0.0;
   double left_mps = 0.0;
   double yaw_rate_radps = 0.0;
+  double dead_reckoned_m = 0.0;  // total of what was driven on wheel odometry alone
 };
 
 class PoseHistory {

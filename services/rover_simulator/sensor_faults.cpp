@@ -1,19 +1,8 @@
 #include "rover_simulator/sensor_faults.hpp"
 
-#include <algorithm>
+#include <utility>
 
 namespace rover {
-namespace {
-
-GrayImage shifted(const GrayImage& image, int rows, int columns) {
-  GrayImage out(image.width, image.height);
-  for (int y = 0; y < out.height; ++y)
-    for (int x = 0; x < out.width; ++x)
-      out.at(x, y) = image.at(std::clamp(x - columns, 0, image.width - 1), std::clamp(y - rows, 0, image.height - 1));
-  return out;
-}
-
-}  // namespace
 
 ImuSample SensorFaultModel::imu(const SensorFaults& faults, ImuSample sample) const {
   sample.delta_angle_rad.z() += faults.yaw_bias_radps * sample.dt_s;
@@ -43,9 +32,7 @@ StereoCameraSim::Pair SensorFaultModel::images(const SensorFaults& faults, Stere
 GrayImage SensorFaultModel::faulty_image(const CameraFault& fault, GrayImage image, GrayImage& last) const {
   if (fault.frozen && !last.data.empty()) image = last;
   last = image;
-  if (fault.blind) std::fill(image.data.begin(), image.data.end(), std::uint8_t{0});
-  if (fault.shift_rows != 0 || fault.shift_columns != 0) return shifted(image, fault.shift_rows, fault.shift_columns);
-  return image;
+  return seen_with(fault, std::move(image));
 }
 
 }  // namespace rover

@@ -4,16 +4,10 @@
 #include <array>
 
 #include "rover_simulator/camera/stereo_camera_sim.hpp"
+#include "rover_simulator/lens_faults.hpp"
 #include "rover_simulator/vehicle/sensors.hpp"
 
 namespace rover {
-
-struct CameraFault {
-  bool blind = false;
-  bool frozen = false;
-  int shift_rows = 0;  // downwards; the border is replicated
-  int shift_columns = 0;
-};
 
 struct SensorFaults {
   std::array<CameraFault, 4> camera;  // left, right; LocCam, then NavCam

@@ -19,6 +19,10 @@ void apply_camera_fault(const injection_t& injection, CameraFault& camera) {
   if (injection.fault == "camera_frozen") camera.frozen = true;
   if (injection.fault == "camera_rows") camera.shift_rows = pixels;
   if (injection.fault == "camera_columns") camera.shift_columns = pixels;
+  if (injection.fault == "camera_roll") camera.roll_deg = injection.amount;
+  if (injection.fault == "camera_fog") camera.fog = injection.amount;
+  if (injection.fault == "camera_dirt") camera.dirt = injection.amount;
+  if (injection.fault == "camera_glare") camera.glare = injection.amount;
 }
 
 void apply_sensor_fault(const injection_t& injection, SensorFaults& sensors) {

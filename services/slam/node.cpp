@@ -3,22 +3,6 @@
 #include "slam/convert.hpp"
 
 namespace rover::slam {
-namespace {
-
-constexpr Utime kMaxVoAgeUs = 800'000;  // frame period 0.4 s and latency 0.3 s; older: a frame is missing
-
-}  // namespace
-
-DeadReckonedDistance::DeadReckonedDistance(double cpu_scale)
-    : max_vo_age_(static_cast<Utime>(static_cast<double>(kMaxVoAgeUs) * cpu_scale)) {}
-
-double DeadReckonedDistance::add(const pose_t& pose) {
-  const double step_m = pose.travelled_m - travelled_m_;  // NaN for the first POSE
-  travelled_m_ = pose.travelled_m;
-  const bool stale_vo = pose.last_vo_utime < 0 || pose.header.utime - pose.last_vo_utime > max_vo_age_;
-  if (stale_vo && step_m > 0.0) distance_m_ += step_m;
-  return distance_m_;
-}
 
 SlamNode::SlamNode(Node& node, const NodeConfig& config)
     : node_(node), checkpoint_(node), slam_(config.core), dead_reckoned_(node.options().cpu_scale) {

@@ -8,24 +8,12 @@
 #include <string>
 
 #include "common/bus/checkpoint_store.hpp"
+#include "common/bus/dead_reckoned_distance.hpp"
 #include "common/bus/node.hpp"
 #include "slam/config.hpp"
 #include "slam/pose_history.hpp"
 
 namespace rover::slam {
-
-// Distance driven on wheel odometry alone, from the age of the visual odometry in POSE.
-class DeadReckonedDistance {
- public:
-  explicit DeadReckonedDistance(double cpu_scale = 1.0);
-  // Returns the total, this POSE included.
-  double add(const pose_t& pose);
-
- private:
-  Utime max_vo_age_;
-  double distance_m_ = 0.0;
-  double travelled_m_ = kNaN;
-};
 
 class SlamNode {
  public:

@@ -8,8 +8,9 @@ namespace rover::vo {
 namespace {
 
 int8_t status_code(Status status) {
-  if (status == Status::kOk) return vo_motion_t::OK;
-  return status == Status::kDegraded ? vo_motion_t::DEGRADED : vo_motion_t::LOST;
+  static constexpr std::int8_t kCodes[] = {vo_motion_t::OK, vo_motion_t::DEGRADED, vo_motion_t::LOST,
+                                           vo_motion_t::DISPLACED};
+  return kCodes[static_cast<int>(status)];
 }
 
 }  // namespace

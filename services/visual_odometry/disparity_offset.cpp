@@ -4,6 +4,11 @@
 #include <cmath>
 
 namespace rover::vo {
+namespace {
+
+constexpr double kRemembered = 0.7;  // of the recent measurements at the next: some three keyframes, 0.5 m
+
+}  // namespace
 
 DisparityOffset::DisparityOffset(const DisparityOffsetConfig& config)
     : config_(config), information_(1.0 / (config.prior_sigma_px * config.prior_sigma_px)) {}
@@ -14,6 +19,15 @@ void DisparityOffset::add(const OffsetMeasurement& measurement, double used_px) 
   const double gradient = measurement.gradient + measurement.information * (used_px - px_);
   px_ += config_.information_factor * gradient / information_;
   px_ = std::clamp(px_, -config_.max_px, config_.max_px);
+  const double information = config_.information_factor * measurement.information;
+  recent_information_ = kRemembered * recent_information_ + information;
+  recent_gradient_ =
+      kRemembered * recent_gradient_ + config_.information_factor * measurement.gradient + information * used_px;
+}
+
+bool DisparityOffset::displaced() const {
+  const double prior = 1.0 / (config_.prior_sigma_px * config_.prior_sigma_px);
+  return std::abs(recent_gradient_ / (prior + recent_information_)) >= config_.max_px;
 }
 
 }  // namespace rover::vo

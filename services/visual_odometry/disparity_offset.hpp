@@ -27,6 +27,8 @@ class DisparityOffset {
 
   // To be added to each measured disparity.
   double px() const { return px_; }
+  // The newest measurements show more than a calibration error; the estimate of all is slow.
+  bool displaced() const;
   // `used_px`: offset applied while measuring.
   void add(const OffsetMeasurement& measurement, double used_px);
 
@@ -34,6 +36,8 @@ class DisparityOffset {
   DisparityOffsetConfig config_;
   double px_ = 0.0;
   double information_;
+  double recent_information_ = 0.0;  // older measurements are forgotten
+  double recent_gradient_ = 0.0;     // at an offset of 0
 };
 
 }  // namespace rover::vo

@@ -11,8 +11,8 @@ namespace rover::vo {
 namespace {
 
 const char* to_string(Status status) {
-  if (status == Status::kOk) return "OK";
-  return status == Status::kDegraded ? "DEGRADED" : "LOST";
+  static constexpr const char* kNames[] = {"OK", "DEGRADED", "LOST", "DISPLACED"};
+  return kNames[static_cast<int>(status)];
 }
 
 }  // namespace

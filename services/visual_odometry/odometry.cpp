@@ -71,13 +71,18 @@ std::optional<OdometryResult> Odometry::step(const StereoFrame& frame) {
     if (++consecutive_lost_ >= config_.lost_until_new_keyframe) start_keyframe(frame, pyramids);
     return result;
   }
-  const OdometryResult result = accept(frame, registration);
+  OdometryResult result = accept(frame, registration);
   const int needed_inliers =
       std::max(config_.keyframe_inliers,
                static_cast<int>(config_.keyframe_inlier_ratio * static_cast<double>(keyframe_->points.size())));
   const double applied_offset_px = keyframe_offset_px_;
   if (registration.motion.inliers < needed_inliers && start_keyframe(frame, pyramids))
     offset_.add(registration.motion.offset, applied_offset_px);
+  if (offset_.displaced()) {
+    result.status = Status::kDisplaced;
+    result.T_prev_cur = nan_pose();
+    result.cov = nan_cov();
+  }
   return result;
 }
 

@@ -134,6 +134,11 @@ Cause pictures(const std::string& text, std::function<double(int)> share) {
           },
           [](Hands& h, Who) { h.blindness.share = nullptr; }, nullptr};
 }
+Cause knock() {
+  return {"cameras moved", 1.0, [](Hands& h, Who, int) { h.blindness.displaced = true; },
+          [](Hands& h, Who) { h.blindness.displaced = false; }, nullptr};
+}
+
 Cause visual_lost(double longest_s) {
   return {"no features", longest_s, [](Hands& h, Who, int) { h.blindness.visual_lost = true; },
           [](Hands& h, Who) { h.blindness.visual_lost = false; }, nullptr};
@@ -279,6 +284,7 @@ std::vector<Case> of_seeing_and_following() {
        {},
        kUnderWay,
        {pictures("two images with few valid pixels", [](int n) { return n < 2 ? 0.3 : 1.0; })}},
+      {"loccam_displaced", {}, kEver, {knock()}},
       {"stereo_coverage", {}, kEver, {pictures("flickering images", [](int n) { return n == 2 ? 1.0 : 0.1; })}},
       {"planner_age", {}, kEver, {drop("PLANNER_STATUS", 0.6), tap("delay", "PLANNER_STATUS", 0.6, 0.6)}},
       {"control_age", {}, kEver, {drop("CONTROL_STATUS", 0.6), tap("delay", "CONTROL_STATUS", 0.6, 0.6)}},
@@ -296,6 +302,7 @@ std::vector<Case> of_seeing_and_following() {
 // In the order of the table; at the Full level except for the rows of idle services.
 std::vector<Case> of_the_full_level() {
   return {
+      {"loccam_out", {}, kUnderWay, {drop("HAZARDS", 1.8), drop("DISPARITY", 1.8)}, true},
       {"terrain_distance", {}, kRolling, {drop("TRAVERSABILITY", 25.0)}, true},
       {"sweep_timeout", {}, kRolling, {drop("TRAVERSABILITY", 100.0)}, true},
       {"slam_lost", {}, kUnderWay, {slam_lost(8.0)}, true},

@@ -38,20 +38,21 @@ class VisualOdometry {
     if (now % kExposurePeriodUs != 0) return;
     const Eigen::Isometry3d T = rover_.T_map_body();
     if (previous_utime_ != kNever) publish(now, T);
-    if (previous_utime_ != kNever && blindness_.visual_lost) return;
+    if (previous_utime_ != kNever && (blindness_.visual_lost || blindness_.displaced)) return;
     previous_utime_ = now;
     T_previous_ = T;
   }
 
   void publish(Utime now, const Eigen::Isometry3d& T) {
     vo_motion_t out{};
+    const bool lost = blindness_.visual_lost || blindness_.displaced;
     out.previous_utime = out.keyframe_utime = previous_utime_;
-    out.status = blindness_.visual_lost ? vo_motion_t::LOST : vo_motion_t::OK;
-    pose_to(blindness_.visual_lost ? nan_pose() : T_previous_.inverse() * T, out.position_m, out.quat_wxyz);
+    out.status = blindness_.displaced ? vo_motion_t::DISPLACED : lost ? vo_motion_t::LOST : vo_motion_t::OK;
+    pose_to(lost ? nan_pose() : T_previous_.inverse() * T, out.position_m, out.quat_wxyz);
     Matrix6d cov = Matrix6d::Zero();
     cov.diagonal().head<3>().setConstant(kVisualSigmaM * kVisualSigmaM);
     cov.diagonal().tail<3>().setConstant(kVisualSigmaRad * kVisualSigmaRad);
-    matrix6_to(blindness_.visual_lost ? nan_cov() : cov, out.covariance);
+    matrix6_to(lost ? nan_cov() : cov, out.covariance);
     out.features = out.inliers = 300;
     node_.publish(channel::kVo, out, now, kVisualLatencyUs);
   }

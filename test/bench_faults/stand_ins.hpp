@@ -18,6 +18,7 @@ struct Blindness {
   std::function<double(int picture)> share;
   int pictures = 0;
   bool visual_lost = false;
+  bool displaced = false;
   bool slam_lost = false;
 };
 

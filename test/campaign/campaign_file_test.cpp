@@ -84,6 +84,13 @@ TEST_F(CampaignFileTest, BadInputIsOneLineWithFileAndLine) {
             "c.yaml:3: axes.slope_direction: 'left' is not one of down, up, across");
   EXPECT_EQ(error_of(head_ + "axes: {slope_direction: up}\n"),
             "c.yaml:1: axes.slope_direction: requires the axis slope_deg");
+  EXPECT_EQ(
+      error_of(head_ + "axes: {fault: [none, camera_blind middle]}\n").find("c.yaml:3: axes.fault: 'middle' is not"),
+      0U);
+  EXPECT_EQ(error_of(head_ + "axes: {fault: camera_rows left much}\n"),
+            "c.yaml:3: axes.fault: 'much' is not an amount");
+  EXPECT_EQ(error_of(head_ + "axes: {fault: camera_rows left 99}\n"),
+            "c.yaml:3: axes.fault: out of range [-50, 50] px");
   EXPECT_EQ(error_of(head_ + "axes: {rock_area: []}\n"), "c.yaml:3: axes.rock_area: an empty list");
   EXPECT_EQ(error_of(head_ + "blocks: []\n"), "c.yaml:3: blocks: a list of blocks is expected");
   EXPECT_EQ(error_of(head_ + "axis: {}\n"), "c.yaml:3: axis: unknown key");

@@ -70,6 +70,36 @@ TEST_F(HazardNodeTest, FrameWithoutStereoIsPublishedAsBlind) {
                           [](int cell) { return cell == hazards_t::UNSEEN; }));
 }
 
+// As through a fogged lens: a few wrong matches, high above the ground.
+TEST_F(HazardNodeTest, NoiseInAPictureWithoutStereoIsNoHazard) {
+  disparity_t message = disparity_of({});
+  const int valid = message.width / 8 * message.height / 8;
+  std::mt19937_64 random(2);
+  std::fill(message.disparity_px16.begin(), message.disparity_px16.end(), +disparity_t::INVALID);
+  for (int i = 0; i < valid; ++i) message.disparity_px16[random() % message.disparity_px16.size()] = 16 * 90;
+  send_disparity(message, 100'000);
+  world_.tick(200'000);
+  ASSERT_EQ(hazards_.size(), 1u);
+  EXPECT_EQ(hazards_[0].state, +hazards_t::BLIND);
+  EXPECT_EQ(hazards_[0].hazard_px, 0);
+}
+
+TEST_F(HazardNodeTest, FramesOfADisplacedLocCamAreBlind) {
+  vo_motion_t motion{};
+  for (const auto status : {vo_motion_t::OK, vo_motion_t::DISPLACED, vo_motion_t::OK}) {
+    motion.status = status;
+    const Utime utime = world_.node().now() + 100'000;
+    world_.send(channel::kVo, motion, utime);
+    world_.tick(utime + 20'000);
+    send_disparity(disparity_of({}), utime + 40'000);
+    world_.tick(utime + 200'000);
+  }
+  ASSERT_EQ(hazards_.size(), 3u);
+  EXPECT_EQ(hazards_[0].state, +hazards_t::CLEAR);
+  EXPECT_EQ(hazards_[1].state, +hazards_t::BLIND);
+  EXPECT_EQ(hazards_[2].state, +hazards_t::CLEAR);
+}
+
 TEST_F(HazardNodeTest, MalformedDisparitiesAreCountedAndIgnored) {
   std::vector<disparity_t> bad(6, disparity_of({}));
   bad[0].focal_px = kNaN;

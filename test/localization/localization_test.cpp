@@ -538,6 +538,27 @@ TEST(Localization, SlamMovesMapWhereWheelsBridgedVisualOdometry) {
   EXPECT_LT(map_moved_by_slam(true), 0.1);
 }
 
+TEST(Localization, SlamBridgesVisualOdometryForAnyDistance) {
+  for (const bool slam : {false, true}) {
+    SyntheticDrive drive({}, 25);
+    drive.command = arc;
+    drive.align_and_start(0.5, 0.05);
+    drive.run(10.0);
+    drive.visual_on = false;
+    for (int i = 0; i < 10; ++i) {
+      drive.run(2.5);
+      MapMeasurement m;
+      m.utime = drive.localization.pose().utime - 400'000;
+      m.T_map_odom = planar(drive.localization.pose().T_map_odom);
+      m.cov = Vector3d(1e-4, 1e-4, 1e-6).asDiagonal();
+      if (slam) {
+        EXPECT_EQ(drive.localization.add_slam_pose(m), "");
+      }
+    }
+    EXPECT_EQ(drive.localization.pose().status, slam ? PoseStatus::kDegraded : PoseStatus::kLost);
+  }
+}
+
 TEST(Localization, ContinuesFromCheckpoint) {
   SyntheticDrive drive({}, 19);
   drive.command = [](double t) { return t < 1.5 || t > 21.5 ? Twist{} : Twist{0.2, 0.05}; };
@@ -617,7 +638,7 @@ TEST(Localization, RestartExtendsNeitherDeadReckoningNorTimeWithoutImu) {
     drive.run(10.0);
     (imu ? drive.visual_on : drive.imu_on) = false;
     drive.run(15.0);
-    const std::string_view reason = imu ? "too far without visual odometry" : "no IMU for too long";
+    const std::string_view reason = imu ? "too far on wheels alone" : "no IMU for too long";
     ASSERT_EQ(drive.localization.pose().reason, reason);
     restart(drive);
     drive.run(0.5, [&] { EXPECT_EQ(drive.localization.pose().reason, reason); });

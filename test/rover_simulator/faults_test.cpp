@@ -184,6 +184,26 @@ TEST(SimulatorFaults, ShiftedCameraShiftsImageByPixels) {
   EXPECT_EQ(recorded.left.at(1).data, good.left.at(1).data);
 }
 
+TEST(SimulatorFaults, DirtyFoggedDazzledAndRolledCamerasSeeLess) {
+  const Recording good = drive({}, 1.0);
+  const auto seen = [](const std::string& fault, double amount) {
+    return drive({at_second(0.0, fault, "left", amount)}, 1.0).left.at(1).data;
+  };
+  const auto& clear = good.left.at(1).data;
+  const auto span = [](const auto& data) {
+    return *std::max_element(data.begin(), data.end()) - *std::min_element(data.begin(), data.end());
+  };
+  EXPECT_LT(span(seen("camera_fog", 0.8)), 0.3 * span(clear));
+  const auto dirty = seen("camera_dirt", 0.3);
+  size_t changed = 0;
+  for (size_t i = 0; i < clear.size(); ++i) changed += dirty[i] != clear[i] ? 1 : 0;
+  EXPECT_NEAR(static_cast<double>(changed) / static_cast<double>(clear.size()), 0.35, 0.1) << "with blurred borders";
+  const auto dazzled = seen("camera_glare", 0.2);
+  EXPECT_GT(std::count(dazzled.begin(), dazzled.end(), 255), static_cast<std::ptrdiff_t>(clear.size() / 20));
+  EXPECT_EQ(dazzled.back(), clear.back());
+  EXPECT_NE(seen("camera_roll", 0.5), clear);
+}
+
 TEST(SimulatorFaults, DeadImuPublishesNothing) {
   const Recording recorded = drive({at_second(1.0, "imu_dead", "imu")});
   EXPECT_EQ(recorded.imu.size(), 50u);

@@ -54,7 +54,7 @@ TEST_F(ConfigTest, ASlowerComputerMayBeLateWithWhatItComputesAndNotWithTheRest) 
 
 TEST_F(ConfigTest, LogRowsDoNotChangePermitAges) {
   const SupervisorConfig config =
-      load_with("limit: 1.2, response: stop}    # 2.5 Hz", "limit: 9.0, response: log}    # 2.5 Hz");
+      load_with("limit: 1.2, response: stop, armed: efficient}    # 2.5 Hz", "limit: 9.0, response: log}    # 2.5 Hz");
   EXPECT_EQ(config.hazards_max_age_s, SupervisorConfig().hazards_max_age_s);
 }
 

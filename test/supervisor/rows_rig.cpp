@@ -83,6 +83,7 @@ void RowsRig::send_decisions() {
   send(channel::kControlStatus, control);
   send(channel::kMotionCommand, motion_command_t{});
   if (ticks_ % 20 == 0) send(channel::kHazards, hazards);
+  if (ticks_ % 20 == 0) send(channel::kVo, visual);
   if (ticks_ % 50 == 0) send(channel::kTraversability, terrain);
   if (ticks_ % 50 == 0) send(channel::kSlamPose, slam);
 }

@@ -17,6 +17,7 @@
 #include <rover/slam_pose_t.hpp>
 #include <rover/slip_t.hpp>
 #include <rover/traversability_t.hpp>
+#include <rover/vo_motion_t.hpp>
 #include <rover/wheel_state_t.hpp>
 #include <set>
 
@@ -74,6 +75,7 @@ class RowsRig {
   imu_t imu{};
   traversability_t terrain{};
   slam_pose_t slam{};
+  vo_motion_t visual{};
   bool wheels_follow = true;  // wheels turn if permitted
   bool odometry_alive = true;
   std::set<std::string> silent;  // channels without messages

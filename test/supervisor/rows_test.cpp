@@ -167,12 +167,15 @@ std::vector<RowCase> perception_cases() {
        [](RowsRig& rig) { rig.hazards.state = hazards_t::CLEAR; }, 3.0},
       coverage("stereo_coverage_low", 0.3f),
       coverage("stereo_coverage", 0.1f),
+      {"loccam_displaced", "", [](RowsRig& rig) { rig.visual.status = vo_motion_t::DISPLACED; },
+       [](RowsRig& rig) { rig.visual.status = vo_motion_t::OK; }},
   };
 }
 
 // Rows of the Full level.
 std::vector<RowCase> full_cases() {
   return {
+      silence("loccam_out", channel::kHazards, 3.0),
       silence("terrain_distance", channel::kTraversability, 10.0),
       {"sweep_timeout", "", [](RowsRig& rig) { rig.terrain.cells = {traversability_t::UNKNOWN}; },
        [](RowsRig& rig) { rig.terrain.cells = {traversability_t::FREE}; }, 70.0, 2.0, false, "fault"},
@@ -415,6 +418,7 @@ TEST(FdirTable, SilenceDoesNotClearAFault) {
     const RowCase& c = *std::find_if(cases.begin(), cases.end(), [&](const RowCase& r) { return r.line == line; });
     RowsRig rig;
     ASSERT_TRUE(rig.start_driving(false));
+    ASSERT_TRUE(rig.command(ground_command_t::FORCE_LEVEL, "", ground_command_t::EFFICIENT));
     c.inject(rig);
     ASSERT_TRUE(rig.raised_within(c.row, c.within_s));
     rig.silent.insert(channel);
@@ -438,6 +442,7 @@ TEST(FdirTable, TwoFaultsAreIndependent) {
       SCOPED_TRACE(first.line + " then " + second.line);
       RowsRig rig;
       ASSERT_TRUE(rig.start_driving(false));
+      ASSERT_TRUE(rig.command(ground_command_t::FORCE_LEVEL, "", ground_command_t::EFFICIENT));
       first.inject(rig);
       ASSERT_TRUE(rig.raised_within(first.row, first.within_s));
       EXPECT_TRUE(rig.changes().front().first);

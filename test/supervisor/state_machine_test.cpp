@@ -208,12 +208,12 @@ TEST(LevelMachine, ChangesOnlyByItsRules) {
   for_all_levels([](Level level, LevelFactSet facts) {
     const LevelTransition* row = next_level(level, facts);
     const bool found_hard =
-        facts.has_any({L::kSlowProgress, L::kManyHazards, L::kNoPath}) && !facts.has(L::kFullFailing);
+        facts.has_any({L::kSlowProgress, L::kManyHazards, L::kNoPath, L::kLocCamOut}) && !facts.has(L::kFullFailing);
     const bool up =
         facts.has(L::kForcedFull) || (!facts.has(L::kForcedEfficient) && (facts.has(L::kPathFull) || found_hard));
     const bool down =
         facts.has(L::kForcedEfficient) ||
-        (!facts.has_any({L::kForcedFull, L::kPathFull}) &&
+        (!facts.has_any({L::kForcedFull, L::kPathFull, L::kLocCamOut}) &&
          (facts.has(L::kFullFailing) || (facts.has_any({L::kRaisedByPath, L::kEasyAhead}) && !facts.has(L::kNoPath))));
     const bool changes = level == Level::kEfficient ? up && facts.has(L::kFullReady) : down;
     ASSERT_EQ(row != nullptr, changes) << name(level);

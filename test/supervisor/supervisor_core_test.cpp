@@ -1057,6 +1057,39 @@ TEST_F(LevelTest, ManyHazardsRaise) {
   EXPECT_EQ(last_level_change()->cause, "many_hazards");
 }
 
+TEST_F(LevelTest, ABlindLocCamRaisesAndTheNavCamDrivesOnSlowly) {
+  begin();
+  blind_ = true;
+  difficulty_ = 0.1;
+  drive(5.0, 0.1);
+  EXPECT_EQ(supervisor_.level(), Level::kFull);
+  EXPECT_EQ(last_level_change()->cause, "loccam_out");
+  EXPECT_EQ(last_level_change()->evidence.quantity, "blind_frames");
+  EXPECT_TRUE(out_.permit.granted);
+  EXPECT_LE(out_.permit.max_speed_mps, 0.1);
+  drive(100.0, 0.1);
+  EXPECT_EQ(supervisor_.level(), Level::kFull) << "easy ground does not lower the level of a blind LocCam";
+  hazards_alive_ = false;
+  drive(5.0, 0.1);
+  EXPECT_TRUE(out_.permit.granted);
+  map_alive_ = false;
+  drive(30.0, 0.1);
+  EXPECT_EQ(supervisor_.state(), State::kSweeping) << "neither camera sees";
+  map_alive_ = hazards_alive_ = true;
+  blind_ = false;
+  drive(150.0, 0.1);
+  EXPECT_EQ(supervisor_.level(), Level::kEfficient);
+}
+
+TEST_F(LevelTest, ABlindLocCamStopsTheRoverIfTheGroundWantsEfficient) {
+  begin();
+  EXPECT_TRUE(command(CommandKind::kForceLevel, "", ForcedLevel::kEfficient).accepted);
+  blind_ = true;
+  drive(5.0, 0.1);
+  EXPECT_EQ(supervisor_.level(), Level::kEfficient);
+  EXPECT_EQ(supervisor_.state(), State::kFaultStop);
+}
+
 TEST_F(LevelTest, NoPathAtTheEfficientLevelRaises) {
   begin();
   speed_ = 0.0;

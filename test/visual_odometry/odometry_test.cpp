@@ -33,7 +33,7 @@ struct Drive {
     const auto result = odometry.step(ground.frame(now, pose));
     if (!result) return result;
     results.push_back(*result);
-    if (result->status != Status::kLost) T_world_body = T_world_body * result->T_prev_cur;
+    if (is_finite(result->T_prev_cur)) T_world_body = T_world_body * result->T_prev_cur;
     return result;
   }
   double error_m() const { return (T_world_body.translation() - truth.translation()).norm(); }
@@ -262,6 +262,19 @@ TEST(Odometry, EstimatesDisparityOffsetWhileDriving) {
     EXPECT_NEAR(drive.odometry.offset().px(), enabled ? 0.3 : 0.0, 0.12);
   }
   EXPECT_LT(drift[1], 0.6 * drift[0]);
+}
+
+// A knock turns one camera by 0.5 deg: all disparities are wrong by 3.6 px.
+TEST(Odometry, NoticesThatTheCamerasHaveMoved) {
+  for (const double knock_px : {3.6, -3.6}) {
+    Drive drive(25);
+    for (int i = 0; i <= 20; ++i) drive.drive_to(along_arc(0.08 * i));
+    EXPECT_EQ(drive.results.back().status, Status::kOk);
+    drive.ground.right_shift_px = knock_px;
+    for (int i = 21; i <= 70; ++i) drive.drive_to(along_arc(0.08 * i));
+    EXPECT_EQ(drive.results.back().status, Status::kDisplaced) << knock_px;
+    EXPECT_FALSE(is_finite(drive.results.back().T_prev_cur));
+  }
 }
 
 TEST(Odometry, DisparityOffsetIsUnobservableAtStandstill) {

@@ -4,8 +4,9 @@
 #include <cctype>
 #include <filesystem>
 #include <sstream>
+#include <stdexcept>
 
-#include "common/bus/yaml_file.hpp"
+#include "common/bus/faults.hpp"
 #include "common/core/decimal.hpp"
 
 namespace rover::campaign {
@@ -47,6 +48,7 @@ const std::vector<Axis>& axes() {
       {"slope_direction", {0, 0}, {"down", "up", "across"}, true},
       {"soil", {0, 0}, {"sand", "firm", "bedrock", "mixed"}, true},
       {"sun_elevation_deg", {5, 90}, {}, true},
+      {"fault", {0, 0}, {}, true},
       {"level", {0, 0}, {"efficient", "auto", "full"}},
       {"perception", {0, 0}, {"rendered", "geometric", "truth"}},
   };
@@ -66,7 +68,35 @@ bool is_parameter(const std::string& name) {
          });
 }
 
+YAML::Node fault_entry(const std::string& value) {
+  if (value == "none") return {};
+  std::istringstream words(value);
+  std::string name, target, amount, rest;
+  words >> name >> target >> amount >> rest;
+  const FaultKind* kind = find_fault(name);
+  if (kind == nullptr) throw std::invalid_argument("'" + name + "' is not one of none, " + fault_names());
+  std::string problem = target_problem(*kind, target, find_channel_type);
+  const auto number = parse_number(amount);
+  if (!amount.empty() && problem.empty())
+    problem = number && rest.empty() ? amount_problem(*kind, *number) : "'" + amount + "' is not an amount";
+  if (!problem.empty()) throw std::invalid_argument(problem);
+  YAML::Node entry;
+  entry["fault"] = name;
+  entry["target"] = target;
+  if (number) entry["amount"] = *number;
+  entry["after_m"] = 5.0;
+  return entry;
+}
+
 std::string value_problem(const Axis& axis, const std::string& value) {
+  if (axis.name == "fault") {
+    try {
+      fault_entry(value);
+      return {};
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+  }
   if (!axis.choices.empty()) {
     const bool known = std::find(axis.choices.begin(), axis.choices.end(), value) != axis.choices.end();
     return known ? "" : "'" + value + "' is not one of " + listed(axis.choices);

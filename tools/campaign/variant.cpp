@@ -1,5 +1,6 @@
 #include "tools/campaign/variant.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -41,6 +42,7 @@ std::string variant_name(const Cell& cell) {
   for (const Axis& axis : axes())
     if (const auto value = cell.find(axis.name); axis.of_world && value != cell.end())
       name += "-" + axis.name + "-" + value->second;
+  std::replace(name.begin(), name.end(), ' ', '_');
   return name;
 }
 
@@ -55,6 +57,8 @@ YAML::Node make_variant(const YAML::Node& base, const std::string& base_file, co
     if (axis == "slope_direction")
       world["plane"]["toward_deg"] = toward_deg(value, path_direction_deg(scenario["path"]));
     if (axis == "soil") set_soil(world, value);
+    if (axis == "fault")
+      if (const YAML::Node entry = fault_entry(value); !entry.IsNull()) scenario["faults"].push_back(entry);
     if (axis == "sun_elevation_deg") scenario["sun"]["elevation_deg"] = *parse_number(value);
   }
   return scenario;

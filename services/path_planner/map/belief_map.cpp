@@ -124,7 +124,9 @@ void BeliefMap::add_unmeasured(CellBelief& cell, const HazardGrid& grid, Point2 
 }
 
 // Successive maps share their heights, so a look as good as the last one replaces half of it and never makes it surer.
-void BeliefMap::add(const TraversabilityGrid& grid, Point2 rover) {
+void BeliefMap::add(const TraversabilityGrid& grid, Point2 rover, double dead_reckoned_m) {
+  // In cells. Odom drifts against the ground, and what was seen before lies elsewhere; within a cell a step ends.
+  const double drift2 = std::pow(BeliefConfig::kDriftPerM * dead_reckoned_m / BeliefConfig::kCellM, 2);
   const Point2 high{grid.origin_x_m + grid.cells_x * grid.cell_m, grid.origin_y_m + grid.cells_y * grid.cell_m};
   for_cells_in(map_, {grid.origin_x_m, grid.origin_y_m}, high, [&](CellBelief& cell, Point2 p) {
     const int cost = grid.at(p);
@@ -133,18 +135,19 @@ void BeliefMap::add(const TraversabilityGrid& grid, Point2 rover) {
     const double relative = static_cast<double>(cost) / TraversabilityGrid::kLow;
     const double ratio = impassable ? kImpassableRatio : std::cbrt(relative);  // cost.step_exponent of traversability
     const double sigma = config_.sigma + config_.sigma_per_m * distance(p, rover);
-    const double before = static_cast<double>(cell.step_sigma) * cell.step_sigma;
+    const double before = static_cast<double>(cell.step_sigma) * cell.step_sigma + drift2;
+    cell.evidence /= static_cast<float>(1.0 + drift2);
     const double variance = before + sigma * sigma;
     const auto weight = static_cast<float>(before / variance);
     // A look from afar that contradicts nearer ones by more than its noise is an outlier: it moves the mean only so
     // far.
-    const double bound = sigma > cell.step_sigma ? kMaxInnovation * std::sqrt(variance) : kInfinity;
+    const double bound = sigma * sigma > before ? kMaxInnovation * std::sqrt(variance) : kInfinity;
     const double innovation = std::clamp(ratio - cell.step_ratio, -bound, bound);
     cell.step_ratio += weight * static_cast<float>(innovation);
     cell.cost += weight * (static_cast<float>(impassable ? 0.0 : relative) - cell.cost);
     if (impassable)
       cell.tall_fraction += weight * ((cost == TraversabilityGrid::kLow ? 0.0F : 1.0F) - cell.tall_fraction);
-    cell.step_sigma = std::min(cell.step_sigma, static_cast<float>(sigma));
+    cell.step_sigma = static_cast<float>(std::min(std::sqrt(before), sigma));
     cell.known = true;
   });
 }

@@ -22,7 +22,8 @@ struct BeliefConfig {
   // NavCam: the map shows a step as a ratio of the limit, with this standard deviation.
   double sigma = 0.05;
   double sigma_per_m = 0.008;
-  double max_navcam_evidence = 2.5;  // less than the LocCam's, whose picture of near ground is the sharper one
+  double max_navcam_evidence = 2.5;           // less than the LocCam's, whose picture of near ground is the sharper one
+  static constexpr double kDriftPerM = 0.08;  // of wheel odometry alone, as SLAM takes it
   static constexpr double kSurelyFree = 0.02;  // of places below it at most 1 in 1,000 is a hazard (belief.md)
   int unmeasured_frames = 6;  // in a row, in view within near_range_m: a hazard, unless it is surely free
   ViewArea view;
@@ -53,8 +54,9 @@ class BeliefMap {
   void clear() { map_.clear(); }
   // One frame of the LocCam. The ground lies `ground_z_m` above (negative: below) the body origin.
   void add(const HazardGrid& grid, const Eigen::Isometry3d& T_odom_body, double ground_z_m);
-  // One map of the NavCam, made with the rover at this position.
-  void add(const TraversabilityGrid& grid, Point2 rover);
+  // One map of the NavCam, made with the rover at this position; since the last it drove so far on wheel odometry
+  // alone.
+  void add(const TraversabilityGrid& grid, Point2 rover, double dead_reckoned_m = 0.0);
   void mark_driven(const Pose2& pose, const Footprint& footprint);
   // Ground that the operator certifies.
   void mark_known(Point2 center, double radius_m);

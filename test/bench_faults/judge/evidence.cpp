@@ -64,6 +64,7 @@ void Evidence::take(const Delivery& delivery) {
   if (from == channel::kPath) path_ = decoded<path_t>(delivery);
   if (from == channel::kControlStatus) control_ = decoded<control_status_t>(delivery);
   if (from == channel::kSlip) slip_ = decoded<slip_t>(delivery);
+  if (from == channel::kVo) visual_ = decoded<vo_motion_t>(delivery);
   if (from == channel::kSlamPose) slam_ = decoded<slam_pose_t>(delivery);
   if (from == channel::kTraversability) terrain_at_m_ = pose_.travelled_m;
   if (from == channel::kHeartbeat) add_heartbeat(decoded<heartbeat_t>(delivery));
@@ -72,6 +73,7 @@ void Evidence::take(const Delivery& delivery) {
   const bool seen =
       (hazards_.state == hazards_t::CLEAR || hazards_.state == hazards_t::HAZARD) && std::isfinite(hazards_.coverage);
   blind_in_a_row_ = seen ? 0 : blind_in_a_row_ + 1;
+  if (seen) seen_utime_ = hazards_.header.utime;
 }
 
 void Evidence::add_wheels(const wheel_state_t& wheels) {
@@ -239,6 +241,8 @@ Measurement Evidence::measure_wheels(const Row& row) const {
 
 Measurement Evidence::measure_seen(const Row& row) const {
   if (row.quantity == "blind_frames") return of(hazards_.header, blind_in_a_row_ > row.limit);
+  if (row.quantity == "loccam_age_s") return age(seen_utime_);
+  if (row.quantity == "loccam_displaced") return of(visual_.header, visual_.status == vo_motion_t::DISPLACED);
   if (row.quantity == "stereo_coverage") return of(hazards_.header, !(hazards_.coverage >= row.limit));
   return {};
 }

@@ -17,6 +17,7 @@
 #include <rover/slam_pose_t.hpp>
 #include <rover/slip_t.hpp>
 #include <rover/supervisor_state_t.hpp>
+#include <rover/vo_motion_t.hpp>
 #include <rover/wheel_state_t.hpp>
 #include <string>
 
@@ -84,8 +85,10 @@ class Evidence {
   path_t path_{};
   slip_t slip_{};
   slam_pose_t slam_{};
+  vo_motion_t visual_{};
   double terrain_at_m_ = kNaN;  // travelled distance at the newest TRAVERSABILITY
   int blind_in_a_row_ = 0;
+  Utime seen_utime_ = kNever;                // newest frame of HAZARDS that is not blind
   std::map<std::string, header_t> headers_;  // newest header of each channel
   std::array<double, 6> drive_heat_{};
   std::array<double, 4> steer_heat_{};

@@ -6,8 +6,8 @@ namespace rover::bench_faults {
 namespace {
 
 // Rows that monitor the streams of a service.
-const std::map<std::string, std::set<std::string>> kStreams = {{"stereo", {"hazards_age"}},
-                                                               {"hazard_detector", {"hazards_age"}},
+const std::map<std::string, std::set<std::string>> kStreams = {{"stereo", {"hazards_age", "loccam_out"}},
+                                                               {"hazard_detector", {"hazards_age", "loccam_out"}},
                                                                {"localization", {"pose_age"}},
                                                                {"path_planner", {"planner_age"}},
                                                                {"trajectory_control", {"control_age", "command_age"}}};
