@@ -63,13 +63,13 @@ done
   echo
   echo "## Savings"
   echo
-  echo "The drive at the Efficient level, each row with one saving more. Without simulator and recorder."
+  echo "The first drive, its part at the Efficient level, each row with one saving more. Without simulator and recorder."
   echo
   echo "| | CPU s per driven metre |"
   echo "|---|---|"
   cost() {  # NAME TEXT
-    jq -r --arg text "$2" '"| \($text) | \((([.services | to_entries[] |
-      select(.key != "recorder" and .key != "rover_simulator").value.cpu_s] | add) / .driven_length_m * 1000 | round) / 1000) |"' \
+    jq -r --arg text "$2" '"| \($text) | \(([.services | to_entries[] |
+      select(.key != "recorder" and .key != "rover_simulator").value.cpu_s_per_m_efficient] | add * 1000 | round) / 1000) |"' \
       "$LOGS/$1/metrics.json"
   }
   [ -z "$before" ] || cost efficient-before "commit $(git -C "$before" describe --always --dirty --abbrev=12)"
