@@ -6,7 +6,8 @@
 namespace rover::vo {
 namespace {
 
-constexpr double kRemembered = 0.7;  // of the recent measurements at the next: some three keyframes, 0.5 m
+constexpr double kDisplacedBounds = 2.0;  // KITTI's car has 0.9 px, a knock of 0.5 deg makes 3.6 px
+constexpr double kRemembered = 0.7;       // of the recent measurements at the next: some three keyframes, 0.5 m
 
 }  // namespace
 
@@ -26,8 +27,9 @@ void DisparityOffset::add(const OffsetMeasurement& measurement, double used_px) 
 }
 
 bool DisparityOffset::displaced() const {
-  const double prior = 1.0 / (config_.prior_sigma_px * config_.prior_sigma_px);
-  return std::abs(recent_gradient_ / (prior + recent_information_)) >= config_.max_px;
+  if (!(recent_information_ > 0.0)) return false;
+  const double sigma_px = 1.0 / std::sqrt(recent_information_);
+  return std::abs(recent_gradient_ / recent_information_) - 2.0 * sigma_px > kDisplacedBounds * config_.max_px;
 }
 
 }  // namespace rover::vo

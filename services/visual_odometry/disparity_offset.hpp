@@ -27,7 +27,7 @@ class DisparityOffset {
 
   // To be added to each measured disparity.
   double px() const { return px_; }
-  // The newest measurements show more than a calibration error; the estimate of all is slow.
+  // The newest measurements show twice the bound and more, by two standard deviations; the estimate of all is slow.
   bool displaced() const;
   // `used_px`: offset applied while measuring.
   void add(const OffsetMeasurement& measurement, double used_px);

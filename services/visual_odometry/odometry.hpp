@@ -48,7 +48,8 @@ struct StereoFrame {
   std::optional<Eigen::Matrix3d> R_prev_cur;
 };
 
-// kDisplaced: as kLost, because the disparity offset is beyond its bound: the cameras have moved against each other.
+// kDisplaced: as kLost, because the disparity offset is far beyond its bound: the cameras have moved against each
+// other.
 enum class Status { kOk, kDegraded, kLost, kDisplaced };
 
 struct OdometryResult {

@@ -217,6 +217,22 @@ TEST(MotionEstimator, OffsetMeasurementFindsOffset) {
   EXPECT_NEAR(e.offset.gradient / e.offset.information, kOffset, 0.03);
 }
 
+TEST(DisparityOffset, TellsAKnockFromACalibrationError) {
+  const auto displaced_after = [](double true_px, double information) {
+    DisparityOffset offset{{}};
+    int keyframes = 0;
+    for (; keyframes < 100 && !offset.displaced(); ++keyframes)
+      offset.add({information * (true_px - offset.px()), information}, offset.px());
+    return keyframes;
+  };
+  for (const double sign : {1.0, -1.0}) {
+    EXPECT_LE(displaced_after(sign * 3.6, 100.0), 3);
+    EXPECT_EQ(displaced_after(sign * 0.9, 1000.0), 100);
+    EXPECT_EQ(displaced_after(sign * 0.3, 100.0), 100);
+  }
+  EXPECT_EQ(displaced_after(3.6, 0.0), 100) << "at rest nothing is measured";
+}
+
 TEST(DisparityOffset, CombinesMeasurementWithPriorAndIsBounded) {
   DisparityOffsetConfig config;
   config.information_factor = 1.0;
