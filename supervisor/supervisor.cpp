@@ -211,7 +211,7 @@ LevelFactSet Supervisor::level_facts(Utime now) {
   const bool no_path = inputs_.planner.state == PlannerState::kNoPath && kDriveInProgress.has(state_) && stationary();
   set_level_fact(out, F::kNoPath, no_path, {"planner_state", double(inputs_.planner.state), 0.0, 0.0, planner_age});
   const Monitor* fault = fdir_.stops_only_at(Level::kEfficient, level_);
-  set_level_fact(out, F::kLocCamOut, fault != nullptr && kUnderWayOrFaultStop.has(state_),
+  set_level_fact(out, F::kLocCamOut, fault != nullptr && (kUnderWayOrFaultStop.has(state_) || state_ == kPaused),
                  fault == nullptr ? Evidence{} : evidence_of(*fault));
   set_level_fact(out, F::kEasyAhead, level_selector_.easy_ahead() && terrain_fresh(),
                  {"terrain_difficulty", inputs_.terrain.difficulty, limits.easy_difficulty, 0.0,

@@ -279,7 +279,7 @@ void Localization::predict(const MotionRecord& record) {
 }
 
 double Localization::traction(const MotionRecord& record) const {
-  return record.wheels_valid ? slip_.traction() : 1.0;
+  return record.wheels_valid ? slip_.traction(record.end) : 1.0;
 }
 
 MotionRecord Localization::without_suspect_gyro(const MotionRecord& record) const {
@@ -437,7 +437,7 @@ std::optional<Checkpoint> Localization::checkpoint() const {
   c.newest_visual_utime = newest_visual_utime_;
   c.drive_angle_rad.fill(kNaN);
   if (last_wheels_) c.drive_angle_rad = last_wheels_->drive_angle_rad;
-  c.traction = slip_.traction();
+  c.traction = slip_.traction(c.utime);
   c.side_slip = slip_.side_slip();
   c.smoothing_offset_m = smoothing_offset_m_;
   c.smoothing_offset_rad = smoothing_offset_rad_;

@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kMinWheelTurnRad = 0.002;  // smaller rotations in an interval are encoder noise
 constexpr double kMinTractionPathM = 0.02;
+constexpr double kMeanTractionM = 10.0;
 constexpr double kMaxSideSlip = 0.35;
 constexpr double kMinSideSlipBaseM = 0.15;  // shorter distances count as this: their lateral motion is mostly noise
 
@@ -68,11 +69,12 @@ SlipMonitor::Interval SlipMonitor::sum(const std::deque<Interval>& intervals, Ut
 }
 
 void SlipMonitor::update_traction() {
-  const Utime end = visual_.back().end;
+  const Utime end = newest_visual_ = visual_.back().end;
   const Interval interval = sum(visual_, end - to_utime(config_.traction_window_s), end);
   update_side_slip(interval);
   if (interval.wheel_m < kMinTractionPathM) return;
   traction_ = std::clamp(interval.visual_m / interval.wheel_m, 0.0, 1.3);  // above 1: sliding downhill
+  mean_traction_ += std::min(1.0, visual_.back().wheel_m / kMeanTractionM) * (traction_ - mean_traction_);
 }
 
 void SlipMonitor::update_side_slip(const Interval& interval) {

@@ -39,14 +39,17 @@ class SlipMonitor {
   void add_visual(const std::vector<MotionRecord>& records, const Eigen::Vector3d& motion);
 
   Slip slip(Utime now) const;
-  // Distance gained per distance rolled (1 - slip) over traction_window_s; 1 if unknown.
-  double traction() const { return traction_; }
+  // Distance gained per distance rolled (1 - slip) over the newest traction_window_s. When that is long ago, on average
+  // over the newest 10 m: what the last images before they failed showed may be wrong, and would last. 1 if unknown.
+  double traction(Utime at) const {
+    return at > newest_visual_ + 2 * to_utime(config_.traction_window_s) ? mean_traction_ : traction_;
+  }
   // Lateral drift to the left per distance rolled, forward or backward, beyond wheel odometry: on a side slope the
   // rover crabs, which wheels cannot measure. 0 if unknown.
   double side_slip() const { return side_slip_; }
   // The window stays empty.
   void restore(double traction, double side_slip) {
-    traction_ = traction;
+    traction_ = mean_traction_ = traction;
     side_slip_ = side_slip;
   }
 
@@ -69,6 +72,8 @@ class SlipMonitor {
   std::deque<Interval> ticks_;
   std::deque<Interval> visual_;  // one for each visual motion
   double traction_ = 1.0;
+  double mean_traction_ = 1.0;
+  Utime newest_visual_ = kNever;
   double side_slip_ = 0.0;
 };
 

@@ -152,7 +152,7 @@ class Drive {
   loc::Localization localization_;
   slam::NodeConfig slam_config_;
   slam::Slam slam_;
-  slam::DeadReckonedDistance dead_reckoned_;
+  DeadReckonedDistance dead_reckoned_;
   slam::PoseHistory poses_;
   bool full_ = false;
   std::deque<std::pair<Utime, slam_pose_t>> slam_poses_;  // until their release

@@ -38,7 +38,16 @@ TEST(SlipMonitor, SlipRatioOfWindow) {
   EXPECT_TRUE(slip.valid);
   EXPECT_NEAR(slip.slip_ratio, 0.75, 1e-9);
   EXPECT_NEAR(slip.window_s, 5.0, 1e-9);
-  EXPECT_NEAR(monitor.traction(), 0.25, 1e-9);
+  EXPECT_NEAR(monitor.traction(0), 0.25, 1e-9);
+}
+
+// The last images before a lens failed may have been wrong.
+TEST(SlipMonitor, WithoutImagesForLongTheMeanTractionCounts) {
+  SlipMonitor monitor({}, WheelOdometry(test_vehicle()));
+  drive(monitor, 0, 60.0, 0.2, 0.19);
+  drive(monitor, 60'000'000, 2.0, 0.2, 0.1);
+  EXPECT_NEAR(monitor.traction(62'000'000), 0.5, 1e-9);
+  EXPECT_NEAR(monitor.traction(70'000'000), 0.94, 0.03);
 }
 
 TEST(SlipMonitor, SlidingDownhillGivesNegativeSlip) {

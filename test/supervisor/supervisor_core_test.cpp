@@ -1069,6 +1069,9 @@ TEST_F(LevelTest, ABlindLocCamRaisesAndTheNavCamDrivesOnSlowly) {
   EXPECT_LE(out_.permit.max_speed_mps, 0.1);
   drive(100.0, 0.1);
   EXPECT_EQ(supervisor_.level(), Level::kFull) << "easy ground does not lower the level of a blind LocCam";
+  EXPECT_TRUE(command(CommandKind::kPause).accepted);
+  drive(5.0, 0.1);
+  EXPECT_TRUE(command(CommandKind::kResume).accepted) << "the level stays while paused";
   hazards_alive_ = false;
   drive(5.0, 0.1);
   EXPECT_TRUE(out_.permit.granted);
