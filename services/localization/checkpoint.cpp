@@ -6,7 +6,7 @@
 namespace rover::loc {
 namespace {
 
-constexpr double kVersion = 3.0;
+constexpr double kVersion = 4.0;
 constexpr size_t kPoseSize = 7;
 
 class Writer {
@@ -54,14 +54,14 @@ class Reader {
   size_t next_ = 0;
 };
 
-constexpr size_t kCount = 1 + 1 + 2 * kPoseSize + 1 + 3 + kErrorSize * kErrorSize + 1 + 1 + 1 + 6 + 2 + 6 + 3;
+constexpr size_t kCount = 1 + 1 + 2 * kPoseSize + 1 + 3 + kErrorSize * kErrorSize + 1 + 1 + 1 + 6 + 3 + 6 + 3;
 
 bool is_valid(const Checkpoint& c) {
   return is_finite(c.T_odom_body) && is_finite(c.T_map_odom) && c.gyro_bias_radps.allFinite() && c.P.allFinite() &&
          c.newest_visual_utime <= c.utime && (c.P.diagonal().array() >= 0.0).all() && std::isfinite(c.travelled_m) &&
-         c.gravity_mps2 > 0.0 && std::isfinite(c.traction) && std::isfinite(c.side_slip) &&
-         c.smoothing_offset_m.allFinite() && c.smoothing_offset_rad.allFinite() && c.imu_healthy_utime <= c.utime &&
-         c.consecutive_conflicts >= 0 && std::isfinite(c.dead_reckoned_m);
+         c.gravity_mps2 > 0.0 && std::isfinite(c.traction) && std::isfinite(c.mean_traction) &&
+         std::isfinite(c.side_slip) && c.smoothing_offset_m.allFinite() && c.smoothing_offset_rad.allFinite() &&
+         c.imu_healthy_utime <= c.utime && c.consecutive_conflicts >= 0 && std::isfinite(c.dead_reckoned_m);
 }
 
 }  // namespace
@@ -80,6 +80,7 @@ std::vector<std::uint8_t> to_bytes(const Checkpoint& c) {
   w.put(static_cast<double>(c.newest_visual_utime));
   for (double angle : c.drive_angle_rad) w.put(angle);
   w.put(c.traction);
+  w.put(c.mean_traction);
   w.put(c.side_slip);
   w.put_all(c.smoothing_offset_m);
   w.put_all(c.smoothing_offset_rad);
@@ -105,6 +106,7 @@ std::optional<Checkpoint> from_bytes(const std::vector<std::uint8_t>& bytes) {
   c.newest_visual_utime = static_cast<Utime>(r.get());
   for (double& angle : c.drive_angle_rad) angle = r.get();
   c.traction = r.get();
+  c.mean_traction = r.get();
   c.side_slip = r.get();
   r.get_all(c.smoothing_offset_m);
   r.get_all(c.smoothing_offset_rad);

@@ -28,6 +28,7 @@ struct Checkpoint {
   Utime newest_visual_utime = kNever;       // of the newest visual motion fused
   std::array<double, 6> drive_angle_rad{};  // NaN without an encoder reading
   double traction = 1.0;                    // the ground is still the same: scales the wheel distance of the gap
+  double mean_traction = 1.0;
   double side_slip = 0.0;
   Eigen::Vector3d smoothing_offset_m = Eigen::Vector3d::Zero();  // published pose minus T_odom_body
   Eigen::Vector3d smoothing_offset_rad = Eigen::Vector3d::Zero();

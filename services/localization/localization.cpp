@@ -437,7 +437,8 @@ std::optional<Checkpoint> Localization::checkpoint() const {
   c.newest_visual_utime = newest_visual_utime_;
   c.drive_angle_rad.fill(kNaN);
   if (last_wheels_) c.drive_angle_rad = last_wheels_->drive_angle_rad;
-  c.traction = slip_.traction(c.utime);
+  c.traction = slip_.newest_traction();
+  c.mean_traction = slip_.mean_traction();
   c.side_slip = slip_.side_slip();
   c.smoothing_offset_m = smoothing_offset_m_;
   c.smoothing_offset_rad = smoothing_offset_rad_;
@@ -461,7 +462,7 @@ void Localization::restore(const Checkpoint& c) {
   smoothing_offset_rad_ = c.smoothing_offset_rad;
   last_chord_end_m_ = c.T_odom_body.translation() + c.smoothing_offset_m;
   last_record_end_ = initialised_utime_ = newest_wheels_utime_ = c.utime;
-  slip_.restore(c.traction, c.side_slip);
+  slip_.restore(c.traction, c.mean_traction, c.side_slip, c.newest_visual_utime);
   consecutive_conflicts_ = c.consecutive_conflicts;
   imu_healthy_utime_ = c.imu_healthy_utime;
   dead_reckoned_m_ = c.dead_reckoned_m;

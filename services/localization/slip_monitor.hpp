@@ -47,10 +47,14 @@ class SlipMonitor {
   // Lateral drift to the left per distance rolled, forward or backward, beyond wheel odometry: on a side slope the
   // rover crabs, which wheels cannot measure. 0 if unknown.
   double side_slip() const { return side_slip_; }
+  double newest_traction() const { return traction_; }
+  double mean_traction() const { return mean_traction_; }
   // The window stays empty.
-  void restore(double traction, double side_slip) {
-    traction_ = mean_traction_ = traction;
+  void restore(double newest_traction, double mean_traction, double side_slip, Utime newest_visual) {
+    traction_ = newest_traction;
+    mean_traction_ = mean_traction;
     side_slip_ = side_slip;
+    newest_visual_ = newest_visual;
   }
 
  private:
