@@ -9,7 +9,7 @@ namespace rover::bench_faults {
 namespace {
 
 // Images and the large inputs of the planner would fill the disk.
-const std::set<std::string> kLeftOut = {channel::kDisparity, channel::kDone, channel::kVo, channel::kServiceState,
+const std::set<std::string> kLeftOut = {channel::kDisparity, channel::kDone, channel::kServiceState,
                                         channel::kWheelCommand};
 
 }  // namespace
