@@ -85,9 +85,8 @@ constexpr std::array kPermitRules = {
 
 using L = LevelFact;
 
-// Priority: ground command, path segment, on-board measures. The end of a segment lowers only a level that a segment
-// raised; failing services lower it unless the path requires Full or the LocCam does not see. Windows are reset at each
-// change (hysteresis).
+// Priority: ground command, path segment, on-board measures; each change resets the windows (hysteresis). The end of a
+// segment lowers only a level that a segment raised; failing services only if neither path nor LocCam requires Full.
 constexpr std::array kLevelTransitions = {
     LevelTransition{Level::kEfficient, {L::kForcedFull, L::kFullReady}, {}, Level::kFull, "forced", L::kForcedFull},
     LevelTransition{Level::kFull, {L::kForcedEfficient}, {}, Level::kEfficient, "forced", L::kForcedEfficient},

@@ -39,8 +39,8 @@ class SlipMonitor {
   void add_visual(const std::vector<MotionRecord>& records, const Eigen::Vector3d& motion);
 
   Slip slip(Utime now) const;
-  // Distance gained per distance rolled (1 - slip) over the newest traction_window_s. When that is long ago, on average
-  // over the newest 10 m: what the last images before they failed showed may be wrong, and would last. 1 if unknown.
+  // Distance gained per distance rolled (1 - slip) over the newest traction_window_s; 1 if unknown. When that is long
+  // ago, the mean over 10 m: what the last images before a failure showed may be wrong, and would last.
   double traction(Utime at) const {
     return at > newest_visual_ + 2 * to_utime(config_.traction_window_s) ? mean_traction_ : traction_;
   }

@@ -1,6 +1,5 @@
 #include "rover_simulator/lens_faults.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <random>

@@ -12,7 +12,7 @@ struct CameraFault {
   int shift_rows = 0;  // downwards; the border is replicated
   int shift_columns = 0;
   double roll_deg = 0.0;
-  double fog = 0.0;    // 0 to 1: less contrast, and as blurred as drops of this size are
+  double fog = 0.0;    // 0 to 1: less contrast, more blur
   double dirt = 0.0;   // fraction of the image under dark spots, always the same ones
   double glare = 0.0;  // the sun in the upper part of the image: radius as a fraction of its width
 

@@ -181,6 +181,7 @@ Status Odometry::classify(const StereoFrame& frame, const OdometryResult& result
 
 OdometryResult Odometry::lost(const StereoFrame& frame, const Registration& registration) const {
   OdometryResult result;
+  if (offset_.displaced()) result.status = Status::kDisplaced;
   result.previous_utime = previous_utime_ == kNever ? frame.utime : previous_utime_;
   result.utime = frame.utime;
   result.keyframe_utime = keyframe_utime_;

@@ -91,6 +91,8 @@ TEST_F(CampaignFileTest, BadInputIsOneLineWithFileAndLine) {
             "c.yaml:3: axes.fault: 'much' is not an amount");
   EXPECT_EQ(error_of(head_ + "axes: {fault: camera_rows left 99}\n"),
             "c.yaml:3: axes.fault: out of range [-50, 50] px");
+  EXPECT_EQ(error_of(head_ + "axes: {fault: tilt_roll ground}\n"), "c.yaml:3: axes.fault: out of range [-60, 60] deg")
+      << "its amount is required";
   EXPECT_EQ(error_of(head_ + "axes: {rock_area: []}\n"), "c.yaml:3: axes.rock_area: an empty list");
   EXPECT_EQ(error_of(head_ + "blocks: []\n"), "c.yaml:3: blocks: a list of blocks is expected");
   EXPECT_EQ(error_of(head_ + "axis: {}\n"), "c.yaml:3: axis: unknown key");

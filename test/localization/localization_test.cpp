@@ -559,6 +559,20 @@ TEST(Localization, SlamBridgesVisualOdometryForAnyDistance) {
   }
 }
 
+// Longer than the history of motions.
+TEST(Localization, WheelsAreNotForgottenWhileNoVisualOdometryComes) {
+  SyntheticDrive drive({}, 26);
+  drive.command = arc;
+  drive.align_and_start(0.5, 0.05);
+  drive.run(10.0);
+  drive.visual_on = false;
+  drive.run(90.0);
+  const Vector3d before = drive.localization.pose().T_odom_body.translation();
+  drive.visual_on = true;
+  drive.run(3.0);
+  EXPECT_LT((drive.localization.pose().T_odom_body.translation() - before).norm(), 1.0);
+}
+
 TEST(Localization, ContinuesFromCheckpoint) {
   SyntheticDrive drive({}, 19);
   drive.command = [](double t) { return t < 1.5 || t > 21.5 ? Twist{} : Twist{0.2, 0.05}; };

@@ -44,9 +44,9 @@ class BeliefMapTest : public testing::Test {
     for (int i = 0; i < times; ++i) belief_.add(frame_of(value), from_planar(from), 0.0);
   }
   // A map of the NavCam with the same cost everywhere, made `range_m` from the rock.
-  void see_cost(std::uint8_t cost, double range_m) {
+  void see_cost(std::uint8_t cost, double range_m, double dead_reckoned_m = 0.0) {
     belief_.add({{0, 0.1, -10.0, -10.0, 200, 200, std::vector<std::uint8_t>(40000, cost)}},
-                {kRock.x_m - range_m, kRock.y_m});
+                {kRock.x_m - range_m, kRock.y_m}, dead_reckoned_m);
   }
   const CellBelief& at(Point2 p) const { return belief_.cells().get(belief_.cells().index_of(p.x_m, p.y_m)); }
   double probability() const { return belief_.probability(at(kRock)); }
@@ -326,6 +326,18 @@ TEST_F(BeliefMapTest, ANearLookOfTheNavCamOutweighsAFarOne) {
   see_cost(60, 9.0);
   see_cost(TraversabilityGrid::kImpassable, 1.5);
   EXPECT_TRUE(is_hazard());
+}
+
+// Odom drifts under the map: what was seen before the wheels drove alone lies elsewhere.
+TEST_F(BeliefMapTest, AfterWheelsAloneANewMapReplacesOlderLooks) {
+  for (const bool wheels_alone : {false, true}) {
+    belief_.clear();
+    see(HazardGrid::kObstacle, 2);
+    for (int i = 0; i < 10; ++i) see_cost(TraversabilityGrid::kImpassable, 2.0);
+    ASSERT_TRUE(is_hazard());
+    for (int i = 0; i < 6; ++i) see_cost(0, 4.0, wheels_alone ? 0.5 : 0.0);
+    EXPECT_EQ(is_hazard(), !wheels_alone);
+  }
 }
 
 TEST_F(BeliefMapTest, LocCamMissesOverruleAnImpassableCellOfTheNavCam) {

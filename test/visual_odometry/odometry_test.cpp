@@ -274,6 +274,8 @@ TEST(Odometry, NoticesThatTheCamerasHaveMoved) {
     for (int i = 21; i <= 70; ++i) drive.drive_to(along_arc(0.08 * i));
     EXPECT_EQ(drive.results.back().status, Status::kDisplaced) << knock_px;
     EXPECT_FALSE(is_finite(drive.results.back().T_prev_cur));
+    drive.drive_to(SyntheticGround::over_ground(50.0, 50.0, 0.0, 0.0, 0.0));
+    EXPECT_EQ(drive.results.back().status, Status::kDisplaced) << "a pair that cannot be registered does not excuse it";
   }
 }
 

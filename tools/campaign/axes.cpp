@@ -77,8 +77,9 @@ YAML::Node fault_entry(const std::string& value) {
   if (kind == nullptr) throw std::invalid_argument("'" + name + "' is not one of none, " + fault_names());
   std::string problem = target_problem(*kind, target, find_channel_type);
   const auto number = parse_number(amount);
-  if (!amount.empty() && problem.empty())
-    problem = number && rest.empty() ? amount_problem(*kind, *number) : "'" + amount + "' is not an amount";
+  if (problem.empty() && !amount.empty() && (!number || !rest.empty()))
+    problem = "'" + amount + (rest.empty() ? "" : " " + rest) + "' is not an amount";
+  if (problem.empty()) problem = amount_problem(*kind, number.value_or(kind->default_amount));
   if (!problem.empty()) throw std::invalid_argument(problem);
   YAML::Node entry;
   entry["fault"] = name;

@@ -137,8 +137,8 @@ std::string page_table(const PageInfo& info, const Panels& panels, const Drives&
     out += " Flat ground has no direction: its drives are in each panel, and once in all.";
   out += "\n";
   if (cells.size() > 1) {
-    out +=
-        fmt::format("\n![Success by {} and {}]({})\n", axis_title(panels.x.name), axis_title(panels.y.name), picture);
+    const std::string and_y = panels.y.name.empty() ? "" : " and " + axis_title(panels.y.name);
+    out += fmt::format("\n![Success by {}{}]({})\n", axis_title(panels.x.name), and_y, picture);
     out += "\n## Success\n";
     for (const Panel& panel : panels.panels) out += panel_table(panels, panel, cells);
   } else {
