@@ -57,6 +57,15 @@ void add_acceptance(Parameters p, AcceptanceConfig& c) {
   p.add("gate_chi2", c.gate_chi2, {1.0, 100.0}, "innovation gate: 99.9 % of three degrees of freedom");
 }
 
+void add_picture(Parameters p, PictureConfig& c) {
+  p.add("mosaic_side_m", c.mosaic_side_m, {5.0, 200.0}, "local picture around the rover: the last 30 m driven");
+  p.add("sigma_cells", c.filter.sigma_cells, {0.5, 6.0}, "of the Gaussian window of edges, in pixels of the picture");
+  p.add_deg("yaw_step_deg", c.yaw_step_rad, {0.2, 5.0}, "between two yaws of the search");
+  p.add("max_samples", c.max_samples, {50, 100'000}, "places of the local picture that the search compares");
+  p.add("min_sigmas", c.min_sigmas, {1.0, 100.0},
+        "from the second-best place's correlation to the best one's, in units of what chance gives");
+}
+
 }  // namespace
 
 NodeConfig load_config(const std::string& config_dir, ParameterList* list) {
@@ -87,6 +96,7 @@ NodeConfig load_config(const std::string& config_dir, ParameterList* list) {
   add_search(p.section("search", "window around the pose"), c.search);
   add_refinement(p.section("refinement", "of a peak, to less than a cell"), c.refinement);
   add_acceptance(p.section("acceptance", "limits of an accepted match"), c.acceptance);
+  add_picture(p.section("picture", "orbital_picture.tif, where relief does not locate the rover"), c.picture);
   p.finish();
   return config;
 }

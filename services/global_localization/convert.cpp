@@ -15,7 +15,8 @@ constexpr std::array<int, 3> kPlanar = {0, 1, 5};
 ElevationView view_from(const elevation_t& message) {
   return {{message.cells_x, message.cells_y, message.cell_m, message.origin_x_m, message.origin_y_m},
           message.height_m,
-          message.sigma_m};
+          message.sigma_m,
+          message.brightness};
 }
 
 std::optional<Prior> prior_from(const pose_t& message) {
@@ -35,6 +36,7 @@ std::optional<Prior> prior_from(const pose_t& message) {
 void correction_to(const Correction& correction, const Prior& prior, correction_t& message) {
   const Pose2& T = correction.accepted ? correction.T_map_odom : prior.T_map_odom;
   const Eigen::Matrix3d& cov = correction.accepted ? correction.cov : prior.cov;
+  message.layer = correction.layer == Layer::kPicture ? correction_t::PICTURE : correction_t::HEIGHT;
   message.accepted = correction.accepted ? 1 : 0;
   message.x_m = T.x_m;
   message.y_m = T.y_m;

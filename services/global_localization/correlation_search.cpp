@@ -14,11 +14,14 @@ struct PlacedSample {
 };
 
 std::vector<PlacedSample> place_samples(const TerrainTemplate& terrain, const Lattice& lattice,
-                                        const CandidatePose& corner) {
+                                        const CandidatePose& corner, int max_samples) {
   const Eigen::Matrix2d R = Eigen::Rotation2Dd(corner.yaw_rad).toRotationMatrix();
+  const Eigen::Matrix2d turn = turn_of(terrain.layer, corner.yaw_rad).toRotationMatrix();
+  const size_t stride = max_samples > 0 ? 1 + terrain.samples.size() / static_cast<size_t>(max_samples) : 1;
   std::vector<PlacedSample> out;
-  for (const TerrainSample& sample : terrain.samples) {
-    const Eigen::Vector2d p = corner.center_map + R * sample.p, g = R * sample.g;
+  for (size_t i = 0; i < terrain.samples.size(); i += stride) {
+    const TerrainSample& sample = terrain.samples[i];
+    const Eigen::Vector2d p = corner.center_map + R * sample.p, g = turn * sample.g;
     out.push_back({static_cast<int>(std::floor((p.x() - lattice.x0_m) / lattice.cell_m)),
                    static_cast<int>(std::floor((p.y() - lattice.y0_m) / lattice.cell_m)), g.x(), g.y()});
   }
@@ -35,6 +38,66 @@ double score_at(const PlaneField& field, const std::vector<PlacedSample>& sample
   return sums.count >= min_overlap * static_cast<double>(samples.size()) ? sums.correlation() : -1.0;
 }
 
+// The sums of one row of the window over a map without unknown cells, one entry for each column shift, so that the
+// compiler vectorises over them.
+class RowSums {
+ public:
+  explicit RowSums(int side) : mx_(side), my_(side), mm_(side), tm_(side) {}
+
+  void add(const PlaneField& field, const PlacedSample& s, int row) {
+    const size_t start = field.lattice.index(s.column, row);
+    const auto tx = static_cast<float>(s.gx), ty = static_cast<float>(s.gy);
+    for (size_t i = 0; i < mx_.size(); ++i) {
+      const float x = field.gx[start + i], y = field.gy[start + i];
+      mx_[i] += x;
+      my_[i] += y;
+      mm_[i] += x * x + y * y;
+      tm_[i] += tx * x + ty * y;
+    }
+    of_template_.add(s.gx, s.gy, 0.0, 0.0);
+  }
+  double correlation(int du) const {
+    const auto i = static_cast<size_t>(du);
+    CorrelationSums sums = of_template_;
+    sums.mx = mx_[i], sums.my = my_[i], sums.mm = mm_[i], sums.tm = tm_[i];
+    return sums.correlation();
+  }
+
+ private:
+  std::vector<float> mx_, my_, mm_, tm_;
+  CorrelationSums of_template_;
+};
+
+// Whether the field is known around all samples at every shift.
+bool all_known(const PlaneField& field, const std::vector<PlacedSample>& samples, int side) {
+  if (samples.empty()) return false;
+  const auto by_column = [](const PlacedSample& a, const PlacedSample& b) { return a.column < b.column; };
+  const auto by_row = [](const PlacedSample& a, const PlacedSample& b) { return a.row < b.row; };
+  const auto [west, east] = std::minmax_element(samples.begin(), samples.end(), by_column);
+  const auto [south, north] = std::minmax_element(samples.begin(), samples.end(), by_row);
+  const int end_column = east->column + side, end_row = north->row + side;
+  if (!field.lattice.contains(west->column, south->row) || !field.lattice.contains(end_column - 1, end_row - 1))
+    return false;
+  for (int row = south->row; row < end_row; ++row)
+    for (int column = west->column; column < end_column; ++column)
+      if (field.known[field.lattice.index(column, row)] == 0) return false;
+  return true;
+}
+
+// Scores of one row of the window. `whole`: no sample is on an unknown cell at any shift.
+std::vector<double> row_scores(const PlaneField& field, const std::vector<PlacedSample>& samples, int dv, int side,
+                               bool whole, double min_overlap) {
+  std::vector<double> scores;
+  if (!whole) {
+    for (int du = 0; du < side; ++du) scores.push_back(score_at(field, samples, du, dv, min_overlap));
+    return scores;
+  }
+  RowSums sums(side);
+  for (const PlacedSample& s : samples) sums.add(field, s, s.row + dv);
+  for (int du = 0; du < side; ++du) scores.push_back(sums.correlation(du));
+  return scores;
+}
+
 // Best yaw and score at each cell of the window, row by row.
 std::vector<Peak> best_yaws(const OrbitalSection& orbital, const TerrainTemplate& terrain, const SearchWindow& window,
                             int steps) {
@@ -46,14 +109,17 @@ std::vector<Peak> best_yaws(const OrbitalSection& orbital, const TerrainTemplate
     CandidatePose corner = window.prior;
     corner.center_map.array() -= steps * lattice.cell_m;
     corner.yaw_rad += window.half_width_rad * yaw_index / std::max(yaw_steps, 1);
-    const std::vector<PlacedSample> samples = place_samples(terrain, lattice, corner);
-    for (int dv = 0; dv < side; ++dv)
+    const std::vector<PlacedSample> samples = place_samples(terrain, lattice, corner, window.max_samples);
+    const bool whole = all_known(orbital.field(), samples, side);
+    for (int dv = 0; dv < side; ++dv) {
+      const std::vector<double> scores = row_scores(orbital.field(), samples, dv, side, whole, window.min_overlap);
       for (int du = 0; du < side; ++du) {
         Peak& peak = best[static_cast<size_t>(dv) * static_cast<size_t>(side) + static_cast<size_t>(du)];
-        const double score = score_at(orbital.field(), samples, du, dv, window.min_overlap);
+        const double score = scores[static_cast<size_t>(du)];
         if (score <= peak.score) continue;
         peak = {{corner.center_map + lattice.cell_m * Eigen::Vector2d(du, dv), corner.yaw_rad}, score};
       }
+    }
   }
   return best;
 }

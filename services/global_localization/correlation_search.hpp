@@ -13,6 +13,7 @@ struct SearchWindow {
   double half_width_rad = 0.2;
   double yaw_step_rad = 0.03;  // approximate
   double min_overlap = 0.8;    // fraction of the template's samples with orbital data
+  int max_samples = 0;         // of the template, spread over it, are compared; 0: all
 };
 
 struct Peak {

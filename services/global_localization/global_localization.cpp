@@ -11,6 +11,7 @@ namespace rover::global {
 namespace {
 
 constexpr int kCoarsePeaks = 64;       // of a coarse search, to refine
+constexpr int kChanceSide = 15;        // places along a side of the window that tell what chance gives
 constexpr double kMinSinceFixM = 1.0;  // keeps the covariance finite right after a fix
 
 Eigen::Vector2d transformed(const Pose2& T, const Eigen::Vector2d& p) {
@@ -60,7 +61,7 @@ void refine_adjacent_yaws(const OrbitalSection& orbital, const TerrainTemplate& 
   for (const double yaw_offset : {-0.75, -0.375, 0.375, 0.75}) {
     const CandidatePose adjacent{found.center_map, found.yaw_rad + yaw_offset * config.search.yaw_step_rad};
     const Match match = refine(orbital, terrain, adjacent, min_compared, config.refinement);
-    if (match.fit.compared >= min_compared && match.fit.residual_m < best.fit.residual_m) best = match;
+    if (match.fit.compared >= min_compared && match.fit.residual < best.fit.residual) best = match;
   }
 }
 
@@ -70,7 +71,7 @@ int min_compared(const TerrainTemplate& terrain, double min_overlap) {
 
 void sort_by_residual(std::vector<Match>& matches) {
   std::stable_sort(matches.begin(), matches.end(),
-                   [](const Match& a, const Match& b) { return a.fit.residual_m < b.fit.residual_m; });
+                   [](const Match& a, const Match& b) { return a.fit.residual < b.fit.residual; });
 }
 
 void remove_duplicates_of_best(std::vector<Match>& matches, const Eigen::Matrix2d& located, double distance_m) {
@@ -97,6 +98,47 @@ std::vector<Match> refined_peaks(const OrbitalSection& orbital, const TerrainTem
 // After the Gaussian filter, noise is correlated over an area of 4 pi sigma^2.
 double independent_samples(const TerrainTemplate& terrain, double sigma_m) {
   return std::max(1.0, terrain.area_m2() / (4.0 * kPi * sigma_m * sigma_m));
+}
+
+struct Verdict {
+  bool similar;        // the best match, to the ground seen from orbit
+  int similar_places;  // too similar to decide between, the best included
+};
+
+Verdict judge_relief(const AcceptanceConfig& limits, const std::vector<Match>& matches) {
+  const Fit& best = matches.front().fit;
+  const auto places = std::count_if(matches.begin(), matches.end(), [&](const Match& other) {
+    return limits.max_residual_ratio * other.fit.residual < best.residual;
+  });
+  return {best.correlation >= limits.min_score && best.residual <= limits.max_residual_m, static_cast<int>(places)};
+}
+
+// `lead`: by which the best correlation must exceed others, and none at all.
+Verdict judge_picture(double lead, const std::vector<Match>& matches) {
+  const Fit& best = matches.front().fit;
+  const auto places = std::count_if(matches.begin(), matches.end(), [&](const Match& other) {
+    return best.correlation - other.fit.correlation < lead;
+  });
+  return {best.correlation >= lead, static_cast<int>(places)};
+}
+
+// What correlation chance gives: rms at places of the window that are not the best one, on a lattice.
+double chance_correlation(const OrbitalSection& orbital, const TerrainTemplate& terrain, const SearchWindow& window,
+                          const CandidatePose& best, double min_distance_m) {
+  const double step_m = 2.0 * window.half_width_m / (kChanceSide - 1);
+  double squares = 0.0;
+  int count = 0;
+  for (int j = 0; j < kChanceSide; ++j)
+    for (int i = 0; i < kChanceSide; ++i) {
+      const Eigen::Vector2d offset(i * step_m - window.half_width_m, j * step_m - window.half_width_m);
+      const CandidatePose place{window.prior.center_map + offset, best.yaw_rad};
+      if ((place.center_map - best.center_map).norm() < min_distance_m) continue;
+      const Fit fit = orbital.fit(terrain, place);
+      if (fit.compared < min_compared(terrain, window.min_overlap)) continue;
+      squares += fit.correlation * fit.correlation;
+      ++count;
+    }
+  return count > 0 ? std::sqrt(squares / count) : 1.0;
 }
 
 // Propagates the covariance (x, y, yaw) from the template's centre to the body.
@@ -150,27 +192,68 @@ bool is_lost(const SearchConfig& config, const Prior& prior) {
   return config.sigmas * largest_position_sigma(prior) > config.min_half_width_m;
 }
 
-GlobalLocalization::GlobalLocalization(const GlobalConfig& config, OrbitalMap orbital, double local_cell_m)
-    : config_(config), orbital_(std::move(orbital)), mosaic_(config.mosaic_side_m, local_cell_m) {}
+GlobalLocalization::GlobalLocalization(const GlobalConfig& config, OrbitalMap orbital, double local_cell_m,
+                                       std::optional<OrbitalMap> picture)
+    : config_(config),
+      relief_{Layer::kHeight, std::move(orbital), {config.mosaic_side_m, local_cell_m}, config.filter} {
+  if (!picture) return;
+  const PictureConfig& c = config.picture;
+  picture_.emplace(Source{Layer::kPicture, std::move(*picture), {c.mosaic_side_m, local_cell_m}, c.filter});
+}
 
 void GlobalLocalization::add_elevation(const ElevationView& view, const Eigen::Vector2d& p_odom_body) {
-  mosaic_.add(view, p_odom_body, config_.max_height_sigma_m);
+  relief_.mosaic.add(view.lattice, view.z_m, view.sigma_m, p_odom_body, config_.max_height_sigma_m);
+  if (picture_)
+    picture_->mosaic.add(view.lattice, view.brightness, view.sigma_m, p_odom_body, config_.max_height_sigma_m);
+}
+
+void GlobalLocalization::clear_local_map() {
+  relief_.mosaic.clear();
+  if (picture_) picture_->mosaic.clear();
 }
 
 Correction GlobalLocalization::correct(const Prior& prior) const {
-  Correction out;
   if (!is_valid(prior)) {
+    Correction out;
     out.reason = "invalid pose";
     return out;
   }
-  const TerrainTemplate terrain = template_of(1);
+  Correction by_relief = correct_by_relief(prior);
+  const bool located = by_relief.accepted && by_relief.axes == 2;
+  // Pictures show too many similar places to a lost rover.
+  if (located || !picture_ || is_lost(config_.search, prior)) return by_relief;
+  const Correction by_picture = correct_by_picture(prior);
+  return by_picture.accepted ? by_picture : by_relief;
+}
+
+Correction GlobalLocalization::correct_by_picture(const Prior& prior) const {
+  Correction out;
+  out.layer = Layer::kPicture;
+  out.axes = 2;
+  const TerrainTemplate ground = template_of(*picture_, 1);
+  out.area_m2 = ground.area_m2();
+  if (out.area_m2 < config_.acceptance.min_area_m2) {
+    out.reason = "local picture too small";
+  } else {
+    SearchWindow window = search_window(config_.search, prior, ground);
+    window.yaw_step_rad = config_.picture.yaw_step_rad;
+    window.max_samples = config_.picture.max_samples;
+    match(*picture_, prior, ground, window, Eigen::Vector2d::UnitX(), out);
+  }
+  out.accepted = out.reason.empty();
+  return out;
+}
+
+Correction GlobalLocalization::correct_by_relief(const Prior& prior) const {
+  Correction out;
+  const TerrainTemplate terrain = template_of(relief_, 1);
   out.area_m2 = terrain.area_m2();
   const Eigen::Matrix3d expected =
       covariance_at_body(noise_density() * expected_covariance(terrain), prior.p_odom_body - terrain.center_odom);
   const auto principal = principal_axes(expected);
   out.expected_sigma_m = largest_sigma(expected);
   out.expected_sigma_rad = std::sqrt(expected(2, 2));
-  const double limit_m = config_.acceptance.max_expected_sigma_cells * orbital_.lattice().cell_m;
+  const double limit_m = config_.acceptance.max_expected_sigma_cells * relief_.orbital.lattice().cell_m;
   // A fix along one axis does not find a lost rover, and in a wide window other ridges are similar.
   const bool along_one = principal.eigenvalues()(0) <= limit_m * limit_m && !is_lost(config_.search, prior);
   out.axes = featured(out) ? 2 : along_one ? 1 : 0;
@@ -179,53 +262,56 @@ Correction GlobalLocalization::correct(const Prior& prior) const {
   } else if (out.axes == 0) {
     out.reason = "not enough relief";
   } else {
-    match(prior, terrain, principal.eigenvectors().col(0), out);
+    match(relief_, prior, terrain, search_window(config_.search, prior, terrain), principal.eigenvectors().col(0), out);
   }
   out.accepted = out.reason.empty();
   return out;
 }
 
 // At the resolution of blocks of n x n cells of the orbital map, and blurred like them.
-TerrainTemplate GlobalLocalization::template_of(int n) const {
-  PlaneConfig filter = config_.filter;
+TerrainTemplate GlobalLocalization::template_of(const Source& source, int n) const {
+  PlaneConfig filter = source.filter;
   filter.sigma_cells = std::hypot(filter.sigma_cells, config_.map_blur_cells / n);
-  TerrainTemplate terrain = terrain_template(mosaic_.resampled(n * orbital_.lattice().cell_m), filter);
+  const HeightGrid local = source.mosaic.resampled(n * source.orbital.lattice().cell_m);
+  TerrainTemplate terrain = terrain_template(local, filter, source.layer);
   terrain.drift_information = drift_information(terrain, config_.height_drift, noise_density());
   return terrain;
 }
 
 // Noise power density of the orbital heights [m^4].
 double GlobalLocalization::noise_density() const {
-  const double side_m = config_.map_noise_cells * orbital_.lattice().cell_m;
+  const double side_m = config_.map_noise_cells * relief_.orbital.lattice().cell_m;
   return config_.map_noise_m * config_.map_noise_m * side_m * side_m;
 }
 
 bool GlobalLocalization::featured(const Correction& c) const {
   const AcceptanceConfig& limits = config_.acceptance;
   return c.area_m2 >= limits.min_area_m2 &&
-         c.expected_sigma_m <= limits.max_expected_sigma_cells * orbital_.lattice().cell_m &&
+         c.expected_sigma_m <= limits.max_expected_sigma_cells * relief_.orbital.lattice().cell_m &&
          c.expected_sigma_rad <= limits.max_expected_sigma_rad;
 }
 
 // The whole window at the orbital map's resolution.
-GlobalLocalization::Candidates GlobalLocalization::search(const SearchWindow& window,
+GlobalLocalization::Candidates GlobalLocalization::search(const Source& source, const SearchWindow& window,
                                                           const TerrainTemplate& terrain) const {
   const double reach_m = std::sqrt(2.0) * window.half_width_m + terrain.radius_m;
-  Candidates found{{}, orbital_section(window.prior.center_map, reach_m, 1)};
+  Candidates found{{}, orbital_section(source, window.prior.center_map, reach_m, 1)};
   found.matches = refined_peaks(found.section, terrain, window, config_.search.min_peak_distance_m,
                                 config_.search.max_peaks, config_.refinement);
   return found;
 }
 
 // The window in blocks of n x n cells, and the best places there at the orbital map's resolution.
-GlobalLocalization::Candidates GlobalLocalization::search_coarse_to_fine(const SearchWindow& window,
+GlobalLocalization::Candidates GlobalLocalization::search_coarse_to_fine(const Source& source,
+                                                                         const SearchWindow& window,
                                                                          const TerrainTemplate& terrain, int n) const {
-  const TerrainTemplate coarse = template_of(n);
+  const TerrainTemplate coarse = template_of(source, n);
   SearchWindow around = window;
   around.prior.center_map = transformed(transform_of(window.prior, terrain.center_odom), coarse.center_odom);
   const double reach_m = std::sqrt(2.0) * window.half_width_m + coarse.radius_m;
-  std::vector<Match> places = refined_peaks(orbital_section(around.prior.center_map, reach_m, n), coarse, around,
-                                            n * config_.search.min_peak_distance_m, kCoarsePeaks, config_.refinement);
+  std::vector<Match> places =
+      refined_peaks(orbital_section(source, around.prior.center_map, reach_m, n), coarse, around,
+                    n * config_.search.min_peak_distance_m, kCoarsePeaks, config_.refinement);
   if (static_cast<int>(places.size()) > config_.search.max_peaks) places.resize(config_.search.max_peaks);
   RefinementConfig refinement = config_.refinement;
   refinement.half_width_cells *= n;
@@ -235,10 +321,11 @@ GlobalLocalization::Candidates GlobalLocalization::search_coarse_to_fine(const S
     const CandidatePose start{transformed(transform_of(place.pose, coarse.center_odom), terrain.center_odom),
                               place.pose.yaw_rad};
     const double cells = 2.0 * refinement.half_width_cells;
-    OrbitalSection section = orbital_section(start.center_map, terrain.radius_m + cells * orbital_.lattice().cell_m, 1);
+    OrbitalSection section =
+        orbital_section(source, start.center_map, terrain.radius_m + cells * source.orbital.lattice().cell_m, 1);
     const Match match = refine(section, terrain, start, least, refinement);
     if (match.fit.compared < least) continue;
-    if (found.matches.empty() || match.fit.residual_m < found.matches.front().fit.residual_m)
+    if (found.matches.empty() || match.fit.residual < found.matches.front().fit.residual)
       found.section = std::move(section);
     found.matches.push_back(match);
     sort_by_residual(found.matches);
@@ -246,13 +333,12 @@ GlobalLocalization::Candidates GlobalLocalization::search_coarse_to_fine(const S
   return found;
 }
 
-void GlobalLocalization::match(const Prior& prior, const TerrainTemplate& terrain, const Eigen::Vector2d& axis_odom,
-                               Correction& out) const {
+void GlobalLocalization::match(const Source& source, const Prior& prior, const TerrainTemplate& terrain,
+                               const SearchWindow& window, const Eigen::Vector2d& axis_odom, Correction& out) const {
   const AcceptanceConfig& limits = config_.acceptance;
-  const SearchWindow window = search_window(config_.search, prior, terrain);
-  const double cells = 2.0 * window.half_width_m / orbital_.lattice().cell_m;
+  const double cells = 2.0 * window.half_width_m / source.orbital.lattice().cell_m;
   const int n = static_cast<int>(std::ceil(cells / config_.search.max_cells));
-  auto [matches, orbital] = n > 1 ? search_coarse_to_fine(window, terrain, n) : search(window, terrain);
+  auto [matches, orbital] = n > 1 ? search_coarse_to_fine(source, window, terrain, n) : search(source, window, terrain);
   if (matches.empty()) {
     out.reason = "no similar terrain on the orbital map";
     return;
@@ -265,17 +351,20 @@ void GlobalLocalization::match(const Prior& prior, const TerrainTemplate& terrai
   const Match& best = matches.front();
   out.T_map_odom = transform_of(best.pose, terrain.center_odom);
   out.score = best.fit.correlation;
-  out.residual_m = best.fit.residual_m;
+  out.residual = best.fit.residual;
   if (matches.size() > 1) {
     out.second_score = matches[1].fit.correlation;
-    out.second_residual_m = matches[1].fit.residual_m;
+    out.second_residual = matches[1].fit.residual;
   }
-  out.similar_places = static_cast<int>(std::count_if(matches.begin(), matches.end(), [&](const Match& other) {
-    return limits.max_residual_ratio * other.fit.residual_m < best.fit.residual_m;
-  }));
-  const double sigma_m = config_.filter.sigma_cells * orbital_.lattice().cell_m;
-  const Eigen::Matrix3d cov =
-      covariance_at_minimum(orbital, terrain, best, independent_samples(terrain, sigma_m), window.half_width_m);
+  const double independent = independent_samples(terrain, source.filter.sigma_cells * source.orbital.lattice().cell_m);
+  const double apart_m = config_.search.min_peak_distance_m;
+  const Verdict verdict =
+      source.layer == Layer::kHeight
+          ? judge_relief(limits, matches)
+          : judge_picture(config_.picture.min_sigmas * chance_correlation(orbital, terrain, window, best.pose, apart_m),
+                          matches);
+  out.similar_places = verdict.similar_places;
+  const Eigen::Matrix3d cov = covariance_at_minimum(orbital, terrain, best, independent, window.half_width_m);
   out.sigma_m = largest_sigma(cov, located);
   Eigen::Matrix3d R_map_odom = Eigen::Matrix3d::Identity();
   R_map_odom.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(best.pose.yaw_rad).toRotationMatrix();
@@ -292,7 +381,7 @@ void GlobalLocalization::match(const Prior& prior, const TerrainTemplate& terrai
   const bool yaw_certain = out.axes == 1 || cov(2, 2) <= limits.max_sigma_rad * limits.max_sigma_rad;
   if (out.axes == 1) restrict_to_axis(located, prior, window, out);
 
-  if (out.score < limits.min_score || out.residual_m > limits.max_residual_m) {
+  if (!verdict.similar) {
     out.reason = "best match not similar enough";
   } else if (out.similar_places > 1) {
     out.reason = "ambiguous: other places are almost as similar";
@@ -308,10 +397,11 @@ void GlobalLocalization::match(const Prior& prior, const TerrainTemplate& terrai
 }
 
 // Filters only the search area, because the orbital map can be large.
-OrbitalSection GlobalLocalization::orbital_section(const Eigen::Vector2d& center_map, double half_width_m,
-                                                   int n) const {
-  const double margin_m = (3.0 * config_.filter.sigma_cells + 4.0) * n * orbital_.lattice().cell_m;
-  return OrbitalSection(plane_field(orbital_.around(center_map, half_width_m + margin_m, n), config_.filter));
+OrbitalSection GlobalLocalization::orbital_section(const Source& source, const Eigen::Vector2d& center_map,
+                                                   double half_width_m, int n) const {
+  const double margin_m = (3.0 * source.filter.sigma_cells + 4.0) * n * source.orbital.lattice().cell_m;
+  const HeightGrid grid = source.orbital.around(center_map, half_width_m + margin_m, n);
+  return OrbitalSection(field_of(source.layer, grid, source.filter));
 }
 
 }  // namespace rover::global

@@ -1,8 +1,10 @@
 // Absolute localization by matching the local elevation map against the orbital one (Azkarate et al. 2020: correlation
-// of the two maps' gradients). Estimates x, y and yaw of T_map_odom.
+// of the two maps' gradients), and where relief does not locate the rover, the local picture of the ground against the
+// orbital one. Estimates x, y and yaw of T_map_odom.
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string_view>
 
 #include "common/core/frames.hpp"
@@ -42,6 +44,14 @@ struct AcceptanceConfig {
   double gate_chi2 = 16.3;        // normalised innovation squared; prior sigma is at least min_half_width / sigmas
 };
 
+struct PictureConfig {
+  double mosaic_side_m = 60.0;  // of the local picture
+  PlaneConfig filter{.sigma_cells = 1.0, .min_support = 0.5};
+  double yaw_step_rad = to_rad(1.0);
+  int max_samples = 600;    // compared in the search
+  double min_sigmas = 5.0;  // from the second-best place's correlation to the best one's, in units of chance
+};
+
 struct GlobalConfig {
   double mosaic_side_m = 120.0;
   double max_height_sigma_m = 0.3;
@@ -53,7 +63,8 @@ struct GlobalConfig {
   SearchConfig search;
   RefinementConfig refinement;
   AcceptanceConfig acceptance;
-  // Distortion of the orbital map, along each axis, and its correlation length; part of the covariance.
+  PictureConfig picture;
+  // Distortion of the orbital map and picture, along each axis, and its correlation length; part of the covariance.
   double map_sigma_m = 0.3;
   double map_sigma_length_m = 20.0;
 };
@@ -70,15 +81,16 @@ struct Prior {
 bool is_lost(const SearchConfig& config, const Prior& prior);
 
 struct Correction {
+  Layer layer = Layer::kHeight;
   bool accepted = false;
   std::string_view reason = {};        // why the match was rejected; empty if accepted
   int axes = 0;                        // along which the relief locates the rover: 2 (and yaw), 1 or 0
   Pose2 T_map_odom{kNaN, kNaN, kNaN};  // with one axis: the prior's across it, and its yaw
   Eigen::Matrix3d cov = Eigen::Matrix3d::Constant(kNaN);  // as Prior::cov
-  double score = 0.0;                                     // gradient correlation of the best match
+  double score = 0.0;                                     // correlation of the best match
   double second_score = 0.0;                              // and of the second best
-  double residual_m = kNaN;                               // rms height difference of the best match
-  double second_residual_m = kNaN;                        // and of the second best
+  double residual = kNaN;                                 // of the best match (Fit::residual)
+  double second_residual = kNaN;                          // and of the second best
   int similar_places = 0;                                 // too similar to decide between, the best included
   double area_m2 = 0.0;                                   // observed
   double expected_sigma_m = kNaN;  // of the body, from relief and map noise, along the largest principal axis
@@ -88,35 +100,48 @@ struct Correction {
 
 class GlobalLocalization {
  public:
-  // `orbital`: in the map frame. `local_cell_m`: cell size of the elevation maps passed to add_elevation.
-  GlobalLocalization(const GlobalConfig& config, OrbitalMap orbital, double local_cell_m);
+  // `orbital`, `picture`: of heights and of brightness, in the map frame. `local_cell_m`: cell size of the elevation
+  // maps passed to add_elevation.
+  GlobalLocalization(const GlobalConfig& config, OrbitalMap orbital, double local_cell_m,
+                     std::optional<OrbitalMap> picture = std::nullopt);
 
   void add_elevation(const ElevationView& view, const Eigen::Vector2d& p_odom_body);
   // Discards the local map, for example after odom has jumped.
-  void clear_local_map() { mosaic_.clear(); }
-  // Throws what reading the orbital map throws.
+  void clear_local_map();
+  // By relief, else by the picture. Throws what reading the orbital map throws.
   Correction correct(const Prior& prior) const;
+  Correction correct_by_relief(const Prior& prior) const;
+  Correction correct_by_picture(const Prior& prior) const;
   // Whether the terrain of this attempt has enough relief, accepted or not.
   bool featured(const Correction& correction) const;
 
  private:
+  // What the orbiter and the rover saw of one quantity.
+  struct Source {
+    Layer layer;
+    OrbitalMap orbital;
+    LocalMosaic mosaic;
+    PlaneConfig filter;
+  };
   struct Candidates {
     std::vector<Match> matches;            // by increasing residual
     OrbitalSection section{PlaneField{}};  // of the orbital map, about the best
   };
 
   // `axis_odom`: of the largest information, if out.axes is 1.
-  void match(const Prior& prior, const TerrainTemplate& terrain, const Eigen::Vector2d& axis_odom,
-             Correction& out) const;
+  void match(const Source& source, const Prior& prior, const TerrainTemplate& terrain, const SearchWindow& window,
+             const Eigen::Vector2d& axis_odom, Correction& out) const;
   double noise_density() const;
-  TerrainTemplate template_of(int n) const;
-  OrbitalSection orbital_section(const Eigen::Vector2d& center_map, double half_width_m, int n) const;
-  Candidates search(const SearchWindow& window, const TerrainTemplate& terrain) const;
-  Candidates search_coarse_to_fine(const SearchWindow& window, const TerrainTemplate& terrain, int n) const;
+  TerrainTemplate template_of(const Source& source, int n) const;
+  OrbitalSection orbital_section(const Source& source, const Eigen::Vector2d& center_map, double half_width_m,
+                                 int n) const;
+  Candidates search(const Source& source, const SearchWindow& window, const TerrainTemplate& terrain) const;
+  Candidates search_coarse_to_fine(const Source& source, const SearchWindow& window, const TerrainTemplate& terrain,
+                                   int n) const;
 
   GlobalConfig config_;
-  OrbitalMap orbital_;
-  LocalMosaic mosaic_;
+  Source relief_;
+  std::optional<Source> picture_;
 };
 
 }  // namespace rover::global

@@ -1,4 +1,4 @@
-// Regular grid of weighted heights. Row 0 has the smallest y.
+// Regular grid of weighted heights, or of a picture's brightness. Row 0 has the smallest y.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,7 @@ struct Lattice {
 
 struct HeightGrid {
   Lattice lattice;
-  std::vector<float> z_m;     // any finite value where the weight is 0
+  std::vector<float> z_m;     // or brightness; any finite value where the weight is 0
   std::vector<float> weight;  // observed fraction of the cell, 0 to 1
 };
 

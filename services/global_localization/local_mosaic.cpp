@@ -8,14 +8,16 @@ namespace rover::global {
 LocalMosaic::LocalMosaic(double side_m, double cell_m)
     : grid_(static_cast<int>(std::lround(side_m / cell_m)), cell_m, kUnseen) {}
 
-void LocalMosaic::add(const ElevationView& view, const Eigen::Vector2d& p_odom_body, double max_sigma_m) {
+void LocalMosaic::add(const Lattice& lattice, const std::vector<float>& values, const std::vector<float>& sigma_m,
+                      const Eigen::Vector2d& p_odom_body, double max_sigma_m) {
   grid_.move_to(p_odom_body.x(), p_odom_body.y());
-  for (int row = 0; row < view.lattice.rows; ++row)
-    for (int column = 0; column < view.lattice.columns; ++column) {
-      const size_t i = view.lattice.index(column, row);
-      if (!std::isfinite(view.z_m[i]) || !(view.sigma_m[i] <= max_sigma_m)) continue;
-      const CellIndex cell = grid_.index_of(view.lattice.center_x_m(column), view.lattice.center_y_m(row));
-      if (grid_.contains(cell)) grid_.at(cell) = view.z_m[i];
+  if (values.empty()) return;
+  for (int row = 0; row < lattice.rows; ++row)
+    for (int column = 0; column < lattice.columns; ++column) {
+      const size_t i = lattice.index(column, row);
+      if (!std::isfinite(values[i]) || !(sigma_m[i] <= max_sigma_m)) continue;
+      const CellIndex cell = grid_.index_of(lattice.center_x_m(column), lattice.center_y_m(row));
+      if (grid_.contains(cell)) grid_.at(cell) = values[i];
     }
 }
 

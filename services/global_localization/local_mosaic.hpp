@@ -1,5 +1,5 @@
-// Rolling local elevation map in odom: successive maps are inserted into a fixed-size grid that moves with the rover.
-// Newer heights replace older ones.
+// Rolling local map in odom, of heights or of brightness: successive maps are inserted into a fixed-size grid that
+// moves with the rover. Newer values replace older ones.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,7 +15,8 @@ namespace rover::global {
 struct ElevationView {
   Lattice lattice;
   std::vector<float> z_m;
-  std::vector<float> sigma_m;
+  std::vector<float> sigma_m;     // of z_m
+  std::vector<float> brightness;  // of the ground; empty or NaN: none
 };
 
 class LocalMosaic {
@@ -24,8 +25,9 @@ class LocalMosaic {
 
   double cell_m() const { return grid_.cell_m(); }
   void clear() { grid_.clear(); }
-  // Inserts the observed cells whose sigma is within the limit.
-  void add(const ElevationView& view, const Eigen::Vector2d& p_odom_body, double max_sigma_m);
+  // Inserts the finite values whose cell's height has a sigma within the limit. No values: none.
+  void add(const Lattice& lattice, const std::vector<float>& values, const std::vector<float>& sigma_m,
+           const Eigen::Vector2d& p_odom_body, double max_sigma_m);
 
   // Downsamples to larger cells aligned with odom, by box averaging (anti-aliased).
   HeightGrid resampled(double cell_m) const;

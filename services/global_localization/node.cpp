@@ -30,7 +30,8 @@ GlobalLocalizationNode::GlobalLocalizationNode(Node& node, const NodeConfig& con
 
 void GlobalLocalizationNode::load_map() {
   try {
-    core_.emplace(config_.core, open_orbital_map(node_.options().run_dir), config_.local_cell_m);
+    const std::string& dir = node_.options().run_dir;
+    core_.emplace(config_.core, open_orbital_map(dir), config_.local_cell_m, open_orbital_picture(dir));
   } catch (const DtmError& error) {  // the rover can drive without an orbital map
     node_.set_status(heartbeat_t::DEGRADED, error.what());
     node_.log("WARN", std::string("NO_ORBITAL_MAP ") + error.what());
@@ -119,11 +120,13 @@ void GlobalLocalizationNode::attempt_correction(const Prior& prior, Utime utime)
   node_.publish(channel::kCorrection, message, utime);
   char figures[200];
   std::snprintf(figures, sizeof figures,
-                " score=%.3f second=%.3f residual_m=%.3f second_residual_m=%.3f expected_sigma_m=%.2f area_m2=%.0f",
-                correction.score, correction.second_score, correction.residual_m, correction.second_residual_m,
+                " score=%.3f second=%.3f residual=%.3f second_residual=%.3f expected_sigma_m=%.2f area_m2=%.0f",
+                correction.score, correction.second_score, correction.residual, correction.second_residual,
                 correction.expected_sigma_m, correction.area_m2);
-  node_.log("INFO",
-            (correction.accepted ? std::string("CORRECTION") : "NO_CORRECTION reason=" + message.reason) + figures);
+  node_.log("INFO", (correction.accepted
+                         ? std::string("CORRECTION by=") + (correction.layer == Layer::kPicture ? "picture" : "relief")
+                         : "NO_CORRECTION reason=" + message.reason) +
+                        figures);
 }
 
 std::shared_ptr<GlobalLocalizationNode> make_global_localization(Node& node, const std::string& config_dir) {

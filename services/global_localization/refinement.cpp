@@ -72,7 +72,7 @@ Match refine(const OrbitalSection& orbital, const TerrainTemplate& terrain, cons
 Eigen::Matrix3d covariance_at_minimum(const OrbitalSection& orbital, const TerrainTemplate& terrain, const Match& match,
                                       double independent_samples, double max_sigma_m) {
   const Objective f = objective_at(orbital, terrain, match.pose, match.fit.compared / 2);
-  const double mean_square = std::max(match.fit.residual_m * match.fit.residual_m, 1e-8);
+  const double mean_square = std::max(match.fit.residual * match.fit.residual, 1e-8);
   const Eigen::Matrix3d H = hessian(f, orbital.field().lattice.cell_m);
   if (!H.allFinite()) return Eigen::Matrix3d::Constant(kNaN);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(0.5 * independent_samples / mean_square * H);

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "global_localization/edge_field.hpp"
+
 namespace rover::global {
 namespace {
 
@@ -23,6 +25,11 @@ bool all_known(const PlaneField& field, int column, int row) {
       if (!field.lattice.contains(column + i, row + j) || field.known[field.lattice.index(column + i, row + j)] == 0)
         return false;
   return true;
+}
+
+// Fraction of the variance that a correlation leaves; all of it for an opposite one.
+double unexplained(double correlation) {
+  return correlation > 0.0 ? 1.0 - correlation * correlation : 1.0;
 }
 
 // Height differences after least-squares removal of the local map's drift.
@@ -50,6 +57,10 @@ class HeightResiduals {
 };
 
 }  // namespace
+
+Eigen::Rotation2Dd turn_of(Layer layer, double yaw_rad) {
+  return Eigen::Rotation2Dd(layer == Layer::kPicture ? kEdgeTurns * yaw_rad : yaw_rad);
+}
 
 double CorrelationSums::correlation() const {
   if (count == 0) return 0.0;
@@ -92,19 +103,27 @@ bool OrbitalSection::find_stencil(const Eigen::Vector2d& p_map, Stencil& stencil
 
 Fit OrbitalSection::fit(const TerrainTemplate& terrain, const CandidatePose& pose) const {
   const Eigen::Matrix2d R = Eigen::Rotation2Dd(pose.yaw_rad).toRotationMatrix();
+  const Eigen::Matrix2d turn = turn_of(terrain.layer, pose.yaw_rad).toRotationMatrix();
   CorrelationSums gradients;
   HeightResiduals heights(terrain.drift_information);
   Stencil stencil{};
   for (const TerrainSample& sample : terrain.samples) {
     if (!find_stencil(pose.center_map + R * sample.p, stencil)) continue;
-    const Eigen::Vector2d rotated = R * sample.g;
+    const Eigen::Vector2d rotated = turn * sample.g;
     gradients.add(rotated.x(), rotated.y(), stencil.value(field_.gx), stencil.value(field_.gy));
-    heights.add(sample, stencil.value(field_.z) - sample.z);
+    if (terrain.layer == Layer::kHeight) heights.add(sample, stencil.value(field_.z) - sample.z);
   }
-  return {gradients.count, gradients.correlation(), std::sqrt(heights.mean_square())};
+  const double correlation = gradients.correlation();
+  const double mean_square = terrain.layer == Layer::kHeight ? heights.mean_square() : unexplained(correlation);
+  return {gradients.count, correlation, std::sqrt(mean_square)};
 }
 
 double OrbitalSection::mean_square(const TerrainTemplate& terrain, const CandidatePose& pose, int min_compared) const {
+  if (terrain.layer == Layer::kPicture) {
+    const Fit edges = fit(terrain, pose);
+    return edges.compared >= std::max(min_compared, 1) ? edges.residual * edges.residual
+                                                       : std::numeric_limits<double>::infinity();
+  }
   const Eigen::Matrix2d R = Eigen::Rotation2Dd(pose.yaw_rad).toRotationMatrix();
   HeightResiduals heights(terrain.drift_information);
   Stencil stencil{};

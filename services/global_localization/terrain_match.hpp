@@ -1,5 +1,5 @@
-// Match quality of the template at a candidate pose on the orbital map: the gradient correlation discriminates between
-// places, the height residual localises precisely.
+// Match quality of the template at a candidate pose on the orbital map: the correlation of gradients or edges
+// discriminates between places, the height residual localises precisely. Edges do both.
 #pragma once
 
 #include <Eigen/Core>
@@ -36,9 +36,14 @@ struct CandidatePose {
 
 struct Fit {
   int compared = 0;          // samples valid in both maps
-  double correlation = 0.0;  // of the gradients
-  double residual_m = 0.0;   // rms height difference after removing the fitted drift
+  double correlation = 0.0;  // of the gradients or edges
+  // Heights: rms difference after removing the fitted drift [m]. Pictures: what the correlation leaves unexplained,
+  // sqrt(1 - correlation^2).
+  double residual = 0.0;
 };
+
+// Turns a gradient or an edge with the ground.
+Eigen::Rotation2Dd turn_of(Layer layer, double yaw_rad);
 
 // Section of the orbital map, filtered like the template and interpolated by cubic convolution (Keys 1981).
 class OrbitalSection {
@@ -47,7 +52,7 @@ class OrbitalSection {
 
   const PlaneField& field() const { return field_; }
   Fit fit(const TerrainTemplate& terrain, const CandidatePose& pose) const;
-  // Mean square height residual [m^2]; infinite with fewer than `min_compared` valid samples.
+  // Square of the fit's residual; infinite with fewer than `min_compared` valid samples.
   double mean_square(const TerrainTemplate& terrain, const CandidatePose& pose, int min_compared) const;
 
  private:

@@ -3,6 +3,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "global_localization/edge_field.hpp"
 
 namespace rover::global {
 namespace {
@@ -33,11 +36,17 @@ void centre_samples(TerrainTemplate& terrain) {
 
 }  // namespace
 
-TerrainTemplate terrain_template(const HeightGrid& local, const PlaneConfig& config) {
-  const PlaneField field = plane_field(local, config);
+PlaneField field_of(Layer layer, const HeightGrid& grid, const PlaneConfig& config) {
+  PlaneField field = plane_field(grid, config);
+  return layer == Layer::kPicture ? edge_field(std::move(field)) : field;
+}
+
+TerrainTemplate terrain_template(const HeightGrid& local, const PlaneConfig& config, Layer layer) {
+  const PlaneField field = field_of(layer, local, config);
   const Lattice& lattice = field.lattice;
   const int step = std::max(1, static_cast<int>(std::lround(config.sigma_cells)));
   TerrainTemplate out;
+  out.layer = layer;
   out.sample_area_m2 = step * step * lattice.cell_m * lattice.cell_m;
   for (int row = 0; row < lattice.rows; row += step)
     for (int column = 0; column < lattice.columns; column += step) {

@@ -1,4 +1,5 @@
-// Template of the local map: heights and gradients at the orbital map's resolution, and the accuracy they allow.
+// Template of the local map: heights and gradients, or a picture's edges, at the orbital resolution, and the accuracy
+// they allow.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,14 +20,21 @@ struct DriftConfig {
   double curvature_sigma_m = 0.01;
 };
 
+// What is compared.
+enum class Layer {
+  kHeight,   // z and its gradient
+  kPicture,  // the edges of edge_field(): z is unused
+};
+
 struct TerrainSample {
   Eigen::Vector2d p;                            // relative to the template's centre, odom axes [m]
   double z = 0.0;                               // relative to the mean height [m]
-  Eigen::Vector2d g;                            // gradient, odom axes
+  Eigen::Vector2d g;                            // gradient or edge, odom axes
   DriftBasis drift_basis = DriftBasis::Zero();  // drift polynomial basis at p
 };
 
 struct TerrainTemplate {
+  Layer layer = Layer::kHeight;
   Eigen::Vector2d center_odom = Eigen::Vector2d::Zero();  // mean sample position
   std::vector<TerrainSample> samples;                     // spaced about one Gaussian standard deviation
   double sample_area_m2 = 0.0;                            // area per sample
@@ -37,7 +45,10 @@ struct TerrainTemplate {
   double area_m2() const { return static_cast<double>(samples.size()) * sample_area_m2; }
 };
 
-TerrainTemplate terrain_template(const HeightGrid& local, const PlaneConfig& config);
+// What is compared, of a grid of heights or of brightness.
+PlaneField field_of(Layer layer, const HeightGrid& grid, const PlaneConfig& config);
+
+TerrainTemplate terrain_template(const HeightGrid& local, const PlaneConfig& config, Layer layer = Layer::kHeight);
 
 // For a map with this noise power density [m^4].
 DriftBasis drift_information(const TerrainTemplate& terrain, const DriftConfig& config, double noise_density);

@@ -10,25 +10,30 @@
 namespace rover::cloud {
 namespace {
 
-// The intensity field carries sigma through the filters.
-using PclCloud = pcl::PointCloud<pcl::PointXYZI>;
+// The intensity field carries sigma through the filters, and the curvature the brightness.
+using PclPoint = pcl::PointXYZINormal;
+using PclCloud = pcl::PointCloud<PclPoint>;
 
 PclCloud::Ptr to_pcl(const Cloud& cloud) {
   auto out = std::make_shared<PclCloud>();
   out->reserve(cloud.size());
-  for (const Point& p : cloud) out->push_back({p.x_m, p.y_m, p.z_m, p.depth_sigma_m});
+  for (const Point& p : cloud) {
+    PclPoint point(p.x_m, p.y_m, p.z_m, p.depth_sigma_m);
+    point.curvature = p.brightness;
+    out->push_back(point);
+  }
   return out;
 }
 
 Cloud from_pcl(const PclCloud& cloud) {
   Cloud out;
   out.reserve(cloud.size());
-  for (const pcl::PointXYZI& p : cloud) out.push_back({p.x, p.y, p.z, p.intensity});
+  for (const PclPoint& p : cloud) out.push_back({p.x, p.y, p.z, p.intensity, p.curvature});
   return out;
 }
 
 PclCloud::Ptr downsample_voxels(const PclCloud::Ptr& cloud, double voxel_m) {
-  pcl::VoxelGrid<pcl::PointXYZI> grid;
+  pcl::VoxelGrid<PclPoint> grid;
   const auto leaf = static_cast<float>(voxel_m);
   grid.setLeafSize(leaf, leaf, leaf);
   grid.setInputCloud(cloud);
@@ -38,7 +43,7 @@ PclCloud::Ptr downsample_voxels(const PclCloud::Ptr& cloud, double voxel_m) {
 }
 
 PclCloud remove_outliers(const PclCloud::Ptr& cloud, const FilterConfig& config) {
-  pcl::RadiusOutlierRemoval<pcl::PointXYZI> removal;
+  pcl::RadiusOutlierRemoval<PclPoint> removal;
   removal.setRadiusSearch(config.outlier_radius_m);
   removal.setMinNeighborsInRadius(config.outlier_neighbours);
   removal.setInputCloud(cloud);

@@ -1,6 +1,7 @@
 // PCL filters: voxel downsampling and radius outlier removal.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 namespace rover::cloud {
@@ -11,6 +12,7 @@ struct Point {
   float y_m = 0.0F;
   float z_m = 0.0F;
   float depth_sigma_m = 0.0F;
+  float brightness = std::numeric_limits<float>::quiet_NaN();  // grey value per second of exposure; NaN: no picture
 };
 using Cloud = std::vector<Point>;
 
@@ -21,8 +23,8 @@ struct FilterConfig {
   int max_points = 20000;      // the farthest are dropped
 };
 
-// A voxel gets the mean of its points and of their sigmas. Errors of neighbours are correlated (mostly calibration), so
-// averaging does not reduce sigma.
+// A voxel gets the mean of its points, of their sigmas and of their brightness. Errors of neighbours are correlated
+// (mostly calibration), so averaging does not reduce sigma.
 Cloud filter_cloud(const Cloud& cloud, const FilterConfig& config);
 
 }  // namespace rover::cloud

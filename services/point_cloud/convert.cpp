@@ -18,7 +18,8 @@ void cloud_to(const CloudResult& result, cloud_t& message) {
   pose_to(result.T_body_cam, message.position_body_cam_m, message.quat_body_cam_wxyz);
   const size_t count = result.cloud.size();
   message.point_count = static_cast<std::int32_t>(count);
-  for (std::vector<float>* values : {&message.x_m, &message.y_m, &message.z_m, &message.depth_sigma_m}) {
+  for (std::vector<float>* values :
+       {&message.x_m, &message.y_m, &message.z_m, &message.depth_sigma_m, &message.brightness}) {
     values->clear();
     values->reserve(count);
   }
@@ -27,7 +28,10 @@ void cloud_to(const CloudResult& result, cloud_t& message) {
     message.y_m.push_back(point.y_m);
     message.z_m.push_back(point.z_m);
     message.depth_sigma_m.push_back(point.depth_sigma_m);
+    if (std::isfinite(point.brightness)) message.brightness.push_back(point.brightness);
   }
+  // All points of a cloud are from one picture, or from none.
+  message.picture_size = static_cast<std::int32_t>(message.brightness.size());
 }
 
 }  // namespace rover::cloud

@@ -37,7 +37,7 @@ void PointCloudNode::on_pair(const ImagePair& pair) {
     node_.reject(channel::kNavCamLeft, reason);
     return report_status(reason);
   }
-  const auto result = core_.step(pair.left, pair.right, state->pan_rad, state->tilt_rad);
+  const auto result = core_.step(pair.left, pair.right, state->pan_rad, state->tilt_rad, pair.left_exposure_s);
   if (!result) return;
   cloud_t cloud{};
   cloud_to(*result, cloud);

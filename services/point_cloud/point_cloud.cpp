@@ -26,19 +26,24 @@ PointCloud::PointCloud(const PointCloudConfig& config, const StereoRig& rig, con
     : config_(config), rig_(rig), unit_(unit), ground_below_m_(ground_below_m) {}
 
 std::optional<CloudResult> PointCloud::step(const GrayImage& left, const GrayImage& right, double pan_rad,
-                                            double tilt_rad) {
+                                            double tilt_rad, double exposure_s) {
   ROVER_CHECK(std::isfinite(pan_rad) && std::isfinite(tilt_rad), pan_rad, tilt_rad);
   auto stereo = stereo_at_tilt(tilt_rad).stereo.step(left, right);
   if (!stereo) return std::nullopt;
-  return from_disparity(std::move(stereo->disparity), pan_rad, tilt_rad);
+  return cloud_of(std::move(stereo->disparity), &stereo->left, exposure_s, pan_rad, tilt_rad);
 }
 
 CloudResult PointCloud::from_disparity(Disparity disparity, double pan_rad, double tilt_rad) {
+  return cloud_of(std::move(disparity), nullptr, 0.0, pan_rad, tilt_rad);
+}
+
+CloudResult PointCloud::cloud_of(Disparity disparity, const GrayImage* left, double exposure_s, double pan_rad,
+                                 double tilt_rad) {
   const TiltedStereo& tilted = stereo_at_tilt(tilt_rad);
   CloudResult result;
   result.valid_fraction = valid_fraction(disparity);
   remove_foreground_fattening(disparity, config_.foreground_fattening);
-  result.cloud = filter_cloud(triangulate(disparity, tilted.stereo.camera()), config_.filter);
+  result.cloud = filter_cloud(triangulate(disparity, tilted.stereo.camera(), left, exposure_s), config_.filter);
   result.T_body_cam = T_body_navcam(unit_, rig_.T_body_left, pan_rad, tilt_rad) * tilted.T_left_rectified;
   return result;
 }
@@ -61,7 +66,9 @@ PointCloud::TiltedStereo& PointCloud::stereo_at_tilt(double tilt_rad) {
 
 // Subsamples pixels to `point_spacing_m` on a fronto-parallel surface; rows are four times as dense, as ground is seen
 // at a grazing angle.
-Cloud PointCloud::triangulate(const Disparity& disparity, const StereoCamera& camera) const {
+Cloud PointCloud::triangulate(const Disparity& disparity, const StereoCamera& camera, const GrayImage* left,
+                              double exposure_s) const {
+  const auto per_grey = static_cast<float>(exposure_s > 0.0 ? 1.0 / exposure_s : 1.0);
   Cloud cloud;
   for (int v = 0; v < disparity.height; ++v)
     for (int u = 0; u < disparity.width; ++u) {
@@ -72,6 +79,7 @@ Cloud PointCloud::triangulate(const Disparity& disparity, const StereoCamera& ca
       if (u % stride != 0 || v % std::max(1, stride / 4) != 0) continue;
       const Eigen::Vector3f p = camera.point(u, v, disparity.px(u, v)).cast<float>();
       cloud.push_back({p.x(), p.y(), p.z(), static_cast<float>(sigma_m(z, camera))});
+      if (left != nullptr) cloud.back().brightness = per_grey * static_cast<float>(left->at(u, v));
     }
   return cloud;
 }

@@ -1,6 +1,6 @@
-// NavCam stereo to points in the left rectified camera, each with the standard deviation of its depth:
-// sigma(z) = floor + z^2 / (f b) sigma_d, with z from the camera (GA SLAM's code uses the distance to the world's
-// origin, which degrades the map as the rover drives).
+// NavCam stereo to points in the left rectified camera, each with the brightness of its ground and the standard
+// deviation of its depth: sigma(z) = floor + z^2 / (f b) sigma_d, with z from the camera (GA SLAM's code uses the
+// distance to the world's origin, which degrades the map as the rover drives).
 #pragma once
 
 #include <Eigen/Geometry>
@@ -41,10 +41,11 @@ class PointCloud {
 
   int width() const { return rig_.width; }
   int height() const { return rig_.height; }
-  // Empty if an image's size differs from the rig's.
-  std::optional<CloudResult> step(const GrayImage& left, const GrayImage& right, double pan_rad, double tilt_rad);
+  // Empty if an image's size differs from the rig's. `exposure_s`: of the left image; 0: unknown, taken for 1.
+  std::optional<CloudResult> step(const GrayImage& left, const GrayImage& right, double pan_rad, double tilt_rad,
+                                  double exposure_s = 0.0);
 
-  // The same from the disparity of the camera at this tilt.
+  // The same from the disparity of the camera at this tilt, without brightness.
   CloudResult from_disparity(Disparity disparity, double pan_rad, double tilt_rad);
   const StereoCamera& camera_at(double tilt_rad) { return stereo_at_tilt(tilt_rad).stereo.camera(); }
 
@@ -56,7 +57,10 @@ class PointCloud {
     Eigen::Isometry3d T_left_rectified;
   };
   TiltedStereo& stereo_at_tilt(double tilt_rad);
-  Cloud triangulate(const Disparity& disparity, const StereoCamera& camera) const;
+  // `left`: the rectified image, or null.
+  CloudResult cloud_of(Disparity disparity, const GrayImage* left, double exposure_s, double pan_rad, double tilt_rad);
+  Cloud triangulate(const Disparity& disparity, const StereoCamera& camera, const GrayImage* left,
+                    double exposure_s) const;
 
   PointCloudConfig config_;
   StereoRig rig_;

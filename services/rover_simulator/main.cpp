@@ -14,12 +14,17 @@ struct Arguments {
   std::string scenario;
   std::string bus;
   std::string run_dir;
+  std::string picture;
   std::uint64_t seed = 1;
   rover::SimulatorOptions options;
 };
 
 int simulate(const Arguments& arguments) {
   const rover::Scenario scenario = rover::load_scenario(arguments.scenario);
+  if (!arguments.picture.empty()) {
+    rover::write_orbital_picture(scenario, arguments.seed, arguments.picture);
+    return 0;
+  }
   const auto rover_and_world = rover::make_simulated_rover(scenario, arguments.config_dir, arguments.seed);
   lcm::LCM lcm(arguments.bus);
   lcm::LCM reports(rover::reports_url(arguments.bus));
@@ -45,6 +50,7 @@ int main(int argc, char** argv) {
   app.add_option("--scenario", arguments.scenario, "scenario file")->required();
   app.add_option("--bus", arguments.bus, "LCM URL")->required();
   app.add_option("--run-dir", arguments.run_dir, "the run's folder, for the summary");
+  app.add_option("--orbital-picture", arguments.picture, "render the world from orbit to this file (GeoTIFF), and end");
   app.add_option("--seed", arguments.seed, "seed of everything random")->capture_default_str();
   app.add_option("--participants", arguments.options.participants, "services that the ticks wait for")->delimiter(',');
   app.add_option("--boot-id", arguments.options.boot_id, "start number");

@@ -3,9 +3,12 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "common/bus/config.hpp"
 #include "common/bus/vehicle_config.hpp"
+#include "common/geo/geotiff_writer.hpp"
+#include "rover_simulator/orbital_picture.hpp"
 
 namespace rover {
 namespace {
@@ -41,6 +44,13 @@ std::unique_ptr<SimulatedRover> make_simulated_rover(const Scenario& scenario, c
   return std::make_unique<SimulatedRover>(config, vehicle, loccam,
                                           std::make_unique<World>(scenario.world, scenario.dtm, seed),
                                           scenario.start_pose(), seed);
+}
+
+void write_orbital_picture(const Scenario& scenario, std::uint64_t seed, const std::string& file) {
+  const World world(scenario.world, scenario.dtm, seed);
+  const int threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  write_geotiff(file, orbital_picture(world, scenario.orbital_picture.value_or(OrbitalPictureConfig{}),
+                                      ground_appearance(scenario, seed), threads));
 }
 
 SimulatorOptions with_scenario(SimulatorOptions options, const Scenario& scenario) {

@@ -17,6 +17,9 @@ GroundAppearanceConfig ground_appearance(const Scenario& scenario, std::uint64_t
 // Adds what the scenario says of faults and the end of the run.
 SimulatorOptions with_scenario(SimulatorOptions options, const Scenario& scenario);
 
+// Renders scenario.orbital_picture of the world to a GeoTIFF, on all cores. Throws DtmError.
+void write_orbital_picture(const Scenario& scenario, std::uint64_t seed, const std::string& file);
+
 void write_summary(const std::string& run_dir, const SimulationSummary& summary);
 
 }  // namespace rover

@@ -16,7 +16,7 @@ AlignedCloud align_to_gravity(const Cloud& cloud, const Eigen::Isometry3d& T_odo
     // A depth error moves the point along its ray.
     const Eigen::Vector3f along = T_level_cam.linear() * point.p_cam_m * (point.depth_sigma_m / point.p_cam_m.z());
     const float variance = along.z() * along.z() + tilt2 * p.head<2>().squaredNorm() + height2;
-    aligned.points.push_back({p.x(), p.y(), p.z(), variance, along.x(), along.y()});
+    aligned.points.push_back({p.x(), p.y(), p.z(), variance, along.x(), along.y(), point.brightness});
   }
   return aligned;
 }

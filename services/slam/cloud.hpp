@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <limits>
 #include <vector>
 
 #include "common/core/frames.hpp"
@@ -9,9 +10,12 @@
 
 namespace rover::slam {
 
+inline constexpr float kNoBrightness = std::numeric_limits<float>::quiet_NaN();
+
 struct CameraPoint {
   Eigen::Vector3f p_cam_m;     // z forward, x right, y down
   float depth_sigma_m = 0.0F;  // along the optical axis
+  float brightness = kNoBrightness;
 };
 
 struct Cloud {
@@ -29,6 +33,7 @@ struct AlignedPoint {
   float variance_m2 = 0.0F;  // of z, from depth, attitude and body height
   float ray_x_m = 0.0F;      // horizontal shift of the point by one sigma of depth
   float ray_y_m = 0.0F;
+  float brightness = kNoBrightness;
 };
 
 struct AttitudeNoise {

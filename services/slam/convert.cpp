@@ -25,6 +25,8 @@ std::string fault_of(const cloud_t& message) {
   for (const double p : message.position_body_cam_m) mount_valid = mount_valid && std::abs(p) < 10.0;
   if (!mount_valid) return "camera's mount is not usable";
   if (message.point_count > kMaxPoints) return "more points than a camera has";
+  if (message.picture_size != 0 && message.picture_size != message.point_count)
+    return "its brightness does not belong to its points";
   for (size_t i = 0; i < message.x_m.size(); ++i)
     if (!is_valid(message.x_m[i], message.y_m[i], message.z_m[i], message.depth_sigma_m[i]))
       return "point " + std::to_string(i) + " is not finite or out of range";
@@ -38,6 +40,8 @@ Cloud cloud_from(const cloud_t& message) {
   cloud.points.reserve(message.x_m.size());
   for (size_t i = 0; i < message.x_m.size(); ++i)
     cloud.points.push_back({{message.x_m[i], message.y_m[i], message.z_m[i]}, message.depth_sigma_m[i]});
+  for (size_t i = 0; i < message.brightness.size(); ++i)
+    if (std::isfinite(message.brightness[i])) cloud.points[i].brightness = message.brightness[i];
   return cloud;
 }
 
@@ -67,6 +71,8 @@ void elevation_to(const OdomElevation& elevation, elevation_t& message) {
   message.size = elevation.cells * elevation.cells;
   message.height_m = elevation.height_m;
   message.sigma_m = elevation.sigma_m;
+  message.picture_size = static_cast<std::int32_t>(elevation.brightness.size());
+  message.brightness = elevation.brightness;
 }
 
 void slam_pose_to(const SlamResult& result, slam_pose_t& message) {

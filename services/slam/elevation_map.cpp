@@ -110,7 +110,7 @@ void ElevationMap::fuse(ElevationCell& cell, const Patch& patch, const CloudPose
   const float R = measured_variance_m2(patch);
   const auto floor2 = static_cast<float>(config_.min_sigma_m * config_.min_sigma_m);
   const float top = static_cast<float>(pose.z_m) + patch.top_m;
-  const ElevationCell fresh{z, top, std::max(R, floor2), static_cast<float>(pose.travelled_m), 0};
+  const ElevationCell fresh{z, top, std::max(R, floor2), static_cast<float>(pose.travelled_m), 0, patch.brightness};
   if (!cell.seen()) {
     cell = fresh;
     return;
@@ -131,6 +131,8 @@ void ElevationMap::fuse(ElevationCell& cell, const Patch& patch, const CloudPose
   cell.variance_m2 = std::max((1.0F - K) * P, floor2);
   cell.seen_at_m = static_cast<float>(pose.travelled_m);
   cell.outliers = 0;
+  if (std::isnan(cell.brightness)) cell.brightness = patch.brightness;
+  if (!std::isnan(patch.brightness)) cell.brightness += K * (patch.brightness - cell.brightness);
 }
 
 }  // namespace rover::slam

@@ -28,6 +28,7 @@ struct ElevationCell {
   float variance_m2 = -1.0F;  // negative: never seen
   float seen_at_m = 0.0F;     // distance driven when the cell was last seen
   std::uint8_t outliers = 0;  // measurements in a row that failed the gate
+  float brightness = kNoBrightness;
 
   bool seen() const { return variance_m2 >= 0.0F; }
 };

@@ -22,6 +22,7 @@ void PatchBinner::Sums::add(const AlignedPoint& point, float px, float py) {
   ray_x += point.ray_x_m;
   ray_y += point.ray_y_m;
   variance += point.variance_m2;
+  brightness += point.brightness;
   ++count;
 }
 
@@ -77,6 +78,7 @@ Patch PatchBinner::patch_of(const Bin& bin, int column, int row) const {
   patch.variance_m2 = sums.variance / n / independent + rough / n;
   patch.ray_x_m = (cos_ * sums.ray_x - sin_ * sums.ray_y) / n * shrink;
   patch.ray_y_m = (sin_ * sums.ray_x + cos_ * sums.ray_y) / n * shrink;
+  patch.brightness = sums.brightness / n;
   patch.top_m = step ? bin.upper_z / bin.upper_weight : patch.z_m;
   // The position of a step inside the cell is unknown.
   if (step) patch.variance_m2 += 0.01F * (bin.highest - bin.lowest) * (bin.highest - bin.lowest);

@@ -18,6 +18,7 @@ struct Patch {
   float variance_m2 = 0.0F;  // of z_m
   float ray_x_m = 0.0F;      // of the mean: horizontal shift by one sigma of depth
   float ray_y_m = 0.0F;
+  float brightness = kNoBrightness;  // mean of the points
 };
 
 struct PatchConfig {
@@ -39,7 +40,7 @@ class PatchBinner {
   struct Sums {
     float weight = 0.0F;
     float x = 0.0F, y = 0.0F, z = 0.0F;
-    float ray_x = 0.0F, ray_y = 0.0F, variance = 0.0F;
+    float ray_x = 0.0F, ray_y = 0.0F, variance = 0.0F, brightness = 0.0F;
     int count = 0;
     void add(const AlignedPoint& point, float px, float py);
   };

@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 namespace rover::slam {
@@ -229,6 +230,7 @@ OdomElevation Slam::elevation() const {
   const size_t size = static_cast<size_t>(out.cells) * out.cells;
   out.height_m.reserve(size);
   out.sigma_m.reserve(size);
+  out.brightness.reserve(size);
   for (int row = 0; row < out.cells; ++row)
     for (int column = 0; column < out.cells; ++column) {
       const double x = grid.center_x_m({out.corner.ix + column, 0}), y = grid.center_y_m({0, out.corner.iy + row});
@@ -236,7 +238,10 @@ OdomElevation Slam::elevation() const {
       const float nan = std::numeric_limits<float>::quiet_NaN();
       out.height_m.push_back(cell.seen() ? static_cast<float>(cell.top_m - height_offset) : nan);
       out.sigma_m.push_back(cell.seen() ? std::sqrt(map_.variance_m2(cell, travelled_m_)) : nan);
+      out.brightness.push_back(cell.brightness);
     }
+  if (std::all_of(out.brightness.begin(), out.brightness.end(), [](float b) { return std::isnan(b); }))
+    out.brightness.clear();
   return out;
 }
 

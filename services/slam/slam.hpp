@@ -84,6 +84,7 @@ struct OdomElevation {
   int cells = 0;                // each side
   std::vector<float> height_m;  // row by row, y ascending; NaN: never seen
   std::vector<float> sigma_m;
+  std::vector<float> brightness;  // empty: no cloud had any
 };
 
 class Slam {

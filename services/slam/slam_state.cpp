@@ -8,7 +8,7 @@
 namespace rover::slam {
 namespace {
 
-constexpr std::uint32_t kVersion = 3;
+constexpr std::uint32_t kVersion = 4;
 
 bool is_finite_pose(const Pose2& pose) {
   return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.yaw_rad);
@@ -46,6 +46,7 @@ void put_map(StateWriter& out, const GridMap<ElevationCell>& grid) {
     out.put(cell.variance_m2);
     out.put(cell.seen_at_m);
     out.put(cell.outliers);
+    out.put(cell.brightness);
   });
 }
 
@@ -69,8 +70,9 @@ bool get_map(StateReader& in, GridMap<ElevationCell>& grid) {
     cell.variance_m2 = in.get<float>();
     cell.seen_at_m = in.get<float>();
     cell.outliers = in.get<std::uint8_t>();
+    cell.brightness = in.get<float>();
     valid = valid && std::isfinite(cell.height_m) && std::isfinite(cell.top_m) && cell.variance_m2 >= 0.0F &&
-            std::isfinite(cell.seen_at_m);
+            std::isfinite(cell.seen_at_m) && !std::isinf(cell.brightness);
   });
   return valid;
 }

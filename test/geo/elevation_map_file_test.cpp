@@ -144,5 +144,51 @@ TEST_F(MapInParts, ALinkIsReadWithTheSideFilesOfItsTarget) {
   EXPECT_EQ(file.read({0, 0, 3, 1}).z_m, (std::vector<float>{4, 5, 6}));
 }
 
+// A picture in degrees with another pixel size lands on the map's ground, in the map's projection.
+TEST_F(MapInParts, PictureIsPlacedOnTheMap) {
+  const ElevationRaster map = read_elevation_map(hills(MapFile{})).raster;
+  const double degree = 180.0 / (3.141592653589793 * testing_support::kMarsRadiusM);
+  MapFile picture;
+  picture.reference = testing_support::kMars;
+  picture.transform = {1000.0 * degree, 0.5 * degree, 0.0, 5000.0 * degree, 0.0, -0.5 * degree};
+  picture.width = 240;
+  picture.height = 200;
+  picture.type = GDT_Byte;
+  picture.bands = 3;
+  picture.change = [](GDALDataset& file) {
+    std::vector<double> zeros(240);
+    for (int line = 0; line < 200; ++line)  // the third band is black: the mean is two thirds
+      EXPECT_EQ(
+          file.GetRasterBand(3)->RasterIO(GF_Write, 0, line, 240, 1, zeros.data(), 240, 1, GDT_Float64, 0, 0, nullptr),
+          CE_None);
+  };
+  write(folder_.file("picture.tif"), picture, [](int x, int y) { return x >= 120 ? 150.0 : y >= 100 ? 60.0 : 0.0; });
+  const ElevationRaster placed = read_picture(folder_.file("picture.tif"), map);
+  EXPECT_NEAR(placed.resolution_m, 0.5, 0.01);
+  EXPECT_EQ(placed.west_m, map.west_m);
+  EXPECT_EQ(placed.south_m, map.south_m);
+  EXPECT_EQ(placed.projection_wkt, map.projection_wkt);
+  const auto at = [&](double x_m, double y_m) {
+    return placed.at(static_cast<int>(x_m / placed.resolution_m), static_cast<int>(y_m / placed.resolution_m));
+  };
+  EXPECT_NEAR(at(90.0, 50.0), 100.0, 0.5) << "east";
+  EXPECT_NEAR(at(30.0, 25.0), 40.0, 0.5) << "south-west";
+  EXPECT_NEAR(at(30.0, 75.0), 0.0, 0.5) << "north-west: black is no void";
+}
+
+TEST_F(MapInParts, PictureOfOtherGroundIsRefused) {
+  const ElevationRaster map = read_elevation_map(hills(MapFile{})).raster;
+  MapFile elsewhere;
+  elsewhere.transform = {9000.0, 0.5, 0.0, 5000.0, 0.0, -0.5};
+  elsewhere.type = GDT_Byte;
+  write(folder_.file("elsewhere.tif"), elsewhere, [](int, int) { return 80.0; });
+  try {
+    read_picture(folder_.file("elsewhere.tif"), map);
+    ADD_FAILURE() << "accepted";
+  } catch (const DtmError& error) {
+    EXPECT_EQ(folder_.short_names(error.what()), "elsewhere.tif: shows nothing of the map's ground");
+  }
+}
+
 }  // namespace
 }  // namespace rover

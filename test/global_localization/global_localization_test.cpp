@@ -303,5 +303,72 @@ TEST(GlobalLocalization, IsDeterministicBitForBit) {
   EXPECT_EQ(a.cov, b.cov);
 }
 
+// Ground without relief, and its brightness.
+double level(double, double) {
+  return 0.0;
+}
+double marks(double x, double y) {
+  return 100.0 + 20.0 * gradient_noise(9, x / 3.0, y / 3.0) + 10.0 * gradient_noise(10, x / 1.2, y / 1.2);
+}
+
+GlobalLocalization driven_with_picture(const Height& height, const Height& from_orbit, const Height& from_rover,
+                                       bool seen = true) {
+  GlobalLocalization core(config_for_test(), orbital_of(height, 1.0), kCellM, OrbitalMap(orbital_of(from_orbit, 0.25)));
+  for (double back = 16.0; back >= 0.0; back -= 8.0) {
+    const Eigen::Vector2d p = kPlace - Eigen::Vector2d(back, 0.0);
+    ElevationView view = view_of(height, kTruth, p);
+    if (seen) view.brightness = view_of(from_rover, kTruth, p).z_m;
+    core.add_elevation(view, p);
+  }
+  return core;
+}
+
+// The orbiter's sun stands opposite, with another contrast.
+TEST(PictureOfThePlain, LocatesTheRover) {
+  const GlobalLocalization core = driven_with_picture(
+      level, [](double x, double y) { return 250.0 - 1.5 * marks(x, y); }, marks);
+  for (const auto& [x, y, turn] :
+       {std::array{9.0, 3.0, 9.0}, std::array{-6.5, 7.3, -9.0}, std::array{0.0, -10.0, 4.0}}) {
+    const Correction c = core.correct(prior({x, y}, turn));
+    ASSERT_TRUE(c.accepted) << c.reason;
+    EXPECT_EQ(c.layer, Layer::kPicture);
+    EXPECT_LT(error_m(c), 0.1);
+    EXPECT_LT(error_deg(c), 0.3);
+    EXPECT_GT(std::sqrt(c.cov(0, 0)), 0.1) << "the distortion of the picture";
+  }
+}
+
+TEST(PictureOfThePlain, OfAnotherPlaceIsRejected) {
+  const GlobalLocalization core = driven_with_picture(
+      level, [](double x, double y) { return marks(x + 60.0, y - 35.0); }, marks);
+  for (const double turn_deg : {-6.0, 0.0, 6.0}) {
+    const Correction c = core.correct(prior({2.0, 3.0}, turn_deg));
+    EXPECT_FALSE(c.accepted);
+    EXPECT_FALSE(core.correct_by_picture(prior({2.0, 3.0}, turn_deg)).reason.empty());
+  }
+}
+
+TEST(PictureOfThePlain, RepeatedRipplesAreAmbiguous) {
+  const Height ripples = [](double x, double y) { return 50.0 + 20.0 * std::sin(1.1 * x) * std::cos(1.1 * y); };
+  const Correction c = driven_with_picture(level, ripples, ripples).correct_by_picture(prior({2.0, 1.0}, 1.0));
+  EXPECT_FALSE(c.accepted);
+  EXPECT_GT(c.similar_places, 1);
+}
+
+TEST(PictureOfThePlain, IsNotAskedWhereReliefLocatesTheRoverOrItIsLost) {
+  const Correction by_relief = driven_with_picture(hills, marks, marks).correct(prior({4.0, 3.0}, 2.0));
+  EXPECT_TRUE(by_relief.accepted);
+  EXPECT_EQ(by_relief.layer, Layer::kHeight);
+  Prior lost = prior({4.0, 3.0}, 2.0);
+  lost.cov(0, 0) = lost.cov(1, 1) = 400.0;
+  EXPECT_EQ(driven_with_picture(level, marks, marks).correct(lost).reason, "not enough relief");
+}
+
+TEST(PictureOfThePlain, WithoutBrightnessNothingIsMatched) {
+  const GlobalLocalization core = driven_with_picture(level, marks, marks, false);
+  EXPECT_EQ(core.correct(prior({1.0, 1.0}, 1.0)).reason, "not enough relief");
+  EXPECT_EQ(core.correct_by_picture(prior({1.0, 1.0}, 1.0)).reason, "local picture too small");
+}
+
 }  // namespace
 }  // namespace rover::global::test

@@ -1,5 +1,6 @@
 #include "test/global_localization/mapped_drive.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/core/frames.hpp"
@@ -38,8 +39,16 @@ struct MappedDrive::Viewpoint {
   double camera_z, azimuth_rad, slope_forward, pitch_error_rad, roll_error_rad;
 };
 
-MappedDrive::MappedDrive(const Surface& world, const Line& line, const DriveErrors& errors, std::uint64_t seed)
-    : world_(world), line_(line), errors_(errors), seed_(seed), random_(seed), map_(kCells, kCellM), known_(260, 0.5) {
+MappedDrive::MappedDrive(const Surface& world, const Line& line, const DriveErrors& errors, std::uint64_t seed,
+                         const ElevationRaster* ground)
+    : world_(world),
+      ground_(ground),
+      line_(line),
+      errors_(errors),
+      seed_(seed),
+      random_(seed),
+      map_(kCells, kCellM),
+      known_(260, 0.5) {
   scale_ = 1.0 + normal(errors.scale_sigma);
   T_map_body_ = planar_pose(line.at(0.0), line.heading_rad);
   T_odom_body_ = planar_pose({3.0, -2.0}, 0.7);  // odom is turned against map
@@ -85,6 +94,7 @@ void MappedDrive::look(double pan_rad) {
   viewpoint.camera_z = world_.height_m(p.x(), p.y()) + kCameraForwardM * viewpoint.slope_forward + kCameraUpM;
   viewpoint.pitch_error_rad = normal(errors_.attitude_sigma_rad);
   viewpoint.roll_error_rad = normal(errors_.attitude_sigma_rad);
+  if (ground_ != nullptr) exposure_ = 1.0 + normal(errors_.exposure_sigma);
   for (double a = -kHalfWidthRad; a <= kHalfWidthRad; a += kAzimuthStepRad)
     look_along(viewpoint, viewpoint.azimuth_rad + a);
 }
@@ -120,21 +130,32 @@ void MappedDrive::measure(const Viewpoint& viewpoint, const Eigen::Vector3d& p_m
   if (!map_.contains(cell)) return;
   const auto variance = static_cast<float>(1e-4 + 1e-6 * d * d * d * d);
   Ground& ground = map_.at(cell);
-  if (!ground.seen) ground = {static_cast<float>(p.z()), variance, true};
+  const float brightness = brightness_at(p_map.head<2>());
+  if (!ground.seen) ground = {static_cast<float>(p.z()), variance, brightness, true};
   const float gain = ground.variance / (ground.variance + variance);
+  ground.brightness += gain * (brightness - ground.brightness);
   ground.z += gain * (static_cast<float>(p.z()) - ground.z);
   ground.variance = std::max((1.0f - gain) * ground.variance, 1e-5f);
   const CellIndex place = known_.index_of(p_map.x(), p_map.y());
   if (known_.contains(place)) known_.at(place) = 1;
 }
 
+float MappedDrive::brightness_at(const Eigen::Vector2d& p_map) {
+  if (ground_ == nullptr) return 0.0f;
+  const int column = std::clamp(static_cast<int>(p_map.x() / ground_->resolution_m), 0, ground_->width - 1);
+  const int row = std::clamp(static_cast<int>(p_map.y() / ground_->resolution_m), 0, ground_->height - 1);
+  return static_cast<float>(ground_->at(column, row) * exposure_ * (1.0 + normal(errors_.brightness_sigma)));
+}
+
 void MappedDrive::publish() {
   view_.lattice = {kCells, kCells, kCellM, map_.origin().ix * kCellM, map_.origin().iy * kCellM};
   view_.z_m.clear();
   view_.sigma_m.clear();
+  view_.brightness.clear();
   map_.for_each([this](CellIndex, const Ground& ground) {
     view_.z_m.push_back(ground.seen ? ground.z : static_cast<float>(kNaN));
     view_.sigma_m.push_back(ground.seen ? std::sqrt(ground.variance) : static_cast<float>(kNaN));
+    if (ground_ != nullptr) view_.brightness.push_back(ground.seen ? ground.brightness : static_cast<float>(kNaN));
   });
 }
 

@@ -23,6 +23,8 @@ struct DriveErrors {
   double untextured_fraction = 0.08;
   double lost_points = 0.05;
   double lost_pictures = 0.05;
+  double exposure_sigma = 0.05;    // relative, per image
+  double brightness_sigma = 0.02;  // relative, per point
 };
 
 struct Line {
@@ -36,7 +38,9 @@ struct Line {
 
 class MappedDrive {
  public:
-  MappedDrive(const Surface& world, const Line& line, const DriveErrors& errors, std::uint64_t seed);
+  // `ground`: radiance, for the brightness of the views; null: they have none.
+  MappedDrive(const Surface& world, const Line& line, const DriveErrors& errors, std::uint64_t seed,
+              const ElevationRaster* ground = nullptr);
 
   // Drives 0.5 m and takes an image.
   void advance();
@@ -51,7 +55,7 @@ class MappedDrive {
 
  private:
   struct Ground {
-    float z = 0.0f, variance = 0.0f;
+    float z = 0.0f, variance = 0.0f, brightness = 0.0f;
     bool seen = false;
   };
   struct Viewpoint;  // camera pose of one image
@@ -63,7 +67,10 @@ class MappedDrive {
   void measure(const Viewpoint& viewpoint, const Eigen::Vector3d& p_map);
   void publish();
 
+  float brightness_at(const Eigen::Vector2d& p_map);
+
   const Surface& world_;
+  const ElevationRaster* ground_;
   Line line_;
   DriveErrors errors_;
   std::uint64_t seed_;
@@ -72,6 +79,7 @@ class MappedDrive {
   double scale_ = 1.0;
   double yaw_drift_rad_ = 0.0;
   double height_drift_m_ = 0.0;
+  double exposure_ = 1.0;
   Eigen::Isometry2d T_map_body_ = Eigen::Isometry2d::Identity();
   Eigen::Isometry2d T_odom_body_ = Eigen::Isometry2d::Identity();
   GridMap<Ground> map_;          // odom

@@ -218,17 +218,19 @@ TEST_F(GlobalLocalizationNodeTest, InvalidElevationIsCountedAndIgnored) {
   write_map();
   start();
   drive(12.0);
-  std::vector<elevation_t> bad(5, elevation());
+  std::vector<elevation_t> bad(6, elevation());
   bad[0].cell_m = kNaN;
   bad[1].cells_x = 100;
   bad[2].origin_x_m = kInfinity;
   bad[3].cell_m = 0.2;
   bad[4].cells_y = -3;
+  bad[5].picture_size = 1;
+  bad[5].brightness = {1.0f};
   for (const elevation_t& map : bad) publish_inputs(pose(), map);
   now_ += 10'000'000;
   publish_inputs(pose(), elevation(), 5.0);   // stale
   publish_inputs(pose(), elevation(), -0.5);  // from the future
-  EXPECT_EQ(world_->malformed(channel::kElevation), 7);
+  EXPECT_EQ(world_->malformed(channel::kElevation), 8);
   drive(4.0);
   ASSERT_EQ(corrections_.size(), 1u);
   EXPECT_EQ(corrections_[0].accepted, 1) << corrections_[0].reason;

@@ -6,6 +6,7 @@
 
 #include "global_localization/attempt_schedule.hpp"
 #include "global_localization/correlation_search.hpp"
+#include "global_localization/edge_field.hpp"
 #include "global_localization/refinement.hpp"
 #include "global_localization/terrain_template.hpp"
 #include "test/global_localization/synthetic_terrain.hpp"
@@ -64,15 +65,51 @@ TEST(PlaneField, EqualsDerivativeOfGaussian) {
   }
 }
 
+// The same edges under a sun on the other side, and three times the contrast; on ground turned by 30 deg, edges turned
+// by 60 deg.
+TEST(EdgeField, IsTheSameUnderLightFromTheOppositeSide) {
+  const PlaneConfig filter{.sigma_cells = 1.0, .min_support = 0.5};
+  const auto edges = [&](const Height& brightness) {
+    return edge_field(plane_field(grid_of(brightness, 60, 0.5), filter));
+  };
+  const PlaneField lit = edges(hills);
+  const PlaneField opposite = edges([](double x, double y) { return 100.0 - 3.0 * hills(x, y); });
+  double strongest = 0.0;
+  for (size_t i = 0; i < lit.known.size(); ++i) {
+    EXPECT_NEAR(lit.gx[i], opposite.gx[i], 2e-3);
+    EXPECT_NEAR(lit.gy[i], opposite.gy[i], 2e-3);
+    strongest = std::max(strongest, std::hypot(static_cast<double>(lit.gx[i]), static_cast<double>(lit.gy[i])));
+  }
+  EXPECT_GT(strongest, 0.8);
+  EXPECT_LE(strongest, 1.0);
+  const PlaneField ramp = edges([](double x, double y) {
+    const Eigen::Vector2d p = Eigen::Rotation2Dd(to_rad(30.0)).inverse() * Eigen::Vector2d(x, y);
+    return p.x();
+  });
+  const size_t middle = ramp.lattice.index(30, 30);
+  EXPECT_NEAR(std::atan2(ramp.gy[middle], ramp.gx[middle]), to_rad(60.0), 1e-3);
+  EXPECT_NEAR(turn_of(Layer::kPicture, to_rad(30.0)).angle(), to_rad(60.0), 1e-9);
+  EXPECT_NEAR(turn_of(Layer::kHeight, to_rad(30.0)).angle(), to_rad(30.0), 1e-9);
+}
+
+TEST(EdgeField, UniformGroundHasNone) {
+  const PlaneField flat = edge_field(plane_field(grid_of([](double, double) { return 7.0; }, 30, 0.5), {1.0, 0.5}));
+  for (size_t i = 0; i < flat.gx.size(); ++i) EXPECT_EQ(std::hypot(flat.gx[i], flat.gy[i]), 0.0f);
+}
+
+void insert(LocalMosaic& mosaic, const ElevationView& view, const Eigen::Vector2d& p_odom_body) {
+  mosaic.add(view.lattice, view.z_m, view.sigma_m, p_odom_body, 0.3);
+}
+
 TEST(LocalMosaic, KeepsCellsThatLeftTheInputMapUntilOutOfRange) {
   LocalMosaic mosaic(40.0, kCellM);
   const Pose2 T{80.0, 80.0, 0.0};
-  for (double x = 0.0; x <= 12.0; x += 4.0) mosaic.add(view_of(hills, T, {x, 0.0}), {x, 0.0}, 0.3);
+  for (double x = 0.0; x <= 12.0; x += 4.0) insert(mosaic, view_of(hills, T, {x, 0.0}), {x, 0.0});
   const HeightGrid near = mosaic.resampled(0.5);
   double area_m2 = 0.0;
   for (float w : near.weight) area_m2 += 0.25 * w;
   EXPECT_NEAR(area_m2, 30.0 * 20.0, 1.0);  // x from -8 (mosaic border) to 22
-  mosaic.add(view_of(hills, T, {200.0, 0.0}, [](int, int) { return false; }), {200.0, 0.0}, 0.3);
+  insert(mosaic, view_of(hills, T, {200.0, 0.0}, [](int, int) { return false; }), {200.0, 0.0});
   for (float w : mosaic.resampled(0.5).weight) EXPECT_EQ(w, 0.0f);
 }
 
@@ -82,8 +119,7 @@ TEST(LocalMosaic, DownsamplesByBoxAverage) {
   const Height checks = [](double x, double y) {
     return (std::lround(std::floor(x / kCellM + 1e-6) + std::floor(y / kCellM + 1e-6)) % 2 == 0) ? 0.5 : -0.5;
   };
-  mosaic.add(view_of(checks, {80.0, 80.0, 0.0}, {0.0, 0.0}, [](int, int row) { return row % 2 == 0; }), {0.0, 0.0},
-             0.3);
+  insert(mosaic, view_of(checks, {80.0, 80.0, 0.0}, {0.0, 0.0}, [](int, int row) { return row % 2 == 0; }), {0.0, 0.0});
   const HeightGrid grid = mosaic.resampled(1.0);
   int seen = 0;
   for (size_t i = 0; i < grid.weight.size(); ++i) {
@@ -100,7 +136,7 @@ TEST(LocalMosaic, IgnoresCellsWithLargeOrNanSigma) {
   ElevationView view = view_of(hills, {80.0, 80.0, 0.0}, {0.0, 0.0});
   std::fill(view.sigma_m.begin(), view.sigma_m.begin() + 20'000, 1.0f);
   std::fill(view.sigma_m.begin() + 20'000, view.sigma_m.end(), static_cast<float>(kNaN));
-  mosaic.add(view, {0.0, 0.0}, 0.3);
+  insert(mosaic, view, {0.0, 0.0});
   for (float w : mosaic.resampled(0.5).weight) EXPECT_EQ(w, 0.0f);
 }
 

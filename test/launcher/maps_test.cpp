@@ -99,6 +99,24 @@ TEST_F(UsersMaps, DriveWritesTheMapInMetres) {
   }
 }
 
+TEST_F(UsersMaps, DrivePlacesThePictureOnTheMap) {
+  MapFile picture;
+  picture.type = GDT_Byte;
+  picture.bands = 3;
+  testing_support::write(folder_.file("map.tif"), MapFile{}, hills);
+  testing_support::write(folder_.file("picture.tif"), picture, [](int x, int y) { return 20.0 + x + y; });
+  DriveArguments arguments = drive_with("map.tif");
+  arguments.picture = folder_.file("picture.tif");
+  const RunFolder run = make_drive_folder(arguments);
+  const ElevationRaster map = read_elevation_map(run.dir + "/orbital_map.tif").raster;
+  const ElevationRaster placed = read_elevation_map(run.dir + "/orbital_picture.tif").raster;
+  EXPECT_EQ(placed.west_m, map.west_m);
+  EXPECT_NEAR(placed.at(10, 10), 20.0 + 10.0 + 39.0, 0.5);
+  remove_run_folder(run);
+  arguments.picture = folder_.file("no.tif");
+  EXPECT_EQ(refusal([&] { make_drive_folder(arguments); }), "--picture no.tif: not found");
+}
+
 // 6,500 x 6,500 pixels of 0 m that take no space.
 TEST_F(UsersMaps, DriveRefersToALargeMap) {
   GDALAllRegister();

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 #include "test/point_cloud/navcam_world.hpp"
 
 namespace rover::cloud {
@@ -145,6 +147,24 @@ TEST(PointCloud, TexturelessImagesGiveEmptyCloud) {
   EXPECT_TRUE(result->cloud.empty());
   EXPECT_EQ(result->valid_fraction, 0.0);
   EXPECT_TRUE(is_finite(result->T_body_cam));
+}
+
+// Grey values per second: the same for any exposure, and the image's mean.
+TEST(PointCloud, PointsHaveTheBrightnessOfTheirPixels) {
+  PointCloud core = make_cloud();
+  const synthetic::RawPair pair = render_pair({}, 0.0, 0.0);
+  const auto mean = [&](double exposure_s) {
+    double sum = 0.0;
+    const Cloud cloud = core.step(pair.left, pair.right, 0.0, 0.0, exposure_s)->cloud;
+    for (const Point& point : cloud) sum += point.brightness;
+    return sum / static_cast<double>(cloud.size());
+  };
+  const double grey =
+      std::accumulate(pair.left.data.begin(), pair.left.data.end(), 0.0) / static_cast<double>(pair.left.data.size());
+  EXPECT_NEAR(mean(0.0), grey, 0.1 * grey);
+  EXPECT_NEAR(mean(0.02), 50.0 * mean(0.0), 0.01 * 50.0 * grey);
+  Disparity disparity(640, 480, 16 * 40);
+  for (const Point& point : core.from_disparity(disparity, 0.0, 0.0).cloud) EXPECT_TRUE(std::isnan(point.brightness));
 }
 
 TEST(PointCloud, ImageOfWrongSizeIsRejected) {

@@ -1,5 +1,6 @@
 # The cameras' tests and benchmark.
-rover_test(camera_test THREADS SOURCES camera_test.cpp camera_parts_test.cpp camera_stereo_test.cpp geometric_test.cpp LINK rover_camera_sim)
+rover_test(camera_test THREADS SOURCES camera_test.cpp camera_parts_test.cpp camera_stereo_test.cpp geometric_test.cpp ground_picture_test.cpp
+  LINK rover_camera_sim rover_orbital_picture)
 
 find_package(benchmark REQUIRED)
 add_executable(camera_bench camera_bench.cpp)

@@ -77,6 +77,32 @@ class SlamNodeTest : public testing::Test {
   Utime now_ = 0;
 };
 
+TEST_F(SlamNodeTest, BrightnessIsPassedOnIfTheCloudHasIt) {
+  set_level(supervisor_state_t::FULL);
+  drive_to_and_wait({3, 4, 0.5});
+  send_cloud(view({3, 4, 0.5}), now_ - kExposure);
+  ASSERT_EQ(elevations_.size(), 1u);
+  EXPECT_EQ(elevations_[0].picture_size, 0);
+  cloud_t cloud = view({3, 4, 0.5}, 2);
+  cloud.picture_size = cloud.point_count;
+  cloud.brightness.assign(cloud.x_m.size(), 5000.0F);
+  drive_to_and_wait({3, 4, 0.5});
+  send_cloud(cloud, now_ - kExposure);
+  ASSERT_EQ(elevations_.size(), 2u);
+  const elevation_t& e = elevations_[1];
+  ASSERT_EQ(e.picture_size, e.size);
+  for (size_t i = 0; i < e.brightness.size(); ++i)
+    if (!std::isnan(e.brightness[i])) {
+      EXPECT_NEAR(e.brightness[i], 5000.0, 1.0);
+      EXPECT_FALSE(std::isnan(e.height_m[i]));
+    }
+  cloud.picture_size = 1;
+  cloud.brightness.resize(1);
+  drive_to_and_wait({3, 4, 0.5});
+  send_cloud(cloud, now_ - kExposure);
+  EXPECT_EQ(elevations_.size(), 2u) << "brightness of other points";
+}
+
 TEST_F(SlamNodeTest, EachCloudGivesElevationAndPoseReleasedAfterLatency) {
   set_level(supervisor_state_t::FULL);
   drive_to_and_wait({3, 4, 0.5});

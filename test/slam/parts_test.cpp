@@ -47,6 +47,23 @@ TEST(AlignedCloud, VarianceGrowsWithDistanceFromCamera) {
   EXPECT_NEAR(p.variance_m2, by_depth * by_depth + by_tilt * by_tilt + 0.003 * 0.003, 1e-7);
 }
 
+TEST(ElevationMap, CellsHaveTheBrightnessOfTheirPoints) {
+  ElevationMap map({});
+  const auto insert = [&](float brightness) {
+    AlignedCloud cloud;
+    for (int i = 0; i < 10; ++i)
+      cloud.points.push_back({2.05F, 1.05F, 0.0F, 1e-4F, 0.0F, 0.0F, brightness + (i % 2 == 0 ? 10.0F : -10.0F)});
+    map.insert(cloud, {{}, 0.0, 0.0});
+    return map.grid().get(map.grid().index_of(2.05, 1.05)).brightness;
+  };
+  EXPECT_TRUE(std::isnan(insert(kNoBrightness)));
+  EXPECT_NEAR(insert(80.0F), 80.0, 1e-3) << "the first cloud with a picture";
+  const float both = insert(120.0F);
+  EXPECT_GT(both, 85.0F);
+  EXPECT_LT(both, 115.0F);
+  EXPECT_EQ(insert(kNoBrightness), both) << "a cloud without one says nothing";
+}
+
 TEST(Patches, CellWithStepHasMeanAndTop) {
   AlignedCloud cloud;
   for (int i = 0; i < 10; ++i) cloud.points.push_back({2.05F, 1.05F, i < 6 ? 0.0F : 0.3F, 1e-4F, 0.0F, 0.0F});

@@ -12,6 +12,7 @@ struct DriveArguments {
   std::string config_dir;           // empty: source_dir/config
   std::string ground;               // start pose and path; empty: config_dir/ground.yaml
   std::string map;                  // orbital map; empty: none
+  std::string picture;              // from orbit; empty: none
   std::string bus;                  // LCM URL; empty: of bus.yaml
   std::string out;                  // run folder; empty: logs/<time>-drive
   std::string record;               // full or reduced; empty: of recorder.yaml

@@ -45,11 +45,20 @@ void place_map(const std::string& file, RunFolder& folder) try {
   throw ConfigError("--map " + std::string(error.what()));
 }
 
+// On the map's ground, in its projection.
+void place_picture(const std::string& file, const RunFolder& folder) try {
+  const ElevationMapFile map(folder.dir + "/orbital_map.tif");
+  write_geotiff(folder.dir + "/orbital_picture.tif", read_picture(file, map.frame()));
+} catch (const DtmError& error) {
+  throw ConfigError("--picture " + std::string(error.what()));
+}
+
 void fill(const DriveArguments& arguments, RunFolder& folder) {
   copy_configuration(config_dir_of(arguments), folder.config_dir);
   fs::copy_file(ground_of(arguments), fs::path(folder.config_dir) / "ground.yaml",
                 fs::copy_options::overwrite_existing);
   if (!arguments.map.empty()) place_map(arguments.map, folder);
+  if (!arguments.picture.empty()) place_picture(arguments.picture, folder);
   if (arguments.headless) apply_setting("mission_control.page=false", folder.config_dir);
   if (!arguments.record.empty()) apply_setting("recorder.record=" + arguments.record, folder.config_dir);
   for (const std::string& setting : arguments.set) apply_setting(setting, folder.config_dir);

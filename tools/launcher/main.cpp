@@ -95,7 +95,10 @@ CLI::App* add_drive_command(CLI::App& app, rover::DriveArguments& drive) {
       ->transform(rover::is_user_path());
   command->add_option("--ground", drive.ground, "start pose and path; default: ground.yaml of the configuration")
       ->transform(rover::is_user_path());
-  command->add_option("--map", drive.map, "orbital map (GeoTIFF) for the page and the report")
+  CLI::Option* map = command->add_option("--map", drive.map, "orbital map (GeoTIFF) for the page and the report")
+                         ->transform(rover::is_user_path());
+  command->add_option("--picture", drive.picture, "picture from orbit of the map's ground, to localize on plains")
+      ->needs(map)
       ->transform(rover::is_user_path());
   command->add_option("--bus", drive.bus, "LCM URL; default: of bus.yaml")->check(rover::is_bus_url());
   command->add_option("--out", drive.out, "folder of the run; default: logs/<time>-drive")

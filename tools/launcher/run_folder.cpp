@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "common/bus/child_process.hpp"
 #include "common/bus/config.hpp"
 #include "common/bus/yaml_file.hpp"
 #include "common/geo/elevation_map.hpp"
@@ -96,6 +97,24 @@ void apply_arguments(const RunArguments& arguments, RunFolder& folder) {
   folder.bus_url = Config::load(folder.config_dir + "/bus.yaml").text("url");
 }
 
+// By the simulator, which renders: this takes seconds, and needs what the rover's own computer may not have.
+void make_orbital_picture(const RunArguments& arguments, const RunFolder& folder) {
+  const std::string log = folder.dir + "/service_logs/orbital_picture.log";
+  const std::vector<std::string> command = {arguments.bin_dir + "/rover_simulator",
+                                            "--scenario",
+                                            folder.scenario,
+                                            "--seed",
+                                            std::to_string(folder.seed),
+                                            "--bus",
+                                            folder.bus_url,
+                                            "--orbital-picture",
+                                            folder.dir + "/orbital_picture.tif"};
+  if (run_into(log, command) == 0) return;
+  std::string line;
+  std::getline(std::ifstream(log), line);
+  throw ConfigError("the picture from orbit could not be made: " + line);
+}
+
 void fill_run_folder(const RunArguments& arguments, const std::string& dtm_file, RunFolder& folder) {
   copy_configuration(arguments.source_dir + "/config", folder.config_dir);
   copy_scenario(arguments.scenario, dtm_file, folder.scenario);
@@ -109,6 +128,7 @@ void fill_run_folder(const RunArguments& arguments, const std::string& dtm_file,
   const World world(scenario.world, scenario.dtm, static_cast<std::uint64_t>(folder.seed));
   const ElevationRaster orbital = world.orbital_map(scenario.orbital_resolution_m);
   write_geotiff(folder.dir + "/orbital_map.tif", orbital);
+  if (scenario.orbital_picture && arguments.perception == "rendered") make_orbital_picture(arguments, folder);
   const Pose2 start = scenario.start_pose();
   write_ground(scenario, folder.level, height_at(orbital, start.x_m, start.y_m), folder.config_dir + "/ground.yaml");
 }
@@ -180,8 +200,9 @@ RunFolder make_replay_folder(const RunArguments& arguments, const std::string& n
   create_folders(dir);
   try {
     copy_configuration(config_from, folder.config_dir);
-    const fs::path orbital_map = fs::path(log_dir) / "orbital_map.tif";
-    if (fs::exists(orbital_map)) fs::copy(orbital_map, dir / "orbital_map.tif", fs::copy_options::copy_symlinks);
+    for (const char* product : {"orbital_map.tif", "orbital_picture.tif"})
+      if (const fs::path file = fs::path(log_dir) / product; fs::exists(file))
+        fs::copy(file, dir / product, fs::copy_options::copy_symlinks);
     apply_arguments(arguments, folder);
   } catch (const std::exception& error) {
     remove_run_folder(folder);

@@ -33,6 +33,10 @@ ElevationRaster whole(const HeightBand& band) {
   return band.read(band.all());
 }
 
+bool has_values(const ElevationRaster& raster) {
+  return std::any_of(raster.z_m.begin(), raster.z_m.end(), [](float value) { return std::isfinite(value); });
+}
+
 void remove_voids(const Placement& placement, const std::string& file, ElevationMap& map) {
   const UndeclaredVoids found = remove_undeclared_voids(map.raster, placement.pixel_m());
   if (!found.problem.empty()) throw DtmError(file + ": " + found.problem);
@@ -46,8 +50,7 @@ void remove_voids(const Placement& placement, const std::string& file, Elevation
   if (found.interpolated > 0)
     map.notes.push_back(
         fmt::format("{}: {} pixels beside impossible steps are treated as no data", file, found.interpolated));
-  if (std::none_of(map.raster.z_m.begin(), map.raster.z_m.end(), [](float z) { return std::isfinite(z); }))
-    throw DtmError(file + ": has no heights, all of its pixels are no data");
+  if (!has_values(map.raster)) throw DtmError(file + ": has no heights, all of its pixels are no data");
 }
 
 void place(const TargetGrid& grid, ElevationRaster& raster) {
@@ -125,7 +128,22 @@ ElevationMap read(const std::string& file) {
   return map;
 }
 
+ElevationRaster read_over(const std::string& file, const ElevationRaster& map) {
+  const OpenMap open(file, RasterKind::kPicture);
+  TargetGrid grid{map.projection_wkt, map.west_m, map.south_m, open.placement.pixel_m(), 0, 0};
+  grid.width = static_cast<std::int64_t>(map.width_m() / grid.resolution_m);
+  grid.height = static_cast<std::int64_t>(map.height_m() / grid.resolution_m);
+  check_size(open, grid);
+  ElevationRaster picture = reprojected(*open.dataset, whole(open.band), grid, file);
+  if (!has_values(picture)) throw DtmError(file + ": shows nothing of the map's ground");
+  return picture;
+}
+
 }  // namespace
+
+ElevationRaster read_picture(const std::string& file, const ElevationRaster& map) {
+  return naming_errors(file, [&] { return read_over(file, map); });
+}
 
 ElevationMap read_elevation_map(const std::string& file) {
   return naming_errors(file, [&] { return read(file); });

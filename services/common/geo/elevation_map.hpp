@@ -29,6 +29,11 @@ struct ElevationMap {
 // DtmError.
 ElevationMap read_elevation_map(const std::string& file);
 
+// The picture's brightness (the mean of its colours) on pixels of its own size over the map's ground, in the map's
+// projection. NaN where it shows none. Accepts any GDAL format with a georeference. Throws DtmError also if it shows
+// nothing of the map.
+ElevationRaster read_picture(const std::string& file, const ElevationRaster& map);
+
 // Larger maps are refused; they can be read in parts (elevation_map_file.hpp).
 constexpr std::int64_t kMaxPixelsInMemory = 40'000'000;
 

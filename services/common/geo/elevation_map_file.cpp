@@ -31,8 +31,8 @@ float mean_of_block(const ElevationRaster& part, int column, int row, int n) {
 
 }  // namespace
 
-ElevationMapFile::ElevationMapFile(const std::string& file) {
-  naming_errors(file, [&] { map_ = std::make_unique<OpenMap>(file); });
+ElevationMapFile::ElevationMapFile(const std::string& file, RasterKind kind) : kind_(kind) {
+  naming_errors(file, [&] { map_ = std::make_unique<OpenMap>(file, kind); });
   if (!map_->placement.is_metric())
     throw DtmError(file + ": is not in metres, north up (" + map_->placement.size() +
                    "); reproject it to metres with gdalwarp -t_srs, or cut out a part (gdal_translate -projwin)");
@@ -60,6 +60,7 @@ ElevationRaster ElevationMapFile::read(const PixelBox& box) const {
   raster.west_m = frame_.west_m + part.column * frame_.resolution_m;
   raster.south_m = frame_.south_m + part.row * frame_.resolution_m;
   raster.projection_wkt = frame_.projection_wkt;
+  if (kind_ == RasterKind::kPicture) return raster;
   const UndeclaredVoids found = remove_undeclared_voids(raster, frame_.resolution_m);
   if (!found.problem.empty()) throw DtmError(map_->file + ": " + found.problem);
   return raster;

@@ -1,4 +1,4 @@
-// An elevation map that is read in parts, because it can be larger than the memory.
+// An elevation map, or a picture of the ground, that is read in parts, because it can be larger than the memory.
 #pragma once
 
 #include <cstdint>
@@ -15,17 +15,18 @@ struct OpenMap;
 class ElevationMapFile {
  public:
   // Reads no heights. The map must be north-up with square pixels in true metres (elevation_map.hpp).
-  explicit ElevationMapFile(const std::string& file);
+  explicit ElevationMapFile(const std::string& file, RasterKind kind = RasterKind::kHeights);
   ~ElevationMapFile();
 
   // The map's size and georeference, without heights.
   const ElevationRaster& frame() const { return frame_; }
-  // Columns and rows beyond the map are cut off. NaN: void.
+  // Columns and rows beyond the map are cut off. NaN: void. Of a picture z_m is the brightness.
   ElevationRaster read(const PixelBox& box) const;
   // Means of blocks of n x n pixels; a block with a void is void. Columns and rows that fill no block are left out.
   ElevationRaster merged(int n) const;
 
  private:
+  RasterKind kind_;
   std::unique_ptr<OpenMap> map_;
   ElevationRaster frame_;
 };

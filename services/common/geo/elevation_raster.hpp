@@ -8,6 +8,12 @@
 
 namespace rover {
 
+// What a file's bands hold.
+enum class RasterKind {
+  kHeights,  // one band, in metres after conversion
+  kPicture,  // brightness: the mean of the colour bands
+};
+
 // Columns from the west, rows from the south.
 struct PixelBox {
   int column = 0;

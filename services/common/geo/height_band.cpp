@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -93,12 +94,15 @@ GDALRasterBand* alpha_band(GDALDataset& dataset) {
   return bands.empty() ? nullptr : bands.front();
 }
 
-GDALRasterBand& only_band(GDALDataset& dataset, const std::string& file) {
-  const std::vector<GDALRasterBand*> bands = bands_of(dataset, false);
-  if (bands.size() != 1)
+std::vector<GDALRasterBand*> data_bands(GDALDataset& dataset, const std::string& file, RasterKind kind) {
+  std::vector<GDALRasterBand*> bands = bands_of(dataset, false);
+  if (kind == RasterKind::kHeights && bands.size() != 1)
     throw DtmError(file + ": has " + std::to_string(bands.size()) +
                    " bands of data; one height band is expected, extract it with gdal_translate -b NUMBER");
-  return *bands.front();
+  if (bands.empty()) throw DtmError(file + ": has no picture");
+  if (kind == RasterKind::kPicture && bands.front()->GetColorTable() != nullptr)
+    throw DtmError(file + ": has a palette; expand it with gdal_translate -expand gray");
+  return bands;
 }
 
 void require_heights(GDALRasterBand& band, const std::string& file) {
@@ -144,15 +148,22 @@ CPLErr read_line(GDALRasterBand& band, int column, int line, std::vector<double>
 
 }  // namespace
 
-HeightBand::HeightBand(GDALDataset& dataset, const std::string& file)
-    : file_(file), band_(only_band(dataset, file)), alpha_(alpha_band(dataset)) {
-  require_heights(band_, file);
-  const double metres = metres_of_height(dataset, band_, file);
-  scale_ = band_.GetScale() * metres;
-  offset_ = band_.GetOffset() * metres;
+HeightBand::HeightBand(GDALDataset& dataset, const std::string& file, RasterKind kind)
+    : file_(file), bands_(data_bands(dataset, file, kind)), alpha_(alpha_band(dataset)) {
+  if (kind == RasterKind::kPicture) {
+    scale_ = 1.0 / static_cast<double>(bands_.size());
+    lowest_ = -kInfinity;  // black and white are brightness, too
+    highest_ = kInfinity;
+    return;
+  }
+  GDALRasterBand& band = *bands_.front();
+  require_heights(band, file);
+  const double metres = metres_of_height(dataset, band, file);
+  scale_ = band.GetScale() * metres;
+  offset_ = band.GetOffset() * metres;
   if (!std::isfinite(scale_) || !std::isfinite(offset_) || scale_ == 0.0)
     throw DtmError(file + ": scale or offset of its heights is invalid");
-  std::tie(lowest_, highest_) = limits_of(band_.GetRasterDataType());
+  std::tie(lowest_, highest_) = limits_of(band.GetRasterDataType());
 }
 
 float HeightBand::height_of(double value, bool masked) const {
@@ -168,12 +179,17 @@ ElevationRaster HeightBand::read(const PixelBox& box) const {
   raster.height = box.height;
   raster.z_m.resize(static_cast<size_t>(raster.width) * raster.height);
   if (raster.z_m.empty()) return raster;
-  std::vector<double> values(box.width), valid(box.width, 255.0);
+  std::vector<double> values(box.width), more(box.width), valid(box.width, 255.0);
+  GDALRasterBand& band = *bands_.front();
   GDALRasterBand* mask = alpha_;
-  if (mask == nullptr && (band_.GetMaskFlags() & GMF_ALL_VALID) == 0) mask = band_.GetMaskBand();
-  const int last_line = band_.GetYSize() - 1 - box.row;  // GDAL's lines run from the north
+  if (mask == nullptr && (band.GetMaskFlags() & GMF_ALL_VALID) == 0) mask = band.GetMaskBand();
+  const int last_line = band.GetYSize() - 1 - box.row;  // GDAL's lines run from the north
   for (int row = box.height - 1; row >= 0; --row) {
-    CPLErr error = read_line(band_, box.column, last_line - row, values);
+    CPLErr error = read_line(band, box.column, last_line - row, values);
+    for (size_t k = 1; k < bands_.size() && error == CE_None; ++k) {
+      error = read_line(*bands_[k], box.column, last_line - row, more);
+      std::transform(values.begin(), values.end(), more.begin(), values.begin(), std::plus<>());
+    }
     if (mask != nullptr && error == CE_None) error = read_line(*mask, box.column, last_line - row, valid);
     if (error != CE_None) throw DtmError(file_ + ": truncated or damaged" + gdal.last_error());
     for (int column = 0; column < box.width; ++column)

@@ -26,7 +26,7 @@ std::unique_ptr<GDALDataset> opened(const std::string& file) {
 
 }  // namespace
 
-OpenMap::OpenMap(const std::string& name)
-    : file(name), dataset(opened(name)), placement(*dataset, name), band(*dataset, name) {}
+OpenMap::OpenMap(const std::string& name, RasterKind kind)
+    : file(name), dataset(opened(name)), placement(*dataset, name), band(*dataset, name, kind) {}
 
 }  // namespace rover

@@ -1,4 +1,4 @@
-// A file opened with GDAL: its georeference and its band of heights.
+// A file opened with GDAL: its georeference and its heights or brightness.
 #pragma once
 
 #include <gdal_priv.h>
@@ -16,7 +16,7 @@ namespace rover {
 
 struct OpenMap {
   // Reads no heights. Throws DtmError.
-  explicit OpenMap(const std::string& file);
+  explicit OpenMap(const std::string& file, RasterKind kind = RasterKind::kHeights);
 
   std::string file;
   std::unique_ptr<GDALDataset> dataset;

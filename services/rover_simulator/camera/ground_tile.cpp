@@ -20,11 +20,11 @@ GroundTile::GroundTile(RTCDevice device, const Heights& heights, const Surface& 
 
 GroundTile::GroundTile(RTCDevice device, const HeightTile& heights)
     : key_(heights.key), origin_(key_.x_m(), key_.y_m(), heights.base_m) {
-  build_mesh(device, heights);
+  if (device != nullptr) build_mesh(device, heights);
 }
 
 GroundTile::~GroundTile() {
-  rtcReleaseScene(scene_);
+  if (scene_ != nullptr) rtcReleaseScene(scene_);
 }
 
 // Reduced modulo the texture period in double precision, so single precision suffices afterwards.

@@ -29,6 +29,7 @@ class GroundTile {
     std::shared_ptr<const HeightTile> self, next_x, next_y, next_xy;
   };
 
+  // Without a device: no mesh, for radiance alone.
   GroundTile(RTCDevice device, const Heights& heights, const Surface& surface, const GroundAppearance& appearance,
              const GroundTexture& texture);
   // The mesh alone: for ranges, not for radiance.

@@ -17,6 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr Range kMap{-1e7, 1e7};
 constexpr double kSamePointM = 1e-3;
+constexpr double kMaxPictureAreaM2 = 500'000.0;  // all of it is in the memory
 constexpr double kGoalClearRadiusM = 1.0;
 constexpr double kClearHeightM = 0.12;  // maximum rock height in a certified circle, below hazard size
 
@@ -53,6 +54,15 @@ void read_orbital(const Config& orbital, Scenario& scenario) {
   orbital.read("distortion_m", config.distortion_m, {0, 10});
 }
 
+OrbitalPictureConfig read_orbital_picture(const Config& yaml) {
+  OrbitalPictureConfig config;
+  yaml.read("resolution_m", config.resolution_m, {0.1, 5});
+  yaml.read_deg("sun_elevation_deg", config.sun_elevation_rad, {5, 90});
+  yaml.read_deg("sun_azimuth_deg", config.sun_azimuth_rad, {-360, 360});
+  yaml.read("noise", config.noise, {0, 1});
+  return config;
+}
+
 std::vector<RockZone> read_rock_zones(const Config& world) {
   std::vector<RockZone> zones;
   for (const Config& yaml : world.list("rock_zones")) {
@@ -83,6 +93,11 @@ void read_world(const Config& world, const std::string& file, Scenario& scenario
   world.read("roughness_rms_m", scenario.world.roughness.rms_m, {0, 0.1});
   if (world.has("soil")) read_soil(world.section("soil"), scenario.world.soil);
   if (world.has("orbital_map")) read_orbital(world.section("orbital_map"), scenario);
+  if (world.has("orbital_picture")) {
+    scenario.orbital_picture = read_orbital_picture(world.section("orbital_picture"));
+    if (scenario.dtm.width_m() * scenario.dtm.height_m() > kMaxPictureAreaM2)
+      world.fail("orbital_picture", "the world is too large for it: at most 500000 m2 are rendered");
+  }
   world.read("gravity_mps2", scenario.gravity_mps2, {0.5, 20});
 }
 

@@ -38,6 +38,7 @@ struct Scenario {
   std::uint64_t seed = 1;              // seed of the run, unless given on the command line
   WorldConfig world;                   // keep-clear circles of start and goal included
   double orbital_resolution_m = 1.0;
+  std::optional<OrbitalPictureConfig> orbital_picture;  // absent: the rover has none
   double gravity_mps2 = 3.71;
   double sun_elevation_rad = to_rad(40.0);
   double sun_azimuth_rad = to_rad(135.0);  // towards the sun, counter-clockwise from east

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "common/geo/elevation_raster.hpp"
+#include "rover_simulator/world/noise.hpp"
+#include "rover_simulator/world/orbital_products.hpp"
 #include "rover_simulator/world/rocks.hpp"
 #include "rover_simulator/world/soil.hpp"
 #include "rover_simulator/world/surface.hpp"
@@ -19,15 +21,6 @@ struct RoughnessConfig {
   double hurst = 0.8;           // amplitude ~ wavelength^hurst (Mars at sub-metre scale: about 0.7-0.9)
   double sand_factor = 0.5;
   double bedrock_factor = 1.3;
-};
-
-// Errors of the orbital map relative to the world.
-struct OrbitalConfig {
-  double smoothing_px = 0.7;      // Gaussian, standard deviation
-  double vertical_noise_m = 0.1;  // rms
-  double noise_correlation_px = 2.0;
-  double distortion_m = 0.3;  // rms, horizontal, per axis
-  double distortion_wave_m = 60.0;
 };
 
 struct WorldConfig {
@@ -50,6 +43,9 @@ class World : public Surface {
   std::vector<Rock> rocks_in(double x0_m, double y0_m, double x1_m, double y1_m) const;
   // Orbital map for the rover: same frame and datum, with the errors of OrbitalConfig.
   ElevationRaster orbital_map(double resolution_m) const;
+  // Its pixels without heights, and the displacement of what they show: a picture from orbit has the same.
+  ElevationRaster orbital_frame(double resolution_m) const;
+  OrbitalShift shift_in(const ElevationRaster& frame) const;
 
   // smooth: without roughness and rocks; ground: without rocks.
   double smooth_height_m(double x_m, double y_m) const;
@@ -57,6 +53,7 @@ class World : public Surface {
   double width_m() const { return dtm_.width_m(); }
   double length_m() const { return dtm_.height_m(); }
   bool contains(double x_m, double y_m) const;
+  const OrbitalConfig& orbital() const { return config_.orbital; }
   double datum_m() const { return datum_m_; }  // minimum of the elevation model, subtracted from it
 
  private:
@@ -65,6 +62,7 @@ class World : public Surface {
   };
   Ground smooth_ground(double x_m, double y_m) const;
   double roughness_m(double x_m, double y_m) const;
+  std::uint64_t orbital_seed() const { return hash_cell(seed_, 77, 0); }
 
   WorldConfig config_;
   ElevationRaster dtm_;
