@@ -32,6 +32,11 @@ TABLE=$("$BUILD/test/tools/correction_bench") || STATUS=$?
   echo "*NEES*: mean normalised error squared against the truth, per degree of freedom (x, y, yaw); 1 is consistent. The"
   echo "covariance includes the distortion of the map, which the other rows do not have."
   echo
+  echo "The second table is of plains, 150 m each (rock areas 2-12 %, slope 1 deg, every second one of one soil alone), where relief gives no fix. The"
+  echo "rover sees the brightness of the ground under its own sun (40 deg high in the north-west) with an exposure that varies by 5 %,"
+  echo "the orbiter under a sun of 25 to 65 deg anywhere. A row is met if no accepted match shows another place (wrong by more than"
+  echo "1 m), at least 80 % of the attempts are accepted, p95 is at most one pixel, and no attempt takes more than 0.3 s."
+  echo
   echo "$TABLE"
 } >$OUT.new
 mv $OUT.new $OUT

@@ -162,11 +162,12 @@ FaultRecord fault_from(const fault_t& message) {
 }
 
 CorrectionRecord correction_from(const correction_t& message) {
+  const std::string by = message.layer == correction_t::PICTURE ? "by picture" : "by relief";
   return {to_seconds(message.header.utime),
           message.accepted != 0,
           {message.x_m, message.y_m, message.yaw_rad},
           to_seconds(message.header.release_utime),
-          message.reason};
+          message.accepted != 0 ? by : message.reason};
 }
 
 SlamSample slam_from(const slam_pose_t& message) {

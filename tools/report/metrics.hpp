@@ -40,7 +40,7 @@ struct CorrectionFigure {
   double after_m = kNaN;             // of the estimate after localization applied it
   double correction_error_m = kNaN;  // of the correction itself; NaN if rejected
   bool accepted = false;
-  std::string reason;  // reason of the rejection
+  std::string reason;  // of the rejection; of a fix: what was matched
 };
 
 struct ServiceFigures {

@@ -159,7 +159,7 @@ struct CorrectionRecord {
   bool accepted = false;
   Pose2 T_map_odom;
   double released_s = kNaN;
-  std::string reason;  // of a rejection
+  std::string reason;  // of a rejection; of a fix: what was matched
 };
 
 // Each SLAM_POSE.
