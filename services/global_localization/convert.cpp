@@ -47,6 +47,8 @@ void correction_to(const Correction& correction, const Prior& prior, correction_
   message.reason = correction.reason;
   if (correction.reason.starts_with("ambiguous"))
     message.reason += " (" + std::to_string(correction.similar_places) + " places)";
+  if (!correction.accepted && !correction.picture_reason.empty())
+    message.reason += "; picture: " + std::string(correction.picture_reason);
 }
 
 }  // namespace rover::global

@@ -223,6 +223,7 @@ Correction GlobalLocalization::correct(const Prior& prior) const {
   // Pictures show too many similar places to a lost rover.
   if (located || !picture_ || is_lost(config_.search, prior)) return by_relief;
   const Correction by_picture = correct_by_picture(prior);
+  by_relief.picture_reason = by_picture.reason;
   return by_picture.accepted ? by_picture : by_relief;
 }
 

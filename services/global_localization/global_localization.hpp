@@ -83,9 +83,10 @@ bool is_lost(const SearchConfig& config, const Prior& prior);
 struct Correction {
   Layer layer = Layer::kHeight;
   bool accepted = false;
-  std::string_view reason = {};        // why the match was rejected; empty if accepted
-  int axes = 0;                        // along which the relief locates the rover: 2 (and yaw), 1 or 0
-  Pose2 T_map_odom{kNaN, kNaN, kNaN};  // with one axis: the prior's across it, and its yaw
+  std::string_view reason = {};          // why the match was rejected; empty if accepted
+  std::string_view picture_reason = {};  // the same of the picture, if relief and picture were tried in vain
+  int axes = 0;                          // along which the relief locates the rover: 2 (and yaw), 1 or 0
+  Pose2 T_map_odom{kNaN, kNaN, kNaN};    // with one axis: the prior's across it, and its yaw
   Eigen::Matrix3d cov = Eigen::Matrix3d::Constant(kNaN);  // as Prior::cov
   double score = 0.0;                                     // correlation of the best match
   double second_score = 0.0;                              // and of the second best

@@ -31,11 +31,20 @@ GlobalLocalizationNode::GlobalLocalizationNode(Node& node, const NodeConfig& con
 void GlobalLocalizationNode::load_map() {
   try {
     const std::string& dir = node_.options().run_dir;
-    core_.emplace(config_.core, open_orbital_map(dir), config_.local_cell_m, open_orbital_picture(dir));
+    core_.emplace(config_.core, open_orbital_map(dir), config_.local_cell_m, load_picture(dir));
   } catch (const DtmError& error) {  // the rover can drive without an orbital map
     node_.set_status(heartbeat_t::DEGRADED, error.what());
     node_.log("WARN", std::string("NO_ORBITAL_MAP ") + error.what());
   }
+}
+
+// Relief does without it.
+std::optional<OrbitalMap> GlobalLocalizationNode::load_picture(const std::string& run_dir) try {
+  return open_orbital_picture(run_dir);
+} catch (const DtmError& error) {
+  node_.set_status(heartbeat_t::DEGRADED, error.what());
+  node_.log("WARN", std::string("NO_ORBITAL_PICTURE ") + error.what());
+  return std::nullopt;
 }
 
 void GlobalLocalizationNode::on_elevation(const elevation_t& message) {

@@ -23,6 +23,7 @@ class GlobalLocalizationNode {
 
  private:
   void load_map();
+  std::optional<OrbitalMap> load_picture(const std::string& run_dir);
   void on_elevation(const elevation_t& message);
   void search_if_lost();
   std::string rejection_reason(const elevation_t& message) const;

@@ -303,14 +303,6 @@ TEST(GlobalLocalization, IsDeterministicBitForBit) {
   EXPECT_EQ(a.cov, b.cov);
 }
 
-// Ground without relief, and its brightness.
-double level(double, double) {
-  return 0.0;
-}
-double marks(double x, double y) {
-  return 100.0 + 20.0 * gradient_noise(9, x / 3.0, y / 3.0) + 10.0 * gradient_noise(10, x / 1.2, y / 1.2);
-}
-
 GlobalLocalization driven_with_picture(const Height& height, const Height& from_orbit, const Height& from_rover,
                                        bool seen = true) {
   GlobalLocalization core(config_for_test(), orbital_of(height, 1.0), kCellM, OrbitalMap(orbital_of(from_orbit, 0.25)));

@@ -43,6 +43,8 @@ elevation_t message_of(const ElevationView& view) {
   message.size = static_cast<std::int32_t>(view.z_m.size());
   message.height_m = view.z_m;
   message.sigma_m = view.sigma_m;
+  message.brightness = view.brightness;
+  message.picture_size = static_cast<std::int32_t>(view.brightness.size());
   return message;
 }
 
@@ -308,6 +310,57 @@ TEST_F(GlobalLocalizationNodeTest, InvalidOrbitalMapIsNamedInError) {
   EXPECT_EQ(refusal(), "");
   const OrbitalMap map = open_orbital_map(dir_.string());
   EXPECT_EQ(map.around({4.0, 4.0}, 8.0).weight[7], 0.0f);
+}
+
+// The picture begins 10 m east and 5 m north of the map's corner.
+TEST_F(GlobalLocalizationNodeTest, PictureLocatesTheRoverOnAPlain) {
+  write_map(level);
+  const auto shifted = [](double x, double y) { return marks(x + 10.0, y + 5.0); };
+  ElevationRaster picture = raster_of(shifted, 0.25);
+  picture.west_m += 10.0;
+  picture.south_m += 5.0;
+  write_geotiff((dir_ / "orbital_picture.tif").string(), picture);
+  start();
+  for (int k = 0; k < 4; ++k) {
+    place_.x() += 4.0;
+    travelled_m_ += 4.0;
+    ElevationView view = view_of(level, kTruth, place_);
+    view.brightness = view_of(marks, kTruth, place_).z_m;
+    publish_inputs(pose(), message_of(view));
+  }
+  ASSERT_EQ(corrections_.size(), 1u);
+  const correction_t& c = corrections_[0];
+  ASSERT_EQ(c.accepted, 1) << c.reason;
+  EXPECT_EQ(c.layer, +correction_t::PICTURE);
+  const Pose2 found{c.x_m, c.y_m, c.yaw_rad};
+  EXPECT_LT((transformed(found, place_) - transformed(kTruth, place_)).norm(), 0.15);
+}
+
+TEST_F(GlobalLocalizationNodeTest, WithoutAReadablePictureReliefDoes) {
+  write_map();
+  std::ofstream(dir_ / "orbital_picture.tif") << "no picture";
+  start();
+  drive(16.0);
+  ASSERT_EQ(corrections_.size(), 1u);
+  EXPECT_EQ(corrections_[0].accepted, 1) << corrections_[0].reason;
+  EXPECT_EQ(corrections_[0].layer, +correction_t::HEIGHT);
+  world_->tick(now_ += 1'000'000);
+  ASSERT_FALSE(heartbeats_.empty());
+  EXPECT_EQ(heartbeats_.back().status, +heartbeat_t::DEGRADED);
+  EXPECT_NE(heartbeats_.back().text.find("orbital_picture.tif: not a readable"), std::string::npos);
+}
+
+TEST_F(GlobalLocalizationNodeTest, RejectionNamesReliefAndPicture) {
+  write_map(level);
+  write_geotiff((dir_ / "orbital_picture.tif").string(), raster_of(marks, 0.25));
+  start();
+  for (int k = 0; k < 4; ++k) {
+    place_.x() += 4.0;
+    travelled_m_ += 4.0;
+    publish_inputs(pose(), message_of(view_of(level, kTruth, place_)));
+  }
+  ASSERT_EQ(corrections_.size(), 1u);
+  EXPECT_EQ(corrections_[0].reason, "not enough relief; picture: local picture too small");
 }
 
 class GlobalLocalizationConfigTest : public testing::Test {};

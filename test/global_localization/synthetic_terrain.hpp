@@ -25,6 +25,14 @@ inline double hills(double x_m, double y_m) {
   return z;
 }
 
+// Ground without relief, and its brightness.
+inline double level(double, double) {
+  return 0.0;
+}
+inline double marks(double x_m, double y_m) {
+  return 100.0 + 20.0 * gradient_noise(9, x_m / 3.0, y_m / 3.0) + 10.0 * gradient_noise(10, x_m / 1.2, y_m / 1.2);
+}
+
 inline HeightGrid orbital_of(const Height& height, double cell_m, double noise_m = 0.0) {
   HeightGrid grid;
   const int cells = static_cast<int>(kSideM / cell_m);
