@@ -36,7 +36,8 @@ std::optional<Prior> prior_from(const pose_t& message) {
 void correction_to(const Correction& correction, const Prior& prior, correction_t& message) {
   const Pose2& T = correction.accepted ? correction.T_map_odom : prior.T_map_odom;
   const Eigen::Matrix3d& cov = correction.accepted ? correction.cov : prior.cov;
-  message.layer = correction.layer == Layer::kPicture ? correction_t::PICTURE : correction_t::HEIGHT;
+  message.layer =
+      static_cast<std::int8_t>(correction.layer == Layer::kPicture ? +correction_t::PICTURE : +correction_t::HEIGHT);
   message.accepted = correction.accepted ? 1 : 0;
   message.x_m = T.x_m;
   message.y_m = T.y_m;
