@@ -1,6 +1,5 @@
-// Edges of a picture, which two pictures of the same ground share under different light. The contrast of an edge
-// depends on the light and its sign on where the sun is, so an edge is its direction modulo half a turn, with a weight
-// from 0 to 1.
+// Edges of a picture: the direction of the brightness gradient modulo half a turn, with a weight from 0 to 1. Under
+// another sun their contrast and sign change, their directions remain.
 #pragma once
 
 #include "global_localization/plane_field.hpp"

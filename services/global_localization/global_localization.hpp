@@ -84,7 +84,7 @@ struct Correction {
   Layer layer = Layer::kHeight;
   bool accepted = false;
   std::string_view reason = {};          // why the match was rejected; empty if accepted
-  std::string_view picture_reason = {};  // the same of the picture, if relief and picture were tried in vain
+  std::string_view picture_reason = {};  // the same of the picture, if it was tried after relief
   int axes = 0;                          // along which the relief locates the rover: 2 (and yaw), 1 or 0
   Pose2 T_map_odom{kNaN, kNaN, kNaN};    // with one axis: the prior's across it, and its yaw
   Eigen::Matrix3d cov = Eigen::Matrix3d::Constant(kNaN);  // as Prior::cov

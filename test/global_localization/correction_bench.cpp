@@ -299,13 +299,8 @@ void print_quantiles(const std::vector<double>& values, std::initializer_list<do
   std::printf("%s | ", values.empty() ? "" : text.c_str());
 }
 
-void print(const Row& row) {
-  const double share = row.featured_tries > 0 ? 100.0 * row.accepted / row.featured_tries : 0.0;
-  std::printf("| %s | %.1f | %d / %d | %d / %d | %d (%.1f %%) | %d | %.0f %% | %d | ", row.name.c_str(), row.cell_m,
-              row.featured_maps, row.maps, row.featured_tries, row.tries, row.accepted, share, row.one_axis,
-              100.0 * (row.accepted + row.one_axis) / std::max(row.tries, 1), row.wrong);
-  print_quantiles(row.error_m, {0.5, 0.95, 1.0});
-  print_quantiles(row.along_m, {0.95, 1.0});
+// The columns that both tables end with.
+void print_common(const Row& row) {
   print_quantiles(row.truth_m, {0.95});
   print_quantiles(row.error_deg, {0.5, 0.95});
   print_quantiles(row.nees.empty() ? row.nees : std::vector<double>{mean(row.nees)}, {1.0});
@@ -315,17 +310,21 @@ void print(const Row& row) {
                             : "NO");
 }
 
+void print(const Row& row) {
+  const double share = row.featured_tries > 0 ? 100.0 * row.accepted / row.featured_tries : 0.0;
+  std::printf("| %s | %.1f | %d / %d | %d / %d | %d (%.1f %%) | %d | %.0f %% | %d | ", row.name.c_str(), row.cell_m,
+              row.featured_maps, row.maps, row.featured_tries, row.tries, row.accepted, share, row.one_axis,
+              100.0 * (row.accepted + row.one_axis) / std::max(row.tries, 1), row.wrong);
+  print_quantiles(row.error_m, {0.5, 0.95, 1.0});
+  print_quantiles(row.along_m, {0.95, 1.0});
+  print_common(row);
+}
+
 void print_picture(const Row& row) {
   std::printf("| %s | %.2f | %d | %d | %d (%.1f %%) | %d | ", row.name.c_str(), row.cell_m, row.maps, row.tries,
               row.accepted, 100.0 * row.accepted / std::max(row.tries, 1), row.wrong);
   print_quantiles(row.error_m, {0.5, 0.95, 1.0});
-  print_quantiles(row.truth_m, {0.95});
-  print_quantiles(row.error_deg, {0.5, 0.95});
-  print_quantiles(row.nees.empty() ? row.nees : std::vector<double>{mean(row.nees)}, {1.0});
-  std::printf("%.0f / %.0f | %s |\n", 1e3 * quantile(row.time_s, 0.5), 1e3 * quantile(row.time_s, 1.0),
-              !row.demanded ? "not judged"
-              : holds(row)  ? "yes"
-                            : "NO");
+  print_common(row);
 }
 
 // Brightness of the ground under a sun in the direction `sun`.
@@ -346,6 +345,7 @@ ElevationRaster shaded(const ElevationRaster& dtm, const Eigen::Vector3d& sun) {
 // two are aligned to a few metres: the offset is unknown, but the same everywhere.
 void match_real_picture(const GlobalConfig& config, const ElevationRaster& dtm, const std::string& picture_file) {
   const ElevationRaster picture = read_picture(picture_file, dtm);
+  // The picture's own light is not given: of six directions the one that fits best.
   const double azimuth_rad = to_rad(145.0), elevation_rad = to_rad(45.0);
   const ElevationRaster relief =
       shaded(dtm, {std::cos(elevation_rad) * std::cos(azimuth_rad), std::cos(elevation_rad) * std::sin(azimuth_rad),

@@ -29,9 +29,8 @@ struct ElevationMap {
 // DtmError.
 ElevationMap read_elevation_map(const std::string& file);
 
-// The picture's brightness (the mean of its colours) on pixels of its own size over the map's ground, in the map's
-// projection. NaN where it shows none. Accepts any GDAL format with a georeference. Throws DtmError also if it shows
-// nothing of the map.
+// Brightness (mean of the colours) in pixels of the picture's size over the map's ground, in the map's projection; NaN
+// where it shows none. Any GDAL format with a georeference. Throws DtmError, also if it shows nothing of the map.
 ElevationRaster read_picture(const std::string& file, const ElevationRaster& map);
 
 // Larger maps are refused; they can be read in parts (elevation_map_file.hpp).
