@@ -61,13 +61,16 @@ void ActivePath::set_plan(std::int64_t id, PathKind kind, std::vector<PlanPose> 
   plan_end_m_ = route_.s_at(planned - 1);
 }
 
-// The next segment begins where the rover no longer moves in the direction of this one.
-void ActivePath::follow(Point2 rover, double forward_mps) {
+// The next segment begins where the rover no longer moves in the direction of this one, or has turned to the next.
+void ActivePath::follow(const Pose2& rover, double forward_mps) {
   const PathSegment now = segment();
-  progress_m_ = route_.closest(rover, std::max(progress_m_ - kSearchBackM, now.begin_m),
+  progress_m_ = route_.closest(position(rover), std::max(progress_m_ - kSearchBackM, now.begin_m),
                                std::min(progress_m_ + kSearchAheadM, now.end_m));
+  if (now.end_m - progress_m_ > kEndM || now.end_m >= route_.length_m()) return;
   const bool moves = (now.reverse ? -forward_mps : forward_mps) > kAtRestMps;
-  if (now.end_m - progress_m_ <= kEndM && !moves && now.end_m < route_.length_m()) progress_m_ = now.end_m;
+  const auto turn_to = [&](double yaw_rad) { return std::abs(wrap_angle(yaw_rad - rover.yaw_rad)); };
+  const size_t next = route_.vertex_after(now.end_m) - 1;
+  if (!moves || turn_to(route_.yaw_out_of(next)) < turn_to(route_.yaw_into(next))) progress_m_ = now.end_m;
 }
 
 // A path that passes one place twice may take the progress of the first for that of the second.
@@ -78,11 +81,13 @@ bool ActivePath::at_end(Point2 rover) const {
 }
 
 ActivePath::Start ActivePath::start_after(double committed_m) const {
-  const PathSegment now = segment();
+  PathSegment now = segment();
   double at = progress_m_ + committed_m;
   for (const size_t i : route_.corners())
     if (route_.s_at(i) > progress_m_ - kPastCornerM && route_.s_at(i) < at + kPastCornerM)
       at = std::max(at, route_.s_at(i) + kPastCornerM);
+  while (now.end_m < at && now.end_m < route_.length_m() && route_.reverse_at(now.end_m) == now.reverse)
+    now = route_.segment_at(now.end_m);
   at = std::min(at, now.end_m);
   const double chord = std::min(kChordM, at - now.begin_m);
   const double bend = chord > 0.0 ? (route_.pose_at(at).yaw_rad - route_.pose_at(at - chord).yaw_rad) / chord : 0.0;

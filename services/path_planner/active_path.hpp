@@ -49,7 +49,7 @@ class ActivePath {
   // A plan that begins at the rover, or `behind` it, followed by `tail`.
   void set_plan(std::int64_t id, PathKind kind, std::vector<PlanPose> plan, const std::vector<RoutePoint>& tail,
                 double corridor_half_width_m, std::int8_t level, const Pose2& rover);
-  void follow(Point2 rover, double forward_mps);
+  void follow(const Pose2& rover, double forward_mps);
   // From a checkpoint; the plan is not kept, only the path made from it.
   void restore(std::int64_t id, PathKind kind, Route route, double corridor_half_width_m, double progress_m,
                double planned_m) {

@@ -7,7 +7,7 @@
 namespace rover::planning {
 namespace {
 
-constexpr std::uint32_t kVersion = 6;
+constexpr std::uint32_t kVersion = 7;
 
 void put_points(StateWriter& out, const std::vector<RoutePoint>& points) {
   out.put(static_cast<std::uint64_t>(points.size()));
@@ -140,6 +140,7 @@ std::vector<std::uint8_t> PathPlanner::save() const {
   out.put(active_.corridor_half_width_m());
   out.put(active_.progress_m());
   out.put(active_.planned_m());
+  out.put(static_cast<std::uint8_t>(turning_));
   out.put(static_cast<std::uint64_t>(breadcrumbs_.points().size()));
   for (const Point2& p : breadcrumbs_.points()) out.put(p);
   put_map(out, belief_.cells());
@@ -168,6 +169,7 @@ bool PathPlanner::restore(const std::vector<std::uint8_t>& bytes) {
   const auto corridor_m = in.get<double>();
   const auto progress_m = in.get<double>();
   const auto planned_m = in.get<double>();
+  fresh.turning_ = in.get<std::uint8_t>() != 0;
   std::deque<Point2> crumbs(in.count(sizeof(Point2)));
   for (Point2& p : crumbs) p = in.get<Point2>();
   if (!get_map(in, fresh.belief_.cells()) || !in.finished()) return false;

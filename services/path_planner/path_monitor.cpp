@@ -25,7 +25,10 @@ class Monitor {
     const std::vector<size_t>& corners = query_.route.corners();
     for (double s = query_.from_m; s <= query_.route.length_m() && !complete(); s += kStepM) {
       for (; corner < corners.size() && query_.route.s_at(corners[corner]) < s; ++corner)
-        if (query_.route.s_at(corners[corner]) > query_.from_m && check_corner(corners[corner], s)) view_known = false;
+        if (query_.route.s_at(corners[corner]) > query_.from_m) {
+          check_corner(corners[corner], s);
+          view_known = false;
+        }
       const Pose2 pose = expected_pose(s, here);
       if (!query_.costmap.contains(position(pose))) break;
       check(pose, s, view_known);
@@ -39,13 +42,10 @@ class Monitor {
  private:
   bool complete() const { return std::isfinite(blockage_.hazard_m) && std::isfinite(blockage_.unseen_m); }
 
-  // False if the corner is so small that the rover does not stop for it.
-  bool check_corner(size_t i, double s_m) {
-    const double turn = wrap_angle(query_.route.yaw_out_of(i) - query_.route.yaw_into(i));
-    if (std::abs(turn) <= query_.turn_threshold_rad) return false;
+  void check_corner(size_t i, double s_m) {
     const Point2 p = query_.route.points()[i].p;
-    check_turn({p.x_m, p.y_m, query_.route.yaw_into(i)}, turn, s_m);
-    return true;
+    const double yaw_rad = query_.route.yaw_into(i);
+    check_turn({p.x_m, p.y_m, yaw_rad}, wrap_angle(query_.route.yaw_out_of(i) - yaw_rad), s_m);
   }
 
   void check_turn(Pose2 pose, double turn_rad, double s_m) {

@@ -17,8 +17,7 @@ struct MonitorQuery {
   Pose2 rover;
   Pose2 planned_from;  // where the rover was then
   double margin_m = 0.0;
-  bool turning = false;             // the rover turns on the spot to the heading of the route first
-  double turn_threshold_rad = 0.7;  // larger corners of the route are point turns
+  bool turning = false;  // the rover turns on the spot to the heading of the route first
   ViewArea view;
   SideSlip side_slip;
 };

@@ -227,7 +227,7 @@ void PathPlanner::follow_global_path() {
 }
 
 void PathPlanner::follow() {
-  active_.follow(position(rover()), history_.newest().forward_mps);
+  active_.follow(rover(), history_.newest().forward_mps);
   track_progress();
   track_turn();
   // Past a repair the path is the global path again, with its own corridor.
@@ -253,11 +253,15 @@ void PathPlanner::track_progress() {
   back_ups_ = wanted_back_ups_ = 0;
 }
 
-// A point turn goes on below the error that starts one.
+// As trajectory_control does: a point turn goes on below the error that starts one.
+bool PathPlanner::turns_to(double yaw_rad) const {
+  const double error_rad = std::abs(wrap_angle(yaw_rad - rover().yaw_rad));
+  const bool stands = std::abs(history_.newest().forward_mps) <= kCreepMps;
+  return error_rad > (turning_ && stands ? config_.turn_stop_rad : config_.turn_threshold_rad);
+}
+
 void PathPlanner::track_turn() {
-  const double error = std::abs(wrap_angle(active_.route().pose_at(active_.progress_m()).yaw_rad - rover().yaw_rad));
-  const bool driving = std::abs(history_.newest().forward_mps) > kCreepMps;
-  turning_ = error > config_.turn_threshold_rad || (turning_ && error > config_.turn_stop_rad && !driving);
+  turning_ = turns_to(active_.route().pose_at(active_.progress_m()).yaw_rad);
 }
 
 // Map has moved against odom: hazards and plans stay, the part of the path that is global moves, at bounded curvature
@@ -303,9 +307,8 @@ Costmap PathPlanner::monitor_costmap(bool backing_up) const {
 
 void PathPlanner::check_path() {
   const Costmap costmap = monitor_costmap(mode_ == Mode::kBackingUp);
-  blockage_ =
-      find_blockage({costmap, active_.route(), config_.footprint, active_.progress_m(), rover(), active_.planned_from(),
-                     margin_m(), turning_, config_.turn_threshold_rad, config_.belief.view, side_slip_});
+  blockage_ = find_blockage({costmap, active_.route(), config_.footprint, active_.progress_m(), rover(),
+                             active_.planned_from(), margin_m(), turning_, config_.belief.view, side_slip_});
   // No camera looks backwards, and the driven track was known.
   if (mode_ == Mode::kBackingUp) blockage_.unknown_m = blockage_.unseen_m = kInfinity;
 }
@@ -385,6 +388,7 @@ void PathPlanner::request_plan() {
   request.start = job.start.pose;
   request.start_curvature_per_m = job.start.curvature_per_m;
   request.start_reverse = job.start.reverse;
+  request.turning = turning_ && stationary();
   if (!std::isnan(job.start.at_m)) request.views = active_.views_until(job.start.at_m);
   request.side_slip = side_slip_;
   request.goal_tolerance_m = kGoalToleranceRatio * global_->goal_tolerance_m;
@@ -486,9 +490,9 @@ std::vector<Point2> PathPlanner::back_up_points() const {
   for (const Point2& p : track) points.push_back({p, kNaN, 0, true});
   const Route route(std::move(points));
   const Costmap costmap = monitor_costmap(true);
-  const bool turning = std::abs(wrap_angle(route.pose_at(0.0).yaw_rad - rover().yaw_rad)) > config_.turn_threshold_rad;
+  const bool turning = turns_to(route.pose_at(0.0).yaw_rad);
   const Blockage blockage = find_blockage({costmap, route, config_.footprint, 0.0, rover(), rover(), kBackUpMarginM,
-                                           turning, config_.turn_threshold_rad, config_.belief.view, side_slip_});
+                                           turning, config_.belief.view, side_slip_});
   const double clear_m = std::min(route.length_m(), blockage.hazard_m - kBackUpReserveM);
   std::vector<Point2> out;
   for (size_t i = 0; i < track.size() && route.s_at(i) <= clear_m; ++i) out.push_back(track[i]);
@@ -505,9 +509,10 @@ void PathPlanner::back_up() {
   ++back_ups_;
   if (back_up_wanted_) ++wanted_back_ups_;
   failures_ = 0;
-  back_up_wanted_ = replan_wanted_ = turning_ = false;
+  back_up_wanted_ = replan_wanted_ = false;
   job_.reset();
   active_.set_route(next_path_id_++, PathKind::kBacktrack, Route(std::move(points)), config_.min_corridor_m, rover());
+  track_turn();
   blockage_ = {};
 }
 

@@ -133,6 +133,7 @@ class PathPlanner {
   void follow_global_path();
   void follow_correction();
   void track_progress();
+  bool turns_to(double yaw_rad) const;
   void track_turn();
   Costmap monitor_costmap(bool backing_up) const;
   void check_path();

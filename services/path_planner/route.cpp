@@ -3,8 +3,6 @@
 namespace rover::planning {
 namespace {
 
-constexpr double kCornerRad = 0.35;  // between two pieces of the route; an arc of 1 m sampled every 0.1 m makes 0.1
-
 double heading(Point2 from, Point2 to) {
   return std::atan2(to.y_m - from.y_m, to.x_m - from.x_m);
 }
@@ -109,8 +107,7 @@ Point2 Route::point_at(double s_m) const {
 
 Pose2 Route::pose_at(double s_m) const {
   const Point2 p = point_at(s_m);
-  const auto at_or_after = std::lower_bound(s_m_.begin(), s_m_.end(), s_m) - s_m_.begin();
-  const size_t next = std::clamp<size_t>(static_cast<size_t>(at_or_after), 1, points_.size() - 1);
+  const size_t next = std::clamp<size_t>(vertex_after(s_m), 1, points_.size() - 1);
   const double span = s_m_[next] - s_m_[next - 1];
   const double u = span > 0.0 ? std::clamp((s_m - s_m_[next - 1]) / span, 0.0, 1.0) : 0.0;
   return {p.x_m, p.y_m, (1.0 - u) * yaw_out_rad_[next - 1] + u * yaw_in_rad_[next]};
@@ -124,13 +121,16 @@ bool Route::reverse_at(double s_m) const {
   return points_[std::clamp<size_t>(vertex_after(s_m), 1, points_.size()) - 1].reverse;
 }
 
+bool Route::stops_at(size_t i) const {
+  return points_[i - 1].reverse != points_[i].reverse || yaw_out_rad_[i] != yaw_in_rad_[i];
+}
+
 PathSegment Route::segment_at(double s_m) const {
   size_t begin = std::clamp<size_t>(vertex_after(s_m), 1, points_.size() - 1) - 1;
   size_t end = begin + 1;
-  const bool reverse = points_[begin].reverse;
-  while (begin > 0 && points_[begin - 1].reverse == reverse) --begin;
-  while (end + 1 < points_.size() && points_[end].reverse == reverse) ++end;
-  return {s_m_[begin], s_m_[end], reverse};
+  while (begin > 0 && !stops_at(begin)) --begin;
+  while (end + 1 < points_.size() && !stops_at(end)) ++end;
+  return {s_m_[begin], s_m_[end], points_[begin].reverse};
 }
 
 double Route::closest(Point2 p, double from_m, double to_m) const {

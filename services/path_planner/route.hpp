@@ -15,7 +15,7 @@ struct RoutePoint {
   bool reverse = false;      // motion from here on
 };
 
-// Part of a route between two changes of direction.
+// Part of a route between two places where the rover stops: for a point turn or to change its direction.
 struct PathSegment {
   double begin_m = 0.0;
   double end_m = 0.0;
@@ -31,7 +31,10 @@ class Route {
   const std::vector<RoutePoint>& points() const { return points_; }
   double length_m() const { return s_m_.empty() ? 0.0 : s_m_.back(); }
   double s_at(size_t i) const { return s_m_[i]; }
-  // Body pose on the polyline; the heading changes evenly between vertices, and jumps at corners (before the jump
+  // Sharper bends between two pieces are corners, as of trajectory_control.
+  static constexpr double kCornerRad = to_rad(40.0);
+
+  // Body pose on the polyline; the heading changes evenly between vertices, and jumps at corners (after the jump
   // there).
   Pose2 pose_at(double s_m) const;
   // Vertices at which the heading jumps: the rover turns there on the spot.
@@ -41,7 +44,7 @@ class Route {
   Point2 point_at(double s_m) const;
   std::int8_t level_at(double s_m) const;
   bool reverse_at(double s_m) const;
-  // A cusp belongs to the segment that follows it.
+  // A corner or cusp belongs to the segment that follows it.
   PathSegment segment_at(double s_m) const;
   // Arc length of the closest point with arc length in [from, to].
   double closest(Point2 p, double from_m, double to_m) const;
@@ -51,6 +54,7 @@ class Route {
 
  private:
   void set_headings();
+  bool stops_at(size_t i) const;  // at an inner vertex
 
   std::vector<RoutePoint> points_;
   std::vector<double> s_m_;

@@ -342,6 +342,17 @@ TEST(HybridPlanner, OutOfANarrowPassageItReverses) {
   EXPECT_FALSE(plan.poses.back().reverse);
 }
 
+TEST(HybridPlanner, InAPointTurnItMayTurnBackByASmallAngle) {
+  PlanRequest request = plan_request(certain_belief(blocked_passage(0.7)), {0.0, 0.0, 0.34});
+  EXPECT_FALSE(plan_on(request).found);
+  request.turning = true;
+  const Plan plan = plan_on(request);
+  ASSERT_TRUE(plan.found);
+  EXPECT_EQ(position(plan.poses[1].pose).x_m, 0.0);
+  EXPECT_NEAR(plan.poses[1].pose.yaw_rad, 0.34 - to_rad(15.0), to_rad(15.1));
+  expect_keeps_clearance(plan, request);
+}
+
 TEST(HybridPlanner, OutOfAWidePassageItTurns) {
   const PlanRequest request = plan_request(certain_belief(blocked_passage(1.6)));
   const Plan plan = plan_on(request);

@@ -156,6 +156,24 @@ TEST(PathPlanner, AHazardBesideTheRoverBlocksAPointTurn) {
   EXPECT_NEAR(out.status.blocked_in_m, 0.0, 1e-9);
 }
 
+TEST(PathPlanner, APointTurnOnThePathMayPassAHazardThatItsEndClears) {
+  PlannerRig rig(std::make_shared<HeldBackground>());
+  rig.odom = {-2.5, 0.0, 0.0};
+  rig.send_path({{-2.5, 0.0}, {0.0, 0.0}, {0.0, 10.0}});
+  rig.rocks = {{{0.65, -0.65}, 0.05, 0.3}};
+  rig.look(5);
+  rig.camera.far_m = rig.camera.near_m;
+  rig.move_to(-0.05, 0.0);
+  for (const double yaw_rad : {0.0, 0.3, 0.6, 0.9, 1.2, 0.5 * kPi}) {
+    rig.odom.yaw_rad = yaw_rad;
+    const PlannerOutput out = rig.look();
+    EXPECT_TRUE(out.status.block_kind != BlockKind::kHazard) << yaw_rad << " rad, in " << out.status.blocked_in_m;
+    EXPECT_EQ(rig.planner.mode(), Mode::kFollowing) << yaw_rad;
+  }
+  // It lies where the rover would be if it had only half turned.
+  EXPECT_EQ(hazards(rig), 1u);
+}
+
 TEST(PathPlanner, APointTurnOnFreeGroundIsNotBlocked) {
   PlannerRig rig;
   rig.send_path({{0.0, 0.0}, {0.0, 10.0}});

@@ -63,8 +63,10 @@ TEST(Route, TheHeadingJumpsOnlyAtCorners) {
   EXPECT_EQ(route.corners()[0], 1u);
   EXPECT_NEAR(route.yaw_into(1), 0.0, 1e-12);
   EXPECT_NEAR(route.yaw_out_of(1), 0.5 * kPi, 1e-12);
-  EXPECT_NEAR(route.pose_at(2.0).yaw_rad, 0.0, 1e-12);
-  EXPECT_NEAR(route.pose_at(2.0 + 1e-9).yaw_rad, 0.5 * kPi, 1e-6);
+  EXPECT_NEAR(route.pose_at(2.0 - 1e-9).yaw_rad, 0.0, 1e-6);
+  EXPECT_NEAR(route.pose_at(2.0).yaw_rad, 0.5 * kPi, 1e-12);
+  EXPECT_EQ(route.segment_at(1.9).end_m, 2.0);
+  EXPECT_EQ(route.segment_at(2.0).begin_m, 2.0);
 }
 
 TEST(Route, AtACuspTheBodyKeepsItsHeading) {

@@ -16,7 +16,8 @@ constexpr double kTurnSampleRad = 0.0524;
 // Of the heuristic, for pruning: arcs and clearances of the lattice are not quite those of a plan.
 constexpr double kLatticeBound = 0.85;
 constexpr std::array<double, kCurvatures> kLevels = {0.0, 0.5, -0.5, 1.0, -1.0};  // of the largest curvature
-constexpr std::array<double, 9> kTurnsDeg = {45.0, 60.0, 75.0, 90.0, 105.0, 120.0, 140.0, 160.0, 180.0};
+constexpr std::array<double, 11> kTurnsDeg = {15.0, 30.0, 45.0, 60.0, 75.0, 90.0, 105.0, 120.0, 140.0, 160.0, 180.0};
+constexpr double kMinTurnDeg = 45.0;  // of one that the rover does not stand in
 
 struct Node {
   enum class Kind : std::uint8_t {
@@ -194,10 +195,12 @@ class HybridAStar {
   // Point turns to one side, as far as the footprint turns freely over known ground.
   void turn(int index, double side) {
     const Node from = nodes_[index];
+    const bool any_angle = problem_.request.turning && from.parent == 0;
     set_views(index);
     double turned = 0.0;
     double cost = 0.0;
     for (const double turn_deg : kTurnsDeg) {
+      if (turn_deg < kMinTurnDeg && !any_angle) continue;
       Node next = from;
       for (; turned < to_rad(turn_deg) + kTurnSampleRad; turned += kTurnSampleRad) {
         next.pose.yaw_rad = from.pose.yaw_rad + side * std::min(turned, to_rad(turn_deg));
