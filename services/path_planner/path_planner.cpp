@@ -256,8 +256,8 @@ void PathPlanner::track_progress() {
 // As trajectory_control does: a point turn goes on below the error that starts one.
 bool PathPlanner::turns_to(double yaw_rad) const {
   const double error_rad = std::abs(wrap_angle(yaw_rad - rover().yaw_rad));
-  const bool stands = std::abs(history_.newest().forward_mps) <= kCreepMps;
-  return error_rad > (turning_ && stands ? config_.turn_stop_rad : config_.turn_threshold_rad);
+  const bool slow = std::abs(history_.newest().forward_mps) <= kCreepMps;
+  return error_rad > (turning_ && slow ? config_.turn_stop_rad : config_.turn_threshold_rad);
 }
 
 void PathPlanner::track_turn() {

@@ -17,7 +17,7 @@ constexpr double kTurnSampleRad = 0.0524;
 constexpr double kLatticeBound = 0.85;
 constexpr std::array<double, kCurvatures> kLevels = {0.0, 0.5, -0.5, 1.0, -1.0};  // of the largest curvature
 constexpr std::array<double, 11> kTurnsDeg = {15.0, 30.0, 45.0, 60.0, 75.0, 90.0, 105.0, 120.0, 140.0, 160.0, 180.0};
-constexpr double kMinTurnDeg = 45.0;  // of one that the rover does not stand in
+constexpr double kMinTurnDeg = 45.0;  // unless the rover stopped in one
 
 struct Node {
   enum class Kind : std::uint8_t {

@@ -36,7 +36,7 @@ struct PlanRequest {
   Pose2 start;  // where the committed part of the active path ends
   double start_curvature_per_m = 0.0;
   bool start_reverse = false;  // the rover comes to the start in reverse
-  bool turning = false;        // it stands there in a point turn, which may go on or back by any angle
+  bool turning = false;        // stopped in a point turn there, which may go on or back by any angle
   std::vector<Pose2> views;    // poses from which the LocCam looks on the way from the rover to the start
   double goal_tolerance_m = 0.0;
   SideSlip side_slip;
