@@ -1,5 +1,9 @@
 // What the planner keeps over a restart, as bytes: global path, active path, belief map, counters. The pose comes with
 // the next POSE; a plan in the background is made anew.
+#include <array>
+#include <numeric>
+#include <tuple>
+
 #include "common/core/path_limits.hpp"
 #include "common/core/state_bytes.hpp"
 #include "path_planner/path_planner.hpp"
@@ -78,13 +82,8 @@ void put_map(StateWriter& out, const GridMap<CellBelief>& map) {
     out.put(static_cast<std::uint8_t>((cell.known ? 1 : 0) | (cell.driven ? 2 : 0) | (cell.passed ? 4 : 0)));
     if (!cell.known) return;
     out.put(cell.unmeasured);
-    out.put(cell.unmeasured_range_m);
-    out.put(cell.evidence);
-    out.put(cell.step_ratio);
-    out.put(cell.step_sigma);
-    out.put(cell.cost);
-    out.put(cell.tall_evidence);
-    out.put(cell.tall_fraction);
+    out.put(std::array{cell.unmeasured_range_m, cell.evidence, cell.step_ratio, cell.step_sigma, cell.cost,
+                       cell.tall_evidence, cell.tall_fraction});
   });
 }
 
@@ -104,16 +103,10 @@ bool get_map(StateReader& in, GridMap<CellBelief>& map) {
     cell.passed = (flags & 4) != 0;
     if (!cell.known) return;
     cell.unmeasured = in.get<std::uint8_t>();
-    cell.unmeasured_range_m = in.get<float>();
-    cell.evidence = in.get<float>();
-    cell.step_ratio = in.get<float>();
-    cell.step_sigma = in.get<float>();
-    cell.cost = in.get<float>();
-    cell.tall_evidence = in.get<float>();
-    cell.tall_fraction = in.get<float>();
-    const float tall = cell.tall_evidence + cell.tall_fraction;
-    numbers = numbers && std::isfinite(cell.evidence + cell.step_ratio + cell.step_sigma + cell.cost + tall) &&
-              std::isfinite(cell.unmeasured_range_m) && cell.step_sigma > 0.0F;
+    const auto values = in.get<std::array<float, 7>>();
+    numbers = numbers && std::isfinite(std::accumulate(values.begin(), values.end(), 0.0F)) && values[3] > 0.0F;
+    std::tie(cell.unmeasured_range_m, cell.evidence, cell.step_ratio, cell.step_sigma, cell.cost, cell.tall_evidence,
+             cell.tall_fraction) = std::tuple_cat(values);
   });
   return numbers;
 }

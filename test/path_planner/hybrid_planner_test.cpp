@@ -453,6 +453,17 @@ TEST(HybridPlanner, TheIncumbentIsKeptIfAnotherPlanIsHardlyCheaper) {
   EXPECT_LT(kept.cost - other.cost, search_config().switching_cost_s);
 }
 
+TEST(HybridPlanner, WhereNoPathCanBeMuchCheaperTheIncumbentIsKeptWithoutASearch) {
+  PlanRequest request = plan_request(certain_belief(free_ground));
+  const Plan first = plan_on(request);
+  EXPECT_GT(first.expansions, 0);
+  request.incumbent = first.poses;
+  const Plan kept = plan_on(request);
+  EXPECT_TRUE(kept.keeps_incumbent);
+  EXPECT_EQ(kept.expansions, 0);
+  EXPECT_NEAR(kept.cost, first.cost, 1.0);
+}
+
 TEST(HybridPlanner, AMuchCheaperPlanReplacesTheIncumbent) {
   constexpr Gap kFarLeft{4.0, 2.0};
   const Plan plan = plan_on(with_incumbent(wall({kFarLeft, {0.0, 2.0}}), kFarLeft));

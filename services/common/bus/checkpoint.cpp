@@ -1,5 +1,6 @@
 #include "common/bus/checkpoint.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -16,10 +17,14 @@ struct FileHead {
   std::uint64_t checksum;
 };
 
-// FNV-1a: detects truncated and overwritten files.
+// FNV-1a on words: detects truncated and overwritten files.
 std::uint64_t checksum(const std::vector<std::uint8_t>& bytes) {
   std::uint64_t hash = 0xcbf29ce484222325u;
-  for (const std::uint8_t byte : bytes) hash = (hash ^ byte) * 0x100000001b3u;
+  for (size_t i = 0; i < bytes.size(); i += sizeof hash) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, &bytes[i], std::min(sizeof word, bytes.size() - i));
+    hash = (hash ^ word) * 0x100000001b3u;
+  }
   return hash;
 }
 

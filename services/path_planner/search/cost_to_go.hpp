@@ -31,6 +31,11 @@ class CostToGo {
   double descent_rad(Point2 p) const;
   // Of ending at a place near the goal [s]; infinity: it is none.
   double goal_cost(Point2 p) const;
+  // What follows a path that ends at the place [s].
+  double beyond(Point2 p) const {
+    const double goal = goal_cost(p);
+    return std::isfinite(goal) ? goal : at(p);
+  }
 
  private:
   static constexpr int kCoarse = 2;  // cells of the costmap per cell of the march, in x and y

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <functional>
+#include <unordered_map>
 #include <utility>
 
 namespace rover::planning {
@@ -67,21 +68,23 @@ class Motion {
 
 class HybridAStar {
  public:
-  HybridAStar(const HybridAStarConfig& config, const MotionCosts& costs, const SearchProblem& problem)
-      : config_(config), costs_(costs), problem_(problem), pricer_(costs, problem) {
-    const double half_m = 0.5 * problem.request.costmap->cells() * problem.request.costmap->cell_m();
-    const Point2 middle = position(problem.request.start);
-    corner_ = {middle.x_m - half_m, middle.y_m - half_m};
-    places_ = static_cast<int>(2.0 * half_m / kPlaceBinM) + 1;
-    best_.assign(static_cast<size_t>(places_) * places_ * kYawBins * kCurvatures * 2, kMaxCost);
+  HybridAStar(const HybridAStarConfig& config, const MotionCosts& costs, const PricedGround& ground,
+              const PoseCostToGo& pose_cost_to_go, double max_cost)
+      : config_(config),
+        costs_(costs),
+        ground_(ground),
+        pose_cost_to_go_(pose_cost_to_go),
+        pricer_(costs, ground),
+        half_m_(0.5 * ground.request.costmap->cells() * ground.request.costmap->cell_m()),
+        places_(static_cast<int>(2.0 * half_m_ / kPlaceBinM) + 1) {
+    plan_.cost = max_cost;
   }
 
   Plan run() {
-    plan_.cost = problem_.max_cost;
     Node start;
-    start.pose = problem_.request.start;
-    start.curvature_per_m = problem_.request.start_curvature_per_m;
-    start.reverse = problem_.request.start_reverse;
+    start.pose = ground_.request.start;
+    start.curvature_per_m = ground_.request.start_curvature_per_m;
+    start.reverse = ground_.request.start_reverse;
     offer(start);
     while (!open_.empty() && plan_.expansions < config_.max_expansions) {
       const auto [estimate, index] = pop();
@@ -91,7 +94,7 @@ class HybridAStar {
         turn(index, -1.0);
         continue;
       }
-      if (static_cast<float>(nodes_[index].cost) > best_[key(nodes_[index])]) continue;
+      if (nodes_[index].cost > best_.at(key(nodes_[index]))) continue;
       ++plan_.expansions;
       expand(index);
     }
@@ -102,30 +105,29 @@ class HybridAStar {
 
  private:
   using Entry = std::pair<double, int>;
-  static constexpr float kMaxCost = 1e30F;
-
   double relative(double curvature_per_m) const { return curvature_per_m / costs_.max_curvature_per_m; }
 
   size_t key(const Node& node) const {
-    const auto place = [&](double v, double corner) {
-      return static_cast<size_t>(std::clamp(static_cast<int>((v - corner) / kPlaceBinM), 0, places_ - 1));
+    const Pose2& start = ground_.request.start;
+    const auto place = [&](double v) {
+      return static_cast<size_t>(std::clamp(static_cast<int>((v + half_m_) / kPlaceBinM), 0, places_ - 1));
     };
     const auto heading = static_cast<size_t>(heading_bin(node.pose.yaw_rad, kYawBins));
     const int curvature = static_cast<int>(std::lround(2.0 * relative(node.curvature_per_m))) + kCurvatures / 2;
-    const size_t at = place(node.pose.y_m, corner_.y_m) * places_ + place(node.pose.x_m, corner_.x_m);
+    const size_t at = place(node.pose.y_m - start.y_m) * places_ + place(node.pose.x_m - start.x_m);
     const auto bin = static_cast<size_t>(std::clamp(curvature, 0, kCurvatures - 1));
     return ((at * kYawBins + heading) * kCurvatures + bin) * 2 + (node.reverse ? 1 : 0);
   }
 
   double heuristic(const Node& node) const {
-    if (node.kind == Node::Kind::kTurnPending) return problem_.pose_cost_to_go.turning(node.pose);
-    return node.reverse ? problem_.pose_cost_to_go.reverse(node.pose) : problem_.pose_cost_to_go.forward(node.pose);
+    if (node.kind == Node::Kind::kTurnPending) return pose_cost_to_go_.turning(node.pose);
+    return node.reverse ? pose_cost_to_go_.reverse(node.pose) : pose_cost_to_go_.forward(node.pose);
   }
 
   void offer(const Node& node) {
-    float& best = best_[key(node)];
-    if (static_cast<float>(node.cost) >= best) return;
-    best = static_cast<float>(node.cost);
+    const auto [best, first] = best_.try_emplace(key(node), node.cost);
+    if (!first && node.cost >= best->second) return;
+    best->second = node.cost;
     push(node);
   }
 
@@ -153,7 +155,7 @@ class HybridAStar {
 
   void expand(int index) {
     const Node from = nodes_[index];
-    if (from.distance_m < problem_.known_free_m) set_views(index);
+    if (from.distance_m < ground_.known_free_m) set_views(index);
     for (const double level : kLevels) drive(index, level);
     if (from.kind != Node::Kind::kMotion) return;
     // The wheels keep their angle: the rover goes back on the circle on which it came.
@@ -182,7 +184,7 @@ class HybridAStar {
     if (change > kMaxChange) return;
     add_motion_cost(next, costs_.curvature_change_s * change * change + MotionCosts::kCurvature * costs_.seconds_per_m *
                                                                             level * level * HybridAStarConfig::kStepM);
-    Motion motion(from, next.curvature_per_m, HybridAStarConfig::kStepM, problem_.request.side_slip);
+    Motion motion(from, next.curvature_per_m, HybridAStarConfig::kStepM, ground_.request.side_slip);
     for (int i = 0; i < motion.samples(); ++i) {
       next.pose = motion.next();
       if (!from.reverse) next.distance_m += motion.step_m();
@@ -195,7 +197,7 @@ class HybridAStar {
   // Point turns to one side, as far as the footprint turns freely over known ground.
   void turn(int index, double side) {
     const Node from = nodes_[index];
-    const bool any_angle = problem_.request.turning && from.parent == 0;
+    const bool any_angle = ground_.request.turning && from.parent == 0;
     set_views(index);
     double turned = 0.0;
     double cost = 0.0;
@@ -204,12 +206,12 @@ class HybridAStar {
       Node next = from;
       for (; turned < to_rad(turn_deg) + kTurnSampleRad; turned += kTurnSampleRad) {
         next.pose.yaw_rad = from.pose.yaw_rad + side * std::min(turned, to_rad(turn_deg));
-        if (!problem_.turn.clear(next.pose)) return;
-        if (from.distance_m < problem_.known_free_m && !pricer_.covers(next.pose)) {
+        if (!ground_.turn.clear(next.pose)) return;
+        if (from.distance_m < ground_.known_free_m && !pricer_.covers(next.pose)) {
           plan_.needs_unseen_ground = true;
           return;
         }
-        const double factor = problem_.comfort.clear(next.pose) ? 1.0 : costs_.tight_factor;
+        const double factor = ground_.comfort.clear(next.pose) ? 1.0 : costs_.tight_factor;
         cost += factor * costs_.point_turn_s_per_rad * kTurnSampleRad;
       }
       add_motion_cost(next, cost);
@@ -232,7 +234,7 @@ class HybridAStar {
   }
 
   void end_or_offer(const Node& node) {
-    const double end_cost = node.reverse ? kInfinity : problem_.pose_cost_to_go.end_cost(node.pose);
+    const double end_cost = node.reverse ? kInfinity : pose_cost_to_go_.end_cost(node.pose);
     if (node.cost + end_cost < plan_.cost) {
       plan_.found = true;
       plan_.cost = node.cost + end_cost;
@@ -240,7 +242,7 @@ class HybridAStar {
       end_ = static_cast<int>(nodes_.size()) - 1;
     }
     // At the horizon plans end; beside the goal one may go on for a smaller miss.
-    if (node.reverse || !problem_.pose_cost_to_go.at_horizon(position(node.pose))) offer(node);
+    if (node.reverse || !pose_cost_to_go_.at_horizon(position(node.pose))) offer(node);
   }
 
   void set_poses() {
@@ -254,7 +256,7 @@ class HybridAStar {
       if (to.kind == Node::Kind::kTurned) {
         plan_.poses.push_back({to.pose, false, to.motion_cost});
       } else if (to.kind == Node::Kind::kMotion) {
-        Motion motion(from, to.curvature_per_m, HybridAStarConfig::kStepM, problem_.request.side_slip);
+        Motion motion(from, to.curvature_per_m, HybridAStarConfig::kStepM, ground_.request.side_slip);
         for (int i = 0; i < motion.samples(); ++i) plan_.poses.push_back({motion.next(), to.reverse, to.motion_cost});
       }
     }
@@ -262,11 +264,12 @@ class HybridAStar {
 
   const HybridAStarConfig& config_;
   const MotionCosts& costs_;
-  const SearchProblem& problem_;
+  const PricedGround& ground_;
+  const PoseCostToGo& pose_cost_to_go_;
   PathPricer pricer_;
-  Point2 corner_;
-  int places_;
-  std::vector<float> best_;
+  double half_m_;                            // side of the costmap
+  int places_;                               // on it
+  std::unordered_map<size_t, double> best_;  // cost by place, heading, curvature and direction
   std::vector<Node> nodes_;
   std::vector<Entry> open_;
   Plan plan_;
@@ -276,18 +279,19 @@ class HybridAStar {
 }  // namespace
 
 double PathPricer::cost_per_m(const Pose2& pose, double distance_m, bool reverse) {
-  double cost = problem_.cost_to_go.cost_per_m(position(pose));
-  if (std::isinf(cost) || !problem_.min.clear(pose)) return kInfinity;
-  if (!problem_.comfort.clear(pose)) cost *= costs_.tight_factor;
+  double cost = ground_.cost_to_go.cost_per_m(position(pose));
+  if (std::isinf(cost) || !ground_.min.clear(pose)) return kInfinity;
+  if (!ground_.comfort.clear(pose)) cost *= costs_.tight_factor;
   // No camera looks backwards: ground behind has been seen before.
-  if (reverse) return problem_.min.known(pose) ? costs_.reverse_factor * cost : kInfinity;
-  if (distance_m > problem_.known_free_m || visibility_.covers(pose)) return cost;
+  if (reverse) return ground_.min.known(pose) ? costs_.reverse_factor * cost : kInfinity;
+  if (distance_m > ground_.known_free_m || visibility_.covers(pose)) return cost;
   needs_unseen_ground_ = true;
   return kInfinity;
 }
 
-Plan search_hybrid_a_star(const HybridAStarConfig& config, const MotionCosts& costs, const SearchProblem& problem) {
-  return HybridAStar(config, costs, problem).run();
+Plan search_hybrid_a_star(const HybridAStarConfig& config, const MotionCosts& costs, const PricedGround& ground,
+                          const PoseCostToGo& pose_cost_to_go, double max_cost) {
+  return HybridAStar(config, costs, ground, pose_cost_to_go, max_cost).run();
 }
 
 }  // namespace rover::planning

@@ -15,33 +15,35 @@ struct HybridAStarConfig {
   int max_expansions = 3000;
 };
 
-struct SearchProblem {
+// What paths are checked and priced on.
+struct PricedGround {
   const PlanRequest& request;
   const CostToGo& cost_to_go;
-  const PoseCostToGo& pose_cost_to_go;
   const FootprintCheck& comfort;
   const FootprintCheck& min;
   const FootprintCheck& turn;
   ViewArea view;
   double known_free_m = 0.0;
-  double max_cost = kInfinity;  // costlier plans are of no use [s]
 };
 
-Plan search_hybrid_a_star(const HybridAStarConfig& config, const MotionCosts& costs, const SearchProblem& problem);
+// The cost of the plan is less what all plans have in common.
+// Costlier plans than `max_cost` are of no use [s].
+Plan search_hybrid_a_star(const HybridAStarConfig& config, const MotionCosts& costs, const PricedGround& ground,
+                          const PoseCostToGo& pose_cost_to_go, double max_cost);
 
 // Prices poses one after the other along a path, by ground, clearance, and whether the ground comes into view before
 // the rover is there.
 class PathPricer {
  public:
-  PathPricer(const MotionCosts& costs, const SearchProblem& problem)
-      : costs_(costs), problem_(problem), visibility_(*problem.request.costmap, problem.min, problem.view) {
+  PathPricer(const MotionCosts& costs, const PricedGround& ground)
+      : costs_(costs), ground_(ground), visibility_(*ground.request.costmap, ground.min, ground.view) {
     clear_views();
   }
 
   // But for those on the way to the start.
   void clear_views() {
     visibility_.clear();
-    for (const Pose2& view : problem_.request.views) add_view(view);
+    for (const Pose2& view : ground_.request.views) add_view(view);
   }
   void add_view(const Pose2& from) { visibility_.add_view(from); }
   // During a point turn to the pose, and at its end.
@@ -55,7 +57,7 @@ class PathPricer {
 
  private:
   const MotionCosts& costs_;
-  const SearchProblem& problem_;
+  const PricedGround& ground_;
   Visibility visibility_;
   bool needs_unseen_ground_ = false;
 };

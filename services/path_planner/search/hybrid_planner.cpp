@@ -11,6 +11,14 @@ constexpr double kSlideOverM = 0.3;  // driven until the rover has steered again
 // misleads the search, it holds only what surely fits, and all of it.
 constexpr std::array<LatticeExtent, 2> kExtents = {LatticeExtent{0.03, 10.0}, LatticeExtent{-0.03, kInfinity}};
 
+Plan kept(double cost, int expansions) {
+  Plan plan;
+  plan.keeps_incumbent = true;
+  plan.cost = cost;
+  plan.expansions = expansions;
+  return plan;
+}
+
 }  // namespace
 
 Plan HybridPlanner::plan(const PlanRequest& request) const {
@@ -25,26 +33,28 @@ Plan HybridPlanner::plan(const PlanRequest& request) const {
   const FootprintCheck comfort = check(margins.comfort_m);
   const FootprintCheck min = check(margins.min_m);
   const FootprintCheck turn = check(margins.turn_m);
+  PricedGround ground{request, cost_to_go, comfort, min, turn, config_.view, config_.search.known_free_m};
+  const double at_least = cost_to_go.at(position(request.start));
+  const double driven = incumbent_cost(ground);
+  // Hardly any path is cheaper than the 2-D field says, which knows no headings.
+  if (std::isfinite(at_least) && driven <= at_least + config_.switching_cost_s) return kept(driven, 0);
   Plan plan;
   for (const LatticeExtent& extent : kExtents) {
     const PoseCostToGo pose_cost_to_go(config_.motion, margins, config_.footprint, request, cost_to_go,
-                                       config_.horizon_m, extent);
+                                       config_.horizon_m, extent, driven - config_.switching_cost_s);
     for (const double known_free_m : {config_.search.known_free_m, HybridAStarConfig::kMinKnownFreeM}) {
-      SearchProblem problem{request, cost_to_go, pose_cost_to_go, comfort, min, turn, config_.view, known_free_m};
-      const double incumbent = incumbent_cost(problem);
-      problem.max_cost = incumbent - config_.switching_cost_s;
+      ground.known_free_m = known_free_m;
+      const double incumbent = incumbent_cost(ground);
       const int before = plan.expansions;
-      plan = search_hybrid_a_star(config_.search, config_.motion, problem);
+      plan = search_hybrid_a_star(config_.search, config_.motion, ground, pose_cost_to_go,
+                                  incumbent - config_.switching_cost_s - pose_cost_to_go.common());
+      plan.cost += pose_cost_to_go.common();
       plan.expansions += before;
-      if (!plan.found && std::isfinite(incumbent)) {
-        plan.keeps_incumbent = true;
-        plan.cost = incumbent;
-      }
-      if (plan.found || plan.keeps_incumbent || !plan.needs_unseen_ground) break;
+      if (!plan.found && std::isfinite(incumbent)) return kept(incumbent, plan.expansions);
+      if (plan.found || !plan.needs_unseen_ground) break;
     }
-    plan.closed_in =
-        !plan.found && !plan.keeps_incumbent && !plan.needs_unseen_ground && !pose_cost_to_go.reaches(request.start);
-    if (plan.found || plan.keeps_incumbent || plan.closed_in) break;
+    plan.closed_in = !plan.found && !plan.needs_unseen_ground && !pose_cost_to_go.reaches(request.start);
+    if (plan.found || plan.closed_in) break;
   }
   if (!plan.found) return plan;
   plan.clearance_m = kMaxClearanceM;
@@ -53,10 +63,10 @@ Plan HybridPlanner::plan(const PlanRequest& request) const {
 }
 
 // Infinite if it is blocked or ends in nothing.
-double HybridPlanner::incumbent_cost(const SearchProblem& problem) const {
-  const std::vector<PlanPose>& poses = problem.request.incumbent;
+double HybridPlanner::incumbent_cost(const PricedGround& ground) const {
+  const std::vector<PlanPose>& poses = ground.request.incumbent;
   if (poses.size() < 2) return kInfinity;
-  PathPricer pricer(config_.motion, problem);
+  PathPricer pricer(config_.motion, ground);
   double cost = poses.back().motion_cost - poses.front().motion_cost;
   double distance_m = 0.0;
   for (size_t i = 1; i < poses.size() && std::isfinite(cost); ++i) {
@@ -69,7 +79,7 @@ double HybridPlanner::incumbent_cost(const SearchProblem& problem) const {
       pricer.add_turn_views(poses[i - 1].pose.yaw_rad, poses[i].pose);
     }
   }
-  return cost + problem.pose_cost_to_go.cost_beyond(position(poses.back().pose));
+  return cost + ground.cost_to_go.beyond(position(poses.back().pose));
 }
 
 }  // namespace rover::planning

@@ -23,7 +23,7 @@ class HybridPlanner final : public Planner {
   Plan plan(const PlanRequest& request) const override;
 
  private:
-  double incumbent_cost(const SearchProblem& problem) const;
+  double incumbent_cost(const PricedGround& ground) const;
 
   HybridPlannerConfig config_;
 };

@@ -23,7 +23,7 @@ struct Plan {
   bool needs_unseen_ground = false;  // not found, but paths were dropped whose ground does not come into view
   bool closed_in = false;            // not found, and no pose from which the goal can be reached is reachable
   std::vector<PlanPose> poses;       // from the start of the request
-  double cost = kInfinity;           // to the goal, less what all plans of the request have in common [s]
+  double cost = kInfinity;           // to the goal [s]
   double clearance_m = kNaN;         // smallest distance of the footprint to the centre of a hazard cell
   int expansions = 0;
 };

@@ -23,7 +23,7 @@ constexpr double kHeadingCostS = 4.0;    // per radian beyond
 
 PoseCostToGo::PoseCostToGo(const MotionCosts& costs, const Clearances& clearances, const Footprint& footprint,
                            const PlanRequest& request, const CostToGo& cost_to_go, double horizon_m,
-                           const LatticeExtent& extent)
+                           const LatticeExtent& extent, double max_cost)
     : costs_(costs),
       clearances_(clearances),
       footprint_(footprint),
@@ -31,6 +31,7 @@ PoseCostToGo::PoseCostToGo(const MotionCosts& costs, const Clearances& clearance
       cost_to_go_(cost_to_go),
       horizon_m_(horizon_m),
       extent_(extent),
+      max_cost_(max_cost),
       from_start_to_goal_(kMarchBound * cost_to_go.at(position(request.start))),
       center_(position(request.start)),
       cell_m_(request.costmap->cell_m()),
@@ -144,15 +145,11 @@ void PoseCostToGo::mark(int heading, int row, int from, int to, Clearance value)
   if (first < std::min(to, cells_)) std::fill(begin + first, begin + std::min(to, cells_), value);
 }
 
-double PoseCostToGo::cost_beyond(Point2 p) const {
-  const double goal = cost_to_go_.goal_cost(p);
-  return (std::isfinite(goal) ? goal : cost_to_go_.at(p)) - common_;
-}
-
 PoseCostToGo::End PoseCostToGo::end_at(Point2 p) const {
-  if (std::isfinite(cost_to_go_.goal_cost(p))) return {cost_beyond(p), kNaN};
+  const double beyond = cost_to_go_.beyond(p) - common_;
+  if (std::isfinite(cost_to_go_.goal_cost(p))) return {beyond, kNaN};
   if (!at_horizon(p)) return {};
-  return {cost_beyond(p), cost_to_go_.descent_rad(p)};
+  return {beyond, cost_to_go_.descent_rad(p)};
 }
 
 double PoseCostToGo::End::cost(double yaw_rad) const {
@@ -169,7 +166,7 @@ void PoseCostToGo::seed() {
     const bool ring = at_horizon(p) && distance(p, center_) <= horizon_m_ + kBandM;
     if (!ring && std::isinf(cost_to_go_.goal_cost(p))) continue;
     ends.push_back(cell);
-    least = std::min(least, cost_beyond(p));
+    least = std::min(least, cost_to_go_.beyond(p));
   }
   if (std::isinf(least)) return;
   common_ = least;
@@ -197,7 +194,8 @@ void PoseCostToGo::offer(Motion motion, int cell, int heading, float cost) {
 }
 
 void PoseCostToGo::spread() {
-  double last = kInfinity;
+  double last = max_cost_ - common_ - from_start_to_goal_;
+  bool reached = false;
   for (; bucket_ < buckets_.size() && kBucketS * static_cast<double>(bucket_) <= last; ++bucket_) {
     // A bucket may grow while it is expanded.
     for (size_t k = 0; k < buckets_[bucket_].size(); ++k) {
@@ -219,10 +217,10 @@ void PoseCostToGo::spread() {
           break;
       }
     }
-    if (std::isinf(last)) {
-      const double best = std::min(forward(request_.start), turning(request_.start));
-      if (std::isfinite(best)) last = best - from_start_to_goal_ + extent_.beyond_s;
-    }
+    const double best = reached ? kInfinity : std::min(forward(request_.start), turning(request_.start));
+    if (std::isinf(best)) continue;
+    reached = true;
+    last = std::min(last, best - from_start_to_goal_ + extent_.beyond_s);
   }
 }
 

@@ -23,8 +23,10 @@ class PoseCostToGo {
  public:
   static constexpr int kHeadings = 32;
 
+  // Plans from the start that cost more than `max_cost` are of no use [s].
   PoseCostToGo(const MotionCosts& costs, const Clearances& clearances, const Footprint& footprint,
-               const PlanRequest& request, const CostToGo& cost_to_go, double horizon_m, const LatticeExtent& extent);
+               const PlanRequest& request, const CostToGo& cost_to_go, double horizon_m, const LatticeExtent& extent,
+               double max_cost);
 
   // Smallest of the lattice poses around this one; infinity: nothing leads to the goal, or beyond the horizon.
   double forward(const Pose2& pose) const { return nearby(pose, kForward); }
@@ -42,8 +44,9 @@ class PoseCostToGo {
   }
   // What follows a plan that ends at the pose [s]; infinity: it may not end there.
   double end_cost(const Pose2& pose) const { return end_at(position(pose)).cost(pose.yaw_rad); }
-  // What follows a plan that ends at the place, heading aside [s].
-  double cost_beyond(Point2 p) const;
+  // All costs are relative to this [s], that of the best place at the horizon: what plans have in common does not
+  // count.
+  double common() const { return common_; }
 
  private:
   enum Motion : std::uint8_t { kForward, kTurn, kReverse };
@@ -105,8 +108,8 @@ class PoseCostToGo {
   const CostToGo& cost_to_go_;
   double horizon_m_;
   LatticeExtent extent_;
+  double max_cost_;
   double from_start_to_goal_;  // lower bound [s]
-  // All costs are relative to that of the best place at the horizon: what plans have in common does not count.
   double common_ = 0.0;
   Point2 center_;
   double cell_m_;
