@@ -252,10 +252,10 @@ TEST(HybridPlanner, ThePathMonitorAcceptsEachPlan) {
                 : 1;
     ActivePath path;
     path.set_plan(1, PathKind::kRepair, plan.poses, {}, 0.25, 0, start);
-    constexpr double kPointTurnRad = 0.7;
-    const bool turning = std::abs(wrap_angle(path.route().pose_at(0.0).yaw_rad - start.yaw_rad)) > kPointTurnRad;
+    const double turn_rad = std::abs(wrap_angle(path.route().pose_at(0.0).yaw_rad - start.yaw_rad));
+    const bool turning = turn_rad > Route::kCornerRad;
     const Blockage blockage = find_blockage({*request.costmap, path.route(), config.footprint, 0.0, start, start,
-                                             config.clearances.min_m - 0.03, turning, kPointTurnRad, config.view});
+                                             config.clearances.min_m - 0.03, turning, config.view});
     EXPECT_TRUE(std::isinf(blockage.hazard_m)) << blockage.hazard_m;
   }
   EXPECT_GT(near, 10);
@@ -343,13 +343,13 @@ TEST(HybridPlanner, OutOfANarrowPassageItReverses) {
 }
 
 TEST(HybridPlanner, InAPointTurnItMayTurnBackByASmallAngle) {
-  PlanRequest request = plan_request(certain_belief(blocked_passage(0.7)), {0.0, 0.0, 0.34});
+  PlanRequest request = plan_request(certain_belief(blocked_passage(0.7)), {0.0, 0.0, 0.28});
   EXPECT_FALSE(plan_on(request).found);
   request.turning = true;
   const Plan plan = plan_on(request);
   ASSERT_TRUE(plan.found);
   EXPECT_EQ(position(plan.poses[1].pose).x_m, 0.0);
-  EXPECT_NEAR(plan.poses[1].pose.yaw_rad, 0.34 - to_rad(15.0), to_rad(15.1));
+  EXPECT_NEAR(plan.poses[1].pose.yaw_rad, 0.28 - to_rad(15.0), 1e-9);
   expect_keeps_clearance(plan, request);
 }
 

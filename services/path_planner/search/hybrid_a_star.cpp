@@ -217,8 +217,10 @@ class HybridAStar {
       add_motion_cost(next, cost);
       next.parent = index;
       next.kind = Node::Kind::kTurned;
-      next.reverse = false;
-      offer(next);
+      for (const bool reverse : {false, true}) {
+        next.reverse = reverse;
+        offer(next);
+      }
     }
   }
 
