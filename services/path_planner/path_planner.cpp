@@ -155,7 +155,7 @@ void PathPlanner::set_level(bool full) {
 bool PathPlanner::add_traversability(const TraversabilityGrid& map) {
   if (!full_level_ || !map.fault().empty() || history_.empty()) return false;
   const double dead_reckoned_m = history_.newest().dead_reckoned_m;
-  belief_.add(map, position(rover()), dead_reckoned_m - std::exchange(dead_reckoned_m_, dead_reckoned_m));
+  belief_.add(map, rover(), config_.footprint, dead_reckoned_m - std::exchange(dead_reckoned_m_, dead_reckoned_m));
   new_ground_ = new_map_ = mapped_ = true;
   return true;
 }

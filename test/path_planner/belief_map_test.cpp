@@ -46,7 +46,7 @@ class BeliefMapTest : public testing::Test {
   // A map of the NavCam with the same cost everywhere, made `range_m` from the rock.
   void see_cost(std::uint8_t cost, double range_m, double dead_reckoned_m = 0.0) {
     belief_.add({{0, 0.1, -10.0, -10.0, 200, 200, std::vector<std::uint8_t>(40000, cost)}},
-                {kRock.x_m - range_m, kRock.y_m}, dead_reckoned_m);
+                {kRock.x_m - range_m, kRock.y_m, 0.0}, testing_support::planner_config().footprint, dead_reckoned_m);
   }
   const CellBelief& at(Point2 p) const { return belief_.cells().get(belief_.cells().index_of(p.x_m, p.y_m)); }
   double probability() const { return belief_.probability(at(kRock)); }
@@ -192,6 +192,15 @@ TEST_F(BeliefMapTest, BetweenTheWheelsALowHazardStaysOne) {
   EXPECT_TRUE(belief_.low(at(kRock))) << "the body passed over it";
   belief_.mark_driven({kRock.x_m, kRock.y_m + 0.41, 0.0}, footprint);
   EXPECT_EQ(probability(), 0.0) << "a wheel drove over it";
+}
+
+TEST_F(BeliefMapTest, UnderTheRoverTheNavCamsMapChangesNothing) {
+  see(HazardGrid::kObstacle, 3);
+  belief_.mark_driven({kRock.x_m, kRock.y_m, 0.0}, testing_support::planner_config().footprint);
+  see_cost(TraversabilityGrid::kImpassable, 0.0);
+  EXPECT_TRUE(belief_.low(at(kRock)));
+  see_cost(TraversabilityGrid::kImpassable, 1.5);
+  EXPECT_FALSE(belief_.low(at(kRock))) << "it is seen again";
 }
 
 TEST_F(BeliefMapTest, DrivenGroundNeedsNoMeasurement) {

@@ -79,7 +79,7 @@ class Replay {
     }
     if (history_.empty()) return;
     if (event.channel == channel::kTraversability && decode_message(event.data, event.size, traversability))
-      belief_.add(traversability_from(traversability), position(planar(history_.newest().T_odom_body)));
+      belief_.add(traversability_from(traversability), planar(history_.newest().T_odom_body), config_.footprint);
     if (event.channel != channel::kHazards || !decode_message(event.data, event.size, hazards)) return;
     const HazardGrid grid = hazards_from(hazards);
     const auto T_odom_body = history_.at(grid.utime);

@@ -124,17 +124,20 @@ void BeliefMap::add_unmeasured(CellBelief& cell, const HazardGrid& grid, Point2 
 }
 
 // Successive maps share their heights, so a look as good as the last one replaces half of it and never makes it surer.
-void BeliefMap::add(const TraversabilityGrid& grid, Point2 rover, double dead_reckoned_m) {
+// No camera sees the ground under the rover.
+void BeliefMap::add(const TraversabilityGrid& grid, const Pose2& rover, const Footprint& footprint,
+                    double dead_reckoned_m) {
   // In cells. Odom drifts against the ground, and what was seen before lies elsewhere; within a cell a step ends.
   const double drift2 = std::pow(BeliefConfig::kDriftPerM * dead_reckoned_m / BeliefConfig::kCellM, 2);
   const Point2 high{grid.origin_x_m + grid.cells_x * grid.cell_m, grid.origin_y_m + grid.cells_y * grid.cell_m};
   for_cells_in(map_, {grid.origin_x_m, grid.origin_y_m}, high, [&](CellBelief& cell, Point2 p) {
     const int cost = grid.at(p);
     if (cost == TraversabilityGrid::kUnknown || cost == InputGrid::kOutside) return;
+    if (footprint.distance_m(rover, p) <= 0.0) return;
     const bool impassable = cost >= TraversabilityGrid::kLow;
     const double relative = static_cast<double>(cost) / TraversabilityGrid::kLow;
     const double ratio = impassable ? kImpassableRatio : std::cbrt(relative);  // cost.step_exponent of traversability
-    const double sigma = config_.sigma + config_.sigma_per_m * distance(p, rover);
+    const double sigma = config_.sigma + config_.sigma_per_m * distance(p, position(rover));
     const double before = static_cast<double>(cell.step_sigma) * cell.step_sigma + drift2;
     cell.evidence /= static_cast<float>(1.0 + drift2);
     const double variance = before + sigma * sigma;

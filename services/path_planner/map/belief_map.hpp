@@ -54,9 +54,9 @@ class BeliefMap {
   void clear() { map_.clear(); }
   // One frame of the LocCam. The ground lies `ground_z_m` above (negative: below) the body origin.
   void add(const HazardGrid& grid, const Eigen::Isometry3d& T_odom_body, double ground_z_m);
-  // One map of the NavCam, made with the rover at this position; since the last it drove so far on wheel odometry
-  // alone.
-  void add(const TraversabilityGrid& grid, Point2 rover, double dead_reckoned_m = 0.0);
+  // One map of the NavCam, made with the rover there; since the last it drove so far on wheel odometry alone.
+  void add(const TraversabilityGrid& grid, const Pose2& rover, const Footprint& footprint,
+           double dead_reckoned_m = 0.0);
   void mark_driven(const Pose2& pose, const Footprint& footprint);
   // Ground that the operator certifies.
   void mark_known(Point2 center, double radius_m);
