@@ -106,7 +106,7 @@ void PathPlanner::add_pose(const PoseSample& sample) {
   apply_start_area();
   belief_.move_to(position(rover()));
   belief_.mark_driven(rover(), config_.footprint);
-  if (mode_ == Mode::kBackingUp)
+  if (mode_ == Mode::kBackingUp || sample.forward_mps < -kStationaryMps)
     breadcrumbs_.retrace(position(rover()));
   else
     breadcrumbs_.extend(position(rover()));
@@ -511,7 +511,9 @@ void PathPlanner::back_up() {
   failures_ = 0;
   back_up_wanted_ = replan_wanted_ = false;
   job_.reset();
-  active_.set_route(next_path_id_++, PathKind::kBacktrack, Route(std::move(points)), config_.min_corridor_m, rover());
+  const double beside_m = distance(points.front().p, position(rover()));
+  active_.set_route(next_path_id_++, PathKind::kBacktrack, Route(std::move(points)),
+                    std::max(config_.min_corridor_m, beside_m + kBackUpReserveM), rover());
   track_turn();
   blockage_ = {};
 }

@@ -458,6 +458,25 @@ TEST(PathPlanner, OnRequestItBacksUpTwiceAtMost) {
   EXPECT_EQ(rig.planner.mode(), Mode::kFollowing) << "the fault is over";
 }
 
+TEST(PathPlanner, BackingUpLeadsBackFromARoverThatHasReversedBesideItsTrack) {
+  PlannerRig rig;
+  rig.send_path(kAhead);
+  rig.look();
+  rig.go(5.0);
+  rig.forward_mps = -0.1;
+  for (const Pose2 from = rig.odom; rig.odom.x_m > from.x_m - 0.6;) {
+    rig.odom = {rig.odom.x_m - 0.02, rig.odom.y_m - 0.01, 0.0};
+    rig.step();
+  }
+  rig.forward_mps = 0.0;
+  rig.planner.request_back_up(true);
+  rig.look(2);
+  ASSERT_EQ(rig.planner.mode(), Mode::kBackingUp);
+  ASSERT_EQ(rig.paths.back().kind, PathKind::kBacktrack);
+  for (const RoutePoint& point : rig.paths.back().points) EXPECT_LT(point.p.x_m, rig.odom.x_m + 0.1);
+  EXPECT_LT(rig.paths.back().points.back().p.x_m, rig.odom.x_m - 0.8);
+}
+
 TEST(PathPlanner, OnRequestARoverThatHasNotDrivenYetCannotBackUp) {
   PlannerRig rig;
   rig.send_path(kAhead);
