@@ -194,7 +194,7 @@ void PoseCostToGo::offer(Motion motion, int cell, int heading, float cost) {
 }
 
 void PoseCostToGo::spread() {
-  double last = max_cost_ - common_ - from_start_to_goal_;
+  double last = std::isinf(max_cost_) ? kInfinity : max_cost_ - common_ - from_start_to_goal_;
   bool reached = false;
   for (; bucket_ < buckets_.size() && kBucketS * static_cast<double>(bucket_) <= last; ++bucket_) {
     // A bucket may grow while it is expanded.
