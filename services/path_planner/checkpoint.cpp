@@ -104,9 +104,9 @@ bool get_map(StateReader& in, GridMap<CellBelief>& map) {
     if (!cell.known) return;
     cell.unmeasured = in.get<std::uint8_t>();
     const auto values = in.get<std::array<float, 7>>();
-    numbers = numbers && std::isfinite(std::accumulate(values.begin(), values.end(), 0.0F)) && values[3] > 0.0F;
     std::tie(cell.unmeasured_range_m, cell.evidence, cell.step_ratio, cell.step_sigma, cell.cost, cell.tall_evidence,
              cell.tall_fraction) = std::tuple_cat(values);
+    numbers = numbers && std::isfinite(std::accumulate(values.begin(), values.end(), 0.0F)) && cell.step_sigma > 0.0F;
   });
   return numbers;
 }

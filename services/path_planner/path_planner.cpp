@@ -511,9 +511,7 @@ void PathPlanner::back_up() {
   failures_ = 0;
   back_up_wanted_ = replan_wanted_ = false;
   job_.reset();
-  const double beside_m = distance(points.front().p, position(rover()));
-  active_.set_route(next_path_id_++, PathKind::kBacktrack, Route(std::move(points)),
-                    std::max(config_.min_corridor_m, beside_m + kBackUpReserveM), rover());
+  active_.set_route(next_path_id_++, PathKind::kBacktrack, Route(std::move(points)), config_.min_corridor_m, rover());
   track_turn();
   blockage_ = {};
 }

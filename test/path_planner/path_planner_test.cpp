@@ -465,7 +465,7 @@ TEST(PathPlanner, BackingUpLeadsBackFromARoverThatHasReversedBesideItsTrack) {
   rig.go(5.0);
   rig.forward_mps = -0.1;
   for (const Pose2 from = rig.odom; rig.odom.x_m > from.x_m - 0.6;) {
-    rig.odom = {rig.odom.x_m - 0.02, rig.odom.y_m - 0.01, 0.0};
+    rig.odom = {rig.odom.x_m - 0.02, rig.odom.y_m - 0.007, 0.0};
     rig.step();
   }
   rig.forward_mps = 0.0;

@@ -32,7 +32,7 @@ class CostToGo {
   // Of ending at a place near the goal [s]; infinity: it is none.
   double goal_cost(Point2 p) const;
   // What follows a path that ends at the place [s].
-  double beyond(Point2 p) const {
+  double end_cost(Point2 p) const {
     const double goal = goal_cost(p);
     return std::isfinite(goal) ? goal : at(p);
   }

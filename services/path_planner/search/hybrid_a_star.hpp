@@ -26,8 +26,7 @@ struct PricedGround {
   double known_free_m = 0.0;
 };
 
-// The cost of the plan is less what all plans have in common.
-// Costlier plans than `max_cost` are of no use [s].
+// Plans that cost more than `max_cost` are of no use. Costs are those of the lattice, relative to its common() [s].
 Plan search_hybrid_a_star(const HybridAStarConfig& config, const MotionCosts& costs, const PricedGround& ground,
                           const PoseCostToGo& pose_cost_to_go, double max_cost);
 

@@ -79,7 +79,7 @@ double HybridPlanner::incumbent_cost(const PricedGround& ground) const {
       pricer.add_turn_views(poses[i - 1].pose.yaw_rad, poses[i].pose);
     }
   }
-  return cost + ground.cost_to_go.beyond(position(poses.back().pose));
+  return cost + ground.cost_to_go.end_cost(position(poses.back().pose));
 }
 
 }  // namespace rover::planning

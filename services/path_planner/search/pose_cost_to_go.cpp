@@ -146,7 +146,7 @@ void PoseCostToGo::mark(int heading, int row, int from, int to, Clearance value)
 }
 
 PoseCostToGo::End PoseCostToGo::end_at(Point2 p) const {
-  const double beyond = cost_to_go_.beyond(p) - common_;
+  const double beyond = cost_to_go_.end_cost(p) - common_;
   if (std::isfinite(cost_to_go_.goal_cost(p))) return {beyond, kNaN};
   if (!at_horizon(p)) return {};
   return {beyond, cost_to_go_.descent_rad(p)};
@@ -166,7 +166,7 @@ void PoseCostToGo::seed() {
     const bool ring = at_horizon(p) && distance(p, center_) <= horizon_m_ + kBandM;
     if (!ring && std::isinf(cost_to_go_.goal_cost(p))) continue;
     ends.push_back(cell);
-    least = std::min(least, cost_to_go_.beyond(p));
+    least = std::min(least, cost_to_go_.end_cost(p));
   }
   if (std::isinf(least)) return;
   common_ = least;
