@@ -95,7 +95,7 @@ PathPlannerConfig load_config(const std::string& config_dir, ParameterList* list
   p.add("unseen_stop_distance_m", c.stop_unknown_m, {0.05, 5.0}, "the same, unseen ground");
   p.add("patience", c.patience, {1, 100}, "plans that find no path before the rover backs up");
   p.add("backtrack_m", c.back_up_m, {0.5, 5.0},
-        "reverse along the driven track if there is no path; each one in a row is this much longer");
+        "back on the driven track if there is no path; each one in a row is this much longer");
   p.add("max_backtracks", c.max_back_ups, {0, 100}, "in a row, without progress along the global path");
   p.add("view_range_m", c.belief.view.far_m, {1.0, 20.0}, "the LocCam sees the ground this far ahead");
   c.belief.view = view_of(load_stereo_rig(config_dir, "loccam"), c.ground_z_m, c.belief.view.far_m);

@@ -13,7 +13,9 @@ class Monitor {
   explicit Monitor(const MonitorQuery& query)
       : query_(query),
         check_(query.costmap, query.footprint, query.margin_m, kMonitorApproachM, 0.0, query.rover, query.planned_from),
-        visibility_(query.costmap, check_, query.view) {}
+        visibility_(query.costmap, check_, query.view) {
+    check_.set_low_margin(0.0);
+  }
 
   Blockage run() {
     const Pose2 here = body_on_path(query_.from_m);

@@ -21,9 +21,10 @@ constexpr double kControlM = 0.05;
 constexpr double kGoalNearM = 1.0;
 constexpr double kGoalToleranceRatio = 0.6;  // of the goal's tolerance, for a plan
 constexpr double kProgressM = 1.0;           // of the global path, after which backing up counts anew
-constexpr double kMinBackUpM = 0.2;
-constexpr double kBackUpMarginM = 0.03;  // less than the driven track had
-constexpr double kBackUpReserveM = 0.1;
+constexpr double kMinBackUpM = 0.3;
+constexpr double kBackUpMarginM = 0.03;  // less than the plan has
+constexpr double kBackUpToleranceM = 0.1;
+constexpr double kShortBackUpSPerM = 50.0;  // per metre that is not backed up
 constexpr int kMaxWantedBackUps = 2;
 constexpr double kPoseStepM = 0.05;
 constexpr double kMinIncumbentM = 2.5;  // a shorter rest of the active plan does not bind the next one
@@ -182,10 +183,8 @@ PlannerOutput PathPlanner::step(Utime now) {
   mode_ = next_mode(mode_, facts(now));
   if (mode_ == Mode::kBackingUp && before != mode_) back_up();
   if (before == Mode::kNoPath && mode_ == Mode::kPlanning) failures_ = back_ups_ = 0;
-  if (ready(now) && wants_plan()) {
-    request_plan();
-    take_plan(now);
-  }
+  if (mode_ == Mode::kNoPath && new_ground_) back_up_plan_.reset();
+  if (ready(now)) request(now);
   new_ground_ = new_level_ = false;
   if (global_odom_ && !active_.empty() && active_.id() != sent_path_id_) {
     sent_path_id_ = active_.id();
@@ -193,6 +192,14 @@ PlannerOutput PathPlanner::step(Utime now) {
   }
   out.status = status(now);
   return out;
+}
+
+void PathPlanner::request(Utime now) {
+  if (wants_back_up())
+    request_back_up_plan();
+  else if (wants_plan())
+    request_plan();
+  take_plan(now);
 }
 
 void PathPlanner::set_global_in_odom() {
@@ -329,14 +336,14 @@ std::uint16_t PathPlanner::facts(Utime now) {
   std::uint16_t facts = kReady;
   if (clear()) facts |= kClear;
   if (new_level_) facts |= kNewLevel;
-  if (!stationary()) return facts;
-  const bool failed = failures_ >= config_.patience && (mapped_ || !full_level_);
-  if (failed) facts |= kFailed;
+  if (!stationary()) {
+    back_up_plan_.reset();
+    return facts;
+  }
+  if (failed()) facts |= kFailed;
   if (back_up_wanted_) facts |= kBackUpWanted;
-  // If all ways are known to be blocked, backing up helps only to see them once more from farther off.
-  const int max_back_ups = failed && closed_in_ ? 1 : config_.max_back_ups;
-  const bool may = back_up_wanted_ ? wanted_back_ups_ < kMaxWantedBackUps : failed;
-  if (may && back_ups_ < max_back_ups && back_up_points().size() >= 2) facts |= kCanBackUp;
+  if (!may_back_up() || (back_up_plan_ && !back_up_plan_->found)) facts |= kCannotBackUp;
+  if (may_back_up() && back_up_plan_ && back_up_plan_->found) facts |= kCanBackUp;
   if (mode_ == Mode::kBackingUp &&
       (active_.at_end(position(rover())) || strayed() || replan_wanted_ || hazard_ahead_m() < config_.stop_hazard_m))
     facts |= kBackedUp;
@@ -379,19 +386,24 @@ ActivePath::Start PathPlanner::plan_start() const {
           now.forward_mps < 0.0, kNaN};
 }
 
-void PathPlanner::request_plan() {
-  Job job{active_.id(), plan_start(), std::isfinite(blockage_.hazard_m)};
+PlanRequest PathPlanner::request_from(const ActivePath::Start& start) const {
   PlanRequest request;
   request.global_path = global_odom_;
   request.global_progress_m = global_progress_m_;
   request.rover = rover();
-  request.start = job.start.pose;
-  request.start_curvature_per_m = job.start.curvature_per_m;
-  request.start_reverse = job.start.reverse;
+  request.start = start.pose;
+  request.start_curvature_per_m = start.curvature_per_m;
+  request.start_reverse = start.reverse;
   request.turning = turning_ && stationary();
-  if (!std::isnan(job.start.at_m)) request.views = active_.views_until(job.start.at_m);
   request.side_slip = side_slip_;
   request.goal_tolerance_m = kGoalToleranceRatio * global_->goal_tolerance_m;
+  return request;
+}
+
+void PathPlanner::request_plan() {
+  Job job{active_.id(), plan_start(), std::isfinite(blockage_.hazard_m)};
+  PlanRequest request = request_from(job.start);
+  if (!std::isnan(job.start.at_m)) request.views = active_.views_until(job.start.at_m);
   if (!std::isnan(job.start.at_m) && clear()) request.incumbent = active_.plan_from(job.start.at_m);
   if (length_m(request.incumbent) < kMinIncumbentM) request.incumbent.clear();
   const auto make = [request, planner = planner_, belief = belief_, costmap = config_.costmap,
@@ -411,7 +423,11 @@ void PathPlanner::take_plan(Utime now) {
   if (!plan) return;
   const Job job = *std::exchange(job_, std::nullopt);
   const bool stale = job.path_id != active_.id() || mode_ == Mode::kBackingUp;
-  if (!stale) adopt(*plan, job);
+  if (stale) return;
+  if (job.back_up)
+    back_up_plan_ = *plan;
+  else
+    adopt(*plan, job);
 }
 
 void PathPlanner::adopt(const Plan& plan, const Job& job) {
@@ -482,36 +498,47 @@ std::vector<RoutePoint> PathPlanner::tail(const Pose2& from, const Pose2& start)
   return points;
 }
 
-// The driven track, as far as the footprint passes it.
-std::vector<Point2> PathPlanner::back_up_points() const {
-  const std::vector<Point2> track = breadcrumbs_.back((1 + back_ups_) * config_.back_up_m);
-  if (track.size() < 2) return {};
-  std::vector<RoutePoint> points;
-  for (const Point2& p : track) points.push_back({p, kNaN, 0, true});
-  const Route route(std::move(points));
-  const Costmap costmap = monitor_costmap(true);
-  const bool turning = turns_to(route.pose_at(0.0).yaw_rad);
-  const Blockage blockage = find_blockage({costmap, route, config_.footprint, 0.0, rover(), rover(), kBackUpMarginM,
-                                           turning, config_.belief.view, side_slip_});
-  const double clear_m = std::min(route.length_m(), blockage.hazard_m - kBackUpReserveM);
-  std::vector<Point2> out;
-  for (size_t i = 0; i < track.size() && route.s_at(i) <= clear_m; ++i) out.push_back(track[i]);
-  if (!out.empty() && clear_m - route.s_at(out.size() - 1) > Breadcrumbs::kStepM)
-    out.push_back(route.point_at(clear_m));
-  if (out.size() < 2 || distance(out.front(), out.back()) < kMinBackUpM) return {};
-  return out;
+// If all ways are known to be blocked, backing up helps only to see them once more from farther off.
+bool PathPlanner::may_back_up() const {
+  const bool asked = back_up_wanted_ ? wanted_back_ups_ < kMaxWantedBackUps : failed();
+  return asked && back_ups_ < (failed() && closed_in_ ? 1 : config_.max_back_ups);
+}
+
+bool PathPlanner::wants_back_up() const {
+  const bool blocked = back_up_wanted_ || mode_ == Mode::kPlanning;
+  return blocked && mode_ != Mode::kBackingUp && !job_ && !back_up_plan_ && stationary() && may_back_up();
+}
+
+// To the driven track, as far behind as it shall back up; less costs.
+void PathPlanner::request_back_up_plan() {
+  const Job job{active_.id(), {rover(), 0.0, false, kNaN}, false, true};
+  PlanRequest request = request_from(job.start);
+  const std::deque<Point2>& track = breadcrumbs_.points();
+  const double wanted_m = (1 + back_ups_) * config_.back_up_m;
+  double behind_m = 0.0;
+  for (size_t i = track.size(); i-- > 1;) {
+    behind_m += distance(track[i - 1], track[i]);
+    if (behind_m >= kMinBackUpM)
+      request.back_to.push_back({track[i - 1], kShortBackUpSPerM * std::max(0.0, wanted_m - behind_m)});
+  }
+  if (request.back_to.empty()) {
+    back_up_plan_.emplace();
+    return;
+  }
+  request.goal_tolerance_m = kBackUpToleranceM;
+  request.costmap = std::make_shared<const Costmap>(monitor_costmap(true));
+  const auto make = [request, planner = planner_] { return planner->plan(request); };
+  if (background_->start(make, history_.newest().utime)) job_ = job;
 }
 
 void PathPlanner::back_up() {
-  std::vector<RoutePoint> points;
-  const std::int8_t level = global_odom_->level_at(global_progress_m_);
-  for (const Point2& p : back_up_points()) points.push_back({p, kNaN, level, true});
   ++back_ups_;
   if (back_up_wanted_) ++wanted_back_ups_;
   failures_ = 0;
   back_up_wanted_ = replan_wanted_ = false;
   job_.reset();
-  active_.set_route(next_path_id_++, PathKind::kBacktrack, Route(std::move(points)), config_.min_corridor_m, rover());
+  active_.set_plan(next_path_id_++, PathKind::kBacktrack, std::exchange(back_up_plan_, std::nullopt)->poses, {},
+                   config_.min_corridor_m, global_odom_->level_at(global_progress_m_), rover());
   track_turn();
   blockage_ = {};
 }

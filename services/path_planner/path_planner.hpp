@@ -120,6 +120,7 @@ class PathPlanner {
     std::int64_t path_id = -1;
     ActivePath::Start start;
     bool because_of_hazard = false;
+    bool back_up = false;
   };
 
   bool ready(Utime now) const;
@@ -141,14 +142,19 @@ class PathPlanner {
   bool clear() const;
   bool strayed() const;
 
+  void request(Utime now);
   bool wants_plan() const;
+  PlanRequest request_from(const ActivePath::Start& start) const;
   void request_plan();
   ActivePath::Start plan_start() const;
   void take_plan(Utime now);
   void adopt(const Plan& plan, const Job& job);
   std::vector<RoutePoint> tail(const Pose2& from, const Pose2& start) const;
 
-  std::vector<Point2> back_up_points() const;
+  bool failed() const { return failures_ >= config_.patience && (mapped_ || !full_level_); }
+  bool may_back_up() const;
+  bool wants_back_up() const;
+  void request_back_up_plan();
   void back_up();
 
   double hazard_ahead_m() const { return blockage_.hazard_m - active_.progress_m(); }
@@ -185,6 +191,7 @@ class PathPlanner {
   int failures_ = 0;                  // plans not found, in a row
   bool needs_unseen_ground_ = false;  // the last of them
   bool closed_in_ = false;            // the same
+  std::optional<Plan> back_up_plan_;  // from where the rover is stationary; none: not asked for yet
   int back_ups_ = 0;                  // since the rover last made progress
   int wanted_back_ups_ = 0;           // of them, those that FDIR wanted
   bool full_level_ = false;

@@ -13,10 +13,11 @@ enum Fact : std::uint16_t {
   kReady = 1 << 0,         // global path and fresh pose
   kClear = 1 << 1,         // the rover may go on along its path
   kFailed = 1 << 2,        // stationary, and several plans in a row were not found
-  kCanBackUp = 1 << 3,     // the driven track is free, and not too often taken back
+  kCanBackUp = 1 << 3,     // there is a plan to back up
   kBackedUp = 1 << 4,      // at the end of a path to back up, or stopped on it
   kBackUpWanted = 1 << 5,  // by FDIR; stationary
   kNewLevel = 1 << 6,      // which sees other ground: what failed before may succeed
+  kCannotBackUp = 1 << 7,  // there is no such plan, or it has been done too often
 };
 
 struct Transition {

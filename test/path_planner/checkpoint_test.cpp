@@ -76,7 +76,7 @@ TEST(Checkpoint, ARestartedPlannerKnowsTheDrivenTrack) {
   rig.planner = restarted;
   rig.look();
   rig.planner.request_back_up(true);
-  rig.look();
+  rig.look(2);
   EXPECT_EQ(rig.paths.back().kind, PathKind::kBacktrack);
 }
 

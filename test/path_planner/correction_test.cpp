@@ -113,7 +113,7 @@ TEST(Correction, APathToBackUpStays) {
   rig.look();
   rig.go(2.0);
   rig.planner.request_back_up(true);
-  rig.look();
+  rig.look(2);
   ASSERT_EQ(rig.paths.back().kind, PathKind::kBacktrack);
   const size_t before = rig.paths.size();
   rig.T_map_odom = {0.4, 0.3, 0.02};

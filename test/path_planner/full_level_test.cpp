@@ -218,7 +218,7 @@ TEST_F(FullLevelTest, ARoverThatBacksUpBesideTheGoalIsNotAtTheGoal) {
   rig_.step();
   rig_.move_to(1.0, 0.0);
   rig_.planner.request_back_up(true);
-  rig_.look();
+  rig_.look(2);
   ASSERT_EQ(path().kind, PathKind::kBacktrack);
   rig_.T_map_odom = {7.0, -6.0, 0.0};
   rig_.step();

@@ -309,25 +309,45 @@ TEST(PathPlanner, OnUnknownGroundItSaysThatThereIsNoPath) {
   EXPECT_NE(rig.step().status.state, PlannerState::kNoPath);
 }
 
-// Never finds a plan.
-struct NoPlanBackground final : Background {
-  bool start(PlanJob /*job*/, Utime /*now*/) override { return true; }
-  std::optional<Plan> result(Utime /*now*/) override { return Plan{.closed_in = closed_in}; }
-  bool closed_in = false;
+// Finds plans to back up only.
+template <bool kClosedIn>
+class BackUpPlanner final : public Planner {
+ public:
+  explicit BackUpPlanner(const HybridPlannerConfig& config) : hybrid_(config) {}
+  Plan plan(const PlanRequest& request) const override {
+    return request.back_to.empty() ? Plan{.closed_in = kClosedIn} : hybrid_.plan(request);
+  }
+
+ private:
+  HybridPlanner hybrid_;
 };
+template <bool kClosedIn>
+std::shared_ptr<const Planner> make_back_up_planner(const HybridPlannerConfig& config) {
+  return std::make_shared<const BackUpPlanner<kClosedIn>>(config);
+}
 
 // A rover at the end of a driven track.
 class BackUpTest : public testing::Test {
  protected:
   static constexpr double kTrackM = 9.0;
 
-  void SetUp() override {
+  static void SetUpTestSuite() {
+    add_planner("back_up", make_back_up_planner<false>);
+    add_planner("back_up_closed_in", make_back_up_planner<true>);
+  }
+  void SetUp() override { set_up("back_up"); }
+  void set_up(const std::string& planner) {
+    PathPlannerConfig config = planner_config();
+    config.planner_name = planner;
+    rig_ = PlannerRig();
+    rig_.planner = PathPlanner(config, 1);
+    rig_.planner.set_start_area({0.0, 0.0}, 2.0, 0);
     rig_.send_path(kAhead);
     rig_.step();
     rig_.move_to(kTrackM, 0.0);
   }
   void wait_for_back_up() {
-    for (int i = 0; i < patience() + 2 && rig_.planner.mode() != Mode::kBackingUp; ++i) rig_.look();
+    for (int i = 0; i < patience() + 3 && rig_.planner.mode() != Mode::kBackingUp; ++i) rig_.look();
   }
   // In reverse to the end of the path.
   void back_up() {
@@ -341,8 +361,7 @@ class BackUpTest : public testing::Test {
     rig_.forward_mps = 0.0;
     rig_.look();
   }
-  std::shared_ptr<NoPlanBackground> background_ = std::make_shared<NoPlanBackground>();
-  PlannerRig rig_{background_};
+  PlannerRig rig_;
 };
 
 TEST_F(BackUpTest, WithoutAPathItBacksUpOverTheDrivenTrack) {
@@ -372,7 +391,7 @@ TEST_F(BackUpTest, ItBacksUpFurtherEachTimeUntilTheTrackEnds) {
 }
 
 TEST_F(BackUpTest, WhereNoWayIsOpenItBacksUpOnce) {
-  background_->closed_in = true;
+  set_up("back_up_closed_in");
   wait_for_back_up();
   ASSERT_EQ(rig_.planner.mode(), Mode::kBackingUp);
   back_up();
@@ -396,6 +415,18 @@ TEST_F(BackUpTest, APathThatPassesAPlaceTwiceIsFollowedToItsEnd) {
   rig_.forward_mps = 0.0;
   rig_.look();
   EXPECT_NE(rig_.planner.mode(), Mode::kBackingUp);
+}
+
+// Ground beside the track was never seen.
+TEST_F(BackUpTest, BesideItsTrackItBacksUpOntoIt) {
+  rig_.move_to(kTrackM, 0.2);
+  rig_.forward_mps = 0.0;
+  wait_for_back_up();
+  ASSERT_EQ(rig_.planner.mode(), Mode::kBackingUp);
+  const Route route(rig_.paths.back().points);
+  EXPECT_GT(route.length_m(), planner_config().back_up_m - 0.15);
+  EXPECT_NEAR(route.points().back().p.y_m, 0.0, 0.11);
+  EXPECT_TRUE(std::isinf(rig_.look().status.blocked_in_m));
 }
 
 TEST_F(BackUpTest, SlidingTowardsARockWhileBackingUpItStops) {
@@ -440,11 +471,11 @@ TEST(PathPlanner, OnRequestItBacksUpTwiceAtMost) {
   int back_ups = 0;
   for (int i = 0; i < 4; ++i) {
     rig.planner.request_back_up(true);
-    rig.look();
+    rig.look(2);
     if (rig.planner.mode() != Mode::kBackingUp) continue;
     ++back_ups;
     const Point2 end = rig.paths.back().points.back().p;
-    EXPECT_NEAR(rig.odom.x_m - end.x_m, planner_config().back_up_m * back_ups, 0.21);
+    EXPECT_NEAR(rig.odom.x_m - end.x_m, planner_config().back_up_m * back_ups + 0.15, 0.2);
     rig.odom = {end.x_m, end.y_m, 0.0};
     rig.look(3);
     EXPECT_EQ(rig.planner.mode(), Mode::kFollowing) << "from there it drives on";

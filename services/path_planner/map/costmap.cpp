@@ -9,8 +9,9 @@ namespace {
 constexpr int kKnownNeighbours = 6;
 // Ground that cannot be measured from near counts where it is so wide that a rock fits in.
 constexpr int kWideCells = 5;
-constexpr int kWideCount = 20;        // of 25
-constexpr double kLowFraction = 0.3;  // of the cost of a hazard, if the body passes over it
+constexpr int kWideCount = 20;          // of 25
+constexpr double kBesideTrackM = 0.25;  // backing up, the rover may leave by this what it has driven
+constexpr double kLowFraction = 0.3;    // of the cost of a hazard, if the body passes over it
 
 // Fills unknown cells among known ones.
 std::vector<std::uint8_t> filled(const std::vector<std::uint8_t>& unknown, int cells) {
@@ -86,6 +87,13 @@ Costmap::Costmap(const CostmapConfig& config, const BeliefMap& belief, Point2 ro
   unknown_.resize(count);
   for (size_t i = 0; i < count; ++i) unknown_[i] = cells[i]->known && !wide[i] ? 0 : 1;
   unknown_ = filled(unknown_, cells_);
+  if (config.passed_is_free) {
+    std::vector<std::uint8_t> passed(count);
+    for (size_t i = 0; i < count; ++i) passed[i] = cells[i]->passed ? 1 : 0;
+    const std::vector<double> beside_m = distance_field(passed, cells_, cells_, cell_m_);
+    for (size_t i = 0; i < count; ++i)
+      if (beside_m[i] <= kBesideTrackM) unknown_[i] = 0;
+  }
 
   std::vector<std::uint8_t> hazard(count, 0);
   const std::vector<std::uint8_t> walls = walls_of(zones);

@@ -24,22 +24,28 @@ CostToGo::CostToGo(const CostToGoConfig& config, const PlanRequest& request, con
       half_width_m_(footprint.half_width_m),
       margin_m_(margin_m),
       rover_(position(request.rover)),
-      goal_(request.global_path->points().back().p),
+      goals_(request.back_to),
       goal_tolerance_m_(request.goal_tolerance_m),
-      goal_inside_(costmap_.inside_m(goal_) > kBorderM),
+      goal_reach_m_(goal_tolerance_m_),
       coarse_cells_((costmap_.cells() + kCoarse - 1) / kCoarse) {
+  if (goals_.empty()) {
+    goals_ = {{request.global_path->points().back().p, 0.0}};
+    goal_reach_m_ = std::max(goal_tolerance_m_, config.blocked_goal_radius_m);
+  }
+  std::erase_if(goals_, [&](const BackUpPlace& goal) { return costmap_.inside_m(goal.p) <= kBorderM; });
   std::vector<std::uint8_t> tall(static_cast<size_t>(costmap_.cells()) * costmap_.cells(), 0);
   for (const auto& [p, low] : costmap_.hazards())
     if (!low) tall[costmap_.cell_of(p)] = 1;
   tall_distance_m_ = distance_field(tall, costmap_.cells(), costmap_.cells(), costmap_.cell_m());
+  room_at_rover_m_ = std::min(-margin_m_, room_m(costmap_.cell_of(rover_)));
   march_from_goal(request);
 }
 
 double CostToGo::cost_per_m(int cell) const {
   // Over a low hazard the rover may pass, with the right heading.
-  const double room = tall_distance_m_[cell] - half_width_m_ - margin_m_;
+  const double room = room_m(cell);
   if (room < 0.0) {
-    const bool at_rover = room > -margin_m_ - kScrapeM && distance(costmap_.center_of(cell), rover_) < kAtRoverM;
+    const bool at_rover = room > room_at_rover_m_ - kScrapeM && distance(costmap_.center_of(cell), rover_) < kAtRoverM;
     return at_rover ? config_.seconds_per_m * kTightCost : kInfinity;
   }
   const double lack = std::clamp(1.0 - room / CostToGoConfig::kClearanceDistanceM, 0.0, 1.0);
@@ -47,10 +53,14 @@ double CostToGo::cost_per_m(int cell) const {
 }
 
 double CostToGo::goal_cost(Point2 p) const {
-  if (!goal_inside_) return kInfinity;
-  const double miss = distance(p, goal_);
-  if (miss > std::max(config_.blocked_goal_radius_m, goal_tolerance_m_)) return kInfinity;
-  return config_.seconds_per_m * config_.goal_miss_cost * std::max(0.0, miss - goal_tolerance_m_);
+  double least = kInfinity;
+  for (const BackUpPlace& goal : goals_) {
+    const double miss = distance(p, goal.p);
+    if (miss > goal_reach_m_) continue;
+    const double too_far = std::max(0.0, miss - goal_tolerance_m_);
+    least = std::min(least, goal.cost_s + config_.seconds_per_m * config_.goal_miss_cost * too_far);
+  }
+  return least;
 }
 
 // From a cell at the border: straight to where the global path is met again, and along it to the goal. `ahead`: points
@@ -85,8 +95,10 @@ void CostToGo::march_from_goal(const PlanRequest& request) {
     seed[coarse] = std::min(seed[coarse], goal_cost(p));
     const double inside = costmap_.inside_m(p);
     if (inside < kBorderM || inside > kBorderM + kBorderBandM || std::isfinite(seed[coarse])) continue;
+    if (!request.back_to.empty()) continue;
     // If all paths through the costmap are blocked, one may lead around it.
-    seed[coarse] = goal_inside_ ? config_.seconds_per_m * kAroundFactor * distance(p, goal_) : beyond(ahead, left_m, p);
+    seed[coarse] = goals_.empty() ? beyond(ahead, left_m, p)
+                                  : config_.seconds_per_m * kAroundFactor * distance(p, goals_.front().p);
   }
   std::vector<Seed> seeds;
   for (size_t i = 0; i < count; ++i)

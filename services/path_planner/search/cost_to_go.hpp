@@ -1,5 +1,6 @@
 // 2-D cost-to-go: seconds from each cell of the costmap to the goal, heading aside. Fast marching from the goal, or, if
-// that lies outside, from the border, where the rest is estimated along the global path.
+// that lies outside, from the border, where the rest is estimated along the global path. To back up, from the places
+// where that may end.
 #pragma once
 
 #include <vector>
@@ -43,6 +44,8 @@ class CostToGo {
   int coarse_cell(int cell) const {
     return cell / costmap_.cells() / kCoarse * coarse_cells_ + cell % costmap_.cells() / kCoarse;
   }
+  // Of the rover's half width and margin, to the nearest hazard that does not pass under the body.
+  double room_m(int cell) const { return tall_distance_m_[cell] - half_width_m_ - margin_m_; }
   void march_from_goal(const PlanRequest& request);
   double beyond(const std::vector<Point2>& ahead, double left_m, Point2 p) const;
 
@@ -52,11 +55,12 @@ class CostToGo {
   double half_width_m_;
   double margin_m_;
   Point2 rover_;
-  Point2 goal_;
+  std::vector<BackUpPlace> goals_;  // on the costmap
   double goal_tolerance_m_;
-  bool goal_inside_ = false;
+  double goal_reach_m_;  // a plan may end this far from a goal
   int coarse_cells_;
   std::vector<double> tall_distance_m_;  // to the nearest hazard that does not pass under the body
+  double room_at_rover_m_;
   std::vector<double> to_goal_;
 };
 

@@ -236,7 +236,8 @@ class HybridAStar {
   }
 
   void end_or_offer(const Node& node) {
-    const double end_cost = node.reverse ? kInfinity : pose_cost_to_go_.end_cost(node.pose);
+    const bool may_end = !node.reverse || !ground_.request.back_to.empty();
+    const double end_cost = may_end ? pose_cost_to_go_.end_cost(node.pose) : kInfinity;
     if (node.cost + end_cost < plan_.cost) {
       plan_.found = true;
       plan_.cost = node.cost + end_cost;
@@ -284,8 +285,9 @@ double PathPricer::cost_per_m(const Pose2& pose, double distance_m, bool reverse
   double cost = ground_.cost_to_go.cost_per_m(position(pose));
   if (std::isinf(cost) || !ground_.min.clear(pose)) return kInfinity;
   if (!ground_.comfort.clear(pose)) cost *= costs_.tight_factor;
+  if (reverse) cost *= costs_.reverse_factor;
   // No camera looks backwards: ground behind has been seen before.
-  if (reverse) return ground_.min.known(pose) ? costs_.reverse_factor * cost : kInfinity;
+  if (reverse || !ground_.request.back_to.empty()) return ground_.min.known(pose) ? cost : kInfinity;
   if (distance_m > ground_.known_free_m || visibility_.covers(pose)) return cost;
   needs_unseen_ground_ = true;
   return kInfinity;

@@ -28,6 +28,12 @@ struct Plan {
   int expansions = 0;
 };
 
+// Where a plan to back up may end.
+struct BackUpPlace {
+  Point2 p;
+  double cost_s = 0.0;  // of ending there
+};
+
 struct PlanRequest {
   std::shared_ptr<const Costmap> costmap;
   std::shared_ptr<const Route> global_path;  // in odom
@@ -35,9 +41,10 @@ struct PlanRequest {
   Pose2 rover;
   Pose2 start;  // where the committed part of the active path ends
   double start_curvature_per_m = 0.0;
-  bool start_reverse = false;  // the rover comes to the start in reverse
-  bool turning = false;        // stopped in a point turn there, which may go on or back by any angle
-  std::vector<Pose2> views;    // poses from which the LocCam looks on the way from the rover to the start
+  bool start_reverse = false;        // the rover comes to the start in reverse
+  bool turning = false;              // stopped in a point turn there, which may go on or back by any angle
+  std::vector<Pose2> views;          // poses from which the LocCam looks on the way from the rover to the start
+  std::vector<BackUpPlace> back_to;  // the goal instead of that of the global path, over known ground; empty: none
   double goal_tolerance_m = 0.0;
   SideSlip side_slip;
   std::vector<PlanPose> incumbent;  // the active plan from the start on; empty: none

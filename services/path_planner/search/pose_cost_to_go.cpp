@@ -175,8 +175,10 @@ void PoseCostToGo::seed() {
     const End end = end_at(center_of(cell));
     if (std::isinf(end.any_heading)) continue;
     for (int heading = 0; heading < kHeadings; ++heading)
-      if (clearance(cell, heading) != kBlocked)
+      if (clearance(cell, heading) != kBlocked) {
         offer(kForward, cell, heading, static_cast<float>(end.cost(yaw_of(heading))));
+        if (!request_.back_to.empty()) offer(kReverse, cell, heading, static_cast<float>(end.cost(yaw_of(heading))));
+      }
   }
 }
 

@@ -36,8 +36,9 @@ class PoseCostToGo {
     return std::isfinite(std::min({forward(pose), turning(pose), reverse(pose)}));
   }
   int expansions() const { return expansions_; }
-  // Whether a plan may end at the place: at the horizon, or at the goal.
+  // Whether a plan may end at the place although the goal is not there. One to back up may not.
   bool at_horizon(Point2 p) const {
+    if (!request_.back_to.empty()) return false;
     const double dx = p.x_m - center_.x_m;
     const double dy = p.y_m - center_.y_m;
     return dx * dx + dy * dy >= horizon_m_ * horizon_m_;
