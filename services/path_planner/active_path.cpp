@@ -96,22 +96,22 @@ ActivePath::Start ActivePath::start_after(double committed_m) const {
 }
 
 // Arc lengths of route and plan agree, as the plan is sampled finely.
-std::vector<PlanPose> ActivePath::plan_from(double at_m) const {
+std::vector<PlanPose> ActivePath::plan_from(double at_m, const ExpectedMotion& motion) const {
   std::vector<PlanPose> out;
   double s = 0.0;
   for (size_t i = 0; i < plan_.size(); ++i) {
     if (i > 0) s += distance(position(plan_[i - 1].pose), position(plan_[i].pose));
-    if (s >= at_m) out.push_back(plan_[i]);
+    if (s >= at_m) out.push_back({motion.shifted(plan_[i].pose, s), plan_[i].reverse, plan_[i].motion_cost});
   }
   return out;
 }
 
-std::vector<PlanPose> ActivePath::plan_until(double at_m) const {
+std::vector<PlanPose> ActivePath::plan_until(double at_m, const ExpectedMotion& motion) const {
   constexpr double kBehindM = 0.3;
   std::vector<PlanPose> out;
   const PathSegment now = segment();
   for (double s = std::max(now.begin_m, progress_m_ - kBehindM); s < at_m; s += 0.5 * 0.1)
-    out.push_back({route_.pose_at(s), now.reverse, 0.0});
+    out.push_back({motion.at(s), now.reverse, 0.0});
   return out;
 }
 

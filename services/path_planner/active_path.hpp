@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "path_planner/expected_motion.hpp"
 #include "path_planner/search/plan.hpp"
 
 namespace rover::planning {
@@ -67,9 +68,10 @@ class ActivePath {
   // Where a plan may begin that keeps the next `committed_m` of the path; later if a point turn lies there, earlier if
   // a cusp does.
   Start start_after(double committed_m) const;
-  // The plan from there on; empty if there is none.
-  std::vector<PlanPose> plan_from(double at_m) const;
-  std::vector<PlanPose> plan_until(double at_m) const;
+  // The plan from there on, and the way there from a little behind the rover, as they will be driven; empty if there is
+  // no plan.
+  std::vector<PlanPose> plan_from(double at_m, const ExpectedMotion& motion) const;
+  std::vector<PlanPose> plan_until(double at_m, const ExpectedMotion& motion) const;
   // Poses from which the LocCam looks on the way there.
   std::vector<Pose2> views_until(double at_m) const;
 

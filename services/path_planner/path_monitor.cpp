@@ -6,20 +6,20 @@ namespace {
 constexpr double kStepM = 0.05;
 constexpr double kTurnStepRad = 0.0524;
 constexpr double kMonitorApproachM = 0.025;  // a path is not its plan to the millimetre
-constexpr double kMergeM = 1.0;              // over about this distance the controller removes a cross-track error
 
 class Monitor {
  public:
   explicit Monitor(const MonitorQuery& query)
       : query_(query),
+        motion_(query.route, query.from_m, query.rover, query.side_slip, query.turning),
         check_(query.costmap, query.footprint, query.margin_m, kMonitorApproachM, 0.0, query.rover, query.planned_from),
         visibility_(query.costmap, check_, query.view) {
     check_.set_low_margin(0.0);
   }
 
   Blockage run() {
-    const Pose2 here = body_on_path(query_.from_m);
-    if (query_.turning) check_turn(query_.rover, wrap_angle(here.yaw_rad - query_.rover.yaw_rad), query_.from_m);
+    const double turn_rad = wrap_angle(motion_.on_route(query_.from_m).yaw_rad - query_.rover.yaw_rad);
+    if (query_.turning) check_turn(query_.rover, turn_rad, query_.from_m);
     // A point turn shows the ground ahead; until then nothing can be said of it.
     bool view_known = !query_.turning;
     size_t corner = 0;
@@ -31,7 +31,7 @@ class Monitor {
           check_corner(corners[corner], s);
           view_known = false;
         }
-      const Pose2 pose = expected_pose(s, here);
+      const Pose2 pose = motion_.at(s);
       if (!query_.costmap.contains(position(pose))) break;
       check(pose, s, view_known);
       if (s < next_view_m) continue;
@@ -58,23 +58,6 @@ class Monitor {
     }
   }
 
-  // On a side slope the body points uphill of the path.
-  Pose2 body_on_path(double s_m) const {
-    Pose2 pose = query_.route.pose_at(s_m);
-    pose.yaw_rad = query_.side_slip.heading(pose.yaw_rad, query_.route.reverse_at(s_m));
-    return pose;
-  }
-
-  // The pose of the path, shifted by what remains of the rover's tracking error.
-  Pose2 expected_pose(double s_m, const Pose2& here) const {
-    Pose2 pose = body_on_path(s_m);
-    const double remaining = std::max(0.0, 1.0 - (s_m - query_.from_m) / kMergeM);
-    pose.x_m += remaining * (query_.rover.x_m - here.x_m);
-    pose.y_m += remaining * (query_.rover.y_m - here.y_m);
-    if (!query_.turning) pose.yaw_rad += remaining * wrap_angle(query_.rover.yaw_rad - here.yaw_rad);
-    return pose;
-  }
-
   void check(const Pose2& pose, double s_m, bool check_unknown) {
     if (std::isinf(blockage_.hazard_m) && !check_.clear(pose)) blockage_.hazard_m = s_m;
     if (!check_unknown || std::isfinite(blockage_.unseen_m) || check_.known(pose)) return;
@@ -83,6 +66,7 @@ class Monitor {
   }
 
   const MonitorQuery& query_;
+  ExpectedMotion motion_;
   FootprintCheck check_;
   Visibility visibility_;
   Blockage blockage_;

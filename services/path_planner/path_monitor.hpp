@@ -3,9 +3,8 @@
 
 #include <optional>
 
-#include "path_planner/route.hpp"
+#include "path_planner/expected_motion.hpp"
 #include "path_planner/search/footprint_check.hpp"
-#include "path_planner/side_slip.hpp"
 
 namespace rover::planning {
 

@@ -363,17 +363,21 @@ bool PathPlanner::wants_plan() const {
          unseen_ahead_m() < std::min(matters_m, config_.planner.search.known_free_m);
 }
 
+ExpectedMotion PathPlanner::expected_motion() const {
+  return {active_.route(), active_.progress_m(), rover(), side_slip_, turning_};
+}
+
 double PathPlanner::stopping_distance_m() const {
   const double v = std::abs(history_.newest().forward_mps);
   return v * (config_.planning_latency_s + config_.release_latency_s) + 0.5 * v * v / config_.deceleration_mps2;
 }
 
-// At the end of the committed part of the path; if that is blocked, where the rover can stop.
+// Where the rover will be at the end of the committed part of the path; if that is blocked, where it can stop.
 ActivePath::Start PathPlanner::plan_start() const {
   const double committed_m = stopping_distance_m();
   if (mode_ == Mode::kFollowing && !active_.empty()) {
     ActivePath::Start start = active_.start_after(committed_m);
-    start.pose.yaw_rad = side_slip_.heading(start.pose.yaw_rad, start.reverse);
+    start.pose = expected_motion().at(start.at_m);
     if (std::min(blockage_.hazard_m, blockage_.unknown_m) > start.at_m) return start;
   }
   const PoseSample& now = history_.newest();
@@ -404,7 +408,7 @@ void PathPlanner::request_plan() {
   Job job{active_.id(), plan_start(), std::isfinite(blockage_.hazard_m)};
   PlanRequest request = request_from(job.start);
   if (!std::isnan(job.start.at_m)) request.views = active_.views_until(job.start.at_m);
-  if (!std::isnan(job.start.at_m) && clear()) request.incumbent = active_.plan_from(job.start.at_m);
+  if (!std::isnan(job.start.at_m) && clear()) request.incumbent = active_.plan_from(job.start.at_m, expected_motion());
   if (length_m(request.incumbent) < kMinIncumbentM) request.incumbent.clear();
   const auto make = [request, planner = planner_, belief = belief_, costmap = config_.costmap,
                      zones = zones_odom_]() mutable {
@@ -443,7 +447,7 @@ void PathPlanner::adopt(const Plan& plan, const Job& job) {
   }
   std::vector<PlanPose> poses;
   if (!std::isnan(job.start.at_m)) {
-    poses = active_.plan_until(job.start.at_m);
+    poses = active_.plan_until(job.start.at_m, expected_motion());
   } else {
     const double lead_m = distance(position(rover()), position(job.start.pose));
     if (lead_m > kPoseStepM) poses.push_back({rover(), job.start.reverse, 0.0});

@@ -146,6 +146,7 @@ class PathPlanner {
   bool wants_plan() const;
   PlanRequest request_from(const ActivePath::Start& start) const;
   void request_plan();
+  ExpectedMotion expected_motion() const;
   ActivePath::Start plan_start() const;
   void take_plan(Utime now);
   void adopt(const Plan& plan, const Job& job);

@@ -326,6 +326,22 @@ std::shared_ptr<const Planner> make_back_up_planner(const HybridPlannerConfig& c
   return std::make_shared<const BackUpPlanner<kClosedIn>>(config);
 }
 
+TEST(PathPlanner, APlanBeginsWhereTheRoverIsBesideItsPath) {
+  PlannerRig rig;
+  rig.send_path(kAhead);
+  rig.look();
+  rig.go(2.0);
+  rig.rocks = {{{rig.odom.x_m + 3.0, 0.0}, 0.3, 0.4}};
+  rig.odom.y_m = 0.08;
+  rig.forward_mps = 0.2;
+  const size_t before = rig.paths.size();
+  for (int i = 0; i < 5 && rig.paths.size() == before; ++i) rig.look();
+  ASSERT_GT(rig.paths.size(), before);
+  const Route route(rig.paths.back().points);
+  const double here_m = route.closest(position(rig.odom));
+  EXPECT_LT(distance(route.point_at(here_m), position(rig.odom)), 0.02);
+}
+
 // A rover at the end of a driven track.
 class BackUpTest : public testing::Test {
  protected:
