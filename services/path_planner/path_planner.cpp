@@ -306,14 +306,14 @@ double PathPlanner::margin_m() const {
                                              : clearances.min_m - PathPlannerConfig::kClearanceToleranceM;
 }
 
-Costmap PathPlanner::monitor_costmap(bool backing_up) const {
+Costmap PathPlanner::monitor_costmap(CostmapUse use) const {
   CostmapConfig config = config_.costmap;
-  config.passed_is_free = backing_up;
+  config.use = use;
   return Costmap(config, belief_, position(rover()), kMonitorSideM, zones_odom_);
 }
 
 void PathPlanner::check_path() {
-  const Costmap costmap = monitor_costmap(mode_ == Mode::kBackingUp);
+  const Costmap costmap = monitor_costmap(mode_ == Mode::kBackingUp ? CostmapUse::kBackingUp : CostmapUse::kGoingOn);
   blockage_ = find_blockage({costmap, active_.route(), config_.footprint, active_.progress_m(), rover(),
                              active_.planned_from(), margin_m(), turning_, config_.belief.view, side_slip_});
   // No camera looks backwards, and the driven track was known.
@@ -513,7 +513,7 @@ bool PathPlanner::wants_back_up() const {
   return blocked && mode_ != Mode::kBackingUp && !job_ && !back_up_plan_ && stationary() && may_back_up();
 }
 
-// To the driven track, as far behind as it shall back up; less costs.
+// To the driven track, as far behind as it shall back up; less costs. After a fault over driven ground only.
 void PathPlanner::request_back_up_plan() {
   const Job job{active_.id(), {rover(), 0.0, false, kNaN}, false, true};
   PlanRequest request = request_from(job.start);
@@ -530,7 +530,8 @@ void PathPlanner::request_back_up_plan() {
     return;
   }
   request.goal_tolerance_m = kBackUpToleranceM;
-  request.costmap = std::make_shared<const Costmap>(monitor_costmap(true));
+  request.costmap = std::make_shared<const Costmap>(
+      monitor_costmap(back_up_wanted_ ? CostmapUse::kBackingUpOnTrack : CostmapUse::kBackingUp));
   const auto make = [request, planner = planner_] { return planner->plan(request); };
   if (background_->start(make, history_.newest().utime)) job_ = job;
 }

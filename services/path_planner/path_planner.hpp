@@ -136,7 +136,7 @@ class PathPlanner {
   void track_progress();
   bool turns_to(double yaw_rad) const;
   void track_turn();
-  Costmap monitor_costmap(bool backing_up) const;
+  Costmap monitor_costmap(CostmapUse use) const;
   void check_path();
   std::uint16_t facts(Utime now);
   bool clear() const;

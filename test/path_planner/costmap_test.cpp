@@ -52,10 +52,28 @@ TEST(Costmap, ForBackingUpHazardsThatTheFootprintPassedAreFree) {
   belief.mark_driven({kMiddle.x_m - 0.4, kMiddle.y_m - 0.41, 0.0}, planner_config().footprint);
   CostmapConfig config;
   EXPECT_FALSE(Costmap(config, belief, {}, 10.0).hazards().empty()) << "between the wheels of a side";
-  config.passed_is_free = true;
+  config.use = CostmapUse::kBackingUp;
   const std::vector<Hazard> left = Costmap(config, belief, {}, 10.0).hazards();
   EXPECT_FALSE(left.empty());
   for (const Hazard& hazard : left) EXPECT_GT(hazard.p.y_m, kMiddle.y_m) << "beside the footprint";
+}
+
+// Seen ground to the north, unseen ground to the south of the driven track.
+TEST(Costmap, ForBackingUpALittleBesideTheTrackIsKnown) {
+  const double half_width_m = planner_config().footprint.half_width_m;
+  BeliefMap belief = certain_belief([](Point2 p) { return p.y_m > 0.0 ? Ground::kFree : Ground::kUnknown; });
+  for (double x_m = -3.0; x_m <= 3.0; x_m += 0.05) belief.mark_driven({x_m, 0.0, 0.0}, planner_config().footprint);
+  const auto unknown = [&](CostmapUse use, double beside_m) {
+    CostmapConfig config;
+    config.use = use;
+    return Costmap(config, belief, {}, kSideM).unknown({0.05, std::copysign(half_width_m, beside_m) + beside_m});
+  };
+  EXPECT_TRUE(unknown(CostmapUse::kGoingOn, -0.15));
+  EXPECT_FALSE(unknown(CostmapUse::kBackingUp, -0.15));
+  EXPECT_TRUE(unknown(CostmapUse::kBackingUp, -0.4));
+  EXPECT_FALSE(unknown(CostmapUse::kBackingUp, 0.4));
+  EXPECT_FALSE(unknown(CostmapUse::kBackingUpOnTrack, -0.15));
+  EXPECT_TRUE(unknown(CostmapUse::kBackingUpOnTrack, 0.4)) << "seen, but not driven";
 }
 
 TEST(Costmap, ListsHazardsRowByRow) {

@@ -87,12 +87,16 @@ Costmap::Costmap(const CostmapConfig& config, const BeliefMap& belief, Point2 ro
   unknown_.resize(count);
   for (size_t i = 0; i < count; ++i) unknown_[i] = cells[i]->known && !wide[i] ? 0 : 1;
   unknown_ = filled(unknown_, cells_);
-  if (config.passed_is_free) {
+  const bool backing_up = config.use != CostmapUse::kGoingOn;
+  if (backing_up) {
     std::vector<std::uint8_t> passed(count);
     for (size_t i = 0; i < count; ++i) passed[i] = cells[i]->passed ? 1 : 0;
     const std::vector<double> beside_m = distance_field(passed, cells_, cells_, cell_m_);
     for (size_t i = 0; i < count; ++i)
-      if (beside_m[i] <= kBesideTrackM) unknown_[i] = 0;
+      if (beside_m[i] <= kBesideTrackM)
+        unknown_[i] = 0;
+      else if (config.use == CostmapUse::kBackingUpOnTrack)
+        unknown_[i] = 1;
   }
 
   std::vector<std::uint8_t> hazard(count, 0);
@@ -101,7 +105,7 @@ Costmap::Costmap(const CostmapConfig& config, const BeliefMap& belief, Point2 ro
   for (size_t i = 0; i < count; ++i) {
     if (i % static_cast<size_t>(cells_) == 0) row_begin_.push_back(hazards_.size());
     const CellBelief& cell = *cells[i];
-    const bool judged = cell.known && !(config.passed_is_free && cell.passed);
+    const bool judged = cell.known && !(backing_up && cell.passed);
     const double p = judged ? belief.probability(cell) : 0.0;
     const bool unmeasured = unknown_[i] && unmeasurable[i];
     const bool low = !unmeasured && !walls[i] && belief.low(cell);

@@ -13,8 +13,12 @@
 
 namespace rover::planning {
 
+// What a costmap is for. Backing up, where the footprint was it fits again, also a little beside; after a fault only
+// there.
+enum class CostmapUse : std::uint8_t { kGoingOn, kBackingUp, kBackingUpOnTrack };
+
 struct CostmapConfig {
-  bool passed_is_free = false;      // for backing up: where the footprint was it fits again, also a little beside
+  CostmapUse use = CostmapUse::kGoingOn;
   double hazard_probability = 0.5;  // from here on a cell is a hazard; below, its probability costs
   double hazard_cost = 4.0;         // relative to driving, at probability 1: the expected detour
   double difficulty_cost = 1.5;     // the same, at ground that is just traversable
