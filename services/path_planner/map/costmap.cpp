@@ -88,16 +88,7 @@ Costmap::Costmap(const CostmapConfig& config, const BeliefMap& belief, Point2 ro
   for (size_t i = 0; i < count; ++i) unknown_[i] = cells[i]->known && !wide[i] ? 0 : 1;
   unknown_ = filled(unknown_, cells_);
   const bool backing_up = config.use != CostmapUse::kGoingOn;
-  if (backing_up) {
-    std::vector<std::uint8_t> passed(count);
-    for (size_t i = 0; i < count; ++i) passed[i] = cells[i]->passed ? 1 : 0;
-    const std::vector<double> beside_m = distance_field(passed, cells_, cells_, cell_m_);
-    for (size_t i = 0; i < count; ++i)
-      if (beside_m[i] <= kBesideTrackM)
-        unknown_[i] = 0;
-      else if (config.use == CostmapUse::kBackingUpOnTrack)
-        unknown_[i] = 1;
-  }
+  if (backing_up) know_track(cells);
 
   std::vector<std::uint8_t> hazard(count, 0);
   const std::vector<std::uint8_t> walls = walls_of(zones);
@@ -117,6 +108,18 @@ Costmap::Costmap(const CostmapConfig& config, const BeliefMap& belief, Point2 ro
   row_begin_.push_back(hazards_.size());
   hazard_distance_ = distance_field(hazard, cells_, cells_, cell_m_);
   unknown_distance_ = distance_field(unknown_, cells_, cells_, cell_m_);
+}
+
+void Costmap::know_track(const std::vector<const CellBelief*>& cells) {
+  std::vector<std::uint8_t> passed;
+  passed.reserve(cells.size());
+  for (const CellBelief* cell : cells) passed.push_back(cell->passed ? 1 : 0);
+  const std::vector<double> beside_m = distance_field(passed, cells_, cells_, cell_m_);
+  for (size_t i = 0; i < cells.size(); ++i)
+    if (beside_m[i] <= kBesideTrackM)
+      unknown_[i] = 0;
+    else if (config_.use == CostmapUse::kBackingUpOnTrack)
+      unknown_[i] = 1;
 }
 
 std::vector<float> Costmap::costs() const {

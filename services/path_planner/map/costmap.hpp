@@ -69,6 +69,7 @@ class Costmap {
   std::vector<float> costs() const;
 
  private:
+  void know_track(const std::vector<const CellBelief*>& cells);
   std::pair<double, double> within(const Eigen::Vector2d& a, const Eigen::Vector2d& along) const;
   std::vector<std::uint8_t> walls_of(const std::vector<Zone>& zones) const;
 
