@@ -13,9 +13,7 @@ class Monitor {
       : query_(query),
         motion_(query.route, query.from_m, query.rover, query.side_slip, query.turning),
         check_(query.costmap, query.footprint, query.margin_m, kMonitorApproachM, 0.0, query.rover, query.planned_from),
-        visibility_(query.costmap, check_, query.view) {
-    check_.set_low_margin(0.0);
-  }
+        visibility_(query.costmap, check_, query.view) {}
 
   Blockage run() {
     const double turn_rad = wrap_angle(motion_.on_route(query_.from_m).yaw_rad - query_.rover.yaw_rad);

@@ -60,20 +60,6 @@ TEST_F(PathMonitorTest, AHazardBlocksWhereTheFrontComesWithinTheMargin) {
   EXPECT_TRUE(std::isinf(blockage(spot(Ground::kHazard, {-2.05, 0.05})).hazard_m)) << "behind";
 }
 
-// A cell at the edge of a low rock comes and goes; a wheel that meets it after all can climb it.
-TEST_F(PathMonitorTest, AWheelMayComeNearALowHazardButNotOntoIt) {
-  constexpr Point2 kSpot{4.05, 0.25};
-  const auto drive_with_it_at = [&](double in_body_y_m) {
-    rover_.y_m = kSpot.y_m - in_body_y_m;
-    set_path({{-2.0, rover_.y_m}, {20.0, rover_.y_m}});
-  };
-  drive_with_it_at(footprint_.half_gap_m - 0.05);
-  EXPECT_TRUE(std::isfinite(blockage(spot(Ground::kHazard, kSpot)).hazard_m));
-  EXPECT_TRUE(std::isinf(blockage(spot(Ground::kLow, kSpot)).hazard_m));
-  drive_with_it_at(footprint_.half_gap_m + 0.05);
-  EXPECT_NEAR(blockage(spot(Ground::kLow, kSpot)).hazard_m, from_m_ + kSpot.x_m - footprint_.half_length_m, 0.06);
-}
-
 TEST_F(PathMonitorTest, OnASideSlopeTheFrontSwingsUphill) {
   const GroundAt uphill = spot(Ground::kHazard, {4.05, 0.65});
   EXPECT_TRUE(std::isinf(blockage(uphill).hazard_m));

@@ -16,8 +16,7 @@ BeliefMap certain_belief(const GroundAt& ground) {
     const Ground kind = ground({map.center_x_m(i), map.center_y_m(i)});
     if (kind == Ground::kUnknown) return;
     cell.known = true;
-    cell.evidence = kind == Ground::kFree ? -kCertain : kCertain;
-    cell.tall_evidence = kind == Ground::kLow ? -kCertain : 0.0F;
+    cell.evidence = kind == Ground::kHazard ? kCertain : -kCertain;
   });
   return belief;
 }

@@ -7,7 +7,7 @@
 
 namespace rover::planning::testing_support {
 
-enum class Ground : std::uint8_t { kFree, kHazard, kLow, kUnknown };
+enum class Ground : std::uint8_t { kFree, kHazard, kUnknown };
 using GroundAt = std::function<Ground(Point2)>;
 
 // A belief map around the origin.

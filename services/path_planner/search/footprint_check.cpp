@@ -13,7 +13,6 @@ FootprintCheck::FootprintCheck(const Costmap& costmap, const Footprint& footprin
     : costmap_(costmap),
       footprint_(footprint),
       margin_m_(margin_m),
-      low_margin_m_(margin_m),
       approach_m_(approach_m),
       start_(start),
       planned_from_(planned_from) {
@@ -29,10 +28,9 @@ FootprintCheck::FootprintCheck(const Costmap& costmap, const Footprint& footprin
 
 bool FootprintCheck::violates(const Pose2& pose, const Hazard& hazard) const {
   const double d = distance_m(pose, hazard);
-  const double margin_m = hazard.low ? low_margin_m_ : margin_m_;
-  if (d >= margin_m) return false;
+  if (d >= margin_m_) return false;
   const double onto_m = std::min(distance_m(planned_from_, hazard) - approach_m_, 0.0);
-  return d < std::min(margin_m, std::max(distance_m(start_, hazard) - approach_m_ - slide_m_, onto_m));
+  return d < std::min(margin_m_, std::max(distance_m(start_, hazard) - approach_m_ - slide_m_, onto_m));
 }
 
 bool FootprintCheck::enters(const Pose2& pose, Point2 unknown) const {

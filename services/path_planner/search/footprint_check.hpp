@@ -22,8 +22,6 @@ class FootprintCheck {
 
   // On a side slope the rover slides, also towards hazards, until it has steered against it.
   void allow_slide(double slide_m) { slide_m_ = slide_m; }
-  // Of low hazards: a wheel that meets one after all can climb it.
-  void set_low_margin(double margin_m) { low_margin_m_ = margin_m; }
   bool clear(const Pose2& pose) const;
   // From the footprint to the nearest centre of a hazard cell; `max` if none is as near.
   double clearance_m(const Pose2& pose, double max) const;
@@ -47,7 +45,6 @@ class FootprintCheck {
   const Costmap& costmap_;
   Footprint footprint_;
   double margin_m_;
-  double low_margin_m_;
   double approach_m_;
   double slide_m_ = 0.0;
   Pose2 start_;
