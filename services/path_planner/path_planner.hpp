@@ -98,7 +98,10 @@ class PathPlanner {
   // FDIR: the path is not to be driven on.
   void request_replan() { replan_wanted_ = true; }
   // FDIR: as long as it is wanted, only driven ground helps.
-  void request_back_up(bool wanted) { back_up_wanted_ = wanted; }
+  void request_back_up(bool wanted) {
+    if (wanted != back_up_wanted_) back_up_plan_.reset();  // it may leave driven ground
+    back_up_wanted_ = wanted;
+  }
   PlannerOutput step(Utime now);
 
   std::vector<std::uint8_t> save() const;
