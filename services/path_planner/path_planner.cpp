@@ -22,7 +22,6 @@ constexpr double kGoalNearM = 1.0;
 constexpr double kGoalToleranceRatio = 0.6;  // of the goal's tolerance, for a plan
 constexpr double kProgressM = 1.0;           // of the global path, after which backing up counts anew
 constexpr double kMinBackUpM = 0.3;
-constexpr double kBackUpMarginM = 0.03;  // less than the plan has
 constexpr double kBackUpToleranceM = 0.1;
 constexpr double kShortBackUpSPerM = 50.0;  // per metre that is not backed up
 constexpr int kMaxWantedBackUps = 2;
@@ -300,10 +299,9 @@ void PathPlanner::follow_correction() {
 }
 
 double PathPlanner::margin_m() const {
-  if (mode_ == Mode::kBackingUp) return kBackUpMarginM;
   const Clearances& clearances = config_.planner.clearances;
-  return active_.kind() == PathKind::kGlobal ? clearances.turn_m
-                                             : clearances.min_m - PathPlannerConfig::kClearanceToleranceM;
+  if (mode_ == Mode::kBackingUp) return clearances.min_m - 2.0 * Clearances::kToleranceM;
+  return active_.kind() == PathKind::kGlobal ? clearances.turn_m : clearances.min_m - Clearances::kToleranceM;
 }
 
 Costmap PathPlanner::monitor_costmap(CostmapUse use) const {
@@ -342,8 +340,10 @@ std::uint16_t PathPlanner::facts(Utime now) {
   }
   if (failed()) facts |= kFailed;
   if (back_up_wanted_) facts |= kBackUpWanted;
-  if (!may_back_up() || (back_up_plan_ && !back_up_plan_->found)) facts |= kCannotBackUp;
-  if (may_back_up() && back_up_plan_ && back_up_plan_->found) facts |= kCanBackUp;
+  if (!may_back_up() || (back_up_plan_ && !back_up_plan_->found))
+    facts |= kCannotBackUp;
+  else if (back_up_plan_)
+    facts |= kCanBackUp;
   if (mode_ == Mode::kBackingUp &&
       (active_.at_end(position(rover())) || strayed() || replan_wanted_ || hazard_ahead_m() < config_.stop_hazard_m))
     facts |= kBackedUp;

@@ -30,13 +30,11 @@ struct PathPlannerConfig {
   HybridPlannerConfig planner;  // footprint and view are taken from here
   RoundingConfig rounding;
   double pose_max_age_s = 0.5;
-  double release_latency_s = 0.1;   // of a path, message time
-  double planning_latency_s = 0.1;  // of a plan, message time
-  static constexpr double kClearanceToleranceM =
-      0.03;                             // a path is blocked below the smallest clearance less this: hazards grow
-  double corridor_half_width_m = 0.75;  // if the global path has none
-  double min_corridor_m = 0.25;         // of a path between hazards, or over the driven track
-  double goal_tolerance_m = 0.5;        // if the global path has none
+  double release_latency_s = 0.1;                  // of a path, message time
+  double planning_latency_s = 0.1;                 // of a plan, message time
+  double corridor_half_width_m = 0.75;             // if the global path has none
+  double min_corridor_m = 0.25;                    // of a path between hazards, or over the driven track
+  double goal_tolerance_m = 0.5;                   // if the global path has none
   static constexpr double kMaxStartOffsetM = 0.5;  // farther from the global path, a path to it is planned
   double turn_threshold_rad = to_rad(40.0);        // as trajectory_control: larger heading errors start a point turn
   double turn_stop_rad = to_rad(2.0);              // and it ends here

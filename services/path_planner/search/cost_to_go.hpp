@@ -1,6 +1,5 @@
-// 2-D cost-to-go: seconds from each cell of the costmap to the goal, heading aside. Fast marching from the goal, or, if
-// that lies outside, from the border, where the rest is estimated along the global path. To back up, from the places
-// where that may end.
+// 2-D cost-to-go: seconds from each cell of the costmap to the goal, or where backing up may end, heading aside. Fast
+// marching from there, or, if the goal lies outside, from the border, with the rest estimated along the global path.
 #pragma once
 
 #include <vector>
@@ -44,7 +43,7 @@ class CostToGo {
   int coarse_cell(int cell) const {
     return cell / costmap_.cells() / kCoarse * coarse_cells_ + cell % costmap_.cells() / kCoarse;
   }
-  // Of the rover's half width and margin, to the nearest hazard that does not pass under the body.
+  // To the nearest hazard that does not pass under the body, beside the rover's half width and margin.
   double room_m(int cell) const { return tall_distance_m_[cell] - half_width_m_ - margin_m_; }
   void march_from_goal(const PlanRequest& request);
   double beyond(const std::vector<Point2>& ahead, double left_m, Point2 p) const;

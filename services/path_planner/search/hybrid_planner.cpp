@@ -6,8 +6,7 @@ namespace {
 constexpr double kKnownMarginM = 0.04;  // the rover follows a path within centimetres
 constexpr double kApproachM = 0.005;    // less than the path monitor's
 constexpr double kMaxClearanceM = 1.5;
-constexpr double kDrivenMarginM = 0.06;  // to back up: with this the driven track was driven
-constexpr double kSlideOverM = 0.3;      // driven until the rover has steered against a slide
+constexpr double kSlideOverM = 0.3;  // driven until the rover has steered against a slide
 // The lattice first lets through what almost fits, and ends where its best path is much better than others. If that
 // misleads the search, it holds only what surely fits, and all of it.
 constexpr std::array<LatticeExtent, 2> kExtents = {LatticeExtent{0.03, 10.0}, LatticeExtent{-0.03, kInfinity}};
@@ -24,7 +23,7 @@ Plan kept(double cost, int expansions) {
 
 Plan HybridPlanner::plan(const PlanRequest& request) const {
   Clearances margins = config_.clearances;
-  if (!request.back_to.empty()) margins.min_m = std::min(margins.min_m, kDrivenMarginM);
+  if (!request.back_to.empty()) margins.min_m -= Clearances::kToleranceM;
   // The places of both fields are the same: where no pose of the lattice fits, no way of the 2-D field leads.
   const CostToGo cost_to_go(config_.cost_to_go, request, config_.footprint, margins.min_m - kExtents.front().slack_m);
   const auto check = [&](double margin_m) {

@@ -20,6 +20,8 @@ struct Clearances {
   double comfort_m = 0.15;  // footprint to the centre of a hazard cell; below, motions cost more
   double min_m = 0.09;      // never below
   double turn_m = 0.12;     // never below in a point turn: the rover does not stop exactly
+  // A path is blocked below its smallest clearance less this, for hazards grow; what was driven had at least that.
+  static constexpr double kToleranceM = 0.03;
 };
 
 }  // namespace rover::planning
