@@ -82,13 +82,17 @@ Costmap::Costmap(const CostmapConfig& config, const BeliefMap& belief, Point2 ro
   for (int iy = 0; iy < cells_; ++iy)
     for (int ix = 0; ix < cells_; ++ix) cells.push_back(&map.get({origin.ix + ix, origin.iy + iy}));
   std::vector<std::uint8_t> unmeasurable(count);
-  for (size_t i = 0; i < count; ++i) unmeasurable[i] = belief.unmeasurable(*cells[i]) ? 1 : 0;
+  passed_.resize(count);
+  for (size_t i = 0; i < count; ++i) {
+    unmeasurable[i] = belief.unmeasurable(*cells[i]) ? 1 : 0;
+    passed_[i] = cells[i]->passed ? 1 : 0;
+  }
   const std::vector<std::uint8_t> wide = wide_parts(unmeasurable, cells_);
   unknown_.resize(count);
   for (size_t i = 0; i < count; ++i) unknown_[i] = cells[i]->known && !wide[i] ? 0 : 1;
   unknown_ = filled(unknown_, cells_);
   const bool backing_up = config.use != CostmapUse::kGoingOn;
-  if (backing_up) know_track(cells);
+  if (backing_up) know_track();
 
   std::vector<std::uint8_t> hazard(count, 0);
   const std::vector<std::uint8_t> walls = walls_of(zones);
@@ -110,12 +114,9 @@ Costmap::Costmap(const CostmapConfig& config, const BeliefMap& belief, Point2 ro
   unknown_distance_ = distance_field(unknown_, cells_, cells_, cell_m_);
 }
 
-void Costmap::know_track(const std::vector<const CellBelief*>& cells) {
-  std::vector<std::uint8_t> passed;
-  passed.reserve(cells.size());
-  for (const CellBelief* cell : cells) passed.push_back(cell->passed ? 1 : 0);
-  const std::vector<double> beside_m = distance_field(passed, cells_, cells_, cell_m_);
-  for (size_t i = 0; i < cells.size(); ++i)
+void Costmap::know_track() {
+  const std::vector<double> beside_m = distance_field(passed_, cells_, cells_, cell_m_);
+  for (size_t i = 0; i < unknown_.size(); ++i)
     if (beside_m[i] <= kBesideTrackM)
       unknown_[i] = 0;
     else if (config_.use == CostmapUse::kBackingUpOnTrack)

@@ -64,12 +64,14 @@ class Costmap {
   double hazard_distance_m(Point2 p) const { return contains(p) ? hazard_distance_[cell_of(p)] : kInfinity; }
   bool unknown(Point2 p) const { return !contains(p) || unknown_[cell_of(p)] != 0; }
   bool unknown(int cell) const { return unknown_[cell] != 0; }
+  // Whether the footprint was over it.
+  bool passed(Point2 p) const { return contains(p) && passed_[cell_of(p)] != 0; }
   double unknown_distance_m(Point2 p) const { return contains(p) ? unknown_distance_[cell_of(p)] : 0.0; }
   // Of a metre with the body origin in each cell, relative to a metre on easy ground: at least 1.
   std::vector<float> costs() const;
 
  private:
-  void know_track(const std::vector<const CellBelief*>& cells);
+  void know_track();
   std::pair<double, double> within(const Eigen::Vector2d& a, const Eigen::Vector2d& along) const;
   std::vector<std::uint8_t> walls_of(const std::vector<Zone>& zones) const;
 
@@ -79,6 +81,7 @@ class Costmap {
   double side_m_;
   Point2 corner_;
   std::vector<std::uint8_t> unknown_;
+  std::vector<std::uint8_t> passed_;
   std::vector<float> own_cost_;  // beside the metre itself, of the ground in each cell
   std::vector<Hazard> hazards_;
   std::vector<size_t> row_begin_;  // in hazards_, one more than there are rows

@@ -6,7 +6,9 @@ namespace {
 constexpr double kKnownMarginM = 0.04;  // the rover follows a path within centimetres
 constexpr double kApproachM = 0.005;    // less than the path monitor's
 constexpr double kMaxClearanceM = 1.5;
-constexpr double kSlideOverM = 0.3;  // driven until the rover has steered against a slide
+constexpr double kSlideOverM = 0.3;   // driven until the rover has steered against a slide
+constexpr double kHorizonRimM = 1.0;  // of the costmap, beyond the farthest horizon
+constexpr double kLedBackM = 1.5;     // from the start; the ground about the rover is driven
 // The lattice first lets through what almost fits, and ends where its best path is much better than others. If that
 // misleads the search, it holds only what surely fits, and all of it.
 constexpr std::array<LatticeExtent, 2> kExtents = {LatticeExtent{0.03, 10.0}, LatticeExtent{-0.03, kInfinity}};
@@ -17,6 +19,13 @@ Plan kept(double cost, int expansions) {
   plan.cost = cost;
   plan.expansions = expansions;
   return plan;
+}
+
+bool leads_back(const Plan& plan, const PlanRequest& request) {
+  return request.back_to.empty() && std::any_of(plan.poses.begin(), plan.poses.end(), [&](const PlanPose& at) {
+           const Point2 p = position(at.pose);
+           return distance(p, position(request.start)) > kLedBackM && request.costmap->passed(p);
+         });
 }
 
 }  // namespace
@@ -39,10 +48,25 @@ Plan HybridPlanner::plan(const PlanRequest& request) const {
   const double driven = incumbent_cost(ground);
   // Hardly any path is cheaper than the 2-D field says, which knows no headings.
   if (std::isfinite(at_least) && driven <= at_least + config_.switching_cost_s) return kept(driven, 0);
+  Plan plan = search(ground, margins, driven, config_.horizon_m);
+  // The 2-D field may lead to places that the rover has found closed: it would go to and fro between two of them. The
+  // lattice knows better, and reaches as far as the costmap then.
+  if (leads_back(plan, request))
+    plan = search(ground, margins, driven,
+                  std::max(config_.horizon_m, request.costmap->inside_m(position(request.start)) - kHorizonRimM));
+  if (!plan.found) return plan;
+  plan.clearance_m = kMaxClearanceM;
+  for (const PlanPose& at : plan.poses) plan.clearance_m = min.clearance_m(at.pose, plan.clearance_m);
+  return plan;
+}
+
+// `driven`: cost of the incumbent.
+Plan HybridPlanner::search(PricedGround& ground, const Clearances& margins, double driven, double horizon_m) const {
+  const PlanRequest& request = ground.request;
   Plan plan;
   for (const LatticeExtent& extent : kExtents) {
-    const PoseCostToGo pose_cost_to_go(config_.motion, margins, config_.footprint, request, cost_to_go,
-                                       config_.horizon_m, extent, driven - config_.switching_cost_s);
+    const PoseCostToGo pose_cost_to_go(config_.motion, margins, config_.footprint, request, ground.cost_to_go,
+                                       horizon_m, extent, driven - config_.switching_cost_s);
     for (const double known_free_m : {config_.search.known_free_m, HybridAStarConfig::kMinKnownFreeM}) {
       ground.known_free_m = known_free_m;
       const double incumbent = incumbent_cost(ground);
@@ -57,9 +81,6 @@ Plan HybridPlanner::plan(const PlanRequest& request) const {
     plan.closed_in = !plan.found && !plan.needs_unseen_ground && !pose_cost_to_go.reaches(request.start);
     if (plan.found || plan.closed_in) break;
   }
-  if (!plan.found) return plan;
-  plan.clearance_m = kMaxClearanceM;
-  for (const PlanPose& at : plan.poses) plan.clearance_m = min.clearance_m(at.pose, plan.clearance_m);
   return plan;
 }
 

@@ -23,6 +23,7 @@ class HybridPlanner final : public Planner {
   Plan plan(const PlanRequest& request) const override;
 
  private:
+  Plan search(PricedGround& ground, const Clearances& margins, double driven, double horizon_m) const;
   double incumbent_cost(const PricedGround& ground) const;
 
   HybridPlannerConfig config_;
