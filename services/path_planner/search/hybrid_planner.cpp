@@ -49,7 +49,7 @@ Plan HybridPlanner::plan(const PlanRequest& request) const {
   // Hardly any path is cheaper than the 2-D field says, which knows no headings.
   if (std::isfinite(at_least) && driven <= at_least + config_.switching_cost_s) return kept(driven, 0);
   Plan plan = search(ground, margins, driven, config_.horizon_m);
-  // The 2-D field may lead to places that the rover has found closed: it would go to and fro between two of them. The
+  // The 2-D field may lead to places that the rover has found closed: it would go back and forth between two. The
   // lattice knows better, and reaches as far as the costmap then.
   if (leads_back(plan, request))
     plan = search(ground, margins, driven,
