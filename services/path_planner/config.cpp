@@ -16,8 +16,7 @@ void add_belief(Parameters p, BeliefConfig& c) {
   p.add("near_range_m", c.near_range_m, {0.5, 10.0}, "farther frames count in proportion to 1 / range");
   p.add("navcam_sigma", c.sigma, {0.001, 1.0}, "of a step in the NavCam's map, relative to the limit");
   p.add("navcam_sigma_per_m", c.sigma_per_m, {0.0, 1.0}, "added per metre of range");
-  p.add("navcam_max_log_odds", c.max_navcam_evidence, {0.1, 20.0},
-        "bound of its evidence; below max_log_odds - hit_log_odds, so no single hit turns sure ground");
+  p.add("navcam_max_log_odds", c.max_navcam_evidence, {0.1, 20.0}, "bound of its evidence");
   p.add("unmeasured_frames", c.unmeasured_frames, {1, 200},
         "frames in a row, within near_range_m, that do not measure ground in view: a hazard, unless it is surely free");
 }

@@ -357,15 +357,6 @@ TEST_F(BeliefMapTest, LocCamMissesOverruleAnImpassableCellOfTheNavCam) {
   EXPECT_FALSE(is_hazard());
 }
 
-TEST_F(BeliefMapTest, OneHitDoesNotOverruleManyMissesWhateverTheNavCamSays) {
-  see_cost(TraversabilityGrid::kImpassable, 2.0);
-  see(HazardGrid::kFree, 20);
-  see(HazardGrid::kObstacle);
-  EXPECT_FALSE(is_hazard());
-  see(HazardGrid::kObstacle);
-  EXPECT_TRUE(is_hazard());
-}
-
 TEST_F(BeliefMapTest, LocCamHitsOverruleFreeGroundOfTheNavCam) {
   see_cost(0, 2.0);
   see(HazardGrid::kObstacle, 2);

@@ -22,10 +22,8 @@ struct BeliefConfig {
   // NavCam: the map shows a step as a ratio of the limit, with this standard deviation.
   double sigma = 0.05;
   double sigma_per_m = 0.008;
-  // Less than the LocCam's, whose picture of near ground is the sharper one, by more than one hit: a single frame alone
-  // turns no ground that the LocCam is sure of.
-  double max_navcam_evidence = 2.25;
-  static constexpr double kDriftPerM = 0.08;   // of wheel odometry alone, as SLAM takes it
+  double max_navcam_evidence = 2.5;           // less than the LocCam's, whose picture of near ground is the sharper one
+  static constexpr double kDriftPerM = 0.08;  // of wheel odometry alone, as SLAM takes it
   static constexpr double kSurelyFree = 0.02;  // of places below it at most 1 in 1,000 is a hazard (belief.md)
   int unmeasured_frames = 6;  // in a row, in view within near_range_m: a hazard, unless it is surely free
   ViewArea view;
