@@ -83,9 +83,8 @@ TEST(SecondPlanner, IsChosenByItsName) {
   EXPECT_GT(r.replans, 0);
 }
 
-// maze_study drives many. In the third, plans begin behind point turns that show their ground; in the fourth, two
-// places that are closed would draw the rover back and forth; the last is closed, with an end that is too narrow for
-// the rover by centimetres.
+// maze_study drives many. Here: plans begin behind point turns that show their ground (third); two closed places draw
+// the rover back and forth (fourth); an end too narrow by centimetres (last).
 TEST(Mazes, TheGoalIsReachedOrThereIsNoPath) {
   const std::vector<std::pair<int, std::uint64_t>> mazes = {{3, 1}, {3, 2}, {4, 3}, {4, 3015}, {3, 160}};
   for (const auto& [aside, seed] : mazes) {
