@@ -22,7 +22,6 @@ class GeometricStereo {
 
   int width() const { return rectified_.width; }
   int height() const { return rectified_.height; }
-  double focal_px() const { return rectified_.focal_px; }
   // Disparity of each rectified left pixel [px], 0 without ground. T_map_left: the true left camera.
   std::vector<float> exact_px(const Eigen::Isometry3d& T_map_left);
   // Point in the true left camera of an even pixel with its exact disparity.

@@ -3,17 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rover_simulator/camera/counter_hash.hpp"
-
 namespace rover {
 namespace {
 
 constexpr float kMinContrast = 0.03F;  // below it blocks have no unique match
-constexpr double kPatchM = 0.12;       // side of the patches of ground that match or not together
-// Fraction of the patches without a unique match: grows with the size of a pixel on the ground, to a maximum.
-constexpr double kSharpPixelM = 0.0065;
-constexpr double kHolesPerM = 50.0;
-constexpr double kMaxHoles = 0.2;
 
 TileSceneConfig unshaded() {
   TileSceneConfig config;
@@ -25,10 +18,7 @@ TileSceneConfig unshaded() {
 }  // namespace
 
 GeometricView::GeometricView(const Surface& world, const GroundAppearanceConfig& appearance)
-    : world_(world),
-      appearance_(appearance),
-      seed_(hash64(appearance.seed, 61)),
-      scene_(std::make_shared<TileScene>(world, unshaded())) {}
+    : world_(world), appearance_(appearance), scene_(std::make_shared<TileScene>(world, unshaded())) {}
 
 Disparity GeometricView::expose(GeometricStereo& stereo, const DisparityErrors& errors, const DisparityPlane& reference,
                                 const Eigen::Isometry3d& T_map_left, std::int64_t frame) {
@@ -50,20 +40,14 @@ Disparity GeometricView::expose(GeometricStereo& stereo, const DisparityErrors& 
   };
   const auto has_texture = [&](int u, int v) {
     if (px_at(u, v) <= 0.0F) return true;
-    const Eigen::Vector3d p_left = stereo.point(u, v, px_at(u, v));
-    return textured(T_map_left * p_left, p_left.z() / stereo.focal_px()) || is_outline(u, v);
+    return textured(T_map_left * stereo.point(u, v, px_at(u, v))) || is_outline(u, v);
   };
   return errors.apply(exact_px, has_texture, reference, frame);
 }
 
-bool GeometricView::textured(const Eigen::Vector3d& p_map, double pixel_m) const {
+bool GeometricView::textured(const Eigen::Vector3d& p_map) const {
   const Material material = world_.material(p_map.x(), p_map.y());
-  if (appearance_.at(p_map.x(), p_map.y(), material).fine_contrast < kMinContrast) return false;
-  const auto patch = [](double at_m) {
-    return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(at_m / kPatchM)));
-  };
-  const double holes = std::clamp(kHolesPerM * (pixel_m - kSharpPixelM), 0.0, kMaxHoles);
-  return unit_random(hash64(hash64(seed_, patch(p_map.x())), patch(p_map.y()))) >= holes;
+  return appearance_.at(p_map.x(), p_map.y(), material).fine_contrast >= kMinContrast;
 }
 
 DisparityErrorConfig errors_of(const stereo::MatcherConfig& matcher, const StereoCamera& rectified) {

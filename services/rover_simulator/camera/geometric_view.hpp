@@ -21,11 +21,10 @@ class GeometricView {
                    const Eigen::Isometry3d& T_map_left, std::int64_t frame);
 
  private:
-  bool textured(const Eigen::Vector3d& p_map, double pixel_m) const;
+  bool textured(const Eigen::Vector3d& p_map) const;
 
   const Surface& world_;
   GroundAppearance appearance_;
-  std::uint64_t seed_;
   std::shared_ptr<TileScene> scene_;
 };
 

@@ -16,9 +16,13 @@ namespace {
 constexpr float kFineWavelength_m = 0.05F;
 // Half width of the penumbra as tangent of elevation: the sun's disc (0.003) plus scattering.
 constexpr float kPenumbra = 0.012F;
-// A layer has full contrast from three pixels per wavelength and fades to zero at 1.2.
-constexpr float kPixelsGone = 1.2F;
-constexpr float kPixelsFull = 3.0F;
+// A layer has full contrast from five samples per centre wavelength and fades to zero at two: it covers two octaves.
+constexpr float kSamplesGone = 2.0F;
+constexpr float kSamplesFull = 5.0F;
+// An oblique pixel's footprint is sampled along its length (anisotropic filtering), because a single sample aliases
+// there, differently in the two images of a pair. Beyond this many samples the texture is blurred in both directions.
+constexpr float kMaxSamples = 4.0F;
+constexpr float kMinFacing = 0.04F;  // cosine of the angle between ray and normal
 
 float smooth_step(float t) {
   t = std::min(std::max(t, 0.0F), 1.0F);
@@ -32,10 +36,12 @@ struct GroundShader::State {
   Lanes<float> slope_x, slope_y, sun_margin, albedo;
   Lanes<float> fine_contrast, coarse_contrast, bump;
   Lanes<float> normal_x, normal_y, normal_z;
-  Lanes<float> unbaked;      // 0 where long wavelengths are baked into the vertices
-  Lanes<float> waves_per_m;  // resolution limit of the pixel
-  Lanes<int> plane;          // projection plane of the textures, and the point's coordinates in it
+  Lanes<float> unbaked;    // 0 where long wavelengths are baked into the vertices
+  Lanes<int> samples;      // along the pixel's footprint
+  Lanes<float> spacing_m;  // of the samples
+  Lanes<int> plane;        // projection plane of the textures, and the point's coordinates in it
   Lanes<float> a, b;
+  Lanes<float> step_a, step_b;  // from one sample to the next, in the plane
   Lanes<float> tone;
 };
 
@@ -97,15 +103,23 @@ void GroundShader::face(const RayPacket& rays, const Points& points, State& at) 
     at.normal_x[k] = -sx * scale;
     at.normal_y[k] = -sy * scale;
     at.normal_z[k] = scale;
-    // The mean size of an oblique pixel's footprint selects the resolvable layers.
-    const float facing = (sx * rays.dir_x[k] + sy * rays.dir_y[k] - rays.dir_z[k]) * scale;
-    at.waves_per_m[k] = std::sqrt(std::max(facing, 0.04F)) / points.pixel_m[k];
+    const float facing = std::max((sx * rays.dir_x[k] + sy * rays.dir_y[k] - rays.dir_z[k]) * scale, kMinFacing);
+    const float samples = std::min(std::ceil(1.0F / facing), kMaxSamples);
+    at.samples[k] = static_cast<int>(samples);
+    at.spacing_m[k] = points.pixel_m[k] / (facing * samples);
     at.tone[k] = 1.0F;
     const bool steep = sx * sx + sy * sy > 1.0F;
     const bool faces_x = sx * sx > sy * sy;
     at.plane[k] = steep ? (faces_x ? 1 : 2) : 0;
     at.a[k] = steep && faces_x ? points.y[k] : points.x[k];
     at.b[k] = steep ? points.z[k] : points.y[k];
+    // The footprint lies along the ray, projected on the surface.
+    const float stretch = at.spacing_m[k] / std::sqrt(std::max(1.0F - facing * facing, kMinFacing));
+    const float along_x = (rays.dir_x[k] + facing * at.normal_x[k]) * stretch;
+    const float along_y = (rays.dir_y[k] + facing * at.normal_y[k]) * stretch;
+    const float along_z = (rays.dir_z[k] + facing * at.normal_z[k]) * stretch;
+    at.step_a[k] = steep && faces_x ? along_y : along_x;
+    at.step_b[k] = steep ? along_z : along_y;
   }
 }
 
@@ -114,23 +128,34 @@ void GroundShader::add_layer(int index, const Points& points, State& at) const {
   Lanes<float> weight;
   float sum = 0.0F;
   for (int k = 0; k < kPacket; ++k) {
-    constexpr float kSlope = 1.0F / (kPixelsFull - kPixelsGone);
-    weight[k] = smooth_step((layer.wavelength_m * at.waves_per_m[k] - kPixelsGone) * kSlope);
+    constexpr float kSlope = 1.0F / (kSamplesFull - kSamplesGone);
+    weight[k] = smooth_step((layer.wavelength_m / at.spacing_m[k] - kSamplesGone) * kSlope);
     if (index >= kFirstBakedLayer) weight[k] *= at.unbaked[k];
   }
   for (int k = 0; k < kPacket; ++k) sum += weight[k];
   if (sum <= 0.0F) return;
 
-  Lanes<float> u, v;
+  Lanes<float> u, v, step_u, step_v;
   for (int k = 0; k < kPacket; ++k) {
     u[k] = layer.texels_per_m * (layer.cosine * at.a[k] + layer.sine * at.b[k]);
     v[k] = layer.texels_per_m * (layer.cosine * at.b[k] - layer.sine * at.a[k]);
+    step_u[k] = layer.texels_per_m * (layer.cosine * at.step_a[k] + layer.sine * at.step_b[k]);
+    step_v[k] = layer.texels_per_m * (layer.cosine * at.step_b[k] - layer.sine * at.step_a[k]);
   }
   Lanes<float> tone{}, slope_u{}, slope_v{};
   for (int k = 0; k < kPacket; ++k) {
     if (points.tile[k] == nullptr) continue;
     const Eigen::Vector2f& origin = points.tile[k]->texture_origin(index, at.plane[k]);
-    const Float4 detail = layer.texture->sample(origin.x() + u[k], origin.y() + v[k]);
+    // Waves much longer than the footprint need one sample only.
+    const auto length = static_cast<float>(at.samples[k]);
+    const int samples = layer.wavelength_m > kSamplesFull * length * at.spacing_m[k] ? 1 : at.samples[k];
+    const float first = -0.5F * static_cast<float>(samples - 1);
+    Float4 detail{};
+    for (int i = 0; i < samples; ++i) {
+      const float t = first + static_cast<float>(i);
+      detail += layer.texture->sample(origin.x() + u[k] + t * step_u[k], origin.y() + v[k] + t * step_v[k]);
+    }
+    detail = detail / static_cast<float>(samples);
     tone[k] = detail[0];
     slope_u[k] = detail[1];
     slope_v[k] = detail[2];
