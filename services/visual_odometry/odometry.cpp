@@ -22,12 +22,14 @@ bool same_camera(const StereoCamera& a, const StereoCamera& b) {
          a.cy_px == b.cy_px && a.baseline_m == b.baseline_m && a.T_body_cam.isApprox(b.T_body_cam, 1e-12);
 }
 
-std::vector<Observation> observations_of(const Keyframe& key, const std::vector<Track>& tracks, double offset_px) {
+std::vector<Observation> observations_of(const Keyframe& key, const std::vector<Track>& tracks) {
   std::vector<Observation> observations;
   for (size_t i = 0; i < tracks.size(); ++i)
-    if (tracks[i].left)
-      observations.push_back({key.points[i].p_key, key.points[i].disparity_px,
-                              tracks[i].z - Eigen::Vector3d(0.0, 0.0, offset_px), tracks[i].right});
+    if (tracks[i].left) {
+      Eigen::Vector3d z = tracks[i].z;
+      z.z() -= key.correction.px(key.camera, z.x(), z.y());
+      observations.push_back({key.points[i].p_key, key.points[i].disparity_px, z, tracks[i].right});
+    }
   return observations;
 }
 
@@ -53,7 +55,10 @@ Matrix6d rotated(const Matrix6d& cov, const Eigen::Matrix3d& R) {
 
 }  // namespace
 
-Odometry::Odometry(const OdometryConfig& config) : config_(config), offset_(config.disparity_offset) {}
+Odometry::Odometry(const OdometryConfig& config)
+    : config_(config),
+      offset_(config.disparity_offset),
+      epipolar_(config.disparity_offset.prior_sigma_px, config.disparity_offset.max_px) {}
 
 std::optional<OdometryResult> Odometry::step(const StereoFrame& frame) {
   ROVER_CHECK(frame.utime > newest_utime_, frame.utime, newest_utime_);
@@ -75,7 +80,7 @@ std::optional<OdometryResult> Odometry::step(const StereoFrame& frame) {
   const int needed_inliers =
       std::max(config_.keyframe_inliers,
                static_cast<int>(config_.keyframe_inlier_ratio * static_cast<double>(keyframe_->points.size())));
-  const double applied_offset_px = keyframe_offset_px_;
+  const double applied_offset_px = keyframe_->correction.yaw_px;
   if (registration.motion.inliers < needed_inliers && start_keyframe(frame, pyramids))
     offset_.add(registration.motion.offset, applied_offset_px);
   if (offset_.displaced()) {
@@ -88,10 +93,13 @@ std::optional<OdometryResult> Odometry::step(const StereoFrame& frame) {
 
 bool Odometry::start_keyframe(const StereoFrame& frame, const StereoPyramid& pyramids) {
   Keyframe key = make_keyframe(pyramids.left, pyramids.right, frame.disparity ? &*frame.disparity : nullptr,
-                               frame.camera, config_.corners, config_.stereo, offset_.px());
+                               frame.camera, config_.corners, config_.stereo, correction());
   if (static_cast<int>(key.points.size()) < config_.min_keyframe_points) return false;
   keyframe_ = std::move(key);
-  keyframe_offset_px_ = offset_.px();
+  std::vector<RowOffset> rows;
+  for (const KeyPoint& point : keyframe_->points)
+    rows.push_back({image_position(frame.camera, point.pixel.x(), point.pixel.y()), point.row_offset_px});
+  epipolar_.add(rows);
   keyframe_utime_ = frame.utime;
   T_key_prev_ = Eigen::Isometry3d::Identity();
   if (previous_utime_ != frame.utime) {
@@ -129,15 +137,14 @@ Odometry::Registration Odometry::register_from_guess(const StereoFrame& frame, c
   const Eigen::Isometry3d& T_body_cam = frame.camera.T_body_cam;
   const Eigen::Isometry3d T_prev_cur = T_body_cam.inverse() * T_prev_cur_body * T_body_cam;
   const Eigen::Isometry3d T_guess = (T_key_prev_ * T_prev_cur).inverse();
-  const auto coarse = observations_of(
-      *keyframe_, track_coarse(*keyframe_, pyramids.left, T_guess, config_.tracker, search), keyframe_offset_px_);
+  const auto coarse =
+      observations_of(*keyframe_, track_coarse(*keyframe_, pyramids.left, T_guess, config_.tracker, search));
   if (static_cast<int>(coarse.size()) < config_.min_inliers) return {};
   const std::uint64_t seed = config_.seed ^ static_cast<std::uint64_t>(frame.utime);
   const RansacResult start = ransac(coarse, keyframe_->camera, T_guess, config_.motion, seed);
   if (start.inliers < config_.min_inliers) return {};
   const auto fine = observations_of(
-      *keyframe_, track_fine(*keyframe_, pyramids.left, pyramids.right, start.T_cur_key, config_.tracker),
-      keyframe_offset_px_);
+      *keyframe_, track_fine(*keyframe_, pyramids.left, pyramids.right, start.T_cur_key, config_.tracker));
   if (static_cast<int>(fine.size()) < config_.min_inliers) return {};
   return {refine(fine, keyframe_->camera, start.T_cur_key, config_.motion), static_cast<int>(fine.size())};
 }

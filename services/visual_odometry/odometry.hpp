@@ -13,6 +13,7 @@
 #include "common/core/image.hpp"
 #include "common/core/time.hpp"
 #include "visual_odometry/disparity_offset.hpp"
+#include "visual_odometry/epipolar_calibration.hpp"
 #include "visual_odometry/keyframe.hpp"
 #include "visual_odometry/motion_estimator.hpp"
 #include "visual_odometry/tracker.hpp"
@@ -75,8 +76,8 @@ class Odometry {
 
   // Start of the next motion; kNever before the first keyframe.
   Utime previous_utime() const { return previous_utime_; }
-  // Estimated calibration error of the disparity.
-  const DisparityOffset& offset() const { return offset_; }
+  // Estimated error of the calibration.
+  DisparityCorrection correction() const { return {offset_.px(), epipolar_.roll_px(), epipolar_.focal_px()}; }
 
  private:
   struct StereoPyramid;
@@ -92,7 +93,7 @@ class Odometry {
 
   OdometryConfig config_;
   DisparityOffset offset_;
-  double keyframe_offset_px_ = 0.0;  // constant for a keyframe, so that its motions telescope
+  EpipolarCalibration epipolar_;
   std::optional<Keyframe> keyframe_;
   Utime keyframe_utime_ = kNever;
   Eigen::Isometry3d T_key_prev_ = Eigen::Isometry3d::Identity();  // camera axes

@@ -36,7 +36,9 @@ std::optional<StereoMatch> from_seed(const Disparity& seed, const Eigen::Vector2
   const auto d = disparity_at(seed, x, y);
   if (!d) return std::nullopt;
   return StereoMatch{
-      *d, {disparity_gradient(seed, x, y, kGradientReachPx, 0), disparity_gradient(seed, x, y, 0, kGradientReachPx)}};
+      *d,
+      0.0,
+      {disparity_gradient(seed, x, y, kGradientReachPx, 0), disparity_gradient(seed, x, y, 0, kGradientReachPx)}};
 }
 
 // Disparity of best correlation along the row of a small image, in full-resolution pixels.
@@ -73,7 +75,7 @@ std::optional<StereoMatch> search_row(const ImagePyramid& left, const ImagePyram
     if (!a.ok) return std::nullopt;
     shift = (a.position - p) * scale;
   }
-  return StereoMatch{-static_cast<double>(shift.x()), Eigen::Vector2d::Zero()};
+  return StereoMatch{-static_cast<double>(shift.x())};
 }
 
 }  // namespace
@@ -92,7 +94,8 @@ std::optional<StereoMatch> match_corner(const ImagePyramid& left, const ImagePyr
   const Alignment a = align(patch, right.base(), guess, static_cast<float>(config.max_seed_offset_px));
   if (!a.ok || a.score < config.min_score) return std::nullopt;
   match->disparity_px = corner.x() - a.position.x();
-  if (std::abs(a.position.y() - corner.y()) > config.max_row_offset_px) return std::nullopt;
+  match->row_offset_px = a.position.y() - corner.y();
+  if (std::abs(match->row_offset_px) > config.max_row_offset_px) return std::nullopt;
   if (match->disparity_px < config.min_disparity_px || match->disparity_px > config.max_disparity_px)
     return std::nullopt;
   return match;

@@ -21,6 +21,7 @@ struct StereoMatchConfig {
 
 struct StereoMatch {
   double disparity_px = 0.0;
+  double row_offset_px = 0.0;                          // row in the right image - row in the left image
   Eigen::Vector2d gradient = Eigen::Vector2d::Zero();  // of the disparity by u and v
 };
 

@@ -259,9 +259,26 @@ TEST(Odometry, EstimatesDisparityOffsetWhileDriving) {
     drive.ground.right_shift_px = 0.3;  // measured disparities are 0.3 px too small
     for (int i = 0; i <= 60; ++i) drive.drive_to(along_arc(0.08 * i));
     drift[enabled] = drive.error_m();
-    EXPECT_NEAR(drive.odometry.offset().px(), enabled ? 0.3 : 0.0, 0.12);
+    EXPECT_NEAR(drive.odometry.correction().yaw_px, enabled ? 0.3 : 0.0, 0.12);
   }
   EXPECT_LT(drift[1], 0.6 * drift[0]);
+}
+
+// A quarter of a pixel at the left and right border, each.
+TEST(Odometry, EstimatesRollAndFocalLengthOfTheOtherCamera) {
+  double heading_error_rad[2];
+  for (const bool enabled : {false, true}) {
+    OdometryConfig config;
+    if (!enabled) config.disparity_offset.max_px = config.disparity_offset.information_factor = 0.0;
+    Drive drive(19, config);
+    drive.ground.right_roll_rad = 0.25 / 256.0;
+    drive.ground.right_focal_ratio = 1.0 + 0.25 / 256.0;
+    for (int i = 0; i <= 40; ++i) drive.drive_to(along_arc(0.08 * i));
+    EXPECT_NEAR(drive.odometry.correction().roll_px, enabled ? -0.25 : 0.0, 0.05);
+    EXPECT_NEAR(drive.odometry.correction().focal_px, enabled ? 0.25 : 0.0, 0.05);
+    heading_error_rad[enabled] = drive.error_rad();
+  }
+  EXPECT_LT(heading_error_rad[1], 0.5 * heading_error_rad[0]);
 }
 
 // A knock turns one camera by 0.5 deg: all disparities are wrong by 3.6 px.
@@ -283,7 +300,7 @@ TEST(Odometry, DisparityOffsetIsUnobservableAtStandstill) {
   Drive drive(18);
   drive.ground.right_shift_px = 0.3;
   for (int i = 0; i <= 20; ++i) drive.drive_to(along_arc(0.0));
-  EXPECT_EQ(drive.odometry.offset().px(), 0.0);
+  EXPECT_EQ(drive.odometry.correction().yaw_px, 0.0);
 }
 
 // Normalised estimation error squared (NEES) of one motion, averaged.

@@ -7,6 +7,7 @@
 
 #include "synthetic_ground.hpp"
 #include "visual_odometry/corner_detector.hpp"
+#include "visual_odometry/epipolar_calibration.hpp"
 #include "visual_odometry/motion_estimator.hpp"
 #include "visual_odometry/patch_aligner.hpp"
 #include "visual_odometry/projection.hpp"
@@ -39,6 +40,36 @@ TEST(Projection, JacobianEqualsCentralDifference) {
     const Vector3d numeric = (project(camera, p + d) - project(camera, p - d)) / 2e-6;
     EXPECT_LT((J.col(i) - numeric).norm(), 1e-5);
   }
+}
+
+std::vector<RowOffset> row_offsets(double pitch_px, double roll_px, double focal_px, std::mt19937_64& random) {
+  std::uniform_real_distribution<double> side(-1.0, 1.0);
+  std::normal_distribution<double> noise(0.0, 0.1);
+  std::vector<RowOffset> offsets;
+  for (int i = 0; i < 200; ++i) {
+    const Eigen::Vector2d at(side(random), 0.75 * side(random));
+    const bool wrong = i % 5 == 0;  // all to one side
+    offsets.push_back({at, wrong ? 1.4 : pitch_px + roll_px * at.x() + focal_px * at.y() + noise(random)});
+  }
+  return offsets;
+}
+
+TEST(EpipolarCalibration, FindsRollAndFocalLengthAmongWrongMatches) {
+  std::mt19937_64 random(1);
+  EpipolarCalibration calibration(0.2, 0.5);
+  for (int i = 0; i < 10; ++i) calibration.add(row_offsets(0.3, -0.25, 0.4, random));
+  EXPECT_NEAR(calibration.roll_px(), -0.25, 0.03);
+  EXPECT_NEAR(calibration.focal_px(), 0.4, 0.03);
+}
+
+TEST(EpipolarCalibration, IsBoundedAndNeedsMatches) {
+  std::mt19937_64 random(2);
+  EpipolarCalibration calibration(0.2, 0.5);
+  calibration.add({});
+  EXPECT_EQ(calibration.roll_px(), 0.0);
+  for (int i = 0; i < 10; ++i) calibration.add(row_offsets(0.0, 1.0, -1.0, random));
+  EXPECT_EQ(calibration.roll_px(), 0.5);
+  EXPECT_EQ(calibration.focal_px(), -0.5);
 }
 
 // A smooth texture that can be sampled anywhere.

@@ -40,7 +40,10 @@ class SyntheticGround {
   double gain = 1.0;        // exposure
   double blur_px = 0.0;
   bool textureless = false;
-  double right_shift_px = 0.0;  // calibration error: horizontal offset of the right image
+  // Errors of the calibration of the right camera: horizontal offset, roll, ratio of focal lengths.
+  double right_shift_px = 0.0;
+  double right_roll_rad = 0.0;
+  double right_focal_ratio = 1.0;
   StereoCamera camera = loccam();
 
   explicit SyntheticGround(std::uint64_t seed, bool rocks = true) : random_(seed), rng_(seed + 1) {
@@ -64,9 +67,12 @@ class SyntheticGround {
     Eigen::Isometry3d T_world_right = T_world_left;
     T_world_right.translation() += T_world_left.linear().col(0) * camera.baseline_m;
     f.left = render(T_world_left);
+    T_world_right.linear() *= exp_so3(Eigen::Vector3d(0.0, 0.0, right_roll_rad));
+    const StereoCamera calibrated = camera;
     camera.cx_px += right_shift_px;
+    camera.focal_px *= right_focal_ratio;
     f.right = render(T_world_right);
-    camera.cx_px -= right_shift_px;
+    camera = calibrated;
     return f;
   }
 
