@@ -60,7 +60,7 @@ void add_disparity_offset(Parameters p, DisparityOffsetConfig& c) {
   p.add("prior_sigma_px", c.prior_sigma_px, {1e-3, 10}, "of the camera calibration");
   p.add("max_px", c.max_px, {0, 10}, "bound of each estimate");
   p.add("information_factor", c.information_factor, {0, 1},
-        "of each measurement of the constant part: residuals of one keyframe, and of one place, are correlated");
+        "of each measurement: residuals of one keyframe, and of one place, are correlated");
 }
 
 }  // namespace
@@ -81,8 +81,7 @@ NodeConfig load_config(const std::string& config_dir, ParameterList* list) {
   add_stereo(p.section("stereo", "sub-pixel match of a corner"), c.stereo);
   add_tracker(p.section("tracker", "the keyframe's points in a later pair"), c.tracker);
   add_motion(p.section("motion", "RANSAC and Gauss-Newton"), c.motion);
-  add_disparity_offset(p.section("disparity_offset", "online self-calibration of the stereo pair"),
-                       c.disparity_offset);
+  add_disparity_offset(p.section("disparity_offset", "online self-calibration of the stereo pair"), c.disparity_offset);
   p.finish();
   return config;
 }

@@ -13,6 +13,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "visual_odometry/disparity_offset.hpp"
+
 namespace rover::vo {
 
 struct RowOffset {
@@ -23,15 +25,15 @@ struct RowOffset {
 class EpipolarCalibration {
  public:
   // prior_sigma_px: of each parameter; max_px: bound of roll and focal.
-  EpipolarCalibration(double prior_sigma_px, double max_px);
+  explicit EpipolarCalibration(const DisparityOffsetConfig& config);
 
-  // The matches of one new keyframe; wrong ones are weighted down.
+  // The matches of one new keyframe. Wrong ones are weighted down, and all as far as the model does not explain them.
   void add(const std::vector<RowOffset>& offsets);
   double roll_px() const;   // at x = 1
   double focal_px() const;  // the same
 
  private:
-  double max_px_;
+  DisparityOffsetConfig config_;
   Eigen::Matrix3d information_;  // of pitch, roll, focal
   Eigen::Vector3d weighted_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d estimate_ = Eigen::Vector3d::Zero();

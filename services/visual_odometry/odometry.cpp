@@ -56,9 +56,7 @@ Matrix6d rotated(const Matrix6d& cov, const Eigen::Matrix3d& R) {
 }  // namespace
 
 Odometry::Odometry(const OdometryConfig& config)
-    : config_(config),
-      offset_(config.disparity_offset),
-      epipolar_(config.disparity_offset.prior_sigma_px, config.disparity_offset.max_px) {}
+    : config_(config), offset_(config.disparity_offset), epipolar_(config.disparity_offset) {}
 
 std::optional<OdometryResult> Odometry::step(const StereoFrame& frame) {
   ROVER_CHECK(frame.utime > newest_utime_, frame.utime, newest_utime_);

@@ -56,7 +56,7 @@ std::vector<RowOffset> row_offsets(double pitch_px, double roll_px, double focal
 
 TEST(EpipolarCalibration, FindsRollAndFocalLengthAmongWrongMatches) {
   std::mt19937_64 random(1);
-  EpipolarCalibration calibration(0.2, 0.5);
+  EpipolarCalibration calibration(DisparityOffsetConfig{});
   for (int i = 0; i < 10; ++i) calibration.add(row_offsets(0.3, -0.25, 0.4, random));
   EXPECT_NEAR(calibration.roll_px(), -0.25, 0.03);
   EXPECT_NEAR(calibration.focal_px(), 0.4, 0.03);
@@ -64,7 +64,7 @@ TEST(EpipolarCalibration, FindsRollAndFocalLengthAmongWrongMatches) {
 
 TEST(EpipolarCalibration, IsBoundedAndNeedsMatches) {
   std::mt19937_64 random(2);
-  EpipolarCalibration calibration(0.2, 0.5);
+  EpipolarCalibration calibration(DisparityOffsetConfig{});
   calibration.add({});
   EXPECT_EQ(calibration.roll_px(), 0.0);
   for (int i = 0; i < 10; ++i) calibration.add(row_offsets(0.0, 1.0, -1.0, random));
