@@ -13,7 +13,6 @@
 #include "common/bus/child_process.hpp"
 #include "common/bus/config.hpp"
 #include "tools/launcher/run_command.hpp"
-#include "tools/report/seed_suite.hpp"
 
 namespace rover {
 namespace fs = std::filesystem;
@@ -26,12 +25,11 @@ struct Suite {
   std::string seeds;  // unless others are given
   std::string level;  // unless another is given; empty: the scenario's, and one folder and table for all levels
   std::vector<std::string> scenarios;
-  int spare_seeds = 0;  // that may replace invalid runs
 };
 
 const std::vector<Suite>& suites() {
   static const std::vector<Suite> kSuites = {
-      {"seed", "1..10", "", {"seed_traverse_1", "seed_traverse_2"}, 10},
+      {"seed", "1..10", "", {"seed_traverse_1", "seed_traverse_2"}},
       {"default", "201..240", "efficient", {"default"}},
   };
   return kSuites;
@@ -40,10 +38,10 @@ const std::vector<Suite>& suites() {
 const Suite& find_suite(const std::string& name) {
   for (const Suite& suite : suites())
     if (suite.name == name) return suite;
-  throw ConfigError(
-      "bench: no suite '" + name +
-      "'; known suites: default, seed, full, cost, perception, slam, correction, large_map, speed, budget, micro, faults, "
-      "restarts, page, data, wild, fuzz");
+  throw ConfigError("bench: no suite '" + name +
+                    "'; known suites: default, seed, full, cost, perception, slam, correction, large_map, speed, "
+                    "budget, micro, faults, "
+                    "restarts, page, data, wild, fuzz");
 }
 
 struct Job {
@@ -114,12 +112,6 @@ class Rows {
   std::vector<nlohmann::json> rows_;
 };
 
-bool counts(const std::string& scenario, const nlohmann::json& row) {
-  const int minimum = report::min_repairs(scenario);
-  if (minimum == 0 || row.value("outcome", "") != "goal_reached") return true;
-  return row.contains("replans") && row["replans"].is_number() && row["replans"].get<int>() >= minimum;
-}
-
 RunArguments run_arguments(const Bench& bench, const Job& job, int slot) {
   RunArguments run = bench.arguments.run;
   run.scenario = run.source_dir + "/config/scenarios/" + job.scenario + ".yaml";
@@ -187,26 +179,6 @@ void run_jobs(const Bench& bench, const std::vector<Job>& jobs, Rows& rows) {
   }
 }
 
-// Until as many runs as seeds are valid, or the spare seeds are used up.
-void run_scenario(const Bench& bench, const std::string& scenario, Rows& rows) {
-  std::vector<std::int64_t> seeds = bench.seeds;
-  const size_t last = bench.seeds.size() + static_cast<size_t>(bench.suite.spare_seeds);
-  for (;;) {
-    std::vector<Job> todo;
-    size_t counted = 0;
-    for (const std::int64_t seed : seeds) {
-      const nlohmann::json* row = rows.find({scenario, seed});
-      if (row == nullptr) todo.push_back({scenario, seed});
-      if (row != nullptr && counts(scenario, *row)) ++counted;
-    }
-    if (todo.empty() && (counted >= bench.seeds.size() || seeds.size() == last)) break;
-    if (todo.empty())
-      seeds.push_back(seeds.back() + 1);
-    else
-      run_jobs(bench, todo, rows);
-  }
-}
-
 // The table has a section for each level that was run.
 int write_table(const Bench& bench) {
   const RunArguments& run = bench.arguments.run;
@@ -233,7 +205,11 @@ int bench(const BenchArguments& arguments) {
                       ": its tables are of rendered drives; --perception is an axis of ./rover campaign");
   const Bench bench = make_bench(arguments);
   Rows rows(bench.level_dir + "/rows.jsonl", commit_of(arguments.run.source_dir), arguments.resume);
-  for (const std::string& scenario : bench.suite.scenarios) run_scenario(bench, scenario, rows);
+  std::vector<Job> todo;
+  for (const std::string& scenario : bench.suite.scenarios)
+    for (const std::int64_t seed : bench.seeds)
+      if (rows.find({scenario, seed}) == nullptr) todo.push_back({scenario, seed});
+  run_jobs(bench, todo, rows);
   return write_table(bench);
 }
 

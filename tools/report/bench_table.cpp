@@ -10,12 +10,11 @@
 #include <tuple>
 
 #include "tools/report/bench_figures.hpp"
-#include "tools/report/seed_suite.hpp"
 
 namespace rover::report {
 namespace {
 
-constexpr int kRunsOfEach = 10;
+constexpr int kRuns = 20;
 
 struct PaperTraverse {
   const char* planned;
@@ -33,19 +32,13 @@ bool is_seed_traverse(const BenchRow& row) {
   return kPaper.contains(row.scenario);
 }
 
-// The first ten valid runs of each seed traverse, by seed.
-Rows counted(const Rows& rows) {
+Rows by_seed(const Rows& rows) {
   Rows sorted;
-  std::copy_if(rows.begin(), rows.end(), std::back_inserter(sorted),
-               [](const BenchRow& row) { return is_seed_traverse(row) && counts(row); });
+  std::copy_if(rows.begin(), rows.end(), std::back_inserter(sorted), is_seed_traverse);
   std::sort(sorted.begin(), sorted.end(), [](const BenchRow& a, const BenchRow& b) {
     return std::tie(a.scenario, a.seed) < std::tie(b.scenario, b.seed);
   });
-  Rows taken;
-  std::map<std::string, int> of_scenario;
-  for (const BenchRow& row : sorted)
-    if (++of_scenario[row.scenario] <= kRunsOfEach) taken.push_back(row);
-  return taken;
+  return sorted;
 }
 
 Gate median_gate(const Rows& rows, const std::string& requirement, int decimals, const RowFigure& figure, double most) {
@@ -123,21 +116,13 @@ std::string paper_table(const Rows& runs) {
 
 }  // namespace
 
-bool counts(const BenchRow& row) {
-  // A failed run always counts, however few repairs it has.
-  const bool failed = row.outcome != "goal_reached" || !(row.collisions == 0.0) || !(row.rocks_missed == 0.0);
-  return failed || row.replans >= min_repairs(row.scenario);
-}
-
 std::vector<Gate> seed_gates(const std::vector<BenchRow>& all) {
-  const Rows rows = counted(all);
+  const Rows rows = by_seed(all);
   const auto reached =
       std::count_if(rows.begin(), rows.end(), [](const BenchRow& row) { return row.outcome == "goal_reached"; });
-  constexpr int kWanted = 2 * kRunsOfEach;
   std::vector<Gate> gates;
-  gates.push_back({fmt::format("{0} of {0} runs reach the goal", kWanted),
-                   fmt::format("{} of {}", reached, rows.size()),
-                   reached == kWanted && static_cast<int>(rows.size()) == kWanted});
+  gates.push_back({fmt::format("every run reaches the goal, at least {} runs", kRuns),
+                   fmt::format("{} of {}", reached, rows.size()), reached == std::ssize(rows) && reached >= kRuns});
   gates.push_back(all_gate(
       rows, "0 collisions", 0, [](const BenchRow& r) { return r.collisions; },
       [](const BenchRow&, double v) { return v == 0.0; }));
@@ -177,7 +162,7 @@ std::vector<BenchRow> newest_rows(const std::vector<BenchRow>& rows) {
 }
 
 std::string bench_table(const BenchContext& context, const std::vector<BenchRow>& rows) {
-  const Rows runs = counted(rows);
+  const Rows runs = by_seed(rows);
   std::string out =
       fmt::format("# Bench `{}`\n\n- commit: `{}`\n- machine: {}, {} cores\n- command: `{}`\n\n", context.suite,
                   rows.empty() ? "none" : rows.front().commit, context.cpu_model, context.cores, context.command);
@@ -195,16 +180,6 @@ std::string bench_table(const BenchContext& context, const std::vector<BenchRow>
   for (const BenchRow& row : runs) out += run_line(row, seed_columns());
   for (const auto& [scenario, paper] : kPaper)
     out += median_line(scenario, of_scenario(runs, scenario), seed_columns());
-  std::string others;
-  for (const BenchRow& row : rows) {
-    const auto same = [&](const BenchRow& run) { return run.scenario == row.scenario && run.seed == row.seed; };
-    if (std::none_of(runs.begin(), runs.end(), same)) others += run_line(row, seed_columns());
-  }
-  if (!others.empty())
-    out += fmt::format(
-        "\n## Not counted\n\nReached the goal with fewer repairs than required (first traverse {}, second {}), or "
-        "beyond the first ten that count.\n\n{}{}",
-        min_repairs("seed_traverse_1"), min_repairs("seed_traverse_2"), runs_head(seed_columns()), others);
   return out;
 }
 

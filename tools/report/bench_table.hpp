@@ -58,8 +58,6 @@ struct BenchContext {
   int cores = 0;
 };
 
-// False for a run without failure and with fewer repairs than min_repairs().
-bool counts(const BenchRow& row);
 // NaN for an empty list; the mean of the middle two for an even number.
 double median(std::vector<double> values);
 
