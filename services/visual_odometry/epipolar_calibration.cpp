@@ -28,13 +28,16 @@ double variance_px2(const std::vector<RowOffset>& offsets, const Eigen::Vector3d
   return std::max(*middle, kMinSigmaPx * kMinSigmaPx);
 }
 
+Eigen::Matrix3d prior_information(const DisparityOffsetConfig& config) {
+  return Eigen::Matrix3d::Identity() / (config.prior_sigma_px * config.prior_sigma_px);
+}
+
 }  // namespace
 
 EpipolarCalibration::EpipolarCalibration(const DisparityOffsetConfig& config)
-    : config_(config), information_(Eigen::Matrix3d::Identity() / (config.prior_sigma_px * config.prior_sigma_px)) {}
+    : config_(config), information_(prior_information(config)) {}
 
 void EpipolarCalibration::add(const std::vector<RowOffset>& offsets) {
-  const Eigen::Matrix3d prior = Eigen::Matrix3d::Identity() / (config_.prior_sigma_px * config_.prior_sigma_px);
   Eigen::Vector3d fit = Eigen::Vector3d::Zero();  // of this keyframe alone
   Eigen::Matrix3d H;
   Eigen::Vector3d g;
@@ -49,7 +52,7 @@ void EpipolarCalibration::add(const std::vector<RowOffset>& offsets) {
       H += weight * a * a.transpose();
       g += weight * offset.px * a;
     }
-    fit = (H + prior).ldlt().solve(g);
+    fit = (H + prior_information(config_)).ldlt().solve(g);
   }
   information_ += config_.information_factor * H;
   weighted_ += config_.information_factor * g;

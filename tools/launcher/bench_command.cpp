@@ -40,8 +40,7 @@ const Suite& find_suite(const std::string& name) {
     if (suite.name == name) return suite;
   throw ConfigError("bench: no suite '" + name +
                     "'; known suites: default, seed, full, cost, perception, slam, correction, large_map, speed, "
-                    "budget, micro, faults, "
-                    "restarts, page, data, wild, fuzz");
+                    "budget, micro, faults, restarts, page, data, wild, fuzz");
 }
 
 struct Job {

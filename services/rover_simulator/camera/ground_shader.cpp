@@ -22,7 +22,8 @@ constexpr float kSamplesFull = 5.0F;
 // An oblique pixel's footprint is sampled along its length (anisotropic filtering), because a single sample aliases
 // there, differently in the two images of a pair. Beyond this many samples the texture is blurred in both directions.
 constexpr float kMaxSamples = 4.0F;
-constexpr float kMinFacing = 0.04F;  // cosine of the angle between ray and normal
+constexpr float kMinFacing = 0.04F;       // cosine of the angle between ray and normal
+constexpr float kMinSineSquared = 0.04F;  // of the same angle: a pixel that looks straight down has no long side
 
 float smooth_step(float t) {
   t = std::min(std::max(t, 0.0F), 1.0F);
@@ -114,7 +115,7 @@ void GroundShader::face(const RayPacket& rays, const Points& points, State& at) 
     at.a[k] = steep && faces_x ? points.y[k] : points.x[k];
     at.b[k] = steep ? points.z[k] : points.y[k];
     // The footprint lies along the ray, projected on the surface.
-    const float stretch = at.spacing_m[k] / std::sqrt(std::max(1.0F - facing * facing, kMinFacing));
+    const float stretch = at.spacing_m[k] / std::sqrt(std::max(1.0F - facing * facing, kMinSineSquared));
     const float along_x = (rays.dir_x[k] + facing * at.normal_x[k]) * stretch;
     const float along_y = (rays.dir_y[k] + facing * at.normal_y[k]) * stretch;
     const float along_z = (rays.dir_z[k] + facing * at.normal_z[k]) * stretch;
