@@ -17,9 +17,10 @@ void add_filter(Parameters p, FilterConfig& c) {
   p.add("fog_bias_walk_radps_rts", c.fog_bias_walk_radps_rts, {0, 1e-2}, "KVH DSP-1760: 0.05 deg/h = 1.4e-8");
   p.add("force_noise_mps2_rthz", c.force_noise_mps2_rthz, {1e-4, 10},
         "accelerations of the drive, including bumps, averaged over 1 s");
-  p.add("wheel_noise_m_rtm", c.wheel_noise_m_rtm, {1e-3, 10}, "standard deviation after 1 m of wheel odometry");
+  p.add("wheel_noise_m_rtm", c.wheel_noise_m_rtm, {1e-3, 10},
+        "random error of wheel odometry, standard deviation after 1 m");
+  p.add("slip_sigma", c.slip_sigma, {0, 1}, "of the slip since the newest visual motion: an error per metre");
   p.add("no_gyro_noise_rad_rts", c.no_gyro_noise_rad_rts, {1e-4, 10}, "attitude without gyro, from wheels alone");
-  p.add("visual_cov_factor", c.visual_cov_factor, {1, 1000}, "visual odometry's covariance omits calibration errors");
   p.add("visual_scale_sigma", c.visual_scale_sigma, {0, 0.2}, "residual of a calibration error of 0.2 px");
   p.add("visual_floor_m", c.visual_floor_m, {0, 0.1}, "noise floor of a visual motion, standard deviation");
   p.add("max_rotation_conflict_sigma", c.max_rotation_conflict_sigma, {1, 100},

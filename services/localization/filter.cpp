@@ -89,30 +89,32 @@ FilterState Filter::initial_state(Utime utime, const Matrix3d& R_odom_body, cons
   return state;
 }
 
-FilterState Filter::propagate(FilterState state, const MotionRecord& record, double traction) const {
+FilterState Filter::propagate(FilterState state, const MotionRecord& record, const Eigen::Vector2d& ground_m) const {
   const double dt = record.dt_s();
   const Matrix3d R = state.T_odom_body.linear();
-  const Vector3d displacement =
-      R * Vector3d(traction * record.wheel_motion.x(), traction * record.wheel_motion.y(), 0.0);
   const bool rotating = !record.stationary;
   const bool gyro = record.gyro_valid && rotating;
-  ErrorCov F = ErrorCov::Identity();
-  F.block<3, 3>(kPosition, kAttitude) = -skew(displacement);
-  if (gyro) F.block<3, 3>(kAttitude, kBias) = -R * dt;
-  state.P = F * state.P * F.transpose();
-  const double position_noise = square(config_.wheel_noise_m_rtm) * displacement.norm();
-  const Matrix3d rotation_noise = R * rotation_variance(record).asDiagonal() * R.transpose();
-  state.P.diagonal().segment<3>(kPosition).array() += position_noise;
-  state.P.block<3, 3>(kAttitude, kAttitude) += rotation_noise;
-  state.noise_m2 += position_noise;
-  state.noise_rad2 += rotation_noise(2, 2);
-  add_bias_random_walk(state, dt);
-  state.T_odom_body.translation() += displacement;
   if (rotating) {
     const Vector3d rotation = gyro ? Vector3d(record.delta_angle_rad - state.gyro_bias_radps * dt)
                                    : Vector3d(0.0, 0.0, record.wheel_motion.z());
     state.T_odom_body.linear() = R * exp_so3(rotation);
   }
+  const Vector3d displacement = R.leftCols<2>() * ground_m + origin_height_m_ * (state.T_odom_body.linear() - R).col(2);
+  ErrorCov F = ErrorCov::Identity();
+  F.block<3, 3>(kPosition, kAttitude) = -skew(displacement);
+  if (gyro) F.block<3, 3>(kAttitude, kBias) = -R * dt;
+  state.P = F * state.P * F.transpose();
+  const double dead_reckoned_m = state.dead_reckoned_m + ground_m.norm();
+  const double position_noise = square(config_.wheel_noise_m_rtm) * ground_m.norm() +
+                                square(config_.slip_sigma) * (square(dead_reckoned_m) - square(state.dead_reckoned_m));
+  const Matrix3d rotation_noise = R * rotation_variance(record).asDiagonal() * R.transpose();
+  state.P.diagonal().segment<3>(kPosition).array() += position_noise;
+  state.P.block<3, 3>(kAttitude, kAttitude) += rotation_noise;
+  state.noise_m2 += position_noise;
+  state.noise_rad2 += rotation_noise(2, 2);
+  state.dead_reckoned_m = dead_reckoned_m;
+  add_bias_random_walk(state, dt);
+  state.T_odom_body.translation() += displacement;
   state.utime = record.end;
   if (record.settled && record.gyro_valid) update_gyro_bias(state, record);
   if (record.force_valid) update_tilt(state, R * record.delta_velocity_mps / dt, dt);
@@ -163,7 +165,7 @@ std::optional<FilterState> Filter::fuse_visual(const FilterState& at_from, const
   const GyroRotation gyro = integrate_gyro(records, at_from.gyro_bias_radps);
   JointCov joint = JointCov::Zero();
   joint.topLeftCorner<kErrorSize, kErrorSize>() = at_from.P;
-  joint.block<6, 6>(kVisualPosition, kVisualPosition) = config_.visual_cov_factor * visual.cov;
+  joint.block<6, 6>(kVisualPosition, kVisualPosition) = visual.cov;
   joint.diagonal().segment<3>(kVisualPosition).array() += square(config_.visual_floor_m);
   joint.diagonal().segment<3>(kGyro).setConstant(kSmallestVariance);
   for (const MotionRecord& r : records) joint.diagonal().segment<3>(kGyro) += rotation_variance(r);
@@ -194,6 +196,7 @@ std::optional<FilterState> Filter::fuse_visual(const FilterState& at_from, const
   state.T_odom_body.translation() += displacement;
   state.T_odom_body.linear() = R * R_from_to;
   state.utime = visual.to;
+  state.dead_reckoned_m = 0.0;
 
   Eigen::Matrix<double, kErrorSize, kJoint> G = Eigen::Matrix<double, kErrorSize, kJoint>::Zero();
   G.topLeftCorner<kErrorSize, kErrorSize>().setIdentity();

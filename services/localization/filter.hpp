@@ -17,20 +17,18 @@
 namespace rover::loc {
 
 struct FilterConfig {
-  double gyro_noise_rad_rts = 6e-5;        // angle random walk; STIM300: 0.15 deg/sqrt(h) = 4.4e-5
-  double fog_noise_rad_rts = 7e-6;         // fibre-optic gyro (z); KVH DSP-1760: 3.5e-6, plus misalignment
-  double no_fog_noise_rad_rts = 3e-4;      // z without the fibre-optic gyro: MEMS gyro of unknown bias
-  double gyro_bias_sigma_radps = 2.5e-5;   // after static alignment
-  double fog_bias_sigma_radps = 4e-6;      // after static alignment
-  double gyro_bias_walk_radps_rts = 1e-7;  // STIM300: 0.3 deg/h over 600 s
-  double fog_bias_walk_radps_rts = 3e-8;   // KVH DSP-1760: 0.05 deg/h = 1.4e-8
-  double force_noise_mps2_rthz = 0.10;     // accelerations of the drive, including bumps, averaged over 1 s
-  double wheel_noise_m_rtm = 0.15;         // standard deviation after 1 m of wheel odometry
-  double no_gyro_noise_rad_rts = 0.05;     // attitude without gyro, from wheels alone
-  // The covariance of visual odometry omits calibration errors, which act in the same weak directions: 0.2 px make
-  // motions over rendered ground err by 3 to 6 of its sigma.
-  double visual_cov_factor = 10.0;
-  double visual_scale_sigma = 0.003;               // residual of a calibration error of 0.2 px
+  double gyro_noise_rad_rts = 6e-5;                // angle random walk; STIM300: 0.15 deg/sqrt(h) = 4.4e-5
+  double fog_noise_rad_rts = 7e-6;                 // fibre-optic gyro (z); KVH DSP-1760: 3.5e-6, plus misalignment
+  double no_fog_noise_rad_rts = 3e-4;              // z without the fibre-optic gyro: MEMS gyro of unknown bias
+  double gyro_bias_sigma_radps = 2.5e-5;           // after static alignment
+  double fog_bias_sigma_radps = 4e-6;              // after static alignment
+  double gyro_bias_walk_radps_rts = 1e-7;          // STIM300: 0.3 deg/h over 600 s
+  double fog_bias_walk_radps_rts = 3e-8;           // KVH DSP-1760: 0.05 deg/h = 1.4e-8
+  double force_noise_mps2_rthz = 0.10;             // accelerations of the drive, including bumps, averaged over 1 s
+  double wheel_noise_m_rtm = 0.025;                // random error of wheel odometry, standard deviation after 1 m
+  double slip_sigma = 0.1;                         // of the slip since the newest visual motion: an error per metre
+  double no_gyro_noise_rad_rts = 0.05;             // attitude without gyro, from wheels alone
+  double visual_scale_sigma = 0.0012;              // residual of a calibration error of 0.2 px
   double visual_floor_m = 1e-4;                    // minimum position sigma of a visual motion
   double max_rotation_conflict_sigma = 6.0;        // innovation gate between gyro and images
   double max_rotation_conflict_rad = to_rad(0.6);  // smaller differences always pass the gate
@@ -48,6 +46,7 @@ struct FilterState {
   Eigen::Isometry3d T_odom_body = Eigen::Isometry3d::Identity();
   Eigen::Vector3d gyro_bias_radps = Eigen::Vector3d::Zero();
   ErrorCov P = ErrorCov::Zero();
+  double dead_reckoned_m = 0.0;  // distance since visual odometry or SLAM measured the motion
   // Variance that random errors have added to x or y, and to yaw, since the start: P without the errors of start pose,
   // biases and scale, which are constant over a drive.
   double noise_m2 = 0.0;
@@ -64,15 +63,17 @@ struct VisualInterval {
 
 class Filter {
  public:
-  explicit Filter(const FilterConfig& config) : config_(config) {}
+  // origin_height_m: of the body origin above the ground.
+  Filter(const FilterConfig& config, double origin_height_m) : config_(config), origin_height_m_(origin_height_m) {}
 
   void set_gravity(double gravity_mps2) { gravity_mps2_ = gravity_mps2; }
   double gravity() const { return gravity_mps2_; }
 
   FilterState initial_state(Utime utime, const Eigen::Matrix3d& R_odom_body, const Eigen::Vector3d& gyro_bias) const;
 
-  // `traction`: distance gained per distance rolled (1 - slip).
-  FilterState propagate(FilterState state, const MotionRecord& record, double traction) const;
+  // `ground_m`: motion of the point of the body on the ground below its origin, body axes. Wheels measure it: on rocks
+  // the body turns about it, and the origin, 0.6 m above, moves by centimetres that no wheel rolls.
+  FilterState propagate(FilterState state, const MotionRecord& record, const Eigen::Vector2d& ground_m) const;
 
   // `records`: IMU and wheels over the same interval. Empty if gyro and images contradict each other.
   std::optional<FilterState> fuse_visual(const FilterState& at_from, const std::vector<MotionRecord>& records,
@@ -86,6 +87,7 @@ class Filter {
   void update_gyro_bias(FilterState& state, const MotionRecord& record) const;
 
   FilterConfig config_;
+  double origin_height_m_;
   double gravity_mps2_ = 0.0;
 };
 

@@ -28,7 +28,8 @@ MotionRecord without_gyro(MotionRecord record) {
 Localization::Localization(const LocalizationConfig& config, const Vehicle& vehicle)
     : config_(config),
       wheels_(vehicle),
-      filter_(config.filter),
+      ground_m_(0.0, 0.0, config.camera_only.enabled ? 0.0 : -vehicle.origin_height_m),
+      filter_(config.filter, -ground_m_.z()),
       imu_monitor_(config.imu),
       static_alignment_(config.static_alignment),
       map_(config.map),
@@ -271,15 +272,17 @@ void Localization::initialise(const MotionRecord& record) {
 }
 
 void Localization::predict(const MotionRecord& record) {
-  predicted_ = filter_.propagate(predicted_, without_suspect_gyro(record), traction(record));
-  dead_reckoned_m_ += traction(record) * record.wheel_motion.head<2>().norm();
+  predicted_ = filter_.propagate(predicted_, without_suspect_gyro(record), ground_motion(record));
   // Without visual motions it would fall out of the history, and what the wheels measured since with it.
   const Utime oldest = record.end - to_utime(config_.history_s) + to_utime(kHistoryMarginS);
   if (fused_.utime < oldest - to_utime(kHistoryMarginS) / 2) fused_ = propagate_to(fused_, oldest);
 }
 
-double Localization::traction(const MotionRecord& record) const {
-  return record.wheels_valid ? slip_.traction(record.end) : 1.0;
+// A velocity that bridges missing encoders contains the slip.
+Eigen::Vector2d Localization::ground_motion(const MotionRecord& record) const {
+  const Eigen::Vector2d rolled = record.wheel_motion.head<2>();
+  if (!record.wheels_valid) return rolled;
+  return slip_.traction(record.end) * rolled + Eigen::Vector2d(0.0, slip_.side_slip(record.end) * rolled.norm());
 }
 
 MotionRecord Localization::without_suspect_gyro(const MotionRecord& record) const {
@@ -288,7 +291,7 @@ MotionRecord Localization::without_suspect_gyro(const MotionRecord& record) cons
 
 FilterState Localization::propagate_to(FilterState state, Utime to) const {
   for (const MotionRecord& record : history_.slice(state.utime, to))
-    state = filter_.propagate(state, without_suspect_gyro(record), traction(record));
+    state = filter_.propagate(state, without_suspect_gyro(record), ground_motion(record));
   return state;
 }
 
@@ -304,8 +307,10 @@ std::string_view Localization::fuse_visual_motion(const VisualMotion& motion) {
   if (!fused) return "contradicts the gyro";
   chain_ = extended;
   const auto records = history_.slice(motion.previous_utime, motion.utime);
-  slip_.add_visual(records, planar_motion(motion.T_prev_cur));
-  visual_velocity_mps_ = motion.T_prev_cur.translation() / to_seconds(motion.utime - motion.previous_utime);
+  const Eigen::Isometry3d on_ground =
+      Eigen::Translation3d(-ground_m_) * motion.T_prev_cur * Eigen::Translation3d(ground_m_);
+  slip_.add_visual(records, planar_motion(on_ground));
+  visual_velocity_mps_ = on_ground.translation() / to_seconds(motion.utime - motion.previous_utime);
   newest_visual_utime_ = motion.utime;
   apply_fused_state(*fused);
   return {};
@@ -329,7 +334,6 @@ void Localization::apply_fused_state(const FilterState& fused) {
   fused_ = fused;
   const Eigen::Isometry3d before = predicted_.T_odom_body;
   predicted_ = propagate_to(fused_, history_.end());
-  limit_dead_reckoning(fused_.utime);
   smoothing_offset_m_ += before.translation() - predicted_.T_odom_body.translation();
   const Eigen::Matrix3d R_out = exp_so3(smoothing_offset_rad_) * before.linear();
   smoothing_offset_rad_ = log_so3(R_out * predicted_.T_odom_body.linear().transpose());
@@ -337,9 +341,8 @@ void Localization::apply_fused_state(const FilterState& fused) {
 
 void Localization::limit_dead_reckoning(Utime measured) {
   double distance_m = 0.0;
-  for (const MotionRecord& r : history_.slice(measured, history_.end()))
-    distance_m += traction(r) * r.wheel_motion.head<2>().norm();
-  dead_reckoned_m_ = std::min(dead_reckoned_m_, distance_m);
+  for (const MotionRecord& r : history_.slice(measured, history_.end())) distance_m += ground_motion(r).norm();
+  predicted_.dead_reckoned_m = std::min(predicted_.dead_reckoned_m, distance_m);
 }
 
 // ---- output
@@ -360,9 +363,7 @@ void Localization::update_pose(const MotionRecord& record) {
   pose_.T_odom_body = T;
   pose_.T_map_odom = map_.known() ? map_.T_map_odom() : nan_pose();
   pose_.cov = cov_map();
-  const double g = traction(record) / record.dt_s();
-  const double lateral_mps = slip_.side_slip() * record.wheel_motion.head<2>().norm() / record.dt_s();
-  pose_.velocity_body_mps = {g * record.wheel_motion.x(), g * record.wheel_motion.y() + lateral_mps, 0.0};
+  pose_.velocity_body_mps << ground_motion(record) / record.dt_s(), 0.0;
   pose_.rate_body_radps.setZero();
   if (record.stationary)
     pose_.velocity_body_mps.setZero();
@@ -394,14 +395,16 @@ void Localization::update_status(Utime now) {
   const double wheels_age = to_seconds(now - newest_wheels_utime_);
   if (config_.camera_only.enabled) {
     if (visual_age > config_.status.no_odometry_lost_s) return set(PoseStatus::kLost, "no visual odometry");
-    if (dead_reckoned_m_ > config_.status.max_dead_reckoned_m) return set(PoseStatus::kLost, "too far on wheels alone");
+    if (predicted_.dead_reckoned_m > config_.status.max_dead_reckoned_m)
+      return set(PoseStatus::kLost, "too far on wheels alone");
     return set(PoseStatus::kOk, {});
   }
   const bool imu_healthy = imu_monitor_.healthy(now);
   if (imu_healthy) imu_healthy_utime_ = now;
   if (to_seconds(now - imu_healthy_utime_) > config_.status.imu_lost_s)
     return set(PoseStatus::kLost, "no IMU for too long");
-  if (dead_reckoned_m_ > config_.status.max_dead_reckoned_m) return set(PoseStatus::kLost, "too far on wheels alone");
+  if (predicted_.dead_reckoned_m > config_.status.max_dead_reckoned_m)
+    return set(PoseStatus::kLost, "too far on wheels alone");
   if (wheels_age > config_.status.wheel_timeout_s && visual_age > config_.status.no_odometry_lost_s)
     return set(PoseStatus::kLost, "neither wheels nor visual odometry");
   if (!imu_healthy) return set(PoseStatus::kDegraded, imu_monitor_.frozen() ? "IMU frozen" : "no IMU");
@@ -439,12 +442,12 @@ std::optional<Checkpoint> Localization::checkpoint() const {
   if (last_wheels_) c.drive_angle_rad = last_wheels_->drive_angle_rad;
   c.traction = slip_.newest_traction();
   c.mean_traction = slip_.mean_traction();
-  c.side_slip = slip_.side_slip();
+  c.side_slip = slip_.newest_side_slip();
   c.smoothing_offset_m = smoothing_offset_m_;
   c.smoothing_offset_rad = smoothing_offset_rad_;
   c.consecutive_conflicts = consecutive_conflicts_;
   c.imu_healthy_utime = std::min(imu_healthy_utime_, c.utime);
-  c.dead_reckoned_m = dead_reckoned_m_;
+  c.dead_reckoned_m = predicted_.dead_reckoned_m;
   return c;
 }
 
@@ -454,6 +457,7 @@ void Localization::restore(const Checkpoint& c) {
   fused_.T_odom_body = c.T_odom_body;
   fused_.gyro_bias_radps = c.gyro_bias_radps;
   fused_.P = c.P;
+  fused_.dead_reckoned_m = c.dead_reckoned_m;
   predicted_ = fused_;
   if (c.map_known) map_.restore(c.T_map_odom);
   travelled_m_ = c.travelled_m;
@@ -465,7 +469,6 @@ void Localization::restore(const Checkpoint& c) {
   slip_.restore(c.traction, c.mean_traction, c.side_slip, c.newest_visual_utime);
   consecutive_conflicts_ = c.consecutive_conflicts;
   imu_healthy_utime_ = c.imu_healthy_utime;
-  dead_reckoned_m_ = c.dead_reckoned_m;
   initialised_ = true;
   if (!std::isfinite(c.drive_angle_rad[0])) return;
   last_wheels_ = WheelSample{};

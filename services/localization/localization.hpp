@@ -116,10 +116,11 @@ class Localization {
   void initialise(const MotionRecord& record);
   void predict(const MotionRecord& record);
   FilterState propagate_to(FilterState state, Utime to) const;
-  // Visual odometry or SLAM measured the motion up to this time.
+  // SLAM measured the motion up to this time.
   void limit_dead_reckoning(Utime measured);
   MotionRecord without_suspect_gyro(const MotionRecord& record) const;
-  double traction(const MotionRecord& record) const;
+  // Of the ground point, body axes: wheels and slip.
+  Eigen::Vector2d ground_motion(const MotionRecord& record) const;
   bool gyro_suspect() const { return consecutive_conflicts_ >= config_.status.conflicts_until_gyro_suspect; }
   void fuse_slam(Utime now);
   std::string_view fuse_visual_motion(const VisualMotion& motion);
@@ -133,6 +134,7 @@ class Localization {
 
   LocalizationConfig config_;
   WheelOdometry wheels_;
+  Eigen::Vector3d ground_m_;  // the point of the body on the ground below its origin; a recording has none
   Filter filter_;
   ImuMonitor imu_monitor_;
   StaticAlignment static_alignment_;
@@ -161,8 +163,7 @@ class Localization {
   bool initialised_ = false;
   FilterState fused_;                                              // at the end of the newest visual motion
   FilterState predicted_;                                          // at the newest record
-  Eigen::Vector3d visual_velocity_mps_ = Eigen::Vector3d::Zero();  // of the newest visual motion, body axes
-  double dead_reckoned_m_ = 0.0;  // distance since visual odometry or SLAM measured the motion
+  Eigen::Vector3d visual_velocity_mps_ = Eigen::Vector3d::Zero();  // of the ground point, by the newest visual motion
   int gyro_conflicts_ = 0;
   int consecutive_conflicts_ = 0;
 

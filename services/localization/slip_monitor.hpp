@@ -35,19 +35,19 @@ class SlipMonitor {
   SlipMonitor(const SlipConfig& config, const WheelOdometry& wheels) : config_(config), wheels_(wheels) {}
 
   void add(const MotionRecord& record);
-  // `records` make up the interval; `motion`: (dx, dy, dyaw) of the body over it, in the axes at its start.
+  // `records` make up the interval; `motion`: (dx, dy, dyaw) of the body on the ground over it, in the axes at its
+  // start.
   void add_visual(const std::vector<MotionRecord>& records, const Eigen::Vector3d& motion);
 
   Slip slip(Utime now) const;
   // Distance gained per distance rolled (1 - slip) over the newest traction_window_s; 1 if unknown. When that is long
   // ago, the mean over 10 m: what the last images before a failure showed may be wrong, and would last.
-  double traction(Utime at) const {
-    return at > newest_visual_ + 2 * to_utime(config_.traction_window_s) ? mean_traction_ : traction_;
-  }
+  double traction(Utime at) const { return is_old(at) ? mean_traction_ : traction_; }
   // Lateral drift to the left per distance rolled, forward or backward, beyond wheel odometry: on a side slope the
-  // rover crabs, which wheels cannot measure. 0 if unknown.
-  double side_slip() const { return side_slip_; }
+  // rover crabs, which wheels cannot measure. 0 if unknown or long ago.
+  double side_slip(Utime at) const { return is_old(at) ? 0.0 : side_slip_; }
   double newest_traction() const { return traction_; }
+  double newest_side_slip() const { return side_slip_; }
   double mean_traction() const { return mean_traction_; }
   // The window stays empty.
   void restore(double newest_traction, double mean_traction, double side_slip, Utime newest_visual) {
@@ -67,6 +67,7 @@ class SlipMonitor {
     double body_m = 0.0;  // of the body origin, by wheel odometry
     double lateral_m = 0.0;
   };
+  bool is_old(Utime at) const { return at > newest_visual_ + 2 * to_utime(config_.traction_window_s); }
   static Interval sum(const std::deque<Interval>& intervals, Utime from, Utime to);
   void update_traction();
   void update_side_slip(const Interval& interval);

@@ -80,6 +80,9 @@ void slam_pose_to(const SlamResult& result, slam_pose_t& message) {
   message.x_m = result.T_map_odom.x_m;
   message.y_m = result.T_map_odom.y_m;
   message.yaw_rad = result.T_map_odom.yaw_rad;
+  message.drift_x_m = result.T_slam_odom.x_m;
+  message.drift_y_m = result.T_slam_odom.y_m;
+  message.drift_yaw_rad = result.T_slam_odom.yaw_rad;
   for (int row = 0; row < 3; ++row)
     for (int column = 0; column < 3; ++column) message.covariance[3 * row + column] = result.covariance(row, column);
   message.information = result.information;

@@ -21,9 +21,7 @@ struct Outcome {
 Outcome run_once(std::uint64_t seed) {
   DriveNoise noise;
   noise.visual_scale = LocalizationConfig{}.filter.visual_scale_sigma;
-  LocalizationConfig config;
-  config.filter.visual_cov_factor = 1.0;  // the synthetic covariance is exact
-  SyntheticDrive drive(config, seed, noise);
+  SyntheticDrive drive({}, seed, noise);
   drive.command = [](double t) { return t < 1.5 ? Twist{} : Twist{0.2, 0.06 * std::sin(0.1 * t)}; };
   std::mt19937_64 random(seed * 7919);
   std::normal_distribution<double> normal;

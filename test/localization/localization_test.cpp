@@ -124,6 +124,27 @@ TEST(Localization, VisualOdometryCorrectsWheelSlip) {
   EXPECT_LT(position_error(drive), 0.01 * drive.driven_m());
 }
 
+// Rocks tilt the body by degrees within a second; its origin moves by centimetres that no wheel rolls.
+TEST(Localization, PoseAndSlipFollowARockingBodyBetweenVisualMotions) {
+  SyntheticDrive drive({}, 3);
+  drive.rolling_ground = false;
+  drive.command = [](double t) { return t < 1.5 ? Twist{} : Twist{0.2, 0.0}; };
+  drive.rock = [](double t) {
+    const double since = std::max(0.0, t - 1.5);
+    return Eigen::Vector2d(0.06 * std::sin(1.3 * since), 0.06 * std::sin(1.7 * since));
+  };
+  drive.align_and_start();
+  double worst_m = 0.0, worst_slip = 0.0;
+  drive.run(30.0, [&] {
+    const PoseEstimate& pose = drive.localization.pose();
+    worst_m = std::max(worst_m, (pose.T_odom_body.translation() - drive.truth_odom().translation()).norm());
+    if (const Slip slip = drive.localization.slip(); slip.valid)
+      worst_slip = std::max(worst_slip, std::abs(slip.slip_ratio));
+  });
+  EXPECT_LT(worst_m, 0.02) << "0.08 m, and a slip of 0.27, if wheels are taken to move the origin";
+  EXPECT_LT(worst_slip, 0.01);
+}
+
 TEST(Localization, NoDriftAtStandstill) {
   SyntheticDrive drive({}, 2);
   drive.command = [](double t) { return t < 1.5 || t > 11.5 ? Twist{} : Twist{0.2, 0.05}; };

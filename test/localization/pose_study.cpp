@@ -30,10 +30,32 @@ struct Loss {
   }
 };
 
+// Long enough for all that a visual motion corrects late, short enough to be no drift.
+constexpr Utime kLag = 1'500'000;
+constexpr double kStepM = 0.02;
+
+class RootMeanSquare {
+ public:
+  void add(const Eigen::Vector2d& error) {
+    sum_ += error.squaredNorm();
+    ++count_;
+  }
+  double value() const { return std::sqrt(sum_ / std::max(1, count_)); }
+
+ private:
+  double sum_ = 0.0;
+  int count_ = 0;
+};
+
 struct Ends {
   double driven_m = 0.0;
-  double odometry_m = 0.0, slam_m = 0.0, pose_m = 0.0;  // errors at the end
-  double pose_rms_m = 0.0, nees = 0.0;                  // of x and y of POSE; normalised by its covariance
+  double odometry_m = 0.0, slam_m = kNaN, pose_m = 0.0;  // errors at the end, without that of the start pose
+  RootMeanSquare odometry_rms_m, slam_rms_m, pose_rms_m;
+  RootMeanSquare lag_m;                             // change of odometry's error within kLag
+  Eigen::Array3d squares = Eigen::Array3d::Zero();  // of POSE's errors in x, y, yaw over their variances
+  int samples = 0;
+  Eigen::Array2d visual_squares = Eigen::Array2d::Zero();  // of visual motions: position, rotation
+  int visual_samples = 0;
 };
 
 template <class Message>
@@ -61,8 +83,8 @@ class Drive {
       localization_.step(group->tick);
       publish_pose();
     }
-    ends_.pose_rms_m = std::sqrt(squares_ / std::max(1, samples_));
-    ends_.nees /= std::max(1, samples_);
+    ends_.squares /= std::max(1, ends_.samples);
+    ends_.visual_squares /= std::max(1, ends_.visual_samples);
     return ends_;
   }
 
@@ -73,13 +95,16 @@ class Drive {
     if (c == channel::kWheelState) localization_.add_wheels(loc::wheels_from(decoded<wheel_state_t>(m)));
     if (c == channel::kWheelCommand)
       localization_.add_wheel_command(loc::wheel_command_from(decoded<wheel_command_t>(m)));
-    if (c == channel::kVo && !loss_.at(m.header->utime))
-      localization_.add_visual_motion(loc::visual_from(decoded<vo_motion_t>(m)));
+    if (c == channel::kVo && !loss_.at(m.header->utime)) {
+      const loc::VisualMotion motion = loc::visual_from(decoded<vo_motion_t>(m));
+      judge(motion);
+      localization_.add_visual_motion(motion);
+    }
     if (c == channel::kGroundCommand) start(decoded<ground_command_t>(m));
     if (c == channel::kState) full_ = decoded<supervisor_state_t>(m).level == supervisor_state_t::FULL;
     if (c == channel::kTruth) {
       const auto truth = decoded<truth_t>(m);
-      truths_[truth.header.utime] = planar(pose_from(truth.position_map_body_m, truth.quat_map_body_wxyz));
+      truths_[truth.header.utime] = pose_from(truth.position_map_body_m, truth.quat_map_body_wxyz);
     }
     if (c == channel::kCloud && full_) map_cloud(decoded<cloud_t>(m));
   }
@@ -97,7 +122,11 @@ class Drive {
     out.header.utime = message.header.utime;
     slam::slam_pose_to(result, out);
     slam_poses_.push_back({message.header.release_utime + slam_config_.latency_us, out});
-    judge(message.header.utime, *odometry, result);
+    if (const auto truth = truths_.find(message.header.utime); truth != truths_.end() && started_) {
+      const Eigen::Vector2d error = error_of(result.T_map_odom, planar(odometry->T_odom_body), planar(truth->second));
+      ends_.slam_m = error.norm();
+      ends_.slam_rms_m.add(error);
+    }
   }
 
   void deliver_slam(Utime now) {
@@ -117,34 +146,61 @@ class Drive {
     sample.odometry.dead_reckoned_m = dead_reckoned_.add(message);
     poses_.add(sample);
     slam_.add_pose(sample.utime, sample.T_map_odom, sample.odometry.T_odom_body);
-    published_[sample.utime] = {sample.T_map_odom, localization_.pose().cov};
+    if (const auto truth = truths_.find(sample.utime); truth != truths_.end()) judge(sample, planar(truth->second));
   }
 
-  // Errors since the first cloud: without that of the start pose.
-  void judge(Utime utime, const slam::Odometry& odometry, const slam::SlamResult& result) {
-    const auto truth = truths_.find(utime);
-    const auto published = published_.find(utime);
-    if (truth == truths_.end() || published == published_.end()) return;
-    const Pose2 body = planar(odometry.T_odom_body), T_map_odom = planar(published->second.first);
-    if (samples_ == 0) {
-      start_ = T_map_odom;
-      error_ = slam::compose(truth->second, slam::between(slam::compose(start_, body), Pose2{}));
-    } else {
-      ends_.driven_m += std::hypot(truth->second.x_m - last_.x_m, truth->second.y_m - last_.y_m);
+  // From the keyframe to the newest image.
+  void judge(const loc::VisualMotion& motion) {
+    if (motion.previous_utime == motion.keyframe_utime) T_key_cur_ = Eigen::Isometry3d::Identity();
+    T_key_cur_ = T_key_cur_ * motion.T_prev_cur;  // not finite after a gap
+    const auto from = truths_.find(motion.keyframe_utime), to = truths_.find(motion.utime);
+    if (motion.status != loc::VisualStatus::kOk || from == truths_.end() || to == truths_.end()) {
+      T_key_cur_ = nan_pose();
+      return;
     }
-    last_ = truth->second;
-    const auto error = [&](const Pose2& T) {
-      const Pose2 estimate = slam::compose(error_, slam::compose(T, body));
-      return Eigen::Vector2d(estimate.x_m - last_.x_m, estimate.y_m - last_.y_m);
-    };
-    ends_.odometry_m = error(start_).norm();
-    ends_.slam_m = error(result.T_map_odom).norm();
-    ends_.pose_m = error(T_map_odom).norm();
-    const Pose2 pose = slam::compose(T_map_odom, body);
-    const Eigen::Vector2d whole(pose.x_m - last_.x_m, pose.y_m - last_.y_m);
-    ends_.nees += whole.dot(published->second.second.topLeftCorner<2, 2>().inverse() * whole);
-    squares_ += error(T_map_odom).squaredNorm();
-    ++samples_;
+    const Eigen::Isometry3d truth = from->second.inverse() * to->second;
+    if (!is_finite(T_key_cur_) || truth.translation().norm() < kStepM) return;
+    Eigen::Matrix<double, 6, 1> error;
+    error << T_key_cur_.translation() - truth.translation(), log_so3(T_key_cur_.linear() * truth.linear().transpose());
+    ends_.visual_squares +=
+        Eigen::Array2d(error.head<3>().dot(motion.cov.topLeftCorner<3, 3>().inverse() * error.head<3>()) / 3.0,
+                       error.tail<3>().dot(motion.cov.bottomRightCorner<3, 3>().inverse() * error.tail<3>()) / 3.0);
+    ++ends_.visual_samples;
+  }
+
+  // Of a position, without that of the start pose.
+  Eigen::Vector2d error_of(const Pose2& T_map_odom, const Pose2& T_odom_body, const Pose2& truth) const {
+    const Pose2 body = slam::compose(start_error_, slam::compose(T_map_odom, T_odom_body));
+    return {body.x_m - truth.x_m, body.y_m - truth.y_m};
+  }
+
+  void judge(const slam::PoseSample& sample, const Pose2& truth) {
+    const Pose2 body = planar(sample.odometry.T_odom_body), T_map_odom = planar(sample.T_map_odom);
+    if (!started_) {
+      T_map_odom_start_ = T_map_odom;
+      start_error_ = slam::compose(truth, slam::between(slam::compose(T_map_odom, body), Pose2{}));
+      last_ = truth;
+      started_ = true;
+    }
+    const double step_m = std::hypot(truth.x_m - last_.x_m, truth.y_m - last_.y_m);
+    if (step_m > kStepM) {
+      ends_.driven_m += step_m;
+      last_ = truth;
+    }
+    const Eigen::Vector2d odometry = error_of(T_map_odom_start_, body, truth);
+    const Eigen::Vector2d pose = error_of(T_map_odom, body, truth);
+    ends_.odometry_m = odometry.norm();
+    ends_.pose_m = pose.norm();
+    ends_.odometry_rms_m.add(odometry);
+    ends_.pose_rms_m.add(pose);
+    errors_[sample.utime] = odometry;
+    if (const auto before = errors_.find(sample.utime - kLag); before != errors_.end())
+      ends_.lag_m.add(odometry - before->second);
+    const Pose2 whole = slam::compose(T_map_odom, body);
+    const Eigen::Array3d error(whole.x_m - truth.x_m, whole.y_m - truth.y_m, wrap_angle(whole.yaw_rad - truth.yaw_rad));
+    const Matrix6d& cov = localization_.pose().cov;
+    ends_.squares += error.square() / Eigen::Array3d(cov(0, 0), cov(1, 1), cov(5, 5));
+    ++ends_.samples;
   }
 
   replay::RecordedLog log_;
@@ -156,12 +212,12 @@ class Drive {
   slam::PoseHistory poses_;
   bool full_ = false;
   std::deque<std::pair<Utime, slam_pose_t>> slam_poses_;  // until their release
-  std::map<Utime, Pose2> truths_;
-  std::map<Utime, std::pair<Eigen::Isometry3d, Matrix6d>> published_;
-  Pose2 start_, error_, last_;
+  std::map<Utime, Eigen::Isometry3d> truths_;             // T_map_body
+  Eigen::Isometry3d T_key_cur_ = nan_pose();
+  bool started_ = false;
+  Pose2 T_map_odom_start_, start_error_, last_;
+  std::map<Utime, Eigen::Vector2d> errors_;
   Ends ends_;
-  double squares_ = 0.0;
-  int samples_ = 0;
 };
 
 }  // namespace
@@ -181,13 +237,18 @@ int main(int argc, char** argv) {
   }
   const Loss loss = lost.empty() ? Loss{} : Loss{lost[0], lost[1], lost[2]};
   fmt::print(
-      "| drive | driven | odometry | SLAM | POSE | POSE, rms | squared error of x, y over its variance "
-      "|\n|---|---|---|---|---|---|---|\n");
+      "| drive | driven | odometry: end, rms | SLAM: end, rms | POSE: end, rms | change of odometry's error in 1.5 s, "
+      "rms "
+      "| squared error over variance: POSE x, y, yaw | VO position, rotation |\n|---|---|---|---|---|---|---|---|\n");
   for (const std::string& run : runs) try {
       const Ends e = Drive(run, config_dir, loss).run();
       const auto percent = [&](double error_m) { return 100.0 * error_m / std::max(e.driven_m, 1.0); };
-      fmt::print("| {} | {:.1f} m | {:.2f} % | {:.2f} % | {:.2f} % | {:.3f} m | {:.2f} |\n", run, e.driven_m,
-                 percent(e.odometry_m), percent(e.slam_m), percent(e.pose_m), e.pose_rms_m, 0.5 * e.nees);
+      fmt::print(
+          "| {} | {:.1f} m | {:.2f} %, {:.3f} m | {:.2f} %, {:.3f} m | {:.2f} %, {:.3f} m | {:.4f} m "
+          "| {:.2f}, {:.2f}, {:.2f} | {:.1f}, {:.1f} |\n",
+          run, e.driven_m, percent(e.odometry_m), e.odometry_rms_m.value(), percent(e.slam_m), e.slam_rms_m.value(),
+          percent(e.pose_m), e.pose_rms_m.value(), e.lag_m.value(), e.squares(0), e.squares(1), e.squares(2),
+          e.visual_squares(0), e.visual_squares(1));
       std::fflush(stdout);
     } catch (const std::exception& error) {
       std::fprintf(stderr, "pose_study: %s: %s\n", run.c_str(), error.what());

@@ -95,7 +95,7 @@ double side_slip_on_arc(double speed_mps, double yaw_rate_radps, double lateral_
     monitor.add_visual(interval, {chord * std::cos(half) - lateral * std::sin(half),
                                   chord * std::sin(half) + lateral * std::cos(half), 2.0 * half});
   }
-  return monitor.side_slip();
+  return monitor.newest_side_slip();
 }
 
 TEST(SlipMonitor, SideSlipExcludesWheelOdometryAndCurvature) {

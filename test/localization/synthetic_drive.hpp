@@ -14,6 +14,7 @@ namespace rover::loc {
 
 inline Vehicle test_vehicle() {
   Vehicle v;
+  v.origin_height_m = 0.62;
   v.wheel_radius_m = 0.125;
   v.wheel_x_m = {0.75, 0.75, 0.0, 0.0, -0.75, -0.75};
   v.wheel_y_m = {0.41, -0.41, 0.41, -0.41, 0.41, -0.41};
@@ -51,6 +52,7 @@ class SyntheticDrive {
   std::function<Twist(double)> command = [](double) { return Twist{}; };
   std::function<double(double)> slip = [](double) { return 0.0; };   // of all wheels
   std::function<double(double)> scrub = [](double) { return 0.0; };  // yaw rate while the wheels steer on the spot
+  std::function<Eigen::Vector2d(double)> rock = [](double) { return Eigen::Vector2d(0, 0); };  // roll, pitch: on rocks
   bool rolling_ground = true;
 
   // Inputs of localization.
@@ -119,8 +121,15 @@ class SyntheticDrive {
   }
 
   void place() {
-    start_ = key_pose_ = previous_pose_ = T_world_body_ = surface_pose(0.0, 0.0, 0.0);
+    T_world_ground_ = surface_pose(0.0, 0.0, 0.0);
+    start_ = key_pose_ = previous_pose_ = T_world_body_ = body_pose();
     placed_ = true;
+  }
+
+  Eigen::Isometry3d body_pose() const {
+    const Eigen::Vector2d rocking = rock(to_seconds(now_));
+    return T_world_ground_ * make_pose(rotation_from_rpy(rocking.x(), rocking.y(), 0.0), Eigen::Vector3d::Zero()) *
+           Eigen::Translation3d(0.0, 0.0, test_vehicle().origin_height_m);
   }
 
   void tick() {
@@ -132,9 +141,10 @@ class SyntheticDrive {
     const double scrub_radps = scrub(to_seconds(now_));
     yaw_ += (twist.rate_radps + scrub_radps) * dt;
     if (scrub_radps != 0.0) scrub_steer_rad_ += 0.2 * dt;
-    const Eigen::Vector3d forward = T_world_body_.linear().col(0) * ground_speed_mps * dt;
-    T_world_body_ = surface_pose(T_world_body_.translation().x() + forward.x(),
-                                 T_world_body_.translation().y() + forward.y(), yaw_);
+    const Eigen::Vector3d forward = T_world_ground_.linear().col(0) * ground_speed_mps * dt;
+    T_world_ground_ = surface_pose(T_world_ground_.translation().x() + forward.x(),
+                                   T_world_ground_.translation().y() + forward.y(), yaw_);
+    T_world_body_ = body_pose();
     driven_m_ += (T_world_body_.translation() - before.translation()).norm();
     now_ += kTickUs;
     make_imu(before, dt);
@@ -239,6 +249,7 @@ class SyntheticDrive {
   double scrub_steer_rad_ = 0.0;
   bool placed_ = false;
   double driven_m_ = 0.0;
+  Eigen::Isometry3d T_world_ground_;  // where the wheels roll
   Eigen::Isometry3d T_world_body_;
   Eigen::Isometry3d start_;
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();

@@ -171,7 +171,7 @@ CorrectionRecord correction_from(const correction_t& message) {
 }
 
 SlamSample slam_from(const slam_pose_t& message) {
-  return {to_seconds(message.header.utime), {message.x_m, message.y_m, message.yaw_rad}};
+  return {to_seconds(message.header.utime), {message.drift_x_m, message.drift_y_m, message.drift_yaw_rad}};
 }
 
 void add_heartbeat(const heartbeat_t& message, std::map<std::string, ServiceRecord>& services) {

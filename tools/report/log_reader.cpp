@@ -135,7 +135,7 @@ class Reader {
     if (map) maps.push_back(std::move(*map));
   }
   void add_slam(const SlamSample& sample) {
-    const Pose2& p = sample.T_map_odom;
+    const Pose2& p = sample.T_slam_odom;
     if (std::isfinite(p.x_m) && std::isfinite(p.y_m) && std::isfinite(p.yaw_rad)) run_.slam.push_back(sample);
   }
   void add_elevation(const elevation_t& message) {

@@ -89,7 +89,8 @@ struct Metrics {
   double truth_deviation_max_m = kNaN;
   double odometry_drift_percent = kNaN;
   double odometry_drift_max_m = kNaN;
-  double slam_drift_percent = kNaN;      // SLAM's own poses, aligned at the first one
+  double slam_drift_percent = kNaN;      // from the first SLAM pose on
+  double slam_odometry_ratio = kNaN;     // rms error of SLAM over that of odometry at the same poses
   double estimate_error_max_m = kNaN;    // of the pose in map
   double corrected_error_max_m = kNaN;   // the same, after the first accepted correction
   double final_error_m = kNaN;           // true final position to the goal

@@ -173,6 +173,7 @@ void add_accuracy(const Metrics& m, Json& json) {
   json["odometry_drift_percent"] = number(m.odometry_drift_percent);
   json["odometry_drift_max_m"] = number(m.odometry_drift_max_m);
   json["slam_drift_percent"] = number(m.slam_drift_percent);
+  json["slam_odometry_ratio"] = number(m.slam_odometry_ratio);
   json["estimate_error_max_m"] = number(m.estimate_error_max_m);
   json["corrected_error_max_m"] = number(m.corrected_error_max_m);
   json["final_error_m"] = number(m.final_error_m);

@@ -27,7 +27,8 @@ RunRecord with_estimate_for_truth(const RunRecord& run) {
 
 void leave_out_truth_figures(Metrics& m) {
   m.min_clearance_m = m.hazard_clearance_m = m.motion_without_lease_s = kNaN;
-  m.truth_deviation_max_m = m.odometry_drift_percent = m.odometry_drift_max_m = m.slam_drift_percent = kNaN;
+  m.truth_deviation_max_m = m.odometry_drift_percent = m.odometry_drift_max_m = m.slam_drift_percent =
+      m.slam_odometry_ratio = kNaN;
   m.estimate_error_max_m = m.corrected_error_max_m = kNaN;
   m.final_error_m = m.final_estimate_error_m = kNaN;
   m.anees = m.anees_after_fix = {};

@@ -165,7 +165,7 @@ struct CorrectionRecord {
 // Each SLAM_POSE.
 struct SlamSample {
   double t_s = 0.0;  // of its cloud
-  Pose2 T_map_odom;
+  Pose2 T_slam_odom;
 };
 
 // Accumulated CPU time and memory of a process.

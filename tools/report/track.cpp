@@ -109,24 +109,30 @@ std::vector<DriftSample> odometry_drift(const RunRecord& run, const TrueTrack& t
 SlamTrack slam_track(const RunRecord& run, const TrueTrack& truth, const Window& window) {
   SlamTrack track;
   if (truth.empty()) return track;
+  Pose2 align = start_alignment(run, truth, window);
   const double begin_m = truth.distance_m(window.begin_s);
-  Pose2 align;
   for (const SlamSample& sample : run.slam) {
     const PoseSample* pose = newest(run.poses, sample.t_s);
     if (pose == nullptr || !window.contains(sample.t_s)) continue;
-    const Pose2 in_slam = compose(sample.T_map_odom, planar(pose->T_odom_body));
-    if (track.drift.empty()) align = compose(truth.planar_at(sample.t_s), inverse(in_slam));
-    const Pose2 estimate = compose(align, in_slam);
-    const Eigen::Vector3d p = truth.at(sample.t_s).translation();
-    track.drift.push_back(
-        {sample.t_s, truth.distance_m(sample.t_s) - begin_m, estimate.x_m - p.x(), estimate.y_m - p.y()});
+    const Eigen::Vector2d p = truth.at(sample.t_s).translation().head<2>();
+    const auto error = [&](const Pose2& T_map_odom) -> Eigen::Vector2d {
+      const Pose2 estimate = compose(T_map_odom, planar(pose->T_odom_body));
+      return Eigen::Vector2d(estimate.x_m, estimate.y_m) - p;
+    };
+    if (track.drift.empty()) {
+      const Eigen::Vector2d first = error(compose(align, sample.T_slam_odom));
+      align.x_m -= first.x();
+      align.y_m -= first.y();
+    }
+    const Eigen::Vector2d e = error(compose(align, sample.T_slam_odom));
+    track.drift.push_back({sample.t_s, truth.distance_m(sample.t_s) - begin_m, e.x(), e.y()});
   }
   for (const PoseSample& pose : run.poses) {
     const SlamSample* slam = newest(run.slam, pose.t_s);
     if (track.drift.empty() || slam == nullptr || pose.t_s < track.drift.front().t_s || pose.t_s > window.end_s)
       continue;
     const Eigen::Vector3d in_odom = pose.T_odom_body.translation();
-    track.line.push_back(transform(align, transform(slam->T_map_odom, {in_odom.x(), in_odom.y()})));
+    track.line.push_back(transform(align, transform(slam->T_slam_odom, {in_odom.x(), in_odom.y()})));
   }
   return track;
 }

@@ -62,7 +62,8 @@ struct DriftSample {
 // Error of T_odom_body, aligned at the start, at each POSE in the window.
 std::vector<DriftSample> odometry_drift(const RunRecord& run, const TrueTrack& truth, const Window& window);
 
-// Position by SLAM's own T_map_odom, aligned with the truth at its first pose in the window.
+// Position by SLAM's T_slam_odom, without external corrections. Aligned as odometry, and with the truth at its first
+// pose in the window.
 struct SlamTrack {
   std::vector<DriftSample> drift;  // at each SLAM_POSE
   Points line;                     // map, at each POSE from the first SLAM_POSE on
