@@ -1,6 +1,6 @@
 // Runs the cores of localization and SLAM on recorded drives, optionally without some of the visual motions, and prints
 // the errors of odometry, SLAM and POSE against the truth. A tool.
-//   pose_study [--lost FROM_S,PERIOD_S,DURATION_S] [--config DIR] RUN...
+//   pose_study [--lost FROM_S,PERIOD_S,DURATION_S] [--config DIR] [--motions FILE] RUN...
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -68,8 +68,11 @@ Message decoded(const replay::LogMessage& message) {
 
 class Drive {
  public:
-  Drive(const std::string& run, const std::string& config_dir, const Loss& loss)
+  // motions: receives the errors of visual odometry, may be null.
+  Drive(const std::string& run, const std::string& config_dir, const Loss& loss, std::FILE* motions)
       : log_(run),
+        log_run_(run),
+        motions_(motions),
         loss_(loss),
         localization_(loc::load_config(config_dir), load_vehicle(config_dir)),
         slam_config_(slam::load_config(config_dir)),
@@ -166,6 +169,12 @@ class Drive {
         Eigen::Array2d(error.head<3>().dot(motion.cov.topLeftCorner<3, 3>().inverse() * error.head<3>()) / 3.0,
                        error.tail<3>().dot(motion.cov.bottomRightCorner<3, 3>().inverse() * error.tail<3>()) / 3.0);
     ++ends_.visual_samples;
+    if (motions_ == nullptr) return;
+    const Eigen::Vector3d p = truth.translation();
+    fmt::print(motions_, "{},{:.5f},{:.5f},{:.5f},{:.5f}", log_run_, p.x(), p.y(), p.z(),
+               log_so3(truth.linear()).norm());
+    for (int i = 0; i < 6; ++i) fmt::print(motions_, ",{:.3e},{:.3e}", error(i), std::sqrt(motion.cov(i, i)));
+    fmt::print(motions_, "\n");
   }
 
   // Of a position, without that of the start pose.
@@ -204,6 +213,8 @@ class Drive {
   }
 
   replay::RecordedLog log_;
+  std::string log_run_;
+  std::FILE* motions_;
   Loss loss_;
   loc::Localization localization_;
   slam::NodeConfig slam_config_;
@@ -226,9 +237,13 @@ int main(int argc, char** argv) {
   CLI::App app{"Odometry, SLAM and POSE on recorded drives, against the truth"};
   std::vector<double> lost;
   std::string config_dir = ROVER_SOURCE_DIR "/config";
+  std::string motions_file;
   std::vector<std::string> runs;
   app.add_option("--lost", lost, "without visual motions: from, period, duration [s]")->delimiter(',')->expected(3);
   app.add_option("--config", config_dir, "configuration folder");
+  app.add_option("--motions", motions_file,
+                 "writes each visual motion since its keyframe: run, true x y z and angle, "
+                 "then error and stated sigma of x y z and of the rotation");
   app.add_option("runs", runs, "run folders")->required();
   CLI11_PARSE(app, argc, argv);
   if (!lost.empty() && !(lost[1] > 0.0)) {
@@ -236,12 +251,19 @@ int main(int argc, char** argv) {
     return 2;
   }
   const Loss loss = lost.empty() ? Loss{} : Loss{lost[0], lost[1], lost[2]};
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> motions(
+      motions_file.empty() ? nullptr : std::fopen(motions_file.c_str(), "w"),
+      [](std::FILE* file) { return std::fclose(file); });
+  if (!motions_file.empty() && motions == nullptr) {
+    std::fprintf(stderr, "pose_study: %s: cannot be written\n", motions_file.c_str());
+    return 2;
+  }
   fmt::print(
       "| drive | driven | odometry: end, rms | SLAM: end, rms | POSE: end, rms | change of odometry's error in 1.5 s, "
       "rms "
       "| squared error over variance: POSE x, y, yaw | VO position, rotation |\n|---|---|---|---|---|---|---|---|\n");
   for (const std::string& run : runs) try {
-      const Ends e = Drive(run, config_dir, loss).run();
+      const Ends e = Drive(run, config_dir, loss, motions.get()).run();
       const auto percent = [&](double error_m) { return 100.0 * error_m / std::max(e.driven_m, 1.0); };
       fmt::print(
           "| {} | {:.1f} m | {:.2f} %, {:.3f} m | {:.2f} %, {:.3f} m | {:.2f} %, {:.3f} m | {:.4f} m "

@@ -7,15 +7,15 @@
 namespace rover {
 namespace {
 
-constexpr double kScaleSigma = 0.0025;
+constexpr double kScaleSigma = 0.0011;
 constexpr double kKeyframeM = 0.45;  // distance and angle after which the keyframe changes
 constexpr double kKeyframeRad = 0.2;
 // Standard deviations of a registration: constant, and growth with the distance from the keyframe; x y z, roll pitch
 // yaw. The published covariance is that of visual odometry's own estimate.
 const Eigen::Vector3d kPositionM(0.5e-4, 0.6e-4, 1.0e-4);
-const Eigen::Vector3d kPositionPerM(6.0e-4, 3.0e-4, 3.0e-4);
+const Eigen::Vector3d kPositionPerM(8.0e-4, 3.0e-4, 3.0e-4);
 const Eigen::Vector3d kRotationRad(0.5e-4, 0.4e-4, 0.5e-4);
-const Eigen::Vector3d kRotationRadPerM(3.0e-4, 2.0e-4, 1.5e-4);
+const Eigen::Vector3d kRotationRadPerM(2.0e-4, 4.0e-4, 1.5e-4);
 const Eigen::Vector3d kStatedPositionM(0.65e-4, 1.0e-4, 1.4e-4);
 const Eigen::Vector3d kStatedRotationRad(1.0e-4, 0.7e-4, 0.45e-4);
 constexpr double kStatedPerM = 2.5e-4;

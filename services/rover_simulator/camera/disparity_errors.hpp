@@ -20,7 +20,7 @@ struct DisparityErrorConfig {
   float max_smoothing_px = 0.5F;  // a pixel that differs more from the average keeps its own disparity
   float sigma_px = 0.085F;        // of the noise where a pixel is smaller than sharp_m
   float sigma_per_m = 35.0F;      // growth with the size of a pixel
-  float sharp_m = 0.0024F;        // size of a pixel: depth / focal length = baseline / disparity
+  float sharp_m = 0.0027F;        // size of a pixel: depth / focal length = baseline / disparity
   float max_sigma_px = 0.33F;
   int edge_hole_px = 3;       // width of the hole around a foreground
   float edge_jump_px = 2.0F;  // smallest jump of an edge, beyond that of steep ground over the hole
