@@ -164,6 +164,7 @@ void add_restarts(Parameters p, ServiceRestarterConfig& c) {
 }
 
 void apply_vehicle(const Vehicle& vehicle, SupervisorConfig& out) {
+  out.origin_height_m = vehicle.origin_height_m;
   out.max_speed_mps = vehicle.top_speed_mps;
   out.deceleration_mps2 = vehicle.deceleration_mps2;
   out.footprint_half_length_m = vehicle.footprint_half_length_m();

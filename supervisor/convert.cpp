@@ -17,14 +17,14 @@ double number_or_zero(double value) {
 
 }  // namespace
 
-PoseReport report_from(const pose_t& message) {
+PoseReport report_from(const pose_t& message, double origin_height_m) {
   PoseReport out;
   out.utime = message.header.utime;
   out.speed_mps = Eigen::Vector3d(message.velocity_body_mps).norm();
   out.forward_mps = message.velocity_body_mps[0];
   out.turn_rate_radps = message.rate_body_radps[2];
   const Eigen::Isometry3d T_odom_body = pose_from(message.position_odom_body_m, message.quat_odom_body_wxyz);
-  out.odom = planar(T_odom_body);
+  out.odom = planar(ground_pose(T_odom_body, origin_height_m));
   const Eigen::Vector3d attitude = rpy_of(T_odom_body.linear());
   out.roll_rad = attitude.x();
   out.pitch_rad = attitude.y();

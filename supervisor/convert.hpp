@@ -22,7 +22,7 @@
 
 namespace rover::supervisor {
 
-PoseReport report_from(const pose_t& message);
+PoseReport report_from(const pose_t& message, double origin_height_m);
 HazardsReport report_from(const hazards_t& message);
 PlannerReport report_from(const planner_status_t& message);
 ControlReport report_from(const control_status_t& message);

@@ -47,6 +47,7 @@ SupervisorNode::SupervisorNode(Node& node, const SupervisorConfig& config, Contr
       checkpoint_(node),
       control_(std::move(control)),
       on_demand_services_(config.on_demand_services),
+      origin_height_m_(config.origin_height_m),
       supervisor_(config) {
   restore();
   subscribe();
@@ -61,8 +62,9 @@ void SupervisorNode::subscribe() {
     supervisor_.on_service(m.header.publisher, report_from(m));
   });
   node_.subscribe<pose_t>(channel::kPose, [this](const pose_t& m) {
-    body_odom_ = planar(pose_from(m.position_odom_body_m, m.quat_odom_body_wxyz));
-    supervisor_.on_pose(report_from(m));
+    const PoseReport report = report_from(m, origin_height_m_);
+    body_odom_ = report.odom;
+    supervisor_.on_pose(report);
   });
   node_.subscribe<hazards_t>(channel::kHazards, [this](const hazards_t& m) { supervisor_.on_hazards(report_from(m)); });
   node_.subscribe<planner_status_t>(channel::kPlannerStatus,

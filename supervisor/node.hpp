@@ -38,6 +38,7 @@ class SupervisorNode {
   CheckpointStore checkpoint_;
   Control control_;
   std::vector<std::string> on_demand_services_;
+  double origin_height_m_;
   std::vector<std::string> to_control_;  // of them, with the option
   const char* option_ = "";
   Pose2 body_odom_{};  // newest pose

@@ -26,6 +26,7 @@ struct SupervisorConfig {
   ServiceRestarterConfig restarts;
   // Run only while the Full level needs them; there FDIR requires fdir.full_services of them.
   std::vector<std::string> on_demand_services;
+  double origin_height_m = 0.0;  // of the body origin above the ground
   double max_speed_mps = 0.2;
   double deceleration_mps2 = 0.118;
   double footprint_half_length_m = 0.9;

@@ -57,7 +57,7 @@ void set_vehicle(const Vehicle& vehicle, PathPlannerConfig& c) {
   c.footprint = {vehicle.footprint_half_length_m(), vehicle.footprint_half_width_m(), vehicle.half_gap_m()};
   for (size_t i = 0; i < c.footprint.wheels.size(); ++i)
     c.footprint.wheels[i] = {vehicle.wheel_x_m[i], vehicle.wheel_y_m[i]};
-  c.ground_z_m = -vehicle.origin_height_m;
+  c.origin_height_m = vehicle.origin_height_m;
   c.deceleration_mps2 = vehicle.deceleration_mps2;
   c.rounding.min_radius_m = vehicle.min_turn_radius_m;
   c.planner.motion.seconds_per_m = c.planner.cost_to_go.seconds_per_m = 1.0 / vehicle.top_speed_mps;
@@ -98,7 +98,7 @@ PathPlannerConfig load_config(const std::string& config_dir, ParameterList* list
         "back on the driven track if there is no path; each one in a row is this much longer");
   p.add("max_backtracks", c.max_back_ups, {0, 100}, "in a row, without progress along the global path");
   p.add("view_range_m", c.belief.view.far_m, {1.0, 20.0}, "the LocCam sees the ground this far ahead");
-  c.belief.view = view_of(load_stereo_rig(config_dir, "loccam"), c.ground_z_m, c.belief.view.far_m);
+  c.belief.view = view_of(load_stereo_rig(config_dir, "loccam"), -c.origin_height_m, c.belief.view.far_m);
   p.check(c.belief.view.far_half_width_m > 0.0, "view_range_m", "the LocCam of cameras.yaml does not see so far");
   add_belief(p.section("belief", "probability that a wheel cannot pass a cell"), c.belief);
   add_clearance(p.section("clearance", "footprint to the centre of a hazard cell, of which half a cell is the cell"),

@@ -29,15 +29,16 @@ std::int8_t kind_of(PathKind kind) {
 
 }  // namespace
 
-PoseSample pose_from(const pose_t& message) {
+PoseSample pose_from(const pose_t& message, double origin_height_m) {
   PoseSample out;
   out.utime = message.header.utime;
-  out.T_odom_body = rover::pose_from(message.position_odom_body_m, message.quat_odom_body_wxyz);
+  out.T_odom_ground =
+      ground_pose(rover::pose_from(message.position_odom_body_m, message.quat_odom_body_wxyz), origin_height_m);
   out.T_map_odom = rover::pose_from(message.position_map_odom_m, message.quat_map_odom_wxyz);
   out.forward_mps = message.velocity_body_mps[0];
   out.left_mps = message.velocity_body_mps[1];
   out.yaw_rate_radps = message.rate_body_radps[2];
-  const bool numbers = is_finite(out.T_odom_body) && is_finite(out.T_map_odom) && std::isfinite(out.forward_mps) &&
+  const bool numbers = is_finite(out.T_odom_ground) && is_finite(out.T_map_odom) && std::isfinite(out.forward_mps) &&
                        std::isfinite(out.left_mps) && std::isfinite(out.yaw_rate_radps);
   out.usable = numbers && (message.status == pose_t::OK || message.status == pose_t::DEGRADED);
   return out;

@@ -12,7 +12,7 @@
 
 namespace rover::planning {
 
-PoseSample pose_from(const pose_t& message);
+PoseSample pose_from(const pose_t& message, double origin_height_m);
 HazardGrid hazards_from(const hazards_t& message);
 TraversabilityGrid traversability_from(const traversability_t& message);
 // Why the message cannot be taken; empty where it can.

@@ -52,6 +52,7 @@ PathPlannerNode::PathPlannerNode(Node& node, const PathPlannerConfig& config)
     : node_(node),
       checkpoint_(node),
       path_latency_(std::max<Utime>(0, to_utime(config.release_latency_s) - kTickUs)),
+      origin_height_m_(config.origin_height_m),
       dead_reckoned_(node.options().cpu_scale),
       planner_(config, node.options().boot_id * kPathsPerBoot,
                std::make_shared<BackgroundThread>(to_utime(config.planning_latency_s),
@@ -85,7 +86,7 @@ void PathPlannerNode::on_global_path(const path_t& message) {
 }
 
 void PathPlannerNode::on_pose(const pose_t& message) {
-  PoseSample sample = pose_from(message);
+  PoseSample sample = pose_from(message, origin_height_m_);
   sample.dead_reckoned_m = dead_reckoned_.add(message);
   planner_.add_pose(sample);
 }

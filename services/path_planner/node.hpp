@@ -39,6 +39,7 @@ class PathPlannerNode {
   Node& node_;
   CheckpointStore checkpoint_;
   Utime path_latency_;
+  double origin_height_m_;
   DeadReckonedDistance dead_reckoned_;
   PathPlanner planner_;
   path_t path_{};  // the newest; no points: none

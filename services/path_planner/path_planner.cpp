@@ -140,7 +140,7 @@ void PathPlanner::forget_path() {
 bool PathPlanner::add_hazards(const HazardGrid& grid) {
   const std::optional<Eigen::Isometry3d> T = history_.at(grid.utime);
   if (!T || !grid.fault().empty()) return false;
-  belief_.add(grid, *T, config_.ground_z_m);
+  belief_.add(grid, *T);
   new_ground_ = true;
   return true;
 }

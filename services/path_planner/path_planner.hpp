@@ -22,7 +22,7 @@ namespace rover::planning {
 
 struct PathPlannerConfig {
   Footprint footprint;
-  double ground_z_m = 0.0;  // of flat ground in body axes
+  double origin_height_m = 0.0;  // of the body origin above the ground
   double deceleration_mps2 = 0.1;
   BeliefConfig belief;
   CostmapConfig costmap;
@@ -125,7 +125,7 @@ class PathPlanner {
   };
 
   bool ready(Utime now) const;
-  Pose2 rover() const { return planar(history_.newest().T_odom_body); }
+  Pose2 rover() const { return planar(history_.newest().T_odom_ground); }
   bool stationary() const;
   void apply_start_area();
   void forget_path();

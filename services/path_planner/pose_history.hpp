@@ -11,8 +11,8 @@ namespace rover::planning {
 
 struct PoseSample {
   Utime utime = kNever;
-  bool usable = false;  // its status gives a position, and every number is finite
-  Eigen::Isometry3d T_odom_body = nan_pose();
+  bool usable = false;                           // its status gives a position, and every number is finite
+  Eigen::Isometry3d T_odom_ground = nan_pose();  // see ground_pose
   Eigen::Isometry3d T_map_odom = nan_pose();
   double forward_mps = 0.0;
   double left_mps = 0.0;

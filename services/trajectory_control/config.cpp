@@ -10,6 +10,7 @@ namespace rover::control {
 namespace {
 
 void apply_vehicle(const Vehicle& vehicle, TrajectoryControlConfig& out) {
+  out.origin_height_m = vehicle.origin_height_m;
   out.path.max_curvature_per_m = out.steering.max_curvature_per_m = 1.0 / vehicle.min_turn_radius_m;
   out.path.cruise_speed_mps = vehicle.top_speed_mps;
   out.path.outer_wheel_x_m = *std::max_element(vehicle.wheel_x_m.begin(), vehicle.wheel_x_m.end());

@@ -15,11 +15,12 @@ PathInput path_from(const path_t& message) {
   return out;
 }
 
-PoseInput pose_from(const pose_t& message) {
+PoseInput pose_from(const pose_t& message, double origin_height_m) {
   PoseInput out;
   out.utime = message.header.utime;
   out.usable = message.status == pose_t::OK || message.status == pose_t::DEGRADED;
-  out.odom = planar(rover::pose_from(message.position_odom_body_m, message.quat_odom_body_wxyz));
+  out.odom =
+      planar(ground_pose(rover::pose_from(message.position_odom_body_m, message.quat_odom_body_wxyz), origin_height_m));
   out.forward_mps = message.velocity_body_mps[0];
   out.left_mps = message.velocity_body_mps[1];
   return out;

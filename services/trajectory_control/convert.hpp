@@ -12,7 +12,7 @@ namespace rover::control {
 
 // Returns no points if the message is inconsistent or not in the odom frame.
 PathInput path_from(const path_t& message);
-PoseInput pose_from(const pose_t& message);
+PoseInput pose_from(const pose_t& message, double origin_height_m);
 void status_to(const ControlOutput& output, control_status_t& message);
 void command_to(const MotionCommand& command, motion_command_t& message);
 

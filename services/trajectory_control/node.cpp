@@ -34,7 +34,7 @@ const char* text_of(ControlState state) {
 TrajectoryControlNode::TrajectoryControlNode(Node& node, const TrajectoryControlConfig& config)
     : node_(node), config_(config), controller_(config) {
   node_.subscribe<path_t>(channel::kPath, [this](const path_t& m) { on_path(m); });
-  node_.subscribe<pose_t>(channel::kPose, [this](const pose_t& m) { pose_ = pose_from(m); });
+  node_.subscribe<pose_t>(channel::kPose, [this](const pose_t& m) { pose_ = pose_from(m, config_.origin_height_m); });
   node_.subscribe<drive_permit_t>(channel::kDrivePermit, [this](const drive_permit_t& m) { permit_ = permit_from(m); });
   node_.subscribe<ground_command_t>(channel::kGroundCommand,
                                     [this](const ground_command_t& m) { on_ground_command(m); });

@@ -14,6 +14,7 @@
 namespace rover::control {
 
 struct TrajectoryControlConfig {
+  double origin_height_m = 0.0;  // of the body origin above the ground
   TrackedPathConfig path;
   SteeringLawConfig steering;
   double pose_max_age_s = 0.2;

@@ -28,6 +28,13 @@ TEST(Frames, CameraLooksForwardAndDown) {
   EXPECT_NEAR((R_body_cam * Eigen::Vector3d::UnitX()).y(), -1.0, 1e-12);
 }
 
+// Rolled to the right the origin leans to the right of the ground point.
+TEST(Frames, GroundPointStaysUnderTheWheelsOnASideSlope) {
+  const Eigen::Isometry3d T = make_pose(rotation_from_rpy(to_rad(15.0), 0.0, 0.0), {3.0, 2.0, 1.0});
+  EXPECT_NEAR(planar(ground_pose(T, 0.62)).y_m, 2.0 + 0.16, 0.001);
+  EXPECT_NEAR(planar(ground_pose(T, 0.62)).x_m, 3.0, 1e-9);
+}
+
 TEST(Frames, ExpAndLogAreInverse) {
   for (const Eigen::Vector3d& w :
        {Eigen::Vector3d(0.1, -0.2, 0.3), Eigen::Vector3d(0, 0, 3.0), Eigen::Vector3d(0, 0, 0)})

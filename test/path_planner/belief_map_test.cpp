@@ -37,11 +37,11 @@ class BeliefMapTest : public testing::Test {
   // Frames that see free ground, but `value` at the rock.
   void see(std::uint8_t value, int times = 1, const Pose2& from = kNear) {
     for (int i = 0; i < times; ++i)
-      belief_.add(frame_with(value, to_body(from, kRock), HazardGrid::kFree), from_planar(from), 0.0);
+      belief_.add(frame_with(value, to_body(from, kRock), HazardGrid::kFree), from_planar(from));
   }
   // Frames with the same value everywhere.
   void see_everywhere(std::uint8_t value, int times = 1, const Pose2& from = {}) {
-    for (int i = 0; i < times; ++i) belief_.add(frame_of(value), from_planar(from), 0.0);
+    for (int i = 0; i < times; ++i) belief_.add(frame_of(value), from_planar(from));
   }
   // A map of the NavCam with the same cost everywhere, made `range_m` from the rock.
   void see_cost(std::uint8_t cost, double range_m, double dead_reckoned_m = 0.0) {
@@ -126,7 +126,7 @@ TEST_F(BeliefMapTest, OnlyGroundThatTheFrameSawIsKnown) {
 TEST_F(BeliefMapTest, AFrameIsInsertedAtThePoseOfItsExposure) {
   const Pose2 from{1.3, -2.2, 2.0};
   const Point2 in_body{2.05, -0.75};
-  belief_.add(frame_with(HazardGrid::kObstacle, in_body, HazardGrid::kUnseen), from_planar(from), 0.0);
+  belief_.add(frame_with(HazardGrid::kObstacle, in_body, HazardGrid::kUnseen), from_planar(from));
   EXPECT_GT(at(from_body(from, in_body)).evidence, 0.0);
   int hits = 0;
   belief_.cells().for_each([&](CellIndex, const CellBelief& cell) { hits += cell.evidence > 0.0 ? 1 : 0; });
@@ -137,7 +137,7 @@ TEST_F(BeliefMapTest, AFrameIsInsertedAtThePoseOfItsExposure) {
 TEST_F(BeliefMapTest, AFrameIsInsertedWithTheAttitudeOfItsExposure) {
   const double pitch = to_rad(10.0);
   const Eigen::Isometry3d T = make_pose(rotation_from_rpy(0.0, pitch, 0.0), {0.0, 0.0, 0.0});
-  belief_.add(frame_with(HazardGrid::kObstacle, {3.05, 0.05}, HazardGrid::kFree), T, -0.62);
+  belief_.add(frame_with(HazardGrid::kObstacle, {3.05, 0.05}, HazardGrid::kFree), ground_pose(T, 0.62));
   EXPECT_GT(at({3.05 * std::cos(pitch) - 0.62 * std::sin(pitch), 0.05}).evidence, 0.0);
 }
 
@@ -287,7 +287,7 @@ TEST_F(BeliefMapTest, OnlyALookFromAsNearClearsUnmeasuredGround) {
 TEST_F(BeliefMapTest, GroundHiddenBehindAnObstacleIsNotUnmeasured) {
   HazardGrid grid = frame_of(HazardGrid::kUnseen);
   for (int iy = 15; iy < 25; ++iy) grid.cells[static_cast<size_t>(iy) * grid.cells_x + 6] = HazardGrid::kObstacle;
-  for (int i = 0; i < 3 * config_.unmeasured_frames; ++i) belief_.add(grid, from_planar({}), 0.0);
+  for (int i = 0; i < 3 * config_.unmeasured_frames; ++i) belief_.add(grid, from_planar({}));
   EXPECT_FALSE(belief_.unmeasurable(at({1.65, 0.05})));
 }
 

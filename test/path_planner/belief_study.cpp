@@ -72,26 +72,26 @@ class Replay {
     hazards_t hazards;
     traversability_t traversability;
     if (event.channel == channel::kPose && decode_message(event.data, event.size, pose)) {
-      history_.add(pose_from(pose));
-      const Pose2 rover = planar(history_.newest().T_odom_body);
+      history_.add(pose_from(pose, config_.origin_height_m));
+      const Pose2 rover = planar(history_.newest().T_odom_ground);
       belief_.move_to(position(rover));
       belief_.mark_driven(rover, config_.footprint);
     }
     if (history_.empty()) return;
     if (event.channel == channel::kTraversability && decode_message(event.data, event.size, traversability))
-      belief_.add(traversability_from(traversability), planar(history_.newest().T_odom_body), config_.footprint);
+      belief_.add(traversability_from(traversability), planar(history_.newest().T_odom_ground), config_.footprint);
     if (event.channel != channel::kHazards || !decode_message(event.data, event.size, hazards)) return;
     const HazardGrid grid = hazards_from(hazards);
-    const auto T_odom_body = history_.at(grid.utime);
-    if (!T_odom_body || !grid.fault().empty()) return;
-    belief_.add(grid, *T_odom_body, config_.ground_z_m);
+    const auto T_odom_ground = history_.at(grid.utime);
+    if (!T_odom_ground || !grid.fault().empty()) return;
+    belief_.add(grid, *T_odom_ground);
     judge(history_.newest());
   }
 
   void judge(const PoseSample& now) {
     const auto T_true = truth_.known_at(to_seconds(now.utime));
     if (!T_true) return;
-    const Pose2 rover = planar(now.T_odom_body);
+    const Pose2 rover = planar(now.T_odom_ground);
     const Pose2 T_map_odom = report::compose(planar(*T_true), report::inverse(rover));
     const Point2 camera = from_body(rover, config_.belief.view.camera);
     const bool look = frames_++ % kFramesPerLook == 0;

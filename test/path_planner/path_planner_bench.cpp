@@ -16,7 +16,7 @@ void insert_frame(benchmark::State& state) {
   const HazardGrid frame = observe(CameraModel{}, random_rocks(3), pose, 0, random);
   BeliefMap belief{BeliefConfig{}};
   belief.move_to({0.0, 0.0});
-  for (auto _ : state) belief.add(frame, from_planar(pose), 0.0);
+  for (auto _ : state) belief.add(frame, from_planar(pose));
 }
 BENCHMARK(insert_frame)->Unit(benchmark::kMillisecond);
 

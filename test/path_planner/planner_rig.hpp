@@ -25,7 +25,7 @@ class PlannerRig {
     PoseSample s;
     s.utime = now;
     s.usable = true;
-    s.T_odom_body = from_planar(odom);
+    s.T_odom_ground = from_planar(odom);
     s.T_map_odom = from_planar(T_map_odom);
     s.forward_mps = forward_mps;
     return s;

@@ -9,7 +9,7 @@ namespace {
 PoseSample sample_at(Utime utime, const Pose2& pose) {
   PoseSample sample;
   sample.utime = utime;
-  sample.T_odom_body = from_planar(pose);
+  sample.T_odom_ground = from_planar(pose);
   return sample;
 }
 
@@ -41,7 +41,7 @@ TEST(PoseHistory, DropsPosesThatComeTooLate) {
   history.add(sample_at(200'000, {2.0, 0.0, 0.0}));
   history.add(sample_at(100'000, {1.0, 0.0, 0.0}));
   history.add(sample_at(200'000, {5.0, 0.0, 0.0}));
-  EXPECT_EQ(history.newest().T_odom_body.translation().x(), 2.0);
+  EXPECT_EQ(history.newest().T_odom_ground.translation().x(), 2.0);
   EXPECT_FALSE(history.at(150'000));
 }
 

@@ -229,7 +229,7 @@ class Drive {
     PoseSample s;
     s.utime = now_;
     s.usable = true;
-    s.T_odom_body = from_planar(rover_.odom());
+    s.T_odom_ground = from_planar(rover_.odom());
     s.T_map_odom = from_planar(start_);
     s.forward_mps = rover_.forward_mps();
     s.yaw_rate_radps = rover_.yaw_rate_radps();

@@ -112,7 +112,6 @@ PathPlannerConfig planner_config() {
   PathPlannerConfig config;
   config.footprint = {
       0.875, 0.47, 0.35, {{{0.75, 0.41}, {0.75, -0.41}, {0.0, 0.41}, {0.0, -0.41}, {-0.75, 0.41}, {-0.75, -0.41}}}};
-  config.ground_z_m = 0.0;
   config.goal_tolerance_m = 0.4;
   config.turn_threshold_rad = 0.7;
   config.turn_stop_rad = 0.035;

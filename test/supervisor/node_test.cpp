@@ -112,9 +112,9 @@ TEST_F(SupervisorNodeTest, NanInThePoseStopsTheRover) {
   for (double* field : {&pose_.position_odom_body_m[1], &pose_.quat_map_odom_wxyz[2], &pose_.velocity_body_mps[0],
                         &pose_.rate_body_radps[2]}) {
     const double good = *field;
-    EXPECT_TRUE(report_from(pose_).usable);
+    EXPECT_TRUE(report_from(pose_, 0.62).usable);
     *field = kNaN;
-    EXPECT_FALSE(report_from(pose_).usable);
+    EXPECT_FALSE(report_from(pose_, 0.62).usable);
     *field = good;
   }
   pose_.velocity_body_mps[0] = kNaN;
@@ -157,7 +157,7 @@ TEST(Convert, UnknownStatusCountsAsBad) {
   EXPECT_FALSE(report_from(hazards).blind);
   pose_t pose{};
   pose.status = pose_t::UNINITIALISED;
-  EXPECT_FALSE(report_from(pose).usable);
+  EXPECT_FALSE(report_from(pose, 0.62).usable);
 }
 
 TEST(SupervisorCheckpoint, MotorHeatIsSavedEachSecond) {

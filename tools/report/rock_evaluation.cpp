@@ -17,7 +17,7 @@ void evaluate_sweep(const RunRecord& run, const Window& window, const Footprint&
   Pose2 last{kInfinity, kInfinity, 0.0};
   for (const TruthSample& sample : run.truth) {
     if (!window.contains(sample.t_s)) continue;
-    const Pose2 pose = planar(sample.T_map_body);
+    const Pose2 pose = planar(ground_pose(sample.T_map_body, footprint.origin_height_m));
     if (!far_apart(pose, last)) continue;
     last = pose;
     const Eigen::Vector2d origin(pose.x_m, pose.y_m);

@@ -30,6 +30,10 @@ Pose2 planar(const Eigen::Isometry3d& T) {
   return {T.translation().x(), T.translation().y(), yaw_of(T)};
 }
 
+Eigen::Isometry3d ground_pose(const Eigen::Isometry3d& T_odom_body, double origin_height_m) {
+  return T_odom_body * Eigen::Translation3d(0.0, 0.0, -origin_height_m);
+}
+
 Eigen::Isometry3d from_planar(const Pose2& pose) {
   return make_pose(rotation_from_rpy(0.0, 0.0, pose.yaw_rad), {pose.x_m, pose.y_m, 0.0});
 }

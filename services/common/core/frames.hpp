@@ -44,6 +44,9 @@ Eigen::Matrix3d rotation_from_rpy(double roll_rad, double pitch_rad, double yaw_
 double yaw_of(const Eigen::Isometry3d& T);
 Pose2 planar(const Eigen::Isometry3d& T);
 Eigen::Isometry3d from_planar(const Pose2& pose);
+// Pose of the point on the ground below the body origin, axes of the body. Paths, footprints and zones refer to it: on
+// a slope of 15 deg the origin, 0.62 m above, lies 0.16 m downhill of it.
+Eigen::Isometry3d ground_pose(const Eigen::Isometry3d& T_odom_body, double origin_height_m);
 
 // Rotation vector (axis times angle) and back.
 Eigen::Matrix3d exp_so3(const Eigen::Vector3d& rotation_rad);

@@ -24,8 +24,7 @@ void for_cells_in(GridMap<CellBelief>& map, Point2 low, Point2 high, F&& f) {
 struct PlaneMap {
   Eigen::Matrix2d A;
   Eigen::Vector2d b;
-  PlaneMap(const Eigen::Isometry3d& T, double z_m)
-      : A(T.linear().topLeftCorner<2, 2>()), b((T * Eigen::Vector3d(0.0, 0.0, z_m)).head<2>()) {}
+  explicit PlaneMap(const Eigen::Isometry3d& T) : A(T.linear().topLeftCorner<2, 2>()), b(T.translation().head<2>()) {}
   Eigen::Vector2d operator()(double x_m, double y_m) const { return A * Eigen::Vector2d(x_m, y_m) + b; }
 };
 
@@ -62,9 +61,9 @@ double probability_of(double log_odds) {
 
 }  // namespace
 
-void BeliefMap::add(const HazardGrid& grid, const Eigen::Isometry3d& T_odom_body, double ground_z_m) {
+void BeliefMap::add(const HazardGrid& grid, const Eigen::Isometry3d& T_odom_ground) {
   frame_ = static_cast<std::uint16_t>(frame_ == 0xffff ? 1 : frame_ + 1);
-  const PlaneMap to_odom(T_odom_body, ground_z_m);
+  const PlaneMap to_odom(T_odom_ground);
   const Eigen::Matrix2d to_grid = to_odom.A.inverse();
   Eigen::AlignedBox2d box;
   for (const double x : {grid.origin_x_m, grid.origin_x_m + grid.cells_x * grid.cell_m})

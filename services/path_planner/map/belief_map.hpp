@@ -52,8 +52,8 @@ class BeliefMap {
 
   void move_to(Point2 rover) { map_.move_to(rover.x_m, rover.y_m); }
   void clear() { map_.clear(); }
-  // One frame of the LocCam. The ground lies `ground_z_m` above (negative: below) the body origin.
-  void add(const HazardGrid& grid, const Eigen::Isometry3d& T_odom_body, double ground_z_m);
+  // One frame of the LocCam.
+  void add(const HazardGrid& grid, const Eigen::Isometry3d& T_odom_ground);
   // One map of the NavCam, made with the rover there; since the last it drove so far on wheel odometry alone.
   void add(const TraversabilityGrid& grid, const Pose2& rover, const Footprint& footprint,
            double dead_reckoned_m = 0.0);
