@@ -71,7 +71,7 @@ class Drive {
   // motions: receives the errors of visual odometry, may be null.
   Drive(const std::string& run, const std::string& config_dir, const Loss& loss, std::FILE* motions)
       : log_(run),
-        log_run_(run),
+        run_(run),
         motions_(motions),
         loss_(loss),
         localization_(loc::load_config(config_dir), load_vehicle(config_dir)),
@@ -171,8 +171,7 @@ class Drive {
     ++ends_.visual_samples;
     if (motions_ == nullptr) return;
     const Eigen::Vector3d p = truth.translation();
-    fmt::print(motions_, "{},{:.5f},{:.5f},{:.5f},{:.5f}", log_run_, p.x(), p.y(), p.z(),
-               log_so3(truth.linear()).norm());
+    fmt::print(motions_, "{},{:.5f},{:.5f},{:.5f},{:.5f}", run_, p.x(), p.y(), p.z(), log_so3(truth.linear()).norm());
     for (int i = 0; i < 6; ++i) fmt::print(motions_, ",{:.3e},{:.3e}", error(i), std::sqrt(motion.cov(i, i)));
     fmt::print(motions_, "\n");
   }
@@ -213,7 +212,7 @@ class Drive {
   }
 
   replay::RecordedLog log_;
-  std::string log_run_;
+  std::string run_;
   std::FILE* motions_;
   Loss loss_;
   loc::Localization localization_;

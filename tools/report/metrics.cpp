@@ -170,27 +170,21 @@ void evaluate_drift(const RunRecord& run, const TrueTrack& truth, Metrics& m) {
   m.final_estimate_error_m = (T_map_body.translation() - truth.at(end->t_s).translation()).head<2>().norm();
 }
 
-double squared_m2(const DriftSample& error) {
-  return error.error_x_m * error.error_x_m + error.error_y_m * error.error_y_m;
+double sum_of_squares_m2(const std::vector<DriftSample>& errors) {
+  double sum = 0.0;
+  for (const DriftSample& e : errors) sum += e.error_x_m * e.error_x_m + e.error_y_m * e.error_y_m;
+  return sum;
 }
 
 // Distance since the first SLAM pose, which may come in the middle of the drive.
 void evaluate_slam(const RunRecord& run, const TrueTrack& truth, Metrics& m) {
-  const std::vector<DriftSample> slam = slam_track(run, truth, m.window).drift;
-  if (slam.size() < 2) return;
-  const double travelled_m = slam.back().distance_m - slam.front().distance_m;
-  if (travelled_m > 0.0) m.slam_drift_percent = 100.0 * std::sqrt(squared_m2(slam.back())) / travelled_m;
-  const std::vector<DriftSample> odometry = odometry_drift(run, truth, m.window);
-  const DriftSample* first = newest(odometry, slam.front().t_s);
-  double slam_m2 = 0.0, odometry_m2 = 0.0;
-  for (const DriftSample& sample : slam) {
-    DriftSample same = *newest(odometry, sample.t_s);
-    same.error_x_m -= first->error_x_m;
-    same.error_y_m -= first->error_y_m;
-    slam_m2 += squared_m2(sample);
-    odometry_m2 += squared_m2(same);
-  }
-  if (odometry_m2 > 0.0) m.slam_odometry_ratio = std::sqrt(slam_m2 / odometry_m2);
+  const SlamTrack slam = slam_track(run, truth, m.window);
+  if (slam.drift.size() < 2) return;
+  const DriftSample& end = slam.drift.back();
+  const double travelled_m = end.distance_m - slam.drift.front().distance_m;
+  if (travelled_m > 0.0) m.slam_drift_percent = 100.0 * std::hypot(end.error_x_m, end.error_y_m) / travelled_m;
+  const double odometry_m2 = sum_of_squares_m2(slam.odometry);
+  if (odometry_m2 > 0.0) m.slam_odometry_ratio = std::sqrt(sum_of_squares_m2(slam.drift) / odometry_m2);
 }
 
 void evaluate_estimate(const RunRecord& run, const TrueTrack& truth, Metrics& m) {

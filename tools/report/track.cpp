@@ -110,23 +110,30 @@ SlamTrack slam_track(const RunRecord& run, const TrueTrack& truth, const Window&
   SlamTrack track;
   if (truth.empty()) return track;
   Pose2 align = start_alignment(run, truth, window);
+  Eigen::Vector2d first_slam = Eigen::Vector2d::Zero(), first_odometry = Eigen::Vector2d::Zero();
   const double begin_m = truth.distance_m(window.begin_s);
   for (const SlamSample& sample : run.slam) {
     const PoseSample* pose = newest(run.poses, sample.t_s);
     if (pose == nullptr || !window.contains(sample.t_s)) continue;
     const Eigen::Vector2d p = truth.at(sample.t_s).translation().head<2>();
-    const auto error = [&](const Pose2& T_map_odom) -> Eigen::Vector2d {
-      const Pose2 estimate = compose(T_map_odom, planar(pose->T_odom_body));
+    const auto error = [&](const Pose2& T_slam_odom) -> Eigen::Vector2d {
+      const Pose2 estimate = compose(compose(align, T_slam_odom), planar(pose->T_odom_body));
       return Eigen::Vector2d(estimate.x_m, estimate.y_m) - p;
     };
+    const Eigen::Vector2d slam = error(sample.T_slam_odom), odometry = error({});
     if (track.drift.empty()) {
-      const Eigen::Vector2d first = error(compose(align, sample.T_slam_odom));
-      align.x_m -= first.x();
-      align.y_m -= first.y();
+      first_slam = slam;
+      first_odometry = odometry;
     }
-    const Eigen::Vector2d e = error(compose(align, sample.T_slam_odom));
-    track.drift.push_back({sample.t_s, truth.distance_m(sample.t_s) - begin_m, e.x(), e.y()});
+    const double distance_m = truth.distance_m(sample.t_s) - begin_m;
+    const auto since_first = [&](const Eigen::Vector2d& e, const Eigen::Vector2d& first) {
+      return DriftSample{sample.t_s, distance_m, e.x() - first.x(), e.y() - first.y()};
+    };
+    track.drift.push_back(since_first(slam, first_slam));
+    track.odometry.push_back(since_first(odometry, first_odometry));
   }
+  align.x_m -= first_slam.x();
+  align.y_m -= first_slam.y();
   for (const PoseSample& pose : run.poses) {
     const SlamSample* slam = newest(run.slam, pose.t_s);
     if (track.drift.empty() || slam == nullptr || pose.t_s < track.drift.front().t_s || pose.t_s > window.end_s)

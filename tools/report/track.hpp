@@ -65,8 +65,9 @@ std::vector<DriftSample> odometry_drift(const RunRecord& run, const TrueTrack& t
 // Position by SLAM's T_slam_odom, without external corrections. Aligned as odometry, and with the truth at its first
 // pose in the window.
 struct SlamTrack {
-  std::vector<DriftSample> drift;  // at each SLAM_POSE
-  Points line;                     // map, at each POSE from the first SLAM_POSE on
+  std::vector<DriftSample> drift;     // at each SLAM_POSE, since the first
+  std::vector<DriftSample> odometry;  // the same of T_odom_body
+  Points line;                        // map, at each POSE from the first SLAM_POSE on
 };
 SlamTrack slam_track(const RunRecord& run, const TrueTrack& truth, const Window& window);
 
