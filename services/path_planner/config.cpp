@@ -33,6 +33,8 @@ void add_ground(Parameters p, PathPlannerConfig& c) {
   p.add("difficulty_cost", c.costmap.difficulty_cost, {0.0, 50.0}, "at ground that is just traversable");
   p.add("unknown_cost", c.costmap.unknown_cost, {0.0, 20.0}, "unknown ground");
   p.add("clearance_cost", c.planner.cost_to_go.clearance_cost, {0.0, 20.0}, "at the minimum clearance");
+  p.add_deg("max_roll_deg", c.planner.roll.max_rad, {1.0, 45.0}, "of a plan, by the NavCam's map: below that of FDIR");
+  p.add("roll_cost", c.planner.roll.cost, {0.0, 20.0}, "at the largest roll; nothing below 0.75 of it");
 }
 
 void add_motion(Parameters p, MotionCosts& c) {

@@ -13,6 +13,7 @@ class Monitor {
       : query_(query),
         motion_(query.route, query.from_m, query.rover, query.side_slip, query.turning),
         check_(query.costmap, query.footprint, query.margin_m, kMonitorApproachM, 0.0, query.rover, query.planned_from),
+        roll_(query.roll, query.costmap, query.footprint, query.planned_from, RollCosts::kToleranceRad),
         visibility_(query.costmap, check_, query.view) {}
 
   Blockage run() {
@@ -57,7 +58,7 @@ class Monitor {
   }
 
   void check(const Pose2& pose, double s_m, bool check_unknown) {
-    if (std::isinf(blockage_.hazard_m) && !check_.clear(pose)) blockage_.hazard_m = s_m;
+    if (std::isinf(blockage_.hazard_m) && !(check_.clear(pose) && roll_.allows(pose))) blockage_.hazard_m = s_m;
     if (!check_unknown || std::isfinite(blockage_.unseen_m) || check_.known(pose)) return;
     blockage_.unknown_m = std::min(blockage_.unknown_m, s_m);
     if (!visibility_.covers(pose)) blockage_.unseen_m = s_m;
@@ -66,6 +67,7 @@ class Monitor {
   const MonitorQuery& query_;
   ExpectedMotion motion_;
   FootprintCheck check_;
+  RollCheck roll_;
   Visibility visibility_;
   Blockage blockage_;
 };

@@ -5,6 +5,7 @@
 
 #include "path_planner/expected_motion.hpp"
 #include "path_planner/search/footprint_check.hpp"
+#include "path_planner/search/roll.hpp"
 
 namespace rover::planning {
 
@@ -16,6 +17,7 @@ struct MonitorQuery {
   Pose2 rover;
   Pose2 planned_from;  // where the rover was then
   double margin_m = 0.0;
+  RollCosts roll;
   bool turning = false;  // the rover turns on the spot to the heading of the route first
   ViewArea view;
   SideSlip side_slip;

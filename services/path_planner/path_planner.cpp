@@ -312,8 +312,9 @@ Costmap PathPlanner::monitor_costmap(CostmapUse use) const {
 
 void PathPlanner::check_path() {
   const Costmap costmap = monitor_costmap(mode_ == Mode::kBackingUp ? CostmapUse::kBackingUp : CostmapUse::kGoingOn);
-  blockage_ = find_blockage({costmap, active_.route(), config_.footprint, active_.progress_m(), rover(),
-                             active_.planned_from(), margin_m(), turning_, config_.belief.view, side_slip_});
+  blockage_ =
+      find_blockage({costmap, active_.route(), config_.footprint, active_.progress_m(), rover(), active_.planned_from(),
+                     margin_m(), config_.planner.roll, turning_, config_.belief.view, side_slip_});
   // No camera looks backwards, and the driven track was known.
   if (mode_ == Mode::kBackingUp) blockage_.unknown_m = blockage_.unseen_m = kInfinity;
 }
@@ -513,7 +514,8 @@ bool PathPlanner::wants_back_up() const {
   return blocked && mode_ != Mode::kBackingUp && !job_ && !back_up_plan_ && stationary() && may_back_up();
 }
 
-// To the driven track, as far behind as it shall back up; less costs. After a fault over driven ground only.
+// To the driven track, as far behind as it shall back up; less costs. After a fault over driven ground, or, if that
+// leads nowhere, over known ground.
 void PathPlanner::request_back_up_plan() {
   const Job job{active_.id(), {rover(), 0.0, false, kNaN}, false, true};
   PlanRequest request = request_from(job.start);
@@ -530,9 +532,18 @@ void PathPlanner::request_back_up_plan() {
     return;
   }
   request.goal_tolerance_m = kBackUpToleranceM;
-  request.costmap = std::make_shared<const Costmap>(
-      monitor_costmap(back_up_wanted_ ? CostmapUse::kBackingUpOnTrack : CostmapUse::kBackingUp));
-  const auto make = [request, planner = planner_] { return planner->plan(request); };
+  std::vector<std::shared_ptr<const Costmap>> costmaps;
+  if (back_up_wanted_)
+    costmaps.push_back(std::make_shared<const Costmap>(monitor_costmap(CostmapUse::kBackingUpOnTrack)));
+  costmaps.push_back(std::make_shared<const Costmap>(monitor_costmap(CostmapUse::kBackingUp)));
+  const auto make = [request, costmaps, planner = planner_]() mutable {
+    Plan plan;
+    for (size_t i = 0; i < costmaps.size() && !plan.found; ++i) {
+      request.costmap = costmaps[i];
+      plan = planner->plan(request);
+    }
+    return plan;
+  };
   if (background_->start(make, history_.newest().utime)) job_ = job;
 }
 

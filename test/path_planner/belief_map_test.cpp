@@ -45,7 +45,8 @@ class BeliefMapTest : public testing::Test {
   }
   // A map of the NavCam with the same cost everywhere, made `range_m` from the rock.
   void see_cost(std::uint8_t cost, double range_m, double dead_reckoned_m = 0.0) {
-    belief_.add({{0, 0.1, -10.0, -10.0, 200, 200, std::vector<std::uint8_t>(40000, cost)}},
+    belief_.add({{0, 0.1, -10.0, -10.0, 200, 200, std::vector<std::uint8_t>(40000, cost)},
+                 std::vector<float>(40000, height_m_)},
                 {kRock.x_m - range_m, kRock.y_m, 0.0}, testing_support::planner_config().footprint, dead_reckoned_m);
   }
   const CellBelief& at(Point2 p) const { return belief_.cells().get(belief_.cells().index_of(p.x_m, p.y_m)); }
@@ -55,6 +56,7 @@ class BeliefMapTest : public testing::Test {
 
   BeliefConfig config_;
   BeliefMap belief_{config_};
+  float height_m_ = 0.0F;  // of the NavCam's map
 };
 
 TEST_F(BeliefMapTest, OneHitIsNotAHazardYetAndTwoAre) {
@@ -201,6 +203,19 @@ TEST_F(BeliefMapTest, UnderTheRoverTheNavCamsMapChangesNothing) {
   EXPECT_TRUE(belief_.low(at(kRock)));
   see_cost(TraversabilityGrid::kImpassable, 1.5);
   EXPECT_FALSE(belief_.low(at(kRock))) << "it is seen again";
+}
+
+TEST_F(BeliefMapTest, TheNewestHeightStaysAlsoUnderTheRover) {
+  see_cost(0, 1.5);
+  EXPECT_EQ(at(kRock).height_m, 0.0F);
+  height_m_ = 0.3F;
+  belief_.mark_driven({kRock.x_m, kRock.y_m, 0.0}, testing_support::planner_config().footprint);
+  see_cost(TraversabilityGrid::kUnknown, 0.0);
+  EXPECT_EQ(at(kRock).height_m, 0.3F);
+  height_m_ = CellBelief::kNoHeight;
+  belief_.mark_driven({kRock.x_m, kRock.y_m + 0.41, 0.0}, testing_support::planner_config().footprint);
+  see_cost(0, 1.5);
+  EXPECT_EQ(at(kRock).height_m, 0.3F);
 }
 
 TEST_F(BeliefMapTest, DrivenGroundNeedsNoMeasurement) {
@@ -394,7 +409,9 @@ TEST(InputGrid, CorruptGridsAreRefusedWithAReason) {
     faults[i](grid);
     EXPECT_NE(grid.fault(), "") << i;
   }
-  EXPECT_EQ(TraversabilityGrid({0, 0.1, 0.0, 0.0, 1, 1, {TraversabilityGrid::kUnknown}}).fault(), "");
+  const InputGrid unknown{0, 0.1, 0.0, 0.0, 1, 1, {TraversabilityGrid::kUnknown}};
+  EXPECT_EQ(TraversabilityGrid({unknown, {kNaN}}).fault(), "");
+  EXPECT_NE(TraversabilityGrid({unknown, {}}).fault(), "");
 }
 
 TEST(InputGrid, ReadsTheCellAtAPointAndNothingOutside) {

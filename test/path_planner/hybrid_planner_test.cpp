@@ -254,8 +254,16 @@ TEST(HybridPlanner, ThePathMonitorAcceptsEachPlan) {
     path.set_plan(1, PathKind::kRepair, plan.poses, {}, 0.25, 0, start);
     const double turn_rad = std::abs(wrap_angle(path.route().pose_at(0.0).yaw_rad - start.yaw_rad));
     const bool turning = turn_rad > Route::kCornerRad;
-    const Blockage blockage = find_blockage({*request.costmap, path.route(), config.footprint, 0.0, start, start,
-                                             config.clearances.min_m - 0.03, turning, config.view});
+    const Blockage blockage = find_blockage({*request.costmap,
+                                             path.route(),
+                                             config.footprint,
+                                             0.0,
+                                             start,
+                                             start,
+                                             config.clearances.min_m - 0.03,
+                                             {},
+                                             turning,
+                                             config.view});
     EXPECT_TRUE(std::isinf(blockage.hazard_m)) << blockage.hazard_m;
   }
   EXPECT_GT(near, 10);

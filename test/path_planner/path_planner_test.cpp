@@ -524,6 +524,22 @@ TEST(PathPlanner, BackingUpLeadsBackFromARoverThatHasReversedBesideItsTrack) {
   EXPECT_LT(rig.paths.back().points.back().p.x_m, rig.odom.x_m - 0.8);
 }
 
+TEST(PathPlanner, AfterAFaultItBacksUpOverKnownGroundIfTheTrackDoesNotLeadBack) {
+  PlannerRig rig;
+  rig.send_path(kAhead);
+  rig.look();
+  rig.go(5.0);
+  rig.forward_mps = -0.1;
+  for (const Pose2 from = rig.odom; rig.odom.y_m > from.y_m - 0.6;) {
+    rig.odom = {rig.odom.x_m - 0.01, rig.odom.y_m - 0.02, 0.0};
+    rig.step();
+  }
+  rig.forward_mps = 0.0;
+  rig.planner.request_back_up(true);
+  rig.look(2);
+  EXPECT_EQ(rig.planner.mode(), Mode::kBackingUp);
+}
+
 TEST(PathPlanner, OnRequestARoverThatHasNotDrivenYetCannotBackUp) {
   PlannerRig rig;
   rig.send_path(kAhead);

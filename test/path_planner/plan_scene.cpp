@@ -21,6 +21,17 @@ BeliefMap certain_belief(const GroundAt& ground) {
   return belief;
 }
 
+void set_heights(BeliefMap& belief, const std::function<double(Point2)>& height_m) {
+  GridMap<CellBelief>& map = belief.cells();
+  map.for_each([&](CellIndex i, CellBelief& cell) {
+    cell.height_m = static_cast<float>(height_m({map.center_x_m(i), map.center_y_m(i)}));
+  });
+}
+
+double side_slope(double deg, Point2 p) {
+  return std::tan(to_rad(deg)) * p.y_m;
+}
+
 GroundAt ground_of(std::vector<Rock> rocks) {
   return [rocks = std::move(rocks)](Point2 p) {
     const auto covers = [&](const Rock& r) { return r.height_m >= kHazardHeightM && distance(r.p, p) <= r.radius_m; };

@@ -12,6 +12,10 @@ using GroundAt = std::function<Ground(Point2)>;
 
 // A belief map around the origin.
 BeliefMap certain_belief(const GroundAt& ground);
+// Heights of the ground, as the NavCam's map gives them.
+void set_heights(BeliefMap& belief, const std::function<double(Point2)>& height_m);
+// Height on a plane that rises with y.
+double side_slope(double deg, Point2 p);
 // Free ground, but where a hazardous rock covers it.
 GroundAt ground_of(std::vector<Rock> rocks);
 // Rocks of random size and density, none of them near the origin.

@@ -130,8 +130,11 @@ void BeliefMap::add(const TraversabilityGrid& grid, const Pose2& rover, const Fo
   const double drift2 = std::pow(BeliefConfig::kDriftPerM * dead_reckoned_m / BeliefConfig::kCellM, 2);
   const Point2 high{grid.origin_x_m + grid.cells_x * grid.cell_m, grid.origin_y_m + grid.cells_y * grid.cell_m};
   for_cells_in(map_, {grid.origin_x_m, grid.origin_y_m}, high, [&](CellBelief& cell, Point2 p) {
-    const int cost = grid.at(p);
-    if (cost == TraversabilityGrid::kUnknown || cost == InputGrid::kOutside) return;
+    const std::ptrdiff_t i = grid.index_of(p);
+    if (i < 0) return;
+    if (const float height_m = grid.height_m[static_cast<size_t>(i)]; std::isfinite(height_m)) cell.height_m = height_m;
+    const int cost = grid.cells[static_cast<size_t>(i)];
+    if (cost == TraversabilityGrid::kUnknown) return;
     if (footprint.distance_m(rover, p) <= 0.0) return;
     const bool impassable = cost >= TraversabilityGrid::kLow;
     const double relative = static_cast<double>(cost) / TraversabilityGrid::kLow;
@@ -172,7 +175,8 @@ void BeliefMap::mark_driven(const Pose2& pose, const Footprint& footprint) {
   for_cells_in(map_, {pose.x_m - r, pose.y_m - r}, {pose.x_m + r, pose.y_m + r}, [&](CellBelief& cell, Point2 p) {
     const double d = footprint.distance_m(pose, p);
     // A wheel is on it, or the body above it; between the wheels of a side there may be a rock.
-    if (footprint.wheel_is_on(pose, p)) cell = {.known = true, .driven = true, .passed = true};
+    if (footprint.wheel_is_on(pose, p))
+      cell = {.known = true, .driven = true, .passed = true, .height_m = cell.height_m};
     if (d <= 0.0) cell.known = cell.passed = true, cell.unmeasured = 0, cell.tall_evidence = cell.tall_fraction = 0.0F;
     if (d <= rim) cell.known = true, cell.unmeasured = 0;
   });

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include "common/core/grid_map.hpp"
 #include "path_planner/map/input_grids.hpp"
@@ -42,8 +43,10 @@ struct CellBelief {
   float cost = 0.0F;            // NavCam, cost of driving over it, 0 .. 1
   float tall_evidence = 0.0F;   // LocCam, log-odds that a hazard is too tall to pass under the body
   float tall_fraction = 0.5F;   // NavCam, mean of what its maps say of the same
+  float height_m = kNoHeight;   // NavCam, newest; in odom
 
   static constexpr float kNoSigma = 1e3F;
+  static constexpr float kNoHeight = std::numeric_limits<float>::quiet_NaN();
 };
 
 class BeliefMap {

@@ -87,12 +87,13 @@ Costmap::Costmap(const CostmapConfig& config, const BeliefMap& belief, Point2 ro
     unmeasurable[i] = belief.unmeasurable(*cells[i]) ? 1 : 0;
     passed_[i] = cells[i]->passed ? 1 : 0;
   }
+  if (std::any_of(cells.begin(), cells.end(), [](const CellBelief* cell) { return std::isfinite(cell->height_m); }))
+    for (const CellBelief* cell : cells) height_m_.push_back(cell->height_m);
   const std::vector<std::uint8_t> wide = wide_parts(unmeasurable, cells_);
   unknown_.resize(count);
   for (size_t i = 0; i < count; ++i) unknown_[i] = cells[i]->known && !wide[i] ? 0 : 1;
   unknown_ = filled(unknown_, cells_);
-  const bool backing_up = config.use != CostmapUse::kGoingOn;
-  if (backing_up) know_track();
+  if (backing_up()) know_track();
 
   std::vector<std::uint8_t> hazard(count, 0);
   const std::vector<std::uint8_t> walls = walls_of(zones);
@@ -100,7 +101,7 @@ Costmap::Costmap(const CostmapConfig& config, const BeliefMap& belief, Point2 ro
   for (size_t i = 0; i < count; ++i) {
     if (i % static_cast<size_t>(cells_) == 0) row_begin_.push_back(hazards_.size());
     const CellBelief& cell = *cells[i];
-    const bool judged = cell.known && !(backing_up && cell.passed);
+    const bool judged = cell.known && !(backing_up() && cell.passed);
     const double p = judged ? belief.probability(cell) : 0.0;
     const bool unmeasured = unknown_[i] && unmeasurable[i];
     const bool low = !unmeasured && !walls[i] && belief.low(cell);
@@ -112,6 +113,19 @@ Costmap::Costmap(const CostmapConfig& config, const BeliefMap& belief, Point2 ro
   row_begin_.push_back(hazards_.size());
   hazard_distance_ = distance_field(hazard, cells_, cells_, cell_m_);
   unknown_distance_ = distance_field(unknown_, cells_, cells_, cell_m_);
+}
+
+double Costmap::height_m(Point2 p) const {
+  const double x = (p.x_m - corner_.x_m) / cell_m_ - 0.5;
+  const double y = (p.y_m - corner_.y_m) / cell_m_ - 0.5;
+  if (!(x >= 0.0 && y >= 0.0 && x < cells_ - 1 && y < cells_ - 1)) return kNaN;
+  const auto ix = static_cast<int>(x);
+  const auto iy = static_cast<int>(y);
+  const float* row = &height_m_[static_cast<size_t>(iy) * cells_ + ix];
+  const double u = x - ix;
+  const double low = (1.0 - u) * row[0] + u * row[1];
+  const double high = (1.0 - u) * row[cells_] + u * row[cells_ + 1];
+  return low + (y - iy) * (high - low);
 }
 
 void Costmap::know_track() {

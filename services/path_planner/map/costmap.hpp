@@ -66,6 +66,10 @@ class Costmap {
   bool unknown(int cell) const { return unknown_[cell] != 0; }
   // Whether the footprint was over it.
   bool passed(Point2 p) const { return contains(p) && passed_[cell_of(p)] != 0; }
+  bool backing_up() const { return config_.use != CostmapUse::kGoingOn; }
+  bool has_heights() const { return !height_m_.empty(); }
+  // Of the ground, in odom, between the centres of cells; NaN: not known. The map must have heights.
+  double height_m(Point2 p) const;
   double unknown_distance_m(Point2 p) const { return contains(p) ? unknown_distance_[cell_of(p)] : 0.0; }
   // Of a metre with the body origin in each cell, relative to a metre on easy ground: at least 1.
   std::vector<float> costs() const;
@@ -82,6 +86,7 @@ class Costmap {
   Point2 corner_;
   std::vector<std::uint8_t> unknown_;
   std::vector<std::uint8_t> passed_;
+  std::vector<float> height_m_;  // empty: none is known
   std::vector<float> own_cost_;  // beside the metre itself, of the ground in each cell
   std::vector<Hazard> hazards_;
   std::vector<size_t> row_begin_;  // in hazards_, one more than there are rows

@@ -24,10 +24,15 @@ struct InputGrid {
 
   // The value at a point, in the frame of the grid.
   int at(Point2 p) const {
+    const std::ptrdiff_t i = index_of(p);
+    return i < 0 ? kOutside : cells[static_cast<size_t>(i)];
+  }
+  // Of the cell; negative outside.
+  std::ptrdiff_t index_of(Point2 p) const {
     const double x = std::floor((p.x_m - origin_x_m) / cell_m);
     const double y = std::floor((p.y_m - origin_y_m) / cell_m);
     if (!(x >= 0.0 && y >= 0.0 && x < cells_x && y < cells_y)) return kOutside;
-    return cells[static_cast<size_t>(y) * static_cast<size_t>(cells_x) + static_cast<size_t>(x)];
+    return static_cast<std::ptrdiff_t>(y) * cells_x + static_cast<std::ptrdiff_t>(x);
   }
   // Why the grid is not usable; empty if it is.
   std::string fault(std::uint8_t max_value) const {
@@ -54,7 +59,10 @@ struct TraversabilityGrid : InputGrid {
   static constexpr std::uint8_t kLow = 253;
   static constexpr std::uint8_t kImpassable = 254;
   static constexpr std::uint8_t kUnknown = 255;
-  std::string fault() const { return InputGrid::fault(kUnknown); }
+  std::vector<float> height_m;  // of each cell, in odom; NaN: never seen
+  std::string fault() const {
+    return height_m.size() == cells.size() ? InputGrid::fault(kUnknown) : "number of heights is not that of cells";
+  }
 };
 
 }  // namespace rover::planning

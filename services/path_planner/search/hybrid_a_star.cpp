@@ -206,13 +206,13 @@ class HybridAStar {
       Node next = from;
       for (; turned < to_rad(turn_deg) + kTurnSampleRad; turned += kTurnSampleRad) {
         next.pose.yaw_rad = from.pose.yaw_rad + side * std::min(turned, to_rad(turn_deg));
-        if (!ground_.turn.clear(next.pose)) return;
+        if (!ground_.turn.clear(next.pose) || !ground_.roll.allows(next.pose)) return;
         if (from.distance_m < ground_.known_free_m && !pricer_.covers(next.pose)) {
           plan_.needs_unseen_ground = true;
           return;
         }
         const double factor = ground_.comfort.clear(next.pose) ? 1.0 : costs_.tight_factor;
-        cost += factor * costs_.point_turn_s_per_rad * kTurnSampleRad;
+        cost += factor * ground_.roll.factor(next.pose) * costs_.point_turn_s_per_rad * kTurnSampleRad;
       }
       add_motion_cost(next, cost);
       next.parent = index;
@@ -286,6 +286,7 @@ double PathPricer::cost_per_m(const Pose2& pose, double distance_m, bool reverse
   if (std::isinf(cost) || !ground_.min.clear(pose)) return kInfinity;
   if (!ground_.comfort.clear(pose)) cost *= costs_.tight_factor;
   if (reverse) cost *= costs_.reverse_factor;
+  cost *= ground_.roll.factor(pose);
   // No camera looks backwards: ground behind has been seen before.
   if (reverse || !ground_.request.back_to.empty()) return ground_.min.known(pose) ? cost : kInfinity;
   if (distance_m > ground_.known_free_m || visibility_.covers(pose)) return cost;

@@ -4,6 +4,7 @@
 
 #include "path_planner/search/footprint_check.hpp"
 #include "path_planner/search/pose_cost_to_go.hpp"
+#include "path_planner/search/roll.hpp"
 
 namespace rover::planning {
 
@@ -22,6 +23,7 @@ struct PricedGround {
   const FootprintCheck& comfort;
   const FootprintCheck& min;
   const FootprintCheck& turn;
+  const RollCheck& roll;
   ViewArea view;
   double known_free_m = 0.0;
 };

@@ -43,7 +43,8 @@ Plan HybridPlanner::plan(const PlanRequest& request) const {
   const FootprintCheck comfort = check(margins.comfort_m);
   const FootprintCheck min = check(margins.min_m);
   const FootprintCheck turn = check(margins.turn_m);
-  PricedGround ground{request, cost_to_go, comfort, min, turn, config_.view, config_.search.known_free_m};
+  const RollCheck roll(config_.roll, *request.costmap, config_.footprint, request.rover);
+  PricedGround ground{request, cost_to_go, comfort, min, turn, roll, config_.view, config_.search.known_free_m};
   const double at_least = cost_to_go.at(position(request.start));
   const double driven = incumbent_cost(ground);
   // Hardly any path is cheaper than the 2-D field says, which knows no headings.
@@ -65,8 +66,8 @@ Plan HybridPlanner::search(PricedGround& ground, const Clearances& margins, doub
   const PlanRequest& request = ground.request;
   Plan plan;
   for (const LatticeExtent& extent : kExtents) {
-    const PoseCostToGo pose_cost_to_go(config_.motion, margins, config_.footprint, request, ground.cost_to_go,
-                                       horizon_m, extent, driven - config_.switching_cost_s);
+    const PoseCostToGo pose_cost_to_go(config_.motion, config_.roll, margins, config_.footprint, request,
+                                       ground.cost_to_go, horizon_m, extent, driven - config_.switching_cost_s);
     for (const double known_free_m : {config_.search.known_free_m, HybridAStarConfig::kMinKnownFreeM}) {
       ground.known_free_m = known_free_m;
       const double incumbent = incumbent_cost(ground);

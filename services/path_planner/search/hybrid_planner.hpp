@@ -11,6 +11,7 @@ struct HybridPlannerConfig {
   ViewArea view;
   Clearances clearances;
   MotionCosts motion;
+  RollCosts roll;
   CostToGoConfig cost_to_go;
   HybridAStarConfig search;
   double horizon_m = 8.0;  // of headings and clearances; beyond, the 2-D cost-to-go

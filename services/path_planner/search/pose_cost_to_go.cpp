@@ -21,9 +21,9 @@ constexpr double kHeadingCostS = 4.0;    // per radian beyond
 
 }  // namespace
 
-PoseCostToGo::PoseCostToGo(const MotionCosts& costs, const Clearances& clearances, const Footprint& footprint,
-                           const PlanRequest& request, const CostToGo& cost_to_go, double horizon_m,
-                           const LatticeExtent& extent, double max_cost)
+PoseCostToGo::PoseCostToGo(const MotionCosts& costs, const RollCosts& roll_costs, const Clearances& clearances,
+                           const Footprint& footprint, const PlanRequest& request, const CostToGo& cost_to_go,
+                           double horizon_m, const LatticeExtent& extent, double max_cost)
     : costs_(costs),
       clearances_(clearances),
       footprint_(footprint),
@@ -35,7 +35,8 @@ PoseCostToGo::PoseCostToGo(const MotionCosts& costs, const Clearances& clearance
       from_start_to_goal_(kMarchBound * cost_to_go.at(position(request.start))),
       center_(position(request.start)),
       cell_m_(request.costmap->cell_m()),
-      cells_(2 * static_cast<int>((horizon_m + kBandM) / request.costmap->cell_m()) + 3) {
+      cells_(2 * static_cast<int>((horizon_m + kBandM) / request.costmap->cell_m()) + 3),
+      roll_(roll_costs, *request.costmap, footprint, request.rover, RollCosts::kToleranceRad) {
   const Point2 middle = request.costmap->center_of(request.costmap->cell_of(center_));
   const double half_m = (0.5 * cells_) * cell_m_;
   corner_ = {middle.x_m - half_m, middle.y_m - half_m};
@@ -104,6 +105,7 @@ void PoseCostToGo::classify() {
   from_start_.resize(count);
   for (size_t i = 0; i < count; ++i) from_start_[i] = kMarchBound * static_cast<float>(from_start[coarse(i)]);
   classes_.assign(count * kClearanceHeadings, kComfort);
+  if (request_.costmap->has_heights()) roll_factor_.assign(classes_.size(), 0.0F);
   rasterise(clearances_.comfort_m - extent_.slack_m, kTight);
   rasterise(clearances_.turn_m - extent_.slack_m, kNoTurn);
   rasterise(clearances_.min_m - extent_.slack_m, kBlocked);
@@ -232,14 +234,25 @@ bool PoseCostToGo::inside(int cell, int dx, int dy) const {
   return x >= 0 && y >= 0 && x < cells_ && y < cells_;
 }
 
-float PoseCostToGo::cost_per_m(int cell, int heading) const {
+float PoseCostToGo::cost_per_m(int cell, int heading) {
   const Clearance here = clearance(cell, heading);
   if (here == kBlocked) return kNone;
-  return here == kComfort ? ground_[cell] : static_cast<float>(costs_.tight_factor) * ground_[cell];
+  const float tight = here == kComfort ? 1.0F : static_cast<float>(costs_.tight_factor);
+  return tight * roll_factor(cell, heading) * ground_[cell];
+}
+
+float PoseCostToGo::roll_factor(int cell, int heading) {
+  if (roll_factor_.empty()) return 1.0F;
+  float& factor = roll_factor_[class_of(cell, heading)];
+  if (factor == 0.0F) {
+    const Point2 p = center_of(cell);
+    factor = static_cast<float>(roll_.factor({p.x_m, p.y_m, yaw_of(heading)}));
+  }
+  return factor;
 }
 
 // Of the arc from the cell; both ends lie inside.
-float PoseCostToGo::arc_cost(int cell, const Arc& arc) const {
+float PoseCostToGo::arc_cost(int cell, const Arc& arc) {
   const float here = cost_per_m(cell, arc.from_heading);
   const float between = cost_per_m(cell + arc.to_middle, arc.middle_heading);
   const float there = cost_per_m(cell + arc.to_end, arc.to_heading);
@@ -275,7 +288,7 @@ void PoseCostToGo::spread_turn(int cell, int heading, float cost) {
     const int from = wrapped(heading + turn);
     const Clearance there = clearance(cell, from);
     if (there >= kNoTurn) continue;
-    const double factor = there == kTight ? costs_.tight_factor : 1.0;
+    const double factor = (there == kTight ? costs_.tight_factor : 1.0) * roll_factor(cell, from);
     offer(kTurn, cell, from, cost + static_cast<float>(factor * costs_.point_turn_s_per_rad * yaw_of(1)));
   }
   offer(kForward, cell, heading, cost + static_cast<float>(costs_.point_turn_s));

@@ -9,6 +9,7 @@
 
 #include "path_planner/search/cost_to_go.hpp"
 #include "path_planner/search/motion_costs.hpp"
+#include "path_planner/search/roll.hpp"
 
 namespace rover::planning {
 
@@ -24,9 +25,9 @@ class PoseCostToGo {
   static constexpr int kHeadings = 32;
 
   // Plans from the start that cost more than `max_cost` are of no use [s].
-  PoseCostToGo(const MotionCosts& costs, const Clearances& clearances, const Footprint& footprint,
-               const PlanRequest& request, const CostToGo& cost_to_go, double horizon_m, const LatticeExtent& extent,
-               double max_cost);
+  PoseCostToGo(const MotionCosts& costs, const RollCosts& roll_costs, const Clearances& clearances,
+               const Footprint& footprint, const PlanRequest& request, const CostToGo& cost_to_go, double horizon_m,
+               const LatticeExtent& extent, double max_cost);
 
   // Smallest of the lattice poses around this one; infinity: nothing leads to the goal, or beyond the horizon.
   double forward(const Pose2& pose) const { return nearby(pose, kForward); }
@@ -85,8 +86,9 @@ class PoseCostToGo {
   void spread_turn(int cell, int heading, float cost);
   End end_at(Point2 p) const;
   void offer(Motion motion, int cell, int heading, float cost);
-  float arc_cost(int cell, const Arc& arc) const;
-  float cost_per_m(int cell, int heading) const;
+  float arc_cost(int cell, const Arc& arc);
+  float cost_per_m(int cell, int heading);
+  float roll_factor(int cell, int heading);
   double nearby(const Pose2& pose, Motion motion) const;
 
   static double yaw_of(int heading) { return 2.0 * kPi * heading / kHeadings; }
@@ -94,8 +96,9 @@ class PoseCostToGo {
   static size_t state_of(Motion motion, int cell, int heading) {
     return (static_cast<size_t>(cell) * kMotions + motion) * kHeadings + static_cast<size_t>(heading);
   }
-  Clearance clearance(int cell, int heading) const {
-    return static_cast<Clearance>(classes_[heading % kClearanceHeadings * ground_.size() + static_cast<size_t>(cell)]);
+  Clearance clearance(int cell, int heading) const { return static_cast<Clearance>(classes_[class_of(cell, heading)]); }
+  size_t class_of(int cell, int heading) const {
+    return heading % kClearanceHeadings * ground_.size() + static_cast<size_t>(cell);
   }
   Point2 center_of(int cell) const {
     return {corner_.x_m + (cell % cells_ + 0.5) * cell_m_, corner_.y_m + (cell / cells_ + 0.5) * cell_m_};
@@ -119,9 +122,11 @@ class PoseCostToGo {
   std::vector<std::vector<Arc>> arcs_to_;    // by the heading at their end
   std::vector<std::vector<Arc>> arcs_from_;  // by the heading at their start
   std::vector<std::uint8_t> classes_;
-  std::vector<float> ground_;      // cost per metre of each cell [s/m]
-  std::vector<float> from_start_;  // lower bound of the cost from the start
-  std::vector<float> cost_;        // of each state
+  RollCheck roll_;
+  std::vector<float> roll_factor_;  // as classes_; 0: not computed yet. Empty: all are 1
+  std::vector<float> ground_;       // cost per metre of each cell [s/m]
+  std::vector<float> from_start_;   // lower bound of the cost from the start
+  std::vector<float> cost_;         // of each state
   std::vector<bool> closed_;
   std::vector<std::vector<std::uint32_t>> buckets_;
   size_t bucket_ = 0;
