@@ -65,6 +65,7 @@ TraversabilityGrid traversability_from(const traversability_t& message) {
   out.cells_x = message.cells_x;
   out.cells_y = message.cells_y;
   out.cells = message.cells;
+  out.step_percent = message.step_percent;
   out.height_m = message.height_m;
   return out;
 }

@@ -23,6 +23,7 @@ void traversability_to(const TraversabilityMap& map, double difficulty, traversa
   message.cells_y = static_cast<std::int16_t>(map.shape.cells_y);
   message.size = static_cast<std::int32_t>(map.cells.size());
   message.cells = map.cells;
+  message.step_percent = map.step_percent;
   message.height_m = map.height_m;
   message.difficulty = difficulty;
 }

@@ -72,7 +72,7 @@ struct TerrainAnalysis {
 TraversabilityMap compute_traversability(TerrainGrid grid, const TraversabilityConfig& config) {
   fill_small_holes(grid, config.step.max_sigma_m, config.step.grow_height_m);
   TerrainAnalysis analysis(grid, config);
-  TraversabilityMap map{grid.shape, std::vector<std::uint8_t>(grid.shape.size(), kUnknown), {}, {}};
+  TraversabilityMap map{grid.shape, std::vector<std::uint8_t>(grid.shape.size(), kUnknown), {}, {}, {}};
   const CellCost cell_cost(config);
   for (std::size_t i = 0; i < map.cells.size(); ++i) {
     if (!analysis.seen[i]) continue;
@@ -81,6 +81,8 @@ TraversabilityMap compute_traversability(TerrainGrid grid, const TraversabilityC
     else if (analysis.steps.raw_rise_m[i] < config.step_limit_m())
       map.cells[i] = cell_cost.cost(analysis.planes.at(i), grid.height_m[i], grid.sigma_m[i], analysis.steps.rise_m[i]);
   }
+  for (const float rise_m : analysis.steps.rise_m)
+    map.step_percent.push_back(static_cast<std::uint8_t>(std::min(255.0, 100.0 * rise_m / config.step_limit_m())));
   map.obstacle = std::move(analysis.obstacle);
   map.height_m = std::move(grid.height_m);
   return map;

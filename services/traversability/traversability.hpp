@@ -19,9 +19,10 @@ inline constexpr std::uint8_t kUnknown = 255;
 
 struct TraversabilityMap {
   GridShape shape;
-  std::vector<std::uint8_t> cells;     // cost 0 .. 252, kLow, kImpassable or kUnknown
-  std::vector<std::uint8_t> obstacle;  // 1: rock, step or hole; steep slopes are not included
-  std::vector<float> height_m;         // of the grid, small holes filled
+  std::vector<std::uint8_t> cells;         // cost 0 .. 252, kLow, kImpassable or kUnknown
+  std::vector<std::uint8_t> obstacle;      // 1: rock, step or hole; steep slopes are not included
+  std::vector<std::uint8_t> step_percent;  // significant rise, of the limit
+  std::vector<float> height_m;             // of the grid, small holes filled
 };
 
 TraversabilityMap compute_traversability(TerrainGrid grid, const TraversabilityConfig& config);

@@ -101,6 +101,7 @@ std::shared_ptr<void> make_traversability(Node& node) {
     out.cells_x = out.cells_y = kTerrainCells;
     out.size = kTerrainCells * kTerrainCells;
     out.cells.assign(static_cast<size_t>(out.size), traversability_t::FREE);
+    out.step_percent.assign(static_cast<size_t>(out.size), 0);
     out.height_m.assign(static_cast<size_t>(out.size), 0.0F);
     // Cells are aligned to a fixed grid.
     const auto corner = [](double centre_m) {

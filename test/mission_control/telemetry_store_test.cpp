@@ -165,6 +165,7 @@ TEST(TelemetryStore, FullLevelGridsAreStored) {
   terrain.cells_x = terrain.cells_y = 10;
   terrain.size = 100;
   terrain.cells.assign(100, 254);
+  terrain.step_percent.assign(100, 0);
   terrain.height_m.assign(100, 0.0F);
   store.add(terrain);
   store.add_navcam(image_at(7, 200));
@@ -195,6 +196,7 @@ TEST(TelemetryStore, FullLevelServicesAreStored) {
   terrain.cell_m = 0.1;
   terrain.cells_x = terrain.cells_y = 10;
   terrain.cells.assign(100, traversability_t::UNKNOWN);
+  terrain.step_percent.assign(100, 0);
   terrain.height_m.assign(100, 0.0F);
   std::fill_n(terrain.cells.begin(), 25, 0);
   terrain.size = 100;

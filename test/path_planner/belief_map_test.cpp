@@ -45,9 +45,14 @@ class BeliefMapTest : public testing::Test {
   }
   // A map of the NavCam with the same cost everywhere, made `range_m` from the rock.
   void see_cost(std::uint8_t cost, double range_m, double dead_reckoned_m = 0.0) {
-    belief_.add({{0, 0.1, -10.0, -10.0, 200, 200, std::vector<std::uint8_t>(40000, cost)},
-                 std::vector<float>(40000, height_m_)},
-                {kRock.x_m - range_m, kRock.y_m, 0.0}, testing_support::planner_config().footprint, dead_reckoned_m);
+    TraversabilityGrid map{{0, 0.1, -10.0, -10.0, 200, 200, std::vector<std::uint8_t>(40000, cost)}};
+    testing_support::complete(map);
+    map.height_m.assign(40000, height_m_);
+    see_map(map, range_m, dead_reckoned_m);
+  }
+  void see_map(const TraversabilityGrid& map, double range_m, double dead_reckoned_m = 0.0) {
+    belief_.add(map, {kRock.x_m - range_m, kRock.y_m, 0.0}, testing_support::planner_config().footprint,
+                dead_reckoned_m);
   }
   const CellBelief& at(Point2 p) const { return belief_.cells().get(belief_.cells().index_of(p.x_m, p.y_m)); }
   double probability() const { return belief_.probability(at(kRock)); }
@@ -306,7 +311,19 @@ TEST_F(BeliefMapTest, GroundHiddenBehindAnObstacleIsNotUnmeasured) {
   EXPECT_FALSE(belief_.unmeasurable(at({1.65, 0.05})));
 }
 
-TEST_F(BeliefMapTest, ProbabilityGrowsWithTheCostOfTheNavCamsMap) {
+TEST_F(BeliefMapTest, ASlopeCostsAndIsNoStep) {
+  TraversabilityGrid slope{{0, 0.1, -10.0, -10.0, 200, 200, std::vector<std::uint8_t>(40000, 240)}};
+  testing_support::complete(slope);
+  slope.step_percent.assign(40000, 10);
+  see_map(slope, 2.0);
+  EXPECT_GT(at(kRock).cost, 0.5F);
+  const double on_slope = probability();
+  belief_.clear();
+  see_cost(0, 2.0);
+  EXPECT_EQ(on_slope, probability());
+}
+
+TEST_F(BeliefMapTest, ProbabilityGrowsWithTheStepsOfTheNavCamsMap) {
   double last = 0.0;
   for (const int cost : {0, 120, 180, 220, 252, int(TraversabilityGrid::kLow), int(TraversabilityGrid::kImpassable)}) {
     belief_.clear();
@@ -410,8 +427,9 @@ TEST(InputGrid, CorruptGridsAreRefusedWithAReason) {
     EXPECT_NE(grid.fault(), "") << i;
   }
   const InputGrid unknown{0, 0.1, 0.0, 0.0, 1, 1, {TraversabilityGrid::kUnknown}};
-  EXPECT_EQ(TraversabilityGrid({unknown, {kNaN}}).fault(), "");
-  EXPECT_NE(TraversabilityGrid({unknown, {}}).fault(), "");
+  EXPECT_EQ(TraversabilityGrid({unknown, {0}, {kNaN}}).fault(), "");
+  EXPECT_NE(TraversabilityGrid({unknown, {}, {kNaN}}).fault(), "");
+  EXPECT_NE(TraversabilityGrid({unknown, {0}, {}}).fault(), "");
 }
 
 TEST(InputGrid, ReadsTheCellAtAPointAndNothingOutside) {

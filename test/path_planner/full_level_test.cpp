@@ -21,7 +21,7 @@ TraversabilityGrid map_around(Point2 center, const CostAt& cost, Utime utime) {
   for (int iy = 0; iy < cells; ++iy)
     for (int ix = 0; ix < cells; ++ix)
       map.cells.push_back(cost({map.origin_x_m + (ix + 0.5) * 0.1, map.origin_y_m + (iy + 0.5) * 0.1}));
-  map.height_m.assign(map.cells.size(), 0.0F);
+  testing_support::complete(map);
   return map;
 }
 

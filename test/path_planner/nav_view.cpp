@@ -78,7 +78,7 @@ TraversabilityGrid NavView::grid(Utime utime) const {
                          map_.cells(),
                          {}};
   map_.for_each([&](CellIndex, std::uint8_t cell) { out.cells.push_back(cell); });
-  out.height_m.assign(out.cells.size(), 0.0F);
+  complete(out);
   return out;
 }
 

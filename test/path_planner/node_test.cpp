@@ -280,6 +280,7 @@ traversability_t free_map() {
   out.origin_x_m = out.origin_y_m = -10.0;
   out.cells_x = out.cells_y = 200;
   out.cells.assign(40000, 0);
+  out.step_percent.assign(40000, 0);
   out.height_m.assign(40000, 0.0F);
   out.size = 40000;
   return out;

@@ -108,6 +108,14 @@ double clearance_m(const Footprint& footprint, const Pose2& pose, const std::vec
   return least;
 }
 
+void complete(TraversabilityGrid& map) {
+  for (const std::uint8_t cost : map.cells) {
+    const double share = std::min<double>(cost, TraversabilityGrid::kLow) / TraversabilityGrid::kLow;
+    map.step_percent.push_back(static_cast<std::uint8_t>(100.0 * std::cbrt(share)));
+  }
+  map.height_m.assign(map.cells.size(), 0.0F);
+}
+
 PathPlannerConfig planner_config() {
   PathPlannerConfig config;
   config.footprint = {

@@ -40,6 +40,9 @@ HazardGrid observe(const CameraModel& camera, const std::vector<Rock>& rocks, co
 // rock within 3 m.
 double clearance_m(const Footprint& footprint, const Pose2& pose, const std::vector<Rock>& rocks);
 
+// On level ground, where all cost is that of steps.
+void complete(TraversabilityGrid& map);
+
 // The configuration that the service ships, without its file.
 PathPlannerConfig planner_config();
 

@@ -88,7 +88,7 @@ class BankTest : public testing::Test {
     });
     return plan_request(belief, start);
   }
-  static double most_roll_deg(const Plan& plan, const PlanRequest& request) {
+  static double max_roll_deg(const Plan& plan, const PlanRequest& request) {
     const RollCheck check = check_on(*request.costmap);
     double most = 0.0;
     for (const PlanPose& at : plan.poses) most = std::max(most, check.roll_rad(at.pose));
@@ -103,7 +103,7 @@ TEST_F(BankTest, APlanKeepsItsRollBelowTheLargest) {
   const PlanRequest request = over_bank(25.0);
   const Plan plan = plan_on(request);
   ASSERT_TRUE(plan.found);
-  EXPECT_LE(most_roll_deg(plan, request), to_deg(RollCosts{}.max_rad));
+  EXPECT_LE(max_roll_deg(plan, request), to_deg(RollCosts{}.max_rad));
 }
 
 TEST_F(BankTest, AnEasyBankIsCrossed) {

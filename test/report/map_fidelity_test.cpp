@@ -251,6 +251,7 @@ TEST(PassabilityMap, MarginAndUnknownCellsAreUnseen) {
   costs.size = costs.cells_x = 4;
   costs.cells_y = 1;
   costs.cells = {252, 253, 254, 255};
+  costs.step_percent.assign(4, 0);
   costs.height_m.assign(4, 0.0F);
   EXPECT_EQ(passability_from(costs)->cells, (std::vector{P::kPassable, P::kImpassable, P::kImpassable, P::kUnseen}));
 }

@@ -31,6 +31,7 @@ RowsRig::RowsRig(Bus bus)
   terrain.origin_x_m = terrain.origin_y_m = -1000.0;
   terrain.cells_x = terrain.cells_y = 1;
   terrain.size = 1;
+  terrain.step_percent = {0};
   terrain.height_m = {0.0F};
   terrain.cells = {0};
   terrain.difficulty = 0.8;

@@ -71,6 +71,18 @@ TEST(Slopes, NoiseWithinSigmaAddsNoObstacleAndLittleCost) {
   }
 }
 
+TEST(Slopes, AreNoSteps) {
+  const TerrainGrid slope = plane(16.0, 70.0, 0.01);
+  const TraversabilityMap map = traversability_of(slope);
+  EXPECT_GT(mean_cost(map), 150.0);
+  EXPECT_LT(*std::max_element(map.step_percent.begin(), map.step_percent.end()), 60);
+  EXPECT_EQ(map.height_m, slope.height_m);
+  const TraversabilityMap block = traversability_of(
+      synthetic_terrain([](double x, double y) { return testing_support::block_m(x, y, 0.06, 0.25); }));
+  const double limit_m = TraversabilityConfig{}.step_limit_m();
+  EXPECT_NEAR(*std::max_element(block.step_percent.begin(), block.step_percent.end()), 100.0 * 0.06 / limit_m, 3.0);
+}
+
 class Rocks : public testing::Test {
  protected:
   // A cylinder in the middle of gently sloping ground.

@@ -138,7 +138,7 @@ void BeliefMap::add(const TraversabilityGrid& grid, const Pose2& rover, const Fo
     if (footprint.distance_m(rover, p) <= 0.0) return;
     const bool impassable = cost >= TraversabilityGrid::kLow;
     const double relative = static_cast<double>(cost) / TraversabilityGrid::kLow;
-    const double ratio = impassable ? kImpassableRatio : std::cbrt(relative);  // cost.step_exponent of traversability
+    const double ratio = impassable ? kImpassableRatio : 0.01 * grid.step_percent[static_cast<size_t>(i)];
     const double sigma = config_.sigma + config_.sigma_per_m * distance(p, position(rover));
     const double before = static_cast<double>(cell.step_sigma) * cell.step_sigma + drift2;
     cell.evidence /= static_cast<float>(1.0 + drift2);

@@ -59,9 +59,11 @@ struct TraversabilityGrid : InputGrid {
   static constexpr std::uint8_t kLow = 253;
   static constexpr std::uint8_t kImpassable = 254;
   static constexpr std::uint8_t kUnknown = 255;
-  std::vector<float> height_m;  // of each cell, in odom; NaN: never seen
+  std::vector<std::uint8_t> step_percent;  // rise within a wheel's diameter, of the limit
+  std::vector<float> height_m;             // in odom; NaN: never seen
   std::string fault() const {
-    return height_m.size() == cells.size() ? InputGrid::fault(kUnknown) : "number of heights is not that of cells";
+    const bool complete = step_percent.size() == cells.size() && height_m.size() == cells.size();
+    return complete ? InputGrid::fault(kUnknown) : "steps or heights do not match the cells";
   }
 };
 

@@ -1,5 +1,5 @@
-// Roll of the body at a pose, from the heights under its wheels (as ACE: Otsu et al., J. Field Robotics 37, 2020), and what
-// it costs: from some roll on FDIR slows the rover, from more it stops it.
+// Roll of the body at a pose, from the heights under its wheels (as ACE: Otsu et al., J. Field Robotics 37, 2020). FDIR
+// slows the rover from some roll on, and stops it from more.
 #pragma once
 
 #include "path_planner/map/costmap.hpp"
@@ -16,7 +16,7 @@ struct RollCosts {
 
 class RollCheck {
  public:
-  // More than the largest roll is allowed where the rover stands, and where it backs up. `tolerance_rad` is added.
+  // More is allowed up to the roll that the rover has, and where it backs up. `tolerance_rad` is added.
   RollCheck(const RollCosts& costs, const Costmap& costmap, const Footprint& footprint, const Pose2& rover,
             double tolerance_rad = 0.0);
 
