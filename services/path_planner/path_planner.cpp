@@ -436,10 +436,10 @@ void PathPlanner::take_plan(Utime now) {
 }
 
 void PathPlanner::adopt(const Plan& plan, const Job& job) {
+  closed_in_ = plan.closed_in;
   if (!plan.found && !plan.keeps_incumbent) {
     ++failures_;
     needs_unseen_ground_ = plan.needs_unseen_ground;
-    closed_in_ = plan.closed_in;
     return;
   }
   if (plan.keeps_incumbent) {
