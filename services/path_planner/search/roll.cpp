@@ -10,7 +10,6 @@ RollCheck::RollCheck(const RollCosts& costs, const Costmap& costmap, const Footp
       limit_rad_(costmap.backing_up() ? kInfinity : std::max(costs.max_rad, roll_rad(rover)) + tolerance_rad) {}
 
 double RollCheck::factor(const Pose2& pose) const {
-  if (!costmap_.has_heights()) return 1.0;
   const double roll = roll_rad(pose);
   if (roll > limit_rad_) return kInfinity;
   const double over = roll / costs_.max_rad - RollCosts::kFreeRatio;

@@ -20,7 +20,7 @@ class RollCheck {
   RollCheck(const RollCosts& costs, const Costmap& costmap, const Footprint& footprint, const Pose2& rover,
             double tolerance_rad = 0.0);
 
-  bool allows(const Pose2& pose) const { return !costmap_.has_heights() || roll_rad(pose) <= limit_rad_; }
+  bool allows(const Pose2& pose) const { return roll_rad(pose) <= limit_rad_; }
   // On the cost of a metre; infinity: not allowed.
   double factor(const Pose2& pose) const;
   // Without sign; 0 where the height under a wheel is not known.
