@@ -505,19 +505,24 @@ TEST(PathPlanner, OnRequestItBacksUpTwiceAtMost) {
   EXPECT_EQ(rig.planner.mode(), Mode::kFollowing) << "the fault is over";
 }
 
-TEST(PathPlanner, BackingUpLeadsBackFromARoverThatHasReversedBesideItsTrack) {
-  PlannerRig rig;
+// After 5 m forward, in reverse in steps until it is so far off its track; then FDIR wants it to back up.
+void reverse_beside_track(PlannerRig& rig, Point2 step, double aside_m) {
   rig.send_path(kAhead);
   rig.look();
   rig.go(5.0);
   rig.forward_mps = -0.1;
-  for (const Pose2 from = rig.odom; rig.odom.x_m > from.x_m - 0.6;) {
-    rig.odom = {rig.odom.x_m - 0.02, rig.odom.y_m - 0.007, 0.0};
+  for (const Pose2 from = rig.odom; rig.odom.y_m > from.y_m - aside_m;) {
+    rig.odom = {rig.odom.x_m + step.x_m, rig.odom.y_m + step.y_m, 0.0};
     rig.step();
   }
   rig.forward_mps = 0.0;
   rig.planner.request_back_up(true);
   rig.look(2);
+}
+
+TEST(PathPlanner, BackingUpLeadsBackFromARoverThatHasReversedBesideItsTrack) {
+  PlannerRig rig;
+  reverse_beside_track(rig, {-0.02, -0.007}, 0.21);
   ASSERT_EQ(rig.planner.mode(), Mode::kBackingUp);
   ASSERT_EQ(rig.paths.back().kind, PathKind::kBacktrack);
   for (const RoutePoint& point : rig.paths.back().points) EXPECT_LT(point.p.x_m, rig.odom.x_m + 0.1);
@@ -526,17 +531,7 @@ TEST(PathPlanner, BackingUpLeadsBackFromARoverThatHasReversedBesideItsTrack) {
 
 TEST(PathPlanner, AfterAFaultItBacksUpOverKnownGroundIfTheTrackDoesNotLeadBack) {
   PlannerRig rig;
-  rig.send_path(kAhead);
-  rig.look();
-  rig.go(5.0);
-  rig.forward_mps = -0.1;
-  for (const Pose2 from = rig.odom; rig.odom.y_m > from.y_m - 0.6;) {
-    rig.odom = {rig.odom.x_m - 0.01, rig.odom.y_m - 0.02, 0.0};
-    rig.step();
-  }
-  rig.forward_mps = 0.0;
-  rig.planner.request_back_up(true);
-  rig.look(2);
+  reverse_beside_track(rig, {-0.01, -0.02}, 0.6);
   EXPECT_EQ(rig.planner.mode(), Mode::kBackingUp);
 }
 

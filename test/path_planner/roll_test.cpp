@@ -36,7 +36,7 @@ RollCheck check_on(const Costmap& costmap, const Pose2& rover = kDown) {
 TEST(Roll, IsTheSlopeAcrossTheHeading) {
   const Costmap costmap = slope_of(12.0);
   const RollCheck check = check_on(costmap);
-  EXPECT_NEAR(to_deg(check.roll_rad(kAcross)), 12.0, 1.0) << "to half a cell";
+  EXPECT_NEAR(to_deg(check.roll_rad(kAcross)), 12.0, 1.0);
   EXPECT_NEAR(to_deg(check.roll_rad({0.0, 0.0, kPi})), 12.0, 1.0);
   EXPECT_NEAR(to_deg(check.roll_rad(kDown)), 0.0, 1.0);
 }
