@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <set>
+#include <sstream>
 #include <string>
 #include <tuple>
 
@@ -102,6 +104,22 @@ TEST(PlannerState, FollowsTheTable) {
   for (const Row& row : expected)
     EXPECT_EQ(text_of(next_mode(row.from, static_cast<std::uint16_t>(row.facts))), std::string(text_of(row.to)))
         << text_of(row.from) << " " << row.facts;
+}
+
+TEST(PlannerState, TheDrawingInTheReadmeHasTheArrowsOfTheTable) {
+  using Arrow = std::pair<std::string, std::string>;
+  std::set<Arrow> table;
+  for (const Transition& row : transitions()) table.emplace(text_of(row.from), text_of(row.to));
+  std::set<Arrow> drawn;
+  std::ifstream readme(ROVER_SOURCE_DIR "/services/path_planner/README.md");
+  for (std::string line; std::getline(readme, line) && line != "stateDiagram-v2";) continue;
+  for (std::string line; std::getline(readme, line) && line != "```";) {
+    std::istringstream words(line);
+    std::string from, arrow, to;
+    words >> from >> arrow >> to;
+    drawn.emplace(from, to.substr(0, to.find(':')));
+  }
+  EXPECT_EQ(drawn, table);
 }
 
 }  // namespace
