@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SLAM drift on simulated drives, registration of the clouds of the GA SLAM authors, update times. Writes
 # test/results/slam.md. Missing clouds are reported and skipped.
-# Called with the build folder; the programs are built by: cmake --build BUILD --target slam_study slam_bench
+# Called by ./rover bench slam with the build folder.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
 BUILD=$1
@@ -9,10 +9,11 @@ OUT=test/results/slam.md
 STUDY="$BUILD/test/tools/slam_study"
 DATA=${ROVER_DATA:-../shared/data}
 mkdir -p test/results
+cmake --build "$BUILD" --target slam_study slam_bench >&2
 {
   echo "# SLAM"
   echo
-  echo "Command: \`test/bench_slam.sh BUILD\`; commit $(git describe --always --dirty --abbrev=12); $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1), $(nproc) cores."
+  echo "Command: \`./rover bench slam\`; commit $(git describe --always --dirty --abbrev=12); $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1), $(nproc) cores."
   echo
   echo "## Drift over 100 m of featured terrain"
   echo
