@@ -49,8 +49,11 @@ class MissionSequence {
   // The next or unacknowledged step; undefined if all are accepted.
   MissionStep current() const { return next_; }
   bool all_accepted() const { return next_ > MissionStep::kGo; }
-  // Ends the sequence because the operator took over.
-  void cancel() { next_ = static_cast<MissionStep>(static_cast<int>(MissionStep::kGo) + 1); }
+  // Ends the sequence because the operator took over or the rover drives.
+  void cancel() {
+    next_ = static_cast<MissionStep>(static_cast<int>(MissionStep::kGo) + 1);
+    refusal_.clear();
+  }
   // Checkpointed over restarts. An invalid number restarts the sequence.
   int progress() const { return static_cast<int>(next_); }
   void resume_at(int progress);

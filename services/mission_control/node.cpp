@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 #include <sstream>
+#include <utility>
 
 #include "common/bus/convert.hpp"
 #include "common/bus/service_names.hpp"
@@ -21,6 +22,9 @@ constexpr std::int64_t kMaxBoots = 1'000'000'000;   // keeps ids exact in JavaSc
 constexpr Utime kTrackPeriodUs = 5'000'000;
 constexpr Utime kTrendPeriodUs = 1'000'000;
 constexpr Utime kHeartbeatCheckPeriodUs = 200'000;
+constexpr Utime kStopRepeatPeriodUs = 200'000;
+constexpr Utime kStopRepeatsEndUs = 3'000'000;
+constexpr size_t kMaxUnacknowledgedPaths = 4;
 
 ground_command_t command_message(std::int8_t kind, std::int64_t command_id) {
   ground_command_t message{};
@@ -161,6 +165,7 @@ void MissionControlNode::add_event(Tone tone, const std::string& kind, const std
 
 void MissionControlNode::on_ack(const command_ack_t& ack) {
   const bool accepted = ack.accepted != 0;
+  unanswered_stops_.erase(ack.command_id);
   if (const auto mission_step = sequence_.current(); sequence_.acknowledge(ack.command_id, accepted, ack.reason)) {
     node_.log(accepted ? "INFO" : "WARN", "PLAN_COMMAND id=" + std::to_string(ack.command_id) +
                                               (accepted ? " accepted" : " refused: " + ack.reason));
@@ -198,7 +203,19 @@ void MissionControlNode::on_state(const supervisor_state_t& state) {
               std::string("services of the Full level ") + (run ? "are started" : "are stopped"));
     if (!run) std::erase_if(liveness_, [](const auto& service) { return is_full_service(service.first); });
   }
+  end_plan(state);
   state_ = state;
+}
+
+// Otherwise GO would follow at a later STANDBY, although it took effect (its acknowledgement was lost), or although
+// only the operator may decide to drive.
+void MissionControlNode::end_plan(const supervisor_state_t& state) {
+  using S = supervisor_state_t;
+  const bool go_done = sequence_.current() == MissionStep::kGo && state.state != S::BOOT && state.state != S::STANDBY;
+  const bool operator_decides = state.state == S::SAFE || state.state == S::TELEOP;
+  if (sequence_.all_accepted() || !(go_done || operator_decides)) return;
+  sequence_.cancel();
+  add_event(Tone::kInfo, "command", "mission plan: ended in state " + state_name(state.state));
 }
 
 void MissionControlNode::on_fault(const fault_t& fault) {
@@ -259,6 +276,7 @@ void MissionControlNode::step(Utime now) {
     changed_ = true;
     send(*issued);
   }
+  repeat_stops(now);
   if (node_.once_in(kHeartbeatCheckPeriodUs)) check_heartbeats(now);
   if (node_.once_in(kTrendPeriodUs)) sample(now);
   report_status();
@@ -299,8 +317,9 @@ void MissionControlNode::send(const mission::CommandQueue::Pending& waiting) {
   const std::int64_t id = next_command_id_++;
   changed_ = true;
   shared_->commands.set_command_id(waiting.ticket, id);
-  // A stop or a new path replaces the plan, which must not continue by itself.
-  if (mission::stops(command.kind) || command.kind == CommandKind::kPath) sequence_.cancel();
+  // A stop, CLEAR_SAFE or a new path replaces the plan, which must not continue by itself.
+  const bool clear_safe = command.kind == CommandKind::kClearSafe;
+  if (mission::stops(command.kind) || clear_safe || command.kind == CommandKind::kPath) sequence_.cancel();
   if (command.kind == CommandKind::kPath) return publish_path(id, path_of(command, current_path().zones, path_config_));
   if (command.kind == CommandKind::kZones) return send_zones(id, command.zones);
   if (command.kind == CommandKind::kLocate) return locate(id, command.within_m);
@@ -308,6 +327,8 @@ void MissionControlNode::send(const mission::CommandQueue::Pending& waiting) {
   message.level = level_of(command.level);
   message.target = command.target;
   publish(message);
+  if (mission::stops(command.kind))
+    unanswered_stops_[id] = {message, node_.now() + kStopRepeatPeriodUs, node_.now() + kStopRepeatsEndUs};
 }
 
 void MissionControlNode::publish_start_pose(std::int64_t command_id) {
@@ -341,6 +362,16 @@ void MissionControlNode::locate(std::int64_t command_id, double within_m) {
 
 void MissionControlNode::publish(ground_command_t message) {
   node_.publish(channel::kGroundCommand, message, node_.now());
+}
+
+// A datagram may be lost. The supervisor refuses a copy of a stop that has taken effect.
+void MissionControlNode::repeat_stops(Utime now) {
+  std::erase_if(unanswered_stops_, [now](const auto& stop) { return now >= stop.second.give_up_at; });
+  for (auto& [id, stop] : unanswered_stops_) {
+    if (now < stop.repeat_at) continue;
+    stop.repeat_at = now + kStopRepeatPeriodUs;
+    publish(stop.message);
+  }
 }
 
 // The last one sent, as long as the rover has not refused it; the plan's before it is sent.
@@ -378,6 +409,8 @@ void MissionControlNode::publish_path(std::int64_t command_id, const GlobalPath&
   message.direction.assign(path.x_m.size(), std::int8_t{path_t::FORWARD});
   node_.publish(channel::kGlobalPath, message, node_.now());
   unacknowledged_paths_[command_id] = path;
+  if (unacknowledged_paths_.size() > kMaxUnacknowledgedPaths)
+    unacknowledged_paths_.erase(unacknowledged_paths_.begin());
 }
 
 // Checkpoint layout: plan progress, next command id, logbook.
@@ -389,13 +422,17 @@ void MissionControlNode::restore() {
     const std::vector<std::uint8_t> book(bytes.begin() + sizeof head, bytes.end());
     if (!shared_->book.with([&](mission::Logbook& b) { return b.restore(book); })) return false;
     sequence_.resume_at(static_cast<int>(head[0]));
+    saved_progress_ = sequence_.progress();
     next_command_id_ = std::max(next_command_id_, head[1]);
     return true;
   });
 }
 
+// Plan progress is saved at once: a restart must repeat no accepted step and no cancelled plan.
 void MissionControlNode::save(Utime now) {
-  if (!checkpoint_.due() || (!changed_ && now < track_saved_ + kTrackPeriodUs)) return;
+  const bool progressed = std::exchange(saved_progress_, sequence_.progress()) != sequence_.progress();
+  changed_ = changed_ || progressed;
+  if (!progressed && (!checkpoint_.due() || (!changed_ && now < track_saved_ + kTrackPeriodUs))) return;
   const std::int64_t head[2] = {sequence_.progress(), next_command_id_};
   CheckpointStore::Bytes bytes(sizeof head);
   std::memcpy(bytes.data(), head, sizeof head);

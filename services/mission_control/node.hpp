@@ -34,10 +34,16 @@ class MissionControlNode {
     Utime last_heartbeat = kNever;
     bool timed_out = false;
   };
+  struct UnansweredStop {
+    ground_command_t message{};
+    Utime repeat_at = kNever;
+    Utime give_up_at = kNever;
+  };
 
   void subscribe();
   void on_ack(const command_ack_t& ack);
   void on_state(const supervisor_state_t& state);
+  void end_plan(const supervisor_state_t& state);
   void on_fault(const fault_t& fault);
   void on_heartbeat(const heartbeat_t& heartbeat);
   void on_path(const path_t& path);
@@ -54,6 +60,7 @@ class MissionControlNode {
   void send_zones(std::int64_t command_id, const std::vector<Zone>& zones);
   void publish_path(std::int64_t command_id, const GlobalPath& path);
   void publish(ground_command_t message);
+  void repeat_stops(Utime now);
   void add_event(mission::Tone tone, const std::string& kind, const std::string& text);
   void accepted_by_operator(const mission::Command& command, std::int64_t command_id);
   void restore();
@@ -76,6 +83,8 @@ class MissionControlNode {
   std::map<std::string, bool> faults_;
   std::int64_t path_id_ = -1;
   std::map<std::int64_t, GlobalPath> unacknowledged_paths_;  // by command id
+  std::map<std::int64_t, UnansweredStop> unanswered_stops_;  // by command id
+  int saved_progress_ = 0;
   bool changed_ = false;  // since the newest checkpoint; the track is saved every 5 s
   Utime track_saved_ = 0;
 };

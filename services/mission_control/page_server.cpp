@@ -82,6 +82,15 @@ ServerLimits limits_of(const PageConfig& config) {
   return limits;
 }
 
+// Checked before the slopes: a short request could ask for millions of samples.
+std::string length_problem(const std::vector<Eigen::Vector2d>& points, double max_length_m) {
+  double length_m = 0.0;
+  for (size_t i = 0; i + 1 < points.size(); ++i) length_m += (points[i + 1] - points[i]).norm();
+  char text[96];
+  std::snprintf(text, sizeof text, "the path is %.0f m long; the limit is %.0f m", length_m, max_length_m);
+  return length_m > max_length_m ? text : "";
+}
+
 }  // namespace
 
 PageServer::PageServer(PageConfig config, PageContext context, SharedState& shared, lcm::LCM& bus)
@@ -248,16 +257,14 @@ Response PageServer::inject(const Command& command) {
   return ok({{"accepted", true}, {"reason", ""}});
 }
 
-// A drawn path must stay on the map and below the slope limit.
+// A drawn path must stay on the map and below the length and slope limits.
 std::string PageServer::path_problem(const Command& command) {
   const GroundMap* map = map_.get();
   if (map == nullptr) return "there is no orbital map to check the path against";
+  if (std::string problem = length_problem(command.points, config_.path.max_length_m); !problem.empty()) return problem;
   const PathCheck found = map->check(command.points);
   if (!found.inside) return "the path leaves the map";
   char text[96];
-  std::snprintf(text, sizeof text, "the path is %.0f m long; the limit is %.0f m", found.length_m,
-                config_.path.max_length_m);
-  if (found.length_m > config_.path.max_length_m) return text;
   std::snprintf(text, sizeof text, "the path has a slope of %.1f deg; the limit is %.1f deg",
                 to_deg(found.max_slope_rad), to_deg(config_.path.slope.max_rad));
   return found.passable ? "" : text;
@@ -268,6 +275,8 @@ Response PageServer::check(const Request& request) {
   if (!parsed.error.empty()) return refusal({400, parsed.error});
   const GroundMap* map = map_.get();
   if (map == nullptr) return refusal({422, "there is no orbital map to check the path against"});
+  if (const std::string problem = length_problem(parsed.points, config_.path.max_length_m); !problem.empty())
+    return refusal({422, problem});
   PathCheck found = map->check(parsed.points);
   for (double& slope : found.slope_rad) slope = to_deg(slope);
   return ok({{"inside", found.inside},

@@ -1,20 +1,33 @@
 #include "mission_control/shared_state.hpp"
 
+#include <algorithm>
+
 namespace rover::mission {
 namespace {
 
-constexpr size_t kMaxPending = 16;
+constexpr std::ptrdiff_t kMaxPending = 16;
+constexpr std::ptrdiff_t kMaxLate = 4;  // of a kind, whose callers timed out
 
 }  // namespace
 
 CommandReply CommandQueue::submit(const Command& command, std::chrono::milliseconds timeout) {
   std::unique_lock lock(mutex_);
-  if (entries_.size() >= kMaxPending && !stops(command.kind))
+  drop_late(command.kind);
+  const auto pending =
+      std::count_if(entries_.begin(), entries_.end(), [](const auto& e) { return !e.second.caller_gone; });
+  if (pending >= kMaxPending && !stops(command.kind))
     return {CommandReply::Outcome::kBusy, -1, "too many commands are pending"};
   const std::int64_t ticket = next_ticket_++;
   entries_[ticket].command = command;
   changed_.wait_for(lock, timeout, [&] { return entries_[ticket].answer.has_value(); });
   return take_reply(ticket);
+}
+
+// Newer ones of the same kind remain, so an unsent stop is never lost.
+void CommandQueue::drop_late(CommandKind kind) {
+  const auto late = [kind](const auto& e) { return e.second.caller_gone && e.second.command.kind == kind; };
+  while (std::count_if(entries_.begin(), entries_.end(), late) > kMaxLate)
+    entries_.erase(std::find_if(entries_.begin(), entries_.end(), late));
 }
 
 CommandReply CommandQueue::take_reply(std::int64_t ticket) {

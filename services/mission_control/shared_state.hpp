@@ -46,6 +46,7 @@ class CommandQueue {
     std::int64_t command_id = -1;
     std::optional<CommandReply> answer;
   };
+  void drop_late(CommandKind kind);
   CommandReply take_reply(std::int64_t ticket);
 
   std::mutex mutex_;

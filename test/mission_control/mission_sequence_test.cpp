@@ -54,7 +54,9 @@ TEST(MissionSequence, RestartDoesNotRepeatAcceptedSteps) {
 TEST(MissionSequence, CancelledSequenceIssuesNothing) {
   MissionSequence sequence;
   sequence.step(0, true, 1);
+  sequence.acknowledge(1, false, "not level yet");
   sequence.cancel();
+  EXPECT_EQ(sequence.refusal(), "");
   EXPECT_FALSE(sequence.step(5'000'000, true, 2));
   EXPECT_FALSE(sequence.acknowledge(1, true, ""));
 }

@@ -68,10 +68,18 @@ class MissionControlTest : public testing::Test {
     tick(2);
   }
 
-  void finish_plan() {
+  void finish_start_pose_and_path() {
     tick(2);
     acknowledge(commands_->back().command_id, true);
     acknowledge(paths_->back().path_id, true);
+  }
+
+  long sent(std::int8_t kind) const {
+    return std::count_if(commands_->begin(), commands_->end(), [kind](const auto& c) { return c.kind == kind; });
+  }
+
+  void finish_plan() {
+    finish_start_pose_and_path();
     say_state(supervisor_state_t::STANDBY);
     acknowledge(commands_->back().command_id, true);
   }
@@ -279,15 +287,97 @@ TEST_F(MissionControlTest, ALostRoverIsSearchedForAboutItsEstimatedPosition) {
 
 // The plan's GO must not follow a stop.
 TEST_F(MissionControlTest, StopCancelsPlan) {
-  tick(2);
-  acknowledge(commands_->back().command_id, true);
-  acknowledge(paths_->back().path_id, true);
+  finish_start_pose_and_path();
   Command command;
   command.kind = CommandKind::kStop;
   operate(command, true);
   say_state(supervisor_state_t::STANDBY);
   tick(200);
   EXPECT_EQ(commands_->back().kind, +ground_command_t::STOP);
+}
+
+TEST_F(MissionControlTest, GoWithoutAcknowledgementIsDoneWhenTheRoverDrives) {
+  finish_start_pose_and_path();
+  say_state(supervisor_state_t::STANDBY);
+  EXPECT_EQ(sent(ground_command_t::GO), 1);
+  say_state(supervisor_state_t::DRIVING);
+  say_state(supervisor_state_t::STANDBY);
+  tick(200);
+  EXPECT_EQ(sent(ground_command_t::GO), 1);
+}
+
+TEST_F(MissionControlTest, SafeAndTeleopCancelPlan) {
+  std::int64_t boot_id = 1;
+  for (const std::int8_t state : {supervisor_state_t::SAFE, supervisor_state_t::TELEOP}) {
+    start(++boot_id);
+    finish_start_pose_and_path();
+    say_state(state);
+    say_state(supervisor_state_t::STANDBY);
+    tick(200);
+    EXPECT_EQ(sent(ground_command_t::GO), 0) << int{state};
+    start(++boot_id);
+    tick(2);
+    acknowledge(commands_->back().command_id, true);
+    const size_t paths = paths_->size();
+    say_state(state);
+    tick(200);
+    EXPECT_EQ(paths_->size(), paths) << int{state};
+  }
+}
+
+// STATE of SAFE may be lost.
+TEST_F(MissionControlTest, ClearSafeCancelsPlan) {
+  finish_start_pose_and_path();
+  Command command;
+  command.kind = CommandKind::kClearSafe;
+  operate(command, true);
+  say_state(supervisor_state_t::STANDBY);
+  tick(200);
+  EXPECT_EQ(sent(ground_command_t::GO), 0);
+}
+
+TEST_F(MissionControlTest, StopsAreRepeatedWithTheirIdUntilTheFirstAcknowledgement) {
+  finish_plan();
+  for (const CommandKind kind : {CommandKind::kStop, CommandKind::kPause, CommandKind::kEmergencyStop}) {
+    Command command;
+    command.kind = kind;
+    operate(command, std::nullopt);
+    const ground_command_t first = commands_->back();
+    tick(25);
+    EXPECT_EQ(sent(first.kind), 3) << "after 0, 0.2 and 0.4 s";
+    EXPECT_EQ(commands_->back().command_id, first.command_id);
+    acknowledge(first.command_id, true);
+    acknowledge(first.command_id, false, "not possible in STANDBY");
+    tick(200);
+    EXPECT_EQ(sent(first.kind), 3);
+    EXPECT_TRUE(noted(mission::description(command) + " accepted"));
+    EXPECT_FALSE(noted(mission::description(command) + " refused"));
+  }
+}
+
+TEST_F(MissionControlTest, OnlyStopsAreRepeatedAndForThreeSecondsAtMost) {
+  finish_plan();
+  Command command;
+  operate(command, std::nullopt);
+  tick(1000);
+  EXPECT_EQ(sent(ground_command_t::STOP), 15);
+  command.kind = CommandKind::kResume;
+  operate(command, std::nullopt);
+  tick(200);
+  EXPECT_EQ(sent(ground_command_t::RESUME), 1);
+}
+
+TEST_F(MissionControlTest, OnlyTheNewestUnacknowledgedPathsAreKept) {
+  tick(2);
+  acknowledge(commands_->back().command_id, true);
+  tick(500);
+  ASSERT_GT(paths_->size(), 9U);
+  const auto in_force = [&] { return shared_->book.with([](const auto& book) { return book.path_id(); }); };
+  acknowledge(paths_->front().path_id, true);
+  EXPECT_EQ(in_force(), -1);
+  const std::int64_t late = paths_->at(paths_->size() - 2).path_id;
+  acknowledge(late, true);
+  EXPECT_EQ(in_force(), late);
 }
 
 TEST_F(MissionControlTest, LogbookRecordsEvents) {
@@ -327,6 +417,24 @@ TEST_F(RestartedMissionControlTest, RestartRepeatsNoCommandAndRestoresLogbook) {
   EXPECT_EQ(paths_->size(), 1U);
   EXPECT_EQ(shared_->book.with([](const auto& book) { return book.path_id(); }), path);
   EXPECT_TRUE(noted("mission plan: go accepted"));
+}
+
+// Less than a second after the first checkpoint.
+TEST_F(RestartedMissionControlTest, PlanProgressSurvivesAnImmediateKill) {
+  finish_plan();
+  start(2);
+  tick(200);
+  EXPECT_EQ(commands_->size(), 2U);
+  EXPECT_EQ(paths_->size(), 1U);
+}
+
+TEST_F(RestartedMissionControlTest, CancellationSurvivesAnImmediateKill) {
+  finish_start_pose_and_path();
+  operate(Command{}, true);
+  start(2);
+  say_state(supervisor_state_t::STANDBY);
+  tick(200);
+  EXPECT_EQ(commands_->back().kind, +ground_command_t::STOP);
 }
 
 }  // namespace

@@ -141,6 +141,17 @@ TEST(Page, PathsAreCheckedAgainstTheMap) {
   EXPECT_NEAR(check["max_slope_deg"], 20.05, 0.1);
 }
 
+// 500 points may zigzag over the whole map.
+TEST(Page, TooLongPathsAreRefusedBeforeTheyAreSampled) {
+  TestServer server([](PageConfig& config, PageContext&) { config.path.max_length_m = 100.0; });
+  const std::string points = R"("points":[[10,10],[90,10],[10,11]])";
+  const std::string check = post(server.port(), "/api/check", "{" + points + "}");
+  EXPECT_EQ(status_of(check), 422);
+  EXPECT_EQ(json_of(check)["reason"], "the path is 160 m long; the limit is 100 m");
+  EXPECT_EQ(status_of(post(server.port(), "/api/command", R"({"command":"path",)" + points + "}")), 422);
+  EXPECT_EQ(status_of(post(server.port(), "/api/check", R"({"points":[[10,10],[90,10]]})")), 200);
+}
+
 TEST(Page, WithoutAMapNoPathIsTaken) {
   TestServer server([](PageConfig&, PageContext& context) { context.run_dir = ""; });
   EXPECT_EQ(status_of(post(server.port(), "/api/command", R"({"command":"path","points":[[1,1],[2,2]]})")), 422);

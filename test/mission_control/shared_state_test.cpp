@@ -65,6 +65,31 @@ TEST(CommandQueue, LateReplyReturnsItsCommand) {
   EXPECT_TRUE(commands.acknowledge(5, true, ""));
 }
 
+TEST(CommandQueue, UnansweredCommandsDoNotLockOutLaterOnes) {
+  CommandQueue commands;
+  std::vector<std::thread> pages;
+  for (int i = 0; i < 16; ++i)
+    pages.emplace_back(
+        [&] { EXPECT_EQ(commands.submit(command(CommandKind::kGo), 3s).outcome, CommandReply::Outcome::kNoReply); });
+  for (std::int64_t id = 1; id <= 16;)
+    if (const auto waiting = commands.next()) commands.set_command_id(waiting->ticket, id++);
+  for (std::thread& page : pages) page.join();
+  EXPECT_EQ(commands.submit(command(CommandKind::kGo), 10ms).outcome, CommandReply::Outcome::kClockStopped);
+  EXPECT_FALSE(commands.acknowledge(1, true, "")) << "forgotten";
+  EXPECT_TRUE(commands.acknowledge(16, true, "")) << "late";
+}
+
+TEST(CommandQueue, StopsQueuedWhileTheClockIsStoppedAreBounded) {
+  CommandQueue commands;
+  commands.submit(command(CommandKind::kEmergencyStop), 1ms);
+  for (int i = 0; i < 20; ++i) commands.submit(command(CommandKind::kStop), 1ms);
+  std::map<CommandKind, int> queued;
+  while (const auto pending = commands.next()) ++queued[pending->command.kind];
+  EXPECT_EQ(queued[CommandKind::kEmergencyStop], 1);
+  EXPECT_GE(queued[CommandKind::kStop], 1);
+  EXPECT_LE(queued[CommandKind::kStop], 5);
+}
+
 TEST(CommandQueue, FullQueueRefusesCommandsButTakesStop) {
   CommandQueue commands;
   std::vector<std::thread> pages;
