@@ -11,7 +11,7 @@
 namespace rover::planning {
 namespace {
 
-constexpr std::uint32_t kVersion = 7;
+constexpr std::uint32_t kVersion = 8;
 
 void put_points(StateWriter& out, const std::vector<RoutePoint>& points) {
   out.put(static_cast<std::uint64_t>(points.size()));
@@ -84,6 +84,7 @@ void put_map(StateWriter& out, const GridMap<CellBelief>& map) {
     out.put(cell.unmeasured);
     out.put(std::array{cell.unmeasured_range_m, cell.evidence, cell.step_ratio, cell.step_sigma, cell.cost,
                        cell.tall_evidence, cell.tall_fraction});
+    out.put(cell.height_m);
   });
 }
 
@@ -106,7 +107,9 @@ bool get_map(StateReader& in, GridMap<CellBelief>& map) {
     const auto values = in.get<std::array<float, 7>>();
     std::tie(cell.unmeasured_range_m, cell.evidence, cell.step_ratio, cell.step_sigma, cell.cost, cell.tall_evidence,
              cell.tall_fraction) = std::tuple_cat(values);
-    numbers = numbers && std::isfinite(std::accumulate(values.begin(), values.end(), 0.0F)) && cell.step_sigma > 0.0F;
+    cell.height_m = in.get<float>();
+    numbers = numbers && std::isfinite(std::accumulate(values.begin(), values.end(), 0.0F)) && cell.step_sigma > 0.0F &&
+              !std::isinf(cell.height_m);
   });
   return numbers;
 }
@@ -119,7 +122,10 @@ std::vector<std::uint8_t> PathPlanner::save() const {
   out.put(next_path_id_);
   out.put(replans_);
   out.put(back_ups_);
+  out.put(wanted_back_ups_);
   out.put(furthest_m_);
+  out.put(static_cast<std::uint8_t>(full_level_));
+  out.put(static_cast<std::uint8_t>(mapped_));
   out.put(static_cast<std::uint8_t>(global_.has_value()));
   if (global_) {
     out.put(global_->id);
@@ -128,6 +134,9 @@ std::vector<std::uint8_t> PathPlanner::save() const {
     put_points(out, global_->points);
     put_zones(out, global_->zones);
   }
+  out.put(static_cast<std::uint8_t>(global_odom_ != nullptr));
+  out.put(T_map_odom_);
+  out.put(global_progress_m_);
   put_points(out, active_.route().points());
   out.put(active_.kind());
   out.put(active_.corridor_half_width_m());
@@ -147,7 +156,10 @@ bool PathPlanner::restore(const std::vector<std::uint8_t>& bytes) {
   fresh.next_path_id_ = std::max(next_path_id_, in.get<std::int64_t>());
   fresh.replans_ = in.get<std::int32_t>();
   const int back_ups = in.get<int>();
+  const int wanted_back_ups = in.get<int>();
   const double furthest_m = in.get<double>();
+  fresh.full_level_ = in.get<std::uint8_t>() != 0;
+  fresh.mapped_ = in.get<std::uint8_t>() != 0;
   if (in.get<std::uint8_t>() != 0) {
     GlobalPath global;
     global.id = in.get<std::int64_t>();
@@ -156,6 +168,15 @@ bool PathPlanner::restore(const std::vector<std::uint8_t>& bytes) {
     global.points = get_points(in);
     global.zones = get_zones(in);
     if (!fresh.set_global_path(global).empty()) return false;
+  }
+  const bool placed = in.get<std::uint8_t>() != 0;
+  const auto T_map_odom = in.get<Pose2>();
+  const double global_progress_m = in.get<double>();
+  if (placed) {
+    if (!fresh.global_ || !is_finite(position(T_map_odom)) || !std::isfinite(T_map_odom.yaw_rad + global_progress_m))
+      return false;
+    fresh.set_global_in_odom(T_map_odom);
+    fresh.global_progress_m_ = std::clamp(global_progress_m, 0.0, fresh.global_odom_->length_m());
   }
   std::vector<RoutePoint> points = get_points(in);
   const auto kind = in.get<PathKind>();
@@ -168,13 +189,14 @@ bool PathPlanner::restore(const std::vector<std::uint8_t>& bytes) {
   if (!get_map(in, fresh.belief_.cells()) || !in.finished()) return false;
   if (!std::isfinite(furthest_m) || !std::all_of(crumbs.begin(), crumbs.end(), is_finite)) return false;
   if (!points.empty()) {
-    if (!fresh.global_ || !is_path(points, fresh.global_map_.length_m())) return false;
+    if (!placed || !is_path(points, fresh.global_map_.length_m())) return false;
     if (kind < PathKind::kGlobal || kind > PathKind::kContinuous) return false;
     if (!(corridor_m > 0.0) || !std::isfinite(corridor_m + progress_m + planned_m)) return false;
     fresh.active_.restore(fresh.next_path_id_++, kind, Route(std::move(points)), corridor_m, progress_m, planned_m);
   }
   fresh.breadcrumbs_.restore(std::move(crumbs));
   fresh.back_ups_ = std::clamp(back_ups, 0, config_.max_back_ups);
+  fresh.wanted_back_ups_ = std::max(wanted_back_ups, 0);
   fresh.furthest_m_ = furthest_m;
   fresh.new_ground_ = true;
   *this = std::move(fresh);

@@ -22,9 +22,11 @@ void add_belief(Parameters p, BeliefConfig& c) {
 }
 
 void add_clearance(Parameters p, PathPlannerConfig& c) {
-  p.add("comfort_m", c.planner.clearances.comfort_m, {0.0, 1.0}, "below, motions cost more");
-  p.add("point_turn_m", c.planner.clearances.turn_m, {0.0, 1.0}, "minimum of a point turn, and of the global path");
-  p.add("min_m", c.planner.clearances.min_m, {0.0, 1.0}, "minimum of a plan");
+  Clearances& clearances = c.planner.clearances;
+  p.add("min_m", clearances.min_m, {0.0, 1.0},
+        "minimum of a plan; 0.03 m more for point turns and the global path; below 0.06 m more, motions cost more");
+  clearances.turn_m = clearances.min_m + Clearances::kToleranceM;
+  clearances.comfort_m = clearances.min_m + 2.0 * Clearances::kToleranceM;
 }
 
 void add_ground(Parameters p, PathPlannerConfig& c) {
@@ -43,7 +45,7 @@ void add_motion(Parameters p, MotionCosts& c) {
   p.add("curvature_change_s", c.curvature_change_s, {0.0, 50.0}, "by the largest curvature, quadratic below");
   p.add("cusp_s", c.cusp_s, {0.0, 200.0}, "between forward and reverse");
   p.add("reverse_factor", c.reverse_factor, {1.0, 20.0}, "on the cost in reverse");
-  p.add("tight_factor", c.tight_factor, {1.0, 20.0}, "on the cost below clearance.comfort_m");
+  p.add("tight_factor", c.tight_factor, {1.0, 20.0}, "on the cost closer to hazards than clearance.min_m and 0.06 m");
 }
 
 void add_search(Parameters p, HybridPlannerConfig& c) {
@@ -62,11 +64,13 @@ void set_vehicle(const Vehicle& vehicle, PathPlannerConfig& c) {
   c.origin_height_m = vehicle.origin_height_m;
   c.deceleration_mps2 = vehicle.deceleration_mps2;
   c.rounding.min_radius_m = vehicle.min_turn_radius_m;
+  c.planner.motion.max_curvature_per_m = MotionCosts::kCurvatureRatio / vehicle.min_turn_radius_m;
   c.planner.motion.seconds_per_m = c.planner.cost_to_go.seconds_per_m = 1.0 / vehicle.top_speed_mps;
 }
 
 void set_navigation(const NavigationConfig& navigation, PathPlannerConfig& c) {
   c.goal_tolerance_m = navigation.goal_tolerance_m;
+  c.corridor_half_width_m = navigation.corridor_half_width_m;
   c.turn_threshold_rad = navigation.point_turn_start_rad;
   c.turn_stop_rad = navigation.point_turn_stop_rad;
 }
@@ -87,8 +91,6 @@ PathPlannerConfig load_config(const std::string& config_dir, ParameterList* list
   p.add("pose_max_age_s", c.pose_max_age_s, {0.02, 5.0}, "without a newer POSE there is no path");
   p.add("release_latency_s", c.release_latency_s, {0.02, 1.0}, "modelled processing time, frame to path");
   p.add("planning_latency_s", c.planning_latency_s, {0.0, 2.0}, "modelled time of the background planner");
-  p.add("corridor_half_width_m", c.corridor_half_width_m, {0.1, 5.0},
-        "if the global path has none (HDPR: 0.75 to 1.5 m)");
   p.add("min_corridor_half_width_m", c.min_corridor_m, {0.05, 1.0},
         "of a path between hazards or back; the controller keeps within 0.1 m");
   p.add("blocked_goal_radius_m", c.planner.cost_to_go.blocked_goal_radius_m, {0.0, 3.0},

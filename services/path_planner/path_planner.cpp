@@ -15,7 +15,6 @@ constexpr double kKeepBehindM = 0.3;
 constexpr double kStationaryMps = 0.02;
 constexpr double kStationaryRadps = 0.02;
 constexpr double kCreepMps = 0.05;  // of the body origin while the rover turns on the spot
-constexpr double kMaxRoverCurvature = 1.0;
 constexpr double kHalfCellM = 0.5 * BeliefConfig::kCellM;
 constexpr double kControlM = 0.05;
 constexpr double kGoalNearM = 1.0;
@@ -103,8 +102,8 @@ void PathPlanner::add_pose(const PoseSample& sample) {
   }
   history_.add(sample);
   side_slip_.learn(rover().yaw_rad, sample.forward_mps, sample.left_mps, to_seconds(kTickUs));
-  apply_start_area();
   belief_.move_to(position(rover()));
+  apply_start_area();
   belief_.mark_driven(rover(), config_.footprint);
   if (mode_ == Mode::kBackingUp || sample.forward_mps < -kStationaryMps)
     breadcrumbs_.retrace(position(rover()));
@@ -114,14 +113,7 @@ void PathPlanner::add_pose(const PoseSample& sample) {
 
 void PathPlanner::apply_start_area() {
   if (!start_area_ || history_.newest().utime <= start_area_->utime) return;
-  const PoseSample newest = history_.newest();
-  history_.clear();
-  history_.add(newest);
-  belief_.clear();
-  breadcrumbs_.clear();
-  side_slip_ = {};
-  belief_.move_to(position(rover()));
-  const Point2 center = from_body(inverse(planar(newest.T_map_odom)), start_area_->center_map);
+  const Point2 center = from_body(inverse(planar(history_.newest().T_map_odom)), start_area_->center_map);
   if (start_area_->radius_m > 0.0) belief_.mark_known(center, start_area_->radius_m);
   start_area_.reset();
   forget_path();
@@ -133,6 +125,7 @@ void PathPlanner::forget_path() {
   global_odom_.reset();
   active_.clear();
   job_.reset();
+  back_up_plan_.reset();
   failures_ = 0;
   mode_ = Mode::kIdle;
 }
@@ -153,9 +146,11 @@ void PathPlanner::set_level(bool full) {
 }
 
 bool PathPlanner::add_traversability(const TraversabilityGrid& map) {
-  if (!full_level_ || !map.fault().empty() || history_.empty()) return false;
+  const std::optional<Eigen::Isometry3d> T = history_.at(map.utime);
+  if (!full_level_ || !T || !map.fault().empty()) return false;
   const double dead_reckoned_m = history_.newest().dead_reckoned_m;
-  belief_.add(map, rover(), config_.footprint, dead_reckoned_m - std::exchange(dead_reckoned_m_, dead_reckoned_m));
+  belief_.add_drift(dead_reckoned_m - std::exchange(dead_reckoned_m_, dead_reckoned_m));
+  belief_.add(map, planar(*T), config_.footprint);
   new_ground_ = new_map_ = mapped_ = true;
   return true;
 }
@@ -172,7 +167,10 @@ bool PathPlanner::stationary() const {
 PlannerOutput PathPlanner::step(Utime now) {
   PlannerOutput out;
   if (ready(now)) {
-    if (!global_odom_) set_global_in_odom();
+    if (!global_odom_) {
+      set_global_in_odom(planar(history_.newest().T_map_odom));
+      global_progress_m_ = global_odom_->closest(position(rover()));
+    }
     if (active_.empty()) follow_global_path();
     if (!active_.empty()) follow();
     take_plan(now);
@@ -181,11 +179,12 @@ PlannerOutput PathPlanner::step(Utime now) {
   const Mode before = mode_;
   mode_ = next_mode(mode_, facts(now));
   if (mode_ == Mode::kBackingUp && before != mode_) back_up();
-  if (before == Mode::kNoPath && mode_ == Mode::kPlanning) failures_ = back_ups_ = 0;
+  if (before == Mode::kNoPath && mode_ == Mode::kPlanning) failures_ = back_ups_ = wanted_back_ups_ = 0;
+  if (before != mode_ && mode_ == Mode::kFollowing) failures_ = 0;
   if (mode_ == Mode::kNoPath && new_ground_) back_up_plan_.reset();
   if (ready(now)) request(now);
   new_ground_ = new_level_ = false;
-  if (global_odom_ && !active_.empty() && active_.id() != sent_path_id_) {
+  if (ready(now) && !active_.empty() && active_.id() != sent_path_id_) {
     sent_path_id_ = active_.id();
     out.path = published();
   }
@@ -201,8 +200,8 @@ void PathPlanner::request(Utime now) {
   take_plan(now);
 }
 
-void PathPlanner::set_global_in_odom() {
-  T_map_odom_ = planar(history_.newest().T_map_odom);
+void PathPlanner::set_global_in_odom(const Pose2& T_map_odom) {
+  T_map_odom_ = T_map_odom;
   const Pose2 T_odom_map = inverse(T_map_odom_);
   global_odom_ = std::make_shared<const Route>(transformed(global_map_, T_odom_map));
   zones_odom_ = global_->zones;
@@ -211,7 +210,6 @@ void PathPlanner::set_global_in_odom() {
       const Point2 in_odom = from_body(T_odom_map, {p.x(), p.y()});
       p = {in_odom.x_m, in_odom.y_m};
     }
-  global_progress_m_ = global_odom_->closest(position(rover()));
 }
 
 // From here on; if the rover is far off, a path to it has to be planned.
@@ -236,8 +234,10 @@ void PathPlanner::follow() {
   active_.follow(rover(), history_.newest().forward_mps);
   track_progress();
   track_turn();
-  // Past a repair the path is the global path again, with its own corridor.
-  if (active_.kind() == PathKind::kRepair && active_.planned_m() < 0.0) {
+  // Past a plan the path is the global path again, with its own corridor; at the Full level there is another plan
+  // before.
+  const bool plan = active_.kind() == PathKind::kRepair || (active_.kind() == PathKind::kContinuous && !full_level_);
+  if (plan && active_.planned_m() < 0.0) {
     std::vector<RoutePoint> rest;
     const std::vector<RoutePoint>& points = active_.route().points();
     const double from_m = std::max(active_.progress_m() - kKeepBehindM, active_.segment().begin_m);
@@ -266,8 +266,11 @@ bool PathPlanner::turns_to(double yaw_rad) const {
   return error_rad > (turning_ && slow ? config_.turn_stop_rad : config_.turn_threshold_rad);
 }
 
+// While it turns nothing is said of unknown ground ahead, so the path is checked at the end of a turn.
 void PathPlanner::track_turn() {
+  const bool before = turning_;
   turning_ = turns_to(active_.route().pose_at(active_.progress_m()).yaw_rad);
+  if (before && !turning_) check_path();
 }
 
 // Map has moved against odom: hazards and plans stay, the part of the path that is global moves, at bounded curvature
@@ -278,7 +281,10 @@ void PathPlanner::follow_correction() {
   const double change =
       std::max(moved_m(position(rover())), moved_m(active_.route().point_at(active_.progress_m() + 10.0)));
   if (change < PathPlannerConfig::kCorrectionM) return;
-  set_global_in_odom();
+  set_global_in_odom(T_now);
+  const double search_m = kSearchGlobalM + change;
+  global_progress_m_ =
+      global_odom_->closest(position(rover()), global_progress_m_ - search_m, global_progress_m_ + search_m);
   if (mode_ == Mode::kBackingUp) {  // over the driven track, which lies in odom; only the zones move
     if (!zones_odom_.empty()) active_.replace_route(next_path_id_++, active_.route());
     return;
@@ -360,8 +366,7 @@ bool PathPlanner::wants_plan() const {
   // Beyond a plan the path is provisional; it matters once the plan becomes short.
   const bool provisional = active_.kind() != PathKind::kGlobal && active_.planned_m() > kMinIncumbentM;
   const double matters_m = provisional ? active_.planned_m() : kInfinity;
-  return (blockage_.hazard_m - active_.progress_m() < matters_m && std::isfinite(blockage_.hazard_m)) ||
-         unseen_ahead_m() < std::min(matters_m, config_.planner.search.known_free_m);
+  return hazard_ahead_m() < matters_m || unseen_ahead_m() < std::min(matters_m, config_.planner.search.known_free_m);
 }
 
 ExpectedMotion PathPlanner::expected_motion() const {
@@ -383,10 +388,10 @@ ActivePath::Start PathPlanner::plan_start() const {
   }
   const PoseSample& now = history_.newest();
   if (stationary()) return {rover(), 0.0, false, kNaN};
-  const double curvature =
-      std::abs(now.forward_mps) > kStationaryMps
-          ? std::clamp(now.yaw_rate_radps / now.forward_mps, -kMaxRoverCurvature, kMaxRoverCurvature)
-          : 0.0;
+  const double max_curvature = 1.0 / config_.rounding.min_radius_m;
+  const double curvature = std::abs(now.forward_mps) > kStationaryMps
+                               ? std::clamp(now.yaw_rate_radps / now.forward_mps, -max_curvature, max_curvature)
+                               : 0.0;
   return {side_slip_.advanced(rover(), std::copysign(committed_m, now.forward_mps), curvature), curvature,
           now.forward_mps < 0.0, kNaN};
 }
@@ -584,8 +589,8 @@ PlannerStatus PathPlanner::status(Utime now) const {
                               : needs_unseen_ground_ ? "no path: the ground ahead does not come into view"
                                                      : "no path: hazards on all sides";
   if (active_.empty()) {
-    status.state = PlannerState::kNoPath;
-    status.text = "cannot reach the global path: " + failure;
+    status.state = mode_ == Mode::kNoPath ? PlannerState::kNoPath : PlannerState::kRepairing;
+    status.text = "cannot reach the global path" + (failures_ > 0 ? ": " + failure : " yet");
     return status;
   }
   status.path_id = active_.id();

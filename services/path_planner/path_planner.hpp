@@ -32,7 +32,7 @@ struct PathPlannerConfig {
   double pose_max_age_s = 0.5;
   double release_latency_s = 0.1;                  // of a path, message time
   double planning_latency_s = 0.1;                 // of a plan, message time
-  double corridor_half_width_m = 0.75;             // if the global path has none
+  double corridor_half_width_m = 1.5;              // if the global path has none
   double min_corridor_m = 0.25;                    // of a path between hazards, or over the driven track
   double goal_tolerance_m = 0.5;                   // if the global path has none
   static constexpr double kMaxStartOffsetM = 0.5;  // farther from the global path, a path to it is planned
@@ -85,7 +85,7 @@ class PathPlanner {
 
   // Empty: accepted; otherwise why not, and the old path stays.
   std::string set_global_path(const GlobalPath& path);
-  // The operator certifies a circle in map as clear. Odom begins anew, so everything remembered in it goes.
+  // The operator certifies a circle in map as clear.
   void set_start_area(Point2 center_map, double radius_m, Utime utime);
   void add_pose(const PoseSample& sample);
   // False if the frame cannot be inserted: it contradicts itself, or no pose of its exposure is known.
@@ -129,7 +129,7 @@ class PathPlanner {
   bool stationary() const;
   void apply_start_area();
   void forget_path();
-  void set_global_in_odom();
+  void set_global_in_odom(const Pose2& T_map_odom);
 
   void follow();
   void follow_global_path();

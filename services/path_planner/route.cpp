@@ -162,7 +162,12 @@ Route transformed(const Route& route, const Pose2& T) {
   return Route(std::move(points));
 }
 
-Route rounded(const std::vector<RoutePoint>& corners, const RoundingConfig& config) {
+Route rounded(const std::vector<RoutePoint>& points, const RoundingConfig& config) {
+  std::vector<RoutePoint> corners;  // each place once: a repeated one leaves no room to round
+  for (const RoutePoint& point : points) {
+    if (!corners.empty() && distance(corners.back().p, point.p) < 1e-6) corners.pop_back();
+    corners.push_back(point);
+  }
   Sampler sampler(config.step_m);
   sampler.add(corners.front().p, corners.front().level);
   for (size_t i = 1; i + 1 < corners.size(); ++i) {

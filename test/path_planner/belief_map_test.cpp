@@ -48,11 +48,11 @@ class BeliefMapTest : public testing::Test {
     TraversabilityGrid map{{0, 0.1, -10.0, -10.0, 200, 200, std::vector<std::uint8_t>(40000, cost)}};
     testing_support::complete(map);
     map.height_m.assign(40000, height_m_);
-    see_map(map, range_m, dead_reckoned_m);
+    belief_.add_drift(dead_reckoned_m);
+    see_map(map, range_m);
   }
-  void see_map(const TraversabilityGrid& map, double range_m, double dead_reckoned_m = 0.0) {
-    belief_.add(map, {kRock.x_m - range_m, kRock.y_m, 0.0}, testing_support::planner_config().footprint,
-                dead_reckoned_m);
+  void see_map(const TraversabilityGrid& map, double range_m) {
+    belief_.add(map, {kRock.x_m - range_m, kRock.y_m, 0.0}, testing_support::planner_config().footprint);
   }
   const CellBelief& at(Point2 p) const { return belief_.cells().get(belief_.cells().index_of(p.x_m, p.y_m)); }
   double probability() const { return belief_.probability(at(kRock)); }
@@ -123,7 +123,7 @@ TEST_F(BeliefMapTest, OnlyGroundThatTheFrameSawIsKnown) {
   see_everywhere(HazardGrid::kUnseen);
   EXPECT_FALSE(at({2.05, 0.05}).known);
   for (const std::uint8_t value : {HazardGrid::kFree, HazardGrid::kMargin, HazardGrid::kObstacle, HazardGrid::kHole}) {
-    belief_.clear();
+    belief_.cells().clear();
     see_everywhere(value);
     EXPECT_TRUE(at({2.05, 0.05}).known) << int(value);
     EXPECT_FALSE(at({-1.05, 0.05}).known) << int(value);
@@ -261,7 +261,7 @@ TEST_F(BeliefMapTest, UnmeasuredGroundInViewNearbyBecomesAHazard) {
 TEST_F(BeliefMapTest, GroundThatIsSurelyFreeMayBeUnmeasuredFromNear) {
   const Point2 shadow{1.55, 0.05};
   for (const int looks : {1, 8}) {
-    belief_.clear();
+    belief_.cells().clear();
     see_everywhere(HazardGrid::kFree, looks, {-1.5, 0.0, 0.0});
     see_everywhere(HazardGrid::kUnseen, 300);
     EXPECT_EQ(belief_.unmeasurable(at(shadow)), looks == 1) << looks;
@@ -278,7 +278,7 @@ TEST_F(BeliefMapTest, GroundThatTheNavCamSawFreeMayBeUnmeasuredByTheLocCam) {
   };
   for (const Look& look : {Look{0, 2.0, false}, Look{0, 6.0, false}, Look{120, 2.0, false}, Look{120, 9.0, true},
                            Look{240, 2.0, true}, Look{TraversabilityGrid::kImpassable, 2.0, true}}) {
-    belief_.clear();
+    belief_.cells().clear();
     see_cost(look.cost, look.range_m + kRock.x_m - shadow.x_m);
     see_everywhere(HazardGrid::kUnseen, 300);
     EXPECT_EQ(belief_.unmeasurable(at(shadow)), look.unmeasurable) << int(look.cost) << " at " << look.range_m << " m";
@@ -318,7 +318,7 @@ TEST_F(BeliefMapTest, ASlopeCostsAndIsNoStep) {
   see_map(slope, 2.0);
   EXPECT_GT(at(kRock).cost, 0.5F);
   const double on_slope = probability();
-  belief_.clear();
+  belief_.cells().clear();
   see_cost(0, 2.0);
   EXPECT_EQ(on_slope, probability());
 }
@@ -326,7 +326,7 @@ TEST_F(BeliefMapTest, ASlopeCostsAndIsNoStep) {
 TEST_F(BeliefMapTest, ProbabilityGrowsWithTheStepsOfTheNavCamsMap) {
   double last = 0.0;
   for (const int cost : {0, 120, 180, 220, 252, int(TraversabilityGrid::kLow), int(TraversabilityGrid::kImpassable)}) {
-    belief_.clear();
+    belief_.cells().clear();
     see_cost(static_cast<std::uint8_t>(cost), 2.0);
     EXPECT_GE(probability(), last) << cost;
     EXPECT_EQ(is_hazard(), cost >= TraversabilityGrid::kLow) << cost;
@@ -347,7 +347,7 @@ TEST_F(BeliefMapTest, AFarLookOfTheNavCamDoesNotOutweighANearOne) {
   see_cost(TraversabilityGrid::kImpassable, 1.5);
   see_cost(60, 9.0);
   EXPECT_TRUE(is_hazard());
-  belief_.clear();
+  belief_.cells().clear();
   see_cost(0, 1.5);
   see_cost(TraversabilityGrid::kImpassable, 9.0);
   EXPECT_FALSE(is_hazard());
@@ -363,16 +363,23 @@ TEST_F(BeliefMapTest, ANearLookOfTheNavCamOutweighsAFarOne) {
   see_cost(TraversabilityGrid::kImpassable, 9.0);
   see_cost(60, 1.5);
   EXPECT_FALSE(is_hazard());
-  belief_.clear();
+  belief_.cells().clear();
   see_cost(60, 9.0);
   see_cost(TraversabilityGrid::kImpassable, 1.5);
   EXPECT_TRUE(is_hazard());
 }
 
 // Odom drifts under the map: what was seen before the wheels drove alone lies elsewhere.
+TEST_F(BeliefMapTest, WheelsAloneWeakenLooksThatNoNewMapCovers) {
+  see(HazardGrid::kObstacle, 4);
+  const double before = probability();
+  belief_.add_drift(2.0);
+  EXPECT_LT(probability(), before - 0.05);
+}
+
 TEST_F(BeliefMapTest, AfterWheelsAloneANewMapReplacesOlderLooks) {
   for (const bool wheels_alone : {false, true}) {
-    belief_.clear();
+    belief_.cells().clear();
     see(HazardGrid::kObstacle, 2);
     for (int i = 0; i < 10; ++i) see_cost(TraversabilityGrid::kImpassable, 2.0);
     ASSERT_TRUE(is_hazard());

@@ -69,6 +69,16 @@ TEST(Checkpoint, ARestartedPlannerContinuesItsPathOnTheSameGround) {
   EXPECT_FALSE(rig.step().path) << "once is enough";
 }
 
+TEST(Checkpoint, ACorrectionDuringTheRestartMovesThePath) {
+  PlannerRig rig = driven();
+  PathPlanner restarted = fresh_planner(kSecondBoot);
+  ASSERT_TRUE(restarted.restore(rig.planner.save()));
+  rig.planner = restarted;
+  rig.T_map_odom = {0.0, -0.6, 0.0};
+  rig.step();
+  EXPECT_NEAR(rig.paths.back().points.back().p.y_m, 1.6, 0.05);
+}
+
 TEST(Checkpoint, ARestartedPlannerKnowsTheDrivenTrack) {
   PlannerRig rig = driven();
   PathPlanner restarted = fresh_planner(kSecondBoot);

@@ -107,6 +107,16 @@ TEST(Correction, APlanAroundARockStaysAndThePathBeyondItMoves) {
   EXPECT_NEAR(after.back().p.y_m, -0.3, 0.01);
 }
 
+// Out and back 2.5 m beside: a correction puts the rover nearer to the way back.
+TEST(Correction, ProgressStaysOnItsPartOfThePath) {
+  PlannerRig rig;
+  rig.send_path({{0.0, 0.0}, {12.0, 0.0}, {12.0, 2.5}, {0.0, 2.5}});
+  rig.look(2);
+  rig.go(2.0);
+  rig.T_map_odom = {0.0, 1.6, 0.0};
+  EXPECT_NEAR(rig.step().status.corridor_offset_m, 1.6, 0.05);
+}
+
 TEST(Correction, APathToBackUpStays) {
   PlannerRig rig;
   rig.send_path({{0.0, 0.0}, {25.0, 0.0}});

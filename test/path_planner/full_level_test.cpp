@@ -98,6 +98,26 @@ TEST_F(FullLevelTest, BackAtTheEfficientLevelItReturnsToTheGlobalPath) {
   EXPECT_NEAR(rig_.odom.y_m, 0.0, 0.1);
 }
 
+TEST_F(FullLevelTest, BackAtTheEfficientLevelTheGlobalPathHasItsOwnCorridor) {
+  send_map(wall_map(1.2, 1.8));
+  rig_.step();
+  ASSERT_LT(path().corridor_half_width_m, 0.75);
+  rig_.planner.set_level(false);
+  rig_.rocks.clear();
+  rig_.go(22.0);
+  EXPECT_EQ(path().kind, PathKind::kGlobal);
+  EXPECT_EQ(path().corridor_half_width_m, 0.75);
+}
+
+TEST_F(FullLevelTest, ARestartKeepsHeights) {
+  TraversabilityGrid map = map_around({0.0, 0.0}, free_map, rig_.now);
+  map.height_m.assign(map.cells.size(), 0.3F);
+  ASSERT_TRUE(rig_.planner.add_traversability(map));
+  PathPlanner restarted(planner_config(), 1000);
+  ASSERT_TRUE(restarted.restore(rig_.planner.save()));
+  EXPECT_EQ(restarted.belief().cells().get({20, 20}).height_m, 0.3F);
+}
+
 TEST_F(FullLevelTest, TheSameMapAgainKeepsThePath) {
   send_map(wall_map(1.2, 1.8));
   rig_.step();

@@ -472,6 +472,33 @@ TEST(HybridPlanner, WhereNoPathCanBeMuchCheaperTheIncumbentIsKeptWithoutASearch)
   EXPECT_NEAR(kept.cost, first.cost, 1.0);
 }
 
+// A rock that only the rear corner of the turning rover sweeps.
+TEST(HybridPlanner, AnIncumbentIsNotKeptWhosePointTurnARockBlocks) {
+  constexpr Point2 kCorner{1.5, 0.0};
+  constexpr Point2 kSwept{0.81, -0.69};
+  std::vector<PlanPose> incumbent;
+  for (int i = 0; i <= 30; ++i) incumbent.push_back({{kCorner.x_m * i / 30.0, 0.0, 0.0}});
+  for (int i = 0; i <= 200; ++i) incumbent.push_back({{kCorner.x_m, 0.05 * i, 0.5 * kPi}});
+  for (const bool rock : {false, true}) {
+    const GroundAt ground = [&](Point2 p) { return hazard_if(rock && distance(p, kSwept) < 0.08); };
+    PlanRequest request = plan_request(certain_belief(ground), {}, {{-3.0, 0.0}, kCorner, {kCorner.x_m, 30.0}});
+    request.incumbent = incumbent;
+    EXPECT_EQ(plan_on(request).keeps_incumbent, !rock);
+  }
+}
+
+TEST(HybridPlanner, AVehicleThatTurnsInWiderArcsGetsWiderArcs) {
+  HybridPlannerConfig config = search_config();
+  config.motion.max_curvature_per_m = 0.4;
+  const PlanRequest request = plan_request(certain_belief(ground_of({{{4.0, 0.1}, 0.3, 0.3}})));
+  const Plan plan = HybridPlanner(config).plan(request);
+  ASSERT_TRUE(plan.found);
+  EXPECT_EQ(point_turns(plan), 0);
+  EXPECT_GT(std::abs(y_at(plan, 4.0)), 0.5);
+  for (size_t i = 1; i < plan.poses.size(); ++i)
+    EXPECT_LE(std::abs(wrap_angle(plan.poses[i].pose.yaw_rad - plan.poses[i - 1].pose.yaw_rad)), 0.4 * 0.0501 + 1e-6);
+}
+
 TEST(HybridPlanner, AMuchCheaperPlanReplacesTheIncumbent) {
   constexpr Gap kFarLeft{4.0, 2.0};
   const Plan plan = plan_on(with_incumbent(wall({kFarLeft, {0.0, 2.0}}), kFarLeft));

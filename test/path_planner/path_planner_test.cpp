@@ -573,19 +573,42 @@ TEST(PathPlanner, AGoalWithARockOnItIsReachedBesideTheRock) {
   EXPECT_GT(clearance_m(planner_config().footprint, rig.odom, rig.rocks), 0.0);
 }
 
-TEST(PathPlanner, AStartAreaForgetsWhatWasSeen) {
+TEST(PathPlanner, BeforeTheFirstPlanToAPathFarOffItDoesNotSayThatThereIsNone) {
+  const auto background = std::make_shared<HeldBackground>();
+  PlannerRig rig(background);
+  rig.send_path({{5.0, 3.0}, {20.0, 3.0}});
+  const PlannerOutput out = rig.look(3);
+  EXPECT_EQ(out.status.state, PlannerState::kRepairing);
+  EXPECT_EQ(out.status.text, "cannot reach the global path yet");
+  EXPECT_EQ(out.status.blocked_in_m, 0.0);
+  EXPECT_TRUE(rig.paths.empty());
+}
+
+// A turning rover says nothing of unknown ground ahead.
+TEST(PathPlanner, AtTheEndOfAPointTurnThePathIsCheckedAtOnce) {
+  PlannerRig rig;
+  rig.send_path({{0.0, 0.0}, {0.0, 10.0}});
+  EXPECT_TRUE(std::isinf(rig.step().status.blocked_in_m));
+  rig.odom.yaw_rad = 0.5 * kPi;
+  EXPECT_LT(rig.step().status.blocked_in_m, 2.0);
+}
+
+// A start pose moves map against odom, in which hazards and the driven track lie.
+TEST(PathPlanner, AStartAreaIsKnownAndKeepsWhatWasSeen) {
   PlannerRig rig;
   rig.send_path(kAhead);
   rig.rocks = {kOnPath};
   rig.look(3);
-  EXPECT_GT(hazards(rig), 0u);
-  rig.planner.set_start_area({0.0, 0.0}, 2.0, rig.now);
+  const size_t before = hazards(rig);
+  EXPECT_GT(before, 0u);
   rig.rocks.clear();
+  const auto unknown = [&](Point2 p) { return Costmap({}, rig.planner.belief(), {}, 20.0).unknown(p); };
+  EXPECT_TRUE(unknown({-3.9, 0.0}));
+  rig.planner.set_start_area({0.0, 0.0}, 4.0, rig.now);
   const PlannerOutput out = rig.step();
-  EXPECT_EQ(hazards(rig), 0u);
-  const Costmap costmap({}, rig.planner.belief(), {}, 20.0);
-  EXPECT_FALSE(costmap.unknown(Point2{1.9, 0.0}));
-  EXPECT_TRUE(costmap.unknown(Point2{2.3, 0.0}));
+  EXPECT_EQ(hazards(rig), before);
+  EXPECT_FALSE(unknown({-3.9, 0.0}));
+  EXPECT_TRUE(unknown({-4.3, 0.0}));
   EXPECT_TRUE(out.path);
 }
 

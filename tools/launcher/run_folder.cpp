@@ -149,7 +149,7 @@ void apply_setting(const std::string& setting, const std::string& config_dir) {
   const size_t equals = setting.find('=');
   const std::vector<std::string> keys = keys_of(setting.substr(0, equals));
   if (equals == std::string::npos || equals + 1 == setting.size() || keys.size() < 2)
-    throw ConfigError("--set " + setting + ": file.key=value is expected, as in path_planner.clearance.comfort_m=0.2");
+    throw ConfigError("--set " + setting + ": file.key=value is expected, as in path_planner.clearance.min_m=0.12");
   const fs::path file = fs::path(config_dir) / (keys.front() + ".yaml");
   std::error_code ignored;  // name too long
   if (!fs::exists(file, ignored))

@@ -7,7 +7,7 @@ constexpr double kViewRimM = 0.15;        // near the rim of the view, pitch and
 constexpr double kMaxInnovation = 2.0;    // in standard deviations
 constexpr double kImpassableRatio = 1.2;  // an impassable cell of the NavCam's map does not say how tall it is
 
-// Calls f(cell, centre) for the cells whose centres lie in the box.
+// Calls f(cell, centre) for the cells that the box touches.
 template <class F>
 void for_cells_in(GridMap<CellBelief>& map, Point2 low, Point2 high, F&& f) {
   const CellIndex a = map.index_of(low.x_m, low.y_m);
@@ -124,10 +124,7 @@ void BeliefMap::add_unmeasured(CellBelief& cell, const HazardGrid& grid, Point2 
 
 // Successive maps share their heights, so a look as good as the last one replaces half of it and never makes it surer.
 // No camera sees the ground under the rover.
-void BeliefMap::add(const TraversabilityGrid& grid, const Pose2& rover, const Footprint& footprint,
-                    double dead_reckoned_m) {
-  // In cells. Odom drifts against the ground, and what was seen before lies elsewhere; within a cell a step ends.
-  const double drift2 = std::pow(BeliefConfig::kDriftPerM * dead_reckoned_m / BeliefConfig::kCellM, 2);
+void BeliefMap::add(const TraversabilityGrid& grid, const Pose2& rover, const Footprint& footprint) {
   const Point2 high{grid.origin_x_m + grid.cells_x * grid.cell_m, grid.origin_y_m + grid.cells_y * grid.cell_m};
   for_cells_in(map_, {grid.origin_x_m, grid.origin_y_m}, high, [&](CellBelief& cell, Point2 p) {
     const std::ptrdiff_t i = grid.index_of(p);
@@ -140,8 +137,7 @@ void BeliefMap::add(const TraversabilityGrid& grid, const Pose2& rover, const Fo
     const double relative = static_cast<double>(cost) / TraversabilityGrid::kLow;
     const double ratio = impassable ? kImpassableRatio : 0.01 * grid.step_percent[static_cast<size_t>(i)];
     const double sigma = config_.sigma + config_.sigma_per_m * distance(p, position(rover));
-    const double before = static_cast<double>(cell.step_sigma) * cell.step_sigma + drift2;
-    cell.evidence /= static_cast<float>(1.0 + drift2);
+    const double before = static_cast<double>(cell.step_sigma) * cell.step_sigma;
     const double variance = before + sigma * sigma;
     const auto weight = static_cast<float>(before / variance);
     // A look from afar that contradicts nearer ones by more than its noise is an outlier: it moves the mean only so
@@ -154,6 +150,17 @@ void BeliefMap::add(const TraversabilityGrid& grid, const Pose2& rover, const Fo
       cell.tall_fraction += weight * ((cost == TraversabilityGrid::kLow ? 0.0F : 1.0F) - cell.tall_fraction);
     cell.step_sigma = static_cast<float>(std::min(std::sqrt(before), sigma));
     cell.known = true;
+  });
+}
+
+// In cells: within one a step ends.
+void BeliefMap::add_drift(double dead_reckoned_m) {
+  if (!(dead_reckoned_m > 0.0)) return;
+  const double drift2 = std::pow(BeliefConfig::kDriftPerM * dead_reckoned_m / BeliefConfig::kCellM, 2);
+  map_.for_each([&](CellIndex, CellBelief& cell) {
+    if (cell.step_sigma < CellBelief::kNoSigma)
+      cell.step_sigma = static_cast<float>(std::hypot(cell.step_sigma, std::sqrt(drift2)));
+    cell.evidence /= static_cast<float>(1.0 + drift2);
   });
 }
 

@@ -54,14 +54,14 @@ class BeliefMap {
   explicit BeliefMap(const BeliefConfig& config) : config_(config), map_(config.cells, BeliefConfig::kCellM) {}
 
   void move_to(Point2 rover) { map_.move_to(rover.x_m, rover.y_m); }
-  void clear() { map_.clear(); }
   // One frame of the LocCam.
   void add(const HazardGrid& grid, const Eigen::Isometry3d& T_odom_ground);
-  // One map of the NavCam, made with the rover there; since the last it drove so far on wheel odometry alone.
-  void add(const TraversabilityGrid& grid, const Pose2& rover, const Footprint& footprint,
-           double dead_reckoned_m = 0.0);
+  // One map of the NavCam, made with the rover there.
+  void add(const TraversabilityGrid& grid, const Pose2& rover, const Footprint& footprint);
+  // The rover drove so far on wheel odometry alone: what was seen before lies elsewhere.
+  void add_drift(double dead_reckoned_m);
   void mark_driven(const Pose2& pose, const Footprint& footprint);
-  // Ground that the operator certifies.
+  // Ground that the operator certifies. Hazards that were seen there stay.
   void mark_known(Point2 center, double radius_m);
 
   // That a wheel cannot pass the cell.

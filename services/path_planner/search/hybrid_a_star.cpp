@@ -13,7 +13,6 @@ constexpr int kYawBins = 32;
 constexpr double kPlaceBinM = 0.2;
 constexpr int kCurvatures = 5;
 constexpr double kMaxChange = 1.1;  // of the curvature in one motion, relative to the largest
-constexpr double kTurnSampleRad = 0.0524;
 // Of the heuristic, for pruning: arcs and clearances of the lattice are not quite those of a plan.
 constexpr double kLatticeBound = 0.85;
 constexpr std::array<double, kCurvatures> kLevels = {0.0, 0.5, -0.5, 1.0, -1.0};  // of the largest curvature
@@ -99,7 +98,7 @@ class HybridAStar {
       expand(index);
     }
     if (end_ >= 0) set_poses();
-    plan_.needs_unseen_ground = plan_.needs_unseen_ground || pricer_.needs_unseen_ground();
+    plan_.needs_unseen_ground = pricer_.needs_unseen_ground();
     return std::move(plan_);
   }
 
@@ -206,15 +205,12 @@ class HybridAStar {
       Node next = from;
       for (; turned < to_rad(turn_deg) + kTurnSampleRad; turned += kTurnSampleRad) {
         next.pose.yaw_rad = from.pose.yaw_rad + side * std::min(turned, to_rad(turn_deg));
-        if (!ground_.turn.clear(next.pose) || !ground_.roll.allows(next.pose)) return;
-        if (from.distance_m < ground_.known_free_m && !pricer_.covers(next.pose)) {
-          plan_.needs_unseen_ground = true;
-          return;
-        }
-        const double factor = ground_.comfort.clear(next.pose) ? 1.0 : costs_.tight_factor;
-        cost += factor * ground_.roll.factor(next.pose) * costs_.point_turn_s_per_rad * kTurnSampleRad;
+        const double factor = pricer_.turn_factor(next.pose, from.distance_m);
+        if (std::isinf(factor)) return;
+        cost += factor * costs_.point_turn_s_per_rad * kTurnSampleRad;
       }
-      add_motion_cost(next, cost);
+      next.cost += cost;
+      next.motion_cost += costs_.point_turn_s_per_rad * turned;
       next.parent = index;
       next.kind = Node::Kind::kTurned;
       for (const bool reverse : {false, true}) {
@@ -270,7 +266,7 @@ class HybridAStar {
   const PricedGround& ground_;
   const PoseCostToGo& pose_cost_to_go_;
   PathPricer pricer_;
-  double half_m_;                            // side of the costmap
+  double half_m_;                            // of the side of the costmap
   int places_;                               // on it
   std::unordered_map<size_t, double> best_;  // cost by place, heading, curvature and direction
   std::vector<Node> nodes_;
@@ -292,6 +288,15 @@ double PathPricer::cost_per_m(const Pose2& pose, double distance_m, bool reverse
   if (distance_m > ground_.known_free_m || visibility_.covers(pose)) return cost;
   needs_unseen_ground_ = true;
   return kInfinity;
+}
+
+double PathPricer::turn_factor(const Pose2& pose, double distance_m) {
+  if (!ground_.turn.clear(pose) || !ground_.roll.allows(pose)) return kInfinity;
+  if (distance_m < ground_.known_free_m && !visibility_.covers(pose)) {
+    needs_unseen_ground_ = true;
+    return kInfinity;
+  }
+  return (ground_.comfort.clear(pose) ? 1.0 : costs_.tight_factor) * ground_.roll.factor(pose);
 }
 
 Plan search_hybrid_a_star(const HybridAStarConfig& config, const MotionCosts& costs, const PricedGround& ground,

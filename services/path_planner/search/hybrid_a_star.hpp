@@ -32,6 +32,8 @@ struct PricedGround {
 Plan search_hybrid_a_star(const HybridAStarConfig& config, const MotionCosts& costs, const PricedGround& ground,
                           const PoseCostToGo& pose_cost_to_go, double max_cost);
 
+constexpr double kTurnSampleRad = 0.0524;
+
 // Prices poses one after the other along a path, by ground, clearance, and whether the ground comes into view before
 // the rover is there.
 class PathPricer {
@@ -53,7 +55,8 @@ class PathPricer {
   }
   // A metre that ends at the pose, `distance_m` forward from the start [s/m]; infinity: not allowed.
   double cost_per_m(const Pose2& pose, double distance_m, bool reverse);
-  bool covers(const Pose2& pose) const { return visibility_.covers(pose); }
+  // In a point turn there: on the cost of turning; infinity: not allowed.
+  double turn_factor(const Pose2& pose, double distance_m);
   bool needs_unseen_ground() const { return needs_unseen_ground_; }
 
  private:

@@ -93,13 +93,21 @@ double HybridPlanner::incumbent_cost(const PricedGround& ground) const {
   double cost = poses.back().motion_cost - poses.front().motion_cost;
   double distance_m = 0.0;
   for (size_t i = 1; i < poses.size() && std::isfinite(cost); ++i) {
-    const double step_m = distance(position(poses[i - 1].pose), position(poses[i].pose));
+    const Pose2& from = poses[i - 1].pose;
+    const double step_m = distance(position(from), position(poses[i].pose));
     if (!poses[i].reverse) distance_m += step_m;
     if (step_m > 0.0) {
       cost += step_m * pricer.cost_per_m(poses[i].pose, distance_m, poses[i].reverse);
       pricer.add_view(poses[i].pose);
     } else {
-      pricer.add_turn_views(poses[i - 1].pose.yaw_rad, poses[i].pose);
+      const double turn_rad = poses[i].pose.yaw_rad - from.yaw_rad;
+      const int steps = 1 + static_cast<int>(std::abs(turn_rad) / kTurnSampleRad);
+      for (int k = 0; k <= steps; ++k) {
+        const double factor = pricer.turn_factor({from.x_m, from.y_m, from.yaw_rad + turn_rad * k / steps}, distance_m);
+        if (std::isinf(factor)) return kInfinity;
+        cost += (factor - 1.0) * config_.motion.point_turn_s_per_rad * std::abs(turn_rad) / steps;
+      }
+      pricer.add_turn_views(from.yaw_rad, poses[i].pose);
     }
   }
   return cost + ground.cost_to_go.end_cost(position(poses.back().pose));

@@ -4,11 +4,12 @@
 namespace rover::planning {
 
 struct MotionCosts {
-  double seconds_per_m = 5.0;                 // at cruise speed
-  double max_curvature_per_m = 0.8;           // radius 1.25 m; the vehicle's minimum radius is 1.0 m
-  static constexpr double kCurvature = 0.15;  // relative to driving, at the largest curvature
-  double curvature_change_s = 2.0;            // for a change by the largest curvature, quadratic below
-  double point_turn_s = 15.0;                 // steering to it and back
+  double seconds_per_m = 5.0;  // at cruise speed
+  double max_curvature_per_m = 0.8;
+  static constexpr double kCurvatureRatio = 0.8;  // of the largest curvature that the vehicle can drive
+  static constexpr double kCurvature = 0.15;      // relative to driving, at the largest curvature
+  double curvature_change_s = 2.0;                // for a change by the largest curvature, quadratic below
+  double point_turn_s = 15.0;                     // steering to it and back
   double point_turn_s_per_rad = 5.0;
   static constexpr double kPointTurnSteeringS = 5.0;  // more, if the wheels come from the largest curvature
   double cusp_s = 7.5;                                // between forward and reverse

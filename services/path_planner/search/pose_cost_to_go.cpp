@@ -11,6 +11,7 @@ constexpr double kMaxCostS = 1500.0;                      // above that of the s
 constexpr std::array<int, 5> kTurns = {0, 1, -1, 2, -2};  // headings by which an arc turns
 constexpr double kMinArcM = 0.35;
 constexpr double kMaxArcM = 0.62;
+constexpr double kArcSpanM = 0.1;  // of lengths to choose from, if the vehicle turns in wider arcs
 constexpr double kArcStepM = 0.01;
 constexpr double kBandM = 0.7;           // around the horizon, in which the lattice begins
 constexpr double kNearRoverM = 0.10;     // hazards nearer to the rover than the margin and this do not block its place
@@ -60,7 +61,8 @@ void PoseCostToGo::make_arcs() {
       double least = kInfinity;
       Arc best{};
       const double min_m = std::max(kMinArcM, std::abs(turn) * yaw_of(1) / costs_.max_curvature_per_m);
-      for (double length = min_m; length <= kMaxArcM; length += kArcStepM) {
+      const double max_m = std::max(kMaxArcM, min_m + kArcSpanM);
+      for (double length = min_m; length <= max_m; length += kArcStepM) {
         const double curvature = turn * yaw_of(1) / length;
         const Pose2 start{0.0, 0.0, yaw_of(heading)};
         const Pose2 end = advanced(start, length, curvature);
@@ -206,7 +208,6 @@ void PoseCostToGo::spread() {
       const size_t state = buckets_[bucket_][k];
       if (closed_[state]) continue;
       closed_[state] = true;
-      ++expansions_;
       const int cell = static_cast<int>(state / kHeadings / kMotions);
       const int heading = static_cast<int>(state % kHeadings);
       switch (static_cast<Motion>(state / kHeadings % kMotions)) {

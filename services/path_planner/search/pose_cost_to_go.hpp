@@ -36,7 +36,6 @@ class PoseCostToGo {
   bool reaches(const Pose2& pose) const {
     return std::isfinite(std::min({forward(pose), turning(pose), reverse(pose)}));
   }
-  int expansions() const { return expansions_; }
   // Whether a plan may end at the place although the goal is not there. One to back up may not.
   bool at_horizon(Point2 p) const {
     if (!request_.back_to.empty()) return false;
@@ -130,7 +129,6 @@ class PoseCostToGo {
   std::vector<bool> closed_;
   std::vector<std::vector<std::uint32_t>> buckets_;
   size_t bucket_ = 0;
-  int expansions_ = 0;
 };
 
 }  // namespace rover::planning
