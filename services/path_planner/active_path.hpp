@@ -11,7 +11,7 @@
 namespace rover::planning {
 
 // kBacktrack: back along the driven track; kContinuous: of the Full level.
-enum class PathKind : std::int8_t { kGlobal = 0, kRepair = 1, kBacktrack = 2, kContinuous = 3 };
+enum class PathKind : std::int8_t { kGlobal = 0, kRepair = 1, kContinuous = 2, kBacktrack = 3 };
 
 struct LocalPath {
   std::int64_t id = -1;

@@ -190,7 +190,7 @@ bool PathPlanner::restore(const std::vector<std::uint8_t>& bytes) {
   if (!std::isfinite(furthest_m) || !std::all_of(crumbs.begin(), crumbs.end(), is_finite)) return false;
   if (!points.empty()) {
     if (!placed || !is_path(points, fresh.global_map_.length_m())) return false;
-    if (kind < PathKind::kGlobal || kind > PathKind::kContinuous) return false;
+    if (kind < PathKind::kGlobal || kind > PathKind::kBacktrack) return false;
     if (!(corridor_m > 0.0) || !std::isfinite(corridor_m + progress_m + planned_m)) return false;
     fresh.active_.restore(fresh.next_path_id_++, kind, Route(std::move(points)), corridor_m, progress_m, planned_m);
   }

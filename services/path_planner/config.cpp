@@ -61,6 +61,7 @@ void set_vehicle(const Vehicle& vehicle, PathPlannerConfig& c) {
   c.footprint = {vehicle.footprint_half_length_m(), vehicle.footprint_half_width_m(), vehicle.half_gap_m()};
   for (size_t i = 0; i < c.footprint.wheels.size(); ++i)
     c.footprint.wheels[i] = {vehicle.wheel_x_m[i], vehicle.wheel_y_m[i]};
+  c.costmap.wheel_reach_m = vehicle.footprint_half_width_m();
   c.origin_height_m = vehicle.origin_height_m;
   c.deceleration_mps2 = vehicle.deceleration_mps2;
   c.rounding.min_radius_m = vehicle.min_turn_radius_m;

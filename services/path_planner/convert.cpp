@@ -13,18 +13,21 @@ static_assert(TraversabilityGrid::kLow == traversability_t::LOW &&
               TraversabilityGrid::kImpassable == traversability_t::IMPASSABLE &&
               TraversabilityGrid::kUnknown == traversability_t::UNKNOWN);
 
-std::int8_t kind_of(PathKind kind) {
-  switch (kind) {
-    case PathKind::kGlobal:
-      return path_t::GLOBAL;
-    case PathKind::kRepair:
-      return path_t::REPAIR;
-    case PathKind::kBacktrack:
-      return path_t::BACKTRACK;
-    case PathKind::kContinuous:
-      return path_t::CONTINUOUS;
-  }
-  return path_t::GLOBAL;
+static_assert(static_cast<int>(PathKind::kRepair) == path_t::REPAIR &&
+              static_cast<int>(PathKind::kContinuous) == path_t::CONTINUOUS &&
+              static_cast<int>(PathKind::kBacktrack) == path_t::BACKTRACK);
+
+template <class Grid, class Message>
+Grid grid_from(const Message& message) {
+  Grid out;
+  out.utime = message.header.utime;
+  out.cell_m = message.cell_m;
+  out.origin_x_m = message.origin_x_m;
+  out.origin_y_m = message.origin_y_m;
+  out.cells_x = message.cells_x;
+  out.cells_y = message.cells_y;
+  out.cells = message.cells;
+  return out;
 }
 
 }  // namespace
@@ -45,26 +48,11 @@ PoseSample pose_from(const pose_t& message, double origin_height_m) {
 }
 
 HazardGrid hazards_from(const hazards_t& message) {
-  HazardGrid out;
-  out.utime = message.header.utime;
-  out.cell_m = message.cell_m;
-  out.origin_x_m = message.origin_x_m;
-  out.origin_y_m = message.origin_y_m;
-  out.cells_x = message.cells_x;
-  out.cells_y = message.cells_y;
-  out.cells = message.cells;
-  return out;
+  return grid_from<HazardGrid>(message);
 }
 
 TraversabilityGrid traversability_from(const traversability_t& message) {
-  TraversabilityGrid out;
-  out.utime = message.header.utime;
-  out.cell_m = message.cell_m;
-  out.origin_x_m = message.origin_x_m;
-  out.origin_y_m = message.origin_y_m;
-  out.cells_x = message.cells_x;
-  out.cells_y = message.cells_y;
-  out.cells = message.cells;
+  auto out = grid_from<TraversabilityGrid>(message);
   out.step_percent = message.step_percent;
   out.height_m = message.height_m;
   return out;
@@ -93,7 +81,7 @@ std::string global_path_from(const path_t& message, GlobalPath& path) {
 void path_to(const LocalPath& path, path_t& message) {
   message.path_id = path.id;
   message.frame = path_t::ODOM;
-  message.kind = kind_of(path.kind);
+  message.kind = static_cast<std::int8_t>(path.kind);
   message.corridor_half_width_m = path.corridor_half_width_m;
   message.goal_tolerance_m = path.goal_tolerance_m;
   zones_to(path.zones, message);

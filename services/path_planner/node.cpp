@@ -1,5 +1,6 @@
 #include "path_planner/node.hpp"
 
+#include <array>
 #include <cmath>
 #include <rover/command_ack_t.hpp>
 #include <rover/planner_status_t.hpp>
@@ -18,33 +19,9 @@ constexpr double kOldestMapS = 5.0;                // at its arrival
 constexpr std::int64_t kPathsPerBoot = 1'000'000;  // keeps the path ids of two processes apart
 constexpr double kMostClearRadiusM = 5.0;          // more than an operator would certify
 
-const char* text_of(PlannerState state) {
-  switch (state) {
-    case PlannerState::kIdle:
-      return "IDLE";
-    case PlannerState::kFollowing:
-      return "FOLLOWING";
-    case PlannerState::kRepairing:
-      return "REPAIRING";
-    case PlannerState::kNoPath:
-      return "NO_PATH";
-  }
-  return "?";
-}
-
-const char* text_of(PathKind kind) {
-  switch (kind) {
-    case PathKind::kGlobal:
-      return "GLOBAL";
-    case PathKind::kRepair:
-      return "REPAIR";
-    case PathKind::kBacktrack:
-      return "BACKTRACK";
-    case PathKind::kContinuous:
-      return "CONTINUOUS";
-  }
-  return "?";
-}
+// By PlannerState and PathKind.
+constexpr std::array kStateTexts = {"IDLE", "FOLLOWING", "REPAIRING", "NO_PATH"};
+constexpr std::array kKindTexts = {"GLOBAL", "REPAIR", "CONTINUOUS", "BACKTRACK"};
 
 }  // namespace
 
@@ -159,7 +136,7 @@ void PathPlannerNode::tell_path(const LocalPath& path) {
   path_ = path_t{};
   path_to(path, path_);
   told_at_ = node_.now();
-  node_.log("INFO", "PATH id=" + std::to_string(path.id) + " kind=" + text_of(path.kind) +
+  node_.log("INFO", "PATH id=" + std::to_string(path.id) + " kind=" + kKindTexts[static_cast<size_t>(path.kind)] +
                         " points=" + std::to_string(path.points.size()) +
                         " corridor_m=" + std::to_string(path.corridor_half_width_m));
 }
@@ -170,7 +147,7 @@ void PathPlannerNode::report(const PlannerStatus& status) {
   text_ = status.text;
   const bool no_path = state_ == PlannerState::kNoPath;
   node_.set_status(no_path ? heartbeat_t::DEGRADED : heartbeat_t::OK, no_path ? text_ : "");
-  node_.log(no_path ? "WARNING" : "INFO", std::string("PLANNER state=") + text_of(state_) +
+  node_.log(no_path ? "WARNING" : "INFO", std::string("PLANNER state=") + kStateTexts[static_cast<size_t>(state_)] +
                                               " blocked_in_m=" + std::to_string(status.blocked_in_m) +
                                               (text_.empty() ? "" : " text=" + text_));
 }

@@ -77,7 +77,7 @@ Costmap::Costmap(const CostmapConfig& config, const BeliefMap& belief, Point2 ro
   const CellIndex origin{center.ix - cells_ / 2, center.iy - cells_ / 2};
   corner_ = {origin.ix * cell_m_, origin.iy * cell_m_};
   const size_t count = static_cast<size_t>(cells_) * static_cast<size_t>(cells_);
-  std::vector<const CellBelief*> cells;
+  Cells cells;
   cells.reserve(count);
   for (int iy = 0; iy < cells_; ++iy)
     for (int ix = 0; ix < cells_; ++ix) cells.push_back(&map.get({origin.ix + ix, origin.iy + iy}));
@@ -89,16 +89,24 @@ Costmap::Costmap(const CostmapConfig& config, const BeliefMap& belief, Point2 ro
   }
   if (std::any_of(cells.begin(), cells.end(), [](const CellBelief* cell) { return std::isfinite(cell->height_m); }))
     for (const CellBelief* cell : cells) height_m_.push_back(cell->height_m);
+  set_unknown(cells, unmeasurable);
+  set_hazards(cells, belief, unmeasurable, walls_of(zones));
+}
+
+void Costmap::set_unknown(const Cells& cells, const std::vector<std::uint8_t>& unmeasurable) {
   const std::vector<std::uint8_t> wide = wide_parts(unmeasurable, cells_);
-  unknown_.resize(count);
-  for (size_t i = 0; i < count; ++i) unknown_[i] = cells[i]->known && !wide[i] ? 0 : 1;
+  unknown_.resize(cells.size());
+  for (size_t i = 0; i < cells.size(); ++i) unknown_[i] = cells[i]->known && !wide[i] ? 0 : 1;
   unknown_ = filled(unknown_, cells_);
   if (backing_up()) know_track();
+  unknown_distance_ = distance_field(unknown_, cells_, cells_, cell_m_);
+}
 
-  std::vector<std::uint8_t> hazard(count, 0);
-  const std::vector<std::uint8_t> walls = walls_of(zones);
-  own_cost_.resize(count);
-  for (size_t i = 0; i < count; ++i) {
+void Costmap::set_hazards(const Cells& cells, const BeliefMap& belief, const std::vector<std::uint8_t>& unmeasurable,
+                          const std::vector<std::uint8_t>& walls) {
+  std::vector<std::uint8_t> hazard(cells.size(), 0);
+  own_cost_.resize(cells.size());
+  for (size_t i = 0; i < cells.size(); ++i) {
     if (i % static_cast<size_t>(cells_) == 0) row_begin_.push_back(hazards_.size());
     const CellBelief& cell = *cells[i];
     const bool judged = cell.known && !(backing_up() && cell.passed);
@@ -106,13 +114,12 @@ Costmap::Costmap(const CostmapConfig& config, const BeliefMap& belief, Point2 ro
     const bool unmeasured = unknown_[i] && unmeasurable[i];
     const bool low = !unmeasured && !walls[i] && belief.low(cell);
     own_cost_[i] =
-        static_cast<float>((low ? kLowFraction : 1.0) * config.hazard_cost * p + config.difficulty_cost * cell.cost);
-    hazard[i] = p >= config.hazard_probability || unmeasured || walls[i] ? 1 : 0;
+        static_cast<float>((low ? kLowFraction : 1.0) * config_.hazard_cost * p + config_.difficulty_cost * cell.cost);
+    hazard[i] = p >= config_.hazard_probability || unmeasured || walls[i] ? 1 : 0;
     if (hazard[i]) hazards_.push_back({center_of(static_cast<int>(i)), low});
   }
   row_begin_.push_back(hazards_.size());
   hazard_distance_ = distance_field(hazard, cells_, cells_, cell_m_);
-  unknown_distance_ = distance_field(unknown_, cells_, cells_, cell_m_);
 }
 
 double Costmap::height_m(Point2 p) const {

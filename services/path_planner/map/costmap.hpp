@@ -75,6 +75,10 @@ class Costmap {
   std::vector<float> costs() const;
 
  private:
+  using Cells = std::vector<const CellBelief*>;
+  void set_unknown(const Cells& cells, const std::vector<std::uint8_t>& unmeasurable);
+  void set_hazards(const Cells& cells, const BeliefMap& belief, const std::vector<std::uint8_t>& unmeasurable,
+                   const std::vector<std::uint8_t>& walls);
   void know_track();
   std::pair<double, double> within(const Eigen::Vector2d& a, const Eigen::Vector2d& along) const;
   std::vector<std::uint8_t> walls_of(const std::vector<Zone>& zones) const;
