@@ -266,11 +266,8 @@ bool PathPlanner::turns_to(double yaw_rad) const {
   return error_rad > (turning_ && slow ? config_.turn_stop_rad : config_.turn_threshold_rad);
 }
 
-// While it turns nothing is said of unknown ground ahead, so the path is checked at the end of a turn.
 void PathPlanner::track_turn() {
-  const bool before = turning_;
   turning_ = turns_to(active_.route().pose_at(active_.progress_m()).yaw_rad);
-  if (before && !turning_) check_path();
 }
 
 // Map has moved against odom: hazards and plans stay, the part of the path that is global moves, at bounded curvature

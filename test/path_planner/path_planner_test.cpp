@@ -584,15 +584,6 @@ TEST(PathPlanner, BeforeTheFirstPlanToAPathFarOffItDoesNotSayThatThereIsNone) {
   EXPECT_TRUE(rig.paths.empty());
 }
 
-// A turning rover says nothing of unknown ground ahead.
-TEST(PathPlanner, AtTheEndOfAPointTurnThePathIsCheckedAtOnce) {
-  PlannerRig rig;
-  rig.send_path({{0.0, 0.0}, {0.0, 10.0}});
-  EXPECT_TRUE(std::isinf(rig.step().status.blocked_in_m));
-  rig.odom.yaw_rad = 0.5 * kPi;
-  EXPECT_LT(rig.step().status.blocked_in_m, 2.0);
-}
-
 // A start pose moves map against odom, in which hazards and the driven track lie.
 TEST(PathPlanner, AStartAreaIsKnownAndKeepsWhatWasSeen) {
   PlannerRig rig;
