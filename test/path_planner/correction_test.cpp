@@ -107,7 +107,7 @@ TEST(Correction, APlanAroundARockStaysAndThePathBeyondItMoves) {
   EXPECT_NEAR(after.back().p.y_m, -0.3, 0.01);
 }
 
-// Out and back 2.5 m beside: a correction puts the rover nearer to the way back.
+// Out, and back on a lane 2.5 m to the left: after a correction the rover is nearer to that lane.
 TEST(Correction, ProgressStaysOnItsPartOfThePath) {
   PlannerRig rig;
   rig.send_path({{0.0, 0.0}, {12.0, 0.0}, {12.0, 2.5}, {0.0, 2.5}});

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Compares two versions of a table of drives, pair by pair of the same scenario, level and seed.
 
-Usage: test/results/paired.py COMMIT_A COMMIT_B TABLE    e.g. 7fdcfb3 HEAD seed.md
+Usage: test/results/paired.py COMMIT_A COMMIT_B TABLE    e.g. 7fdcfb3 e1a4af9 seed.md
 
 Prints B - A of driven / planned length of the pairs that both reached the goal, and of the hazard stops per 100 m of all
 pairs: mean and its 95 % bootstrap interval (10,000 samples, seeded).
