@@ -29,7 +29,9 @@ PoseReport report_from(const pose_t& message, double origin_height_m) {
   out.roll_rad = attitude.x();
   out.pitch_rad = attitude.y();
   out.tilt_rate_radps = std::hypot(message.rate_body_radps[0], message.rate_body_radps[1]);
-  out.sigma_m = std::sqrt(std::max(message.covariance[0], message.covariance[7]));
+  const double variance_x = message.covariance[0], variance_y = message.covariance[7];
+  const bool known_sigma = std::isfinite(variance_x) && std::isfinite(variance_y);
+  out.sigma_m = known_sigma ? std::sqrt(std::max(variance_x, variance_y)) : kNaN;
   out.travelled_m = message.travelled_m;
   out.vo_utime = message.last_vo_utime;
   const bool known = message.status == pose_t::OK || message.status == pose_t::DEGRADED;

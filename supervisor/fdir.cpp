@@ -158,8 +158,11 @@ std::vector<std::string> Fdir::services_to_restart() const {
   return services;
 }
 
+// An invalid reading requests none, because it shows no limit that backtracking may relax.
 bool Fdir::backtrack_requested() const {
-  return first_active([](const Monitor& m) { return m.row().response == Response::kStopBacktrack; }) != nullptr;
+  return first_active([](const Monitor& m) {
+           return m.row().response == Response::kStopBacktrack && m.reading().condition != Condition::kInvalid;
+         }) != nullptr;
 }
 
 double Fdir::speed_limit_mps() const {

@@ -63,6 +63,10 @@ Reading age_reading(Utime data_utime, Utime now, double limit_s) {
   if (data_utime < 0) return out;
   out.value = out.data_age_s = to_seconds(now - data_utime);
   if (out.value <= limit_s) out.condition = Condition::kFalse;
+  if (data_utime > now) {  // a wrong clock: the stream would look fresh until then
+    out.condition = Condition::kInvalid;
+    out.data_utime = now;
+  }
   return out;
 }
 

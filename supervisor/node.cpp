@@ -178,22 +178,24 @@ void SupervisorNode::run_full_services(std::optional<bool> run) {
 void SupervisorNode::restore() {
   checkpoint_.restore([this](const CheckpointStore::Bytes& bytes) {
     const auto persistent_state = persistent_state_from(bytes);
-    if (persistent_state) supervisor_.restore(*persistent_state);
+    supervisor_.restore(persistent_state);
     return persistent_state.has_value();
   });
 }
 
-// Motor heat changes with every WHEEL_STATE and is saved once per second, everything else at once.
+// Motor heat changes with every WHEEL_STATE and is saved once per second, as is the time; everything else at once. The
+// next attempt on a full disk is a second later.
 void SupervisorNode::save() {
-  const PersistentState persistent_state = supervisor_.persistent_state();
-  if (persistent_state == saved_) return;
+  PersistentState persistent_state = supervisor_.persistent_state();
+  persistent_state.utime = node_.now();
   PersistentState without_heat = persistent_state;
   without_heat.heat = saved_.heat;
-  if (without_heat == saved_ && !checkpoint_.due()) return;
-  if (checkpoint_.save(bytes_of(persistent_state)))
-    saved_ = persistent_state;
-  else
-    node_.set_status(heartbeat_t::DEGRADED, "checkpoint not written");
+  without_heat.utime = saved_.utime;
+  const bool at_once = !not_saved_ && without_heat != saved_;
+  if (!at_once && !checkpoint_.due()) return;
+  not_saved_ = !checkpoint_.save(bytes_of(persistent_state));
+  if (!not_saved_) saved_ = persistent_state;
+  node_.set_status(not_saved_ ? heartbeat_t::DEGRADED : heartbeat_t::OK, not_saved_ ? "checkpoint not written" : "");
 }
 
 }  // namespace rover::supervisor

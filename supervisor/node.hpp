@@ -44,6 +44,7 @@ class SupervisorNode {
   Pose2 body_odom_{};  // newest pose
   Supervisor supervisor_;
   PersistentState saved_;
+  bool not_saved_ = false;
   std::map<std::string, int> pids_;
 };
 

@@ -6,7 +6,7 @@
 namespace rover::supervisor {
 namespace {
 
-constexpr int kVersion = 2;  // 1: without heat, counters and backtracking
+constexpr int kVersion = 3;  // 1: without heat, counters and backtracking; 2: without utime
 
 }  // namespace
 
@@ -23,6 +23,7 @@ std::vector<std::uint8_t> bytes_of(const PersistentState& s) {
                                {"starts", s.counters.starts},
                                {"fault_stops_m", s.counters.fault_stops_m},
                                {"restart_attempts", s.restart_attempts},
+                               {"utime", s.utime},
                                {"heat_utime", s.heat.utime},
                                {"drive_i2t_load", s.heat.drive_i2t_load},
                                {"steer_i2t_load", s.heat.steer_i2t_load}};
@@ -49,6 +50,7 @@ std::optional<PersistentState> persistent_state_from(const std::vector<std::uint
     json.at("starts").get_to(s.counters.starts);
     json.at("fault_stops_m").get_to(s.counters.fault_stops_m);
     json.at("restart_attempts").get_to(s.restart_attempts);
+    json.at("utime").get_to(s.utime);
     json.at("heat_utime").get_to(s.heat.utime);
     json.at("drive_i2t_load").get_to(s.heat.drive_i2t_load);
     json.at("steer_i2t_load").get_to(s.heat.steer_i2t_load);

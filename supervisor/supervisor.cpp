@@ -11,6 +11,7 @@ using enum State;
 constexpr StateSet kDriveInProgress = {kDriving, kHazardStop, kRepairing};
 constexpr double kMinApproachMps = 0.05;  // towards the place where the rover stops
 constexpr double kReactionS = 0.2;        // from a pose to the wheels, as response_delay_s of trajectory_control
+constexpr double kMaxSavedAgeS = 10.0;    // of a checkpoint: saved each second, and back 5 s after a hang
 
 std::optional<Fact> fact_of(CommandKind kind) {
   switch (kind) {
@@ -88,8 +89,8 @@ void Supervisor::on_terrain(const TerrainReport& terrain) {
 }
 
 SupervisorOutput Supervisor::step(Utime now) {
-  if (since_ == kNever) begin(now);
   SupervisorOutput out;
+  if (since_ == kNever) begin(now, out);
   derived_.step(now, inputs_, permitted_);
   run_monitors(now, out);
   run_level(now, out);
@@ -104,12 +105,24 @@ SupervisorOutput Supervisor::step(Utime now) {
 }
 
 // Heartbeat ages count from the start, because nothing was received before.
-void Supervisor::begin(Utime now) {
+void Supervisor::begin(Utime now, SupervisorOutput& out) {
   since_ = now;
+  if (restored_ && state_ != kSafe) check_restored(now, out);
   for (const std::string& service : config_.fdir.required_services) {
     ServiceReport& report = inputs_.services[service];
     if (report.utime == kNever && state_ != kBoot) report.utime = now;
   }
+}
+
+// What happened after an old state was saved is not known; the operator may have ordered EMERGENCY_STOP.
+void Supervisor::check_restored(Utime now, SupervisorOutput& out) {
+  const bool usable = restored_utime_ != kNever;
+  const double saved_s_ago = to_seconds(now - restored_utime_);
+  if (usable && std::abs(saved_s_ago) <= kMaxSavedAgeS) return;
+  last_change_ = {state_, kSafe, level_, level_, usable ? "checkpoint_old" : "checkpoint_unusable", {}};
+  if (usable) last_change_.evidence = {"checkpoint_age_s", saved_s_ago, kMaxSavedAgeS, 0.0, saved_s_ago};
+  state_ = kSafe;
+  out.changes.push_back(last_change_);
 }
 
 MonitorContext Supervisor::monitor_context(Utime now) const {
@@ -125,6 +138,7 @@ MonitorContext Supervisor::monitor_context(Utime now) const {
 // brake as the wheels do.
 double Supervisor::keep_out_depth_m() const {
   const PoseReport& pose = inputs_.pose;
+  if (restored_ && path_.path_id < 0 && inputs_.planner.path_id >= 0) return kNaN;  // its zones come within a second
   if (path_.zones.empty() || !pose.usable) return 0.0;
   const double v = pose.forward_mps, rate = pose.turn_rate_radps;
   const bool drives = std::abs(v) > config_.stationary_speed_mps;
@@ -441,7 +455,11 @@ double Supervisor::speed_limit_mps() const {
       {config_.max_speed_mps, std::max(braking_mps, kMinApproachMps), looking_mps, fdir_.speed_limit_mps()});
 }
 
-void Supervisor::restore(const PersistentState& persistent_state) {
+void Supervisor::restore(const std::optional<PersistentState>& saved) {
+  restored_ = true;
+  if (!saved) return;
+  const PersistentState& persistent_state = *saved;
+  restored_utime_ = persistent_state.utime;
   state_ = persistent_state.state;
   if (kUnderWayOrFaultStop.has(state_)) state_ = kFaultStop;
   if (state_ == kTeleop) state_ = kStandby;
@@ -468,7 +486,8 @@ PersistentState Supervisor::persistent_state() const {
           fdir_.active(),
           derived_.counters(),
           restarter_.attempts(),
-          derived_.heat()};
+          derived_.heat(),
+          kNever};
 }
 
 }  // namespace rover::supervisor

@@ -131,6 +131,7 @@ struct PersistentState {
   EventCounters counters;
   ServiceRestarter::Attempts restart_attempts;
   MotorHeat heat;
+  Utime utime = kNever;  // message time of saving
 
   bool operator==(const PersistentState&) const = default;
 };
@@ -158,8 +159,9 @@ class Supervisor {
   SupervisorOutput step(Utime now);
 
   // Before the first step: restores the state of the previous process. A drive in progress restarts in FAULT_STOP until
-  // all inputs are healthy.
-  void restore(const PersistentState& persistent_state);
+  // all inputs are healthy. If the saved state is unusable (empty) or old, the first step enters SAFE.
+  void restore(const std::optional<PersistentState>& saved);
+  // Its utime is filled in by whoever saves it.
   PersistentState persistent_state() const;
 
   State state() const { return state_; }
@@ -173,7 +175,8 @@ class Supervisor {
   std::vector<FaultChange> active_report() const { return fdir_.report(); }
 
  private:
-  void begin(Utime now);
+  void begin(Utime now, SupervisorOutput& out);
+  void check_restored(Utime now, SupervisorOutput& out);
   double keep_out_depth_m() const;
   MonitorContext monitor_context(Utime now) const;
   void run_monitors(Utime now, SupervisorOutput& out);
@@ -235,6 +238,8 @@ class Supervisor {
   std::int64_t blocked_path_id_ = -1;  // path id at the last HAZARD_STOP
   int hazard_stops_ = 0;
   bool permitted_ = false;  // at the previous step
+  bool restored_ = false;
+  Utime restored_utime_ = kNever;  // when the restored state was saved; kNever: it was unusable
 };
 
 }  // namespace rover::supervisor

@@ -116,15 +116,16 @@ bool Locomotion::usable(const WheelReading& wheels, Utime now) const {
 }
 
 Locomotion::Target Locomotion::target_from(const MotionCommand& command, const DrivePermit& permit) const {
+  const double limit_mps = std::min(vehicle_.top_speed_mps, permit.max_speed_mps);
   if (command.mode == MotionMode::kArc) {
-    const double limit = std::min(vehicle_.top_speed_mps, permit.max_speed_mps);
     const double curvature =
         std::clamp(command.curvature_per_m, -config_.max_curvature_per_m, config_.max_curvature_per_m);
-    return {Geometry::kArc, std::clamp(command.speed_mps, -limit, limit), curvature};
+    return {Geometry::kArc, std::clamp(command.speed_mps, -limit_mps, limit_mps), curvature};
   }
   if (command.mode == MotionMode::kPointTurn) {
-    const double limit = config_.max_turn_rate_radps;
-    return {Geometry::kPointTurn, std::clamp(command.turn_rate_radps, -limit, limit) * turn_radius_m_, 0.0};
+    const double limit_radps = config_.max_turn_rate_radps;
+    const double wheel_mps = std::clamp(command.turn_rate_radps, -limit_radps, limit_radps) * turn_radius_m_;
+    return {Geometry::kPointTurn, std::clamp(wheel_mps, -limit_mps, limit_mps), 0.0};
   }
   return {geometry_, 0.0, curvature_per_m_};
 }

@@ -21,15 +21,15 @@ void DisparityOffset::add(const OffsetMeasurement& measurement, double used_px) 
   px_ += config_.information_factor * gradient / information_;
   px_ = std::clamp(px_, -config_.max_px, config_.max_px);
   const double information = config_.information_factor * measurement.information;
-  recent_information_ = kRemembered * recent_information_ + information;
-  recent_gradient_ =
-      kRemembered * recent_gradient_ + config_.information_factor * measurement.gradient + information * used_px;
+  recent_.information = kRemembered * recent_.information + information;
+  recent_.gradient =
+      kRemembered * recent_.gradient + config_.information_factor * measurement.gradient + information * used_px;
 }
 
 bool DisparityOffset::displaced() const {
-  if (!(recent_information_ > 0.0)) return false;
-  const double sigma_px = 1.0 / std::sqrt(recent_information_);
-  return std::abs(recent_gradient_ / recent_information_) - 2.0 * sigma_px > kDisplacedBounds * config_.max_px;
+  if (!(recent_.information > 0.0)) return false;
+  const double sigma_px = 1.0 / std::sqrt(recent_.information);
+  return std::abs(recent_.gradient / recent_.information) - 2.0 * sigma_px > kDisplacedBounds * config_.max_px;
 }
 
 }  // namespace rover::vo

@@ -21,6 +21,12 @@ struct OffsetMeasurement {
   double information = 0.0;  // 1/px^2
 };
 
+// What the newest measurements show; older ones are forgotten.
+struct OffsetEvidence {
+  double information = 0.0;
+  double gradient = 0.0;  // at an offset of 0
+};
+
 class DisparityOffset {
  public:
   explicit DisparityOffset(const DisparityOffsetConfig& config);
@@ -29,6 +35,8 @@ class DisparityOffset {
   double px() const { return px_; }
   // The newest measurements show twice the bound and more, by two standard deviations; the estimate of all is slow.
   bool displaced() const;
+  const OffsetEvidence& recent() const { return recent_; }
+  void restore(const OffsetEvidence& recent) { recent_ = recent; }
   // `used_px`: offset applied while measuring.
   void add(const OffsetMeasurement& measurement, double used_px);
 
@@ -36,8 +44,7 @@ class DisparityOffset {
   DisparityOffsetConfig config_;
   double px_ = 0.0;
   double information_;
-  double recent_information_ = 0.0;  // older measurements are forgotten
-  double recent_gradient_ = 0.0;     // at an offset of 0
+  OffsetEvidence recent_;
 };
 
 }  // namespace rover::vo

@@ -1,10 +1,12 @@
 #include "visual_odometry/node.hpp"
 
+#include <cmath>
 #include <opencv2/core.hpp>
 #include <rover/vo_motion_t.hpp>
 #include <string>
 
 #include "common/bus/convert.hpp"
+#include "common/core/state_bytes.hpp"
 #include "visual_odometry/convert.hpp"
 
 namespace rover::vo {
@@ -18,7 +20,7 @@ const char* to_string(Status status) {
 }  // namespace
 
 OdometryNode::OdometryNode(Node& node, const NodeConfig& config)
-    : node_(node), odometry_(config.odometry), gyro_(to_utime(config.gyro_history_s)) {
+    : node_(node), checkpoint_(node), odometry_(config.odometry), gyro_(to_utime(config.gyro_history_s)) {
   cv::setNumThreads(1);
   const Utime latency = to_utime(config.latency_s);
   node_.subscribe<imu_t>(channel::kImu, [this](const imu_t& m) { on_imu(m); });
@@ -27,6 +29,8 @@ OdometryNode::OdometryNode(Node& node, const NodeConfig& config)
   node_.subscribe_slow<image_t>(channel::kLocCamRectRight, latency,
                                 [this](const image_t& m) { on_image(channel::kLocCamRectRight, m, right_); });
   node_.subscribe_slow<disparity_t>(channel::kDisparity, latency, [this](const disparity_t& m) { on_disparity(m); });
+  node_.on_step([this](Utime) { checkpoint_.publish_restored(); });
+  restore();
 }
 
 void OdometryNode::on_imu(const imu_t& message) {
@@ -75,6 +79,7 @@ void OdometryNode::publish(const OdometryResult& result) {
   vo_motion_t message{};
   motion_to(result, message);
   node_.publish(channel::kVo, message, result.utime);
+  if (checkpoint_.due() || result.status != status_) save();
   if (result.status == status_) return;
   status_ = result.status;
   node_.set_status(status_ == Status::kOk ? heartbeat_t::OK : heartbeat_t::DEGRADED,
@@ -82,6 +87,22 @@ void OdometryNode::publish(const OdometryResult& result) {
   node_.log(status_ == Status::kOk ? "INFO" : "WARN", std::string("VO_STATUS status=") + to_string(status_) +
                                                           " inliers=" + std::to_string(result.inliers) +
                                                           " features=" + std::to_string(result.features));
+}
+
+void OdometryNode::restore() {
+  checkpoint_.restore([this](const CheckpointStore::Bytes& bytes) {
+    StateReader in(bytes);
+    const auto evidence = in.get<OffsetEvidence>();
+    if (!in.finished() || !std::isfinite(evidence.information + evidence.gradient)) return false;
+    odometry_.restore(evidence);
+    return true;
+  });
+}
+
+void OdometryNode::save() {
+  StateWriter out;
+  out.put(odometry_.offset_evidence());
+  checkpoint_.save(out.take());
 }
 
 }  // namespace rover::vo

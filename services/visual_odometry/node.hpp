@@ -6,6 +6,7 @@
 #include <rover/image_t.hpp>
 #include <rover/imu_t.hpp>
 
+#include "common/bus/checkpoint_store.hpp"
 #include "common/bus/node.hpp"
 #include "visual_odometry/config.hpp"
 #include "visual_odometry/odometry.hpp"
@@ -33,8 +34,11 @@ class OdometryNode {
   void on_disparity(const disparity_t& message);
   void step_if_complete();
   void publish(const OdometryResult& result);
+  void restore();
+  void save();
 
   Node& node_;
+  CheckpointStore checkpoint_;
   Odometry odometry_;
   RotationBuffer gyro_;
   std::optional<Stamped<GrayImage>> left_;

@@ -78,6 +78,9 @@ class Odometry {
   Utime previous_utime() const { return previous_utime_; }
   // Estimated error of the calibration.
   DisparityCorrection correction() const { return {offset_.px(), epipolar_.roll_px(), epipolar_.focal_px()}; }
+  // Of kDisplaced, over restarts: a stationary rover finds none.
+  const OffsetEvidence& offset_evidence() const { return offset_.recent(); }
+  void restore(const OffsetEvidence& evidence) { offset_.restore(evidence); }
 
  private:
   struct StereoPyramid;

@@ -72,6 +72,21 @@ TEST_F(CheckpointStoreTest, UnusableCheckpointIsNotPublished) {
   EXPECT_TRUE(published_.empty());
 }
 
+TEST_F(CheckpointStoreTest, DamagedFileIsLoggedAndHasNoBytes) {
+  Node first(options(), bus_);
+  CheckpointStore(first).save({1, 2, 3});
+  std::filesystem::resize_file(dir_ + "/node.ckpt", 5);
+  Node second(options(), bus_);
+  std::vector<Bytes> passed;
+  testing::internal::CaptureStdout();
+  CheckpointStore(second).restore([&](const Bytes& bytes) {
+    passed.push_back(bytes);
+    return false;
+  });
+  EXPECT_NE(testing::internal::GetCapturedStdout().find("CHECKPOINT unusable"), std::string::npos);
+  EXPECT_EQ(passed, std::vector<Bytes>{{}});
+}
+
 TEST_F(CheckpointStoreTest, WithoutRunFolderSaveDoesNothing) {
   Node node({.name = "node"}, bus_);
   CheckpointStore kept(node);

@@ -308,6 +308,47 @@ TEST_F(NodeTest, AMessageWithoutSequenceNumberIsNotTaken) {
             std::string::npos);
 }
 
+// It would look fresh until then, and all later ones would be older.
+TEST_F(NodeTest, AMessageMeasuredInTheFutureDoesNotEndItsStream) {
+  Node node({.name = "node"}, bus_);
+  std::vector<double> taken;
+  node.subscribe<slip_t>(channel::kSlip, [&](const slip_t& message) { taken.push_back(message.wheel_mps); });
+  slip_t future = slip(1.0, 3'600'000'000, 20'000);
+  slip_t next = slip(2.0, 20'000, 40'000);
+  testing::internal::CaptureStdout();
+  bus_.publish(channel::kSlip, &future);
+  tick(node, 20'000, world_.take_updated());
+  EXPECT_EQ(node.age_s(channel::kSlip), kInfinity);
+  bus_.publish(channel::kSlip, &next);
+  tick(node, 40'000);
+  EXPECT_EQ(taken, std::vector<double>{2.0});
+  EXPECT_NE(
+      testing::internal::GetCapturedStdout().find("BAD_MESSAGE channel=SLIP count=1 why=measured after its release"),
+      std::string::npos);
+}
+
+TEST_F(NodeTest, AFlippedBitMakesNoMessageOfTheFuture) {
+  Node node({.name = "node", .allow_injection = true}, bus_);
+  int taken = 0;
+  node.subscribe<slip_t>(channel::kSlip, [&](const slip_t& message) {
+    ++taken;
+    EXPECT_LE(message.header.utime, message.header.release_utime);
+  });
+  injection_t corrupt{};
+  corrupt.fault = "corrupt";
+  corrupt.target = channel::kSlip;
+  corrupt.amount = 1.0;
+  corrupt.until_utime = 3'600'000'000;
+  corrupt.header = world_.next(channel::kInject, 0, 20'000);
+  bus_.publish(channel::kInject, &corrupt);
+  for (Utime t = 20'000; t <= 6'000'000; t += 20'000) {
+    slip_t message = slip(1.0, t, t);
+    bus_.publish(channel::kSlip, &message);
+    tick(node, t);
+  }
+  EXPECT_GT(taken, 50);
+}
+
 TEST_F(NodeTest, AnswersATickThatIsGivenAgain) {
   Node node({.name = "node"}, bus_);
   int steps = 0;

@@ -52,6 +52,17 @@ TEST(ArrivalLedger, GivingUpGoesOnBehindTheHole) {
   EXPECT_TRUE(ledger.complete(until(4)));
 }
 
+// In real time nobody gives up on a lost message.
+TEST(ArrivalLedger, RemembersNoMoreThanAThousandMessagesBehindAHole) {
+  ArrivalLedger ledger;
+  ledger.arrived("C", header_with_seq(1));
+  for (std::int64_t seq = 3; seq <= 1026; ++seq) EXPECT_TRUE(ledger.arrived("C", header_with_seq(seq)));
+  EXPECT_FALSE(ledger.complete(until(3)));
+  EXPECT_TRUE(ledger.arrived("C", header_with_seq(1027)));
+  EXPECT_TRUE(ledger.complete(until(1027)));
+  EXPECT_FALSE(ledger.arrived("C", header_with_seq(2)));
+}
+
 TEST(StreamCounter, CountsEachChannelAndListsWhatGrew) {
   StreamCounter counter("node", 3);
   counter.next("A", 0, 0);

@@ -167,6 +167,21 @@ TEST_F(LocomotionTest, SpeedIsLimitedByThePermit) {
   EXPECT_NEAR(commanded_speed(), 0.05, 1e-12);
 }
 
+TEST_F(LocomotionTest, WheelsOfAPointTurnAreLimitedByThePermit) {
+  const double radius_m = point_turn_radius_m(config_.vehicle);
+  for (const double turn_rate : {to_rad(13.0), -to_rad(13.0)}) {
+    point_turn(turn_rate);
+    max_speed_ = 0.05;
+    run(15.0);
+    EXPECT_NEAR(commanded_speed(), 0.05, 1e-12);
+    EXPECT_EQ(rover_.twist().turn_radps > 0.0, turn_rate > 0.0);
+    max_speed_ = 0.2;
+    run(3.0);
+    const auto unlimited = point_turn_setpoints(config_.vehicle, turn_rate * radius_m / radius_m);
+    EXPECT_EQ(out_.wheels.drive_rate_radps, unlimited.drive_rate_radps);
+  }
+}
+
 TEST_F(LocomotionTest, CurvatureIsLimitedByTheMinimumRadius) {
   arc(0.1, 5.0);
   run(15.0);

@@ -62,6 +62,19 @@ TEST(Monitor, NanAndSilenceRaise) {
   EXPECT_TRUE(old.step(1'000'001, true, age_reading(0, 1'000'001, 1.0)));
 }
 
+TEST(Monitor, DataOfTheFutureAreInvalidNotFresh) {
+  MonitorRow counted = row(0.0);
+  counted.n = counted.m = 3;
+  Monitor monitor(counted);
+  const auto step = [&](Utime now) { return monitor.step(now, true, age_reading(3'600'000'000, now, 1.0)); };
+  EXPECT_FALSE(step(0));
+  EXPECT_FALSE(step(kTickUs));
+  EXPECT_TRUE(step(2 * kTickUs));
+  EXPECT_EQ(monitor.reading().condition, Condition::kInvalid);
+  EXPECT_EQ(monitor.visible_utime(), 2 * kTickUs);
+  EXPECT_EQ(age_reading(1'000, 1'000, 1.0).condition, Condition::kFalse);
+}
+
 TEST(Monitor, NOfMCountsMeasurementsNotTicks) {
   MonitorRow counted = row(0.0);
   counted.n = 3;

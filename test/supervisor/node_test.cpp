@@ -160,28 +160,100 @@ TEST(Convert, UnknownStatusCountsAsBad) {
   EXPECT_FALSE(report_from(pose, 0.62).usable);
 }
 
-TEST(SupervisorCheckpoint, MotorHeatIsSavedEachSecond) {
-  const std::string dir = testing::TempDir() + "/supervisor_checkpoint_test";
-  std::filesystem::remove_all(dir);
-  std::filesystem::create_directories(dir);
-  test::BusWorld world;
-  Node node({.name = "supervisor", .run_dir = dir}, world.bus);
-  const SupervisorNode service(node, load_config(ROVER_SOURCE_DIR "/config"),
-                               [](const std::string&, const char*) { return false; });
-  wheel_state_t wheels{};
-  wheels.drive_current_a[2] = 4.0;
-  for (int i = 0; i < 175; ++i) {
-    world.send(channel::kWheelState, wheels);
-    world.tick(node);
+// A supervisor without inputs, with a run folder.
+class SupervisorCheckpointTest : public testing::Test {
+ protected:
+  SupervisorCheckpointTest() {
+    std::filesystem::remove_all(dir_);
+    std::filesystem::create_directories(dir_);
   }
-  const auto bytes = load_checkpoint(dir, "supervisor");
-  ASSERT_TRUE(bytes);
-  const auto state = persistent_state_from(*bytes);
+  ~SupervisorCheckpointTest() override { std::filesystem::remove_all(dir_); }
+
+  void start() {
+    node_ = std::make_unique<Node>(NodeOptions{.name = "supervisor", .run_dir = dir_}, world_.bus);
+    service_ = std::make_unique<SupervisorNode>(*node_, load_config(ROVER_SOURCE_DIR "/config"),
+                                                [](const std::string&, const char*) { return false; });
+  }
+  void run(double seconds) {
+    for (const Utime end = world_.now + to_utime(seconds); world_.now < end;) {
+      if (wheels_) world_.send(channel::kWheelState, *wheels_);
+      world_.tick(*node_);
+    }
+  }
+  std::optional<PersistentState> saved() const {
+    const auto bytes = load_checkpoint(dir_, "supervisor");
+    return bytes ? persistent_state_from(*bytes) : std::nullopt;
+  }
+
+  const std::string dir_ = testing::TempDir() + "/supervisor_checkpoint_test";
+  test::BusWorld world_;
+  std::optional<wheel_state_t> wheels_;
+  std::unique_ptr<Node> node_;
+  std::unique_ptr<SupervisorNode> service_;
+};
+
+TEST_F(SupervisorCheckpointTest, MotorHeatIsSavedEachSecond) {
+  wheels_ = wheel_state_t{};
+  wheels_->drive_current_a[2] = 4.0;
+  start();
+  run(3.5);
+  const auto state = saved();
   ASSERT_TRUE(state);
-  EXPECT_GE(state->heat.utime, world.now - 1'100'000);
-  EXPECT_LE(state->heat.utime, world.now);
+  EXPECT_GE(state->heat.utime, world_.now - 1'100'000);
+  EXPECT_LE(state->heat.utime, world_.now);
   EXPECT_NEAR(state->heat.drive_i2t_load[2], 0.064, 0.02);  // after 2.5 to 3.5 s at 4 A
-  std::filesystem::remove_all(dir);
+}
+
+TEST_F(SupervisorCheckpointTest, TimeIsSavedEachSecondAlsoWithoutInputs) {
+  start();
+  run(3.5);
+  const auto state = saved();
+  ASSERT_TRUE(state);
+  EXPECT_GE(state->utime, world_.now - 1'100'000);
+}
+
+TEST_F(SupervisorCheckpointTest, FreshRunBootsAndAnOldOrDamagedFileIsSafe) {
+  const auto states = world_.listen<supervisor_state_t>(channel::kState);
+  start();
+  run(0.2);
+  ASSERT_FALSE(states->empty());
+  EXPECT_EQ(states->back().state, +supervisor_state_t::BOOT);
+  world_.now += to_utime(20.0);
+  start();
+  run(0.2);
+  EXPECT_EQ(states->back().state, +supervisor_state_t::SAFE);
+  EXPECT_EQ(states->back().cause, "checkpoint_old");
+  EXPECT_EQ(saved()->state, State::kSafe);
+  std::filesystem::resize_file(dir_ + "/supervisor.ckpt", 5);
+  testing::internal::CaptureStdout();
+  start();
+  run(0.2);
+  EXPECT_NE(testing::internal::GetCapturedStdout().find("CHECKPOINT unusable"), std::string::npos);
+  EXPECT_EQ(states->back().state, +supervisor_state_t::SAFE);
+  EXPECT_EQ(states->back().cause, "checkpoint_unusable");
+}
+
+TEST_F(SupervisorCheckpointTest, FullDiskIsTriedOnceASecondAndForgottenAfterwards) {
+  const auto beats = world_.listen<heartbeat_t>(channel::kHeartbeat);
+  std::filesystem::create_directories(dir_ + "/supervisor.ckpt.new");  // instead of the file
+  start();
+  ground_command_t stop{};
+  stop.kind = ground_command_t::EMERGENCY_STOP;
+  world_.send(channel::kGroundCommand, stop);
+  testing::internal::CaptureStdout();
+  run(3.0);
+  const std::string log = testing::internal::GetCapturedStdout();
+  int warnings = 0;
+  for (size_t at = log.find("not saved"); at != std::string::npos; at = log.find("not saved", at + 1)) ++warnings;
+  EXPECT_EQ(warnings, 3);
+  ASSERT_FALSE(beats->empty());
+  EXPECT_EQ(beats->back().status, +heartbeat_t::DEGRADED);
+  std::filesystem::remove(dir_ + "/supervisor.ckpt.new");
+  run(1.5);
+  EXPECT_EQ(beats->back().status, +heartbeat_t::OK);
+  EXPECT_EQ(beats->back().text, "");
+  ASSERT_TRUE(saved());
+  EXPECT_EQ(saved()->state, State::kSafe);
 }
 
 TEST(PersistentStateCodec, AllOfItIsRestored) {
@@ -196,6 +268,7 @@ TEST(PersistentStateCodec, AllOfItIsRestored) {
   state.counters = {{{"stereo", {1'000'000, 2'000'000}}}, {1.25, 3.5}};
   state.restart_attempts = {{"slam", {3'000'000}}};
   state.heat = {4'000'000, {0.1, 0.2, 0.3, 0.4, 0.5, 0.6}, {1.1, 1.2, 1.3, 1.4}};
+  state.utime = 5'000'000;
   EXPECT_EQ(persistent_state_from(bytes_of(state)), state);
 }
 
@@ -204,9 +277,9 @@ TEST(PersistentStateCodec, OtherVersionsAndDamagedTextsAreRefused) {
   const std::string text(bytes.begin(), bytes.end());
   const auto read = [](const std::string& json) { return persistent_state_from({json.begin(), json.end()}); };
   ASSERT_TRUE(read(text));
-  const size_t version = text.find("\"version\":2");
+  const size_t version = text.find("\"version\":3");
   ASSERT_NE(version, std::string::npos);
-  EXPECT_FALSE(read(std::string(text).replace(version, 11, "\"version\":1")));
+  EXPECT_FALSE(read(std::string(text).replace(version, 11, "\"version\":2")));
   EXPECT_FALSE(read(R"({"state":2,"level":0,"raised_by_path":false,"forced":2,"hazard_stops":0,"faults":[]})"));
   EXPECT_FALSE(read(text.substr(0, text.size() / 2)));
 }

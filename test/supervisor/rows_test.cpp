@@ -383,6 +383,7 @@ TEST(FdirTable, NanIsAFault) {
       {"pose_status", [](RowsRig& rig) { rig.pose.position_odom_body_m[0] = kNaN; }},
       {"pose_status", [](RowsRig& rig) { rig.pose.quat_map_odom_wxyz[2] = kNaN; }},
       {"pose_sigma", [](RowsRig& rig) { rig.pose.covariance[0] = kNaN; }},
+      {"pose_sigma", [](RowsRig& rig) { rig.pose.covariance[7] = kNaN; }},
       {"tilt_rate", [](RowsRig& rig) { rig.pose.rate_body_radps[0] = kNaN; }},
       {"slip", [](RowsRig& rig) { rig.slip.slip_ratio = kNaN; }},
       {"hazards_blind", [](RowsRig& rig) { rig.hazards.coverage = static_cast<float>(kNaN); }},

@@ -71,10 +71,13 @@ class SupervisorTest : public testing::Test {
     EXPECT_EQ(out_.answers.at(0).id, command_id_);
     return out_.answers.at(0);
   }
-  void restart_supervisor() {
-    const PersistentState persistent_state = supervisor_.persistent_state();
+  // `path`: repeated by the planner.
+  void restart_supervisor(const std::optional<PathLevels>& path = PathLevels{1}) {
+    PersistentState persistent_state = supervisor_.persistent_state();
+    persistent_state.utime = now_;
     supervisor_ = Supervisor(config_);
     supervisor_.restore(persistent_state);
+    if (path) supervisor_.on_path(*path);
     EXPECT_EQ(supervisor_.persistent_state().heat, persistent_state.heat);
     EXPECT_EQ(supervisor_.persistent_state().counters, persistent_state.counters);
     tick();
@@ -888,10 +891,8 @@ TEST_F(SupervisorTest, RestartKeepsTheBacktrackLimit) {
   run(3.0);
   const std::vector<std::string> slow = {"roll_high", "roll_steep"};
   ASSERT_EQ(supervisor_.active_faults(), slow);
-  restart_supervisor();
-  run(1.0);
-  supervisor_.on_path(back);  // repeated each second
-  run(3.0);
+  restart_supervisor(back);
+  run(4.0);
   EXPECT_TRUE(out_.permit.granted);
   EXPECT_EQ(supervisor_.active_faults(), slow);
   pose_.roll_rad = to_rad(-23.5);
@@ -977,7 +978,9 @@ TEST_F(SupervisorTest, RestartResumesTheStateWhenInputsAreHealthy) {
     PersistentState persistent_state;
     persistent_state.state = before;
     persistent_state.hazard_stops = 3;
+    persistent_state.utime = now_;
     supervisor_.restore(persistent_state);
+    supervisor_.on_path({1});
     tick();
     EXPECT_FALSE(out_.permit.granted);
     run(3.0);
@@ -985,6 +988,80 @@ TEST_F(SupervisorTest, RestartResumesTheStateWhenInputsAreHealthy) {
     EXPECT_EQ(supervisor_.hazard_stops(), 3);
     EXPECT_TRUE(restarts_.empty());
   }
+}
+
+// As when the disk was full: EMERGENCY_STOP may have been ordered after it was saved.
+TEST_F(SupervisorTest, RestartWithAnOldOrUnusableStateIsSafe) {
+  run(20.0);
+  for (const double age_s : {10.1, -10.1, kNaN}) {  // NaN: unusable
+    SCOPED_TRACE(age_s);
+    PersistentState driving;
+    driving.state = State::kDriving;
+    if (!std::isnan(age_s)) driving.utime = now_ - to_utime(age_s);
+    supervisor_ = Supervisor(config_);
+    supervisor_.restore(std::isnan(age_s) ? std::nullopt : std::optional(driving));
+    supervisor_.on_path({1});
+    changes_.clear();
+    run(5.0);
+    EXPECT_EQ(supervisor_.state(), State::kSafe);
+    ASSERT_EQ(changes_.size(), 1u);
+    EXPECT_EQ(changes_[0].cause, std::isnan(age_s) ? "checkpoint_unusable" : "checkpoint_old");
+    EXPECT_FALSE(command(CommandKind::kGo).accepted);
+    EXPECT_TRUE(command(CommandKind::kClearSafe).accepted);
+    EXPECT_TRUE(command(CommandKind::kGo).accepted);
+  }
+}
+
+TEST_F(SupervisorTest, ProcessThatIsBackWithinSecondsDrivesOn) {
+  start_driving();
+  PersistentState saved = supervisor_.persistent_state();
+  saved.utime = now_;
+  now_ += to_utime(5.0);
+  supervisor_ = Supervisor(config_);
+  supervisor_.restore(saved);
+  supervisor_.on_path({1});
+  EXPECT_LE(time_to_permit(), 1.5);
+}
+
+TEST_F(SupervisorTest, RestartDoesNotDriveBeforeTheZonesAreKnown) {
+  start_driving();
+  restart_supervisor(std::nullopt);
+  run(5.0);
+  EXPECT_FALSE(out_.permit.granted);
+  EXPECT_EQ(supervisor_.active_faults(), std::vector<std::string>{"keep_out"});
+  PathLevels path{1};
+  path.zones = {{"dune", false, {{0.5, -5}, {6, -5}, {6, 5}, {0.5, 5}}}};
+  supervisor_.on_path(path);
+  run(5.0);
+  EXPECT_FALSE(out_.permit.granted);
+  supervisor_.on_path({1});
+  EXPECT_LE(time_to_permit(), 1.1);
+}
+
+TEST_F(SupervisorTest, RestartWithoutAPathIsHealthy) {
+  run(2.0);
+  planner_.path_id = -1;
+  run(1.0);
+  restart_supervisor(std::nullopt);
+  run(2.0);
+  EXPECT_TRUE(command(CommandKind::kTeleop).accepted);
+  EXPECT_TRUE(out_.permit.granted);
+}
+
+TEST_F(SupervisorTest, RestartWhileBackingUpWithoutFaultKeepsTheOrdinaryLimits) {
+  start_driving();
+  PathLevels back{2};
+  back.backtrack = true;
+  planner_.path_id = control_.path_id = 2;
+  supervisor_.on_path(back);
+  restart_supervisor(std::nullopt);
+  run(0.5);
+  supervisor_.on_path(back);
+  run(3.0);
+  ASSERT_TRUE(out_.permit.granted);
+  pose_.roll_rad = to_rad(20.5);
+  EXPECT_LE(time_to_withdrawal(), 0.1);
+  EXPECT_EQ(changes_.back().evidence.threshold, 20.0);
 }
 
 // Adds heartbeats of the Full-level services and the map.
@@ -1119,12 +1196,13 @@ TEST_F(LevelTest, PathSegmentsRaiseAndLower) {
 
 TEST_F(LevelTest, RestartKeepsTheLevelOfThePath) {
   begin();
-  supervisor_.on_path({1, {0.0}, {Level::kFull}});
+  const PathLevels path{1, {0.0}, {Level::kFull}};
+  supervisor_.on_path(path);
   drive(2.0, 0.15);
   ASSERT_EQ(supervisor_.level(), Level::kFull);
   changes_.clear();
-  restart_supervisor();
-  drive(1.0, 0.15);  // the path is repeated each second
+  restart_supervisor(path);
+  drive(1.0, 0.15);
   EXPECT_EQ(supervisor_.level(), Level::kFull);
   EXPECT_EQ(last_level_change(), nullptr);
 }

@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <rover/vo_motion_t.hpp>
 
+#include "common/bus/checkpoint.hpp"
 #include "common/bus/convert.hpp"
+#include "common/core/state_bytes.hpp"
 #include "synthetic_ground.hpp"
 #include "test/stereo/one_node_world.hpp"
 
@@ -17,7 +20,8 @@ const std::string kConfig = std::string(ROVER_SOURCE_DIR) + "/config";
 
 class OdometryNodeTest : public testing::Test {
  protected:
-  OdometryNodeTest() : world_("visual_odometry"), node_(world_.node(), load_config(kConfig)), ground_(1) {
+  explicit OdometryNodeTest(const std::string& run_dir = "")
+      : world_("visual_odometry", run_dir), node_(world_.node(), load_config(kConfig)), ground_(1) {
     world_.record(channel::kVo, motions_);
   }
 
@@ -112,6 +116,33 @@ TEST_F(OdometryNodeTest, InvalidInputsAreCountedAndIgnored) {
   EXPECT_EQ(world_.malformed(channel::kImu), 1);
   ASSERT_EQ(motions_.size(), 1U);
   EXPECT_EQ(motions_[0].status, int{vo_motion_t::OK});
+}
+
+// The folder of a process that noticed a knock.
+class KnockedOdometryNodeTest : public OdometryNodeTest {
+ protected:
+  KnockedOdometryNodeTest() : OdometryNodeTest(knocked_folder()) {}
+  ~KnockedOdometryNodeTest() override { std::filesystem::remove_all(knocked_folder()); }
+
+  static std::string knocked_folder() {
+    const std::string dir = testing::TempDir() + "/knocked_odometry";
+    std::filesystem::create_directories(dir);
+    StateWriter out;
+    out.put(OffsetEvidence{100.0, 360.0});
+    save_checkpoint(dir, "visual_odometry", out.take());
+    return dir;
+  }
+};
+
+// Motion alone shows it, and the rover may be stationary.
+TEST_F(KnockedOdometryNodeTest, DisplacedCamerasAreDisplacedAfterARestart) {
+  const std::string file = testing::TempDir() + "/knocked_odometry/visual_odometry.ckpt";
+  std::filesystem::remove(file);
+  drive_to(SyntheticGround::over_ground(0.0, 0.0, 0.0), 0.0);
+  drive_to(SyntheticGround::over_ground(0.0, 0.0, 0.0), 0.0);
+  ASSERT_EQ(motions_.size(), 1U);
+  EXPECT_EQ(motions_[0].status, int{vo_motion_t::DISPLACED});
+  EXPECT_TRUE(std::filesystem::exists(file)) << "saved for the next process";
 }
 
 TEST(OdometryConfigFile, MatchesDefaults) {

@@ -1,5 +1,6 @@
 #include "common/bus/checkpoint_store.hpp"
 
+#include <filesystem>
 #include <rover/service_state_t.hpp>
 
 #include "common/bus/checkpoint.hpp"
@@ -13,10 +14,11 @@ constexpr Utime kPeriod = 1'000'000;
 
 void CheckpointStore::restore(const std::function<bool(const Bytes&)>& take) {
   if (node_.options().run_dir.empty()) return;
-  const auto bytes = load_checkpoint(node_.options().run_dir, node_.options().name);
-  if (!bytes) return;
-  if (!take(*bytes)) return node_.log("WARN", "CHECKPOINT unusable");
-  restored_ = *bytes;
+  std::error_code error;
+  if (!std::filesystem::exists(node_.options().run_dir + "/" + node_.options().name + ".ckpt", error)) return;
+  const Bytes bytes = load_checkpoint(node_.options().run_dir, node_.options().name).value_or(Bytes{});
+  if (!take(bytes)) return node_.log("WARN", "CHECKPOINT unusable");
+  restored_ = bytes;
   node_.log("INFO", "CHECKPOINT restored bytes=" + std::to_string(restored_.size()));
 }
 

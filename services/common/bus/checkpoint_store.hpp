@@ -15,7 +15,8 @@ class CheckpointStore {
   // The checkpoint has the service's name. Does nothing without a run folder.
   explicit CheckpointStore(Node& node) : node_(node) {}
 
-  // Passes the previous process's checkpoint, if any, to `take`, which returns whether it could use it.
+  // Passes the previous process's checkpoint, if any, to `take`, which returns whether it could use it. A damaged one
+  // has no bytes.
   void restore(const std::function<bool(const Bytes&)>& take);
   // Call at the first tick: publishes the restored checkpoint, so that a replay has no hidden input.
   void publish_restored();

@@ -94,6 +94,8 @@ void Inbox::receive(const lcm::ReceiveBuffer* buffer, const std::string& channel
     ++subscription.health.out_of_order;
     return;
   }
+  // It has arrived, so the tick that lists it does not wait for it.
+  if (pending.header.utime > pending.header.release_utime) return drop("measured after its release");
   if (injector_ && injector_->mutes(channel)) return;
   pending.channel = channel;
   if (injector_ && !raw) pending.bytes.assign(begin, begin + size);
@@ -154,7 +156,7 @@ void Inbox::inject_faults(Pending pending, std::vector<Pending>& passed) {
     Pending output{pending.release, pending.slow, pending.subscription, pending.channel, pending.header};
     header_t header{};
     const bool readable = peek_header(result.bytes.data(), static_cast<int>(result.bytes.size()), header);
-    if (readable && identity(header) == identity(pending.header))
+    if (readable && identity(header) == identity(pending.header) && header.utime <= header.release_utime)
       output.deliver = output.subscription->decode({output.channel, header, std::move(result.bytes)});
     if (result.delay > 0)
       enqueue(*pending.subscription, std::move(output), result.delay);

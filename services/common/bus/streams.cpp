@@ -9,6 +9,9 @@ bool in_range(std::int64_t value) {
   return value >= -kMax && value <= kMax;
 }
 
+// Waiting messages of a stream beyond a hole. In real time nobody gives up on a lost one.
+constexpr size_t kMaxAhead = 1024;
+
 }  // namespace
 
 StreamCounter::StreamCounter(std::string publisher, std::int64_t boot_id)
@@ -51,6 +54,7 @@ bool ArrivalLedger::arrived(const std::string& channel, const header_t& header) 
     return true;
   }
   if (header.seq <= arrival.contiguous || !arrival.ahead.insert(header.seq).second) return false;
+  if (arrival.ahead.size() > kMaxAhead) arrival.contiguous = *arrival.ahead.begin() - 1;
   while (arrival.ahead.erase(arrival.contiguous + 1) > 0) ++arrival.contiguous;
   return true;
 }
