@@ -2,8 +2,8 @@
 //
 // Starts anew, because the rover may have stopped, turned or been moved meanwhile: the slip window, the visual velocity
 // and the standstill timers. Motion records and poses before the restart are gone, so every visual motion and map
-// measurement from before it is rejected, and the time of the newest correction is not needed. The next SLAM_POSE
-// repeats what was pending of the last.
+// measurement from before it is rejected, and the time of the newest correction is not needed. What was pending of
+// SLAM's motions is lost, and so is its motion up to the next SLAM_POSE.
 #pragma once
 
 #include <Eigen/Geometry>

@@ -79,7 +79,9 @@ StartPose start_pose_from(const ground_command_t& message) {
 }
 
 MapMeasurement measurement_from(const slam_pose_t& message) {
-  return planar_from(message);
+  MapMeasurement m = planar_from(message);
+  m.position_observable = message.information > 0.0;
+  return m;
 }
 MapMeasurement measurement_from(const correction_t& message) {
   return planar_from(message);

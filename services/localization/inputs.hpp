@@ -62,6 +62,7 @@ struct MapMeasurement {
   Utime utime = kNever;
   Pose2 T_map_odom;
   Eigen::Matrix3d cov = Eigen::Matrix3d::Constant(kNaN);  // of the body in map: x, y, yaw
+  bool position_observable = true;                        // x and y; a match of SLAM may know only one direction
 };
 
 // Empty text if the input is valid, otherwise what is wrong with it.

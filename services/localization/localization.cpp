@@ -8,6 +8,7 @@ namespace {
 
 constexpr Utime kFutureUs = 1'000'000;    // later inputs than this after the newest tick are rejected
 constexpr Utime kEncoderGapUs = 500'000;  // wheel travel over a longer gap is unknown
+constexpr Utime kPoseGapUs = 100'000;     // the pose within a longer gap is unknown
 constexpr double kHistoryMarginS = 2.0;   // what leaves the history next
 constexpr double kMinCoverage = 0.5;      // of a record's time; the mean rate fills the rest
 constexpr double kWheelMotionRad = 0.01;  // smaller rotations are encoder noise
@@ -83,7 +84,7 @@ std::string_view Localization::set_start_pose(const StartPose& start) {
 std::string_view Localization::apply_correction(const MapMeasurement& measurement) {
   if (const auto error = validation_error(measurement); !error.empty()) return error;
   const auto T_odom_body = pose_at(measurement.utime);
-  if (!T_odom_body) return "of a time that is forgotten or to come";
+  if (!T_odom_body) return "of a time without a pose";
   // The pose's covariance is optimistic after long drives: inflate it if the correction lies outside the gate.
   const bool outside_gate = map_.known() && !map_.within_gate(measurement, *T_odom_body, predicted_.P);
   const auto rejection = map_.apply_correction(
@@ -98,21 +99,23 @@ std::string_view Localization::apply_correction(const MapMeasurement& measuremen
 std::string_view Localization::add_slam_pose(const MapMeasurement& measurement) {
   if (const auto error = validation_error(measurement); !error.empty()) return error;
   const auto T_odom_body = pose_at(measurement.utime);
-  if (!T_odom_body) return "of a time that is forgotten or to come";
+  if (!T_odom_body) return "of a time without a pose";
   const auto rejection = map_.rejection(measurement, *T_odom_body, predicted_.P);
   if (rejection.empty()) slam_queue_.push_back(measurement);
   return rejection;
 }
 
-// The next visual motion changes odometry at the time of a cloud for the last time. If it is overdue, it will not span
-// the gap.
+// The next visual motion changes odometry at the time of a cloud for the last time. If it is overdue, SLAM replaces it.
 void Localization::fuse_slam(Utime now) {
   for (; !slam_queue_.empty(); slam_queue_.pop_front()) {
     const MapMeasurement& slam = slam_queue_.front();
     const bool settled = fused_.utime >= slam.utime;
     if (!settled && to_seconds(now - slam.utime) < config_.status.visual_degraded_s) return;
-    map_.add_slam_pose(slam, settled ? fused_ : propagate_to(fused_, slam.utime));
-    limit_dead_reckoning(slam.utime);
+    FilterState at_cloud = settled ? fused_ : propagate_to(fused_, slam.utime);
+    const bool moved = map_.add_slam_pose(slam, at_cloud);
+    if (settled || !moved || !slam.position_observable) continue;
+    at_cloud.dead_reckoned_m = 0.0;
+    apply_fused_state(at_cloud);
   }
 }
 
@@ -201,8 +204,9 @@ void Localization::integrate_wheels(MotionRecord& record) {
     newest = wheel_queue_.front();
     wheel_queue_.pop_front();
   }
+  Utime gap = 0;
   if (newest && last_wheels_) {
-    const Utime gap = newest->utime - last_wheels_->utime;
+    gap = newest->utime - last_wheels_->utime;
     double fastest = 0.0;
     for (size_t i = 0; i < 6; ++i) {
       record.wheel_turn_rad[i] = newest->drive_angle_rad[i] - last_wheels_->drive_angle_rad[i];
@@ -217,13 +221,18 @@ void Localization::integrate_wheels(MotionRecord& record) {
   if (record.wheels_valid) {
     record.steer_rad = last_wheels_->steer_angle_rad;
     record.wheel_motion = wheels_.body_motion(record.wheel_turn_rad, record.steer_rad);
+    // The visual velocity has bridged the gap until this record.
+    if (wheels_bridged_) record.wheel_motion.head<2>() *= std::min(1.0, record.dt_s() / to_seconds(gap));
+    wheels_bridged_ = false;
     return;
   }
   record.wheel_turn_rad = {};
   const bool silent = to_seconds(record.end - newest_wheels_utime_) > config_.status.wheel_timeout_s;
   const bool recent_vo = newest_visual_utime_ != kNever &&
                          to_seconds(record.end - newest_visual_utime_) < config_.status.no_odometry_lost_s;
-  if (silent && recent_vo) record.wheel_motion.head<2>() = visual_velocity_mps_.head<2>() * record.dt_s();
+  if (!silent || !recent_vo) return;
+  record.wheel_motion.head<2>() = visual_velocity_mps_.head<2>() * record.dt_s();
+  wheels_bridged_ = !encoders_from_checkpoint_;  // a new process knows no visual velocity
 }
 
 void Localization::integrate_command(MotionRecord& record) const {
@@ -339,12 +348,6 @@ void Localization::apply_fused_state(const FilterState& fused) {
   smoothing_offset_rad_ = log_so3(R_out * predicted_.T_odom_body.linear().transpose());
 }
 
-void Localization::limit_dead_reckoning(Utime measured) {
-  double distance_m = 0.0;
-  for (const MotionRecord& r : history_.slice(measured, history_.end())) distance_m += ground_motion(r).norm();
-  predicted_.dead_reckoned_m = std::min(predicted_.dead_reckoned_m, distance_m);
-}
-
 // ---- output
 
 void Localization::update_pose(const MotionRecord& record) {
@@ -420,6 +423,7 @@ std::optional<Eigen::Isometry3d> Localization::pose_at(Utime utime) const {
       std::lower_bound(poses_.begin(), poses_.end(), utime, [](const StampedPose& p, Utime t) { return p.utime < t; });
   if (after->utime == utime) return after->T_odom_body;
   const auto before = std::prev(after);
+  if (after->utime - before->utime > kPoseGapUs) return std::nullopt;
   const double u = static_cast<double>(utime - before->utime) / static_cast<double>(after->utime - before->utime);
   return interpolate(before->T_odom_body, after->T_odom_body, u);
 }

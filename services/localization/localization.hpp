@@ -116,8 +116,6 @@ class Localization {
   void initialise(const MotionRecord& record);
   void predict(const MotionRecord& record);
   FilterState propagate_to(FilterState state, Utime to) const;
-  // SLAM measured the motion up to this time.
-  void limit_dead_reckoning(Utime measured);
   MotionRecord without_suspect_gyro(const MotionRecord& record) const;
   // Of the ground point, body axes: wheels and slip.
   Eigen::Vector2d ground_motion(const MotionRecord& record) const;
@@ -147,6 +145,7 @@ class Localization {
   std::deque<WheelSample> wheel_queue_;
   std::optional<WheelSample> last_wheels_;
   bool encoders_from_checkpoint_ = false;
+  bool wheels_bridged_ = false;  // by the visual velocity, since last_wheels_
   std::optional<WheelCommand> command_;
   Utime newest_imu_utime_ = kNever;
   Utime newest_wheels_utime_ = kNever;
@@ -161,7 +160,7 @@ class Localization {
   std::array<double, 4> steer_at_stop_rad_{};      // steering angles at the last movement
 
   bool initialised_ = false;
-  FilterState fused_;                                              // at the end of the newest visual motion
+  FilterState fused_;                                              // at the newest visual motion, or motion by SLAM
   FilterState predicted_;                                          // at the newest record
   Eigen::Vector3d visual_velocity_mps_ = Eigen::Vector3d::Zero();  // of the ground point, by the newest visual motion
   int gyro_conflicts_ = 0;

@@ -115,10 +115,10 @@ std::string_view MapAlignment::apply_correction(const MapMeasurement& m, const E
   return {};
 }
 
-void MapAlignment::add_slam_pose(const MapMeasurement& m, const FilterState& odometry) {
+bool MapAlignment::add_slam_pose(const MapMeasurement& m, const FilterState& odometry) {
   const auto before = std::exchange(slam_, SlamPose{m, odometry.noise_m2, odometry.noise_rad2});
   // SLAM's yaw variance grows from its anchor on. If it shrinks, the anchor is new, and the step is no motion.
-  if (!before || m.cov(2, 2) < before->measurement.cov(2, 2)) return;
+  if (!before || m.cov(2, 2) < before->measurement.cov(2, 2)) return false;
   const auto weight = [](double noise, double noise_before, double sigma) {
     const double gained = std::max(0.0, noise - noise_before);
     return gained / (gained + sigma * sigma);
@@ -129,6 +129,7 @@ void MapAlignment::add_slam_pose(const MapMeasurement& m, const FilterState& odo
                                 (from_planar(before->measurement.T_map_odom) * odometry.T_odom_body).translation();
   pending_ += Eigen::Vector3d(position * moved.x(), position * moved.y(),
                               yaw * wrap_angle(m.T_map_odom.yaw_rad - before->measurement.T_map_odom.yaw_rad));
+  return true;
 }
 
 void MapAlignment::step(double dt_s, const Eigen::Isometry3d& T_odom_body) {

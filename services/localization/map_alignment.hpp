@@ -47,7 +47,8 @@ class MapAlignment {
   std::string_view apply_correction(const MapMeasurement& m, const Eigen::Isometry3d& T_odom_body, const ErrorCov& P);
   // Takes effect gradually, in step(). SLAM is predicted with odometry, so only its motion of map against odom since
   // the last pose counts, weighted by the noise that odometry gained meanwhile. `odometry`: at the time of `m`.
-  void add_slam_pose(const MapMeasurement& m, const FilterState& odometry);
+  // False if the motion is unknown: after a restart, a correction or a new anchor of SLAM the first pose has none.
+  bool add_slam_pose(const MapMeasurement& m, const FilterState& odometry);
   void step(double dt_s, const Eigen::Isometry3d& T_odom_body);
 
   // Covariance after a measurement of x, y, yaw in map with noise `R_map`. Other errors are consider states

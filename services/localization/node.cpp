@@ -51,8 +51,7 @@ void LocalizationNode::subscribe() {
   node_.subscribe<ground_command_t>(channel::kGroundCommand,
                                     [this](const ground_command_t& m) { on_ground_command(m); });
   node_.subscribe<slam_pose_t>(channel::kSlamPose, [this](const slam_pose_t& m) {
-    if (m.status == slam_pose_t::OK && m.information > 0.0)
-      check(channel::kSlamPose, localization_.add_slam_pose(measurement_from(m)));
+    if (m.status == slam_pose_t::OK) check(channel::kSlamPose, localization_.add_slam_pose(measurement_from(m)));
   });
   node_.subscribe<correction_t>(channel::kCorrection, [this](const correction_t& m) {
     if (m.accepted) check(channel::kCorrection, localization_.apply_correction(measurement_from(m)));

@@ -18,6 +18,15 @@ double lateral_m(const Eigen::Vector3d& motion) {
   return std::cos(half) * motion.y() - std::sin(half) * motion.x();
 }
 
+// Of the record with wheels that is nearest to the middle.
+std::array<double, 4> steering_halfway(const std::vector<MotionRecord>& records) {
+  const size_t middle = records.size() / 2;
+  for (size_t away = 0; away <= middle; ++away)
+    for (const size_t i : {middle + away, middle - away})
+      if (i < records.size() && records[i].wheels_valid) return records[i].steer_rad;
+  return {};
+}
+
 template <class Interval>
 void drop_before(std::deque<Interval>& intervals, Utime before) {
   while (!intervals.empty() && intervals.front().end <= before) intervals.pop_front();
@@ -40,7 +49,7 @@ void SlipMonitor::add_visual(const std::vector<MotionRecord>& records, const Eig
     interval.lateral_m -= r.wheel_motion.y();
     for (size_t i = 0; i < turned.size(); ++i) turned[i] += r.wheel_turn_rad[i];
   }
-  const auto rolled = wheels_.wheel_travel_m(motion, records[records.size() / 2].steer_rad);
+  const auto rolled = wheels_.wheel_travel_m(motion, steering_halfway(records));
   for (size_t i = 0; i < rolled.size(); ++i)
     interval.visual_m +=
         (std::abs(turned[i]) < kMinWheelTurnRad ? std::abs(rolled[i]) : std::copysign(1.0, turned[i]) * rolled[i]) /

@@ -53,9 +53,12 @@ void SlamNode::reject_cloud(const std::string& why) {
 }
 
 void SlamNode::publish(const SlamResult& result, Utime utime) {
-  elevation_t elevation{};
-  elevation_to(slam_.elevation(), elevation);
-  node_.publish(channel::kElevation, elevation, utime);
+  // The map without this cloud would be old data with a fresh time.
+  if (result.inserted) {
+    elevation_t elevation{};
+    elevation_to(slam_.elevation(), elevation);
+    node_.publish(channel::kElevation, elevation, utime);
+  }
   slam_pose_t pose{};
   slam_pose_to(result, pose);
   node_.publish(channel::kSlamPose, pose, utime);

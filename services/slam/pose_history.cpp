@@ -6,6 +6,7 @@ namespace rover::slam {
 namespace {
 
 constexpr Utime kHistoryUs = 5'000'000;
+constexpr Utime kMaxGapUs = 100'000;  // POSE comes each tick
 
 }  // namespace
 
@@ -22,6 +23,7 @@ std::optional<Odometry> PoseHistory::at(Utime utime) const {
   if (next->utime == utime) return next->odometry;
   if (next == samples_.begin()) return std::nullopt;
   const PoseSample& previous = *std::prev(next);
+  if (next->utime - previous.utime > kMaxGapUs) return std::nullopt;
   const double u = static_cast<double>(utime - previous.utime) / static_cast<double>(next->utime - previous.utime);
   Odometry odometry = next->odometry;
   odometry.T_odom_body = interpolate(previous.odometry.T_odom_body, next->odometry.T_odom_body, u);

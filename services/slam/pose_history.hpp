@@ -18,7 +18,7 @@ class PoseHistory {
  public:
   // Ignores samples that are not newer than the newest.
   void add(const PoseSample& sample);
-  // Interpolated; empty outside the stored time span.
+  // Interpolated; empty outside the stored time span and within a gap.
   std::optional<Odometry> at(Utime utime) const;
 
  private:

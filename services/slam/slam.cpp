@@ -95,18 +95,23 @@ SlamResult Slam::step(const Cloud& cloud, const Odometry& odometry) {
   if (!result.rejection.empty()) return result;
   Random random(cloud_seed(config_.seed, cloud.utime));
   if (!running() || has_left_map(odometry)) start(odometry);
+  const bool visual_gap = odometry.dead_reckoned_m > previous_.dead_reckoned_m;
   predict(odometry, cloud.utime, random);
   utime_ = cloud.utime;
   const AlignedCloud aligned = align_to_gravity(cloud, odometry.T_odom_body, config_.attitude);
-  const MatchOutcome match = match_cloud(aligned, random);
+  MatchOutcome match = match_cloud(aligned, random);
   lost_count_ = match.status == Status::kLost ? lost_count_ + 1 : 0;
-  if (lost_count_ >= config_.lost_clouds) map_.clear();
-  if (lost_count_ == 0 || lost_count_ >= config_.lost_clouds) insert_cloud(aligned, match);
+  if (lost_count_ >= config_.lost_clouds) {
+    map_.clear();
+    match.plane.setZero();  // relative to the map that is gone
+  }
+  result.inserted = lost_count_ == 0 || lost_count_ >= config_.lost_clouds;
+  if (result.inserted) insert_cloud(aligned, match);
   result.status = match.status;
   result.T_slam_odom = T_slam_odom();
   result.T_map_odom = anchor_.T_map_odom(result.T_slam_odom);
   result.covariance = covariance();
-  result.information = match.information;
+  result.information = visual_gap && !match.position_observable ? 0.0 : match.information;
   result.particles = static_cast<int>(filter_.particles().size());
   return result;
 }
@@ -176,9 +181,16 @@ Slam::MatchOutcome Slam::match_cloud(const AlignedCloud& cloud, Random& random) 
         [&](const Pose2& pose) { return log_likelihood(project_to_observable(pose, predicted, info.observable)); });
   match.status = info.observable_directions > 0 ? Status::kOk : Status::kNoInformation;
   match.information = info.weakest_information;
+  match.position_observable = position_observable(info);
   match.plane = matcher_.fit(compose(filter_.mean(), bias), 2).plane;
   filter_.resample(random);
   return match;
+}
+
+bool Slam::position_observable(const MatchInformation& info) const {
+  const Eigen::Matrix2d information = info.matrix.topLeftCorner<2, 2>();
+  const double weakest = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(information).eigenvalues()(0);
+  return weakest * config_.match.unobservable_sigma_m * config_.match.unobservable_sigma_m > 1.0;
 }
 
 // Before the particles take the match: their mean is the predicted pose.
@@ -186,10 +198,8 @@ void Slam::learn_match_error(const Pose2& matched, const MatchInformation& info)
   const Pose2 predicted = filter_.mean();
   const Pose2 fit = between(predicted, {matched.x_m + info.to_best.x(), matched.y_m + info.to_best.y(), 0.0});
   const Eigen::Matrix2d R = Eigen::Rotation2Dd(predicted.yaw_rad).toRotationMatrix();
-  const Eigen::Matrix2d information = info.matrix.topLeftCorner<2, 2>();
-  const double weakest = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(information).eigenvalues()(0);
-  if (!(weakest * config_.match.unobservable_sigma_m * config_.match.unobservable_sigma_m > 1.0)) return;
-  const Eigen::Matrix2d covariance = information.inverse();
+  if (!position_observable(info)) return;
+  const Eigen::Matrix2d covariance = info.matrix.topLeftCorner<2, 2>().inverse();
   // Odometry also drifted since the matched part of the map was seen.
   const double pose_sigma_m = std::hypot(std::sqrt(0.5 * filter_.covariance().topLeftCorner<2, 2>().trace()),
                                          growth_per_m_ * config_.match.max_range_m);

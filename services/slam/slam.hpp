@@ -73,8 +73,11 @@ struct SlamResult {
   Pose2 T_slam_odom;
   Pose2 T_map_odom;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // of the body's x, y, yaw since the anchor, in map
-  double information = 0.0;  // 1 / standard deviation [1/m] of the weakest observable direction; 0: none
+  // 1 / standard deviation [1/m] of the weakest observable direction; 0: none, or visual odometry had a gap since the
+  // cloud before and x and y are not both observable.
+  double information = 0.0;
   int particles = 0;
+  bool inserted = false;  // into the map
 };
 
 // The map in the current odom frame, axes aligned with odom, centred on the rover.
@@ -109,6 +112,7 @@ class Slam {
   struct MatchOutcome {
     Status status = Status::kNoInformation;
     double information = 0.0;
+    bool position_observable = false;  // x and y
     Eigen::Vector3f plane = Eigen::Vector3f::Zero();
   };
   bool has_jumped(const Odometry& odometry, const Odometry& from, Utime dt) const;
@@ -118,6 +122,8 @@ class Slam {
   double yaw_noise_rad(const Odometry& odometry, Utime dt) const;
   void predict(const Odometry& odometry, Utime utime, Random& random);
   MatchOutcome match_cloud(const AlignedCloud& cloud, Random& random);
+  // x and y, if the heading is known (gyro).
+  bool position_observable(const MatchInformation& info) const;
   void learn_match_error(const Pose2& matched, const MatchInformation& info);
   void insert_cloud(AlignedCloud cloud, const MatchOutcome& match);
   void anchor();

@@ -25,14 +25,18 @@ StereoNode::StereoNode(Node& node, const NodeConfig& config)
 void StereoNode::process(const ImagePair& pair) {
   auto result = core_.step(pair.left, pair.right);
   if (!result) return;
-  if (pair.frozen) result->disparity = Disparity(result->disparity.width, result->disparity.height);
-  image_t image{};
-  image.exposure_s = pair.left_exposure_s;
-  image_to(result->left, image);
-  node_.publish(channel::kLocCamRectLeft, image, pair.utime);
-  image.exposure_s = pair.right_exposure_s;
-  image_to(result->right, image);
-  node_.publish(channel::kLocCamRectRight, image, pair.utime);
+  if (pair.frozen) {
+    // No images: visual odometry would see a stationary rover in them. Its next motion spans the gap.
+    result->disparity = Disparity(result->disparity.width, result->disparity.height);
+  } else {
+    image_t image{};
+    image.exposure_s = pair.left_exposure_s;
+    image_to(result->left, image);
+    node_.publish(channel::kLocCamRectLeft, image, pair.utime);
+    image.exposure_s = pair.right_exposure_s;
+    image_to(result->right, image);
+    node_.publish(channel::kLocCamRectRight, image, pair.utime);
+  }
   disparity_t disparity{};
   disparity_to(result->disparity, core_.camera(), disparity);
   node_.publish(channel::kDisparity, disparity, pair.utime);

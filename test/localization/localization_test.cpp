@@ -366,6 +366,20 @@ TEST(Localization, VisualOdometryBridgesMissingWheels) {
   EXPECT_EQ(drive.localization.pose().status, PoseStatus::kLost);
 }
 
+TEST(Localization, ShortEncoderGapIsCountedOnce) {
+  for (const double gap_s : {0.14, 0.3, 0.46}) {
+    SyntheticDrive drive({}, 11);
+    drive.command = arc;
+    drive.align_and_start();
+    drive.run(20.0);
+    drive.wheels_on = false;
+    drive.run(gap_s);
+    drive.wheels_on = true;
+    drive.run(1.0, [&] { EXPECT_LT(drive.localization.pose().velocity_body_mps.norm(), 0.25); });
+    EXPECT_LT(position_error(drive), 0.03);
+  }
+}
+
 TEST(Localization, InvalidInputIsRejectedAndChangesNothing) {
   SyntheticDrive clean({}, 12);
   SyntheticDrive dirty({}, 12);
@@ -580,6 +594,48 @@ TEST(Localization, SlamBridgesVisualOdometryForAnyDistance) {
   }
 }
 
+// Odometry on wheels alone; SLAM matches a cloud each 2.5 s.
+void drive_with_slam(SyntheticDrive& drive, int clouds, bool position_observable = true) {
+  for (int i = 0; i < clouds; ++i) {
+    drive.run(2.5);
+    MapMeasurement m;
+    m.utime = drive.localization.pose().utime - 400'000;
+    m.T_map_odom = planar(drive.localization.pose().T_map_odom);
+    m.cov = Vector3d(1e-4, 1e-4, 1e-6).asDiagonal();
+    m.position_observable = position_observable;
+    EXPECT_EQ(drive.localization.add_slam_pose(m), "");
+  }
+}
+
+TEST(Localization, ReturnOfVisualOdometryDoesNotUndoWhatSlamMeasured) {
+  SyntheticDrive drive({}, 25);
+  drive.command = arc;
+  drive.align_and_start(0.01, 0.001);
+  drive.run(10.0);
+  const Utime out = drive.now();
+  Utime back = out + to_utime(3600.0);
+  drive.corrupt_visual = [&](VisualMotion& m) {
+    if (m.utime > out && m.previous_utime < back) m.status = VisualStatus::kLost;
+  };
+  drive_with_slam(drive, 20);
+  const auto sigma_m = [&] { return std::sqrt(drive.localization.pose().cov(0, 0)); };
+  const double before_m = sigma_m();
+  back = drive.now();
+  drive.run(2.0);
+  ASSERT_EQ(drive.localization.pose().status, PoseStatus::kOk);
+  EXPECT_NEAR(sigma_m(), before_m, 0.1 * before_m);
+}
+
+TEST(Localization, SlamThatKnowsOneDirectionOnlyMeasuresNoDistance) {
+  SyntheticDrive drive({}, 25);
+  drive.command = arc;
+  drive.align_and_start(0.5, 0.05);
+  drive.run(10.0);
+  drive.visual_on = false;
+  drive_with_slam(drive, 5, false);
+  EXPECT_EQ(drive.localization.pose().reason, "too far on wheels alone");
+}
+
 // Longer than the history of motions.
 TEST(Localization, WheelsAreNotForgottenWhileNoVisualOdometryComes) {
   SyntheticDrive drive({}, 26);
@@ -678,6 +734,44 @@ TEST(Localization, RestartExtendsNeitherDeadReckoningNorTimeWithoutImu) {
     restart(drive);
     drive.run(0.5, [&] { EXPECT_EQ(drive.localization.pose().reason, reason); });
   }
+}
+
+// SLAM's motion since the cloud before is lost with the old process.
+TEST(Localization, FirstSlamPoseAfterRestartMeasuresNoDistance) {
+  SyntheticDrive drive({}, 25);
+  drive.command = arc;
+  drive.align_and_start(0.5, 0.05);
+  drive.run(10.0);
+  drive.visual_on = false;
+  const auto dead_reckoned_after_cloud_m = [&] {
+    drive_with_slam(drive, 1);
+    drive.run(1.5);
+    return drive.localization.checkpoint()->dead_reckoned_m;
+  };
+  dead_reckoned_after_cloud_m();
+  const double before_m = dead_reckoned_after_cloud_m();
+  restart(drive);
+  EXPECT_GT(dead_reckoned_after_cloud_m(), before_m + 0.5);
+  EXPECT_NEAR(dead_reckoned_after_cloud_m(), before_m, 0.01);
+}
+
+TEST(Localization, MapMeasurementWithinAGapOfThePoseIsRejected) {
+  SyntheticDrive drive({}, 24);
+  drive.command = arc;
+  drive.align_and_start(0.5, 0.05);
+  drive.run(10.0);
+  drive.process_stalled = true;
+  drive.run(1.0);
+  drive.process_stalled = false;
+  drive.run(0.5);
+  MapMeasurement m;
+  m.T_map_odom = planar(drive.localization.pose().T_map_odom);
+  m.cov = Vector3d(0.04, 0.04, 1e-4).asDiagonal();
+  m.utime = drive.now() - 1'000'000;
+  EXPECT_NE(drive.localization.add_slam_pose(m), "");
+  EXPECT_NE(drive.localization.apply_correction(m), "");
+  m.utime = drive.now() - 210'000;
+  EXPECT_EQ(drive.localization.apply_correction(m), "") << "between two ticks";
 }
 
 TEST(Localization, SlamPoseOlderThanCorrectionIsRejectedAfterRestart) {

@@ -105,12 +105,13 @@ class SlamSteps : public ::testing::Test {
  protected:
   SlamSteps() { map_.set_start({{0.0, 0.0, 0.0}, 0.0, 0.1, 0.1}, Eigen::Isometry3d::Identity()); }
   // One cloud, at x of map -> odom; odometry has gained this much noise since the start.
-  void slam_at(double x_m, double noise_m2, double sigma_m) {
+  // True if the motion since the cloud before is known.
+  bool slam_at(double x_m, double noise_m2, double sigma_m) {
     MapMeasurement m;
     m.T_map_odom.x_m = x_m;
     m.cov = Eigen::Matrix3d::Identity() * sigma_m * sigma_m;
     odometry_.noise_m2 = noise_m2;
-    map_.add_slam_pose(m, odometry_);
+    return map_.add_slam_pose(m, odometry_);
   }
   double x_m() const { return map_.T_map_odom().translation().x(); }
   void settle() {
@@ -136,8 +137,9 @@ TEST_F(SlamSteps, NoiseOfOdometryBetweenCloudsDecides) {
 }
 
 TEST_F(SlamSteps, NewAnchorIsNoMotion) {
-  slam_at(0.0, 0.0, 0.1);
-  slam_at(0.1, 1.0, 0.05);
+  EXPECT_FALSE(slam_at(0.0, 0.0, 0.1));
+  EXPECT_TRUE(slam_at(0.0, 0.0, 0.1));
+  EXPECT_FALSE(slam_at(0.1, 1.0, 0.05));
   settle();
   EXPECT_EQ(x_m(), 0.0);
 }
@@ -149,7 +151,7 @@ TEST_F(SlamSteps, StepOverACorrectionIsNoMotion) {
   correction.T_map_odom.x_m = 0.2;
   correction.cov = Eigen::Matrix3d::Identity() * 1e-9;
   ASSERT_EQ(map_.apply_correction(correction, odometry_.T_odom_body, wide_cov()), "");
-  slam_at(0.2, 1.0, 0.1);
+  EXPECT_FALSE(slam_at(0.2, 1.0, 0.1));
   settle();
   EXPECT_NEAR(x_m(), 0.2, 1e-6);
 }

@@ -10,6 +10,7 @@
 #include <rover/imu_t.hpp>
 #include <rover/pose_t.hpp>
 #include <rover/service_state_t.hpp>
+#include <rover/slam_pose_t.hpp>
 #include <rover/slip_t.hpp>
 #include <rover/vo_motion_t.hpp>
 #include <rover/wheel_state_t.hpp>
@@ -113,6 +114,23 @@ TEST_F(LocalizationNodeTest, MissingImuDegradesButPoseContinues) {
   EXPECT_EQ(poses_.size(), before + 50);
   EXPECT_EQ(poses_.back().status, int{pose_t::DEGRADED});
   EXPECT_NEAR(poses_.back().position_odom_body_m[0], 0.1, 0.01);
+}
+
+// Along the ridges wheels slip unseen.
+TEST_F(LocalizationNodeTest, SlamPoseWithoutInformationMovesMapButMeasuresNoDistance) {
+  run(2.0);
+  start_pose();
+  run(1.0, 0.1);
+  slam_pose_t slam{};
+  slam.x_m = poses_.back().position_map_odom_m[0];
+  slam.covariance[0] = slam.covariance[4] = slam.covariance[8] = 1e-4;
+  for (int i = 0; i < 5; ++i) {
+    world_.send(channel::kSlamPose, slam, now_);
+    slam.x_m += 0.02;
+    run(5.0, 0.1);
+  }
+  EXPECT_GT(poses_.back().position_map_odom_m[0], 10.04);
+  EXPECT_EQ(poses_.back().status, int{pose_t::LOST});
 }
 
 TEST_F(LocalizationNodeTest, InvalidInputIsCounted) {

@@ -135,8 +135,7 @@ class Drive {
   void deliver_slam(Utime now) {
     for (; !slam_poses_.empty() && slam_poses_.front().first <= now; slam_poses_.pop_front()) {
       const slam_pose_t& pose = slam_poses_.front().second;
-      if (pose.status == slam_pose_t::OK && pose.information > 0.0)
-        localization_.add_slam_pose(loc::measurement_from(pose));
+      if (pose.status == slam_pose_t::OK) localization_.add_slam_pose(loc::measurement_from(pose));
     }
   }
 

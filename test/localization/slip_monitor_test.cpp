@@ -106,6 +106,33 @@ TEST(SlipMonitor, SideSlipExcludesWheelOdometryAndCurvature) {
   EXPECT_NEAR(side_slip_on_arc(0.02, 0.15, 0.09), 0.09 * 0.04 / 0.15, 1e-4) << "small over a short distance";
 }
 
+TEST(SlipMonitor, RecordsWithoutWheelsInTheMiddleDoNotStraightenTheWheels) {
+  SlipMonitor monitor({}, WheelOdometry(test_vehicle()));
+  const Vehicle v = test_vehicle();
+  constexpr double kTurnRad = 0.08;
+  std::array<double, 6> travel_m{};  // of each wheel in a point turn
+  for (size_t i = 0; i < 6; ++i)
+    travel_m[i] = std::copysign(std::hypot(v.wheel_x_m[i], v.wheel_y_m[i]) * kTurnRad, -v.wheel_y_m[i]);
+  std::vector<MotionRecord> interval;
+  for (int k = 0; k < 20; ++k) {
+    MotionRecord r = tick((k + 1) * kTickUs, 0.0);
+    for (size_t i = 0; i < 4; ++i) {
+      const auto wheel = static_cast<size_t>(kSteeredWheels[i]);
+      r.steer_rad[i] = std::atan2(v.wheel_x_m[wheel], -v.wheel_y_m[wheel]);
+      if (std::abs(r.steer_rad[i]) > 0.5 * kPi) r.steer_rad[i] = wrap_angle(r.steer_rad[i] + kPi);
+    }
+    for (size_t i = 0; i < 6; ++i) r.wheel_turn_rad[i] = travel_m[i] / v.wheel_radius_m / 20.0;
+    if (k >= 8 && k < 12) {
+      r.wheels_valid = false;
+      r.steer_rad = {};
+    }
+    monitor.add(r);
+    interval.push_back(r);
+  }
+  monitor.add_visual(interval, {0.0, 0.0, kTurnRad});
+  EXPECT_NEAR(monitor.newest_traction(), 20.0 / 16.0, 1e-6);
+}
+
 TEST(SlipMonitor, UnknownSlipIsNotZero) {
   const SlipMonitor monitor({}, WheelOdometry(test_vehicle()));
   EXPECT_FALSE(monitor.slip(0).valid);

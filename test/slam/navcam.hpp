@@ -68,13 +68,14 @@ Cloud cloud_of(const Height& height_m, const Eigen::Isometry3d& T_world_body, co
   return cloud;
 }
 
-// Terrain with features: waves and half-sunk spheres on a grid. Planar if `relief` is 0.
+// Terrain with features: waves and half-sunk spheres on a grid. Planar if `relief` and `ridge_m` are 0.
 struct Ground {
   double relief = 1.0;
   double slope_x = 0.0;
+  double ridge_m = 0.0;  // height of ridges along y
 
   double operator()(double x, double y) const {
-    if (relief == 0.0) return slope_x * x;
+    if (relief == 0.0) return slope_x * x + ridge_m * std::sin(3.0 * x);
     double z = slope_x * x + relief * (0.12 * std::sin(0.9 * x + 0.4 * y) + 0.10 * std::sin(0.5 * y - 0.7 * x + 1.0) +
                                        0.02 * std::sin(4.1 * x) * std::cos(3.3 * y));
     return z + relief * rock(x, y);

@@ -214,6 +214,30 @@ TEST_F(SlamNodeTest, SingleOdometryJumpIsRejectedAndMapIsKept) {
   EXPECT_EQ(poses_[1].status, +slam_pose_t::OK);
 }
 
+TEST_F(SlamNodeTest, LostCloudGivesNoElevation) {
+  set_level(supervisor_state_t::FULL);
+  drive_to_and_wait({});
+  send_cloud(view({}), now_ - kExposure);
+  for (const size_t elevations : {1u, 1u, 2u}) {  // the third one restarts the map
+    drive_to_and_wait({});
+    send_cloud(view({30, 0, 0}, 2), now_ - kExposure);
+    EXPECT_EQ(poses_.back().status, +slam_pose_t::LOST);
+    EXPECT_EQ(elevations_.size(), elevations);
+  }
+  EXPECT_EQ(poses_.size(), 4u);
+}
+
+TEST_F(SlamNodeTest, CloudWithinAGapOfPoseIsRejected) {
+  set_level(supervisor_state_t::FULL);
+  drive_to_and_wait({});
+  now_ += 1'000'000;
+  drive_to_and_wait({});
+  send_cloud(view({}), now_ - 1'500'000);
+  EXPECT_TRUE(poses_.empty());
+  send_cloud(view({}), now_ - kExposure - 10'000);
+  EXPECT_EQ(poses_.size(), 1u) << "between two POSE of 20 ms";
+}
+
 TEST_F(SlamNodeTest, FollowsPoseAfterExternalCorrection) {
   set_level(supervisor_state_t::FULL);
   drive_to_and_wait({});

@@ -139,6 +139,22 @@ TEST(Slam, FlatGroundIsUnobservableAndFollowsOdometry) {
   EXPECT_LT(drive.error_m(), 1.1 * drive.odometry_error_m() + 0.005);
 }
 
+// Wheels slip unseen along the ridges.
+TEST(Slam, RidgesGiveNoInformationIfVisualOdometryHasAGap) {
+  for (const bool gap : {false, true}) {
+    Drive drive(Ground{0.0, 0.0, 0.05});
+    drive.look();
+    for (int i = 0; i < 6; ++i) {
+      const SlamResult result = drive.step({0.2, 0, 0}, {0.2, 0, 0}, 0.0, 0.0, gap ? 0.2 : 0.0);
+      EXPECT_EQ(result.status, Status::kOk);
+      EXPECT_EQ(result.information > 0.0, !gap);
+    }
+  }
+  Drive rocks({});
+  rocks.look();
+  EXPECT_GT(rocks.step({0.2, 0, 0}, {0.2, 0, 0}, 0.0, 0.0, 0.2).information, 0.0);
+}
+
 TEST(Slam, UniformSlopeIsUnobservable) {
   Drive drive(Ground{0.0, 0.15});
   drive.look();
@@ -319,6 +335,23 @@ TEST(Slam, MapOfDifferentGroundIsDetectedAndRestarted) {
   for (int i = 0; i < 4; ++i) seen.push_back(drive.look().status);
   EXPECT_EQ(seen[0], Status::kLost);
   EXPECT_NE(seen[3], Status::kLost);
+  // The new map is level and at its height: a plane through its errors.
+  const OdomElevation elevation = drive.slam().elevation();
+  Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d b = Eigen::Vector3d::Zero();
+  for (int row = 0; row < elevation.cells; ++row)
+    for (int column = 0; column < elevation.cells; ++column) {
+      const float height = elevation.height_m[static_cast<size_t>(row) * elevation.cells + column];
+      const Pose2 seen_at = between(drive.odometry(), {(elevation.corner.ix + column + 0.5) * elevation.cell_m,
+                                                       (elevation.corner.iy + row + 0.5) * elevation.cell_m, 0.0});
+      if (std::isnan(height) || seen_at.x_m > 5.0) continue;
+      const Eigen::Vector3d basis(1.0, seen_at.x_m, seen_at.y_m);
+      A += basis * basis.transpose();
+      b += basis * (height - Ground{}(32.0 + seen_at.x_m, seen_at.y_m));
+    }
+  const Eigen::Vector3d plane = A.inverse() * b;
+  EXPECT_LT(std::abs(plane(0)), 0.03);
+  EXPECT_LT(plane.tail<2>().norm(), to_rad(0.3));
 }
 
 TEST(Slam, FollowsPoseAfterExternalCorrection) {

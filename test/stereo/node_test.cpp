@@ -112,7 +112,7 @@ TEST_F(StereoNodeTest, BlankPairIsPublishedAsAllInvalid) {
 }
 
 // Odometry on a frozen image would report a stationary rover.
-TEST_F(StereoNodeTest, FrozenCameraGivesAllInvalidDisparity) {
+TEST_F(StereoNodeTest, FrozenCameraGivesAllInvalidDisparityWithoutImages) {
   Utime t = 20'000;
   const auto send = [&](bool left_moves, bool right_moves) {
     left_.data[1000] ^= static_cast<std::uint8_t>(left_moves);
@@ -128,8 +128,12 @@ TEST_F(StereoNodeTest, FrozenCameraGivesAllInvalidDisparity) {
   EXPECT_EQ(send(false, false), 0.0F);
   EXPECT_EQ(send(true, false), 0.0F);
   EXPECT_EQ(send(false, true), 0.0F);
+  EXPECT_EQ(rect_left_.size(), 1u);
+  EXPECT_EQ(rect_right_.size(), 1u);
   EXPECT_GT(send(true, true), 0.85F);
   EXPECT_EQ(disparities_.size(), 5u);
+  EXPECT_EQ(rect_left_.size(), 2u);
+  EXPECT_EQ(rect_right_.size(), 2u);
 }
 
 TEST(StereoConfigTest, UnknownKeyOrBadRangeStopsStartUp) {
