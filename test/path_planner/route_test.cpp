@@ -159,10 +159,14 @@ TEST(Rounding, KeepsTheMinimumRadiusOrLeavesACorner) {
 TEST(Rounding, AGentleCornerGetsAWideArcAndASharpOneStays) {
   const Route gentle = rounded(corners_of({{0, 0}, {10, 0}, {20, 2}}), RoundingConfig{});
   EXPECT_TRUE(gentle.corners().empty());
-  EXPECT_TRUE(rounded(corners_of({{0, 0}, {10, 0}, {10, 0}, {20, 2}}), RoundingConfig{}).corners().empty());
   const Route sharp = rounded(corners_of({{0, 0}, {10, 0}, {10, 10}}), RoundingConfig{});
   ASSERT_EQ(sharp.corners().size(), 1u);
   EXPECT_NEAR(distance(sharp.points()[sharp.corners()[0]].p, {10, 0}), 0.0, 1e-9);
+}
+
+TEST(Rounding, ACornerGivenTwiceIsRoundedToo) {
+  for (const auto& points : {corners_of({{0, 0}, {10, 0}, {16, 7}}), corners_of({{0, 0}, {10, 0}, {10, 0}, {16, 7}})})
+    EXPECT_TRUE(rounded(points, RoundingConfig{}).corners().empty());
 }
 
 TEST(Rounding, LevelsStartWhereTheirPointLies) {
