@@ -6,7 +6,7 @@
 namespace rover::supervisor {
 namespace {
 
-constexpr int kVersion = 3;  // 1: without heat, counters and backtracking; 2: without utime
+constexpr int kVersion = 3;
 
 }  // namespace
 

@@ -24,7 +24,7 @@ void add_belief(Parameters p, BeliefConfig& c) {
 void add_clearance(Parameters p, PathPlannerConfig& c) {
   Clearances& clearances = c.planner.clearances;
   p.add("min_m", clearances.min_m, {0.0, 1.0},
-        "minimum of a plan; 0.03 m more for point turns and the global path; below 0.06 m more, motions cost more");
+        "minimum of a plan; of point turns and the global path 0.03 m more; motions within 0.06 m of it cost more");
   clearances.turn_m = clearances.min_m + Clearances::kToleranceM;
   clearances.comfort_m = clearances.min_m + 2.0 * Clearances::kToleranceM;
 }
@@ -45,7 +45,7 @@ void add_motion(Parameters p, MotionCosts& c) {
   p.add("curvature_change_s", c.curvature_change_s, {0.0, 50.0}, "by the largest curvature, quadratic below");
   p.add("cusp_s", c.cusp_s, {0.0, 200.0}, "between forward and reverse");
   p.add("reverse_factor", c.reverse_factor, {1.0, 20.0}, "on the cost in reverse");
-  p.add("tight_factor", c.tight_factor, {1.0, 20.0}, "on the cost closer to hazards than clearance.min_m and 0.06 m");
+  p.add("tight_factor", c.tight_factor, {1.0, 20.0}, "on the cost of motions within 0.06 m of clearance.min_m");
 }
 
 void add_search(Parameters p, HybridPlannerConfig& c) {

@@ -103,7 +103,6 @@ TEST_F(FullLevelTest, BackAtTheEfficientLevelTheGlobalPathHasItsOwnCorridor) {
   rig_.step();
   ASSERT_LT(path().corridor_half_width_m, 0.75);
   rig_.planner.set_level(false);
-  rig_.rocks.clear();
   rig_.go(22.0);
   EXPECT_EQ(path().kind, PathKind::kGlobal);
   EXPECT_EQ(path().corridor_half_width_m, 0.75);

@@ -48,6 +48,11 @@ bool save_checkpoint(const std::string& run_dir, const std::string& name, const 
   return std::rename(fresh.c_str(), path.c_str()) == 0;
 }
 
+bool checkpoint_exists(const std::string& run_dir, const std::string& name) {
+  std::error_code error;
+  return std::filesystem::exists(path_of(run_dir, name), error);
+}
+
 std::optional<std::vector<std::uint8_t>> load_checkpoint(const std::string& run_dir, const std::string& name) {
   std::ifstream file(path_of(run_dir, name), std::ios::binary);
   FileHead head{};

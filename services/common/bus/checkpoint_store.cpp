@@ -1,6 +1,5 @@
 #include "common/bus/checkpoint_store.hpp"
 
-#include <filesystem>
 #include <rover/service_state_t.hpp>
 
 #include "common/bus/checkpoint.hpp"
@@ -14,8 +13,7 @@ constexpr Utime kPeriod = 1'000'000;
 
 void CheckpointStore::restore(const std::function<bool(const Bytes&)>& take) {
   if (node_.options().run_dir.empty()) return;
-  std::error_code error;
-  if (!std::filesystem::exists(node_.options().run_dir + "/" + node_.options().name + ".ckpt", error)) return;
+  if (!checkpoint_exists(node_.options().run_dir, node_.options().name)) return;
   const Bytes bytes = load_checkpoint(node_.options().run_dir, node_.options().name).value_or(Bytes{});
   if (!take(bytes)) return node_.log("WARN", "CHECKPOINT unusable");
   restored_ = bytes;

@@ -156,11 +156,11 @@ void BeliefMap::add(const TraversabilityGrid& grid, const Pose2& rover, const Fo
 // In cells: within one a step ends.
 void BeliefMap::add_drift(double dead_reckoned_m) {
   if (!(dead_reckoned_m > 0.0)) return;
-  const double drift2 = std::pow(BeliefConfig::kDriftPerM * dead_reckoned_m / BeliefConfig::kCellM, 2);
+  const double drift = BeliefConfig::kDriftPerM * dead_reckoned_m / BeliefConfig::kCellM;
   map_.for_each([&](CellIndex, CellBelief& cell) {
     if (cell.step_sigma < CellBelief::kNoSigma)
-      cell.step_sigma = static_cast<float>(std::hypot(cell.step_sigma, std::sqrt(drift2)));
-    cell.evidence /= static_cast<float>(1.0 + drift2);
+      cell.step_sigma = static_cast<float>(std::hypot(cell.step_sigma, drift));
+    cell.evidence /= static_cast<float>(1.0 + drift * drift);
   });
 }
 
