@@ -43,21 +43,28 @@ bool Progress::supervisor_hangs() const {
 }
 
 std::string Progress::line() const {
+  // "-" before the first message.
+  const auto figure = [](const char* format, double value) {
+    char text[16];
+    std::snprintf(text, sizeof text, format, value);
+    return std::string(std::isfinite(value) ? text : "-");
+  };
   const double sim_s = static_cast<double>(pose_.header.utime - first_utime_) * 1e-6;
   const double wall_s = std::chrono::duration<double>(Clock::now() - started_).count();
   const double factor = wall_s > 0.1 ? sim_s / wall_s : 0.0;
   const double speed = std::hypot(pose_.velocity_body_mps[0], pose_.velocity_body_mps[1]);
-  char expected[32] = "     -";
+  std::string expected = "-";
   if (factor > 0.0 && std::isfinite(planner_.goal_distance_m) && pose_.travelled_m > 1.0) {
     const double mean_speed = std::min(kTopSpeed, pose_.travelled_m / sim_s);
-    std::snprintf(expected, sizeof expected, "%5.0f s", planner_.goal_distance_m / mean_speed / factor);
+    expected = figure("%.0f s", planner_.goal_distance_m / mean_speed / factor);
   }
   char text[256];
   std::snprintf(
       text, sizeof text,
-      "%7.1f m driven  %6.1f m remaining  %5.2f m/s  %-12s %-9s  %2d repairs  %2d hazard stops  %4.1fx  end in %s",
-      pose_.travelled_m, planner_.goal_distance_m, speed, state_name(state_.state).c_str(),
-      level_name(state_.level).c_str(), planner_.replans, state_.hazard_stops, factor, expected);
+      "%7.1f m driven  %6s m remaining  %5s m/s  %-12s %-9s  %2d repairs  %2d hazard stops  %4.1fx  end in %7s",
+      pose_.travelled_m, figure("%.1f", planner_.goal_distance_m).c_str(), figure("%.2f", speed).c_str(),
+      state_name(state_.state).c_str(), level_name(state_.level).c_str(), planner_.replans, state_.hazard_stops, factor,
+      expected.c_str());
   return text;
 }
 

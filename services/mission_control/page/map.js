@@ -111,7 +111,7 @@ export function createMap(setup, { onTruth }) {
   const size = setup.map ? [[0, 0], [setup.map.height_m, setup.map.width_m]] : [[-50, -50], [50, 50]];
   if (setup.map) map.setMaxBounds(L.latLngBounds(size).pad(.3));
   map.fitBounds(size);
-  L.control.scale({ imperial: false, maxWidth: 120, position: "bottomright" }).addTo(map);
+  L.control.scale({ imperial: false, maxWidth: 90, position: "bottomright" }).addTo(map);
 
   const picture = (name, options) => L.imageOverlay(`/map/${name}`, size, { className: name, pane: "ground", ...options });
   const line = (color, weight, extra) => L.polyline([], { color, weight, interactive: false, ...extra });
