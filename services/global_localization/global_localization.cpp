@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <vector>
 
 #include "global_localization/terrain_template.hpp"
@@ -222,9 +223,14 @@ Correction GlobalLocalization::correct(const Prior& prior) const {
   const bool located = by_relief.accepted && by_relief.axes == 2;
   // Pictures show too many similar places to a lost rover.
   if (located || !picture_ || is_lost(config_.search, prior)) return by_relief;
-  const Correction by_picture = correct_by_picture(prior);
-  by_relief.picture_reason = by_picture.reason;
-  return by_picture.accepted ? by_picture : by_relief;
+  try {
+    const Correction by_picture = correct_by_picture(prior);
+    if (by_picture.accepted) return by_picture;
+    by_relief.picture_reason = by_picture.reason;
+  } catch (const std::runtime_error&) {  // damaged where the rover comes only now; relief does without it
+    by_relief.picture_reason = "orbital picture cannot be read";
+  }
+  return by_relief;
 }
 
 Correction GlobalLocalization::correct_by_picture(const Prior& prior) const {
@@ -259,7 +265,7 @@ Correction GlobalLocalization::correct_by_relief(const Prior& prior) const {
   const bool along_one = principal.eigenvalues()(0) <= limit_m * limit_m && !is_lost(config_.search, prior);
   out.axes = featured(out) ? 2 : along_one ? 1 : 0;
   if (out.area_m2 < config_.acceptance.min_area_m2) {
-    out.reason = "local map too small";
+    out.reason = kMapTooSmall;
   } else if (out.axes == 0) {
     out.reason = "not enough relief";
   } else {

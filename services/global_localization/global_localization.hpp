@@ -80,6 +80,8 @@ struct Prior {
 // Whether the prior is less certain than the smallest search window.
 bool is_lost(const SearchConfig& config, const Prior& prior);
 
+inline constexpr std::string_view kMapTooSmall = "local map too small";
+
 struct Correction {
   Layer layer = Layer::kHeight;
   bool accepted = false;

@@ -21,7 +21,9 @@ GlobalLocalizationNode::GlobalLocalizationNode(Node& node, const NodeConfig& con
   });
   node_.subscribe<pose_t>(channel::kPose, [this](const pose_t& message) { pose_ = message; });
   node_.subscribe<ground_command_t>(channel::kGroundCommand, [this](const ground_command_t& message) {
-    if (message.kind == ground_command_t::SET_START_POSE) start_pose_at_ = message.header.utime;
+    if (message.kind != ground_command_t::SET_START_POSE) return;
+    start_pose_at_ = message.header.utime;
+    searched_map_.reset();
   });
   node_.on_step([this](Utime) { search_if_lost(); });
   node_.subscribe_slow<elevation_t>(channel::kElevation, config.latency_us,
@@ -63,16 +65,19 @@ void GlobalLocalizationNode::on_elevation(const elevation_t& message) {
 }
 
 // A start pose less certain than the usual search window: the rover is searched for at once, also without new maps,
-// because none come while it is stationary.
+// because none come while it is stationary; again with each map until they show enough ground.
 void GlobalLocalizationNode::search_if_lost() {
   if (start_pose_at_ == kNever || !full_ || node_.busy()) return;
   std::optional<Prior> prior = fresh_prior();
-  if (!prior || pose_.header.utime <= start_pose_at_) return;
-  start_pose_at_ = kNever;
-  if (!is_lost(config_.core.search, *prior)) return;
-  prior->since_fix_m = kInfinity;  // the start pose owes nothing to the last fix
-  node_.begin_slow(config_.latency_us);
-  attempt_correction(*prior, pose_.header.utime);
+  if (!prior || pose_.header.utime <= start_pose_at_ || searched_map_ == last_map_) return;
+  searched_map_ = last_map_;
+  bool settled = true;
+  if (is_lost(config_.core.search, *prior)) {
+    prior->since_fix_m = kInfinity;  // the start pose owes nothing to the last fix
+    node_.begin_slow(config_.latency_us);
+    settled = attempt_correction(*prior, pose_.header.utime).reason != kMapTooSmall;
+  }
+  if (settled) start_pose_at_ = kNever;
 }
 
 std::string GlobalLocalizationNode::rejection_reason(const elevation_t& message) const {
@@ -121,7 +126,7 @@ Correction GlobalLocalizationNode::correct(const Prior& prior) {
   }
 }
 
-void GlobalLocalizationNode::attempt_correction(const Prior& prior, Utime utime) {
+Correction GlobalLocalizationNode::attempt_correction(const Prior& prior, Utime utime) {
   const Correction correction = correct(prior);
   schedule_.record_attempt(pose_.travelled_m, correction.accepted);
   correction_t message{};
@@ -136,6 +141,7 @@ void GlobalLocalizationNode::attempt_correction(const Prior& prior, Utime utime)
                          ? std::string("CORRECTION by=") + (correction.layer == Layer::kPicture ? "picture" : "relief")
                          : "NO_CORRECTION reason=" + message.reason) +
                         figures);
+  return correction;
 }
 
 std::shared_ptr<GlobalLocalizationNode> make_global_localization(Node& node, const std::string& config_dir) {

@@ -30,7 +30,7 @@ class GlobalLocalizationNode {
   std::optional<Prior> fresh_prior() const;
   void check_for_odometry_jump(const Prior& prior);
   Correction correct(const Prior& prior);
-  void attempt_correction(const Prior& prior, Utime utime);
+  Correction attempt_correction(const Prior& prior, Utime utime);
 
   Node& node_;
   NodeConfig config_;
@@ -40,6 +40,7 @@ class GlobalLocalizationNode {
   bool full_ = false;
   Utime start_pose_at_ = kNever;  // of a start pose that POSE does not contain yet
   Utime last_map_ = kNever;
+  std::optional<Utime> searched_map_;             // the newest map in the last search since the start pose
   std::optional<Eigen::Vector2d> last_position_;  // in odom
   double last_travelled_m_ = 0.0;
 };

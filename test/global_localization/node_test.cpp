@@ -78,14 +78,14 @@ class GlobalLocalizationNodeTest : public testing::Test {
   }
 
   // Pose with an error of (3, -2) m and 4 deg.
-  pose_t pose() const {
+  pose_t pose(double sigma_m = 1.0) const {
     pose_t message{};
     pose_to(make_pose(Eigen::Matrix3d::Identity(), {place_.x(), place_.y(), 1.0}), message.position_odom_body_m,
             message.quat_odom_body_wxyz);
     pose_to(from_planar(perturbed_transform(kTruth, place_, {3.0, -2.0}, to_rad(4.0))), message.position_map_odom_m,
             message.quat_map_odom_wxyz);
     Matrix6d cov = Matrix6d::Zero();
-    cov.diagonal() << 1.0, 1.0, 0.1, 0.001, 0.001, 0.002;
+    cov.diagonal() << sigma_m * sigma_m, sigma_m * sigma_m, 0.1, 0.001, 0.001, 0.002;
     matrix6_to(cov, message.covariance);
     message.travelled_m = travelled_m_;
     return message;
@@ -99,6 +99,20 @@ class GlobalLocalizationNodeTest : public testing::Test {
     world_->send(channel::kElevation, std::move(map), now_ - to_utime(age_s), now_);
     world_->tick(now_);
     world_->tick(now_ + 800'000);
+  }
+  void set_start_pose(double sigma_m) {
+    ground_command_t command{};
+    command.kind = ground_command_t::SET_START_POSE;
+    world_->send(channel::kGroundCommand, command, now_);
+    stand(sigma_m);
+  }
+  // 2 s of POSE.
+  void stand(double sigma_m) {
+    for (int k = 0; k < 20; ++k) {
+      now_ += 100'000;
+      world_->send(channel::kPose, pose(sigma_m), now_ - kTickUs);
+      world_->tick(now_);
+    }
   }
   void drive(double metres) {
     for (double s = 0.0; s < metres; s += 4.0) {
@@ -146,27 +160,27 @@ TEST_F(GlobalLocalizationNodeTest, ALostRoverIsSearchedForAtOnce) {
   start();
   drive(16.0);
   ASSERT_EQ(corrections_.size(), 1u);
-  const auto say = [&](double sigma_m) {
-    ground_command_t command{};
-    command.kind = ground_command_t::SET_START_POSE;
-    world_->send(channel::kGroundCommand, command, now_);
-    pose_t message = pose();
-    Matrix6d cov = Matrix6d::Zero();
-    cov.diagonal() << sigma_m * sigma_m, sigma_m * sigma_m, 0.1, 0.001, 0.001, 0.002;
-    matrix6_to(cov, message.covariance);
-    for (int k = 0; k < 20; ++k) {
-      now_ += 100'000;
-      world_->send(channel::kPose, message, now_ - kTickUs);
-      world_->tick(now_);
-    }
-  };
-  say(1.0);
+  set_start_pose(1.0);
   EXPECT_EQ(corrections_.size(), 1u) << "not lost";
-  say(20.0);
+  set_start_pose(20.0);
   ASSERT_EQ(corrections_.size(), 2u);
   EXPECT_EQ(corrections_[1].accepted, 1) << corrections_[1].reason;
-  say(20.0);
+  set_start_pose(20.0);
   EXPECT_EQ(corrections_.size(), 3u) << "once for each command";
+}
+
+TEST_F(GlobalLocalizationNodeTest, ARoverLostFromTheStartIsSearchedForWhenAMapComes) {
+  write_map();
+  start();
+  set_start_pose(20.0);
+  ASSERT_EQ(corrections_.size(), 1u);
+  EXPECT_EQ(corrections_[0].reason, "local map too small");
+  for (int maps = 0; maps < 2; ++maps) {
+    publish_inputs(pose(20.0), elevation());
+    stand(20.0);
+  }
+  ASSERT_EQ(corrections_.size(), 2u) << "stationary, and once when there is a map";
+  EXPECT_NE(corrections_[1].reason, "local map too small");
 }
 
 TEST_F(GlobalLocalizationNodeTest, IsIdleAtLevelEfficient) {
@@ -348,6 +362,22 @@ TEST_F(GlobalLocalizationNodeTest, WithoutAReadablePictureReliefDoes) {
   ASSERT_FALSE(heartbeats_.empty());
   EXPECT_EQ(heartbeats_.back().status, +heartbeat_t::DEGRADED);
   EXPECT_NE(heartbeats_.back().text.find("orbital_picture.tif: not a readable"), std::string::npos);
+}
+
+TEST_F(GlobalLocalizationNodeTest, ADamagedPictureDoesNotTakeReliefWithIt) {
+  write_map(level);
+  write_geotiff((dir_ / "orbital_picture.tif").string(), raster_of(marks, 0.25));
+  start();
+  fs::resize_file(dir_ / "orbital_picture.tif", 1000);
+  for (int k = 0; k < 4; ++k) {
+    place_.x() += 4.0;
+    travelled_m_ += 4.0;
+    ElevationView view = view_of(level, kTruth, place_);
+    view.brightness = view_of(marks, kTruth, place_).z_m;
+    publish_inputs(pose(), message_of(view));
+  }
+  ASSERT_EQ(corrections_.size(), 1u);
+  EXPECT_EQ(corrections_[0].reason, "not enough relief; picture: orbital picture cannot be read");
 }
 
 TEST_F(GlobalLocalizationNodeTest, RejectionNamesReliefAndPicture) {
