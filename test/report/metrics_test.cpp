@@ -70,6 +70,43 @@ TEST(Metrics, OutcomeOfFailedRuns) {
   EXPECT_EQ(figures(run).outcome, "timeout");
 }
 
+TEST(Metrics, ALogThatEndsEarlyIsNotATimeout) {
+  RunRecord run = straight_run(10.0);
+  run.states.pop_back();
+  run.planner = {{60.0, true, false, 3}};
+  run.bus.missing_end_s = 40.0;
+  const auto outcome = [&](const char* reported) {
+    RunInfo info;
+    info.outcome_hint = reported;
+    return evaluate(run, info, Footprint{}, std::nullopt).metrics.outcome;
+  };
+  EXPECT_EQ(outcome("goal_reached"), "stopped") << "neither what the simulator saw nor the last record";
+  EXPECT_EQ(outcome(""), "stopped");
+  EXPECT_EQ(outcome("fault_stop"), "fault_stop");
+}
+
+TEST(Metrics, APathDrawnHalfwayLeavesNoPlannedLength) {
+  RunRecord run = straight_run(10.0);
+  run.global_paths.push_back({50.0, 2, false, false, {{4.5, 0.0}, {10.0, 3.0}}, {}});
+  for (const bool arrives : {true, false}) {
+    if (!arrives) run.states.pop_back();
+    const Metrics m = figures(run);
+    for (const double figure : {m.planned_length_m, m.path_ratio, m.progress}) EXPECT_TRUE(std::isnan(figure));
+    EXPECT_NEAR(m.driven_length_m, 10.0, 1e-9);
+    EXPECT_NEAR(m.final_error_m, 3.0, 1e-9);
+  }
+}
+
+TEST(Metrics, APathSentAfterTheGoalIsNotPlanned) {
+  RunRecord run = straight_run(10.0);
+  run.global_paths.push_back({106.0, 2, false, false, {{10.0, 0.0}, {10.0, 30.0}}, {}});
+  const Metrics m = figures(run, TrueWorld{{{10.0, 20.0, 0.2, 0.3}}, {}});
+  EXPECT_NEAR(m.path_ratio, 1.0, 1e-9);
+  EXPECT_NEAR(m.progress, 0.5, 1e-9);
+  EXPECT_NEAR(m.final_error_m, 0.0, 1e-9);
+  EXPECT_EQ(m.rocks_encountered, 0);
+}
+
 TEST(Metrics, ReplansOfARestartedPlannerAddUp) {
   RunRecord run = straight_run(10.0);
   run.planner = {{10.0, false, false, 1}, {20.0, false, false, 3}, {30.0, false, false, 0}, {40.0, false, false, 2}};

@@ -10,6 +10,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <rover/command_ack_t.hpp>
+#include <rover/path_t.hpp>
 #include <rover/slip_t.hpp>
 #include <rover/tick_t.hpp>
 #include <rover/truth_t.hpp>
@@ -19,6 +21,7 @@
 #include "common/bus/config.hpp"
 #include "message_log.hpp"
 #include "synthetic_run.hpp"
+#include "tools/report/html.hpp"
 #include "tools/report/log_reader.hpp"
 #include "tools/report/make_report.hpp"
 #include "tools/report/map_picture.hpp"
@@ -380,6 +383,78 @@ TEST_F(ReportTest, TimeThatTheLogLacksIsStated) {
       log.put("TICK", tick_t{}, t, "rover_simulator");
   }
   EXPECT_DOUBLE_EQ(read_log(choose_run(file)).bus.missing_s, 80.0);
+}
+
+TEST_F(ReportTest, TimeThatTheLogLacksAtItsEndIsStated) {
+  const std::string file = folder_->file("full_disk_at_the_end.lcm");
+  {
+    MessageLog log(file);
+    for (const Utime t : {1'000'000, 1'020'000, 1'040'000}) log.put("TICK", tick_t{}, t, "rover_simulator");
+  }
+  EXPECT_DOUBLE_EQ(read_log(choose_run(file), 90.06).bus.missing_s, 90.02);
+  EXPECT_DOUBLE_EQ(read_log(choose_run(file), 0.06).bus.missing_s, 0.0);
+  Study cut = study();
+  cut.run.bus.missing_end_s = 90.02;
+  cut.evaluation = evaluate(cut.run, cut.folder.info, cut.folder.footprint, cut.world);
+  EXPECT_THAT(report_html(cut.scene(), {}, {}), testing::HasSubstr("The log ends 90.0 s before the run"));
+}
+
+TEST_F(ReportTest, MessagesAreCountedFromTheFirstTickOn) {
+  const std::string file = folder_->file("monotonic.lcm");
+  constexpr Utime kStart = 5'000'000'000;
+  {
+    MessageLog log(file);
+    for (Utime t = kStart; t < kStart + 4'000'000; t += 1'000'000) log.put("TICK", tick_t{}, t, "driver");
+  }
+  EXPECT_EQ(read_log(choose_run(file), 3.0).bus.messages, 2) << "without the last ones";
+  EXPECT_EQ(read_log(choose_run(file)).bus.messages, 4);
+}
+
+TEST_F(ReportTest, RefusedPathsAreNotFollowed) {
+  const std::string file = folder_->file("refused.lcm");
+  {
+    MessageLog log(file);
+    for (const std::int64_t id : {4, 5, 6}) {
+      path_t path{};
+      path.path_id = id;
+      log.put(channel::kGlobalPath, path, id * kTickUs, "mission_control");
+      command_ack_t ack{};
+      ack.command_id = id;
+      ack.accepted = id == 4;
+      if (id < 6) log.put(channel::kCommandAck, ack, (id + 1) * kTickUs, "path_planner");
+    }
+    command_ack_t of_another{};
+    of_another.command_id = 4;
+    log.put(channel::kCommandAck, of_another, 10 * kTickUs, "supervisor");
+  }
+  const std::vector<PathRecord> paths = read_log(choose_run(file)).global_paths;
+  ASSERT_EQ(paths.size(), 1u) << "one was refused, one never arrived";
+  EXPECT_EQ(paths[0].id, 4);
+}
+
+TEST_F(ReportTest, ThePageSaysWhyTwoPathsHaveNoRatio) {
+  Study changed = study();
+  PathRecord drawn = changed.run.global_paths.front();
+  drawn.t_s = 20.0;
+  drawn.points = {{13.0, 10.0}, {20.0, 15.0}};
+  changed.run.global_paths.push_back(drawn);
+  changed.world->ground_m = [](double, double) { return 0.0; };
+  changed.evaluation = evaluate(changed.run, changed.folder.info, changed.folder.footprint, changed.world);
+  evaluate_oracle(changed.run, changed.folder.vehicle, changed.world, changed.evaluation);
+  const nlohmann::json m = metrics_json(changed.evaluation.metrics);
+  for (const char* key : {"planned_length_m", "path_ratio", "progress", "oracle_m", "oracle_feasible", "regret"})
+    EXPECT_TRUE(m[key].is_null()) << key;
+  EXPECT_THAT(report_html(changed.scene(), {}, {}), testing::HasSubstr("The rover followed 2 paths"));
+  EXPECT_THAT(read_file(dir_ + "/report.html"), testing::Not(testing::HasSubstr("The rover followed")));
+}
+
+TEST_F(ReportTest, AZoneDrawnOverTheStartHasNoOracle) {
+  Study changed = study();
+  changed.world->ground_m = [](double, double) { return 0.0; };
+  changed.evaluation.metrics.paths.front().zones = {
+      {"start", false, {{9.0, 9.0}, {11.0, 9.0}, {11.0, 11.0}, {9.0, 11.0}}}};
+  evaluate_oracle(changed.run, changed.folder.vehicle, changed.world, changed.evaluation);
+  EXPECT_TRUE(metrics_json(changed.evaluation.metrics)["oracle_feasible"].is_null());
 }
 
 TEST(RunFolder, EachFaultIsOneLineThatNamesTheFile) {

@@ -97,6 +97,16 @@ TEST(StopEvaluation, AStopAndItsRepairAreOneIncident) {
   EXPECT_TRUE(!found[1].stopped && found[1].replanned);
 }
 
+TEST(StopEvaluation, ALevelChangeDuringAStopIsNoSecondIncident) {
+  RunRecord run = straight_run(10.0);
+  run.states = {{5.0, State::kDriving, false, ""},
+                {28.0, State::kHazardStop, false, ""},
+                {29.0, State::kHazardStop, true, ""},
+                {31.0, State::kDriving, true, ""}};
+  ASSERT_EQ(incidents(run, {}).size(), 1u);
+  EXPECT_DOUBLE_EQ(incidents(run, {})[0].t_s, 28.0);
+}
+
 TEST(StopEvaluation, PathsOfDriftedRoverAreShownAtTruePosition) {
   RunRecord run = repaired_run();
   // The rover's estimate is 1 m too far left, and so are its odom paths.

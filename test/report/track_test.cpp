@@ -24,6 +24,43 @@ TEST(TrueTrack, InterpolatesAndClampsAtEnds) {
   EXPECT_NEAR(track.distance_m(25.0), 2.0, 1e-9);
 }
 
+PathRecord path_at(double t_s, std::int64_t id, Points points) {
+  PathRecord path;
+  path.t_s = t_s;
+  path.id = id;
+  path.points = std::move(points);
+  return path;
+}
+
+TEST(FollowedPaths, AreUnderWayBetweenTheFirstDrivingAndTheGoal) {
+  RunRecord run = straight_run(10.0);
+  const Points aside{{0.0, 0.0}, {0.0, 5.0}}, other{{3.0, 0.0}, {10.0, 2.0}};
+  run.global_paths.insert(run.global_paths.begin(), path_at(0.0, 7, aside));
+  run.global_paths.push_back(path_at(105.5, 8, aside));
+  std::vector<PathRecord> paths = followed_paths(run, drive_window(run));
+  ASSERT_EQ(paths.size(), 1u);
+  EXPECT_EQ(paths[0].id, 1);
+  run.global_paths.insert(run.global_paths.end() - 1, path_at(40.0, 9, other));
+  paths = followed_paths(run, drive_window(run));
+  ASSERT_EQ(paths.size(), 2u);
+  EXPECT_EQ(paths[1].id, 9);
+}
+
+TEST(FollowedPaths, AZoneEditThatSendsTheRestIsNoOtherPath) {
+  RunRecord run = straight_run(10.0);
+  const Points bent{{0.0, 0.0}, {4.0, 0.0}, {7.0, 1.0}, {10.0, 0.0}};
+  run.global_paths = {path_at(0.0, 1, bent), path_at(20.0, 2, bent),
+                      path_at(60.0, 3, {{5.5, 0.2}, {7.0, 1.0}, {10.0, 0.0}})};
+  run.global_paths.back().zones = {{"cliff", false, {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}}}};
+  std::vector<PathRecord> paths = followed_paths(run, drive_window(run));
+  ASSERT_EQ(paths.size(), 1u);
+  EXPECT_EQ(paths[0].id, 1);
+  EXPECT_EQ(paths[0].points, bent);
+  EXPECT_EQ(paths[0].zones.size(), 1u);
+  run.global_paths.push_back(path_at(70.0, 4, {{6.5, 0.2}, {10.0, 0.0}}));
+  EXPECT_EQ(followed_paths(run, drive_window(run)).size(), 2u) << "a short cut to the same goal";
+}
+
 TEST(DriveWindow, FromDrivingToTheGoal) {
   RunRecord run = straight_run(2.0);
   EXPECT_DOUBLE_EQ(drive_window(run).begin_s, 5.0);

@@ -98,9 +98,10 @@ std::string time_rows(const TimeAccount& a, const TimeAccount& b) {
 
 std::string heading(const ComparedRun& run) {
   return fmt::format(
-      "<div><h2>{}</h2><div class=\"meta\">{} &middot; {}</div><p><span class=\"badge {}\">{}</span></p></div>\n",
+      "<div><h2>{}</h2><div class=\"meta\">{} &middot; {}</div><p><span class=\"badge {}\">{}</span></p>{}</div>\n",
       escaped(run.name), escaped(run.metrics.info.scenario), run_facts(run.metrics.info),
-      run.metrics.outcome == "goal_reached" ? "good" : "bad", escaped(outcome_text(run.metrics.outcome)));
+      run.metrics.outcome == "goal_reached" ? "good" : "bad", escaped(outcome_text(run.metrics.outcome)),
+      remarks(run.metrics));
 }
 
 std::string figures_section(const ComparedRun& a, const ComparedRun& b) {

@@ -282,7 +282,7 @@ std::string configuration_section(const std::vector<std::pair<std::string, std::
 std::string report_html(const Scene& scene, const Pictures& pictures,
                         const std::vector<std::pair<std::string, std::string>>& configuration) {
   const Metrics& m = scene.evaluation.metrics;
-  std::string body = header(m) + cards(m) + layered_maps(pictures.map);
+  std::string body = header(m) + remarks(m) + cards(m) + layered_maps(pictures.map);
   body += time_section(m) + full_section(m, pictures) + trajectory_section(m) + comparison_table(m) +
           events_section(scene, pictures);
   body += "<h2>Over driven distance [m]</h2><section class=\"plots\">\n";

@@ -6,6 +6,7 @@
 
 #include "tools/report/html_style.hpp"
 #include "tools/report/map_picture.hpp"
+#include "tools/report/metrics.hpp"
 #include "tools/report/slope_map.hpp"
 #include "tools/report/svg.hpp"
 
@@ -55,6 +56,20 @@ std::string run_facts(const RunInfo& info) {
   if (info.deterministic) add(*info.deterministic ? "deterministic" : "not deterministic");
   if (info.realtime && *info.realtime) add("real time");
   return facts;
+}
+
+std::string remarks(const Metrics& m) {
+  std::string out;
+  if (m.paths.size() > 1)
+    out += fmt::format(
+        "<p class=\"meta\">The rover followed {} paths: there is no planned length, thus no ratio, progress and "
+        "regret.</p>\n",
+        m.paths.size());
+  if (m.bus.missing_end_s > 0.0)
+    out += fmt::format(
+        "<p class=\"meta\">The log ends {:.1f} s before the run: the metrics are of the drive until then.</p>\n",
+        m.bus.missing_end_s);
+  return out;
 }
 
 // The switches precede the layers: the CSS sibling selector requires it.

@@ -8,6 +8,8 @@
 
 namespace rover::report {
 
+struct Metrics;
+
 // "n/a" if unknown.
 std::string shown(double value, int decimals, const char* unit = "");
 std::string shown(const std::optional<int>& value);
@@ -16,6 +18,8 @@ std::string verdict(bool known, bool good);
 std::string outcome_text(const std::string& outcome);
 // Seed, level, commit and pacing of the run, as HTML.
 std::string run_facts(const RunInfo& info);
+// What the metrics lack and why, as paragraphs of one line.
+std::string remarks(const Metrics& m);
 
 // Maps with layer switches that need no script.
 std::string layered_maps(const std::string& maps);

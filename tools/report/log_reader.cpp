@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <rover/command_ack_t.hpp>
 #include <rover/elevation_t.hpp>
 #include <tuple>
 #include <utility>
@@ -16,7 +17,7 @@
 namespace rover::report {
 namespace {
 
-constexpr double kUncountedS = 0.1;
+constexpr double kUncountedS = 1.1;       // longer than any message is under way
 constexpr double kElevationEveryM = 1.0;  // driven distance between stored maps; each map covers 20 m
 
 // Counts published messages by sequence number: a reduced log omits images, and a TICK repeated for a late node is no
@@ -62,6 +63,9 @@ class Reader {
     take<slip_t>(channel::kSlip, [this](const slip_t& m) { run_.slip.push_back(slip_from(m)); });
     take<supervisor_state_t>(channel::kState, [this](const supervisor_state_t& m) { add_state(m); });
     take<path_t>(channel::kGlobalPath, [this](const path_t& m) { run_.global_paths.push_back(path_from(m)); });
+    take<command_ack_t>(channel::kCommandAck, [this](const command_ack_t& m) {
+      if (m.header.publisher == "path_planner") accepted_paths_[m.command_id] |= m.accepted != 0;
+    });
     take<path_t>(channel::kPath, [this](const path_t& m) { add_path(path_from(m)); });
     take<hazards_t>(channel::kHazards, [this](const hazards_t& m) {
       run_.hazards.push_back(hazards_from(m));
@@ -104,8 +108,17 @@ class Reader {
 
   void count_damaged() { ++run_.bus.damaged_events; }
 
+  void expect_ticks_until(Utime end) {
+    if (end <= last_tick_ + kLongestTickGap) return;
+    run_.bus.missing_end_s = to_seconds(end - last_tick_);
+    run_.bus.missing_s += run_.bus.missing_end_s;
+  }
+
   RunRecord finish() {
     counter_.total(run_.bus);
+    // A log without answers, as of another planner, tells nothing about refusals.
+    if (!accepted_paths_.empty())
+      std::erase_if(run_.global_paths, [this](const PathRecord& path) { return !accepted_paths_[path.id]; });
     return std::move(run_);
   }
 
@@ -160,6 +173,7 @@ class Reader {
   RunRecord run_;
   static constexpr Utime kLongestTickGap = 1'000'000;
   Utime last_tick_ = kNever;
+  std::map<std::int64_t, bool> accepted_paths_;  // by id, of all answers
   bool full_services_run_ = true;
   Eigen::Vector3d elevation_at_ = Eigen::Vector3d::Constant(kInfinity);  // odom, at the newest stored map
   BusCounter counter_;
@@ -169,9 +183,12 @@ class Reader {
 }  // namespace
 
 RunRecord read_log(const LogRun& run, std::optional<double> run_s) {
-  Reader reader(run_s ? to_utime(*run_s - kUncountedS) : std::numeric_limits<Utime>::max());
+  // Of a log of several runs it is not known which one took run_s.
+  const bool timed = run_s && run.of == 1 && run.first_tick != kNever;
+  Reader reader(timed ? run.first_tick + to_utime(*run_s - kUncountedS) : std::numeric_limits<Utime>::max());
   for_each_event(run, [&](const LogEvent& event) { reader.add(event); });
   if (run.skipped_bytes > 0) reader.count_damaged();
+  if (timed) reader.expect_ticks_until(run.first_tick + to_utime(*run_s));
   return reader.finish();
 }
 

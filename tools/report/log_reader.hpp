@@ -8,8 +8,8 @@
 
 namespace rover::report {
 
-// Skips damaged parts. Bus messages are counted until shortly before the end of the run: the last ones may miss the
-// log.
+// Skips damaged parts. `run_s`: duration of the run, from its first TICK. Bus messages are counted until shortly before
+// its end: the last ones may miss the log.
 RunRecord read_log(const LogRun& run, std::optional<double> run_s = std::nullopt);
 
 }  // namespace rover::report

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "common/bus/config.hpp"
+#include "tools/report/html_parts.hpp"
 #include "tools/report/metrics_json.hpp"
 #include "tools/report/no_truth.hpp"
 #include "tools/report/rasterise.hpp"
@@ -40,8 +41,8 @@ std::string write_report(const Study& study) {
   if (!pictures.elevation.empty()) write_png(pictures.elevation, kPngScale, folder.dir + "/elevation.png");
   if (!pictures.levels.empty()) write_png(pictures.levels, kPngScale, folder.dir + "/levels.png");
   write_file(folder.dir + "/report.html", report_html(study.scene(), pictures, configuration_texts(folder)));
-  return fmt::format("{}: {}, {:.1f} m driven of {:.1f} m planned, {} repairs, {}", folder.dir, m.outcome,
-                     m.driven_length_m, m.planned_length_m, m.replans,
+  return fmt::format("{}: {}, {:.1f} m driven of {} planned, {} repairs, {}", folder.dir, m.outcome, m.driven_length_m,
+                     shown(m.planned_length_m, 1, "m"), m.replans,
                      has_truth(m) ? fmt::format("{} collisions", m.collisions) : "no ground truth");
 }
 

@@ -66,8 +66,9 @@ void draw_tracks(Svg& svg, const MapView& view, const Scene& scene) {
 }
 
 void draw_zones(Svg& svg, const MapView& view, const Scene& scene) {
-  if (scene.run.global_paths.empty()) return;
-  for (const Zone& zone : scene.run.global_paths.back().zones) {
+  const std::vector<PathRecord>& paths = scene.evaluation.metrics.paths;
+  if (paths.empty()) return;
+  for (const Zone& zone : paths.back().zones) {
     const char* colour = zone.keep_in ? palette::kGood : palette::kBad;
     const std::string fill = zone.keep_in ? "none" : colour;
     svg.polygon(view.px(Points(zone.points.begin(), zone.points.end())),

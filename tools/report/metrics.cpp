@@ -43,16 +43,19 @@ bool goal_reached(const RunRecord& run) {
 std::string outcome_of(const RunRecord& run, const Metrics& m) {
   if (m.collisions > 0) return "collision";
   if (goal_reached(run)) return "goal_reached";
+  const bool reported = !m.info.outcome_hint.empty() && m.info.outcome_hint != "goal_reached";
+  // How the drive ended is not in the log.
+  if (run.bus.missing_end_s > 0.0) return reported ? m.info.outcome_hint : "stopped";
   if (!run.planner.empty() && run.planner.back().no_path) return "no_path";
   if (!run.states.empty()) {
     const State last = run.states.back().state;
     if (last == State::kFaultStop || last == State::kSafe) return "fault_stop";
   }
-  return m.info.outcome_hint.empty() || m.info.outcome_hint == "goal_reached" ? "timeout" : m.info.outcome_hint;
+  return reported ? m.info.outcome_hint : "timeout";
 }
 
-void evaluate_length(const RunRecord& run, const TrueTrack& truth, const Footprint& footprint, Metrics& m) {
-  if (!run.global_paths.empty()) m.planned_length_m = length_m(run.global_paths.back().points);
+void evaluate_length(const TrueTrack& truth, const Footprint& footprint, Metrics& m) {
+  if (m.paths.size() == 1) m.planned_length_m = length_m(m.paths.front().points);
   m.duration_s = rounded(m.window.end_s - m.window.begin_s);
   if (!truth.empty()) m.driven_length_m = truth.distance_m(m.window.end_s) - truth.distance_m(m.window.begin_s);
   if (m.planned_length_m > 0.0) m.path_ratio = m.driven_length_m / m.planned_length_m;
@@ -65,8 +68,8 @@ void evaluate_length(const RunRecord& run, const TrueTrack& truth, const Footpri
 // The planned length up to where the drive ended: all of it at the goal.
 double made_good_m(const RunRecord& run, const TrueTrack& truth, const Metrics& m) {
   if (goal_reached(run)) return m.planned_length_m;
-  if (truth.empty() || run.global_paths.empty()) return kNaN;
-  const Points& planned = run.global_paths.back().points;
+  if (truth.empty() || m.paths.size() != 1) return kNaN;
+  const Points& planned = m.paths.front().points;
   return m.planned_length_m -
          length_m(part_ahead(planned, truth.at(m.window.end_s).translation().head<2>(), kInfinity));
 }
@@ -201,10 +204,10 @@ void evaluate_estimate(const RunRecord& run, const TrueTrack& truth, Metrics& m)
   }
 }
 
-void evaluate_goal(const RunRecord& run, const TrueTrack& truth, Metrics& m) {
-  if (run.global_paths.empty() || run.global_paths.back().points.empty() || truth.empty()) return;
+void evaluate_goal(const TrueTrack& truth, Metrics& m) {
+  if (m.paths.empty() || m.paths.back().points.empty() || truth.empty()) return;
   const Eigen::Vector2d end = truth.at(m.window.end_s).translation().head<2>();
-  m.final_error_m = (run.global_paths.back().points.back() - end).norm();
+  m.final_error_m = (m.paths.back().points.back() - end).norm();
 }
 
 // Within the drive.
@@ -218,8 +221,7 @@ void evaluate_states(const RunRecord& run, const TrueTrack& truth, Metrics& m) {
     const StateChange& change = run.states[i];
     const bool first = i == 0;
     LevelFigures& level = change.full ? m.full : m.efficient;
-    if (change.state == State::kHazardStop && (first || run.states[i - 1].state != State::kHazardStop) &&
-        m.window.contains(change.t_s)) {
+    if (hazard_stop_begins(run, i) && m.window.contains(change.t_s)) {
       ++m.hazard_stops;
       ++level.hazard_stops;
     }
@@ -363,7 +365,8 @@ RunEvaluation evaluate(const RunRecord& run, const RunInfo& info, const Footprin
   m.info = info;
   m.window = drive_window(run);
   const TrueTrack truth(run.truth);
-  evaluate_length(run, truth, footprint, m);
+  m.paths = followed_paths(run, m.window);
+  evaluate_length(truth, footprint, m);
   evaluate_time(run, truth, footprint, m);
   evaluate_truth(run, m);
   evaluate_lease(run, m);
@@ -372,7 +375,7 @@ RunEvaluation evaluate(const RunRecord& run, const RunInfo& info, const Footprin
   evaluate_drift(run, truth, m);
   evaluate_slam(run, truth, m);
   evaluate_estimate(run, truth, m);
-  evaluate_goal(run, truth, m);
+  evaluate_goal(truth, m);
   const std::vector<PosePair> odometry = visual_poses(run, truth);
   const SegmentRule rule = segment_rule(trajectory_length_m(odometry));
   m.visual_odometry = trajectory_error(odometry, rule);

@@ -59,6 +59,7 @@ struct Metrics {
   RunInfo info;
   std::string outcome;
   Window window;
+  std::vector<PathRecord> paths;  // followed; several: there is no planned length
   double planned_length_m = kNaN;
   double driven_length_m = kNaN;
   double path_ratio = kNaN;

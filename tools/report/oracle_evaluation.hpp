@@ -8,7 +8,8 @@
 
 namespace rover::report {
 
-// From the true pose at the start of the drive to the end of the global path. Without truth, world or path: unchanged.
+// From the true pose at the start of the drive to the end of the global path. Without truth or world, or unless the
+// rover followed just one path: unchanged.
 void evaluate_oracle(const RunRecord& run, const Vehicle& vehicle, const std::optional<TrueWorld>& world,
                      RunEvaluation& evaluation);
 

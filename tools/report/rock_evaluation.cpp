@@ -97,10 +97,10 @@ std::vector<RockResult> evaluate_rocks(const RunRecord& run, const TrueTrack& tr
   for (const Rock& rock : hazards) results.push_back({rock});
   evaluate_sweep(run, window, footprint, field, results);
   evaluate_detection(run, truth, footprint.origin_height_m, field, results);
-  if (!run.global_paths.empty())
+  for (const PathRecord& path : followed_paths(run, window))
     for (RockResult& result : results)
-      result.encountered |= distance_m(run.global_paths.back().points, {result.rock.x_m, result.rock.y_m}) <=
-                            result.rock.radius_m + kEncounterM;
+      result.encountered |=
+          distance_m(path.points, {result.rock.x_m, result.rock.y_m}) <= result.rock.radius_m + kEncounterM;
   return results;
 }
 

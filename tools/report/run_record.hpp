@@ -190,6 +190,7 @@ struct BusRecord {
   std::int64_t bytes = 0;
   int damaged_events = 0;  // undecodable records of the log
   double missing_s = 0.0;  // parts of the log without a TICK for over a second: the disk was full, or the clock jumped
+  double missing_end_s = 0.0;  // of these: the time from the last TICK to the end of the run
 };
 
 struct RunRecord {
@@ -199,7 +200,7 @@ struct RunRecord {
   std::vector<WheelSample> wheels;
   std::vector<SlipSample> slip;
   std::vector<StateChange> states;
-  std::vector<PathRecord> global_paths;
+  std::vector<PathRecord> global_paths;  // those that path_planner accepted
   std::vector<PathRecord> local_paths;
   std::vector<HazardMap> hazards;
   std::vector<PassabilityMap> hazard_maps;  // of the same messages

@@ -33,7 +33,8 @@ Points odometry_line(const Scene& scene) {
 }
 
 Points planned_line(const Scene& scene) {
-  return scene.run.global_paths.empty() ? Points{} : scene.run.global_paths.back().points;
+  const std::vector<PathRecord>& paths = scene.evaluation.metrics.paths;
+  return paths.empty() ? Points{} : paths.back().points;
 }
 
 }  // namespace rover::report

@@ -110,10 +110,10 @@ bool counted_as_replan(const RunRecord& run, const PathRecord& path) {
 
 std::vector<Incident> find_incidents(const RunRecord& run, const TrueTrack& truth, const Window& window) {
   std::vector<Incident> incidents;
-  for (const StateChange& change : run.states) {
-    if (change.state != State::kHazardStop || !window.contains(change.t_s)) continue;
+  for (size_t i = 0; i < run.states.size(); ++i) {
+    if (!hazard_stop_begins(run, i) || !window.contains(run.states[i].t_s)) continue;
     Incident incident;
-    incident.t_s = change.t_s;
+    incident.t_s = run.states[i].t_s;
     incident.stopped = true;
     incidents.push_back(incident);
   }
@@ -143,6 +143,11 @@ std::vector<Incident> find_incidents(const RunRecord& run, const TrueTrack& trut
 }
 
 }  // namespace
+
+bool hazard_stop_begins(const RunRecord& run, size_t change) {
+  return run.states[change].state == State::kHazardStop &&
+         (change == 0 || run.states[change - 1].state != State::kHazardStop);
+}
 
 Points path_in_truth(const RunRecord& run, const TrueTrack& truth, const PathRecord& path, double t_s) {
   const Pose2 frame = frame_in_truth(run, truth, path.in_odom, t_s);

@@ -11,6 +11,15 @@ namespace {
 constexpr double kStepM = 0.02;
 constexpr double kMaxGapS = 0.1;
 
+// As after a zone edit: the same corners ahead, the first point on the leg of the path where the rover is.
+bool is_rest(const Points& part, const Points& whole) {
+  constexpr double kRoundingM = 1e-6;
+  if (part.size() < 2 || part.size() > whole.size()) return false;
+  const Points tail(whole.end() - static_cast<std::ptrdiff_t>(part.size()), whole.end());
+  return std::equal(part.begin() + 1, part.end(), tail.begin() + 1) &&
+         distance_m({tail[0], tail[1]}, part.front()) < distance_m(whole, part.front()) + kRoundingM;
+}
+
 }  // namespace
 
 Window drive_window(const RunRecord& run) {
@@ -23,6 +32,23 @@ Window drive_window(const RunRecord& run) {
   if (const auto driving = first(State::kDriving); driving != run.states.end()) window.begin_s = driving->t_s;
   if (const auto goal = first(State::kGoalReached); goal != run.states.end()) window.end_s = goal->t_s;
   return window;
+}
+
+std::vector<PathRecord> followed_paths(const RunRecord& run, const Window& window) {
+  std::vector<PathRecord> paths;
+  const PathRecord* before = nullptr;
+  for (const PathRecord& path : run.global_paths) {
+    if (path.t_s > window.end_s) break;
+    const bool rest = before != nullptr && is_rest(path.points, before->points);
+    before = &path;
+    if (rest) {
+      paths.back().zones = path.zones;
+      continue;
+    }
+    if (path.t_s <= window.begin_s) paths.clear();
+    paths.push_back(path);
+  }
+  return paths;
 }
 
 TrueTrack::TrueTrack(const std::vector<TruthSample>& truth) : truth_(truth) {

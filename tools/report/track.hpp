@@ -20,6 +20,10 @@ struct Window {
 // From the first DRIVING to the first GOAL_REACHED; default: first and last TRUTH.
 Window drive_window(const RunRecord& run);
 
+// The global paths under way within the window. One that sends the rest of the path before again only changes its
+// zones.
+std::vector<PathRecord> followed_paths(const RunRecord& run, const Window& window);
+
 class TrueTrack {
  public:
   explicit TrueTrack(const std::vector<TruthSample>& truth);
