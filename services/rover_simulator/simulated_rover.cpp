@@ -1,30 +1,18 @@
 #include "rover_simulator/simulated_rover.hpp"
 
-#include <random>
-
 #include "common/core/check.hpp"
 #include "rover_simulator/camera/calibration_error.hpp"
+#include "rover_simulator/world/rover_streams.hpp"
 
 namespace rover {
 namespace {
 
-// Independent random streams, so that an extra draw in one part does not change the others.
-enum class Stream : std::uint64_t { kSensors = 1, kCamera = 2, kStart = 3, kNavCam = 4, kPanTilt = 5 };
-
-std::uint64_t seed_of(std::uint64_t seed, Stream stream) {
-  std::seed_seq sequence{seed, static_cast<std::uint64_t>(stream)};
-  std::uint32_t words[2];
-  sequence.generate(std::begin(words), std::end(words));
-  return (std::uint64_t{words[0]} << 32) | words[1];
-}
-
 Pose2 true_start(const SimulatedRoverConfig& config, const Pose2& estimate, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
-  std::normal_distribution<double> normal(0.0, 1.0);
+  const std::array<double, 3> error = start_error(seed);
   Pose2 start = estimate;
-  start.x_m += config.start_sigma_m * normal(random);
-  start.y_m += config.start_sigma_m * normal(random);
-  start.yaw_rad += config.start_sigma_yaw_rad * normal(random);
+  start.x_m += config.start_sigma_m * error[0];
+  start.y_m += config.start_sigma_m * error[1];
+  start.yaw_rad += config.start_sigma_yaw_rad * error[2];
   return start;
 }
 
@@ -36,12 +24,12 @@ SimulatedRover::SimulatedRover(const SimulatedRoverConfig& config, const Vehicle
       geometry_(vehicle),
       loccam_rig_(loccam),
       world_(std::move(world)),
-      vehicle_(vehicle, config.vehicle, *world_, true_start(config, start_estimate, seed_of(seed, Stream::kStart))),
-      sensors_(config.sensors, seed_of(seed, Stream::kSensors)),
-      loccam_seed_(seed_of(seed, Stream::kCamera)),
-      navcam_seed_(seed_of(seed, Stream::kNavCam)) {
+      vehicle_(vehicle, config.vehicle, *world_, true_start(config, start_estimate, seed)),
+      sensors_(config.sensors, seed_of(seed, RoverStream::kSensors)),
+      loccam_seed_(seed_of(seed, RoverStream::kCamera)),
+      navcam_seed_(seed_of(seed, RoverStream::kNavCam)) {
   if (config.navcam && vehicle.pan_tilt)
-    pan_tilt_.emplace(*vehicle.pan_tilt, config.pan_tilt_repeatability_rad, seed_of(seed, Stream::kPanTilt));
+    pan_tilt_.emplace(*vehicle.pan_tilt, config.pan_tilt_repeatability_rad, seed_of(seed, RoverStream::kPanTilt));
   advance(to_seconds(kTickUs), hold_command());
 }
 

@@ -98,6 +98,7 @@ void Simulator::on_done(const lcm::ReceiveBuffer* buffer, const std::string& cha
   done_t done{};
   if (!decode(buffer, channel, done)) return;
   const header_t& header = done.header;
+  if (done.lost > 0) summary_.deterministic = false;
   if (done.tick_utime == kNever) return barrier_.ready(header.publisher, header.boot_id, done.pid);
   barrier_.done(header.publisher, header.boot_id, done.pid, done.tick_utime, done.promise_utime, done.busy != 0);
   for (const stream_seq_t& stream : done.streams)
@@ -149,7 +150,7 @@ SimulationSummary Simulator::run(const std::function<bool()>& running) {
     publish_due_images(navcam_, t);
     if (options_.realtime)
       std::this_thread::sleep_until(started + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(
-                                                  to_seconds(t - kFirstTick) / options_.pace)));
+                                                  to_seconds(t - jumped_ - kFirstTick) / options_.pace)));
     else
       wait_for_barrier(t, running);
     publish_tick(t);
@@ -216,6 +217,7 @@ WheelCommand Simulator::command_at(Utime t) {
 Utime Simulator::next_tick(Utime t, const std::function<bool()>& running) {
   const Utime jump = world_faults_.take_clock_step();
   if (jump == 0) return t + kTickUs;
+  jumped_ += jump;
   if (!options_.realtime)
     for (const std::string& service : barrier_.participants()) wait_until_idle(service, running);
   barrier_.allow_until(t + kTickUs + jump);
@@ -340,7 +342,8 @@ bool Simulator::is_computing(const std::string& name, double waited_s) const {
   return process_cpu_s(barrier_.pid_of(name)) - before->second > kMinBusyCpuShare * waited_s;
 }
 
-// A dead process leaves the barrier at once, a silent one after a timeout; both may rejoin.
+// A dead process leaves the barrier at once, a silent one after a timeout; both may rejoin. What it did of its last
+// tick depends on wall time, unlike that of a process which the scenario killed: such a one has left before.
 void Simulator::handle_missing(const std::vector<std::string>& missing, Utime t, double waited_s) {
   for (const std::string& name : missing) {
     if (!barrier_.takes_part(name) && waited_s >= kSilenceTimeout_s) {
@@ -352,7 +355,7 @@ void Simulator::handle_missing(const std::vector<std::string>& missing, Utime t,
     }
     const bool dead = barrier_.pid_of(name) > 0 && !process_alive(barrier_.pid_of(name));
     if (!dead && (waited_s < kSilenceTimeout_s || is_computing(name, waited_s))) continue;
-    if (!dead) summary_.deterministic = false;
+    summary_.deterministic = false;
     summary_.left.push_back(name + (dead ? " died at " : " silent at ") + std::to_string(to_seconds(t)) + " s");
     warn(t, "LEFT_BARRIER service=" + name + " dead=" + std::to_string(static_cast<int>(dead)));
     barrier_.leave(name, dead ? Barrier::Cause::kDied : Barrier::Cause::kSilent, t, kRejoinDelay);

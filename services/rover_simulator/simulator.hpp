@@ -143,6 +143,7 @@ class Simulator {
   Camera loccam_;
   Camera navcam_;
   Utime now_ = kNever;
+  Utime jumped_ = 0;  // by clock steps, which take no wall time
   std::map<std::string, std::int64_t> malformed_;
   std::vector<std::uint8_t> last_tick_;
   SimulationSummary summary_;

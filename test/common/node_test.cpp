@@ -232,6 +232,20 @@ TEST_F(NodeTest, WaitsForWhatTheTickLists) {
   EXPECT_EQ(taken, (std::vector<double>{1.0, 2.0}));
 }
 
+TEST_F(NodeTest, ReportsHowManyListedMessagesItLost) {
+  Node node({.name = "node"}, bus_);
+  node.subscribe<slip_t>(channel::kSlip, [](const slip_t&) {});
+  slip_t first = slip(1.0, 0, 20'000);
+  bus_.publish(channel::kSlip, &first);
+  tick(node, 20'000, world_.take_updated());
+  slip(2.0, 10, 40'000);  // listed, but not published
+  tick(node, 40'000, world_.take_updated());
+  for (int i = 0; i < 1000 && dones_.size() < 2; ++i) node.handle(10);
+  ASSERT_EQ(dones_.size(), 2u);
+  EXPECT_EQ(dones_[0].lost, 0);
+  EXPECT_EQ(dones_[1].lost, 1);
+}
+
 TEST_F(NodeTest, GapsRepeatsAndOldMessagesAreCountedAndNotTaken) {
   Node node({.name = "node"}, bus_);
   int taken = 0;

@@ -35,10 +35,16 @@ void record(lcm::LCM& bus, const char* channel, std::vector<Message>& messages) 
       &messages);
 }
 
+struct Circumstances {
+  bool realtime = false;
+  Utime dies_at = kNever;  // the driver, without any order
+  int lost = 0;            // messages that the driver did not receive
+};
+
 // Service that drives straight ahead. Its process is a sleeping child, restarted after it was killed.
 class Driver {
  public:
-  explicit Driver(lcm::LCM& bus) : bus_(bus) {
+  Driver(lcm::LCM& bus, const Circumstances& circumstances) : bus_(bus), circumstances_(circumstances) {
     bus_.subscribeFunction(
         channel::kTick,
         +[](const lcm::ReceiveBuffer* buffer, const std::string&, Driver* driver) {
@@ -65,15 +71,18 @@ class Driver {
     publish_done(kNever);
   }
   void end() {
+    if (child_ <= 0) return;
     kill(child_, SIGKILL);
     waitpid(child_, nullptr, 0);
+    child_ = -1;
   }
   // A tick without this member means that its process has died.
   void on_tick(const tick_t& tick) {
     if (tick.members.empty()) {
-      if (waitpid(child_, nullptr, WNOHANG) == child_) start();
+      if (child_ < 0 || waitpid(child_, nullptr, WNOHANG) == child_) start();
       return;
     }
+    if (tick.header.utime == circumstances_.dies_at) return end();
     ticks_.push_back(tick.header.utime);
     wheel_command_t command{};
     command.valid_until_utime = tick.header.utime + 10 * kTickUs;
@@ -87,11 +96,13 @@ class Driver {
     done.tick_utime = t;
     done.promise_utime = kNever;
     done.pid = child_;
+    done.lost = t == kNever ? 0 : circumstances_.lost;
     done.header = streams_->next(channel::kDone, t, t);
     bus_.publish(channel::kDone, &done);
   }
 
   lcm::LCM& bus_;
+  Circumstances circumstances_;
   std::unique_ptr<StreamCounter> streams_;
   std::vector<Utime> ticks_;
   int boot_ = 0;
@@ -117,7 +128,7 @@ ScriptedFault at_second(double at_s, const std::string& fault, const std::string
 }
 
 // Drives for some seconds on a smooth firm plane.
-Recording drive(std::vector<ScriptedFault> faults, double seconds = 2.0) {
+Recording drive(std::vector<ScriptedFault> faults, double seconds = 2.0, const Circumstances& circumstances = {}) {
   SimulatedRoverConfig config;
   config.loccam.scene.fine_radius_m = 4.5;
   config.loccam.scene.middle_radius_m = 8.0;
@@ -133,6 +144,7 @@ Recording drive(std::vector<ScriptedFault> faults, double seconds = 2.0) {
   options.participants = {"driver"};
   options.end.timeout_s = seconds;
   options.faults = std::move(faults);
+  options.realtime = circumstances.realtime;
   Recording recorded;
   lcm::LCM bus("memq://");
   record(bus, channel::kImu, recorded.imu);
@@ -144,7 +156,7 @@ Recording drive(std::vector<ScriptedFault> faults, double seconds = 2.0) {
   testing::internal::CaptureStdout();
   {
     Simulator simulator(options, rover, bus);
-    const Driver driver(bus);
+    const Driver driver(bus, circumstances);
     recorded.summary = simulator.run([] { return true; });
     recorded.ticks = driver.ticks();
     recorded.boots = driver.boots();
@@ -289,6 +301,13 @@ TEST(SimulatorFaults, ClockStepsOnceAndRunContinues) {
   EXPECT_EQ(jumps, 1);
 }
 
+TEST(SimulatorFaults, ClockStepInRealTimeTakesNoWallTime) {
+  const Recording recorded = drive({at_second(0.4, "clock_step", "clock", 20.0)}, 21.0, {.realtime = true});
+  EXPECT_EQ(recorded.summary.outcome, "timeout");
+  EXPECT_GT(recorded.summary.wall_s, 0.9);
+  EXPECT_LT(recorded.summary.wall_s, 15.0);
+}
+
 TEST(SimulatorFaults, EveryFaultIsPublishedOnInject) {
   const Recording recorded = drive({at_second(0.5, "drop", "POSE", 0.3), at_second(0.7, "gyro_bias", "imu", 0.1)}, 1.0);
   ASSERT_EQ(recorded.injections.size(), 2u);
@@ -307,6 +326,19 @@ TEST(SimulatorFaults, KilledServiceRejoinsAfterOneSecondAndReceivesActiveFaults)
   ASSERT_EQ(recorded.injections.size(), 3u);
   EXPECT_EQ(recorded.injections[2].injection_id, 1);
   EXPECT_EQ(recorded.injections[2].header.utime, kStart + 2'020'000);
+}
+
+TEST(SimulatorFaults, DeathThatTheScenarioDidNotOrderIsNotDeterministic) {
+  const Recording recorded = drive({}, 3.0, {.dies_at = kStart + 1'000'000});
+  EXPECT_EQ(recorded.boots, 2);
+  ASSERT_EQ(recorded.summary.left.size(), 1u);
+  EXPECT_EQ(recorded.summary.left[0].rfind("driver died at ", 0), 0u) << recorded.summary.left[0];
+  EXPECT_FALSE(recorded.summary.deterministic);
+}
+
+TEST(SimulatorFaults, RunInWhichAServiceLostAMessageIsNotDeterministic) {
+  EXPECT_TRUE(drive({}, 0.5).summary.deterministic);
+  EXPECT_FALSE(drive({}, 0.5, {.lost = 1}).summary.deterministic);
 }
 
 }  // namespace

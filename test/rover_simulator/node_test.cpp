@@ -1,12 +1,15 @@
 // Simulator with one participant on an in-memory bus.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <rover/tick_t.hpp>
 #include <rover/truth_t.hpp>
 
 #include "common/bus/channels.hpp"
 #include "common/bus/streams.hpp"
 #include "common/bus/vehicle_config.hpp"
+#include "rover_simulator/setup.hpp"
 #include "rover_simulator/simulator.hpp"
 
 namespace rover {
@@ -137,6 +140,19 @@ TEST(SimulatorNode, InvalidMessagesAreCountedAndIgnored) {
   for (const auto& [channel, count] : disturbed.malformed)
     EXPECT_NE(disturbed.log.find("BAD_MESSAGE channel=" + channel + " count=1\n"), std::string::npos) << disturbed.log;
   for (const auto& [channel, count] : calm.malformed) EXPECT_EQ(count, 0) << channel;
+}
+
+TEST(SimulatedRover, StandsOnCertifiedGroundAlsoIfItsStartIsBadlyKnown) {
+  Scenario scenario = load_scenario(kConfig + "/scenarios/plain.yaml");
+  scenario.world.rocks.k = 0.12;  // its own rocks are too few to stand on any
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const auto rover = make_simulated_rover(scenario, kConfig, seed);
+    const Eigen::Vector3d at = rover->T_map_body().translation();
+    const std::vector<Rock> rocks = rover->world().rocks_in(at.x() - 2.0, at.y() - 2.0, at.x() + 2.0, at.y() + 2.0);
+    EXPECT_TRUE(std::none_of(rocks.begin(), rocks.end(), [&](const Rock& rock) {
+      return rock.height_m >= 0.12 && std::hypot(rock.x_m - at.x(), rock.y_m - at.y()) < scenario.start.clear_radius_m;
+    })) << seed;
+  }
 }
 
 }  // namespace

@@ -61,6 +61,14 @@ TEST(WheelContact, WallPushesWheelBack) {
   EXPECT_NEAR(contact.climb_m, 0.5, 1e-9);
 }
 
+TEST(WheelContact, RockUnderTheEdgeAloneIsClimbedWithoutLoad) {
+  const FeatureSurface flank([](double, double y) { return y > 5.055 ? 0.25 : 0.0; });
+  const Eigen::Vector3d axle(5.0, 5.0, 0.122);
+  HeightCache heights(flank);
+  EXPECT_EQ(contact_at(flank, axle).climb_m, 0.0);
+  EXPECT_EQ(climb_at_edges_m({}, test_vehicle(), heights, axle, Eigen::Matrix3d::Identity()), 0.25);
+}
+
 // Drives over a full-width bump; returns the maximum climb and whether the rover got across.
 struct Crossing {
   double climb_m = 0.0;
@@ -133,6 +141,15 @@ TEST(VehicleClimb, StoneThatMeetsTheForkBesideAWheelIsCollision) {
   };
   EXPECT_EQ(cross(stone_at(0.31), 20.0).collision, Collision::kBodyContact);
   EXPECT_EQ(cross(stone_at(0.25), 20.0).collision, Collision::kNone);
+}
+
+// The wheel's outer edge is at 0.47 m.
+TEST(VehicleClimb, RockUnderTheEdgeOfAWheelIsCollision) {
+  const auto flank_from = [](double y_m) {
+    return [=](double x, double y) { return x > 1.3 && x < 1.7 && y > y_m ? 0.28 : 0.0; };
+  };
+  EXPECT_EQ(cross(flank_from(0.462), 20.0).collision, Collision::kWheelClimb);
+  EXPECT_EQ(cross(flank_from(0.482), 20.0).collision, Collision::kNone);
 }
 
 TEST(VehicleClimb, DrivingIntoWallIsCollision) {

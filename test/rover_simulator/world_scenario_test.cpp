@@ -148,6 +148,11 @@ TEST(Scenarios, FullHardScenarioIsHardAndUsesFullLevel) {
   EXPECT_GT(hazards, 20.0);
 }
 
+TEST(Scenarios, WellKnownStartsDoNotMoveTheCertifiedCircle) {
+  for (const char* name : {"default", "seed_traverse_1", "seed_traverse_2", "full_hard", "long_drift", "combined_500"})
+    EXPECT_EQ(load_scenario(kScenarios + name + ".yaml").world.keep_clear[0].start_sigma_m, 0.0) << name;
+}
+
 TEST(Scenarios, ScenariosUseTheirNamedLevel) {
   EXPECT_EQ(load_scenario(kScenarios + "default.yaml").level, "efficient");
   EXPECT_EQ(load_scenario(kScenarios + "long_drift.yaml").level, "full");
@@ -165,6 +170,7 @@ TEST_F(ScenarioFile, ReadsAPlane) {
   EXPECT_EQ(scenario.path.level[1], 1);
   ASSERT_EQ(scenario.world.keep_clear.size(), 2u);
   EXPECT_EQ(scenario.world.keep_clear[0].radius_m, 1.5);
+  EXPECT_EQ(scenario.world.keep_clear[0].start_sigma_m, 0.3);
 }
 
 TEST_F(ScenarioFile, InvalidPathErrorNamesKey) {

@@ -81,7 +81,10 @@ bool Lockstep::holds_all_for(const QueuedTick& queued) {
     if (stream.publisher == name_ || !inbox_.misses(stream)) continue;
     const bool known = inbox_.knows(stream);
     if (waited < (known ? Clock::duration(kTimeout) : Clock::duration(kTimeoutUnknown))) return false;
-    if (known) log_("WARN", "LOST_ON_BUS channel=" + stream.channel + " publisher=" + stream.publisher);
+    if (known) {
+      ++last_done_.lost;
+      log_("WARN", "LOST_ON_BUS channel=" + stream.channel + " publisher=" + stream.publisher);
+    }
     inbox_.give_up(stream);
   }
   return true;

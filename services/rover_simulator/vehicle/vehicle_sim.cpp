@@ -179,11 +179,16 @@ class VehicleSim::Impl {
     }
   }
 
+  Eigen::Isometry3d wheel_pose(int i) const {
+    return make_pose(Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(data_->xmat + 9 * wheel_[i]),
+                     Vec3Map(data_->xpos + 3 * wheel_[i]));
+  }
+
   void push_wheel(int i) {
     const int body = wheel_[i];
-    const Eigen::Vector3d axle = Vec3Map(data_->xpos + 3 * body);
-    const Eigen::Matrix3d R_map_wheel =
-        Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(data_->xmat + 9 * body);
+    const Eigen::Isometry3d T_map_wheel = wheel_pose(i);
+    const Eigen::Vector3d axle = T_map_wheel.translation();
+    const Eigen::Matrix3d R_map_wheel = T_map_wheel.linear();
     WheelContact contact = find_contact(config_.contact, vehicle_, heights_, axle, R_map_wheel);
     if (loose_sand_) contact.soil_fraction = {1.0, 0.0, 0.0};
     double* wrench = data_->xfrc_applied + 6 * body;
@@ -227,6 +232,14 @@ class VehicleSim::Impl {
     truth_.wheel_soil[i] = static_cast<Soil>(most - contact.soil_fraction.begin());
   }
 
+  void note_edges() {
+    for (int i = 0; i < 6; ++i) {
+      const Eigen::Isometry3d at = wheel_pose(i);
+      const double climb_m = climb_at_edges_m(config_.contact, vehicle_, heights_, at.translation(), at.linear());
+      truth_.climb_m = std::max(truth_.climb_m, climb_m);
+    }
+  }
+
   // A beam or a fork touches ground or rock.
   bool suspension_touches() {
     for (int i = 0; i < model_->nsite; ++i) {
@@ -251,6 +264,7 @@ class VehicleSim::Impl {
     for (int i = 0; i < 4; ++i) truth_.steer_angle_rad[i] = angle(steer_[i]);
     for (int i = 0; i < 3; ++i) truth_.bogie_angle_rad[i] = angle(bogie_[i]);
     truth_.clearance_m = std::min(truth_.clearance_m, belly_clearance_m(vehicle_, heights_, truth_.T_map_body));
+    note_edges();
     truth_.collision = Collision::kNone;
     if (truth_.climb_m > vehicle_.max_climb_m) truth_.collision = Collision::kWheelClimb;
     if (truth_.clearance_m <= 0.0 || suspension_touches()) truth_.collision = Collision::kBodyContact;

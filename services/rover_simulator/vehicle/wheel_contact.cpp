@@ -81,4 +81,11 @@ WheelContact find_contact(const ContactConfig& config, const Vehicle& vehicle, H
   return contact;
 }
 
+double climb_at_edges_m(const ContactConfig& config, const Vehicle& vehicle, HeightCache& heights,
+                        const Eigen::Vector3d& p_map_axle, const Eigen::Matrix3d& R_map_hub) {
+  Vehicle wider = vehicle;
+  wider.wheel_width_m *= kStrips / (kStrips - 1.0);  // its outer strips lie at the edges of the wheel
+  return find_contact(config, wider, heights, p_map_axle, R_map_hub).climb_m;
+}
+
 }  // namespace rover

@@ -29,5 +29,8 @@ struct WheelContact {
 // `R_map_hub`: axes of the wheel carrier, y along the axle to the left.
 WheelContact find_contact(const ContactConfig& config, const Vehicle& vehicle, HeightCache& heights,
                           const Eigen::Vector3d& p_map_axle, const Eigen::Matrix3d& R_map_hub);
+// climb_m under the wheel's edges, which carry no load: the strips lie 2 cm and more within them.
+double climb_at_edges_m(const ContactConfig& config, const Vehicle& vehicle, HeightCache& heights,
+                        const Eigen::Vector3d& p_map_axle, const Eigen::Matrix3d& R_map_hub);
 
 }  // namespace rover

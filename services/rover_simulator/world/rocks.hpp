@@ -25,6 +25,7 @@ struct KeepClear {
   double y_m = 0.0;
   double radius_m = 0.0;
   double height_m = 0.12;
+  double start_sigma_m = 0.0;  // of the start pose at its centre; above 0 it holds where the rover really stands
 };
 
 // Zone with its own rock abundance: all points within the half width of a polyline (a circle for a single point).

@@ -19,6 +19,8 @@ constexpr Range kMap{-1e7, 1e7};
 constexpr double kSamePointM = 1e-3;
 constexpr double kMaxPictureAreaM2 = 500'000.0;  // all of it is in the memory
 constexpr double kGoalClearRadiusM = 1.0;
+// A rover whose start is known as well as this stands within the circle about it, with room to spare.
+constexpr double kWellKnownStartM = 0.1;
 constexpr double kClearHeightM = 0.12;  // maximum rock height in a certified circle, below hazard size
 
 std::string find_dtm(const Config& world, const std::string& file) {
@@ -146,7 +148,9 @@ void read_sun(const Config& sun, Scenario& scenario) {
 
 std::vector<KeepClear> certified_circles(const Scenario& scenario) {
   const PlannedPath& path = scenario.path;
-  return {{path.x_m.front(), path.y_m.front(), scenario.start.clear_radius_m, kClearHeightM},
+  const PlannedStart& start = scenario.start;
+  const double sigma_m = start.sigma_m > kWellKnownStartM ? start.sigma_m : 0.0;
+  return {{path.x_m.front(), path.y_m.front(), start.clear_radius_m, kClearHeightM, sigma_m},
           {path.x_m.back(), path.y_m.back(), kGoalClearRadiusM, kClearHeightM}};
 }
 

@@ -6,6 +6,7 @@
 
 #include "common/core/check.hpp"
 #include "rover_simulator/world/noise.hpp"
+#include "rover_simulator/world/rover_streams.hpp"
 
 namespace rover {
 namespace {
@@ -37,6 +38,15 @@ std::vector<double> octave_amplitudes(const RoughnessConfig& config) {
   return rms;
 }
 
+std::vector<KeepClear> about_true_start(std::vector<KeepClear> circles, std::uint64_t seed) {
+  const std::array<double, 3> error = start_error(seed);
+  for (KeepClear& circle : circles) {
+    circle.x_m += circle.start_sigma_m * error[0];
+    circle.y_m += circle.start_sigma_m * error[1];
+  }
+  return circles;
+}
+
 }  // namespace
 
 World::World(const WorldConfig& config, const ElevationRaster& dtm, std::uint64_t seed)
@@ -44,7 +54,8 @@ World::World(const WorldConfig& config, const ElevationRaster& dtm, std::uint64_
       dtm_(dtm),
       seed_(seed),
       soils_(config.soil, stream_seed(seed, kSoil)),
-      rocks_(config.rocks, dtm.width_m(), dtm.height_m(), config.keep_clear, stream_seed(seed, kRocks)),
+      rocks_(config.rocks, dtm.width_m(), dtm.height_m(), about_true_start(config.keep_clear, seed),
+             stream_seed(seed, kRocks)),
       octave_rms_m_(octave_amplitudes(config.roughness)) {
   ROVER_CHECK(dtm.width >= 4 && dtm.height >= 4 && dtm.resolution_m > 0.0, dtm.width, dtm.height, dtm.resolution_m);
   const float lowest = *std::min_element(dtm_.z_m.begin(), dtm_.z_m.end());
