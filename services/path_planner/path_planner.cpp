@@ -169,7 +169,7 @@ PlannerOutput PathPlanner::step(Utime now) {
   if (ready(now)) {
     if (!global_odom_) {
       set_global_in_odom(planar(history_.newest().T_map_odom));
-      global_progress_m_ = global_odom_->closest(position(rover()));
+      global_progress_m_ = place_on_global_path();
     }
     if (active_.empty()) follow_global_path();
     if (!active_.empty()) follow();
@@ -210,6 +210,16 @@ void PathPlanner::set_global_in_odom(const Pose2& T_map_odom) {
       const Point2 in_odom = from_body(T_odom_map, {p.x(), p.y()});
       p = {in_odom.x_m, in_odom.y_m};
     }
+}
+
+// A path that begins at the rover may pass there again, but later; others are joined midway.
+double PathPlanner::place_on_global_path() const {
+  const std::vector<RoutePoint>& points = global_odom_->points();
+  const auto far = std::find_if(points.begin(), points.end(), [&](const RoutePoint& point) {
+    return distance(point.p, position(rover())) > PathPlannerConfig::kMaxStartOffsetM;
+  });
+  if (far == points.begin() || far == points.end()) return global_odom_->closest(position(rover()));
+  return global_odom_->closest(position(rover()), 0.0, global_odom_->s_at(static_cast<size_t>(far - points.begin())));
 }
 
 // From here on; if the rover is far off, a path to it has to be planned.

@@ -130,6 +130,7 @@ class PathPlanner {
   void apply_start_area();
   void forget_path();
   void set_global_in_odom(const Pose2& T_map_odom);
+  double place_on_global_path() const;
 
   void follow();
   void follow_global_path();

@@ -38,8 +38,10 @@ TrajectoryControlNode::TrajectoryControlNode(Node& node, const TrajectoryControl
   node_.subscribe<drive_permit_t>(channel::kDrivePermit, [this](const drive_permit_t& m) { permit_ = permit_from(m); });
   node_.subscribe<ground_command_t>(channel::kGroundCommand,
                                     [this](const ground_command_t& m) { on_ground_command(m); });
-  node_.subscribe<supervisor_state_t>(
-      channel::kState, [this](const supervisor_state_t& m) { teleoperated_ = m.state == supervisor_state_t::TELEOP; });
+  node_.subscribe<supervisor_state_t>(channel::kState, [this](const supervisor_state_t& m) {
+    teleoperated_ = m.state == supervisor_state_t::TELEOP;
+    controller_.set_teleoperated(teleoperated_);
+  });
   node_.on_step([this](Utime now) { step(now); });
 }
 

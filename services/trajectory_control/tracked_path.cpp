@@ -14,6 +14,7 @@ constexpr double kMaxLengthM = 1e5;
 constexpr double kSearchWindowM = 0.5;      // around the arc length of the smoothed curve
 constexpr double kHeadingWeightM = 0.3;     // 1 rad of heading error costs as much as this distance
 constexpr double kCandidateFraction = 0.5;  // of the half width: parts this close are candidates
+constexpr double kBeginningM = 0.6;         // path_planner begins a path at most 0.5 m from the rover, which drives on
 
 Points without_duplicates(const Points& points) {
   Points out;
@@ -122,6 +123,16 @@ std::vector<size_t> local_minima(const std::vector<PathSample>& samples, const E
     if (not_farther_than_previous && closer_than_next) out.push_back(i);
   }
   return out;
+}
+
+// Arc length up to which the rover can be. A path that begins at the rover may pass there again, but later; infinity:
+// it begins farther off, and the rover may be anywhere on it.
+double reached_m(std::span<const PathSegment> part, const Eigen::Vector2d& p) {
+  if ((part[0].samples()[0].p - p).norm() > kBeginningM) return kInfinity;
+  for (const PathSegment& segment : part)
+    for (size_t i = 0; i < segment.samples().size(); ++i)
+      if ((segment.samples()[i].p - p).norm() > kBeginningM) return segment.sample_m(i);
+  return kInfinity;
 }
 
 }  // namespace
@@ -266,23 +277,24 @@ PathPosition TrackedPath::locate(const Pose2& pose) const {
     return segment.reverse() != segments_[0].reverse();
   });
   const std::span<const PathSegment> part(segments_.begin(), cusp);
+  const double end_m = reached_m(part, p);
   double nearest_m = kInfinity;
   for (const PathSegment& segment : part)
-    for (const PathSample& sample : segment.samples()) nearest_m = std::min(nearest_m, (sample.p - p).norm());
+    for (size_t i = 0; i < segment.samples().size() && segment.sample_m(i) < end_m; ++i)
+      nearest_m = std::min(nearest_m, (segment.samples()[i].p - p).norm());
   const double candidate_distance_m = std::max(nearest_m, kCandidateFraction * corridor_half_width_m_);
 
   PathPosition best;
   double min_cost = kInfinity;
   for (size_t l = 0; l < part.size(); ++l) {
     const double heading_rad = pose.yaw_rad + (part[l].reverse() ? kPi : 0.0);
-    const double step_m = part[l].length_m() / static_cast<double>(part[l].samples().size() - 1);
     for (const size_t i : local_minima(part[l].samples(), p)) {
       const PathSample& sample = part[l].samples()[i];
       const double distance_m = (sample.p - p).norm();
       const double cost = std::hypot(distance_m, kHeadingWeightM * wrap_angle(sample.yaw_rad - heading_rad));
-      if (distance_m > candidate_distance_m || cost >= min_cost) continue;
+      if (part[l].sample_m(i) >= end_m || distance_m > candidate_distance_m || cost >= min_cost) continue;
       min_cost = cost;
-      best = {l, step_m * static_cast<double>(i)};
+      best = {l, part[l].step_m() * static_cast<double>(i)};
     }
   }
   return best;

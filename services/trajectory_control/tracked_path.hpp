@@ -60,7 +60,9 @@ class PathSegment {
 
   double length_m() const { return step_m_ * static_cast<double>(samples_.size() - 1); }
   double start_m() const { return start_m_; }  // arc length of its start on the whole path
-  bool reverse() const { return reverse_; }    // headings are those of the motion, not of the body
+  double step_m() const { return step_m_; }
+  double sample_m(size_t i) const { return start_m_ + step_m_ * static_cast<double>(i); }  // on the whole path
+  bool reverse() const { return reverse_; }  // headings are those of the motion, not of the body
   const std::vector<PathSample>& samples() const { return samples_; }
   PathSample at(double s_m) const;
   // Closest point of the smoothed curve with arc length in [from_m, to_m].
@@ -96,8 +98,9 @@ class TrackedPath {
   double length_m() const { return segments_.back().start_m() + segments_.back().length_m(); }
   const std::vector<PathSegment>& segments() const { return segments_; }
   // Closest sample to the pose up to the first cusp: a path begins with the part that is being driven, and what follows
-  // may pass the same place. If several segments pass within kCandidateFraction of the corridor half width, the heading
-  // selects among their closest samples, so a path that starts with a point turn starts at the rover.
+  // may pass the same place. So may a path that begins at the rover and returns: only what is contiguous with its
+  // beginning counts then. If several parts pass within kCandidateFraction of the corridor half width, the heading
+  // selects among their closest samples.
   PathPosition locate(const Pose2& pose) const;
 
  private:

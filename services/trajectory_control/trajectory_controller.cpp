@@ -171,7 +171,7 @@ void TrajectoryController::follow_arc(const PoseInput& pose, const Projection& p
 
   steering_curvature_per_m_ =
       move_towards(steering_curvature_per_m_, command.curvature_per_m, config_.path.max_curvature_rate * dt_s);
-  integrate(projection.cross_track_m, speed_mps * dt_s);
+  if (!teleoperated_) integrate(projection.cross_track_m, speed_mps * dt_s);
 }
 
 // Limits the distance travelled (steering_distance_m) while the slow steering reaches the commanded curvature.

@@ -69,6 +69,8 @@ class TrajectoryController {
 
   // Replaces the path, also while moving. False: the path is invalid and the old one is removed.
   bool set_path(const PathInput& input);
+  // The operator's commands are driven instead: the cross track says nothing about the steering law.
+  void set_teleoperated(bool teleoperated) { teleoperated_ = teleoperated; }
   // One control tick; pose and permit are the newest received.
   ControlOutput step(Utime now, const PoseInput& pose, const DrivePermit& permit);
 
@@ -94,6 +96,7 @@ class TrajectoryController {
   std::optional<TrackedPath> path_;
   PathInput input_;
   bool relocate_ = false;
+  bool teleoperated_ = false;
   bool turning_ = false;
   PathPosition path_position_;
   double steering_curvature_per_m_ = 0.0;  // modelled steering: commands with a rate limit

@@ -266,6 +266,26 @@ TEST(PathPlanner, FarFromTheGlobalPathAPathToItIsPlanned) {
   EXPECT_LT(std::abs(rig.odom.y_m), 0.1);
 }
 
+// The legs coincide, so rounding decides which of them is nearer to the rover.
+TEST(PathPlanner, APathThatReturnsToItsStartIsDrivenFromTheStart) {
+  for (const double y_m : {-0.1, -0.001, 0.0, 0.001, 0.1}) {
+    PlannerRig rig;
+    rig.odom = {0.05, y_m, kPi};
+    ASSERT_EQ(rig.send_path({{0.0, 0.0}, {6.7, 3.1}, {0.0, 0.0}}), "");
+    const PlannerOutput out = rig.step();
+    EXPECT_GT(out.status.goal_distance_m, 14.0);
+    ASSERT_EQ(rig.paths.size(), 1u);
+    EXPECT_GT(Route(rig.paths[0].points).length_m(), 14.0);
+  }
+}
+
+TEST(PathPlanner, AGlobalPathThatBeginsFartherOffIsJoinedMidway) {
+  PlannerRig rig;
+  rig.odom = {5.0, 0.2, 0.0};
+  ASSERT_EQ(rig.send_path(kAhead), "");
+  EXPECT_NEAR(rig.step().status.goal_distance_m, 15.0, 0.1);
+}
+
 TEST(PathPlanner, EnclosedByRocksItSaysThatThereIsNoPath) {
   PlannerRig rig;
   rig.send_path(kAhead);

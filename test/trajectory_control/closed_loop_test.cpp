@@ -390,6 +390,17 @@ TEST(ClosedLoop, DrivesEachPartOfAPathThatLiesOnItself) {
   EXPECT_NEAR(min_x_m, -0.3, 0.06);
 }
 
+TEST(ClosedLoop, DrivesOutAndBackAlthoughItFacesTheWayBack) {
+  DriveLoop loop;
+  loop.rover.put({0.0, 0.0, kPi});
+  ASSERT_TRUE(loop.controller.set_path({1, 0.75, {{0.0, 0.0}, {3.0, 0.0}, {0.0, 0.0}}}));
+  double max_x_m = 0.0;
+  for (loop.tick(); loop.output.state != ControlState::kPathEnd && loop.now < to_utime(200.0); loop.tick())
+    max_x_m = std::max(max_x_m, loop.rover.pose().x_m);
+  EXPECT_EQ(loop.output.state, ControlState::kPathEnd);
+  EXPECT_GT(max_x_m, 2.7);  // it turns on the spot a little before the tip
+}
+
 TEST(ClosedLoop, ResendingTheSamePathChangesNothing) {
   DriveLoop once;
   DriveLoop again;

@@ -7,6 +7,7 @@
 #include <rover/motion_command_t.hpp>
 #include <rover/path_t.hpp>
 #include <rover/pose_t.hpp>
+#include <rover/supervisor_state_t.hpp>
 
 #include "common/bus/convert.hpp"
 #include "test/trajectory_control/bus_world.hpp"
@@ -84,6 +85,25 @@ TEST_F(ControlNodeTest, PathInMapFrameOrWithNanIsRejected) {
   tick();
   EXPECT_EQ(statuses_->back().state, +control_status_t::IDLE);
   EXPECT_EQ(commands_->back().mode, +motion_command_t::STOP);
+}
+
+TEST_F(ControlNodeTest, TeleoperationBesideThePathDoesNotBiasTheSteeringAfterwards) {
+  supervisor_state_t state{};
+  const auto drive = [&](int ticks, std::int8_t in_state, double forward_mps) {
+    state.state = in_state;
+    world_.send(channel::kState, state);
+    pose_.velocity_body_mps[0] = forward_mps;
+    for (int i = 0; i < ticks; ++i) tick();
+    return commands_->back().curvature_per_m;
+  };
+  pose_to(from_planar({1.0, 0.1, 0.0}), pose_.position_odom_body_m, pose_.quat_odom_body_wxyz);
+  world_.send(channel::kPath, path());
+  const double before_per_m = drive(1, supervisor_state_t::DRIVING, 0.0);
+  ASSERT_EQ(commands_->back().mode, +motion_command_t::ARC);
+  drive(500, supervisor_state_t::TELEOP, 0.2);
+  EXPECT_EQ(drive(1, supervisor_state_t::DRIVING, 0.0), before_per_m);
+  drive(500, supervisor_state_t::DRIVING, 0.2);
+  EXPECT_LT(drive(1, supervisor_state_t::DRIVING, 0.0), before_per_m);
 }
 
 TEST_F(ControlNodeTest, OnlyPoseStatusOkAndDegradedAreUsed) {

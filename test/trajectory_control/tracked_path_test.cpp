@@ -129,15 +129,27 @@ TEST(Projection, LeftIsPositiveAndEndsAreExtrapolated) {
   EXPECT_NEAR(after.cross_track_m, -0.1, 1e-9);
 }
 
-TEST(Locate, PrefersThePartAlignedWithTheHeading) {
-  // Out and back, 0.1 m apart.
-  std::vector<Eigen::Vector2d> points = {{0, 0}, {10, 0}, {10, 0.1}, {0, 0.1}};
-  const TrackedPath path = tracked(points);
-  const auto arc_length = [&](const PathPosition& position) {
-    return path.segments()[position.segment].start_m() + position.s_m;
-  };
-  EXPECT_NEAR(arc_length(path.locate({5.0, 0.05, 0.0})), 5.0, 0.1);
-  EXPECT_NEAR(arc_length(path.locate({5.0, 0.05, kPi})), 15.1, 0.1);
+double located_m(const TrackedPath& path, const Pose2& pose) {
+  const PathPosition position = path.locate(pose);
+  return path.segments()[position.segment].start_m() + position.s_m;
+}
+
+TEST(Locate, AtItsBeginningAPathBeginsAlthoughItsEndIsThereTooAndAligned) {
+  for (const double back_y_m : {0.0, 0.1})
+    for (const double corridor_m : {0.25, 1.5}) {
+      const TrackedPath path = tracked({{0, 0}, {10, 0}, {10, back_y_m}, {0, back_y_m}}, corridor_m);
+      EXPECT_NEAR(located_m(path, {0.0, 0.1, kPi}), 0.0, 0.1);
+      EXPECT_NEAR(located_m(path, {0.3, 0.1, kPi}), 0.3, 0.1);
+    }
+  const TrackedPath loop = tracked({{0, 0}, {8, 0}, {8, 8}, {0, 8}, {0, 0}}, 1.5);
+  EXPECT_NEAR(located_m(loop, {0.0, 0.0, -0.5 * kPi}), 0.0, 0.1);
+}
+
+// Of a restarted controller.
+TEST(Locate, MidwayTheHeadingTellsWhichOfTwoPartsIsDriven) {
+  const TrackedPath path = tracked({{0, 0}, {10, 0}, {10, 0.1}, {0, 0.1}});
+  EXPECT_NEAR(located_m(path, {5.0, 0.05, 0.0}), 5.0, 0.1);
+  EXPECT_NEAR(located_m(path, {5.0, 0.05, kPi}), 15.1, 0.1);
 }
 
 // The path starts across the rover's heading (a point turn); its second segment is aligned but outside the corridor.
