@@ -9,13 +9,14 @@
 namespace rover::hazard {
 
 HazardNode::HazardNode(Node& node, const NodeConfig& config) : node_(node), core_(config.core) {
+  if (node.options().boot_id > 1) doubt_ = "no VO yet";  // the predecessor may have known that they are wrong
   node_.subscribe<vo_motion_t>(channel::kVo, [this](const vo_motion_t& message) { on_visual_motion(message); });
   node_.subscribe_slow<disparity_t>(channel::kDisparity, config.latency_us,
                                     [this](const disparity_t& message) { on_disparity(message); });
 }
 
 void HazardNode::on_visual_motion(const vo_motion_t& message) {
-  displaced_ = message.status == vo_motion_t::DISPLACED;
+  doubt_ = message.status == vo_motion_t::DISPLACED ? "LocCam displaced" : "";
 }
 
 void HazardNode::on_disparity(const disparity_t& message) {
@@ -25,7 +26,7 @@ void HazardNode::on_disparity(const disparity_t& message) {
     return;
   }
   Disparity disparity = disparity_from(message);
-  if (displaced_) std::fill(disparity.px16.begin(), disparity.px16.end(), Disparity::kInvalid);
+  if (!doubt_.empty()) std::fill(disparity.px16.begin(), disparity.px16.end(), Disparity::kInvalid);
   const HazardResult result = core_.step(disparity, camera_from(message));
   hazards_t hazards{};
   hazards_to(result, core_.shape(), hazards);
@@ -34,11 +35,12 @@ void HazardNode::on_disparity(const disparity_t& message) {
 }
 
 void HazardNode::report(const HazardResult& result) {
-  if (result.status == last_status_) return;
-  last_status_ = result.status;
   const bool blind = result.status == Status::kBlind;
-  node_.set_status(blind ? heartbeat_t::DEGRADED : heartbeat_t::OK,
-                   blind ? displaced_ ? "LocCam displaced" : "too little stereo" : "");
+  const std::string reason = !blind ? "" : doubt_.empty() ? "too little stereo" : doubt_;
+  if (result.status == last_status_ && reason == reason_) return;
+  last_status_ = result.status;
+  reason_ = reason;
+  node_.set_status(blind ? heartbeat_t::DEGRADED : heartbeat_t::OK, reason);
   static constexpr const char* kNames[] = {"CLEAR", "HAZARD", "BLIND"};
   node_.log(blind ? "WARN" : "INFO", std::string(kNames[static_cast<int>(result.status)]) +
                                          " coverage=" + std::to_string(result.coverage) +

@@ -1,4 +1,4 @@
-// LCM node: publishes one HAZARDS for each DISPARITY, in every state of the rover.
+// LCM node: publishes one HAZARDS for each DISPARITY that it works on, in every state of the rover.
 #pragma once
 
 #include <memory>
@@ -25,7 +25,8 @@ class HazardNode {
 
   Node& node_;
   HazardDetector core_;
-  bool displaced_ = false;  // visual odometry says that the cameras have moved against each other
+  std::string doubt_;   // why disparities are not believed; empty: they are
+  std::string reason_;  // of the last BLIND; empty: it was none
   Status last_status_ = Status::kClear;
 };
 

@@ -17,7 +17,8 @@ void add_filter(Parameters p, FilterConfig& c) {
   p.add("voxel_m", c.voxel_m, {0.02, 0.5}, "side of a voxel (Azkarate et al. 2020)");
   p.add("outlier_radius_m", c.outlier_radius_m, {0.02, 2.0}, "at 10 m rows of ground are 0.09 m apart");
   p.add("outlier_neighbours", c.outlier_neighbours, {1, 100}, "fewer within the radius: outlier");
-  p.add("max_points", c.max_points, {100, 25000}, "the farthest are dropped; 25000 keep CLOUD below 0.5 MB");
+  p.add("max_points", c.max_points, {100, 25000},
+        "the farthest are dropped; 24,900 and their brightness are a CLOUD of 0.5 MB");
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 namespace rover::cloud {
 namespace {
 
-constexpr Utime kStateHistoryUs = 2'000'000;  // image latency is well below this
+constexpr Utime kImageLatencyUs = 2'000'000;  // that of the camera is well below this
 constexpr double kMinValidFraction = 0.02;    // of pixels with a disparity; less: DEGRADED
 
 }  // namespace
@@ -18,6 +18,7 @@ PointCloudNode::PointCloudNode(Node& node, const NodeConfig& config)
     : node_(node),
       unit_(config.unit),
       core_(config.core, config.rig, config.unit, config.ground_below_m),
+      state_history_us_(kImageLatencyUs + node.scaled(config.latency_us)),
       pairs_(node,
              {channel::kNavCamLeft, channel::kNavCamRight, config.rig.width, config.rig.height, config.latency_us},
              [this](const ImagePair& pair) { on_pair(pair); }) {
@@ -28,7 +29,7 @@ PointCloudNode::PointCloudNode(Node& node, const NodeConfig& config)
 void PointCloudNode::on_ptu_state(const ptu_state_t& state) {
   if (const std::string fault = fault_of(state, unit_); !fault.empty()) return node_.reject(channel::kPtuState, fault);
   states_.push_back(state);
-  while (states_.front().header.utime < state.header.utime - kStateHistoryUs) states_.pop_front();
+  while (states_.front().header.utime < state.header.utime - state_history_us_) states_.pop_front();
 }
 
 void PointCloudNode::on_pair(const ImagePair& pair) {

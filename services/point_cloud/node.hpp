@@ -28,9 +28,10 @@ class PointCloudNode {
   Node& node_;
   PanTiltUnit unit_;
   PointCloud core_;
+  Utime state_history_us_;  // a pair may wait until the one before it is done
   ImagePairs pairs_;
-  std::deque<ptu_state_t> states_;  // of the last seconds
-  std::string problem_;             // empty: none
+  std::deque<ptu_state_t> states_;
+  std::string problem_;  // empty: none
 };
 
 std::shared_ptr<PointCloudNode> make_point_cloud(Node& node, const std::string& config_dir);

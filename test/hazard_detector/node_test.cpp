@@ -11,6 +11,7 @@
 #include "common/core/frames.hpp"
 #include "test/stereo/one_node_world.hpp"
 #include "test/stereo/synthetic_world.hpp"
+#include "test/trajectory_control/bus_world.hpp"
 
 namespace rover::hazard {
 namespace {
@@ -98,6 +99,49 @@ TEST_F(HazardNodeTest, FramesOfADisplacedLocCamAreBlind) {
   EXPECT_EQ(hazards_[0].state, +hazards_t::CLEAR);
   EXPECT_EQ(hazards_[1].state, +hazards_t::BLIND);
   EXPECT_EQ(hazards_[2].state, +hazards_t::CLEAR);
+}
+
+TEST_F(HazardNodeTest, HeartbeatNamesTheDisplacementThatFollowsDarkness) {
+  std::vector<heartbeat_t> heartbeats;
+  world_.record(channel::kHeartbeat, heartbeats);
+  disparity_t dark = disparity_of({});
+  std::fill(dark.disparity_px16.begin(), dark.disparity_px16.end(), +disparity_t::INVALID);
+  vo_motion_t motion{};
+  const auto text_after = [&](std::int8_t status, const disparity_t& message) {
+    motion.status = status;
+    const Utime utime = world_.node().now() + 1'000'000;
+    world_.send(channel::kVo, motion, utime);
+    world_.tick(utime);
+    send_disparity(message, utime + 20'000);
+    world_.tick(utime + 980'000);
+    return heartbeats.back().text;
+  };
+  world_.tick(0);
+  EXPECT_EQ(text_after(vo_motion_t::OK, dark), "too little stereo");
+  EXPECT_EQ(text_after(vo_motion_t::DISPLACED, dark), "LocCam displaced");
+  EXPECT_EQ(text_after(vo_motion_t::OK, disparity_of({})), "");
+}
+
+// The process before it may have known that the LocCam is displaced.
+TEST(HazardRestartTest, BeforeTheFirstVisualOdometryARestartedNodeIsBlind) {
+  test::BusWorld world;
+  Node node({.name = "hazard_detector", .boot_id = 2}, world.bus);
+  const auto detector = make_hazard_detector(node, kConfig);
+  const auto hazards = world.listen<hazards_t>(channel::kHazards);
+  const auto look = [&] {
+    world.send(channel::kDisparity, disparity_of({}));
+    for (int i = 0; i < 10; ++i) world.tick(node);
+    while (world.bus.handleTimeout(0) > 0) {
+    }
+    return static_cast<int>(hazards->back().state);
+  };
+  world.tick(node);
+  EXPECT_EQ(look(), +hazards_t::BLIND);
+  vo_motion_t motion{};
+  motion.status = vo_motion_t::OK;
+  world.send(channel::kVo, motion);
+  world.tick(node);
+  EXPECT_EQ(look(), +hazards_t::CLEAR);
 }
 
 TEST_F(HazardNodeTest, MalformedDisparitiesAreCountedAndIgnored) {

@@ -98,6 +98,32 @@ TEST_F(PointCloudNodeTest, NoCloudWithoutUnitStateOrWhileUnitMoves) {
   EXPECT_EQ(rejected(), 3);
 }
 
+TEST(PointCloudLatencyTest, APairThatWaitsForASlowOneKeepsItsUnitState) {
+  test::OneNodeWorld world("point_cloud");
+  NodeConfig config = load_config(kConfig);
+  config.latency_us = 3'000'000;
+  PointCloudNode service(world.node(), config);
+  std::vector<cloud_t> clouds;
+  world.record(channel::kCloud, clouds);
+  image_t left = message_of(image_pair().left);
+  image_t right = message_of(image_pair().right);
+  for (Utime t = 80'000; t <= 3'400'000; t += kTickUs) {
+    ptu_state_t state{};
+    state.pan_rad = to_rad(30.0);
+    state.tilt_rad = to_rad(10.0);
+    world.send(channel::kPtuState, state, t);
+    if (t == 100'000 || t == 200'000) {
+      world.send(channel::kNavCamLeft, left, t);
+      world.send(channel::kNavCamRight, right, t);
+      left.data[0] ^= 1;
+      right.data[0] ^= 1;
+    }
+    world.tick(t);
+  }
+  ASSERT_EQ(clouds.size(), 2u);
+  EXPECT_EQ(clouds[1].header.utime, 200'000);
+}
+
 TEST_F(PointCloudNodeTest, FrozenAndUnpairedImagesAreRejected) {
   for (Utime t : {100'000, 600'000}) {
     send_state(t);
