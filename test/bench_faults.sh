@@ -82,8 +82,8 @@ run_one() {  # SEED
   sed -i "s|\.\./terrain|$PWD/config/terrain|" "$LOGS/seed-$seed.yaml"
   "$BUILD/bin/rover_launcher" run "$LOGS/seed-$seed.yaml" --seed "$seed" --out "$dir" --record reduced \
     --bus "udpm://239.255.76.67:$((7900 + seed))?ttl=0&recv_buf_size=4194304" >"$LOGS/seed-$seed.log" 2>&1 || true
-  mkdir -p "$dir"
-  [ -e "$dir/metrics.json" ] || echo '{"outcome": "no_metrics", "fdir": []}' >"$dir/metrics.json"
+  [ -e "$dir/metrics.json" ] || { echo "seed $seed: $fault: no metrics, see $LOGS/seed-$seed.log" >&2; return; }
+  [ "$(jq -r .outcome "$dir/metrics.json")" != stopped ] || return 0  # the bench was interrupted
   jq -c --arg fault "$fault" --arg commit "$COMMIT" --argjson seed "$seed" \
     '{commit: $commit, seed: $seed, fault: $fault, outcome, collisions, deterministic, duration_s,
       unleased_s: .motion_without_lease_s, rows: [.fdir[].id] | unique, first: (.fdir[0].id // "-"), last: (.fdir[-1].id // "-")}' "$dir/metrics.json" >>"$ROWS"
@@ -91,12 +91,18 @@ run_one() {  # SEED
   echo "seed $seed: $fault: $(jq -r .outcome "$dir/metrics.json")"
 }
 
+has_row() { grep -q "\"commit\":\"$COMMIT\",\"seed\":$1," "$ROWS"; }
+
 for ((seed = first; seed <= last; ++seed)); do
-  grep -q "\"commit\":\"$COMMIT\",\"seed\":$seed," "$ROWS" && continue
+  has_row "$seed" && continue
   while [ "$(jobs -rp | wc -l)" -ge "$jobs" ]; do wait -n; done
   run_one "$seed" &
 done
 wait
+# A drive that crashed must not make the table better.
+missing=
+for ((seed = first; seed <= last; ++seed)); do has_row "$seed" || missing+=" $seed"; done
+[ -z "$missing" ] || { echo "rover bench faults: no row of seed$missing: no table; continue with --resume" >&2; exit 1; }
 
 {
   echo "# Faults on the whole, rendered rover"

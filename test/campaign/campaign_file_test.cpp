@@ -162,6 +162,18 @@ TEST(Variant, RocksSoilAndSunAreTheCells) {
   EXPECT_EQ(variant_name(cell), "b-rock_area-0.12-soil-sand-sun_elevation_deg-12");
 }
 
+TEST_F(CampaignFileTest, AFolderWithTheUsersScenariosIsNotEmpty) {
+  const std::string file = write(head_);
+  const std::string out = dir_ + "/o";
+  fs::create_directories(out + "/scenarios");
+  const auto make = [&] { make_campaign(out, file, load_campaign(file, kConfig), {"c", "abc", "", ""}); };
+  EXPECT_THROW(make(), ConfigError);
+  std::ofstream(out + "/campaign.json.begun") << "{}";  // of a start that was killed
+  make();
+  EXPECT_TRUE(has_campaign(out));
+  EXPECT_FALSE(fs::exists(out + "/campaign.json.begun"));
+}
+
 TEST_F(CampaignFileTest, AJobIsARunWithItsOptions) {
   const std::string file =
       write(head_ + "axes: {level: full, perception: geometric, rock_area: 0.1, recorder.part_gb: 1}\n");

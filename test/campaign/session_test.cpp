@@ -13,6 +13,7 @@
 #include "tools/campaign/engine.hpp"
 #include "tools/campaign/folder.hpp"
 #include "tools/campaign/progress_line.hpp"
+#include "tools/launcher/folder_lock.hpp"
 
 namespace rover::campaign {
 namespace {
@@ -117,12 +118,12 @@ TEST_F(SessionTest, HalfARowIsNoRow) {
 }
 
 TEST_F(SessionTest, OneCampaignAtATimeInAFolder) {
-  const FolderLock lock(dir_);
+  const FolderLock lock(dir_, "in use");
   try {
-    const FolderLock second(dir_);
+    const FolderLock second(dir_, "in use");
     FAIL();
   } catch (const ConfigError& error) {
-    EXPECT_EQ(std::string(error.what()).find(dir_ + ": another campaign runs in this folder"), 0U);
+    EXPECT_EQ(std::string(error.what()).find(dir_ + ": in use"), 0U);
   }
 }
 

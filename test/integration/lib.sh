@@ -12,7 +12,7 @@ cleanup() {
   pids=$(jobs -p)
   [ -z "$pids" ] || kill $pids 2>/dev/null || true
   wait 2>/dev/null || true
-  rm -rf "$WORK" "/tmp/rover-bus-239.255.76.67-$PORT.lock"
+  rm -rf "$WORK"
 }
 trap cleanup EXIT
 

@@ -1,9 +1,11 @@
-// --set and --seeds.
+// --set, --seeds and the commit.
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 
 #include "../common/temp_folder.hpp"
+#include "common/bus/child_process.hpp"
 #include "common/bus/config.hpp"
 #include "common/bus/yaml_file.hpp"
 #include "tools/launcher/arguments.hpp"
@@ -109,6 +111,33 @@ TEST(Seeds, AreDecimalAndBounded) {
     EXPECT_EQ(line.rfind("--seeds: '" + c.typed + "'", 0), 0U) << c.typed << " -> " << line;
     wild_row("Command line", "--seeds '" + c.typed + "'", c.before, line);
   }
+}
+
+TEST(Commit, ChangesOfTheSourcesHaveAHash) {
+  const testing_support::TempFolder folder;
+  const auto git = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"git", "-C", folder.path(), "-c", "user.name=a", "-c", "user.email=a@b"});
+    ASSERT_TRUE(output_of(words).has_value());
+  };
+  const auto write = [&](const std::string& name, const char* text) { std::ofstream(folder.file(name)) << text; };
+  EXPECT_EQ(commit_of(folder.path()), "unknown");
+  fs::create_directories(folder.path() / "test/results");
+  write("source.cpp", "1");
+  write("test/results/seed.md", "1");
+  git({"init", "-q"});
+  git({"add", "."});
+  git({"commit", "-qm", "first"});
+  const std::string commit = commit_of(folder.path());
+  EXPECT_EQ(commit.size(), 12U) << commit;
+  write("test/results/seed.md", "2");
+  EXPECT_EQ(commit_of(folder.path()), commit);
+  write("source.cpp", "2");
+  const std::string changed = commit_of(folder.path());
+  EXPECT_EQ(changed.rfind(commit + "-dirty-", 0), 0U) << changed;
+  write("source.cpp", "3");
+  EXPECT_NE(commit_of(folder.path()), changed);
+  write("source.cpp", "2");
+  EXPECT_EQ(commit_of(folder.path()), changed);
 }
 
 }  // namespace

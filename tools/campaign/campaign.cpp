@@ -17,6 +17,7 @@
 #include "tools/campaign/progress_line.hpp"
 #include "tools/campaign/session.hpp"
 #include "tools/launcher/arguments.hpp"
+#include "tools/launcher/folder_lock.hpp"
 #include "tools/launcher/needed_programs.hpp"
 
 namespace rover::campaign {
@@ -198,7 +199,7 @@ int run_campaign(const CampaignArguments& arguments) {
       arguments.drive_program.empty() ? arguments.bin_dir + "/rover_launcher" : arguments.drive_program};
   make_engine(arguments.engine);  // refused before a folder is made
   catch_interrupts();
-  const FolderLock lock(dir);
+  const FolderLock lock(dir, "another campaign runs in this folder; wait for its end, or choose another with --out");
   require_space(arguments, dir);
   if (has_campaign(dir)) {
     if (!arguments.resume)

@@ -1,7 +1,6 @@
 #include "tools/campaign/folder.hpp"
 
 #include <fcntl.h>
-#include <sys/file.h>
 #include <unistd.h>
 #include <yaml-cpp/yaml.h>
 
@@ -26,13 +25,17 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 constexpr size_t kMaxFile = 1 << 20;
-// What a start that was killed may have left.
-const std::set<std::string> kOwnNames = {"lock", "campaign.yaml", "jobs.jsonl", "scenarios", "campaign.json.new"};
+const std::string kBegun = "campaign.json.begun";  // becomes campaign.json when the folder is complete
+// What a start that was killed may have left beside it.
+const std::set<std::string> kOwnNames = {"campaign.yaml", "campaign.yaml.new", "jobs.jsonl", "scenarios"};
 
 void require_empty(const std::string& dir) {
-  for (const auto& entry : fs::directory_iterator(dir))
-    if (!kOwnNames.contains(entry.path().filename()))
+  const bool begun = fs::exists(dir + "/" + kBegun);
+  for (const auto& entry : fs::directory_iterator(dir)) {
+    const std::string name = entry.path().filename();
+    if (name != "lock" && !name.starts_with(kBegun) && !(begun && kOwnNames.contains(name)))
       throw ConfigError(dir + ": is not empty and has no campaign; choose another folder with --out");
+  }
 }
 
 Job job_of(const Drive& drive) {
@@ -52,21 +55,6 @@ void write_variant(const std::string& file, const Drive& drive) {
 
 }  // namespace
 
-FolderLock::FolderLock(const std::string& dir) {
-  std::error_code error;
-  fs::create_directories(dir, error);
-  if (error) throw ConfigError(dir + ": cannot be created: " + error.message());
-  file_ = open((dir + "/lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (file_ < 0) throw ConfigError(dir + ": cannot be written: " + std::strerror(errno));
-  if (flock(file_, LOCK_EX | LOCK_NB) == 0) return;
-  close(file_);
-  throw ConfigError(dir + ": another campaign runs in this folder; wait for its end, or choose another with --out");
-}
-
-FolderLock::~FolderLock() {
-  close(file_);
-}
-
 bool has_campaign(const std::string& dir) {
   return fs::exists(dir + "/campaign.json");
 }
@@ -74,6 +62,12 @@ bool has_campaign(const std::string& dir) {
 void make_campaign(const std::string& dir, const std::string& file, const CampaignFile& campaign,
                    const CampaignInfo& info) try {
   require_empty(dir);
+  const Json json = {{"name", info.name},
+                     {"commit", info.commit},
+                     {"command", info.command},
+                     {"drive_program", info.drive_program},
+                     {"jobs", campaign.drives.size()}};
+  write_file(dir + "/" + kBegun, json.dump(2) + "\n");
   fs::create_directories(dir + "/scenarios");
   std::vector<Job> jobs;
   std::set<std::string> variants;
@@ -83,12 +77,7 @@ void make_campaign(const std::string& dir, const std::string& file, const Campai
   }
   write_jobs(dir, jobs);
   write_file(dir + "/campaign.yaml", read_text(file, kMaxFile));
-  const Json json = {{"name", info.name},
-                     {"commit", info.commit},
-                     {"command", info.command},
-                     {"drive_program", info.drive_program},
-                     {"jobs", jobs.size()}};
-  write_file(dir + "/campaign.json", json.dump(2) + "\n");  // the last one: now it is complete
+  fs::rename(dir + "/" + kBegun, dir + "/campaign.json");
 } catch (const fs::filesystem_error& error) {
   throw ConfigError(dir + ": cannot be written: " + error.code().message());
 }

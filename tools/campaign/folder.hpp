@@ -19,18 +19,6 @@ struct CampaignInfo {
   std::string drive_program;  // rover_launcher, unless a test replaces it
 };
 
-// Held while a campaign runs; one folder has one campaign. Throws ConfigError if another process holds it.
-class FolderLock {
- public:
-  explicit FolderLock(const std::string& dir);
-  ~FolderLock();
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
-
- private:
-  int file_ = -1;
-};
-
 // True if a campaign was begun here completely.
 bool has_campaign(const std::string& dir);
 // Makes the folder's content; refuses a folder with something else in it.

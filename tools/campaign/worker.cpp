@@ -9,10 +9,10 @@
 #include "common/bus/child.hpp"
 #include "common/bus/config.hpp"
 #include "common/bus/interrupt.hpp"
-#include "tools/campaign/bus_slot.hpp"
 #include "tools/campaign/folder.hpp"
 #include "tools/campaign/job.hpp"
 #include "tools/campaign/session.hpp"
+#include "tools/launcher/bus_lock.hpp"
 
 namespace rover::campaign {
 namespace {

@@ -1,6 +1,7 @@
 #include "tools/launcher/arguments.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <sstream>
 
@@ -9,6 +10,18 @@
 #include "common/core/decimal.hpp"
 
 namespace rover {
+namespace {
+
+// FNV-1a
+std::string short_hash(const std::string& text) {
+  std::uint32_t hash = 0x811c9dc5u;
+  for (const char c : text) hash = (hash ^ static_cast<std::uint8_t>(c)) * 0x01000193u;
+  char digits[9];
+  std::snprintf(digits, sizeof digits, "%08x", hash);
+  return digits;
+}
+
+}  // namespace
 
 std::string scenario_file(const RunArguments& arguments) {
   return arguments.scenario.empty() ? arguments.source_dir + "/config/scenarios/default.yaml" : arguments.scenario;
@@ -19,10 +32,12 @@ std::string scenario_name(const std::string& file) {
 }
 
 std::string commit_of(const std::string& source_dir) {
-  std::string commit =
-      output_of({"git", "-C", source_dir, "describe", "--always", "--dirty", "--abbrev=12"}).value_or("");
+  std::string commit = output_of({"git", "-C", source_dir, "describe", "--always", "--abbrev=12"}).value_or("");
   while (!commit.empty() && commit.back() == '\n') commit.pop_back();
-  return commit.empty() ? "unknown" : commit;
+  if (commit.empty()) return "unknown";
+  const std::string changes =
+      output_of({"git", "-C", source_dir, "diff", "HEAD", "--", ".", ":(exclude)test/results"}).value_or("");
+  return changes.empty() ? commit : commit + "-dirty-" + short_hash(changes);
 }
 
 std::vector<std::int64_t> parse_seeds(const std::string& text) {

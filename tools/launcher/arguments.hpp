@@ -21,14 +21,14 @@ struct RunArguments {
   bool headless = false;
   bool realtime = false;
   bool allow_injection = false;  // enables ./rover inject; implied by a scenario with faults
-  bool quiet = false;            // no progress (benches)
 };
 
 // The scenario file; the default scenario if none is given.
 std::string scenario_file(const RunArguments& arguments);
 // File name without folder and extension.
 std::string scenario_name(const std::string& file);
-// Commit of the sources, with -dirty if modified; "unknown" outside a checkout.
+// Commit of the sources, with -dirty and a hash of the changes if modified; "unknown" outside a checkout. The tables of
+// test/results, which benches write, are no source.
 std::string commit_of(const std::string& source_dir);
 // "1..10" or "3" or "1,4,7". Throws ConfigError.
 std::vector<std::int64_t> parse_seeds(const std::string& text);

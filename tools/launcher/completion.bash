@@ -25,7 +25,7 @@ _rover_values() {
       ;;
     report | spy | repair) compgen -f -- "$word"; compgen -W "${runs[*]%/}" -- "$word" ;;
     plan) compgen -f -- "$word" ;;
-    bench) [ "$before" != bench ] || compgen -W "default seed full cost perception slam correction speed budget micro faults restarts page data wild fuzz" -- "$word" ;;
+    bench) [ "$before" != bench ] || compgen -W "$_ROVER_BENCHES" -- "$word" ;;
     test) compgen -W "unit sanitize arm64" -- "$word" ;;
     inject)
       [ "$before" != inject ] ||

@@ -73,7 +73,7 @@ void supervise(const DriveArguments& arguments, const RunFolder& folder, S6Sessi
   constexpr double kTickTimeoutS = 2.0;
   lcm::LCM lcm(folder.bus_url);
   DriveWatch watch(lcm);
-  Progress progress(lcm, true);
+  Progress progress(lcm);
   FailureWatch failures(folder.dir);
   bool timeout_reported = false;
   while (keep_running()) {
@@ -105,12 +105,13 @@ void supervise(const DriveArguments& arguments, const RunFolder& folder, S6Sessi
 int report(const DriveArguments& arguments, const RunFolder& folder) {
   if (!make_report(arguments.bin_dir, folder)) return 1;
   const nlohmann::json metrics = read_metrics(folder);
-  const auto number = [&](const char* key) { return figure(metrics, key); };
+  const auto number = [&](const char* key, int decimals = 0) { return figure(metrics, key, decimals); };
   const std::string outcome = metrics.value("outcome", "unknown");
   const bool truth = metrics.value("truth", false);
-  std::printf("%s: %.1f m driven for %.1f m planned in %.0f s, %.0f repairs, %.0f hazard stops%s\n", outcome.c_str(),
-              number("driven_length_m"), number("planned_length_m"), number("duration_s"), number("replans"),
-              number("hazard_stops"), truth ? "" : "; no ground truth: evaluated with the rover's own estimate");
+  std::printf("%s: %s m driven for %s m planned in %s s, %s repairs, %s hazard stops%s\n", outcome.c_str(),
+              number("driven_length_m", 1).c_str(), number("planned_length_m", 1).c_str(), number("duration_s").c_str(),
+              number("replans").c_str(), number("hazard_stops").c_str(),
+              truth ? "" : "; no ground truth: evaluated with the rover's own estimate");
   std::printf("report: %s/report.html\n", folder.dir.c_str());
   return outcome == "goal_reached" ? 0 : 1;
 }

@@ -70,9 +70,7 @@ void fill(const DriveArguments& arguments, RunFolder& folder) {
 
 RunFolder make_drive_folder(const DriveArguments& arguments) {
   check_inputs(arguments);
-  const fs::path dir = run_dir_for(arguments.source_dir, arguments.out, "drive");
-  RunFolder folder{.dir = dir, .config_dir = dir / "config", .is_new = !fs::exists(dir)};
-  create_folders(dir);
+  RunFolder folder = create_folders(arguments.source_dir, arguments.out, "drive");
   try {
     fill(arguments, folder);
   } catch (const std::exception& error) {

@@ -149,7 +149,7 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   bench_command->add_option("--seeds", bench.seeds,
                             "a range like 1..10 or a list like 1,4,7; default: 1..10 of seed, 201..240 of default");
-  bench_command->add_flag("--resume", bench.resume, "keep the rows that this commit already has");
+  bench_command->add_flag("--resume", bench.resume, "keep the rows of the same commit, level and settings");
   bench_command->add_option("--jobs", bench.jobs, "parallel runs")->check(CLI::Range(1, 64))->capture_default_str();
   add_run_options(*bench_command, run);
 

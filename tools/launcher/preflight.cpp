@@ -1,9 +1,7 @@
 #include "tools/launcher/preflight.hpp"
 
 #include <arpa/inet.h>
-#include <fcntl.h>
 #include <netinet/in.h>
-#include <sys/file.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -60,20 +58,6 @@ std::vector<std::string> bus_problems(const std::string& bus_url) {
     problems.push_back("bus: no route for multicast to " + address->group +
                        ". Fix it with: sudo ip link set lo multicast on && sudo ip route add 224.0.0.0/4 dev lo");
   return problems;
-}
-
-BusLock::BusLock(const std::string& bus_url) {
-  const std::optional<BusAddress> address = parse_udpm(bus_url);
-  const std::string name = address ? address->group + "-" + std::to_string(address->port) : "local";
-  fd_ = open(("/tmp/rover-bus-" + name + ".lock").c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0666);
-  if (fd_ >= 0 && flock(fd_, LOCK_EX | LOCK_NB) != 0) {
-    close(fd_);
-    fd_ = -1;
-  }
-}
-
-BusLock::~BusLock() {
-  if (fd_ >= 0) close(fd_);
 }
 
 void require_programs(const std::vector<std::string>& services, const std::string& bin_dir) {

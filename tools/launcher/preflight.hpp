@@ -4,23 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "tools/launcher/bus_lock.hpp"
+
 namespace rover {
 
 // Problems of the bus, one line each.
 std::vector<std::string> bus_problems(const std::string& bus_url);
-
-// Locks the bus for this process, because two rovers on one bus would drive each other.
-class BusLock {
- public:
-  explicit BusLock(const std::string& bus_url);
-  ~BusLock();
-  BusLock(const BusLock&) = delete;
-  BusLock& operator=(const BusLock&) = delete;
-  bool held() const { return fd_ >= 0; }
-
- private:
-  int fd_ = -1;
-};
 
 // Throws ConfigError if a service is not built.
 void require_programs(const std::vector<std::string>& services, const std::string& bin_dir);

@@ -16,7 +16,7 @@ constexpr double kTopSpeed = 0.2;
 
 }  // namespace
 
-Progress::Progress(lcm::LCM& lcm, bool enabled) : enabled_(enabled), terminal_(isatty(STDOUT_FILENO) == 1) {
+Progress::Progress(lcm::LCM& lcm) : terminal_(isatty(STDOUT_FILENO) == 1) {
   pose_.header.utime = -1;
   state_.state = -1;
   state_.header.utime = -1;
@@ -73,7 +73,7 @@ void Progress::show() {
     first_utime_ = pose_.header.utime;
     started_ = Clock::now();
   }
-  if (!enabled_ || first_utime_ < 0) return;
+  if (first_utime_ < 0) return;
   const auto period = terminal_ ? std::chrono::milliseconds(250) : std::chrono::milliseconds(10'000);
   const bool changed = state_.state != shown_state_;
   if (!changed && Clock::now() - shown_ < period) return;
@@ -84,7 +84,7 @@ void Progress::show() {
 }
 
 void Progress::finish() {
-  if (enabled_ && terminal_ && first_utime_ >= 0) std::printf("\n");
+  if (terminal_ && first_utime_ >= 0) std::printf("\n");
 }
 
 }  // namespace rover

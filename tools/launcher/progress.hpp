@@ -14,9 +14,8 @@ namespace rover {
 
 class Progress {
  public:
-  // `enabled`: print. On a terminal it updates one line, else it prints a line every ten seconds.
-  Progress(lcm::LCM& lcm, bool enabled);
-  // Prints if an update is due.
+  explicit Progress(lcm::LCM& lcm);
+  // Prints if an update is due: on a terminal it updates one line, else it prints a line every ten seconds.
   void show();
   // Ends the progress line.
   void finish();
@@ -33,7 +32,6 @@ class Progress {
   void listen(lcm::LCM& lcm, const char* channel, Message& newest);
   std::string line() const;
 
-  bool enabled_;
   bool terminal_;
   pose_t pose_{};
   planner_status_t planner_{};

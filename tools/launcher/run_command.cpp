@@ -49,9 +49,9 @@ constexpr double kPollS = 0.05;
 constexpr double kStopS = 10.0;
 constexpr int kRefused = 2;  // exit status of a program that refuses its configuration
 
-End wait_for_end(const RunArguments& arguments, const RunFolder& folder, S6Session& session) {
+End wait_for_end(const RunFolder& folder, S6Session& session) {
   lcm::LCM lcm(folder.bus_url);
-  Progress progress(lcm, !arguments.quiet);
+  Progress progress(lcm);
   const std::string end_file = folder.dir + "/simulation.json";
   // On a busy machine a service may end before its logger has started.
   constexpr int kMaxEmptyLooks = 100;
@@ -103,7 +103,7 @@ End run_processes(const RunArguments& arguments, const RunFolder& folder) {
   write_launch_json(arguments, folder);
   write_s6_tree(folder.dir, service_commands(arguments, folder), allows_injection(arguments, folder));
   S6Session session(folder, arguments.bin_dir);
-  const End end = wait_for_end(arguments, folder, session);
+  const End end = wait_for_end(folder, session);
   session.stop();
   return end;
 }
@@ -143,13 +143,15 @@ void require_possible(const RunArguments& arguments, const RunFolder& folder) {
 }
 
 void print_result(const RunFolder& folder, const nlohmann::json& metrics) {
-  const auto number = [&](const char* key) { return figure(metrics, key); };
+  const auto number = [&](const char* key, int decimals = 0) { return figure(metrics, key, decimals); };
   std::printf(
-      "%s: %.1f m driven for %.1f m planned in %.0f s, %.0f repairs, %.0f hazard stops, %.0f collisions, "
-      "drift %.2f %%, %.1f times real time\n",
-      metrics.value("outcome", "unknown").c_str(), number("driven_length_m"), number("planned_length_m"),
-      number("duration_s"), number("replans"), number("hazard_stops"), number("collisions"),
-      number("odometry_drift_percent"), number("realtime_factor"));
+      "%s: %s m driven for %s m planned in %s s, %s repairs, %s hazard stops, %s collisions, drift %s %%, %s times "
+      "real "
+      "time\n",
+      metrics.value("outcome", "unknown").c_str(), number("driven_length_m", 1).c_str(),
+      number("planned_length_m", 1).c_str(), number("duration_s").c_str(), number("replans").c_str(),
+      number("hazard_stops").c_str(), number("collisions").c_str(), number("odometry_drift_percent", 2).c_str(),
+      number("realtime_factor", 1).c_str());
   std::printf("report: %s/report.html\n", folder.dir.c_str());
 }
 
@@ -182,10 +184,11 @@ RunResult run(const RunArguments& given) {
   }
   result.dir = folder.dir;
   catch_interrupts();
-  if (!arguments.quiet) std::printf("run: %s\n", folder.dir.c_str());
-  if (const std::string line = page_line(folder.config_dir); rendered && !arguments.quiet && !line.empty())
+  std::printf("run: %s\n", folder.dir.c_str());
+  if (const std::string line = page_line(folder.config_dir); rendered && !line.empty())
     std::printf("%s\n", line.c_str());
   for (const std::string& note : folder.map_notes) std::printf("%s\n", note.c_str());
+  std::fflush(stdout);  // in a file, the last line is that of a failure
   const End end = rendered ? run_processes(arguments, folder) : run_one_process(arguments, folder);
   if (end != End::kOver) {
     const auto failed = failed_services(folder.dir);
@@ -200,7 +203,7 @@ RunResult run(const RunArguments& given) {
   write_run_json(arguments, folder);
   if (!make_report(arguments.bin_dir, folder)) return result;
   const nlohmann::json metrics = read_metrics(folder);
-  if (!arguments.quiet) print_result(folder, metrics);
+  print_result(folder, metrics);
   const bool success = metrics.value("outcome", "") == "goal_reached" && metrics.value("collisions", 1) == 0;
   result.exit_status = success ? 0 : 1;
   return result;

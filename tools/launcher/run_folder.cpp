@@ -135,11 +135,6 @@ void fill_run_folder(const RunArguments& arguments, const std::string& dtm_file,
 
 }  // namespace
 
-std::string run_dir_for(const std::string& source_dir, const std::string& out, const std::string& name) {
-  if (!out.empty()) return fs::absolute(out);
-  return fs::absolute(fs::path(source_dir) / "logs" / (time_stamp() + "-" + name));
-}
-
 void copy_configuration(const std::string& from, const std::string& to) {
   for (const auto& entry : fs::directory_iterator(from))
     if (entry.path().extension() == ".yaml") fs::copy_file(entry.path(), fs::path(to) / entry.path().filename());
@@ -166,23 +161,33 @@ void apply_setting(const std::string& setting, const std::string& config_dir) {
   write_yaml(file, root);
 }
 
-void create_folders(const std::string& run_dir) {
-  const fs::path dir(run_dir);
-  std::error_code error;
-  if (fs::exists(dir) && !fs::is_empty(dir, error))
-    throw ConfigError(dir.string() + ": already exists and is not empty");
-  fs::create_directories(dir / "config", error);
-  fs::create_directories(dir / "service_logs", error);
-  if (error) throw ConfigError(dir.string() + ": cannot be created: " + error.message());
+RunFolder create_folders(const std::string& source_dir, const std::string& out, const std::string& name) {
+  const fs::path wanted =
+      fs::absolute(out.empty() ? fs::path(source_dir) / "logs" / (time_stamp() + "-" + name) : fs::path(out));
+  fs::path dir = wanted;
+  try {
+    fs::create_directories(wanted.parent_path());
+    bool is_new = fs::create_directory(dir);
+    for (int number = 2; out.empty() && !is_new; ++number) {
+      dir = wanted.string() + "-" + std::to_string(number);
+      is_new = fs::create_directory(dir);
+    }
+    // The second condition is that of another run that takes the same empty folder.
+    if ((!is_new && !fs::is_empty(dir)) || !fs::create_directory(dir / "config"))
+      throw ConfigError(dir.string() + ": already exists and is not empty");
+    fs::create_directory(dir / "service_logs");
+    return {.dir = dir, .config_dir = dir / "config", .scenario = dir / "config" / "scenario.yaml", .is_new = is_new};
+  } catch (const fs::filesystem_error& error) {
+    throw ConfigError(dir.string() + ": cannot be created: " + error.code().message());
+  }
 }
 
 RunFolder make_run_folder(const RunArguments& arguments) {
-  const fs::path dir = run_dir_for(arguments.source_dir, arguments.out, scenario_name(arguments.scenario));
   if (!fs::is_regular_file(arguments.scenario)) throw ConfigError(arguments.scenario + ": no such file");
   // Checked first, so that errors name the user's own file.
   const std::string dtm_file = load_scenario(arguments.scenario).dtm_file;
-  RunFolder folder{dir, dir / "config", dir / "config" / "scenario.yaml", arguments.bus, 0, false, !fs::exists(dir)};
-  create_folders(dir);
+  RunFolder folder = create_folders(arguments.source_dir, arguments.out, scenario_name(arguments.scenario));
+  folder.bus_url = arguments.bus;
   try {
     fill_run_folder(arguments, dtm_file, folder);
   } catch (const std::exception& error) {
@@ -195,14 +200,13 @@ RunFolder make_run_folder(const RunArguments& arguments) {
 
 RunFolder make_replay_folder(const RunArguments& arguments, const std::string& name, const std::string& config_from,
                              const std::string& log_dir) {
-  const fs::path dir = run_dir_for(arguments.source_dir, arguments.out, "replay-" + name);
-  RunFolder folder{dir, dir / "config", dir / "config" / "scenario.yaml", arguments.bus, 0, false, !fs::exists(dir)};
-  create_folders(dir);
+  RunFolder folder = create_folders(arguments.source_dir, arguments.out, "replay-" + name);
+  folder.bus_url = arguments.bus;
   try {
     copy_configuration(config_from, folder.config_dir);
     for (const char* product : {"orbital_map.tif", "orbital_picture.tif"})
       if (const fs::path file = fs::path(log_dir) / product; fs::exists(file))
-        fs::copy(file, dir / product, fs::copy_options::copy_symlinks);
+        fs::copy(file, fs::path(folder.dir) / product, fs::copy_options::copy_symlinks);
     apply_arguments(arguments, folder);
   } catch (const std::exception& error) {
     remove_run_folder(folder);

@@ -33,10 +33,9 @@ std::string in_users_files(const std::string& message, const RunFolder& folder, 
 void remove_run_folder(const RunFolder& folder);
 
 // Steps of make_run_folder, for other kinds of run.
-// Absolute path; `out` empty: logs/<time>-<name>.
-std::string run_dir_for(const std::string& source_dir, const std::string& out, const std::string& name);
-// Creates the folder and its subfolders. Throws ConfigError if it exists and is not empty.
-void create_folders(const std::string& run_dir);
+// Creates `out`, which may be an empty folder, or a new logs/<time>-<name>, with its subfolders. Throws ConfigError if
+// it is not empty.
+RunFolder create_folders(const std::string& source_dir, const std::string& out, const std::string& name);
 void copy_configuration(const std::string& from, const std::string& to);
 // Applies "file.key.key=value" to the run's copy of the configuration.
 void apply_setting(const std::string& setting, const std::string& config_dir);

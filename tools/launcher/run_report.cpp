@@ -23,8 +23,11 @@ nlohmann::json read_metrics(const RunFolder& folder) {
   return nlohmann::json::parse(in, nullptr, false);
 }
 
-double figure(const nlohmann::json& metrics, const char* key) {
-  return metrics.contains(key) && metrics[key].is_number() ? metrics[key].get<double>() : 0.0;
+std::string figure(const nlohmann::json& metrics, const char* key, int decimals) {
+  if (!metrics.contains(key) || !metrics[key].is_number()) return "-";
+  char text[32];
+  std::snprintf(text, sizeof text, "%.*f", decimals, metrics[key].get<double>());
+  return text;
 }
 
 }  // namespace rover

@@ -14,7 +14,7 @@ void write_json(const std::string& file, const nlohmann::json& facts);
 bool make_report(const std::string& bin_dir, const RunFolder& folder);
 // metrics.json; a discarded value if unreadable.
 nlohmann::json read_metrics(const RunFolder& folder);
-// One metric; 0 if absent or null.
-double figure(const nlohmann::json& metrics, const char* key);
+// One metric as text; "-" if absent or null.
+std::string figure(const nlohmann::json& metrics, const char* key, int decimals);
 
 }  // namespace rover

@@ -106,6 +106,22 @@ TEST_F(PageCommand, EndingOfTheOutputSaysWhatIsWritten) {
   EXPECT_EQ(refusal({dir, root_ + "/page.pdf", ""}), root_ + "/page.pdf: the name must end in .html or .md");
 }
 
+TEST_F(PageCommand, ReplacesItsOwnFilesAlone) {
+  const std::string dir = folder("first", made_up_rows({.seeds = 2}));
+  const std::string name = root_ + "/notes";
+  const auto both = [&] { return refusal({dir, name + ".html", ""}) + refusal({dir, name + ".md", ""}); };
+  EXPECT_EQ(both() + both(), "acceptedacceptedacceptedaccepted");
+  for (const char* ending : {".html", ".md", ".png"}) {
+    fs::remove(name + ".md");
+    std::ofstream(name + ending) << "mine";
+    EXPECT_THAT(both(), HasSubstr("notes" + std::string(ending) + ": already exists and was not written by this"));
+    EXPECT_EQ(report::read_file(name + ending), "mine");
+    fs::remove(name + ending);
+  }
+  std::ofstream(name + ".md") << "mine";
+  EXPECT_THROW(compare_campaigns({dir, dir, name + ".md", ""}), ConfigError);
+}
+
 TEST_F(PageCommand, RefusesFoldersWithoutRowsAndRowsOfTwoCommits) {
   EXPECT_THAT(refusal({root_ + "/none", "", ""}), HasSubstr("none"));
   EXPECT_THAT(refusal({folder("empty", {}), "", ""}), HasSubstr("empty: no row yet"));

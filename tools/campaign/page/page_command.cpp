@@ -19,6 +19,7 @@
 #include "tools/campaign/store.hpp"
 #include "tools/report/bench_rows.hpp"
 #include "tools/report/rasterise.hpp"
+#include "tools/report/run_folder.hpp"
 
 namespace rover::campaign {
 namespace fs = std::filesystem;
@@ -70,6 +71,15 @@ PageInfo info_of(const PageArguments& arguments, const std::vector<Row>& rows) {
   return info;
 }
 
+// What an earlier command wrote is replaced, and no other file. `mark`: of the text in `file`, or in `beside` for a
+// picture, which goes with that.
+void require_own(const fs::path& file, const fs::path& beside, const std::string& mark) {
+  if (!fs::exists(file)) return;
+  if (!fs::is_regular_file(beside) || report::read_file(beside).find(mark) == std::string::npos)
+    throw ConfigError(file.string() +
+                      ": already exists and was not written by this command; choose another with --out");
+}
+
 void write(const fs::path& file, const std::string& text) {
   if (file.has_parent_path()) fs::create_directories(file.parent_path());
   write_file(file.string(), text);
@@ -95,6 +105,13 @@ fs::path with_ending(fs::path base, const char* ending) {
   return base += ending;
 }
 
+// `title`: how a page of this command begins.
+void require_own(const Output& out, const std::string& title) {
+  const fs::path page = with_ending(out.base, ".html"), table = with_ending(out.base, ".md");
+  if (out.html) require_own(page, page, "<title>" + title + ": ");
+  if (out.table) require_own(table, table, "# " + title + " `");
+}
+
 std::string heat_map(const PageInfo& info, const Panels& panels, const Drives& drives) {
   return sheet_svg(
       "Success of campaign " + info.name,
@@ -108,6 +125,9 @@ std::string heat_map(const PageInfo& info, const Panels& panels, const Drives& d
 
 int page(const PageArguments& arguments) {
   const Output out = output_of(arguments.out, fs::path(arguments.dir) / "page");
+  const fs::path picture = with_ending(out.base, ".png");
+  require_own(out, "Campaign");
+  if (out.table) require_own(picture, with_ending(out.base, ".md"), "](" + picture.filename().string() + ")");
   const std::vector<Row> rows = rows_of(arguments.dir);
   const PageInfo info = info_of(arguments, rows);
   const Drives drives = pointers(rows);
@@ -116,7 +136,6 @@ int page(const PageArguments& arguments) {
   const Panels panels = panels_of(cells);
   if (out.html) write(with_ending(out.base, ".html"), page_html(info, panels, drives));
   if (out.table) {
-    const fs::path picture = with_ending(out.base, ".png");
     write(with_ending(out.base, ".md"), page_table(info, panels, drives, picture.filename().string()));
     if (cells.size() < 2) return 0;  // nothing to compare in a picture
     constexpr double kPixels = 1.5;  // per CSS pixel
@@ -129,6 +148,7 @@ int page(const PageArguments& arguments) {
 int compare_campaigns(const CompareArguments& arguments) {
   const std::string name_a = name_of(arguments.dir_a);
   const Output out = output_of(arguments.out, fs::path(arguments.dir_b) / ("compare_" + name_a));
+  require_own(out, "Campaigns");
   const std::vector<Row> a = rows_of(arguments.dir_a);
   const std::vector<Row> b = rows_of(arguments.dir_b);
   const Comparison comparison = compare(a, b);
