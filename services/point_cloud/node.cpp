@@ -9,7 +9,7 @@
 namespace rover::cloud {
 namespace {
 
-constexpr Utime kImageLatencyUs = 2'000'000;  // that of the camera is well below this
+constexpr Utime kImageLatencyUs = 2'000'000;  // well above that of the camera
 constexpr double kMinValidFraction = 0.02;    // of pixels with a disparity; less: DEGRADED
 
 }  // namespace

@@ -97,10 +97,8 @@ class TrackedPath {
   double corridor_half_width_m() const { return corridor_half_width_m_; }
   double length_m() const { return segments_.back().start_m() + segments_.back().length_m(); }
   const std::vector<PathSegment>& segments() const { return segments_; }
-  // Closest sample to the pose up to the first cusp: a path begins with the part that is being driven, and what follows
-  // may pass the same place. So may a path that begins at the rover and returns: only what is contiguous with its
-  // beginning counts then. If several parts pass within kCandidateFraction of the corridor half width, the heading
-  // selects among their closest samples.
+  // Closest sample to the pose up to the first cusp, on the part contiguous with the beginning if that is at the rover:
+  // what follows may pass the same place. Of several within kCandidateFraction of the half width, the best aligned one.
   PathPosition locate(const Pose2& pose) const;
 
  private:

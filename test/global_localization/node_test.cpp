@@ -121,6 +121,16 @@ class GlobalLocalizationNodeTest : public testing::Test {
       publish_inputs(pose(), elevation());
     }
   }
+  // 16 m of a plain that shows marks.
+  void drive_over_marks() {
+    for (int k = 0; k < 4; ++k) {
+      place_.x() += 4.0;
+      travelled_m_ += 4.0;
+      ElevationView view = view_of(level, kTruth, place_);
+      view.brightness = view_of(marks, kTruth, place_).z_m;
+      publish_inputs(pose(), message_of(view));
+    }
+  }
 
   fs::path dir_;
   std::unique_ptr<rover::test::OneNodeWorld> world_;
@@ -335,13 +345,7 @@ TEST_F(GlobalLocalizationNodeTest, PictureLocatesTheRoverOnAPlain) {
   picture.south_m += 5.0;
   write_geotiff((dir_ / "orbital_picture.tif").string(), picture);
   start();
-  for (int k = 0; k < 4; ++k) {
-    place_.x() += 4.0;
-    travelled_m_ += 4.0;
-    ElevationView view = view_of(level, kTruth, place_);
-    view.brightness = view_of(marks, kTruth, place_).z_m;
-    publish_inputs(pose(), message_of(view));
-  }
+  drive_over_marks();
   ASSERT_EQ(corrections_.size(), 1u);
   const correction_t& c = corrections_[0];
   ASSERT_EQ(c.accepted, 1) << c.reason;
@@ -369,13 +373,7 @@ TEST_F(GlobalLocalizationNodeTest, ADamagedPictureDoesNotTakeReliefWithIt) {
   write_geotiff((dir_ / "orbital_picture.tif").string(), raster_of(marks, 0.25));
   start();
   fs::resize_file(dir_ / "orbital_picture.tif", 1000);
-  for (int k = 0; k < 4; ++k) {
-    place_.x() += 4.0;
-    travelled_m_ += 4.0;
-    ElevationView view = view_of(level, kTruth, place_);
-    view.brightness = view_of(marks, kTruth, place_).z_m;
-    publish_inputs(pose(), message_of(view));
-  }
+  drive_over_marks();
   ASSERT_EQ(corrections_.size(), 1u);
   EXPECT_EQ(corrections_[0].reason, "not enough relief; picture: orbital picture cannot be read");
 }

@@ -301,11 +301,10 @@ TEST(SimulatorFaults, ClockStepsOnceAndRunContinues) {
   EXPECT_EQ(jumps, 1);
 }
 
-TEST(SimulatorFaults, ClockStepInRealTimeTakesNoWallTime) {
-  const Recording recorded = drive({at_second(0.4, "clock_step", "clock", 20.0)}, 21.0, {.realtime = true});
+// If it waited for the step to pass, the test would run into its time limit.
+TEST(SimulatorFaults, ClockStepInRealTimeIsNotWaitedFor) {
+  const Recording recorded = drive({at_second(0.4, "clock_step", "clock", 3600.0)}, 3601.0, {.realtime = true});
   EXPECT_EQ(recorded.summary.outcome, "timeout");
-  EXPECT_GT(recorded.summary.wall_s, 0.9);
-  EXPECT_LT(recorded.summary.wall_s, 15.0);
 }
 
 TEST(SimulatorFaults, EveryFaultIsPublishedOnInject) {

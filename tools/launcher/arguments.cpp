@@ -8,20 +8,9 @@
 #include "common/bus/child_process.hpp"
 #include "common/bus/config.hpp"
 #include "common/core/decimal.hpp"
+#include "common/core/text_hash.hpp"
 
 namespace rover {
-namespace {
-
-// FNV-1a
-std::string short_hash(const std::string& text) {
-  std::uint32_t hash = 0x811c9dc5u;
-  for (const char c : text) hash = (hash ^ static_cast<std::uint8_t>(c)) * 0x01000193u;
-  char digits[9];
-  std::snprintf(digits, sizeof digits, "%08x", hash);
-  return digits;
-}
-
-}  // namespace
 
 std::string scenario_file(const RunArguments& arguments) {
   return arguments.scenario.empty() ? arguments.source_dir + "/config/scenarios/default.yaml" : arguments.scenario;
@@ -37,7 +26,10 @@ std::string commit_of(const std::string& source_dir) {
   if (commit.empty()) return "unknown";
   const std::string changes =
       output_of({"git", "-C", source_dir, "diff", "HEAD", "--", ".", ":(exclude)test/results"}).value_or("");
-  return changes.empty() ? commit : commit + "-dirty-" + short_hash(changes);
+  if (changes.empty()) return commit;
+  char hash[9];
+  std::snprintf(hash, sizeof hash, "%08x", static_cast<std::uint32_t>(text_hash(changes)));
+  return commit + "-dirty-" + hash;
 }
 
 std::vector<std::int64_t> parse_seeds(const std::string& text) {

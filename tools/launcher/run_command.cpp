@@ -145,9 +145,8 @@ void require_possible(const RunArguments& arguments, const RunFolder& folder) {
 void print_result(const RunFolder& folder, const nlohmann::json& metrics) {
   const auto number = [&](const char* key, int decimals = 0) { return figure(metrics, key, decimals); };
   std::printf(
-      "%s: %s m driven for %s m planned in %s s, %s repairs, %s hazard stops, %s collisions, drift %s %%, %s times "
-      "real "
-      "time\n",
+      "%s: %s m driven for %s m planned in %s s, %s repairs, %s hazard stops, %s collisions, "
+      "drift %s %%, %s times real time\n",
       metrics.value("outcome", "unknown").c_str(), number("driven_length_m", 1).c_str(),
       number("planned_length_m", 1).c_str(), number("duration_s").c_str(), number("replans").c_str(),
       number("hazard_stops").c_str(), number("collisions").c_str(), number("odometry_drift_percent", 2).c_str(),

@@ -25,7 +25,7 @@ struct Incident {
   bool is_false() const { return !real && !unseen; }
 };
 
-// At this change of state; a change of the level within a stop is none.
+// At this change of state; a change of the level within a stop is not a second one.
 bool hazard_stop_begins(const RunRecord& run, size_t change);
 
 std::vector<Incident> evaluate_stops(const RunRecord& run, const TrueTrack& truth, const Window& window,

@@ -6,19 +6,13 @@
 #include "common/bus/faults.hpp"
 #include "common/bus/field_faults.hpp"
 #include "common/bus/streams.hpp"
+#include "common/core/text_hash.hpp"
 
 namespace rover {
 namespace {
 
 constexpr Utime kReorderDelay = 3 * kTickUs;
 constexpr Utime kMaxDelayUs = 60'000'000;  // as in faults.cpp: the largest age of a message
-
-// FNV-1a, because std::hash is implementation-defined.
-std::uint64_t hash_of(const std::string& text) {
-  std::uint64_t hash = 14695981039346656037u;
-  for (const char c : text) hash = (hash ^ static_cast<std::uint8_t>(c)) * 1099511628211u;
-  return hash;
-}
 
 // A frozen sensor repeats the content under fresh headers. Headers may differ in length.
 FaultInjector::Bytes with_header_of(const FaultInjector::Bytes& fresh, const FaultInjector::Bytes& old) {
@@ -35,7 +29,7 @@ FaultInjector::Bytes with_header_of(const FaultInjector::Bytes& fresh, const Fau
 
 }  // namespace
 
-FaultInjector::FaultInjector(const std::string& node_name) : random_(hash_of(node_name)) {}
+FaultInjector::FaultInjector(const std::string& node_name) : random_(text_hash(node_name)) {}
 
 bool FaultInjector::inject(const injection_t& injection) {
   const FaultKind* kind = find_fault(injection.fault);
