@@ -6,7 +6,7 @@
 namespace rover::loc {
 namespace {
 
-constexpr double kVersion = 4.0;
+constexpr double kVersion = 5.0;
 constexpr size_t kPoseSize = 7;
 
 class Writer {

@@ -22,6 +22,8 @@ void add_filter(Parameters p, FilterConfig& c) {
   p.add("slip_sigma", c.slip_sigma, {0, 1}, "of the slip since the newest visual motion: an error per metre");
   p.add("no_gyro_noise_rad_rts", c.no_gyro_noise_rad_rts, {1e-4, 10}, "attitude without gyro, from wheels alone");
   p.add("visual_scale_sigma", c.visual_scale_sigma, {0, 0.2}, "residual of a calibration error of 0.2 px");
+  p.add_deg("visual_mounting_sigma_deg", c.mounting_sigma_rad, {0, 10},
+            "rotation of the camera on the body, each axis: what docs/calibration.md leaves");
   p.add("visual_floor_m", c.visual_floor_m, {0, 0.1}, "noise floor of a visual motion, standard deviation");
   p.add("max_rotation_conflict_sigma", c.max_rotation_conflict_sigma, {1, 100},
         "innovation gate between gyro and images");

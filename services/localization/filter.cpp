@@ -86,6 +86,7 @@ FilterState Filter::initial_state(Utime utime, const Matrix3d& R_odom_body, cons
   state.P.diagonal().segment<2>(kBias).setConstant(square(config_.gyro_bias_sigma_radps));
   state.P(kBias + 2, kBias + 2) = square(config_.fog_bias_sigma_radps);
   state.P(kScale, kScale) = square(config_.visual_scale_sigma);
+  state.P.diagonal().segment<3>(kMounting).setConstant(square(config_.mounting_sigma_rad));
   return state;
 }
 
@@ -170,9 +171,12 @@ std::optional<FilterState> Filter::fuse_visual(const FilterState& at_from, const
   joint.diagonal().segment<3>(kGyro).setConstant(kSmallestVariance);
   for (const MotionRecord& r : records) joint.diagonal().segment<3>(kGyro) += rotation_variance(r);
 
+  // A camera turned by m sees the motion (R, t) as (R + [(R - 1) m]x R, t + [t]x m); its lever arm is left out.
+  const Matrix3d rotation_by_mounting = visual.T_from_to.linear() - Matrix3d::Identity();
   // Innovation of the rotations: visual error - gyro error (bias error times time, plus noise).
   Eigen::Matrix<double, 3, kJoint> H = Eigen::Matrix<double, 3, kJoint>::Zero();
   H.block<3, 3>(0, kBias) = -gyro.gyro_s * Matrix3d::Identity();
+  H.block<3, 3>(0, kMounting) = rotation_by_mounting;
   H.block<3, 3>(0, kVisualRotation).setIdentity();
   H.block<3, 3>(0, kGyro) = -Matrix3d::Identity();
   const Vector3d residual = log_so3(visual.T_from_to.linear() * gyro.R.transpose());
@@ -202,7 +206,9 @@ std::optional<FilterState> Filter::fuse_visual(const FilterState& at_from, const
   G.topLeftCorner<kErrorSize, kErrorSize>().setIdentity();
   G.block<3, 3>(kPosition, kAttitude) = -skew(displacement);
   G.block<3, 1>(kPosition, kScale) = displacement;
+  G.block<3, 3>(kPosition, kMounting) = -R * skew(visual.T_from_to.translation());
   G.block<3, 3>(kPosition, kVisualPosition) = -R;
+  G.block<3, 3>(kAttitude, kMounting) = -R * rotation_by_mounting;
   G.block<3, 3>(kAttitude, kVisualRotation) = -R;
   state.P = G * joint * G.transpose();
   const Matrix3d position_noise = R * joint.block<3, 3>(kVisualPosition, kVisualPosition) * R.transpose();

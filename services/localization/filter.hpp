@@ -1,8 +1,9 @@
 // Error-state Kalman filter of the rover's pose in odom (Sola, "Quaternion kinematics for the error-state Kalman
 // filter", 2017). Attitude errors are global: rotations in odom axes, applied on the left.
 //
-// State: position, attitude, gyro bias and the scale error of visual odometry. The scale is a consider parameter
-// (Schmidt-Kalman): it comes from camera calibration, and no onboard sensor separates it from slip.
+// State: position, attitude, gyro bias, and of visual odometry the scale error and the rotation of the camera's
+// mounting. The last two are consider parameters (Schmidt-Kalman): they come from calibration, and no onboard sensor
+// separates them from slip.
 // Prediction (propagate) uses gyro and wheels. The visual update (fuse_visual) replaces the wheels and combines the
 // rotations of gyro and images by their covariances.
 #pragma once
@@ -29,6 +30,7 @@ struct FilterConfig {
   double slip_sigma = 0.1;                         // of the slip since the newest visual motion: an error per metre
   double no_gyro_noise_rad_rts = 0.05;             // attitude without gyro, from wheels alone
   double visual_scale_sigma = 0.0012;              // residual of a calibration error of 0.2 px
+  double mounting_sigma_rad = to_rad(0.05);        // of the camera on the body, each axis
   double visual_floor_m = 1e-4;                    // minimum position sigma of a visual motion
   double max_rotation_conflict_sigma = 6.0;        // innovation gate between gyro and images
   double max_rotation_conflict_rad = to_rad(0.6);  // smaller differences always pass the gate
@@ -38,7 +40,8 @@ constexpr int kPosition = 0;
 constexpr int kAttitude = 3;
 constexpr int kBias = 6;
 constexpr int kScale = 9;
-constexpr int kErrorSize = 10;
+constexpr int kMounting = 10;  // body axes
+constexpr int kErrorSize = 13;
 using ErrorCov = Eigen::Matrix<double, kErrorSize, kErrorSize>;
 
 struct FilterState {
@@ -48,7 +51,7 @@ struct FilterState {
   ErrorCov P = ErrorCov::Zero();
   double dead_reckoned_m = 0.0;  // distance since visual odometry or SLAM measured the motion
   // Variance that random errors have added to x or y, and to yaw, since the start: P without the errors of start pose,
-  // biases and scale, which are constant over a drive.
+  // biases, scale and mounting, which are constant over a drive.
   double noise_m2 = 0.0;
   double noise_rad2 = 0.0;
 };

@@ -37,6 +37,7 @@ std::unique_ptr<SimulatedRover> make_simulated_rover(const Scenario& scenario, c
   SimulatedRoverConfig config;
   config.vehicle.gravity_mps2 = scenario.gravity_mps2;
   config.loccam.calibration_error_px = scenario.calibration_error_px;
+  config.mounting_error_rad = scenario.mounting_error_rad;
   config.loccam.scene.appearance = ground_appearance(scenario, seed);
   config.start_sigma_m = scenario.start.sigma_m;
   config.start_sigma_yaw_rad = scenario.start.sigma_yaw_rad;

@@ -22,12 +22,13 @@ SimulatedRover::SimulatedRover(const SimulatedRoverConfig& config, const Vehicle
                                std::unique_ptr<World> world, const Pose2& start_estimate, std::uint64_t seed)
     : config_(config),
       geometry_(vehicle),
-      loccam_rig_(loccam),
+      loccam_rig_(with_mounting_error(loccam, config.mounting_error_rad, seed_of(seed, RoverStream::kCamera))),
       world_(std::move(world)),
       vehicle_(vehicle, config.vehicle, *world_, true_start(config, start_estimate, seed)),
       sensors_(config.sensors, seed_of(seed, RoverStream::kSensors)),
       loccam_seed_(seed_of(seed, RoverStream::kCamera)),
       navcam_seed_(seed_of(seed, RoverStream::kNavCam)) {
+  if (config.navcam) config_.navcam = with_mounting_error(*config.navcam, config.mounting_error_rad, navcam_seed_);
   if (config.navcam && vehicle.pan_tilt)
     pan_tilt_.emplace(*vehicle.pan_tilt, config.pan_tilt_repeatability_rad, seed_of(seed, RoverStream::kPanTilt));
   advance(to_seconds(kTickUs), hold_command());

@@ -22,6 +22,7 @@ struct SimulatedRoverConfig {
   CameraSimConfig loccam;
   std::optional<StereoRig> navcam;                   // empty: no NavCam. It shares the LocCam's scene.
   double pan_tilt_repeatability_rad = to_rad(0.02);  // one sigma, estimated from 0.05 deg between extremes
+  double mounting_error_rad = 0.0;                   // of both cameras, one sigma about each axis of the body
   double start_sigma_m = 0.0;                        // error of the start pose given to the rover
   double start_sigma_yaw_rad = 0.0;
 };
@@ -60,7 +61,7 @@ class SimulatedRover {
 
   SimulatedRoverConfig config_;
   Vehicle geometry_;
-  StereoRig loccam_rig_;  // nominal
+  StereoRig loccam_rig_;  // as mounted, calibration nominal; so is the NavCam's of config_
   std::unique_ptr<World> world_;
   VehicleSim vehicle_;
   SensorSuite sensors_;

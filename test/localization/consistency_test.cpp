@@ -21,6 +21,7 @@ struct Outcome {
 Outcome run_once(std::uint64_t seed) {
   DriveNoise noise;
   noise.visual_scale = LocalizationConfig{}.filter.visual_scale_sigma;
+  noise.mounting_rad = LocalizationConfig{}.filter.mounting_sigma_rad;
   SyntheticDrive drive({}, seed, noise);
   drive.command = [](double t) { return t < 1.5 ? Twist{} : Twist{0.2, 0.06 * std::sin(0.1 * t)}; };
   std::mt19937_64 random(seed * 7919);

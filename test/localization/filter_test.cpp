@@ -136,6 +136,46 @@ TEST(Filter, GyroCorrectsTranslationThroughCovariance) {
   EXPECT_NEAR(yaw_of(fused->T_odom_body), 0.0, 1e-4);
 }
 
+// Half a circle over waves, seen by a camera whose mounting is turned by `mounting_rad` (body axes).
+FilterState half_circle(double mounting_sigma_rad, const Vector3d& mounting_rad) {
+  FilterConfig config;
+  config.mounting_sigma_rad = mounting_sigma_rad;
+  Filter filter(config, kOriginHeightM);
+  filter.set_gravity(kGravity);
+  FilterState state = filter.initial_state(0, Matrix3d::Identity(), Vector3d::Zero());
+  const Matrix3d R_true_nominal = exp_so3(mounting_rad);
+  for (int n = 0; n < 60; ++n) {
+    const Matrix3d R = rotation_from_rpy(0.03 * std::cos(0.4 * n), 0.02 * std::cos(0.3 * n), kPi / 60);
+    std::vector<MotionRecord> records;
+    for (int i = 0; i < 20; ++i)
+      records.push_back(record_at(state.utime + i * kTickUs, log_so3(R) / 0.4, {0, 0, kGravity}));
+    for (MotionRecord& record : records) record.force_valid = false;
+    const Eigen::Isometry3d seen =
+        make_pose(R_true_nominal.transpose() * R * R_true_nominal, R_true_nominal.transpose() * Vector3d(0.1, 0, 0));
+    const auto fused =
+        filter.fuse_visual(state, records, {state.utime, state.utime + 400'000, seen, Matrix6d::Identity() * 1e-8});
+    if (!fused) throw std::runtime_error("rejected");
+    state = *fused;
+  }
+  return state;
+}
+
+TEST(Filter, CovarianceHoldsTheMountingOfTheCamera) {
+  constexpr double kSigma = 0.002;
+  Eigen::Matrix<double, 6, 3> J;
+  const FilterState exact = half_circle(kSigma, Vector3d::Zero());
+  for (int axis = 0; axis < 3; ++axis) {
+    const FilterState turned = half_circle(kSigma, 1e-4 * Vector3d::Unit(axis));
+    J.col(axis) << turned.T_odom_body.translation() - exact.T_odom_body.translation(),
+        log_so3(turned.T_odom_body.linear() * exact.T_odom_body.linear().transpose());
+  }
+  J /= 1e-4;
+  const Matrix6d expected = kSigma * kSigma * J * J.transpose();
+  const Matrix6d P = (exact.P - half_circle(0.0, Vector3d::Zero()).P).topLeftCorner<6, 6>();
+  EXPECT_GT(std::sqrt(expected(0, 0)), 0.005) << "the end is 3.8 m to the left of the start";
+  EXPECT_LT((P - expected).norm(), 0.05 * expected.norm()) << P << "\n\n" << expected;
+}
+
 TEST(Filter, RotationConflictIsRejected) {
   const Filter filter = make_filter();
   const FilterState state = filter.initial_state(0, Matrix3d::Identity(), Vector3d::Zero());

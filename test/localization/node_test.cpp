@@ -243,6 +243,7 @@ TEST(LocalizationConfigFile, MatchesDefaults) {
   const LocalizationConfig file = load_config(kConfig);
   const LocalizationConfig defaults;
   EXPECT_EQ(file.filter.visual_scale_sigma, defaults.filter.visual_scale_sigma);
+  EXPECT_EQ(file.filter.mounting_sigma_rad, defaults.filter.mounting_sigma_rad);
   EXPECT_EQ(file.filter.slip_sigma, defaults.filter.slip_sigma);
   EXPECT_EQ(file.filter.fog_bias_sigma_radps, defaults.filter.fog_bias_sigma_radps);
   EXPECT_EQ(file.static_alignment.duration_s, defaults.static_alignment.duration_s);

@@ -30,6 +30,7 @@ struct DriveNoise {
   double visual_m = 5e-4;  // of one keyframe's alignment
   double visual_rad = 3e-4;
   double visual_scale = 0.0;  // rms
+  double mounting_rad = 0.0;  // of the camera on the body, rms of each axis
   double encoder_rad = 1e-4;
 };
 
@@ -69,6 +70,7 @@ class SyntheticDrive {
     gyro_bias_ = noise.gyro_bias * normal3();
     gyro_bias_z_fog_ = noise.fog_bias * normal_(random_);
     scale_ = noise.visual_scale * normal_(random_);
+    if (noise.mounting_rad > 0.0) T_true_nominal_.linear() = exp_so3(noise.mounting_rad * normal3());
   }
 
   Localization localization;
@@ -225,6 +227,7 @@ class SyntheticDrive {
       Eigen::Isometry3d T_key_cur = key_pose_.inverse() * T_world_body_ * error;
       m.T_prev_cur = T_key_prev.inverse() * T_key_cur;
       m.T_prev_cur.translation() *= 1.0 + scale_;
+      m.T_prev_cur = T_true_nominal_.inverse() * m.T_prev_cur * T_true_nominal_;
       m.cov.setZero();
       m.cov.diagonal().head<3>().setConstant(noise_.visual_m * noise_.visual_m);
       m.cov.diagonal().tail<3>().setConstant(noise_.visual_rad * noise_.visual_rad);
@@ -244,6 +247,7 @@ class SyntheticDrive {
   Eigen::Vector3d gyro_bias_;
   double gyro_bias_z_fog_ = 0.0;
   double scale_ = 0.0;
+  Eigen::Isometry3d T_true_nominal_ = Eigen::Isometry3d::Identity();  // body axes, as the camera is mounted
   Utime now_ = 0;
   double yaw_ = 0.0;
   double scrub_steer_rad_ = 0.0;

@@ -65,6 +65,19 @@ TEST(CalibrationError, HasConfiguredReprojectionError) {
   EXPECT_LT(reprojection_rms_px(nominal, with_calibration_error(nominal, 0.0, 1)), 1e-9);
 }
 
+TEST(CalibrationError, MountingIsTurnedAboutTheLeftCamera) {
+  const StereoRig nominal = test::loccam_rig();
+  double sum = 0.0;
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    const StereoRig rig = with_mounting_error(nominal, 0.001, seed);
+    EXPECT_EQ(rig.T_body_left.translation(), nominal.T_body_left.translation());
+    EXPECT_EQ(rig.left.cx_px, nominal.left.cx_px);
+    sum += log_so3(rig.T_body_left.linear() * nominal.T_body_left.linear().transpose()).squaredNorm();
+  }
+  EXPECT_NEAR(std::sqrt(sum / 300), 0.001, 0.00015);
+  EXPECT_TRUE(with_mounting_error(nominal, 0.0, 1).T_body_left.isApprox(nominal.T_body_left, 1e-12));
+}
+
 TEST(DetailTexture, IsPeriodicWithZeroMeanAndUnitVariance) {
   const DetailTexture texture(3, true);
   double sum = 0.0;

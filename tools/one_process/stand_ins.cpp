@@ -6,6 +6,7 @@
 #include <rover/ptu_state_t.hpp>
 
 #include "common/bus/convert.hpp"
+#include "common/bus/vehicle_config.hpp"
 #include "point_cloud/config.hpp"
 #include "point_cloud/convert.hpp"
 #include "rover_simulator/exposure_times.hpp"
@@ -58,7 +59,7 @@ class GeometricOdometryNode {
   GeometricOdometryNode(Node& node, const std::string& config_dir, GeometricPerception& perception)
       : node_(node),
         perception_(perception),
-        T_left_body_(perception.rover.true_loccam().T_body_left.inverse()),
+        T_left_body_(load_stereo_rig(config_dir, "loccam").T_body_left.inverse()),
         stereo_latency_(stereo::load_config(config_dir).latency_us),
         latency_(to_utime(vo::load_config(config_dir).latency_s)),
         errors_(perception.seed) {

@@ -11,6 +11,20 @@ namespace rover {
 namespace {
 
 constexpr std::uint64_t kCalibrationSalt = 0xCA11B4A7E0ULL;
+constexpr std::uint64_t kMountingSalt = 0x3047E4401ULL;
+
+class Normals {
+ public:
+  Normals(std::uint64_t seed, std::uint64_t salt) : key_(hash64(seed, salt)) {}
+  double next() {
+    const std::uint64_t h = hash64(key_, ++counter_);
+    return static_cast<double>(near_normal(static_cast<std::uint32_t>(h), static_cast<std::uint32_t>(h >> 32)));
+  }
+
+ private:
+  std::uint64_t key_;
+  std::uint64_t counter_ = 0;
+};
 
 // Nine parameters, scaled to pixels at the image border so that all have equal weight.
 struct Perturbation {
@@ -18,15 +32,11 @@ struct Perturbation {
 };
 
 Perturbation draw(std::uint64_t seed) {
-  std::uint64_t counter = 0;
-  const auto normal = [&] {
-    const std::uint64_t h = hash64(hash64(seed, kCalibrationSalt), ++counter);
-    return static_cast<double>(near_normal(static_cast<std::uint32_t>(h), static_cast<std::uint32_t>(h >> 32)));
-  };
+  Normals normals(seed, kCalibrationSalt);
   Perturbation p{};
   for (double* value :
        {&p.focal_left, &p.cx_left, &p.cy_left, &p.focal_right, &p.cx_right, &p.cy_right, &p.yaw, &p.pitch, &p.roll})
-    *value = normal();
+    *value = normals.next();
   return p;
 }
 
@@ -80,6 +90,16 @@ StereoRig with_calibration_error(const StereoRig& nominal, double error_px, std:
   // The error is almost linear in the scale; two corrections are enough.
   for (int i = 0; i < 2; ++i) scale *= error_px / reprojection_rms_px(nominal, apply(nominal, p, scale));
   return apply(nominal, p, scale);
+}
+
+StereoRig with_mounting_error(const StereoRig& nominal, double sigma_rad, std::uint64_t seed) {
+  ROVER_CHECK(sigma_rad >= 0.0, sigma_rad);
+  Normals normals(seed, kMountingSalt);
+  Eigen::Vector3d turn_rad;
+  for (double& angle_rad : turn_rad) angle_rad = sigma_rad * normals.next();
+  StereoRig rig = nominal;
+  rig.T_body_left.linear() = exp_so3(turn_rad) * nominal.T_body_left.linear();
+  return rig;
 }
 
 }  // namespace rover

@@ -11,6 +11,9 @@ namespace rover {
 // `error_px` rms over both images. T_body_left is unchanged.
 StereoRig with_calibration_error(const StereoRig& nominal, double error_px, std::uint64_t seed);
 
+// Turns the rig on its body, about the left camera, by random angles: `sigma_rad` about each axis of the body.
+StereoRig with_mounting_error(const StereoRig& nominal, double sigma_rad, std::uint64_t seed);
+
 // Rms distance, over both images, between the two rigs' projections of the same points at infinity.
 double reprojection_rms_px(const StereoRig& a, const StereoRig& b);
 

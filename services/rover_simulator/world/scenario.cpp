@@ -177,6 +177,7 @@ Scenario load_scenario(const std::string& file) {
   if (config.has("start")) scenario.start = read_start(config.section("start"));
   if (config.has("sun")) read_sun(config.section("sun"), scenario);
   config.read("calibration_error_px", scenario.calibration_error_px, {0, 5});
+  config.read_deg("mounting_error_deg", scenario.mounting_error_rad, {0, 2});
   config.read("timeout_s", scenario.timeout_s, {10, 1e6});
   scenario.faults = read_faults(config);
   config.finish();

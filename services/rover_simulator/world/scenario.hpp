@@ -41,8 +41,9 @@ struct Scenario {
   std::optional<OrbitalPictureConfig> orbital_picture;  // absent: the rover has none
   double gravity_mps2 = 3.71;
   double sun_elevation_rad = to_rad(40.0);
-  double sun_azimuth_rad = to_rad(135.0);  // towards the sun, counter-clockwise from east
-  double calibration_error_px = 0.2;       // rms, of the true cameras against config/cameras.yaml
+  double sun_azimuth_rad = to_rad(135.0);    // towards the sun, counter-clockwise from east
+  double calibration_error_px = 0.2;         // rms, of the true cameras against config/cameras.yaml
+  double mounting_error_rad = to_rad(0.05);  // of the cameras on the body, one sigma about each axis
   // efficient; full: everywhere; auto: by path segment and by the terrain found.
   std::string level = "efficient";
   PlannedStart start;
