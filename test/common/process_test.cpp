@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "common/bus/child.hpp"
 #include "common/bus/s6_client.hpp"
 
 namespace rover {
@@ -21,6 +22,19 @@ TEST(Process, WhatItComputesIsTold) {
 TEST(Process, NobodyHasComputedNothing) {
   EXPECT_EQ(process_cpu_s(0), 0.0);
   EXPECT_EQ(process_cpu_s(-1), 0.0);
+}
+
+// GNU parallel ends with 255, which is no signal.
+TEST(Process, AnExitStatusIsNotTakenForASignal) {
+  const auto end_of = [](const std::string& command) {
+    Child child({"sh", "-c", command}, "/dev/null");
+    while (child.running()) sleep_s(0.01);
+    return status_text(child.status());
+  };
+  EXPECT_EQ(end_of("exit 2"), "exit status 2");
+  EXPECT_EQ(end_of("exit 255"), "exit status 255");
+  EXPECT_EQ(end_of("kill -9 $$"), "killed by signal 9");
+  EXPECT_EQ(end_of("exit 127"), "could not be started");
 }
 
 }  // namespace

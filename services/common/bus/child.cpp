@@ -74,7 +74,8 @@ void Child::end(double grace_s) {
 
 std::string status_text(int status) {
   if (status == kNotStarted) return "could not be started";
-  if (status > kSignalBase) return "killed by signal " + std::to_string(status - kSignalBase);
+  if (status > kSignalBase && status < kSignalBase + NSIG)
+    return "killed by signal " + std::to_string(status - kSignalBase);
   return "exit status " + std::to_string(status);
 }
 
