@@ -161,10 +161,27 @@ TEST_F(CellClassifierTest, FreeNeedsMostOfTheExpectedSamples) {
 }
 
 TEST_F(CellClassifierTest, CellWithoutOwnSamplesIsNotFreeByItsNeighbours) {
-  for (int ix : {10, 11, 12}) at(ix, 10) = {.measured = 0, .expected = 6};
-  for (int ix : {20, 21, 22}) at(ix, 10) = {.measured = 1, .expected = 6};
+  for (int ix : {10, 11, 12, 20, 21, 22})
+    for (int iy = 0; iy < shape_.cells_y; ++iy) at(ix, iy) = {.measured = 6, .expected = 6};
+  for (int ix : {10, 11, 12}) at(ix, 10).measured = 0;
+  for (int ix : {20, 21, 22}) at(ix, 10).measured = 1;
   EXPECT_EQ(state(11, 10), Cell::kUnseen);
   EXPECT_EQ(state(21, 10), Cell::kFree);
+}
+
+// Near, and far, where cells are sparse: a rock may stand on the part beyond the rim.
+TEST_F(CellClassifierTest, CellCutByTheRimOfThePictureIsNotFree) {
+  for (const int whole : {60, 6}) {
+    for (int ix = 0; ix < shape_.cells_x; ++ix) {
+      for (int iy = 0; iy < 10; ++iy) at(ix, iy) = {.measured = whole, .expected = whole};
+      at(ix, 10) = {.measured = whole / 3, .expected = whole / 3};
+      at(ix, 11) = {.measured = 1, .expected = 1};
+      for (int iy = 12; iy < shape_.cells_y; ++iy) at(ix, iy) = {};
+    }
+    EXPECT_EQ(state(20, 9), Cell::kFree) << whole;
+    EXPECT_EQ(state(20, 10), Cell::kUnseen) << whole;
+    EXPECT_EQ(state(20, 11), Cell::kUnseen) << whole;
+  }
 }
 
 TEST_F(CellClassifierTest, OnlyASingleGapIsFilled) {
