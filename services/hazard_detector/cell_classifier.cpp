@@ -40,19 +40,21 @@ class CellClassifier {
     return measured >= config_.min_free_samples && measured >= config_.min_free_fraction * expected;
   }
 
-  // Samples of a cell that is whole in the picture: the most at its distance.
-  int expected_of_whole(int ix) const {
-    int most = 0;
-    for (int iy = 0; iy < shape_.cells_y; ++iy) most = std::max(most, evidence(shape_.at(ix, iy)).expected);
+  // For each distance the samples of a cell that is whole in the picture: the most. Of a cell with less than half of
+  // them most lies beyond the picture's rim, where a rock may stand.
+  std::vector<int> expected_of_whole_cells() const {
+    std::vector<int> most(static_cast<size_t>(shape_.cells_x), 0);
+    for (int i = 0; i < shape_.size(); ++i) {
+      int& expected = most[static_cast<size_t>(i % shape_.cells_x)];
+      expected = std::max(expected, evidence(i).expected);
+    }
     return most;
   }
 
   // FREE needs most expected samples on ground: textureless rocks and occluded ground stay UNSEEN. Sparse far cells
-  // count together with their neighbours, but need at least one ground sample of their own. A cell of which more than
-  // half lies beyond the picture's rim stays UNSEEN too: a rock may stand there.
+  // count together with their neighbours, but need at least one ground sample of their own.
   void mark_free() {
-    std::vector<int> whole;
-    for (int ix = 0; ix < shape_.cells_x; ++ix) whole.push_back(expected_of_whole(ix));
+    const std::vector<int> whole = expected_of_whole_cells();
     for (int i = 0; i < shape_.size(); ++i) {
       if (2 * evidence(i).expected < whole[static_cast<size_t>(i % shape_.cells_x)]) continue;
       const CellEvidence& e = evidence(i);
