@@ -40,6 +40,7 @@ constexpr double kEndS = 20.0;
 
 Child::Child(const std::vector<std::string>& command, const std::string& log_file) {
   std::vector<char*> arguments;
+  arguments.reserve(command.size() + 1);
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   const pid_t parent = getpid();
