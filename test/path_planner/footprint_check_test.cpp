@@ -70,8 +70,9 @@ TEST(FootprintCheck, AllowsASlideBesideAHazardButNotOntoIt) {
   ASSERT_GT(beside_m, 0.05);
   ASSERT_LT(beside_m, kMarginM);
   FootprintCheck check = check_of(costmap, {});
-  const Pose2 nearer{0.0, 0.05, 0.0};
-  const Pose2 onto{0.0, beside_m + 0.01, 0.0};
+  const double to_cell_m = beside_m - 0.5 * costmap.cell_m();
+  const Pose2 nearer{0.0, to_cell_m - 0.001, 0.0};
+  const Pose2 onto{0.0, to_cell_m + 0.01, 0.0};
   EXPECT_FALSE(check.clear(nearer));
   check.allow_slide(0.05);
   EXPECT_TRUE(check.clear(nearer));
@@ -134,8 +135,8 @@ TEST(FootprintCheck, ARoverThatStraysOntoAHazardIsStopped) {
     return FootprintCheck(costmap, kRover, kMarginM, kApproachM, 0.0, {0.0, rover_y_m, 0.0}, {0.0, planned_y_m, 0.0})
         .clear({0.0, rover_y_m, 0.0});
   };
-  EXPECT_TRUE(check(-0.03, -0.2)) << "its edge has not reached the centre of the cell";
-  EXPECT_FALSE(check(0.0, -0.2));
+  EXPECT_TRUE(check(-0.08, -0.2)) << "its edge has not reached the cell";
+  EXPECT_FALSE(check(-0.03, -0.2)) << "it has, but not the centre of it";
   EXPECT_TRUE(check(0.0, 0.0)) << "a path that leads away from it";
   EXPECT_FALSE(check(0.03, 0.0));
 }

@@ -29,7 +29,7 @@ FootprintCheck::FootprintCheck(const Costmap& costmap, const Footprint& footprin
 bool FootprintCheck::violates(const Pose2& pose, const Hazard& hazard) const {
   const double d = distance_m(pose, hazard);
   if (d >= margin_m_) return false;
-  const double onto_m = std::min(distance_m(planned_from_, hazard) - approach_m_, 0.0);
+  const double onto_m = std::min(distance_m(planned_from_, hazard) - approach_m_, 0.5 * costmap_.cell_m());
   return d < std::min(margin_m_, std::max(distance_m(start_, hazard) - approach_m_ - slide_m_, onto_m));
 }
 

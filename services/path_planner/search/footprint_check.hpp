@@ -8,8 +8,8 @@
 namespace rover::planning {
 
 // Keeps the footprint clear of hazards by a margin, and on known ground. Of a hazard or unknown ground that is nearer
-// at `start` the rover may come closer by `approach_m`, but not onto a hazard. One that its edge had reached
-// at `planned_from`, when the path was planned, it may leave, or come onto by `approach_m`.
+// at `start` the rover may come closer by `approach_m`, but not onto a hazard's cell. One whose cell its edge had
+// reached at `planned_from`, when the path was planned, it may leave, or come onto by `approach_m`.
 class FootprintCheck {
  public:
   // `known_margin_m`: how far around the footprint ground must be known.
