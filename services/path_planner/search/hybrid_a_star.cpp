@@ -30,7 +30,7 @@ struct Node {
   double curvature_per_m = 0.0;
   double cost = 0.0;         // [s]
   double motion_cost = 0.0;  // of it, what does not depend on the ground
-  double distance_m = 0.0;   // forward
+  double distance_m = 0.0;   // forward less reverse: a detour in reverse shows no new ground
   int parent = -1;
   Kind kind = Kind::kMotion;
   bool reverse = false;
@@ -186,7 +186,7 @@ class HybridAStar {
     Motion motion(from, next.curvature_per_m, HybridAStarConfig::kStepM, ground_.request.side_slip);
     for (int i = 0; i < motion.samples(); ++i) {
       next.pose = motion.next();
-      if (!from.reverse) next.distance_m += motion.step_m();
+      next.distance_m += from.reverse ? -motion.step_m() : motion.step_m();
       next.cost += motion.step_m() * pricer_.cost_per_m(next.pose, next.distance_m, from.reverse);
       if (next.cost >= plan_.cost) return;
     }

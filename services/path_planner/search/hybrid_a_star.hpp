@@ -53,7 +53,7 @@ class PathPricer {
   void add_turn_views(double from_yaw_rad, const Pose2& to) {
     for (const Pose2& view : turn_views(from_yaw_rad, to)) add_view(view);
   }
-  // A metre that ends at the pose, `distance_m` forward from the start [s/m]; infinity: not allowed.
+  // A metre that ends at the pose, `distance_m` from the start, forward less reverse [s/m]; infinity: not allowed.
   double cost_per_m(const Pose2& pose, double distance_m, bool reverse);
   // In a point turn there: on the cost of turning; infinity: not allowed.
   double turn_factor(const Pose2& pose, double distance_m);

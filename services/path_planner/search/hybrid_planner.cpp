@@ -95,7 +95,7 @@ double HybridPlanner::incumbent_cost(const PricedGround& ground) const {
   for (size_t i = 1; i < poses.size() && std::isfinite(cost); ++i) {
     const Pose2& from = poses[i - 1].pose;
     const double step_m = distance(position(from), position(poses[i].pose));
-    if (!poses[i].reverse) distance_m += step_m;
+    distance_m += poses[i].reverse ? -step_m : step_m;
     if (step_m > 0.0) {
       cost += step_m * pricer.cost_per_m(poses[i].pose, distance_m, poses[i].reverse);
       pricer.add_view(poses[i].pose);
