@@ -83,8 +83,8 @@ TEST(SecondPlanner, IsChosenByItsName) {
   EXPECT_GT(r.replans, 0);
 }
 
-// maze_study drives many. From the third on: plans behind point turns that show their ground; two closed places in turn;
-// an end too narrow by centimetres; a rover beside its plan, onto a hazard's cell; reversing to meet known ground (two).
+// maze_study drives many. From the third on: point turns that show the ground of a plan; two closed places in turn; an
+// end too narrow by centimetres; a rover beside its plan, onto a hazard's cell; reversing to meet known ground (two).
 TEST(Mazes, TheGoalIsReachedOrThereIsNoPath) {
   const std::vector<std::pair<int, std::uint64_t>> mazes = {{3, 1},   {3, 2},    {4, 3},    {4, 3015},
                                                             {3, 160}, {3, 1875}, {3, 1833}, {3, 1858}};
