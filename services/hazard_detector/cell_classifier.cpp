@@ -152,7 +152,7 @@ class CellClassifier {
     for (int i = 0; i < shape_.size(); ++i)
       if (hazard(i)) for_neighbours(i, radius, [&](int k) { margin.push_back(k); });
     for (int i : margin)
-      if (!hazard(i)) cell(i) = Cell::kMargin;
+      if (cell(i) == Cell::kFree) cell(i) = Cell::kMargin;
   }
 
   const std::vector<CellEvidence>& evidence_;

@@ -201,6 +201,14 @@ TEST_F(CellClassifierTest, HazardClusterNeedsMinSamples) {
   EXPECT_EQ(state(13, 13), Cell::kFree);
 }
 
+TEST_F(CellClassifierTest, UnseenGroundBesideAHazardStaysUnseen) {
+  at(10, 10).high = at(10, 10).tall = 20;
+  for (int ix : {10, 11, 12})
+    for (int iy : {11, 12}) at(ix, iy).measured = 0;
+  EXPECT_EQ(state(11, 11), Cell::kUnseen);
+  EXPECT_EQ(state(9, 9), Cell::kMargin);
+}
+
 TEST_F(CellClassifierTest, ObstacleGrowsOverItsSidesAndHolesAreDetected) {
   at(10, 10).high = at(10, 10).tall = 20;
   at(11, 10).raised = 5;
