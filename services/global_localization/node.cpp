@@ -11,6 +11,11 @@
 #include "global_localization/orbital_map_file.hpp"
 
 namespace rover::global {
+namespace {
+
+constexpr Utime kTakenOverUs = 10 * kTickUs;  // POSE has a start pose by then
+
+}  // namespace
 
 GlobalLocalizationNode::GlobalLocalizationNode(Node& node, const NodeConfig& config)
     : node_(node), config_(config), schedule_(config.attempts) {
@@ -22,7 +27,7 @@ GlobalLocalizationNode::GlobalLocalizationNode(Node& node, const NodeConfig& con
   node_.subscribe<pose_t>(channel::kPose, [this](const pose_t& message) { pose_ = message; });
   node_.subscribe<ground_command_t>(channel::kGroundCommand, [this](const ground_command_t& message) {
     if (message.kind != ground_command_t::SET_START_POSE) return;
-    start_pose_at_ = message.header.utime;
+    start_pose_at_ = std::max(message.header.utime, node_.now()) + kTakenOverUs;
     searched_map_.reset();
   });
   node_.on_step([this](Utime) { search_if_lost(); });

@@ -6,7 +6,7 @@
 namespace rover::loc {
 namespace {
 
-constexpr double kVersion = 5.0;
+constexpr double kVersion = 6.0;
 constexpr size_t kPoseSize = 7;
 
 class Writer {
@@ -54,14 +54,15 @@ class Reader {
   size_t next_ = 0;
 };
 
-constexpr size_t kCount = 1 + 1 + 2 * kPoseSize + 1 + 3 + kErrorSize * kErrorSize + 1 + 1 + 1 + 6 + 3 + 6 + 3;
+constexpr size_t kCount = 1 + 1 + 2 * kPoseSize + 1 + 3 + kErrorSize * kErrorSize + 1 + 1 + 1 + 6 + 3 + 6 + 4;
 
 bool is_valid(const Checkpoint& c) {
   return is_finite(c.T_odom_body) && is_finite(c.T_map_odom) && c.gyro_bias_radps.allFinite() && c.P.allFinite() &&
          c.newest_visual_utime <= c.utime && (c.P.diagonal().array() >= 0.0).all() && std::isfinite(c.travelled_m) &&
          c.gravity_mps2 > 0.0 && std::isfinite(c.traction) && std::isfinite(c.mean_traction) &&
          std::isfinite(c.side_slip) && c.smoothing_offset_m.allFinite() && c.smoothing_offset_rad.allFinite() &&
-         c.imu_healthy_utime <= c.utime && c.consecutive_conflicts >= 0 && std::isfinite(c.dead_reckoned_m);
+         c.imu_healthy_utime <= c.utime && c.consecutive_conflicts >= 0 && std::isfinite(c.conflict_span_s) &&
+         std::isfinite(c.dead_reckoned_m);
 }
 
 }  // namespace
@@ -85,6 +86,7 @@ std::vector<std::uint8_t> to_bytes(const Checkpoint& c) {
   w.put_all(c.smoothing_offset_m);
   w.put_all(c.smoothing_offset_rad);
   w.put(c.consecutive_conflicts);
+  w.put(c.conflict_span_s);
   w.put(static_cast<double>(c.imu_healthy_utime));
   w.put(c.dead_reckoned_m);
   return w.bytes();
@@ -111,6 +113,7 @@ std::optional<Checkpoint> from_bytes(const std::vector<std::uint8_t>& bytes) {
   r.get_all(c.smoothing_offset_m);
   r.get_all(c.smoothing_offset_rad);
   c.consecutive_conflicts = static_cast<int>(r.get());
+  c.conflict_span_s = r.get();
   c.imu_healthy_utime = static_cast<Utime>(r.get());
   c.dead_reckoned_m = r.get();
   if (!is_valid(c)) return std::nullopt;

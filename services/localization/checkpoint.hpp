@@ -33,6 +33,7 @@ struct Checkpoint {
   Eigen::Vector3d smoothing_offset_m = Eigen::Vector3d::Zero();  // published pose minus T_odom_body
   Eigen::Vector3d smoothing_offset_rad = Eigen::Vector3d::Zero();
   int consecutive_conflicts = 0;  // a suspect gyro stays suspect
+  double conflict_span_s = 0.0;
   // A restart must not extend the time without IMU or the distance without visual odometry.
   Utime imu_healthy_utime = kNever;
   double dead_reckoned_m = 0.0;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/core/start_pose.hpp"
+
 namespace rover::loc {
 namespace {
 
@@ -11,7 +13,6 @@ namespace {
 constexpr double kMaxRateRadps = 5.0;
 constexpr double kMaxForceMps2 = 50.0;
 constexpr double kMaxIntervalS = 0.2;
-constexpr double kMaxPositionM = 1e6;
 
 template <size_t N>
 bool finite(const std::array<double, N>& values) {
@@ -65,17 +66,13 @@ std::string_view validation_error(const VisualMotion& m, double max_speed_mps) {
 }
 
 std::string_view validation_error(const StartPose& s) {
-  if (!s.position_map_m.allFinite() || !std::isfinite(s.yaw_rad)) return "start pose not finite";
-  if (s.position_map_m.cwiseAbs().maxCoeff() > kMaxPositionM) return "start position out of range";
-  if (!(s.sigma_m > 0.0 && s.sigma_m < 1000.0)) return "sigma_m out of range";
-  if (!(s.sigma_yaw_rad > 0.0 && s.sigma_yaw_rad <= kPi)) return "sigma_yaw_rad out of range";
-  return {};
+  return start_pose_problem(s.position_map_m, s.yaw_rad, s.sigma_m, s.sigma_yaw_rad);
 }
 
 std::string_view validation_error(const MapMeasurement& m) {
   const Pose2& T = m.T_map_odom;
   if (!std::isfinite(T.x_m) || !std::isfinite(T.y_m) || !std::isfinite(T.yaw_rad)) return "pose not finite";
-  if (std::max(std::abs(T.x_m), std::abs(T.y_m)) > kMaxPositionM) return "position out of range";
+  if (std::max(std::abs(T.x_m), std::abs(T.y_m)) > kMaxStartPositionM) return "position out of range";
   if (!is_covariance(m.cov)) return "no covariance";
   return {};
 }

@@ -180,7 +180,7 @@ void Localization::integrate_imu(MotionRecord& record) {
   record.fog_valid = true;
   while (!imu_queue_.empty() && imu_queue_.front().utime <= record.end) {
     const ImuSample& s = imu_queue_.front();
-    if (s.utime > record.start) {
+    if (s.utime > record.start - to_utime(config_.imu.timeout_s)) {  // late, not lost
       covered_s += s.dt_s;
       Eigen::Vector3d rotation = s.delta_angle_rad;
       if (std::isfinite(s.fog_delta_yaw_rad))
@@ -327,13 +327,17 @@ std::string_view Localization::fuse_visual_motion(const VisualMotion& motion) {
 
 std::optional<FilterState> Localization::fuse_chain(const VisualChain& chain) {
   auto records = history_.slice(chain.anchor().utime, chain.interval().to);
-  if (auto fused = filter_.fuse_visual(chain.anchor(), records, chain.interval())) {
+  auto fused = filter_.fuse_visual(chain.anchor(), records, chain.interval());
+  const double span_s = to_seconds(chain.interval().to - chain.interval().from);
+  if (!fused) {
+    ++gyro_conflicts_;
+    ++consecutive_conflicts_;
+    conflict_span_s_ = span_s;
+  } else if (span_s >= conflict_span_s_) {  // a shorter motion shows less of a wrong rate
     consecutive_conflicts_ = 0;
-    return fused;
+    conflict_span_s_ = 0.0;
   }
-  ++gyro_conflicts_;
-  ++consecutive_conflicts_;
-  if (!gyro_suspect()) return std::nullopt;
+  if (!gyro_suspect()) return fused;
   // One bad image gives one conflict; repeated conflicts mean that the gyro is wrong.
   for (MotionRecord& record : records) record = without_gyro(record);
   return filter_.fuse_visual(chain.anchor(), records, chain.interval());
@@ -450,6 +454,7 @@ std::optional<Checkpoint> Localization::checkpoint() const {
   c.smoothing_offset_m = smoothing_offset_m_;
   c.smoothing_offset_rad = smoothing_offset_rad_;
   c.consecutive_conflicts = consecutive_conflicts_;
+  c.conflict_span_s = conflict_span_s_;
   c.imu_healthy_utime = std::min(imu_healthy_utime_, c.utime);
   c.dead_reckoned_m = predicted_.dead_reckoned_m;
   return c;
@@ -472,6 +477,7 @@ void Localization::restore(const Checkpoint& c) {
   last_record_end_ = initialised_utime_ = newest_wheels_utime_ = c.utime;
   slip_.restore(c.traction, c.mean_traction, c.side_slip, c.newest_visual_utime);
   consecutive_conflicts_ = c.consecutive_conflicts;
+  conflict_span_s_ = c.conflict_span_s;
   imu_healthy_utime_ = c.imu_healthy_utime;
   initialised_ = true;
   if (!std::isfinite(c.drive_angle_rad[0])) return;

@@ -165,6 +165,7 @@ class Localization {
   Eigen::Vector3d visual_velocity_mps_ = Eigen::Vector3d::Zero();  // of the ground point, by the newest visual motion
   int gyro_conflicts_ = 0;
   int consecutive_conflicts_ = 0;
+  double conflict_span_s_ = 0.0;  // of the motion that contradicted last
 
   Eigen::Vector3d smoothing_offset_m_ = Eigen::Vector3d::Zero();  // published pose minus estimate
   Eigen::Vector3d smoothing_offset_rad_ = Eigen::Vector3d::Zero();

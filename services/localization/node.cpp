@@ -54,13 +54,17 @@ void LocalizationNode::subscribe() {
     if (m.status == slam_pose_t::OK) check(channel::kSlamPose, localization_.add_slam_pose(measurement_from(m)));
   });
   node_.subscribe<correction_t>(channel::kCorrection, [this](const correction_t& m) {
-    if (m.accepted) check(channel::kCorrection, localization_.apply_correction(measurement_from(m)));
+    if (!m.accepted) return;
+    const std::string_view rejection = localization_.apply_correction(measurement_from(m));
+    check(channel::kCorrection, rejection);
+    told_ = told_ || rejection.empty();
   });
 }
 
 void LocalizationNode::on_ground_command(const ground_command_t& command) {
   if (command.kind != ground_command_t::SET_START_POSE) return;
   const std::string_view rejection = localization_.set_start_pose(start_pose_from(command));
+  told_ = told_ || rejection.empty();
   command_ack_t ack{};
   ack.command_id = command.command_id;
   ack.accepted = rejection.empty() ? 1 : 0;
@@ -110,7 +114,8 @@ void LocalizationNode::restore() {
 }
 
 void LocalizationNode::save() {
-  if (!checkpoint_.due()) return;
+  if (!checkpoint_.due() && !told_) return;
+  told_ = false;
   if (const auto checkpoint = localization_.checkpoint()) checkpoint_.save(to_bytes(*checkpoint));
 }
 

@@ -32,6 +32,7 @@ class LocalizationNode {
   CheckpointStore checkpoint_;
   Localization localization_;
   PoseStatus status_ = PoseStatus::kOk;
+  bool told_ = false;  // a pose that nobody repeats, since the last save
   std::string reason_;
   Utime next_slip_ = 0;
 };

@@ -319,6 +319,26 @@ TEST(Localization, ImuFailureDegradesWithoutBlocking) {
   }
 }
 
+TEST(Localization, AnImuThatIsTicksLateIsUsed) {
+  for (const size_t ticks : {1, 4}) {
+    SyntheticDrive drive({}, 8);
+    drive.command = arc;
+    std::deque<ImuSample> late;
+    drive.corrupt_imu = [&](ImuSample& s) {
+      late.push_back(s);
+      s = late.front();
+      if (late.size() > ticks) late.pop_front();
+    };
+    drive.align_and_start();
+    drive.run(20.0);
+    const PoseEstimate& pose = drive.localization.pose();
+    EXPECT_EQ(pose.status, PoseStatus::kOk) << ticks;
+    EXPECT_GT(pose.rate_body_radps.head<2>().norm(), 0.0) << "roll and pitch rates come from the gyro";
+    EXPECT_LT(attitude_error(drive), 0.03) << ticks;
+    EXPECT_LT(position_error(drive), 0.1) << ticks;
+  }
+}
+
 TEST(Localization, WrongGyroIsDetectedByVisualOdometry) {
   SyntheticDrive drive({}, 9);
   drive.command = arc;
@@ -333,6 +353,20 @@ TEST(Localization, WrongGyroIsDetectedByVisualOdometry) {
   const double error_at_detection = attitude_error(drive);
   drive.run(20.0);
   EXPECT_NEAR(attitude_error(drive), error_at_detection, 0.05);
+}
+
+// One motion of 0.4 s agrees, two together do not.
+TEST(Localization, AGyroThatIsALittleWrongIsDetectedOverLongerMotions) {
+  for (const double rate_radps : {0.02, 0.01}) {
+    SyntheticDrive drive({}, 9);
+    drive.command = arc;
+    drive.align_and_start();
+    drive.run(20.0);
+    drive.corrupt_imu = [&](ImuSample& s) { s.fog_delta_yaw_rad += rate_radps * s.dt_s; };
+    drive.run(60.0);
+    EXPECT_EQ(drive.localization.pose().status, PoseStatus::kDegraded) << rate_radps;
+    EXPECT_LT(attitude_error(drive), 0.15) << rate_radps;
+  }
 }
 
 TEST(Localization, SingleVisualOutlierIsRejected) {

@@ -239,6 +239,27 @@ TEST(LocalizationCheckpoint, NewProcessContinuesFromCheckpoint) {
   EXPECT_NEAR(second.poses.back().position_odom_body_m[0], first.poses.back().position_odom_body_m[0] + 0.1, 0.01);
 }
 
+// Nobody sends it again.
+TEST(LocalizationCheckpoint, AStartPoseThatWasAcceptedIsSavedAtOnce) {
+  const std::string folder = testing::TempDir() + "/localization_checkpoint_at_once";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  Process first(folder, 1, 0, 0.0);
+  first.run(2.5);
+  ground_command_t command{};
+  command.kind = ground_command_t::SET_START_POSE;
+  command.position_map_m[0] = 10.0;
+  command.sigma_m = 0.1;
+  command.sigma_yaw_rad = 0.01;
+  first.send(channel::kGroundCommand, command);
+  first.run(0.1);
+  ASSERT_NE(first.poses.back().status, int{pose_t::UNINITIALISED});
+  Process second(folder, 2, first.now() + 500'000, first.angle());
+  second.run(0.1);
+  EXPECT_NE(second.poses.back().status, int{pose_t::UNINITIALISED});
+  std::filesystem::remove_all(folder);
+}
+
 TEST(LocalizationConfigFile, MatchesDefaults) {
   const LocalizationConfig file = load_config(kConfig);
   const LocalizationConfig defaults;
