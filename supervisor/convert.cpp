@@ -52,6 +52,7 @@ PlannerReport report_from(const planner_status_t& message) {
   out.utime = message.header.utime;
   out.state = static_cast<PlannerState>(message.state);
   out.path_id = message.path_id;
+  out.global_path_id = message.global_path_id;
   out.blocked_in_m = message.blocked_in_m;
   out.goal_distance_m = message.goal_distance_m;
   out.replans = message.replans;

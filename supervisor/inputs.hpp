@@ -39,6 +39,7 @@ struct PlannerReport {
   Utime utime = kNever;
   PlannerState state = PlannerState::kIdle;
   std::int64_t path_id = -1;
+  std::int64_t global_path_id = -1;
   double blocked_in_m = kNaN;
   double goal_distance_m = kNaN;
   int replans = 0;

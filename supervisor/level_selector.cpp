@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace rover::supervisor {
 namespace {
@@ -21,6 +22,8 @@ void LevelSelector::step(Utime now, const Inputs& inputs, int hazard_stops, bool
   last_step_ = now;
   update_terrain(inputs);
   if (!drive_in_progress || !std::isfinite(inputs.planner.goal_distance_m)) return;
+  // The distance to another goal is not progress.
+  if (std::exchange(global_path_id_, inputs.planner.global_path_id) != inputs.planner.global_path_id) window_.clear();
   if (!window_.empty() && time_s_ - window_.back().time_s < kSampleS) return;
   window_.push_back({time_s_, inputs.planner.goal_distance_m, hazard_stops + inputs.planner.replans});
   while (time_s_ - window_.front().time_s > config_.window_s) window_.pop_front();

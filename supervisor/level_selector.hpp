@@ -49,7 +49,8 @@ class LevelSelector {
   void update_terrain(const Inputs& inputs);
 
   LevelConfig config_;
-  std::deque<Sample> window_;
+  std::deque<Sample> window_;  // on one global path
+  std::int64_t global_path_id_ = -1;
   Utime last_step_ = kNever;
   double time_s_ = 0.0;
   double easy_distance_m_ = 0.0;

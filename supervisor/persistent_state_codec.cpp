@@ -27,7 +27,8 @@ std::vector<std::uint8_t> bytes_of(const PersistentState& s) {
                                {"heat_utime", s.heat.utime},
                                {"drive_i2t_load", s.heat.drive_i2t_load},
                                {"steer_i2t_load", s.heat.steer_i2t_load}};
-  const std::string text = json.dump();
+  // A name on the bus may be anything.
+  const std::string text = json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   return {text.begin(), text.end()};
 }
 

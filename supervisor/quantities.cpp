@@ -108,7 +108,7 @@ Reading keep_out_depth(const MonitorContext& context, const Subject&, double lim
 }
 
 Reading blocked(const MonitorContext& context, const Subject&, double) {
-  const bool waiting = context.waiting_for_path && context.blocked_in_m <= context.stop_distance_m;
+  const bool waiting = context.waiting_for_path && context.stationary;
   Reading out = flag_reading(waiting, context.inputs.planner.utime, context.utime);
   out.value = context.inputs.planner.blocked_in_m;
   out.limit = context.stop_distance_m;

@@ -72,7 +72,8 @@ void Supervisor::on_hazards(const HazardsReport& hazards) {
 // Backing up for want of a path does not relax limits: only paths that follow a stop_backtrack fault do.
 void Supervisor::on_path(PathLevels path) {
   if (path.path_id != path_.path_id) {
-    const bool backtracking = path.backtrack && (backtracking_path_id_ >= 0 || fdir_.backtrack_requested());
+    const bool goes_on = backtracking_path_id_ >= 0 && !inputs_.control.path_end;  // changed on its way
+    const bool backtracking = path.backtrack && (goes_on || fdir_.backtrack_requested());
     backtracking_path_id_ = backtracking ? path.path_id : -1;
   }
   path_ = std::move(path);
@@ -108,10 +109,12 @@ SupervisorOutput Supervisor::step(Utime now) {
 void Supervisor::begin(Utime now, SupervisorOutput& out) {
   since_ = now;
   if (restored_ && state_ != kSafe) check_restored(now, out);
-  for (const std::string& service : config_.fdir.required_services) {
-    ServiceReport& report = inputs_.services[service];
-    if (report.utime == kNever && state_ != kBoot) report.utime = now;
-  }
+  const auto count_from_now = [&](const std::vector<std::string>& services) {
+    for (const std::string& service : services)
+      if (ServiceReport& report = inputs_.services[service]; report.utime == kNever) report.utime = now;
+  };
+  if (state_ != kBoot) count_from_now(config_.fdir.required_services);
+  if (level_ == Level::kFull) count_from_now(config_.fdir.full_services);
 }
 
 // What happened after an old state was saved is not known; the operator may have ordered EMERGENCY_STOP.
@@ -206,8 +209,10 @@ LevelFactSet Supervisor::level_facts(Utime now) {
   LevelFactSet out;
   const double planner_age = age_s(inputs_.planner.utime, now);
   const bool followed = path_.path_id >= 0 && path_.path_id == inputs_.control.path_id;
-  // PATH and CONTROL_STATUS of a new path arrive at different ticks; keep the old value until both match.
-  if (followed) path_full_ = path_.at(inputs_.control.arc_length_m) == Level::kFull;
+  // PATH and CONTROL_STATUS of a new path arrive at different ticks, and without a pose there is no place on it: the
+  // old value is kept.
+  if (followed && std::isfinite(inputs_.control.arc_length_m))
+    path_full_ = path_.at(inputs_.control.arc_length_m) == Level::kFull;
   const LevelConfig& limits = level_selector_.config();
   const std::vector<std::string>& full = config_.fdir.full_services;
   set_level_fact(out, F::kFullReady, !full.empty() && alive(full, now), {});

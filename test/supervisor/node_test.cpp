@@ -272,6 +272,12 @@ TEST(PersistentStateCodec, AllOfItIsRestored) {
   EXPECT_EQ(persistent_state_from(bytes_of(state)), state);
 }
 
+TEST(PersistentStateCodec, AnyNameOnTheBusCanBeSaved) {
+  PersistentState state;
+  state.counters.starts["\xff"] = {1'000'000};
+  EXPECT_TRUE(persistent_state_from(bytes_of(state)));
+}
+
 TEST(PersistentStateCodec, OtherVersionsAndDamagedTextsAreRefused) {
   const std::vector<std::uint8_t> bytes = bytes_of({});
   const std::string text(bytes.begin(), bytes.end());

@@ -328,6 +328,33 @@ TEST_F(SupervisorTest, BackingUpWithoutFaultHasTheOrdinaryLimits) {
   EXPECT_EQ(changes_.back().evidence.threshold, 20.0);
 }
 
+// At the end of a path after a fault the planner may back up again, for want of a path.
+TEST_F(SupervisorTest, BackingUpAgainWithoutFaultHasTheOrdinaryLimits) {
+  start_driving();
+  pose_.roll_rad = to_rad(20.5);
+  time_to_withdrawal();
+  PathLevels back;
+  back.path_id = planner_.path_id = control_.path_id = 2;
+  back.backtrack = true;
+  supervisor_.on_path(back);
+  EXPECT_LE(time_to_permit(), 1.5);
+  pose_.roll_rad = 0.0;
+  run(5.0);
+  control_.path_end = true;
+  run(1.0);
+  control_.path_end = false;
+  back.path_id = planner_.path_id = control_.path_id = 3;
+  control_.path_end = true;
+  tick();
+  supervisor_.on_path(back);
+  control_.path_end = false;
+  run(1.0);
+  ASSERT_TRUE(out_.permit.granted);
+  pose_.roll_rad = to_rad(20.5);
+  EXPECT_LE(time_to_withdrawal(), 0.1);
+  EXPECT_EQ(changes_.back().evidence.threshold, 20.0);
+}
+
 TEST_F(SupervisorTest, NanStopsWhileBacktracking) {
   start_driving();
   blind_ = true;
@@ -566,6 +593,18 @@ TEST_F(SupervisorTest, BlockedForSixtySecondsEndsTheDrive) {
   EXPECT_EQ(supervisor_.state(), State::kStandby);
   run(0.1);
   EXPECT_TRUE(supervisor_.active_faults().empty());
+}
+
+// Farther than the stopping distance, nearer than what the rover drives on with.
+TEST_F(SupervisorTest, AStopThatNoPlanEndsEndsTheDrive) {
+  start_driving();
+  planner_.blocked_in_m = 0.2;
+  speed_ = 0.0;
+  run(2.0);
+  planner_.blocked_in_m = 0.35;
+  run(61.0);
+  EXPECT_EQ(supervisor_.state(), State::kFaultStop);
+  EXPECT_EQ(changes_.back().cause, "blocked");
 }
 
 TEST_F(SupervisorTest, GoalNeedsPathEndAndGoalDistance) {
@@ -1124,6 +1163,15 @@ TEST_F(LevelTest, SlowProgressRaisesAndEasyTerrainLowers) {
   EXPECT_EQ(last_level_change()->cause, "easy_terrain");
 }
 
+TEST_F(LevelTest, ALongerPathIsNotSlowProgress) {
+  begin();
+  drive(130.0, 0.15);
+  planner_.global_path_id = 7;
+  planner_.goal_distance_m += 100.0;
+  drive(130.0, 0.15);
+  EXPECT_EQ(supervisor_.level(), Level::kEfficient);
+}
+
 TEST_F(LevelTest, ManyHazardsRaise) {
   begin();
   for (int i = 0; i < 8 && supervisor_.level() == Level::kEfficient; ++i) {
@@ -1194,6 +1242,18 @@ TEST_F(LevelTest, PathSegmentsRaiseAndLower) {
   EXPECT_EQ(supervisor_.level(), Level::kEfficient);
 }
 
+TEST_F(LevelTest, WithoutAPlaceOnThePathItsLevelStays) {
+  begin();
+  supervisor_.on_path({1, {0.0}, {Level::kFull}});
+  drive(2.0, 0.15);
+  ASSERT_EQ(supervisor_.level(), Level::kFull);
+  control_.arc_length_m = kNaN;
+  control_.stale_pose = true;
+  pose_alive_ = false;
+  drive(5.0, 0.0);
+  EXPECT_EQ(supervisor_.level(), Level::kFull);
+}
+
 TEST_F(LevelTest, RestartKeepsTheLevelOfThePath) {
   begin();
   const PathLevels path{1, {0.0}, {Level::kFull}};
@@ -1205,6 +1265,22 @@ TEST_F(LevelTest, RestartKeepsTheLevelOfThePath) {
   drive(1.0, 0.15);
   EXPECT_EQ(supervisor_.level(), Level::kFull);
   EXPECT_EQ(last_level_change(), nullptr);
+}
+
+// A busy service sends its next heartbeat up to 0.4 s after the supervisor's start.
+TEST_F(LevelTest, RestartKillsNoServiceOfTheFullLevel) {
+  begin();
+  const PathLevels path{1, {0.0}, {Level::kFull}};
+  supervisor_.on_path(path);
+  drive(2.0, 0.15);
+  ASSERT_EQ(supervisor_.level(), Level::kFull);
+  restarts_.clear();
+  restart_supervisor(path);
+  full_alive_ = false;
+  drive(0.4, 0.0);
+  full_alive_ = true;
+  drive(2.0, 0.0);
+  EXPECT_TRUE(restarts_.empty());
 }
 
 // Continuous planning publishes a new path each second; the controller reports it one tick later.

@@ -62,6 +62,7 @@ int node_main(int argc, char** argv, const std::string& service, const ConfigLoa
   catch_interrupts();
   std::signal(SIGPIPE, SIG_IGN);
   limit_memory();
+  bool started = false;
   try {
     if (!parameters.empty()) {
       ParameterList list;
@@ -78,11 +79,12 @@ int node_main(int argc, char** argv, const std::string& service, const ConfigLoa
     const std::shared_ptr<void> keep = factory({node, config_dir});
     if (const auto address = parse_udpm(bus)) node.close_subscriptions(address->port);
     node.log("INFO", "STARTED boot=" + std::to_string(options.boot_id));
+    started = true;
     node.run(keep_running);
     node.log("INFO", "STOPPED");
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s: %s\n", service.c_str(), error.what());
-    return 2;
+    return started ? 1 : 2;
   }
   return 0;
 }
