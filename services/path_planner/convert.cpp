@@ -44,6 +44,7 @@ PoseSample pose_from(const pose_t& message, double origin_height_m) {
   const bool numbers = is_finite(out.T_odom_ground) && is_finite(out.T_map_odom) && std::isfinite(out.forward_mps) &&
                        std::isfinite(out.left_mps) && std::isfinite(out.yaw_rate_radps);
   out.usable = numbers && (message.status == pose_t::OK || message.status == pose_t::DEGRADED);
+  out.new_odom = message.status == pose_t::UNINITIALISED;
   return out;
 }
 

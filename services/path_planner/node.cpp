@@ -6,6 +6,7 @@
 #include <rover/planner_status_t.hpp>
 #include <rover/pose_t.hpp>
 
+#include "common/core/start_pose.hpp"
 #include "path_planner/background_thread.hpp"
 #include "path_planner/convert.hpp"
 
@@ -17,6 +18,7 @@ constexpr Utime kFaultClearsUs = 4'000'000;        // a row on the path is clear
 constexpr Utime kBackUpPatienceUs = 10'000'000;    // of a fault that may be over by itself
 constexpr double kOldestMapS = 5.0;                // at its arrival
 constexpr std::int64_t kPathsPerBoot = 1'000'000;  // keeps the path ids of two processes apart
+constexpr std::int64_t kBoots = 1'000'000'000;     // a boot id from the clock is larger
 constexpr double kMostClearRadiusM = 5.0;          // more than an operator would certify
 
 // By PlannerState and PathKind.
@@ -31,7 +33,7 @@ PathPlannerNode::PathPlannerNode(Node& node, const PathPlannerConfig& config)
       path_latency_(std::max<Utime>(0, to_utime(config.release_latency_s) - kTickUs)),
       origin_height_m_(config.origin_height_m),
       dead_reckoned_(node.options().cpu_scale),
-      planner_(config, node.options().boot_id * kPathsPerBoot,
+      planner_(config, node.options().boot_id % kBoots * kPathsPerBoot,
                std::make_shared<BackgroundThread>(to_utime(config.planning_latency_s),
                                                   [&node] { return node.follows_clock(); })) {
   node_.subscribe<path_t>(channel::kGlobalPath, [this](const path_t& m) { on_global_path(m); });
@@ -108,9 +110,11 @@ void PathPlannerNode::on_fault(const fault_t& message) {
 void PathPlannerNode::on_ground_command(const ground_command_t& message) {
   if (message.kind != ground_command_t::SET_START_POSE) return;
   const double radius = message.clear_radius_m;
-  const bool sane = std::isfinite(message.position_map_m[0]) && std::isfinite(message.position_map_m[1]) &&
-                    radius >= 0.0 && radius <= kMostClearRadiusM;
-  if (!sane) return node_.reject(channel::kGroundCommand, "start pose or clear radius out of range");
+  // What localization refuses certifies nothing.
+  const std::string_view problem = start_pose_problem(Eigen::Vector3d(message.position_map_m), message.yaw_rad,
+                                                      message.sigma_m, message.sigma_yaw_rad);
+  if (!problem.empty() || !(radius >= 0.0 && radius <= kMostClearRadiusM))
+    return node_.reject(channel::kGroundCommand, "start pose or clear radius out of range");
   planner_.set_start_area({message.position_map_m[0], message.position_map_m[1]}, radius, message.header.utime);
 }
 

@@ -98,6 +98,10 @@ void PathPlanner::add_pose(const PoseSample& sample) {
     breadcrumbs_.clear();
     side_slip_ = {};
     job_.reset();
+    if (sample.new_odom) {
+      belief_ = BeliefMap(config_.belief);
+      forget_path();
+    }
     return;
   }
   history_.add(sample);

@@ -12,6 +12,7 @@ namespace rover::planning {
 struct PoseSample {
   Utime utime = kNever;
   bool usable = false;                           // its status gives a position, and every number is finite
+  bool new_odom = false;                         // localization begins anew: odom will be another frame
   Eigen::Isometry3d T_odom_ground = nan_pose();  // see ground_pose
   Eigen::Isometry3d T_map_odom = nan_pose();
   double forward_mps = 0.0;

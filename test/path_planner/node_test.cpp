@@ -82,9 +82,11 @@ class PlannerNodeTest : public testing::Test {
     }
   }
 
-  void certify_start() {
+  void certify_start(double sigma_m = 0.1) {
     ground_command_t command{};
     command.kind = ground_command_t::SET_START_POSE;
+    command.sigma_m = sigma_m;
+    command.sigma_yaw_rad = 0.01;
     command.clear_radius_m = 2.0;
     world_.send(channel::kGroundCommand, command, "mission_control");
     tick(3);
@@ -346,7 +348,7 @@ TEST_F(PlannerNodeTest, PoseStatusAndAgeDecide) {
   pose_.status = pose_t::DEGRADED;
   tick();
   EXPECT_EQ(statuses_->back().state, +planner_status_t::FOLLOWING);
-  for (const std::int8_t status : {pose_t::LOST, pose_t::UNINITIALISED, static_cast<std::int8_t>(99)}) {
+  for (const std::int8_t status : {pose_t::LOST, static_cast<std::int8_t>(99)}) {
     pose_.status = status;
     tick();
     EXPECT_EQ(statuses_->back().state, +planner_status_t::IDLE) << int(status);
@@ -363,6 +365,29 @@ TEST_F(PlannerNodeTest, PoseStatusAndAgeDecide) {
   tick(30);
   EXPECT_EQ(statuses_->back().state, +planner_status_t::IDLE);
   EXPECT_EQ(statuses_->back().text, "no fresh pose");
+}
+
+// Localization that begins anew has another odom: what is known there lies elsewhere.
+TEST_F(PlannerNodeTest, ANewOdomEndsWhatIsKnown) {
+  certify_start();
+  world_.send(channel::kGlobalPath, ahead(), "mission_control");
+  tick(3);
+  ASSERT_GT(statuses_->back().blocked_in_m, 0.5);
+  pose_.status = pose_t::UNINITIALISED;
+  tick();
+  pose_.status = pose_t::OK;
+  tick(3);
+  EXPECT_LT(statuses_->back().blocked_in_m, 0.3) << "the ground ahead is not known";
+  certify_start();
+  EXPECT_GT(statuses_->back().blocked_in_m, 0.5);
+}
+
+TEST_F(PlannerNodeTest, AStartPoseThatLocalizationRefusesCertifiesNothing) {
+  certify_start(0.0);
+  world_.send(channel::kGlobalPath, ahead(), "mission_control");
+  tick(50);
+  EXPECT_EQ(malformed(channel::kGroundCommand), 1);
+  EXPECT_LT(statuses_->back().blocked_in_m, 0.3);
 }
 
 TEST_F(PlannerNodeTest, AStatusIsPublishedEachTick) {

@@ -56,6 +56,10 @@ void PoseCostToGo::make_arcs() {
   arcs_to_.resize(kHeadings);
   arcs_from_.resize(kHeadings);
   const auto cells = [&](double v) { return static_cast<int>(std::lround(v / cell_m_)); };
+  // Only the ends of an arc are checked to lie inside.
+  const auto between = [&](double v, double end) {
+    return std::clamp(cells(v), std::min(0, cells(end)), std::max(0, cells(end)));
+  };
   for (int heading = 0; heading < kHeadings; ++heading)
     for (const int turn : kTurns) {
       double least = kInfinity;
@@ -76,7 +80,7 @@ void PoseCostToGo::make_arcs() {
                 cells(end.x_m),
                 cells(end.y_m),
                 cells(end.y_m) * cells_ + cells(end.x_m),
-                cells(middle.y_m) * cells_ + cells(middle.x_m),
+                between(middle.y_m, end.y_m) * cells_ + between(middle.x_m, end.x_m),
                 wrapped(heading + turn / 2),
                 static_cast<float>(length),
                 static_cast<float>(MotionCosts::kCurvature * costs_.seconds_per_m * relative * relative * length)};
