@@ -7,6 +7,7 @@
 #include "common/bus/config.hpp"
 #include "common/bus/interrupt.hpp"
 #include "common/bus/node_main.hpp"
+#include "common/bus/user_files.hpp"
 #include "common/bus/vehicle_config.hpp"
 #include "driver/driver.hpp"
 
@@ -15,7 +16,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 struct Arguments {
-  std::string config_dir = "config";
+  std::string config_dir = rover::project_dir() + "/config";
   std::string bus;
   double pace = 1.0;
 };

@@ -32,7 +32,7 @@ path() {
 }
 
 refused "no scenario" "nowhere.yaml: no such file" "$WORK/nowhere.yaml"
-refused "a folder as scenario" "$WORK: no such file" "$WORK"
+refused "a folder as scenario" "$WORK: is a folder; a file is expected" "$WORK"
 echo "path: [" >"$WORK/s.yaml"
 refused "no YAML" "s.yaml:[0-9]+: not valid YAML" "$WORK/s.yaml"
 

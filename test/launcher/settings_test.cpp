@@ -40,6 +40,18 @@ class SettingTest : public testing::Test {
   testing_support::TempFolder folder_;
 };
 
+// The lines of the run's copy are not those of the user's file.
+TEST_F(SettingTest, ErrorInAChangedFileNamesTheOptionInPlaceOfALine) {
+  RunFolder folder;
+  folder.config_dir = folder_.path();
+  apply_settings(false, "", {"vehicle.limits.top_speed=1"}, folder);
+  EXPECT_EQ(in_users_files("locomotion: " + folder_.file("vehicle.yaml") + ":31: limits.top_speed: unknown key", folder,
+                           "/rover/config"),
+            "locomotion: /rover/config/vehicle.yaml with --set: limits.top_speed: unknown key");
+  EXPECT_EQ(in_users_files(folder_.file("bus.yaml") + ":3: url: missing", folder, "/rover/config"),
+            "/rover/config/bus.yaml:3: url: missing");
+}
+
 struct Case {
   std::string typed;
   const char* before;

@@ -245,9 +245,10 @@ TEST_F(ScenarioFile, ReadsFaults) {
         "faults:\n"
         "  - {fault: kill, target: stereo, at_s: 5}\n"
         "  - {fault: offset, target: POSE.travelled_m, amount: 2, after_m: 1.5, for_s: 3}\n"
-        "  - {fault: imu_dead, at_state: DRIVING}\n");
+        "  - {fault: imu_dead, at_state: DRIVING}\n"
+        "  - {fault: imu_dead, at_state: TELEOP}\n");
   const std::vector<ScriptedFault> faults = load_scenario(file()).faults;
-  ASSERT_EQ(faults.size(), 3u);
+  ASSERT_EQ(faults.size(), 4u);
   EXPECT_EQ(faults[0].order.target, "stereo");
   EXPECT_EQ(faults[0].at_s, 5.0);
   EXPECT_EQ(faults[1].order.amount, 2.0);
@@ -255,6 +256,7 @@ TEST_F(ScenarioFile, ReadsFaults) {
   EXPECT_EQ(faults[1].after_m, 1.5);
   EXPECT_EQ(faults[2].order.target, "imu");
   EXPECT_EQ(faults[2].at_state, std::int8_t{2});
+  EXPECT_EQ(faults[3].at_state, std::int8_t{11});
   EXPECT_FALSE(faults[2].at_s || faults[2].after_m);
 }
 
@@ -267,6 +269,7 @@ TEST_F(ScenarioFile, InvalidFaultErrorNamesKey) {
       {"{fault: kill, target: stereo, at_s: 1, after_m: 2}", "faults[0].after_m: only one trigger is allowed"},
       {"{fault: kill, target: stereo, at_s: -1}", "faults[0].at_s: out of range"},
       {"{fault: kill, target: stereo, at_state: ASLEEP}", "faults[0].at_state: 'ASLEEP'"},
+      {"{fault: kill, target: stereo, at_state: '?'}", "faults[0].at_state: \"?\" is not one of"},
       {"{fault: kill, target: stereo, at_s: 1, amount: 2}", "faults[0].amount: kill takes no amount"},
       {"{fault: kill, target: stereo, at_s: 1, for_s: 2}", "faults[0].for_s: kill takes no duration"},
       {"{fault: loss, amount: 0.6, at_s: 1}", "faults[0].amount: out of range [0.01, 0.5]"},

@@ -105,7 +105,7 @@ class Reader {
       const fs::path path = item.Scalar().starts_with("~") ? fs::path(user_path(item.Scalar()))
                                                            : fs::path(file_).parent_path() / item.Scalar();
       const std::string file = fs::absolute(path).lexically_normal();
-      if (!fs::is_regular_file(file)) fail(item, key, file + ": no such file");
+      if (const std::string problem = file_problem(file); !problem.empty()) fail(item, key, file + ": " + problem);
       try {
         load_scenario(file);
       } catch (const ConfigError& error) {

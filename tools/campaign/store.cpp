@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "common/bus/config.hpp"
+#include "common/bus/user_files.hpp"
 #include "tools/campaign/sqlite.hpp"
 
 namespace rover::campaign {
@@ -110,6 +111,7 @@ Store::~Store() = default;
 Store::Store(Store&&) noexcept = default;
 
 Store Store::open(const std::string& dir) {
+  if (const std::string problem = folder_problem(dir); !problem.empty()) throw ConfigError(dir + ": " + problem);
   if (!std::filesystem::exists(database_file(dir)))
     throw ConfigError(dir + ": not the folder of a campaign: no campaign.sqlite");
   return Store(std::unique_ptr<Impl>(new Impl{Database(database_file(dir), false), {}}));

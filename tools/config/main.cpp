@@ -41,8 +41,13 @@ int main(int argc, char** argv) {
   app.add_option("name", names, "a service, orbital_planner or navigation; default: all")
       ->check(CLI::IsMember(parameter_files()));
   app.add_option("--format", format, "text, yaml or markdown")->check(CLI::IsMember({"text", "yaml", "markdown"}));
-  app.add_flag("--write", writes, "write config/*.yaml and the READMEs' tables of this checkout from the descriptions");
-  app.add_flag("--check", checks, "exit with 1 if one of these files differs");
+  CLI::Option* format_option = app.get_option("--format");
+  CLI::Option* write_flag = app.add_flag(
+      "--write", writes, "write config/*.yaml and the READMEs' tables of this checkout from the descriptions");
+  app.add_flag("--check", checks, "exit with 1 if one of these files differs")
+      ->excludes(write_flag)
+      ->excludes(format_option);
+  write_flag->excludes(format_option);
   try {
     parse_arguments(app, argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -10,6 +10,7 @@
 #include "common/bus/command_line.hpp"
 #include "common/bus/convert.hpp"
 #include "common/bus/streams.hpp"
+#include "common/bus/user_files.hpp"
 #include "common/bus/vehicle_config.hpp"
 #include "common/core/frames.hpp"
 #include "hazard_detector/config.hpp"
@@ -26,6 +27,7 @@ struct Arguments {
 };
 
 CalibrationFrames read_frames(const std::string& file) {
+  if (const std::string problem = file_problem(file); !problem.empty()) throw ConfigError(file + ": " + problem);
   lcm::LogFile log(file, "r");
   if (!log.good()) throw ConfigError(file + ": cannot be read");
   CalibrationFrames frames{CalibrateConfig{}};
@@ -38,7 +40,7 @@ CalibrationFrames read_frames(const std::string& file) {
     else
       ++skipped;
   }
-  if (frames.frames() == 0) throw ConfigError(file + ": contains no usable DISPARITY");
+  if (frames.frames() == 0) throw ConfigError(file + ": no log, or one without usable DISPARITY");
   if (skipped > 0) std::cerr << file << ": " << skipped << " unusable DISPARITY messages skipped\n";
   return frames;
 }

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "common/bus/config.hpp"
+#include "common/bus/user_files.hpp"
 #include "common/core/frames.hpp"
 
 namespace rover::interchange {
@@ -69,7 +70,7 @@ StereoDataSet read_layout(const fs::path& root, const std::string& poses, double
 
 StereoDataSet read_stereo_data_set(const std::string& dir, const std::string& poses, double rate_hz) {
   const fs::path root(dir);
-  if (!fs::is_directory(root)) throw ConfigError(dir + ": no such folder");
+  if (const std::string problem = folder_problem(dir); !problem.empty()) throw ConfigError(dir + ": " + problem);
   StereoDataSet set = read_layout(root, poses, rate_hz);
   start_at_truth(set);
   if (set.pairs.size() < 2)

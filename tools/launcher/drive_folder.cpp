@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "common/bus/config.hpp"
+#include "common/bus/user_files.hpp"
 #include "common/geo/elevation_map.hpp"
 #include "common/geo/elevation_map_file.hpp"
 #include "common/geo/geotiff_writer.hpp"
@@ -21,10 +22,11 @@ std::string ground_of(const DriveArguments& arguments) {
 
 void check_inputs(const DriveArguments& arguments) {
   const std::string config_dir = config_dir_of(arguments);
-  if (!fs::is_directory(config_dir)) throw ConfigError(config_dir + ": no such folder");
+  if (const std::string problem = folder_problem(config_dir); !problem.empty())
+    throw ConfigError(config_dir + ": " + problem);
   const std::string ground = ground_of(arguments);
-  if (!fs::is_regular_file(ground))
-    throw ConfigError(ground + ": no such file. It contains the start pose and the path; start from a copy of " +
+  if (const std::string problem = file_problem(ground); !problem.empty())
+    throw ConfigError(ground + ": " + problem + ". It contains the start pose and the path; start from a copy of " +
                       "examples/driver/ground.yaml and select it with --ground");
 }
 
@@ -59,11 +61,8 @@ void fill(const DriveArguments& arguments, RunFolder& folder) {
                 fs::copy_options::overwrite_existing);
   if (!arguments.map.empty()) place_map(arguments.map, folder);
   if (!arguments.picture.empty()) place_picture(arguments.picture, folder);
-  if (arguments.headless) apply_setting("mission_control.page=false", folder.config_dir);
-  if (!arguments.record.empty()) apply_setting("recorder.record=" + arguments.record, folder.config_dir);
-  for (const std::string& setting : arguments.set) apply_setting(setting, folder.config_dir);
-  if (!arguments.bus.empty()) apply_setting("bus.url=" + arguments.bus, folder.config_dir);
-  folder.bus_url = Config::load(folder.config_dir + "/bus.yaml").text("url");
+  folder.bus_url = arguments.bus;
+  apply_settings(arguments.headless, arguments.record, arguments.set, folder);
 }
 
 }  // namespace
@@ -81,13 +80,10 @@ RunFolder make_drive_folder(const DriveArguments& arguments) {
 }
 
 std::string in_users_files(std::string message, const RunFolder& folder, const DriveArguments& arguments) {
-  const auto replace = [&message](const std::string& from, const std::string& to) {
-    for (size_t at = message.find(from); at != std::string::npos; at = message.find(from, at + to.size()))
-      message.replace(at, from.size(), to);
-  };
-  replace(folder.config_dir + "/ground.yaml", ground_of(arguments));
-  replace(folder.config_dir, config_dir_of(arguments));
-  return message;
+  const std::string ground = folder.config_dir + "/ground.yaml";
+  if (const size_t at = message.find(ground); at != std::string::npos)
+    message.replace(at, ground.size(), ground_of(arguments));
+  return in_users_files(message, folder, config_dir_of(arguments));
 }
 
 }  // namespace rover

@@ -8,9 +8,11 @@
 #include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 
 #include "common/bus/child_process.hpp"
 #include "common/bus/config.hpp"
+#include "common/bus/user_files.hpp"
 #include "common/bus/yaml_file.hpp"
 #include "common/geo/elevation_map.hpp"
 #include "common/geo/geotiff_writer.hpp"
@@ -89,14 +91,6 @@ double height_at(const ElevationRaster& raster, double x_m, double y_m) {
   return raster.at(column, row);
 }
 
-void apply_arguments(const RunArguments& arguments, RunFolder& folder) {
-  if (arguments.headless) apply_setting("mission_control.page=false", folder.config_dir);
-  if (!arguments.record.empty()) apply_setting("recorder.record=" + arguments.record, folder.config_dir);
-  for (const std::string& setting : arguments.set) apply_setting(setting, folder.config_dir);
-  if (!folder.bus_url.empty()) apply_setting("bus.url=" + folder.bus_url, folder.config_dir);
-  folder.bus_url = Config::load(folder.config_dir + "/bus.yaml").text("url");
-}
-
 // By the simulator, which renders: this takes seconds, and needs what the rover's own computer may not have.
 void make_orbital_picture(const RunArguments& arguments, const RunFolder& folder) {
   const std::string log = folder.dir + "/service_logs/orbital_picture.log";
@@ -118,7 +112,7 @@ void make_orbital_picture(const RunArguments& arguments, const RunFolder& folder
 void fill_run_folder(const RunArguments& arguments, const std::string& dtm_file, RunFolder& folder) {
   copy_configuration(arguments.source_dir + "/config", folder.config_dir);
   copy_scenario(arguments.scenario, dtm_file, folder.scenario);
-  apply_arguments(arguments, folder);
+  apply_settings(arguments.headless, arguments.record, arguments.set, folder);
 
   const Scenario scenario = load_scenario(folder.scenario);
   folder.has_faults = !scenario.faults.empty();
@@ -161,6 +155,17 @@ void apply_setting(const std::string& setting, const std::string& config_dir) {
   write_yaml(file, root);
 }
 
+void apply_settings(bool headless, const std::string& record, const std::vector<std::string>& set, RunFolder& folder) {
+  if (headless) apply_setting("mission_control.page=false", folder.config_dir);
+  if (!record.empty()) apply_setting("recorder.record=" + record, folder.config_dir);
+  for (const std::string& setting : set) {
+    apply_setting(setting, folder.config_dir);
+    folder.set_files.push_back(setting.substr(0, setting.find('.')) + ".yaml");
+  }
+  if (!folder.bus_url.empty()) apply_setting("bus.url=" + folder.bus_url, folder.config_dir);
+  folder.bus_url = Config::load(folder.config_dir + "/bus.yaml").text("url");
+}
+
 RunFolder create_folders(const std::string& source_dir, const std::string& out, const std::string& name) {
   const fs::path wanted =
       fs::absolute(out.empty() ? fs::path(source_dir) / "logs" / (time_stamp() + "-" + name) : fs::path(out));
@@ -183,7 +188,8 @@ RunFolder create_folders(const std::string& source_dir, const std::string& out, 
 }
 
 RunFolder make_run_folder(const RunArguments& arguments) {
-  if (!fs::is_regular_file(arguments.scenario)) throw ConfigError(arguments.scenario + ": no such file");
+  if (const std::string problem = file_problem(arguments.scenario); !problem.empty())
+    throw ConfigError(arguments.scenario + ": " + problem);
   // Checked first, so that errors name the user's own file.
   const std::string dtm_file = load_scenario(arguments.scenario).dtm_file;
   RunFolder folder = create_folders(arguments.source_dir, arguments.out, scenario_name(arguments.scenario));
@@ -207,7 +213,7 @@ RunFolder make_replay_folder(const RunArguments& arguments, const std::string& n
     for (const char* product : {"orbital_map.tif", "orbital_picture.tif"})
       if (const fs::path file = fs::path(log_dir) / product; fs::exists(file))
         fs::copy(file, fs::path(folder.dir) / product, fs::copy_options::copy_symlinks);
-    apply_arguments(arguments, folder);
+    apply_settings(arguments.headless, arguments.record, arguments.set, folder);
   } catch (const std::exception& error) {
     remove_run_folder(folder);
     throw ConfigError(in_users_files(error.what(), folder, config_from));
@@ -216,7 +222,11 @@ RunFolder make_replay_folder(const RunArguments& arguments, const std::string& n
 }
 
 std::string in_users_files(const std::string& message, const RunFolder& folder, const std::string& users_config_dir) {
-  return replaced(message, folder.config_dir, fs::path(users_config_dir).lexically_normal().string());
+  std::string out = message;
+  // The lines of the run's copy are not those of the user's file.
+  for (const std::string& name : folder.set_files)
+    out = std::regex_replace(out, std::regex("/" + name + ":[0-9]+:"), "/" + name + " with --set:");
+  return replaced(out, folder.config_dir, fs::path(users_config_dir).lexically_normal().string());
 }
 
 void remove_run_folder(const RunFolder& folder) {

@@ -9,10 +9,11 @@
 namespace rover {
 
 struct RunFolder {
-  std::string dir;         // absolute
-  std::string config_dir;  // dir/config: the effective configuration
-  std::string scenario;    // dir/config/scenario.yaml
-  std::string bus_url;
+  std::string dir;                     // absolute
+  std::string config_dir;              // dir/config: the effective configuration
+  std::string scenario;                // dir/config/scenario.yaml
+  std::string bus_url;                 // empty: of config_dir
+  std::vector<std::string> set_files;  // of config_dir, changed by --set
   std::int64_t seed = 0;
   bool has_faults = false;             // the scenario injects faults
   bool is_new = true;                  // false: an empty folder existed
@@ -37,7 +38,9 @@ void remove_run_folder(const RunFolder& folder);
 // it is not empty.
 RunFolder create_folders(const std::string& source_dir, const std::string& out, const std::string& name);
 void copy_configuration(const std::string& from, const std::string& to);
-// Applies "file.key.key=value" to the run's copy of the configuration.
+// Changes the run's copy of the configuration as the options of a command say.
+void apply_settings(bool headless, const std::string& record, const std::vector<std::string>& set, RunFolder& folder);
+// Applies "file.key.key=value" to it.
 void apply_setting(const std::string& setting, const std::string& config_dir);
 
 }  // namespace rover

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/bus/command_line.hpp"
+#include "common/bus/user_files.hpp"
 #include "common/bus/vehicle_config.hpp"
 #include "rover_simulator/world/scenario.hpp"
 #include "tools/launcher/arguments.hpp"
@@ -36,7 +37,7 @@ void print_seed(const rover::Scenario& scenario, std::uint64_t seed, rover::orac
 
 int main(int argc, char** argv) {
   std::string file;
-  std::string config_dir = "config";
+  std::string config_dir = rover::project_dir() + "/config";
   std::string seeds;
   CLI::App app("Shortest drivable path of a scenario on the true ground, one JSON line per seed.");
   app.name("rover_oracle");

@@ -8,6 +8,7 @@
 
 #include "common/bus/config.hpp"
 #include "common/bus/event_log.hpp"
+#include "common/bus/user_files.hpp"
 #include "common/bus/vehicle_config.hpp"
 
 namespace rover::report {
@@ -84,8 +85,7 @@ void read_cameras(const std::string& config_dir, Footprint& footprint) {
 }  // namespace
 
 RunFolder open_run_folder(const std::string& dir, const std::string& default_config_dir) {
-  if (fs::is_regular_file(dir)) throw ConfigError(dir + ": is a file; a run folder is expected");
-  if (!fs::is_directory(dir)) throw ConfigError(dir + ": no such folder");
+  if (const std::string problem = folder_problem(dir); !problem.empty()) throw ConfigError(dir + ": " + problem);
   RunFolder folder;
   folder.dir = dir;
   folder.log = log_file(dir);

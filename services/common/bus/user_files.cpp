@@ -49,6 +49,20 @@ std::string user_path(const std::string& typed) {
   return (has_name ? folder / path.filename() : folder).string();
 }
 
+std::string folder_problem(const std::string& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (fs::is_directory(status)) return "";
+  return fs::exists(status) ? "is a file; a folder is expected" : "no such folder";
+}
+
+std::string file_problem(const std::string& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (fs::is_regular_file(status)) return "";
+  return fs::is_directory(status) ? "is a folder; a file is expected" : "no such file";
+}
+
 NewFolder::NewFolder(const std::string& path) : target_(fs::absolute(path)) {
   std::error_code error;
   target_is_new_ = fs::create_directories(target_, error);

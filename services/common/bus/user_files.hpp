@@ -13,6 +13,10 @@ std::string project_dir();
 // resolved if it is a symbolic link.
 std::string user_path(const std::string& typed);
 
+// Why the path is not an existing folder, or file; empty if it is.
+std::string folder_problem(const std::string& path);
+std::string file_problem(const std::string& path);
+
 // Creates a folder completely or not at all.
 class NewFolder {
  public:

@@ -14,6 +14,7 @@ std::unique_ptr<GDALDataset> opened(const std::string& file) {
   const GdalSession gdal;
   GDALSetCacheMax64(kCacheBytes);
   std::error_code error;
+  if (std::filesystem::is_directory(file, error)) throw DtmError(file + ": is a folder; a map is expected");
   if (!std::filesystem::is_regular_file(file, error)) throw DtmError(file + ": not found");
   // GDAL looks for side files (.prj, .tfw) beside the file itself, not beside a link to it.
   const std::string path = std::filesystem::canonical(file, error).string();

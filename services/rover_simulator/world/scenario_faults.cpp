@@ -1,6 +1,5 @@
 #include "rover_simulator/world/scenario_faults.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "common/bus/state_names.hpp"
@@ -9,12 +8,6 @@ namespace rover {
 namespace {
 
 constexpr double kMaxTrigger = 1e6;  // [s] or [m]
-
-std::int8_t read_state(const Config& config) {
-  const std::vector<std::string> names = state_names();
-  const std::string wanted = config.one_of("at_state", names);
-  return static_cast<std::int8_t>(std::find(names.begin(), names.end(), wanted) - names.begin());
-}
 
 void read_trigger(const Config& config, ScriptedFault& fault) {
   std::string first;
@@ -26,7 +19,7 @@ void read_trigger(const Config& config, ScriptedFault& fault) {
   if (first.empty()) config.fail("at_s", "missing; or after_m, or at_state");
   if (first == "at_s") fault.at_s = config.number(first, {0, kMaxTrigger});
   if (first == "after_m") fault.after_m = config.number(first, {0, kMaxTrigger});
-  if (first == "at_state") fault.at_state = read_state(config);
+  if (first == "at_state") fault.at_state = state_value(config.one_of(first, state_names()));
 }
 
 FaultRequest read_order(const Config& config) {
