@@ -134,8 +134,8 @@ TEST(BenchTable, ConsistencyOfThePoseIsTheMeanOfTheDrivesThatCount) {
   for (BenchRow& row : rows) row.anees_x = row.anees_y = row.anees_yaw = row.anees_xyyaw = 1.0;
   rows[0].anees_x = 3.0;
   const std::string line =
-      "ANEES of POSE, mean of 20 drives: x 1.10, y 1.00, yaw 1.00 (consistent: 0.48 to 1.71); together 1.00 (0.67 to "
-      "1.39).";
+      "ANEES of POSE, mean of 20 drives with 10 start poses: x 1.10, y 1.00, yaw 1.00 (consistent: 0.32 to 2.05); "
+      "together 1.00 (0.56 to 1.57).";
   const std::string table = bench_table({"seed", "cmd", "cpu", 2}, rows);
   EXPECT_NE(table.find(line), std::string::npos) << table;
   rows[1].anees_yaw = kNaN;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "common/core/statistics.hpp"
 #include "tools/report/time_account.hpp"
@@ -103,13 +104,16 @@ std::string consistency_line(const BenchRows& rows) {
     for (const double value : values(rows, figure)) sum += value;
     return decimal(sum / static_cast<double>(rows.size()), 2);
   };
-  const Interval single = mean_nees_bounds(static_cast<double>(rows.size()));
-  const Interval together = mean_nees_bounds(3.0 * static_cast<double>(rows.size()));
+  std::set<std::int64_t> starts;  // drives of one seed have the same error of the start pose
+  for (const BenchRow& row : rows) starts.insert(row.seed);
+  const Interval single = mean_nees_bounds(static_cast<double>(starts.size()));
+  const Interval together = mean_nees_bounds(3.0 * static_cast<double>(starts.size()));
   return fmt::format(
-      "ANEES of POSE, mean of {} drives: x {}, y {}, yaw {} (consistent: {:.2f} to {:.2f}); together {} ({:.2f} to "
+      "ANEES of POSE, mean of {} drives with {} start poses: x {}, y {}, yaw {} (consistent: {:.2f} to {:.2f}); "
+      "together {} ({:.2f} to "
       "{:.2f}). More is overconfident.",
-      rows.size(), mean(&BenchRow::anees_x), mean(&BenchRow::anees_y), mean(&BenchRow::anees_yaw), single.low,
-      single.high, mean(&BenchRow::anees_xyyaw), together.low, together.high);
+      rows.size(), starts.size(), mean(&BenchRow::anees_x), mean(&BenchRow::anees_y), mean(&BenchRow::anees_yaw),
+      single.low, single.high, mean(&BenchRow::anees_xyyaw), together.low, together.high);
 }
 
 }  // namespace rover::report

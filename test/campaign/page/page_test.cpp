@@ -128,6 +128,14 @@ TEST_F(Page, FiguresThatTheRowsLackAreNamed) {
   EXPECT_THAT(table(), HasSubstr("n/a / n/a"));
 }
 
+TEST_F(Page, TablesHaveFurtherFiguresIfADriveHas) {
+  for (Row& row : rows_) row.figures.erase("slam_odometry_ratio");
+  EXPECT_THAT(table(), Not(HasSubstr("SLAM / odometry")));
+  rows_.front().figures["slam_odometry_ratio"] = 1.25;
+  EXPECT_THAT(table(), HasSubstr("SLAM / odometry error, median / worst"));
+  EXPECT_THAT(table(), HasSubstr("| 1.25 / 1.25 |"));
+}
+
 TEST_F(Page, MarkdownTablesHaveAsManyCellsInEachLine) {
   info_.repeat = [](const Row&) { return std::string("./rover run --set 'a|b'"); };
   const std::string text = table();

@@ -51,7 +51,16 @@ Drives drives_of(const Panel& panel, const std::map<Cell, Drives>& cells) {
   return out;
 }
 
-std::string median_line_of(const std::string& title, const Drives& drives) {
+std::vector<ShownFigure> table_figures(const Drives& drives) {
+  std::vector<ShownFigure> figures(std::begin(kShownFigures), std::end(kShownFigures));
+  for (const ShownFigure& figure : kTableFigures)
+    if (std::any_of(drives.begin(), drives.end(),
+                    [&](const Row* row) { return std::isfinite(figure_of(*row, figure.key)); }))
+      figures.push_back(figure);
+  return figures;
+}
+
+std::string median_line_of(const std::string& title, const Drives& drives, const std::vector<ShownFigure>& figures) {
   const SuccessCount c = count(drives);
   std::vector<std::string> line = {title,
                                    std::to_string(c.drives),
@@ -59,7 +68,7 @@ std::string median_line_of(const std::string& title, const Drives& drives) {
                                    fmt::format("{}/{}", c.reached, c.feasible),
                                    success_text(c.reached, c.feasible),
                                    fmt::format("{:.0f}", c.contacts)};
-  for (const ShownFigure& figure : kShownFigures) {
+  for (const ShownFigure& figure : figures) {
     const Spread s = spread(drives, figure);
     line.push_back(shown(s.median, figure.decimals) + " / " + shown(s.worst, figure.decimals));
   }
@@ -68,13 +77,16 @@ std::string median_line_of(const std::string& title, const Drives& drives) {
 
 std::string summary(const Panels& panels, const Drives& drives, const std::map<Cell, Drives>& cells) {
   std::vector<std::string> head = {"", "drives", "infeasible", "goal reached", "success (95 %)", "contacts"};
-  for (const ShownFigure& figure : kShownFigures) {
+  const std::vector<ShownFigure> figures = table_figures(drives);
+  for (const ShownFigure& figure : figures) {
     const std::string title = figure.title;
     head.push_back(title.substr(0, title.find(':')) + ", median / worst");
   }
-  std::string out = "\n" + markdown_line(head) + markdown_rule(head.size()) + median_line_of("**all**", drives);
+  std::string out =
+      "\n" + markdown_line(head) + markdown_rule(head.size()) + median_line_of("**all**", drives, figures);
   if (panels.panels.size() > 1)
-    for (const Panel& panel : panels.panels) out += median_line_of(panel_title(panel), drives_of(panel, cells));
+    for (const Panel& panel : panels.panels)
+      out += median_line_of(panel_title(panel), drives_of(panel, cells), figures);
   return out;
 }
 
@@ -82,11 +94,12 @@ std::string summary(const Panels& panels, const Drives& drives, const std::map<C
 std::string drives_table(Drives drives) {
   std::sort(drives.begin(), drives.end(), [](const Row* a, const Row* b) { return a->seed < b->seed; });
   std::vector<std::string> head = {"seed", "outcome", "contacts"};
-  for (const ShownFigure& figure : kShownFigures) head.push_back(figure.title);
+  const std::vector<ShownFigure> figures = table_figures(drives);
+  for (const ShownFigure& figure : figures) head.push_back(figure.title);
   std::string out = "\n" + markdown_line(head) + markdown_rule(head.size());
   for (const Row* row : drives) {
     std::vector<std::string> line = {std::to_string(row->seed), row->outcome, shown(figure_of(*row, "collisions"), 0)};
-    for (const ShownFigure& figure : kShownFigures) line.push_back(shown(figure_of(*row, figure.key), figure.decimals));
+    for (const ShownFigure& figure : figures) line.push_back(shown(figure_of(*row, figure.key), figure.decimals));
     out += markdown_line(line);
   }
   return out;

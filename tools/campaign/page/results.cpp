@@ -52,6 +52,7 @@ std::vector<std::string> page_columns() {
                                       "planned_length_m", "duration_s",      "fault",    "reason"};
   for (const ShownFigure& figure : kShownFigures)
     if (std::find(columns.begin(), columns.end(), figure.key) == columns.end()) columns.emplace_back(figure.key);
+  for (const ShownFigure& figure : kTableFigures) columns.emplace_back(figure.key);
   return columns;
 }
 

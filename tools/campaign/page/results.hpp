@@ -44,6 +44,16 @@ inline constexpr ShownFigure kShownFigures[] = {
     {"hazard_stops", "Hazard stops", 0, false, false},
     {"replans", "Replans", 0, false, false},
 };
+// Beside those in tables, if a drive has them.
+inline constexpr ShownFigure kTableFigures[] = {
+    {"false_stops", "False stops", 0, false, false},
+    {"rocks_missed", "Rocks missed", 0, false, false},
+    {"odometry_drift_percent", "Odometry drift [%]", 2, false, false},
+    {"slam_odometry_ratio", "SLAM / odometry error", 2, false, false},
+    {"final_estimate_error_m", "POSE off at the end [m]", 2, false, false},
+    {"corrected_error_max_m", "POSE off after the first fix, at most [m]", 2, false, false},
+    {"anees_after_fix.xyyaw", "ANEES of POSE after it", 2, false, false},
+};
 
 // Figures and texts of a row that page and comparison use.
 std::vector<std::string> page_columns();
