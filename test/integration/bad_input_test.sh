@@ -74,13 +74,13 @@ refused "--set without a value" "key=value is expected" config/scenarios/flat.ya
 refused "unknown section of --set" "no section 'motors'" config/scenarios/flat.yaml --set vehicle.motors.count=1
 
 # Values that only services read: the services exit, the launcher reports one error, and no folder is left.
-refused "unknown key of --set" "config/vehicle.yaml:[0-9]+: limits.speed_kmh: unknown key" config/scenarios/flat.yaml \
+refused "unknown key of --set" "config/vehicle.yaml with --set: limits.speed_kmh: unknown key" config/scenarios/flat.yaml \
   --set vehicle.limits.speed_kmh=3
-refused "value out of range" "config/vehicle.yaml:[0-9]+: wheels.radius_m: out of range" config/scenarios/flat.yaml \
+refused "value out of range" "config/vehicle.yaml with --set: wheels.radius_m: out of range" config/scenarios/flat.yaml \
   --set vehicle.wheels.radius_m=-1
-refused "wrong unit of one service" "path_planner: .*config/path_planner.yaml:[0-9]+: margin_cm: unknown key" \
+refused "wrong unit of one service" "path_planner: .*config/path_planner.yaml with --set: margin_cm: unknown key" \
   config/scenarios/flat.yaml --set path_planner.margin_cm=20
-refused "unit in a value of one service" "supervisor: .*config/supervisor.yaml:[0-9]+: permit_validity_s: not a number" \
+refused "unit in a value of one service" "supervisor: .*config/supervisor.yaml with --set: permit_validity_s: not a number" \
   config/scenarios/flat.yaml --set "supervisor.permit_validity_s=200 ms"
 
 # A goal within its tolerance of the start, or inside the clear circle around it, is reached.
