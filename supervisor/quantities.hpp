@@ -40,7 +40,6 @@ struct MonitorContext {
   Utime utime;
   bool stationary;
   bool waiting_for_path;  // HAZARD_STOP or REPAIRING
-  double blocked_in_m;
   double stop_distance_m;
   double sweep_s;           // time since the sweep began, 0 if not sweeping
   bool backtracking;        // on a path back that recovers from a stop_backtrack fault

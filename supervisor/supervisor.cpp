@@ -132,8 +132,9 @@ MonitorContext Supervisor::monitor_context(Utime now) const {
   const bool waiting = state_ == kHazardStop || state_ == kRepairing;
   const bool backtracking =
       backtracking_path_id_ >= 0 && backtracking_path_id_ == inputs_.planner.path_id && state_ != kTeleop;
-  return {inputs_,           derived_.values(),       now,          stationary(), waiting,
-          blocked_in_m(),    config_.stop_distance_m, sweep_s(now), backtracking, full_missing_s(now),
+  return {inputs_,           derived_.values(), now,
+          stationary(),      waiting,           config_.stop_distance_m,
+          sweep_s(now),      backtracking,      full_missing_s(now),
           keep_out_depth_m()};
 }
 
