@@ -72,7 +72,8 @@ void Supervisor::on_hazards(const HazardsReport& hazards) {
 // Backing up for want of a path does not relax limits: only paths that follow a stop_backtrack fault do.
 void Supervisor::on_path(PathLevels path) {
   if (path.path_id != path_.path_id) {
-    const bool goes_on = backtracking_path_id_ >= 0 && !inputs_.control.path_end;  // changed on its way
+    // Repeated after a restart, or changed on its way; another one begins at rest.
+    const bool goes_on = path.path_id == backtracking_path_id_ || (backtracking_path_id_ >= 0 && !stationary());
     const bool backtracking = path.backtrack && (goes_on || fdir_.backtrack_requested());
     backtracking_path_id_ = backtracking ? path.path_id : -1;
   }

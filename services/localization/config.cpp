@@ -79,8 +79,9 @@ void add_status(Parameters p, StatusConfig& c) {
         "distance without visual odometry and SLAM; more: LOST");
   p.add("imu_lost_s", c.imu_lost_s, {0, 600}, "without IMU: LOST");
   p.add("no_odometry_lost_s", c.no_odometry_lost_s, {0.1, 60}, "without wheels and visual odometry: LOST");
-  p.add("conflicts_until_gyro_suspect", c.conflicts_until_gyro_suspect, {1, 1000},
-        "consecutive visual motions that contradict the gyro; it is no longer used then: DEGRADED");
+  p.add(
+      "conflicts_until_gyro_suspect", c.conflicts_until_gyro_suspect, {1, 1000},
+      "visual motions that contradict the gyro, without one as long that agrees; it is no longer used then: DEGRADED");
 }
 
 void add_camera_only(Parameters p, CameraOnlyConfig& c) {

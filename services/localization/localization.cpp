@@ -332,7 +332,7 @@ std::optional<FilterState> Localization::fuse_chain(const VisualChain& chain) {
   if (!fused) {
     ++gyro_conflicts_;
     ++consecutive_conflicts_;
-    conflict_span_s_ = span_s;
+    conflict_span_s_ = consecutive_conflicts_ == 1 ? span_s : std::min(conflict_span_s_, span_s);
   } else if (span_s >= conflict_span_s_) {  // a shorter motion shows less of a wrong rate
     consecutive_conflicts_ = 0;
     conflict_span_s_ = 0.0;

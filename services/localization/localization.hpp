@@ -43,7 +43,7 @@ struct StatusConfig {
   double max_dead_reckoned_m = 2.0;      // distance without visual odometry and SLAM; more: LOST
   double imu_lost_s = 10.0;              // without IMU: LOST
   double no_odometry_lost_s = 1.0;       // without wheels and visual odometry: LOST
-  int conflicts_until_gyro_suspect = 5;  // consecutive visual motions that contradict the gyro
+  int conflicts_until_gyro_suspect = 5;  // visual motions that contradict the gyro, without one as long that agrees
 };
 
 struct LocalizationConfig {
@@ -165,7 +165,7 @@ class Localization {
   Eigen::Vector3d visual_velocity_mps_ = Eigen::Vector3d::Zero();  // of the ground point, by the newest visual motion
   int gyro_conflicts_ = 0;
   int consecutive_conflicts_ = 0;
-  double conflict_span_s_ = 0.0;  // of the motion that contradicted last
+  double conflict_span_s_ = 0.0;  // of the shortest of them
 
   Eigen::Vector3d smoothing_offset_m_ = Eigen::Vector3d::Zero();  // published pose minus estimate
   Eigen::Vector3d smoothing_offset_rad_ = Eigen::Vector3d::Zero();

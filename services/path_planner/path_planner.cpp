@@ -98,12 +98,13 @@ void PathPlanner::add_pose(const PoseSample& sample) {
     breadcrumbs_.clear();
     side_slip_ = {};
     job_.reset();
-    if (sample.new_odom) {
+    if (sample.new_odom && !std::exchange(odom_ended_, true)) {
       belief_ = BeliefMap(config_.belief);
       forget_path();
     }
     return;
   }
+  odom_ended_ = false;
   history_.add(sample);
   side_slip_.learn(rover().yaw_rad, sample.forward_mps, sample.left_mps, to_seconds(kTickUs));
   belief_.move_to(position(rover()));

@@ -176,6 +176,7 @@ class PathPlanner {
   std::shared_ptr<Background> background_;
   BeliefMap belief_;
   PoseHistory history_;
+  bool odom_ended_ = false;  // localization begins anew
   Breadcrumbs breadcrumbs_;
   std::optional<StartArea> start_area_;
   std::optional<GlobalPath> global_;

@@ -369,6 +369,23 @@ TEST(Localization, AGyroThatIsALittleWrongIsDetectedOverLongerMotions) {
   }
 }
 
+// What it contradicted while at rest, over long motions, does not bind it for ever.
+TEST(Localization, AGyroThatIsRightAgainIsUsedAgain) {
+  SyntheticDrive drive({}, 9);
+  drive.command = arc;
+  drive.align_and_start();
+  drive.run(20.0);
+  drive.corrupt_imu = [](ImuSample& s) { s.fog_delta_yaw_rad += 0.05 * s.dt_s; };
+  drive.run(20.0);
+  drive.command = [](double) { return Twist{}; };
+  drive.run(30.0);
+  ASSERT_EQ(drive.localization.pose().status, PoseStatus::kDegraded);
+  drive.corrupt_imu = [](ImuSample&) {};
+  drive.command = arc;
+  drive.run(20.0);
+  EXPECT_EQ(drive.localization.pose().status, PoseStatus::kOk);
+}
+
 TEST(Localization, SingleVisualOutlierIsRejected) {
   SyntheticDrive drive({}, 10);
   drive.command = arc;

@@ -375,6 +375,7 @@ TEST_F(PlannerNodeTest, ANewOdomEndsWhatIsKnown) {
   ASSERT_GT(statuses_->back().blocked_in_m, 0.5);
   pose_.status = pose_t::UNINITIALISED;
   tick();
+  EXPECT_EQ(statuses_->back().state, +planner_status_t::IDLE);
   pose_.status = pose_t::OK;
   tick(3);
   EXPECT_LT(statuses_->back().blocked_in_m, 0.3) << "the ground ahead is not known";

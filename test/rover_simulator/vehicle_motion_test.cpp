@@ -58,6 +58,20 @@ TEST(VehicleAtRest, SettlesAtStartPoseOnRoughGround) {
   }
 }
 
+// Also where the wheels slide sideways while the rover settles.
+TEST(VehicleAtRest, SettlesAtStartPoseAcrossASlope) {
+  WorldConfig config;
+  config.rocks.k = 0.0;
+  config.roughness.rms_m = 0.06;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    const World world(config, plane_raster(40.0, 40.0, 1.0, to_rad(15.0), kPi / 2), seed);
+    const VehicleSim sim(test_vehicle(), {}, world, {20.0, 18.0, 0.0});
+    const Pose2 at = planar(sim.truth().T_map_body);
+    EXPECT_LT(std::hypot(at.x_m - 20.0, at.y_m - 18.0), 0.005) << seed;
+    EXPECT_LT(std::abs(at.yaw_rad), to_rad(0.03)) << seed;
+  }
+}
+
 TEST(VehicleDrive, DrivesStraightAtWheelSpeed) {
   const PlaneSurface level(Soil::kBedrock, 0.0);
   VehicleSim sim(test_vehicle(), {}, level, {});

@@ -80,10 +80,11 @@ RunFolder make_drive_folder(const DriveArguments& arguments) {
 }
 
 std::string in_users_files(std::string message, const RunFolder& folder, const DriveArguments& arguments) {
-  const std::string ground = folder.config_dir + "/ground.yaml";
+  message = in_users_files(message, folder, config_dir_of(arguments));
+  const std::string ground = fs::path(config_dir_of(arguments) + "/ground.yaml").lexically_normal();
   if (const size_t at = message.find(ground); at != std::string::npos)
     message.replace(at, ground.size(), ground_of(arguments));
-  return in_users_files(message, folder, config_dir_of(arguments));
+  return message;
 }
 
 }  // namespace rover

@@ -198,8 +198,9 @@ RunFolder make_run_folder(const RunArguments& arguments) {
     fill_run_folder(arguments, dtm_file, folder);
   } catch (const std::exception& error) {
     remove_run_folder(folder);
-    const std::string message = replaced(error.what(), folder.scenario, arguments.scenario + " with --set");
-    throw ConfigError(in_users_files(message, folder, arguments.source_dir + "/config"));
+    const std::string message = in_users_files(error.what(), folder, arguments.source_dir + "/config");
+    const std::string scenario = arguments.source_dir + "/config/scenario.yaml";  // there is none: it is the copy's name
+    throw ConfigError(replaced(message, fs::path(scenario).lexically_normal().string(), arguments.scenario));
   }
   return folder;
 }

@@ -38,7 +38,7 @@ using Vec3Map = Eigen::Map<const Eigen::Vector3d>;
 // Locks a joint. MuJoCo integrates damping implicitly, so this value is stable at the step size.
 constexpr double kJammedNms = 1e5;
 
-constexpr int kSettleAttempts = 6;
+constexpr int kSettleAttempts = 24;
 constexpr double kSettledM = 0.005;
 constexpr double kSettledRad = to_rad(0.03);
 
@@ -103,15 +103,20 @@ class VehicleSim::Impl {
     return Vec3Map(data_->qvel) + pose().linear() * rates.cross(vehicle_.imu_position_m);
   }
 
-  // Settling moves the vehicle, by up to a degree on rough ground; the initial pose compensates for it.
+  // Settling moves the vehicle, by up to a degree on rough ground; the initial pose compensates for it. On side slopes
+  // the whole error at once is too much, and the aim would go to and fro.
   void settle_at(const Pose2& start) {
     Pose2 aim = start;
+    double part = 1.0, before = kInfinity;
     for (int attempt = 0; attempt < kSettleAttempts; ++attempt) {
       put_at_rest(aim);
       const Pose2 rest = planar(truth_.T_map_body);
       const Pose2 off{rest.x_m - start.x_m, rest.y_m - start.y_m, wrap_angle(rest.yaw_rad - start.yaw_rad)};
-      if (std::hypot(off.x_m, off.y_m) < kSettledM && std::abs(off.yaw_rad) < kSettledRad) return;
-      aim = {aim.x_m - off.x_m, aim.y_m - off.y_m, aim.yaw_rad - off.yaw_rad};
+      const double error = std::max(std::hypot(off.x_m, off.y_m) / kSettledM, std::abs(off.yaw_rad) / kSettledRad);
+      if (error < 1.0) return;
+      part = error < before ? std::min(1.0, 1.3 * part) : 0.5 * part;
+      before = error;
+      aim = {aim.x_m - part * off.x_m, aim.y_m - part * off.y_m, aim.yaw_rad - part * off.yaw_rad};
     }
   }
 

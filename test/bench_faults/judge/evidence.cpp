@@ -264,7 +264,7 @@ Measurement Evidence::measure_followed(const Row& row) const {
   if (q == "keep_out_depth_m") return of(pose_.header, above(keep_out_depth_m(), row.limit));
   if (q == "blocked") {
     const bool waits = state_.state == supervisor_state_t::HAZARD_STOP || state_.state == supervisor_state_t::REPAIRING;
-    return planned(waits && (planner_.path_id < 0 || !(planner_.blocked_in_m > settings_.stop_distance_m)));
+    return planned(waits && stationary());
   }
   return {};
 }
