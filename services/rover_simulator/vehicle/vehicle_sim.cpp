@@ -104,7 +104,7 @@ class VehicleSim::Impl {
   }
 
   // Settling moves the vehicle, by up to a degree on rough ground; the initial pose compensates for it. On side slopes
-  // the whole error at once is too much, and the aim would go to and fro.
+  // the whole error at once may be too much.
   void settle_at(const Pose2& start) {
     Pose2 aim = start;
     double part = 1.0, before = kInfinity;
