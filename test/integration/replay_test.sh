@@ -72,7 +72,7 @@ refused "no log inside" "contains no messages" "$WORK/text.lcm"
 refused "an unknown service" "no service 'sterio'; known services: " "$WORK/run" --services sterio
 refused "after the end" "from: after the end" "$WORK/run" --from 1000
 refused "an invalid speed" "speed fast" "$WORK/run" --speed fast
-refused "a bad setting" "stereo.yaml:.*block_px" "$WORK/run" --services stereo --set stereo.matcher.block_px=8
+refused "a bad setting" "stereo.yaml with --set: .*block_px" "$WORK/run" --services stereo --set stereo.matcher.block_px=8
 mkdir "$WORK/full" && touch "$WORK/full/file"
 code=0
 replay "$WORK/run" --services stereo --out "$WORK/full" 2>"$WORK/said" || code=$?
