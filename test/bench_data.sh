@@ -18,6 +18,7 @@ rm -rf "$LOGS"
 mkdir -p test/results "$LOGS"
 rows=
 segments=
+consistency=
 unread=
 found=
 
@@ -36,6 +37,11 @@ judge() {
   fi
   "$BUILD/bin/rover_report" "$run" >>"$run.txt"
   rm -rf "$run-log" "$run"/*.lcm*
+  consistency+=$(jq -r --arg what "$1" '
+    def r: (. * 100 | round) / 100;
+    .vo_nees | select(. != null) |
+    "| \($what) | \(.keyframes) | \(.translation | r) | \(.rotation | r) | \(.together | r) | \(.lower | r) to \(.upper | r) |"' \
+    "$run/metrics.json")$'\n'
   for source in visual_odometry published_pose; do
     name=${source//_/ }
     rows+=$(jq -r --arg what "$1" --arg name "$name" --arg source $source '
@@ -83,6 +89,13 @@ done < <(find -L "$DATA" -maxdepth 5 \( -name calib.txt -o -type d -name cam0 \)
   echo "| data set | trajectory | segments | all | rotation |"
   echo "|---|---|---|---|---|"
   printf '%s' "$segments" | sed '/^$/d'
+  echo
+  echo "NEES of visual odometry: squared errors of the last alignment of each keyframe by the stated covariance, mean, per degree of"
+  echo "freedom. 1 is consistent, more is overconfident; errors of calibration and of the truth count as well."
+  echo
+  echo "| data set | keyframes | translation | rotation | together | 95 % bounds |"
+  echo "|---|---|---|---|---|---|"
+  printf '%s' "$consistency" | sed '/^$/d'
   [ -z "$unread" ] || printf '\nNot read:\n\n%s' "$unread"
 } >$OUT.new
 mv $OUT.new $OUT

@@ -77,7 +77,8 @@ PoseSample pose_from(const pose_t& message) {
 VisualSample visual_from(const vo_motion_t& message) {
   const Eigen::Isometry3d T = rover::pose_from(message.position_m, message.quat_wxyz);
   const bool lost = message.status == vo_motion_t::LOST || !is_finite(T);
-  return {to_seconds(message.previous_utime), to_seconds(message.header.utime), lost, T};
+  return {to_seconds(message.previous_utime), to_seconds(message.header.utime), lost, T,
+          to_seconds(message.keyframe_utime), matrix6_from(message.covariance)};
 }
 
 ControlSample control_from(const control_status_t& message) {

@@ -61,6 +61,17 @@ Json anees_json(const PoseConsistency& pose) {
           {"samples", pose.samples}, {"lower", bounds.low}, {"upper", bounds.high}};
 }
 
+Json vo_nees_json(const VisualConsistency& visual) {
+  if (visual.keyframes == 0) return nullptr;
+  const Interval bounds = mean_nees_bounds(6.0 * visual.keyframes);
+  return {{"translation", number(visual.translation)},
+          {"rotation", number(visual.rotation)},
+          {"together", number(visual.together)},
+          {"keyframes", visual.keyframes},
+          {"lower", bounds.low},
+          {"upper", bounds.high}};
+}
+
 Json map_json(const MapFidelities& maps) {
   return {{"hazards", fidelity_json(maps.hazards)}, {"traversability", fidelity_json(maps.traversability)}};
 }

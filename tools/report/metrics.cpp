@@ -380,6 +380,7 @@ RunEvaluation evaluate(const RunRecord& run, const RunInfo& info, const Footprin
   const SegmentRule rule = segment_rule(trajectory_length_m(odometry));
   m.visual_odometry = trajectory_error(odometry, rule);
   m.published_pose = trajectory_error(published_poses(run, truth), rule);
+  m.visual_consistency = visual_consistency(run, truth);
   m.replans = count_replans(run, m.window);
   evaluate_states(run, truth, m);
   evaluate_corrections(run, truth, m);

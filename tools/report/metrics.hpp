@@ -14,6 +14,7 @@
 #include "tools/report/time_account.hpp"
 #include "tools/report/track.hpp"
 #include "tools/report/trajectory_error.hpp"
+#include "tools/report/visual_consistency.hpp"
 
 namespace rover::report {
 
@@ -124,6 +125,7 @@ struct Metrics {
   int vo_lost = 0;
   TrajectoryError visual_odometry;  // integrated VO motions
   TrajectoryError published_pose;   // POSE at the exposures
+  VisualConsistency visual_consistency;
 };
 
 // Results used by metrics and pictures.

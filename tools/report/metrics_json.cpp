@@ -180,6 +180,7 @@ void add_accuracy(const Metrics& m, Json& json) {
   json["final_estimate_error_m"] = number(m.final_estimate_error_m);
   json["anees"] = anees_json(m.anees);
   json["anees_after_fix"] = anees_json(m.anees_after_fix);
+  json["vo_nees"] = vo_nees_json(m.visual_consistency);
   json["global_corrections"] = corrections_json(m);
   json["trajectory"] = {{"data_set_pairs", optional(m.info.data_set_pairs)},
                         {"visual_odometry", trajectory_json(m.visual_odometry)},

@@ -32,6 +32,7 @@ void leave_out_truth_figures(Metrics& m) {
   m.estimate_error_max_m = m.corrected_error_max_m = kNaN;
   m.final_error_m = m.final_estimate_error_m = kNaN;
   m.anees = m.anees_after_fix = {};
+  m.visual_consistency = {};
   m.map = {};
   m.final_truth_pose.reset();
   m.rocks_encountered.reset();

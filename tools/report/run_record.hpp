@@ -39,6 +39,8 @@ struct VisualSample {
   double to_s = 0.0;
   bool lost = false;
   Eigen::Isometry3d T_from_to = Eigen::Isometry3d::Identity();
+  double keyframe_s = kNaN;
+  Matrix6d cov = nan_cov();  // of the alignment with the keyframe, in the axes of the earlier body
 };
 
 enum class Following { kIdle, kFollowing, kPointTurn, kPathEnd, kOther };
