@@ -72,7 +72,7 @@ std::string_view validation_error(const StartPose& s) {
 std::string_view validation_error(const MapMeasurement& m) {
   const Pose2& T = m.T_map_odom;
   if (!std::isfinite(T.x_m) || !std::isfinite(T.y_m) || !std::isfinite(T.yaw_rad)) return "pose not finite";
-  if (std::max(std::abs(T.x_m), std::abs(T.y_m)) > kMaxStartPositionM) return "position out of range";
+  if (std::max(std::abs(T.x_m), std::abs(T.y_m)) > kMaxMapPositionM) return "position out of range";
   if (!is_covariance(m.cov)) return "no covariance";
   return {};
 }

@@ -30,6 +30,16 @@ LocalizationConfig short_alignment() {
   return config;
 }
 
+ground_command_t start_pose_at(double x) {
+  ground_command_t command{};
+  command.command_id = 7;
+  command.kind = ground_command_t::SET_START_POSE;
+  command.position_map_m[0] = x;
+  command.sigma_m = 0.1;
+  command.sigma_yaw_rad = 0.01;
+  return command;
+}
+
 class LocalizationNodeTest : public testing::Test {
  protected:
   LocalizationNodeTest() : world_("localization"), node_(world_.node(), short_alignment(), load_vehicle(kConfig)) {
@@ -54,15 +64,7 @@ class LocalizationNodeTest : public testing::Test {
     }
   }
 
-  void start_pose(double x = 10.0) {
-    ground_command_t command{};
-    command.command_id = 7;
-    command.kind = ground_command_t::SET_START_POSE;
-    command.position_map_m[0] = x;
-    command.sigma_m = 0.1;
-    command.sigma_yaw_rad = 0.01;
-    world_.send(channel::kGroundCommand, command, now_);
-  }
+  void start_pose(double x = 10.0) { world_.send(channel::kGroundCommand, start_pose_at(x), now_); }
 
   test::OneNodeWorld world_;
   LocalizationNode node_;
@@ -221,12 +223,7 @@ TEST(LocalizationCheckpoint, NewProcessContinuesFromCheckpoint) {
   std::filesystem::create_directories(folder);
   Process first(folder, 1, 0, 0.0);
   first.run(2.0);
-  ground_command_t command{};
-  command.kind = ground_command_t::SET_START_POSE;
-  command.position_map_m[0] = 10.0;
-  command.sigma_m = 0.1;
-  command.sigma_yaw_rad = 0.01;
-  first.send(channel::kGroundCommand, command);
+  first.send(channel::kGroundCommand, start_pose_at(10.0));
   first.run(5.0, 0.2);
   ASSERT_TRUE(first.states.empty());
   // Down for 1 s, during which the rover rolls 0.1 m.
@@ -246,12 +243,7 @@ TEST(LocalizationCheckpoint, AStartPoseThatWasAcceptedIsSavedAtOnce) {
   std::filesystem::create_directories(folder);
   Process first(folder, 1, 0, 0.0);
   first.run(2.5);
-  ground_command_t command{};
-  command.kind = ground_command_t::SET_START_POSE;
-  command.position_map_m[0] = 10.0;
-  command.sigma_m = 0.1;
-  command.sigma_yaw_rad = 0.01;
-  first.send(channel::kGroundCommand, command);
+  first.send(channel::kGroundCommand, start_pose_at(10.0));
   first.run(0.1);
   ASSERT_NE(first.poses.back().status, int{pose_t::UNINITIALISED});
   Process second(folder, 2, first.now() + 500'000, first.angle());

@@ -80,11 +80,11 @@ RunFolder make_drive_folder(const DriveArguments& arguments) {
 }
 
 std::string in_users_files(std::string message, const RunFolder& folder, const DriveArguments& arguments) {
-  message = in_users_files(message, folder, config_dir_of(arguments));
-  const std::string ground = fs::path(config_dir_of(arguments) + "/ground.yaml").lexically_normal();
+  message = without_lines(message, folder);
+  const std::string ground = folder.config_dir + "/ground.yaml";
   if (const size_t at = message.find(ground); at != std::string::npos)
     message.replace(at, ground.size(), ground_of(arguments));
-  return message;
+  return in_users_files(message, folder, config_dir_of(arguments));
 }
 
 }  // namespace rover

@@ -198,9 +198,8 @@ RunFolder make_run_folder(const RunArguments& arguments) {
     fill_run_folder(arguments, dtm_file, folder);
   } catch (const std::exception& error) {
     remove_run_folder(folder);
-    const std::string message = in_users_files(error.what(), folder, arguments.source_dir + "/config");
-    const std::string scenario = arguments.source_dir + "/config/scenario.yaml";  // there is none: it is the copy's name
-    throw ConfigError(replaced(message, fs::path(scenario).lexically_normal().string(), arguments.scenario));
+    const std::string message = replaced(without_lines(error.what(), folder), folder.scenario, arguments.scenario);
+    throw ConfigError(in_users_files(message, folder, arguments.source_dir + "/config"));
   }
   return folder;
 }
@@ -222,12 +221,15 @@ RunFolder make_replay_folder(const RunArguments& arguments, const std::string& n
   return folder;
 }
 
-std::string in_users_files(const std::string& message, const RunFolder& folder, const std::string& users_config_dir) {
-  std::string out = message;
-  // The lines of the run's copy are not those of the user's file.
+std::string without_lines(std::string message, const RunFolder& folder) {
   for (const std::string& name : folder.set_files)
-    out = std::regex_replace(out, std::regex("/" + name + ":[0-9]+:"), "/" + name + " with --set:");
-  return replaced(out, folder.config_dir, fs::path(users_config_dir).lexically_normal().string());
+    message = std::regex_replace(message, std::regex("/" + name + ":[0-9]+:"), "/" + name + " with --set:");
+  return message;
+}
+
+std::string in_users_files(const std::string& message, const RunFolder& folder, const std::string& users_config_dir) {
+  return replaced(without_lines(message, folder), folder.config_dir,
+                  fs::path(users_config_dir).lexically_normal().string());
 }
 
 void remove_run_folder(const RunFolder& folder) {

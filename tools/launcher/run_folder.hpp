@@ -28,7 +28,9 @@ RunFolder make_run_folder(const RunArguments& arguments);
 // ConfigError.
 RunFolder make_replay_folder(const RunArguments& arguments, const std::string& name, const std::string& config_from,
                              const std::string& log_dir);
-// Replaces the run's own file names in a message with those of the user's folder.
+// Of the files changed by --set: the lines of the run's copy are not those of the user's file.
+std::string without_lines(std::string message, const RunFolder& folder);
+// The same, and replaces the run's own file names in a message with those of the user's folder.
 std::string in_users_files(const std::string& message, const RunFolder& folder, const std::string& users_config_dir);
 // Removes what make_run_folder created, for a run that never began.
 void remove_run_folder(const RunFolder& folder);

@@ -110,8 +110,7 @@ std::string consistency_line(const BenchRows& rows) {
   const Interval together = mean_nees_bounds(3.0 * static_cast<double>(starts.size()));
   return fmt::format(
       "ANEES of POSE, mean of {} drives with {} start poses: x {}, y {}, yaw {} (consistent: {:.2f} to {:.2f}); "
-      "together {} ({:.2f} to "
-      "{:.2f}). More is overconfident.",
+      "together {} ({:.2f} to {:.2f}). More is overconfident.",
       rows.size(), starts.size(), mean(&BenchRow::anees_x), mean(&BenchRow::anees_y), mean(&BenchRow::anees_yaw),
       single.low, single.high, mean(&BenchRow::anees_xyyaw), together.low, together.high);
 }
