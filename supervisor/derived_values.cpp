@@ -94,7 +94,8 @@ void DerivedValueTracker::step_motion(Utime now, const Inputs& inputs, bool perm
   const bool wheels_turning =
       std::any_of(inputs.wheels.drive_rate_radps.begin(), inputs.wheels.drive_rate_radps.end(),
                   [&](double rate) { return std::abs(rate) * config_.wheel_radius_m > config_.stationary_wheel_mps; });
-  derived_.unpermitted_s = duration_s(!permitted && wheels_turning, now, moving_since_);
+  // Up to the newest report: silent wheels are not moving wheels.
+  derived_.unpermitted_s = duration_s(!permitted && wheels_turning, inputs.wheels.utime, moving_since_);
   derived_.idle_s = duration_s(permitted && !wheels_turning, now, idle_since_);
 }
 

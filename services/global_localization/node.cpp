@@ -30,7 +30,7 @@ GlobalLocalizationNode::GlobalLocalizationNode(Node& node, const NodeConfig& con
     start_pose_at_ = std::max(message.header.utime, node_.now()) + kTakenOverUs;
     searched_map_.reset();
   });
-  node_.on_step([this](Utime) { search_if_lost(); });
+  node_.on_step([this](Utime) { search_at_start_pose(); });
   node_.subscribe_slow<elevation_t>(channel::kElevation, config.latency_us,
                                     [this](const elevation_t& message) { on_elevation(message); });
 }
@@ -69,16 +69,17 @@ void GlobalLocalizationNode::on_elevation(const elevation_t& message) {
   if (schedule_.due(pose_.travelled_m)) attempt_correction(*prior, message.header.utime);
 }
 
-// A start pose less certain than the usual search window: the rover is searched for at once, also without new maps,
-// because none come while it is stationary; again with each map until they show enough ground.
-void GlobalLocalizationNode::search_if_lost() {
+// The rover is stationary then and no new maps come, so it searches at once; again with each map while they are too
+// small. Where a drive begins there is no map yet, and no need, unless the rover is lost.
+void GlobalLocalizationNode::search_at_start_pose() {
   if (start_pose_at_ == kNever || !full_ || node_.busy()) return;
   std::optional<Prior> prior = fresh_prior();
   if (!prior || pose_.header.utime <= start_pose_at_ || searched_map_ == last_map_) return;
   searched_map_ = last_map_;
+  const bool lost = is_lost(config_.core.search, *prior);
+  if (lost) prior->since_fix_m = kInfinity;  // the start pose owes nothing to the last fix
   bool settled = true;
-  if (is_lost(config_.core.search, *prior)) {
-    prior->since_fix_m = kInfinity;  // the start pose owes nothing to the last fix
+  if (lost || last_map_ != kNever) {
     node_.begin_slow(config_.latency_us);
     settled = attempt_correction(*prior, pose_.header.utime).reason != kMapTooSmall;
   }

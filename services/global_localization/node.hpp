@@ -25,7 +25,7 @@ class GlobalLocalizationNode {
   void load_map();
   std::optional<OrbitalMap> load_picture(const std::string& run_dir);
   void on_elevation(const elevation_t& message);
-  void search_if_lost();
+  void search_at_start_pose();
   std::string rejection_reason(const elevation_t& message) const;
   std::optional<Prior> fresh_prior() const;
   void check_for_odometry_jump(const Prior& prior);

@@ -164,19 +164,19 @@ TEST_F(GlobalLocalizationNodeTest, CorrectsAfterFirstDistanceAndAgainAfterInterv
   EXPECT_EQ(corrections_.size(), 2u);
 }
 
-// By a start pose of the operator with a large sigma_m, while stationary.
-TEST_F(GlobalLocalizationNodeTest, ALostRoverIsSearchedForAtOnce) {
+// By a start pose of the operator, while stationary.
+TEST_F(GlobalLocalizationNodeTest, TheRoverIsSearchedForAtOnceAfterAStartPose) {
   write_map();
   start();
+  set_start_pose(1.0);
+  EXPECT_TRUE(corrections_.empty()) << "without a map, and not lost";
   drive(16.0);
   ASSERT_EQ(corrections_.size(), 1u);
-  set_start_pose(1.0);
-  EXPECT_EQ(corrections_.size(), 1u) << "not lost";
-  set_start_pose(20.0);
-  ASSERT_EQ(corrections_.size(), 2u);
-  EXPECT_EQ(corrections_[1].accepted, 1) << corrections_[1].reason;
-  set_start_pose(20.0);
-  EXPECT_EQ(corrections_.size(), 3u) << "once for each command";
+  for (const double sigma_m : {1.0, 20.0, 20.0}) {
+    set_start_pose(sigma_m);
+    EXPECT_EQ(corrections_.back().accepted, 1) << corrections_.back().reason;
+  }
+  EXPECT_EQ(corrections_.size(), 4u) << "once for each command";
 }
 
 TEST_F(GlobalLocalizationNodeTest, ARoverLostFromTheStartIsSearchedForWhenAMapComes) {

@@ -855,6 +855,20 @@ TEST_F(SupervisorTest, UnpermittedMotionLeadsToSafe) {
   EXPECT_EQ(changes_.back().cause, "unpermitted_motion");
 }
 
+// That the wheels turned when last heard of is no evidence of motion; that they still turn afterwards is.
+TEST_F(SupervisorTest, SilentWheelsAreNotUnpermittedMotion) {
+  start_driving();
+  wheels_alive_ = false;
+  run(10.0);
+  EXPECT_FALSE(out_.permit.granted);
+  EXPECT_EQ(changes_.back().cause, "wheel_state_age");
+  wheels_follow_ = false;
+  wheels_alive_ = true;
+  run(0.1);
+  EXPECT_EQ(supervisor_.state(), State::kSafe);
+  EXPECT_EQ(changes_.back().cause, "unpermitted_motion");
+}
+
 // For example a deadlock between planner and controller.
 TEST_F(SupervisorTest, UnusedPermitRequestsANewPath) {
   start_driving();
