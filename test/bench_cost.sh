@@ -5,6 +5,7 @@
 # [--variants a,b] [--resume] [--jobs N].
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
+. test/bench_lib.sh
 BUILD=$1
 shift
 OUT=test/results/cost.md
@@ -37,6 +38,11 @@ horizon | seed_traverse_2 full_hard | path_planner.search.horizon_m: 9.0
 together | seed_traverse_2 full_hard | traversability.step.mean_height_ratio: 1.0, traversability.step.grow_height_m: 0.12, path_planner.ground.hazard_cost: 1.0, path_planner.clearance.min_m: 0.05'
 variants() { sed 's/ *| */|/g' <<<"$VARIANTS" | grep -E "^($ONLY)\|"; }
 variants >/dev/null || { echo "bench cost: no such variant: ${ONLY//|/,}" >&2; exit 2; }
+names=$(variants | cut -d'|' -f1)
+if grep -qx 'truth\|rendered' <<<"$names" && ! grep -qx geometric <<<"$names"; then
+  echo "bench cost: truth and rendered are compared with geometric; add it to --variants" >&2
+  exit 2
+fi
 
 level_of() { [ "$1" = full_hard ] && echo full || echo efficient; }
 drive() {  # NAME SCENARIOS CHANGES
@@ -51,6 +57,7 @@ drive() {  # NAME SCENARIOS CHANGES
       echo "  - {scenario: ../../../config/scenarios/$scenario.yaml, axes: {level: $(level_of "$scenario")}}"
     done
   } >"$LOGS/$1.yaml"
+  begin_campaign "$LOGS/$1" "${arguments[@]}"
   "$BUILD/bin/rover_campaign" "$LOGS/$1.yaml" --out "$LOGS/$1" "${arguments[@]}"
 }
 row() {  # NAME SCENARIO [LAST_SEED TITLE]

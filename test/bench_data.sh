@@ -37,6 +37,10 @@ judge() {
   fi
   "$BUILD/bin/rover_report" "$run" >>"$run.txt"
   rm -rf "$run-log" "$run"/*.lcm*
+  if ! jq -e .truth "$run/metrics.json" >/dev/null; then
+    unread+="- $1: has no ground truth"$'\n'
+    return
+  fi
   consistency+=$(jq -r --arg what "$1" '
     def r: (. * 100 | round) / 100;
     .vo_nees | select(. != null) |

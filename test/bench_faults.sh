@@ -31,7 +31,8 @@ esac
 LOGS=$PWD/logs/bench/faults
 ROWS=$LOGS/rows.jsonl
 OUT=test/results/faults.md
-COMMIT=$(git describe --always --dirty --abbrev=12)
+. test/bench_lib.sh
+COMMIT=$(program_commit)
 mkdir -p "$LOGS" test/results
 [ -n "$resume" ] || rm -f "$ROWS"
 touch "$ROWS"

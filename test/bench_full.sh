@@ -10,7 +10,8 @@ shift
 OUT=test/results/full.md
 LOGS=$PWD/logs/bench/full
 ROWS=$LOGS/rows.jsonl
-COMMIT=$(git describe --always --dirty --abbrev=12)
+. test/bench_lib.sh
+COMMIT=$(program_commit)
 resume=no jobs=1 seeds=1..5
 while [ $# -gt 0 ]; do
   case $1 in
@@ -29,6 +30,7 @@ while [ $# -gt 0 ]; do
 done
 [[ $jobs =~ ^[1-9][0-9]?$ ]] || { echo "bench full: --jobs: '$jobs' is not a number from 1 to 99" >&2; exit 2; }
 [[ $seeds =~ ^([0-9]+)\.\.([0-9]+)$ ]] || { echo "bench full: --seeds: '$seeds' is not a range like 1..5" >&2; exit 2; }
+command="./rover bench full --seeds $seeds"
 seeds=$(seq "${BASH_REMATCH[1]}" "${BASH_REMATCH[2]}")
 mkdir -p test/results "$LOGS"
 [ $resume = yes ] || : >"$ROWS"
@@ -71,12 +73,16 @@ while read -r scenario level seed; do
   run "$scenario" "$level" "$seed" $port &
 done < <(wanted)
 wait
+# A drive that crashed must not make the table better.
+missing=
+while read -r scenario level seed; do has_row "$scenario" "$level" "$seed" || missing+=" $scenario-$level-$seed"; done < <(wanted)
+[ -z "$missing" ] || { echo "rover bench full: no row of$missing: no table; continue with --resume" >&2; exit 1; }
 
 rows() { jq -s --arg c "$COMMIT" 'map(select(.commit == $c))' "$ROWS"; }
 {
   echo "# The Full level, and both levels combined"
   echo
-  echo "Command: \`./rover bench full\`; commit $COMMIT; $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1), $(nproc) cores."
+  echo "Command: \`$command\`; commit $COMMIT; $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1), $(nproc) cores."
   echo
   rows | jq -r -f test/bench_full.jq
 } >$OUT.new

@@ -9,6 +9,7 @@ GALE=config/terrain/gale/gale_hirise_dtm_1m_348x337.tif
 mkdir -p test/results
 cmake --build "$BUILD" --target make_large_map lost_bench >&2
 WORK=$(mktemp -d -t rover-large-map-XXXXXX)
+trap 'rm -rf "$WORK"' EXIT
 "$BUILD/test/tools/make_large_map" "$GALE" 3162.5 0.25 "$WORK/map.tif"
 
 # Seconds and MB of a program.
@@ -34,7 +35,7 @@ started() { # NAME MAP
   launcher=$!
   for service in localization path_planner supervisor mission_control; do
     until [ "$(pid_of "$dir/services/$service")" -gt 0 ]; do
-      kill -0 "$launcher" || return 1
+      kill -0 "$launcher" || { kill "$driver"; return 1; }
       sleep 0.05
     done
   done

@@ -4,6 +4,7 @@
 # hours: they are two campaigns, which --resume continues. Called by ./rover bench perception: BUILD [--resume] [--jobs N].
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
+. test/bench_lib.sh
 BUILD=$1
 shift
 OUT=test/results/perception
@@ -14,6 +15,7 @@ campaign() {  # TIER ARGS...
   local tier=$1
   shift
   sed "s#rendered#$tier#; s#\.\./scenarios#$PWD/config/scenarios#" config/campaigns/tiers.yaml >"$LOGS/$tier.yaml"
+  begin_campaign "$LOGS/$tier" "$@"
   "$BUILD/bin/rover_campaign" "$LOGS/$tier.yaml" --out "$LOGS/$tier" "$@"
 }
 fast() {  # NAME SCENARIO LEVEL: a drive of the geometric tier on one core

@@ -73,7 +73,7 @@ void TelemetryStore::add(const fault_t& m) {
 }
 
 void TelemetryStore::add(const drive_permit_t& m) {
-  view_.permit = {m.granted == 1, m.max_speed_mps, m.reason};
+  view_.permit = {m.granted == 1, m.valid_until_utime, m.max_speed_mps, m.reason};
 }
 
 void TelemetryStore::add(const pose_t& m) {

@@ -34,6 +34,7 @@ struct FaultView {
 
 struct PermitView {
   bool granted = false;
+  Utime valid_until = kNever;
   double max_speed_mps = kNaN;
   std::string reason;
 };

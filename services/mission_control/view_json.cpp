@@ -55,8 +55,9 @@ json of(const StateView& s, const std::map<std::string, FaultView>& known, Utime
           {"faults", faults}};
 }
 
-json of(const PermitView& p) {
-  return {{"granted", p.granted}, {"max_speed_mps", metres(p.max_speed_mps)}, {"reason", p.reason}};
+json of(const PermitView& p, Utime now) {
+  return {
+      {"granted", p.granted && now <= p.valid_until}, {"max_speed_mps", metres(p.max_speed_mps)}, {"reason", p.reason}};
 }
 
 json of(const PoseView& p, Utime now) {
@@ -181,7 +182,7 @@ std::string to_json(const View& v, const BookView& book) {
                     {"rate", rounded(v.realtime_factor, 0.01)},
                     {"tick_age_s", rounded(v.tick_age_s, 0.1)},
                     {"state", of(v.state, v.faults, v.now)},
-                    {"permit", of(v.permit)},
+                    {"permit", of(v.permit, v.now)},
                     {"pose", of(v.pose, v.now)},
                     {"planner", of(v.planner)},
                     {"motion", of(v.motion)},

@@ -1,5 +1,7 @@
 #include "recorder/node.hpp"
 
+#include <filesystem>
+
 namespace rover::recorder {
 namespace {
 
@@ -12,11 +14,15 @@ constexpr Utime kRetryPeriod = 10'000'000;  // after recording stopped
 RecorderNode::RecorderNode(Node& node, const RecorderConfig& config, const std::string& log_path, FreeBytes free_bytes)
     : node_(node), config_(config), log_path_(log_path), free_bytes_(std::move(free_bytes)), policy_(config.keep) {
   const double free_gb = static_cast<double>(free_bytes_()) / kBytesPerGb;
-  if (free_gb < config_.min_free_start_gb)
+  const bool low = free_gb < config_.min_free_start_gb;
+  if (low && !std::filesystem::exists(log_path))
     throw ConfigError(
         log_path + ": " + std::to_string(free_gb) +
         " GB of disk space are free, less than min_free_start_gb = " + std::to_string(config_.min_free_start_gb));
-  open_log();
+  if (low)  // in the middle of a drive, which goes on
+    stop_recording("free_gb=" + std::to_string(free_gb));
+  else
+    open_log();
   node_.subscribe_raw([this](const RawMessage& raw) { add(raw); }, find_channel_type);
   node_.on_injection([this](const injection_t& injection) {
     if (injection.fault == "full_disk") injected_full_disk_ = injection;

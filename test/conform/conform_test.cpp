@@ -35,6 +35,20 @@ TEST(Conform, NoWheelCommandWithoutMoveOption) {
   EXPECT_EQ(failures(lines), 0) << table(lines, false);
 }
 
+TEST(Conform, ADriverThatDiesInTheTrialFails) {
+  BrokenDriver driver;
+  bool dead = false;
+  driver.command = [&](const wheel_command_t& command) -> std::vector<wheel_command_t> {
+    dead = true;
+    return {command};
+  };
+  driver.wheels = [&](const wheel_state_t& m) { return dead ? std::vector<wheel_state_t>{} : std::vector{m}; };
+  driver.imu = [&](const imu_t& m) { return dead ? std::vector<imu_t>{} : std::vector{m}; };
+  const std::vector<std::string> expected = {"follows",           "watchdog", "status when expired", "expired commands",
+                                             "commands with NaN", "steering", "sense of turn"};
+  EXPECT_EQ(failed(driver.examine()), expected);
+}
+
 TEST(Conform, SilentBusFails) {
   const std::vector<Line> lines = check_time({});
   EXPECT_EQ(failed(lines), std::vector<std::string>{"ticks"});

@@ -108,6 +108,7 @@ TEST_F(SettingTest, ValueIsWrittenAsTyped) {
 TEST(Seeds, AreDecimalAndBounded) {
   EXPECT_EQ(parse_seeds("2..4"), (std::vector<std::int64_t>{2, 3, 4}));
   EXPECT_EQ(parse_seeds("1,4,7"), (std::vector<std::int64_t>{1, 4, 7}));
+  EXPECT_EQ(parse_seeds("4,1,4"), (std::vector<std::int64_t>{4, 1})) << "each once";
   EXPECT_EQ(parse_seeds("5"), (std::vector<std::int64_t>{5}));
   const std::vector<Case> cases = {{"012", "taken as 12", ""},
                                    {"1..999999999", "8 GB of memory", ""},

@@ -61,6 +61,11 @@ def drive(page, second, url, run, pictures):
     check("which has kept the events", any("go accepted" in e for e in page.events()))
     check("and does not begin the drive anew", page.number("togo") < 86.0 - driven + 3.0)
 
+    subprocess.run(["s6-svc", "-p", str(run / "services" / "mission_control")], check=True)
+    wait_for("a server that hangs is not shown as live", lambda: page.text("link") == "no connection")
+    subprocess.run(["s6-svc", "-c", str(run / "services" / "mission_control")], check=True)
+    wait_for("and the page goes on when it does", lambda: page.text("link").startswith("live"))
+
     page.click(".stop")
     wait_for("stop stops", lambda: page.text("state") == "STANDBY" and page.text("permit") == "no permit")
     wait_for("and the rover is stationary", lambda: abs(page.number("speed")) < 0.01)

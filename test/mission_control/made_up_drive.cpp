@@ -149,6 +149,7 @@ void MadeUpDrive::say_supervision(Utime now) {
   publish(channel::kState, state, now);
   drive_permit_t permit{};
   permit.granted = 1;
+  permit.valid_until_utime = now + 400'000;
   permit.max_speed_mps = kSpeedMps;
   publish(channel::kDrivePermit, permit, now);
   planner_status_t planner{};

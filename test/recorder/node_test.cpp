@@ -156,6 +156,23 @@ TEST_F(RecorderNodeTest, FullDiskStopsRecordingNotTheNode) {
   EXPECT_LE(ticks, 205u);
 }
 
+TEST_F(RecorderNodeTest, RestartWithLowDiskSpaceDoesNotEndTheDrive) {
+  Utime t = 0;
+  {
+    World world(path_, config(), [] { return kPlenty; });
+    for (; t <= 1'000'000; t += kTickUs) world.tick(t);
+  }
+  std::uintmax_t free_bytes = 900'000'000;
+  World world(path_, config(), [&] { return free_bytes; });
+  for (; t <= 3'000'000; t += kTickUs) world.tick(t);
+  EXPECT_EQ(world.heartbeats_.back().status, std::int8_t{heartbeat_t::DEGRADED});
+  const size_t before = count("TICK");
+  free_bytes = kPlenty;
+  for (; t <= 20'000'000; t += kTickUs) world.tick(t);
+  EXPECT_EQ(world.heartbeats_.back().status, std::int8_t{heartbeat_t::OK});
+  EXPECT_GT(count("TICK"), before);
+}
+
 TEST_F(RecorderNodeTest, ResumesWhenDiskSpaceIsAvailable) {
   std::uintmax_t free_bytes = kPlenty;
   World world(path_, config(), [&] { return free_bytes; });

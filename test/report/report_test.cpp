@@ -292,6 +292,9 @@ TEST_F(ReportTest, WithoutTruthReportUsesEstimate) {
   for (const char* key : {"collisions", "odometry_drift_percent", "final_error_m", "truth_deviation_max_m",
                           "final_truth_pose", "motion_without_lease_s", "mean_slip"})
     EXPECT_TRUE(m[key].is_null()) << key;
+  for (const char* source : {"visual_odometry", "published_pose"})
+    for (const char* key : {"end_error_m", "end_error_percent", "ate_rmse_m"})
+      EXPECT_TRUE(m["trajectory"][source][key].is_null()) << source << ' ' << key;
   EXPECT_THAT(read_file(other + "/report.html"), testing::HasSubstr("no ground truth"));
   EXPECT_THAT(read_file(other + "/report.html"), testing::Not(testing::HasSubstr("true track")));
   EXPECT_THAT(read_file(other + "/report.html"), testing::Not(testing::HasSubstr("Odometry drift [m]")));

@@ -60,7 +60,7 @@ Line follow_line(const Received& received, const Trial& trial) {
   const double wanted = trial.config().rate_radps;
   const std::string requirement = fmt::format("{:.2f} rad/s, positive forward, encoders agree", wanted);
   const auto wheels = during(received.wheels, trial, kForwardPhase.from_s + kSettleS, kForwardPhase.until_s);
-  if (wheels.size() < 2) return skipped("follows", "no WHEEL_STATE", requirement);
+  if (wheels.size() < 2) return line("follows", false, "no WHEEL_STATE", requirement);
   double slowest = kInfinity;
   double worst_encoder = 0.0;
   const double covered_s = to_seconds(wheels.back()->stamp.utime - wheels.front()->stamp.utime);
@@ -80,7 +80,7 @@ Line watchdog_line(const Received& received, const Trial& trial) {
   const double due_s = kNoCommandPhase.from_s + trial.config().validity_s + kStopS;
   const std::string requirement = fmt::format("at rest {:.1f} s after valid_until_utime", kStopS);
   const auto wheels = during(received.wheels, trial, due_s, kNoCommandPhase.until_s);
-  if (wheels.empty()) return skipped("watchdog", "no WHEEL_STATE", requirement);
+  if (wheels.empty()) return line("watchdog", false, "no WHEEL_STATE", requirement);
   double moved_until_s = 0.0;
   for (const ReceivedWheels* sample : during(received.wheels, trial, kNoCommandPhase.from_s, kNoCommandPhase.until_s))
     if (fastest({sample}) > kAtRest) moved_until_s = trial.seconds(sample->stamp.utime) - kNoCommandPhase.from_s;
@@ -92,7 +92,7 @@ Line status_line(const Received& received, const Trial& trial) {
   const std::string requirement = "WHEEL_STATE reports COMMAND_EXPIRED";
   const double from_s = kNoCommandPhase.from_s + trial.config().validity_s + 0.2;
   const auto wheels = during(received.wheels, trial, from_s, kNoCommandPhase.until_s);
-  if (wheels.empty()) return skipped("status when expired", "no WHEEL_STATE", requirement);
+  if (wheels.empty()) return line("status when expired", false, "no WHEEL_STATE", requirement);
   const auto reported = std::count_if(wheels.begin(), wheels.end(), [](const auto* w) { return w->command_expired; });
   return line("status when expired", reported == static_cast<std::ptrdiff_t>(wheels.size()),
               fmt::format("in {} of {}", reported, wheels.size()), requirement);
@@ -102,7 +102,7 @@ Line refused_line(const std::string& check, const Received& received, const Tria
   const std::string requirement = "rejected";
   // Motion of the previous phase may end first.
   const auto wheels = during(received.wheels, trial, phase.from_s + kStopS, phase.until_s);
-  if (wheels.empty()) return skipped(check, "no WHEEL_STATE", requirement);
+  if (wheels.empty()) return line(check, false, "no WHEEL_STATE", requirement);
   const double rate = max_reverse_rate(wheels);
   return line(check, rate >= -kAtRest && all_finite(wheels), fmt::format("{:.3f} rad/s backwards", std::abs(rate)),
               requirement);
@@ -113,7 +113,7 @@ Line steering_line(const Received& received, const Trial& trial) {
   const std::string requirement =
       fmt::format("front wheels to {:+.2f} rad (left), rear ones to {:+.2f}", wanted, -wanted);
   const auto wheels = during(received.wheels, trial, kSteerPhase.until_s - 0.2, kSteerPhase.until_s);
-  if (wheels.empty()) return skipped("steering", "no WHEEL_STATE", requirement);
+  if (wheels.empty()) return line("steering", false, "no WHEEL_STATE", requirement);
   const std::array<double, 4>& s = wheels.back()->steer_rad;
   const auto near = [&](double angle, double goal) { return std::abs(angle - goal) <= 0.5 * wanted; };
   return line("steering", near(s[0], wanted) && near(s[1], wanted) && near(s[2], -wanted) && near(s[3], -wanted),
@@ -123,7 +123,7 @@ Line steering_line(const Received& received, const Trial& trial) {
 Line turn_line(const Received& received, const Trial& trial) {
   const std::string requirement = "positive to the left, both gyros";
   const auto imu = during(received.imu, trial, kTurnPhase.from_s, kTurnPhase.until_s);
-  if (imu.empty()) return skipped("sense of turn", "no IMU", requirement);
+  if (imu.empty()) return line("sense of turn", false, "no IMU", requirement);
   double gyro = 0.0;
   double fog = 0.0;
   for (const ReceivedImu* sample : imu) {

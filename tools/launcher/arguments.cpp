@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <set>
 #include <sstream>
 
 #include "common/bus/child_process.hpp"
@@ -46,6 +47,8 @@ std::vector<std::int64_t> parse_seeds(const std::string& text) {
     for (std::string item; std::getline(items, item, ',');) seeds.push_back(parse_whole_number(item).value_or(-1));
     if (std::any_of(seeds.begin(), seeds.end(), [](std::int64_t seed) { return seed < 0; })) seeds.clear();
   }
+  std::set<std::int64_t> seen;
+  std::erase_if(seeds, [&](std::int64_t seed) { return !seen.insert(seed).second; });
   if (seeds.empty())
     throw ConfigError("--seeds: '" + text +
                       "' is neither a range like 1..10 (of 10,000 at most) nor a list like 1,4,7");

@@ -103,8 +103,12 @@ class Rows {
     row["commit"] = commit_;
     row["settings"] = settings_;
     rows_.push_back(std::move(row));
-    std::ofstream out(file_, begun_ ? std::ios::app : std::ios::trunc);
+    const std::string file = begun_ ? file_ : file_ + ".new";
+    std::ofstream out(file, begun_ ? std::ios::app : std::ios::trunc);
     for (size_t i = begun_ ? rows_.size() - 1 : 0; i < rows_.size(); ++i) out << rows_[i].dump() << "\n";
+    out.close();
+    if (!out) throw ConfigError(file + ": cannot be written; is the disk full?");
+    if (!begun_) fs::rename(file, file_);
     begun_ = true;
   }
 

@@ -151,7 +151,7 @@ int drive(const DriveArguments& arguments) {
     return 2;
   } catch (const ConfigError& error) {  // of a service, after the drive has started
     std::fprintf(stderr, "%s\n", in_users_files(error.what(), folder, arguments).c_str());
-    return 2;
+    return 1;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;

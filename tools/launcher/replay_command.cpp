@@ -285,7 +285,7 @@ int play_live(const ReplayArguments& arguments, const Plan& plan, RecordedLog& l
   if (plan.records) write_run_json(plan, arguments.run, folder, played);
   if (plan.records)
     std::printf("recorded: %s\n", folder.dir.c_str());
-  else if (status == 0 && arguments.run.out.empty())
+  else if (status == 0 && (arguments.loop || arguments.run.out.empty()))
     remove_run_folder(folder);
   return status;
 }

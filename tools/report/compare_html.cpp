@@ -7,6 +7,7 @@
 #include <set>
 
 #include "tools/report/html_parts.hpp"
+#include "tools/report/no_truth.hpp"
 #include "tools/report/svg.hpp"
 
 namespace rover::report {
@@ -45,7 +46,7 @@ const Figure kFigures[] = {
     {"Repairs", "", 0, Better::kLower, [](const Metrics& m) { return 1.0 * m.replans; }},
     {"Hazard stops", "", 0, Better::kLower, [](const Metrics& m) { return 1.0 * m.hazard_stops; }},
     {"False stops or repairs", "", 0, Better::kLower, [](const Metrics& m) { return known(m.false_stops); }},
-    {"Collisions", "", 0, Better::kLower, [](const Metrics& m) { return 1.0 * m.collisions; }},
+    {"Collisions", "", 0, Better::kLower, [](const Metrics& m) { return has_truth(m) ? 1.0 * m.collisions : kNaN; }},
     {"Minimum clearance", "m", 2, Better::kHigher, [](const Metrics& m) { return m.min_clearance_m; }},
     {"Closest approach of a wheel to a hazard", "m", 2, Better::kHigher,
      [](const Metrics& m) { return m.hazard_clearance_m; }},

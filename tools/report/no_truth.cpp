@@ -33,6 +33,7 @@ void leave_out_truth_figures(Metrics& m) {
   m.final_error_m = m.final_estimate_error_m = kNaN;
   m.anees = m.anees_after_fix = {};
   m.visual_consistency = {};
+  m.visual_odometry = m.published_pose = {};
   m.map = {};
   m.final_truth_pose.reset();
   m.rocks_encountered.reset();

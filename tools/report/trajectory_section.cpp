@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "tools/report/no_truth.hpp"
+
 namespace rover::report {
 namespace {
 
@@ -23,7 +25,7 @@ std::string row(const char* name, const TrajectoryError& error) {
 }  // namespace
 
 std::string trajectory_section(const Metrics& m) {
-  if (!m.info.data_set_pairs) return {};
+  if (!m.info.data_set_pairs || !has_truth(m)) return {};
   std::string out =
       "<h2>Comparison with the ground truth</h2><table><tr><th></th><th class=\"n\">poses</th><th class=\"n\">end "
       "error</th><th class=\"n\">after alignment, rms</th>";

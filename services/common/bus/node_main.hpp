@@ -30,7 +30,7 @@ std::string load_bus_url(const std::string& config_dir);
 // Larger than the boot number of any process started earlier.
 std::int64_t boot_id_from_clock();
 
-// Exit status 0 at SIGTERM or SIGINT, 2 on bad arguments or configuration.
+// Exit status 0 at SIGTERM or SIGINT, 2 on bad arguments or configuration, 1 on an error at run time.
 int node_main(int argc, char** argv, const std::string& service, const ConfigLoader& describe,
               const NodeFactory& factory);
 

@@ -6,8 +6,9 @@ import { createCamera } from "/camera.js";
 import { createCommands } from "/commands.js";
 
 const byId = (id) => document.getElementById(id);
+const SILENT_MS = 3000;  // a connection without data for so long is lost
 export const getJson = async (url) => {
-  const response = await fetch(url);
+  const response = await fetch(url, { signal: AbortSignal.timeout(SILENT_MS) });
   if (!response.ok) throw new Error(`${url}: ${response.status}`);
   return response.json();
 };
@@ -19,6 +20,7 @@ let truthWanted = false;
 let newestEvent = 0;
 let paths = { global: null, local: null };
 let fetching = false;
+let heardAt = 0;
 
 function showLink(state, text) {
   byId("link").className = `link ${state}`;
@@ -76,6 +78,7 @@ async function fetchNews(view) {
 }
 
 function show(view) {
+  heardAt = performance.now();
   showLink("up", view.book.pages > 1 ? `live · ${view.book.pages} pages` : "live");
   const stopped = view.tick_age_s !== null && view.tick_age_s > 2.5;
   showVeil(stopped ? `The rover's clock stopped ${view.tick_age_s.toFixed(0)} s ago` : "");
@@ -87,17 +90,21 @@ function show(view) {
   fetchNews(view).catch(() => {});
 }
 
+function reconnect() {
+  if (source) source.close();
+  source = null;
+  showLink("down", "no connection");
+  showVeil("No connection to mission control. Reconnecting …");
+  setTimeout(start, 1000);
+}
+
 function openStream() {
   if (source) source.close();
   source = new EventSource(`/api/stream?truth=${truthWanted ? 1 : 0}`);
   source.addEventListener("view", (event) => show(JSON.parse(event.data)));
   source.addEventListener("truth", (event) => parts.map.showTruth(JSON.parse(event.data)));
-  source.onerror = () => {
-    source.close();
-    showLink("down", "no connection");
-    showVeil("No connection to mission control. Reconnecting …");
-    setTimeout(start, 1000);
-  };
+  source.onerror = reconnect;
+  heardAt = performance.now();
 }
 
 async function start() {
@@ -106,10 +113,10 @@ async function start() {
     showVeil("");
     openStream();
   } catch {
-    showLink("down", "no connection");
-    showVeil("No connection to mission control. Reconnecting …");
-    setTimeout(start, 1000);
+    reconnect();
   }
 }
 
+// A server that hangs, or a tunnel that stalls, is no error to the browser.
+setInterval(() => { if (source && performance.now() - heardAt > SILENT_MS) reconnect(); }, 500);
 start();

@@ -3,9 +3,14 @@ const byId = (id) => document.getElementById(id);
 const words = (name) => name.replaceAll("_", " ");
 const describe = (c) => [words(c.command), c.level && c.command === "force_level" ? c.level : "", c.service || c.fault || (c.within_m ? `within ${c.within_m} m` : "")].filter(Boolean).join(" ");
 
+const REPLY_MS = 8000;  // the server answers within 3 s
+const UNDECIDED = [0, 503, 504];  // no reply, not sent yet, not acknowledged: the rover may do it all the same
+
 async function post(url, body) {
-  const response = await fetch(url, { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(body) });
-  return response.json();
+  const response = await fetch(url, {
+    method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(body), signal: AbortSignal.timeout(REPLY_MS),
+  });
+  return { status: response.status, ...(await response.json()) };
 }
 
 function toast(text, good) {
@@ -16,13 +21,16 @@ function toast(text, good) {
   setTimeout(() => box.remove(), 4500);
 }
 
-// Waypoints from GeoJSON, a JSON list or lines "x, y", in map coordinates [m].
+// Waypoints from GeoJSON (all its lines), a JSON list or lines "x, y", in map coordinates [m]. The coordinates of a planet
+// map's plan are degrees; map_xy_m has the metres.
 export function readWaypoints(text) {
   const numbers = (list) => list.map((p) => [Number(p[0]), Number(p[1])]);
   const find = (node) => {
     if (Array.isArray(node)) return numbers(node);
-    if (node.type === "FeatureCollection") return find(node.features.find((f) => f.geometry.type === "LineString"));
-    if (node.type === "Feature") return find(node.geometry);
+    if (node.type === "FeatureCollection")
+      return node.features.filter((f) => f.geometry?.type === "LineString").flatMap(find)
+        .filter((p, i, all) => i === 0 || p[0] !== all[i - 1][0] || p[1] !== all[i - 1][1]);
+    if (node.type === "Feature") return find(node.properties?.map_xy_m || node.geometry);
     if (node.type === "LineString") return numbers(node.coordinates);
     if (node.points) return numbers(node.points);
     if (node.x_m) return node.x_m.map((x, i) => [Number(x), Number(node.y_m[i])]);
@@ -41,7 +49,7 @@ export function readZones(text, name) {
   if (features.some((f) => f.geometry?.type === "MultiPolygon" || (f.geometry?.type === "Polygon" && f.geometry.coordinates.length !== 1)))
     throw new Error("only polygons of one ring can be zones");
   const zones = features.filter((f) => f.geometry?.type === "Polygon").map((f, i) => {
-    const ring = f.geometry.coordinates[0].map((p) => [Number(p[0]), Number(p[1])]);
+    const ring = (f.properties?.map_xy_m || f.geometry.coordinates[0]).map((p) => [Number(p[0]), Number(p[1])]);
     const closed = ring.length > 1 && ring[0][0] === ring.at(-1)[0] && ring[0][1] === ring.at(-1)[1];
     return { name: String(f.properties?.name || `${name} ${i + 1}`), kind: f.properties?.kind === "keep_in" ? "keep_in" : "keep_out", points: closed ? ring.slice(0, -1) : ring };
   });
@@ -59,9 +67,10 @@ export function createCommands(setup, map, charts) {
     try {
       result = await post("/api/command", command);
     } catch {
-      result = { accepted: false, reason: "no reply, the connection is lost" };
+      result = { status: 0, accepted: false, reason: "no reply; the rover may have received it" };
     }
-    const text = result.accepted ? `${what}: accepted` : `${what}: refused, ${words(result.reason || "no reason given")}`;
+    const reason = words(result.reason || "no reason given");
+    const text = `${what}: ${result.accepted ? "accepted" : UNDECIDED.includes(result.status) ? reason : `refused, ${reason}`}`;
     note.textContent = text;
     note.className = `note ${result.accepted ? "good" : "bad"}`;
     toast(text, result.accepted);

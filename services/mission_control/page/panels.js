@@ -16,6 +16,7 @@ const MANY_SERVICES = 13;
 const WHEELS = ["FL", "FR", "ML", "MR", "RL", "RR"];
 const SLAM = ["ok", "unobservable", "lost"];
 const direction = (pan) => (Math.abs(pan) < .5 ? "ahead" : `${Math.abs(pan).toFixed(0)}° ${pan > 0 ? "left" : "right"}`);
+const stale = (age_s) => age_s > 2;  // message time
 const RED_HOLD_MS = 1500;  // minimum time that a lost service is shown red
 
 function clock(t_s) {
@@ -61,9 +62,9 @@ export function createPanels(setup, commands) {
   document.querySelector("th.inject").hidden = !setup.injection;
 
   function situation(view) {
-    const s = view.state, state = byId("state");
-    state.textContent = s.name ? words(s.name) : "waiting";
-    state.className = `chip state ${TONE[s.name] || ""}`;
+    const s = view.state, pose = stale(view.pose.age_s) ? {} : view.pose, state = byId("state");
+    state.textContent = !s.name ? "waiting" : stale(s.age_s) ? `no state for ${clock(s.age_s)}` : words(s.name);
+    state.className = `chip state ${stale(s.age_s) ? "bad" : TONE[s.name] || ""}`;
     byId("level").textContent = s.level ? words(s.level) + (view.book.forced ? " · forced" : "") : "–";
     byId("permit").textContent = view.permit.granted ? `permit ${fixed(view.permit.max_speed_mps, 2)} m/s` : "no permit";
     byId("time").textContent = Number.isFinite(view.t_s)
@@ -85,11 +86,11 @@ export function createPanels(setup, commands) {
     const fraction = s.name === "GOAL_REACHED" ? 1 : Number.isFinite(toGoal) && whole > 0 ? 1 - toGoal / whole : 0;
     byId("bar").style.width = `${100 * Math.max(0, Math.min(1, fraction))}%`;
     byId("togo").textContent = fixed(toGoal, 1, " m");
-    byId("driven").textContent = fixed(view.pose.travelled_m, 1, " m");
-    byId("speed").textContent = fixed(view.pose.speed_mps, 2, " m/s");
+    byId("driven").textContent = fixed(pose.travelled_m, 1, " m");
+    byId("speed").textContent = fixed(pose.speed_mps, 2, " m/s");
     byId("repairs").textContent = view.planner.replans;
     byId("stops").textContent = s.hazard_stops;
-    byId("sigma").textContent = fixed(view.pose.sigma_m, 2, " m");
+    byId("sigma").textContent = fixed(pose.sigma_m, 2, " m");
   }
 
   let shownFaults = "";
