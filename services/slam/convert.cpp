@@ -59,6 +59,7 @@ PoseSample sample_from(const pose_t& message) {
   sample.odometry.T_odom_body = pose_from(message.position_odom_body_m, message.quat_odom_body_wxyz);
   sample.odometry.position_sigma_m = std::sqrt(std::max(cov(0, 0), cov(1, 1)));
   sample.odometry.yaw_sigma_rad = std::sqrt(cov(5, 5));
+  sample.odometry.travelled_m = message.travelled_m;
   sample.T_map_odom = pose_from(message.position_map_odom_m, message.quat_map_odom_wxyz);
   return sample;
 }

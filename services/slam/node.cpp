@@ -5,7 +5,7 @@
 namespace rover::slam {
 
 SlamNode::SlamNode(Node& node, const NodeConfig& config)
-    : node_(node), checkpoint_(node), slam_(config.core), dead_reckoned_(node.options().cpu_scale) {
+    : node_(node), checkpoint_(node), slam_(config.core), growth_(node.options().cpu_scale) {
   node_.subscribe<supervisor_state_t>(channel::kState, [this](const supervisor_state_t& m) { on_state(m); });
   node_.subscribe<pose_t>(channel::kPose, [this](const pose_t& m) { on_pose(m); });
   node_.subscribe_slow<cloud_t>(channel::kCloud, config.latency_us, [this](const cloud_t& m) { on_cloud(m); });
@@ -13,7 +13,11 @@ SlamNode::SlamNode(Node& node, const NodeConfig& config)
     checkpoint_.publish_restored();
     if (unsaved_ && checkpoint_.due()) unsaved_ = !checkpoint_.save(slam_.save());
   });
-  checkpoint_.restore([this](const CheckpointStore::Bytes& bytes) { return slam_.restore(bytes); });
+  checkpoint_.restore([this](const CheckpointStore::Bytes& bytes) {
+    const bool restored = slam_.restore(bytes);
+    if (restored) growth_.restore(slam_.odometry());
+    return restored;
+  });
 }
 
 void SlamNode::on_state(const supervisor_state_t& message) {
@@ -26,7 +30,7 @@ void SlamNode::on_pose(const pose_t& message) {
   if (message.status == pose_t::UNINITIALISED) return;
   if (!usable(message)) return node_.reject(channel::kPose, "not finite");
   PoseSample sample = sample_from(message);
-  sample.odometry.dead_reckoned_m = dead_reckoned_.add(message);
+  growth_.add(message, sample.odometry);
   poses_.add(sample);
   if (!slam_.add_pose(sample.utime, sample.T_map_odom, sample.odometry.T_odom_body)) return;
   unsaved_ = true;

@@ -8,9 +8,9 @@
 #include <string>
 
 #include "common/bus/checkpoint_store.hpp"
-#include "common/bus/dead_reckoned_distance.hpp"
 #include "common/bus/node.hpp"
 #include "slam/config.hpp"
+#include "slam/odometry_growth.hpp"
 #include "slam/pose_history.hpp"
 
 namespace rover::slam {
@@ -33,7 +33,7 @@ class SlamNode {
   CheckpointStore checkpoint_;
   Slam slam_;
   PoseHistory poses_;
-  DeadReckonedDistance dead_reckoned_;
+  OdometryGrowth growth_;
   bool full_level_ = false;
   bool unsaved_ = false;  // a cloud or a correction arrived since the last checkpoint
   Status last_status_ = Status::kOk;

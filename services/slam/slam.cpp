@@ -79,6 +79,12 @@ bool Slam::has_left_map(const Odometry& odometry) const {
   return moved.head<2>().norm() > 0.5 * map_.grid().cells() * map_.grid().cell_m();
 }
 
+// A localization that lost its checkpoint. One with it may have lost the last second.
+bool Slam::is_of_new_odom(const Odometry& odometry) const {
+  constexpr double kMaxLostM = 0.5;
+  return odometry.travelled_m < previous_.travelled_m - kMaxLostM;
+}
+
 void Slam::start(const Odometry& odometry) {
   jump_candidate_.reset();
   map_.clear();
@@ -94,8 +100,8 @@ SlamResult Slam::step(const Cloud& cloud, const Odometry& odometry) {
   result.rejection = rejection_of(cloud, odometry);
   if (!result.rejection.empty()) return result;
   Random random(cloud_seed(config_.seed, cloud.utime));
-  if (!running() || has_left_map(odometry)) start(odometry);
-  const bool visual_gap = odometry.dead_reckoned_m > previous_.dead_reckoned_m;
+  if (!running() || is_of_new_odom(odometry) || has_left_map(odometry)) start(odometry);
+  gap_unmeasured_ = gap_unmeasured_ || odometry.dead_reckoned_m > previous_.dead_reckoned_m;
   predict(odometry, cloud.utime, random);
   utime_ = cloud.utime;
   const AlignedCloud aligned = align_to_gravity(cloud, odometry.T_odom_body, config_.attitude);
@@ -111,7 +117,8 @@ SlamResult Slam::step(const Cloud& cloud, const Odometry& odometry) {
   result.T_slam_odom = T_slam_odom();
   result.T_map_odom = anchor_.T_map_odom(result.T_slam_odom);
   result.covariance = covariance();
-  result.information = visual_gap && !match.position_observable ? 0.0 : match.information;
+  gap_unmeasured_ = gap_unmeasured_ && !match.position_observable;
+  result.information = gap_unmeasured_ ? 0.0 : match.information;
   result.particles = static_cast<int>(filter_.particles().size());
   return result;
 }

@@ -63,6 +63,7 @@ struct Odometry {
   double position_sigma_m = 0.0;  // of the pose in map; only its growth is used
   double yaw_sigma_rad = 0.0;
   double dead_reckoned_m = 0.0;  // distance driven without visual odometry so far
+  double travelled_m = 0.0;      // falls where localization begins anew, in another odom frame
 };
 
 enum class Status { kOk, kNoInformation, kLost };
@@ -73,8 +74,8 @@ struct SlamResult {
   Pose2 T_slam_odom;
   Pose2 T_map_odom;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // of the body's x, y, yaw since the anchor, in map
-  // 1 / standard deviation [1/m] of the weakest observable direction; 0: none, or visual odometry had a gap since the
-  // cloud before and x and y are not both observable.
+  // 1 / standard deviation [1/m] of the weakest observable direction; 0: none, or x and y were not both observable
+  // since visual odometry last had a gap.
   double information = 0.0;
   int particles = 0;
   bool inserted = false;  // into the map
@@ -102,6 +103,8 @@ class Slam {
   Pose2 T_slam_odom() const;
   double height_offset_m() const { return z_m_ - previous_.T_odom_body.translation().z(); }
   const ElevationMap& map() const { return map_; }
+  // Of the newest accepted cloud.
+  const Odometry& odometry() const { return previous_; }
   bool running() const { return filter_.running(); }
 
   std::vector<std::uint8_t> save() const;
@@ -118,6 +121,7 @@ class Slam {
   bool has_jumped(const Odometry& odometry, const Odometry& from, Utime dt) const;
   std::string_view rejection_of(const Cloud& cloud, const Odometry& odometry);
   bool has_left_map(const Odometry& odometry) const;
+  bool is_of_new_odom(const Odometry& odometry) const;
   void start(const Odometry& odometry);
   double yaw_noise_rad(const Odometry& odometry, Utime dt) const;
   void predict(const Odometry& odometry, Utime utime, Random& random);
@@ -140,9 +144,10 @@ class Slam {
   Odometry previous_;
   std::optional<Odometry> jump_candidate_;  // pose after a jump, until the next cloud confirms it
   Utime jump_utime_ = kNever;
-  double gap_at_m_ = 0.0;      // distance travelled at the newest gap of visual odometry
-  double growth_per_m_ = 0.0;  // of odometry's standard deviation since the cloud before
-  double z_m_ = 0.0;           // of the body in the slam frame
+  double gap_at_m_ = 0.0;        // distance travelled at the newest gap of visual odometry
+  bool gap_unmeasured_ = false;  // since it x and y were not both observable
+  double growth_per_m_ = 0.0;    // of odometry's standard deviation since the cloud before
+  double z_m_ = 0.0;             // of the body in the slam frame
   double travelled_m_ = 0.0;
   double anchor_travelled_m_ = 0.0;
   int lost_count_ = 0;

@@ -8,7 +8,7 @@
 namespace rover::slam {
 namespace {
 
-constexpr std::uint32_t kVersion = 4;
+constexpr std::uint32_t kVersion = 5;
 
 bool is_finite_pose(const Pose2& pose) {
   return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.yaw_rad);
@@ -86,10 +86,13 @@ std::vector<std::uint8_t> Slam::save() const {
   put_pose(out, previous_.T_odom_body);
   out.put(previous_.position_sigma_m);
   out.put(previous_.yaw_sigma_rad);
+  out.put(previous_.dead_reckoned_m);
+  out.put(previous_.travelled_m);
   out.put(z_m_);
   out.put(travelled_m_);
   out.put(anchor_travelled_m_);
   out.put(gap_at_m_);
+  out.put(gap_unmeasured_);
   out.put(match_error_.state());
   out.put(lost_count_);
   out.put(anchor_.state());
@@ -107,10 +110,13 @@ bool Slam::restore(const std::vector<std::uint8_t>& bytes) {
   fresh.previous_.T_odom_body = get_pose(in);
   fresh.previous_.position_sigma_m = in.get<double>();
   fresh.previous_.yaw_sigma_rad = in.get<double>();
+  fresh.previous_.dead_reckoned_m = in.get<double>();
+  fresh.previous_.travelled_m = in.get<double>();
   fresh.z_m_ = in.get<double>();
   fresh.travelled_m_ = in.get<double>();
   fresh.anchor_travelled_m_ = in.get<double>();
   fresh.gap_at_m_ = in.get<double>();
+  fresh.gap_unmeasured_ = in.get<bool>();
   const auto match_error = in.get<MatchError::State>();
   fresh.match_error_.restore(match_error);
   fresh.lost_count_ = in.get<int>();
