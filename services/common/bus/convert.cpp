@@ -1,11 +1,14 @@
 #include "common/bus/convert.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace rover {
 
 Eigen::Isometry3d pose_from(const double position_m[3], const double quat_wxyz[4]) {
+  constexpr double kMaxNormError = 1e-3;
   const Eigen::Quaterniond q(quat_wxyz[0], quat_wxyz[1], quat_wxyz[2], quat_wxyz[3]);
+  if (!(std::abs(q.norm() - 1.0) <= kMaxNormError)) return nan_pose();  // damaged: normalised it would be any attitude
   return make_pose(q.normalized().toRotationMatrix(), {position_m[0], position_m[1], position_m[2]});
 }
 
