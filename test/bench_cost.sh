@@ -11,13 +11,13 @@ shift
 OUT=test/results/cost.md
 LOGS=logs/bench/cost
 SEEDS=11..30
-RENDERED_SEEDS=11..16  # rendered drives take ten times as long
+FEW_SEEDS=11..16  # of rendered drives, which take ten times as long, and of single parameters
 ONLY='[a-z_]*'
 COMMAND="./rover bench cost"
 arguments=()
 while [ $# -gt 0 ]; do
   case $1 in
-    --seeds) COMMAND+=" $1 $2" SEEDS=$2 RENDERED_SEEDS=$2 && shift ;;
+    --seeds) COMMAND+=" $1 $2" SEEDS=$2 FEW_SEEDS=$2 && shift ;;
     --variants) COMMAND+=" $1 $2" ONLY=${2//,/|} && shift ;;
     *) arguments+=("$1") ;;
   esac
@@ -47,7 +47,7 @@ fi
 level_of() { [ "$1" = full_hard ] && echo full || echo efficient; }
 drive() {  # NAME SCENARIOS CHANGES
   local seeds=$SEEDS changes=$3
-  [ "$1" = rendered ] && seeds=$RENDERED_SEEDS
+  case $1 in truth | geometric) ;; *) seeds=$FEW_SEEDS ;; esac
   case $changes in *perception:*) ;; *) changes="perception: geometric, $changes" ;; esac
   {
     echo "seeds: $seeds"
@@ -70,7 +70,7 @@ table() {  # SCENARIO
   while IFS='|' read -r name scenarios changes; do
     case " $scenarios " in *" $1 "*) ;; *) continue ;; esac
     row "$name" "$1"
-    [ "$name" != geometric ] || row geometric "$1" "${RENDERED_SEEDS##*..}" "geometric, seeds of rendered"
+    case $name in truth | geometric) [ "$FEW_SEEDS" = "$SEEDS" ] || row "$name" "$1" "${FEW_SEEDS##*..}" "$name, $FEW_SEEDS" ;; esac
   done < <(variants)
 }
 
@@ -85,7 +85,7 @@ done < <(variants)
 {
   echo "# What the path costs: the map or the policy"
   echo
-  echo "Command: \`$COMMAND\`; commit $(git describe --always --dirty --abbrev=12); $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1), $(nproc) cores; seeds $SEEDS, rendered $RENDERED_SEEDS."
+  echo "Command: \`$COMMAND\`; commit $(git describe --always --dirty --abbrev=12); $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1), $(nproc) cores; seeds $SEEDS of truth and geometric, else $FEW_SEEDS."
   for scenario in full_hard seed_traverse_2; do
     echo
     echo "## \`$scenario\`, level $(level_of "$scenario")"
