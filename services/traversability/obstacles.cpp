@@ -6,8 +6,6 @@
 namespace rover::trav {
 namespace {
 
-constexpr double kRimFraction = 1.0 / 3.0;  // of a cell, covered by the rock
-
 struct Cell {
   int ix, iy;
 };
@@ -74,7 +72,7 @@ std::vector<std::uint8_t> find_obstacles(const TerrainGrid& grid, const DiscPlan
   for (const Cell& p : queue)
     for_each_neighbour(shape, p, [&](Cell q) {
       const std::size_t i = shape.at(q.ix, q.iy);
-      if (steps.raw_rise_m[i] >= kRimFraction * limit_m) obstacle[i] = 1;
+      if (steps.raw_rise_m[i] >= config.step.rim_fraction * limit_m) obstacle[i] = 1;
     });
   return obstacle;
 }

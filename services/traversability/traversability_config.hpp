@@ -17,6 +17,7 @@ struct PlaneConfig {
 struct StepConfig {
   double radius_m = 0.25;           // wheel diameter: a rise within this distance is a step
   double mean_height_ratio = 0.85;  // of a rock's height that remains in the mean heights of cells
+  double rim_fraction = 1.0 / 3.0;  // of the limit: a cell beside a rock that rises so much is its rim, covered in part
   double grow_height_m = 0.08;      // lower rise threshold for neighbours of an obstacle
   double significance = 3.0;        // standard deviations; smaller differences are noise
   double max_sigma_m = 0.06;        // cells above are unknown

@@ -43,9 +43,9 @@ class History {
   std::map<Utime, Value> values_;
 };
 
-// The limit for mean heights of cells becomes that of true heights.
+// What allows for mean heights of cells is off: the highest point of a cell has no rim.
 trav::NodeConfig for_true_heights(trav::NodeConfig config) {
-  config.core.step.mean_height_ratio = 1.0;
+  config.core.step.mean_height_ratio = config.core.step.rim_fraction = 1.0;
   return config;
 }
 
