@@ -77,6 +77,13 @@ TEST_F(TrueHazardsTest, RockOfSixteenCentimetresIsMarkedAllOfItAndNothingMore) {
   }
 }
 
+TEST_F(TrueHazardsTest, RockThatPassesUnderTheBodyIsLow) {
+  for (const double ahead : {1.2, 1.8, 2.6}) {
+    EXPECT_EQ(at(look({{ahead, 0.1, 0.2, 0.16}}), ahead, 0.1), Cell::kLow) << ahead;
+    EXPECT_EQ(at(look({{ahead, 0.1, 0.2, 0.25}}), ahead, 0.1), Cell::kObstacle) << ahead;
+  }
+}
+
 TEST_F(TrueHazardsTest, RockBehindATallerOneIsNotSeen) {
   const Block low{2.6, 0.0, 0.15, 0.25}, tall{1.6, 0.0, 0.4, 0.5};
   EXPECT_EQ(at(look({low}), low.x_m, low.y_m), Cell::kObstacle);

@@ -39,6 +39,8 @@ Sector sector_of(const View& view) {
   return sector;
 }
 
+}  // namespace
+
 bool in_both_images(const View& view, const Eigen::Vector3d& p_cam) {
   if (p_cam.z() < view.min_depth_m || p_cam.z() > view.max_depth_m) return false;
   const StereoCamera& camera = view.camera;
@@ -47,8 +49,6 @@ bool in_both_images(const View& view, const Eigen::Vector3d& p_cam) {
   const double disparity_px = camera.focal_px * camera.baseline_m / p_cam.z();
   return u >= disparity_px && u <= camera.width - 1.0 && v >= 0.0 && v <= camera.height - 1.0;
 }
-
-}  // namespace
 
 // Along a ray, a point is visible if its elevation angle exceeds that of all nearer points.
 void find_points_in_view(TrueSurface& surface, const View& view, std::vector<SurfacePoint>& points) {

@@ -23,6 +23,8 @@ struct SurfacePoint {
   bool visible = false;  // nothing of the surface is between camera and point
 };
 
+// Of a point in the camera's axes.
+bool in_both_images(const View& view, const Eigen::Vector3d& p_cam);
 // Points inside both images, along rays of constant azimuth, at most TrueSurface::kSpacingM apart.
 void find_points_in_view(TrueSurface& surface, const View& view, std::vector<SurfacePoint>& points);
 

@@ -66,6 +66,8 @@ void TrueHazards::accumulate(const Eigen::Isometry3d& T_map_body) {
 void TrueHazards::classify(const hazard::GroundPlane& plane, const hazard::LocalGround& ground) {
   const Eigen::Vector3d normal = plane.normal();
   const Eigen::Vector3d p_plane(config_.plane.front_axle_x_m, 0.0, plane.offset_m - config_.origin_height_m);
+  const View view{.camera = camera_, .max_depth_m = kInfinity};
+  const Eigen::Isometry3d T_cam_body = camera_.T_body_cam.inverse();
   for (const SeenPoint& point : seen_) {
     const auto i = static_cast<std::size_t>(point.cell);
     const double height_m = normal.dot(point.p_body - p_plane);
@@ -74,6 +76,11 @@ void TrueHazards::classify(const hazard::GroundPlane& plane, const hazard::Local
     e.tall += height_m > ground.low_m[i] + config_.body_height_m;
     e.raised += height_m > ground.low_m[i] + config_.grow_height_m;
     e.low += height_m < ground.high_m[i] - config_.hole_depth_m;
+    // A ray that passes here at the height of the body always meets a true surface.
+    const Eigen::Vector3d over = point.p_body + (config_.body_height_m - height_m) * normal;
+    const bool in_picture = in_both_images(view, T_cam_body * over);
+    e.over += in_picture;
+    e.over_seen += in_picture;
   }
 }
 
