@@ -9,6 +9,7 @@ namespace {
 constexpr double kGravityMps2 = 9.81;
 constexpr double kDriveLagS = 0.10;
 constexpr double kSteeringLagS = 0.15;
+constexpr double kMaxRateRadps = 3.0;  // of the drive motors
 constexpr double kRollingA = 1.2;
 constexpr double kSteeringA = 0.2;
 constexpr double kGyroNoiseRad = 6.0e-6;  // of one sample
@@ -20,7 +21,7 @@ constexpr double kForceNoiseMps = 2.0e-4;
 void PlaneRover::step(const std::optional<rover::wheel_command_t>& command, double dt_s) {
   dt_s_ = dt_s;
   for (size_t i = 0; i < 6; ++i) {
-    const double wanted = command ? command->drive_rate_radps[i] : 0.0;
+    const double wanted = command ? std::clamp(command->drive_rate_radps[i], -kMaxRateRadps, kMaxRateRadps) : 0.0;
     rate_radps_[i] += (wanted - rate_radps_[i]) * dt_s / kDriveLagS;
     if (wanted == 0.0 && std::abs(rate_radps_[i]) < 1e-3) rate_radps_[i] = 0.0;
     angle_rad_[i] += rate_radps_[i] * dt_s;

@@ -23,7 +23,7 @@ StartPose read_start(const Config& config) {
   start.pose.yaw_rad = to_rad(config.number("yaw_deg", {-360, 360}));
   config.read("sigma_m", start.sigma_m, {1e-4, 100});
   config.read_deg("sigma_yaw_deg", start.sigma_yaw_rad, {1e-3, 180});
-  config.read("clear_radius_m", start.clear_radius_m, {0, 10});
+  config.read("clear_radius_m", start.clear_radius_m, {0, 5});
   return start;
 }
 

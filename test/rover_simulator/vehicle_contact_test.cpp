@@ -53,6 +53,23 @@ TEST(WheelContact, ForceIsNormalToSlope) {
   EXPECT_GT(contact.normal.dot(normal), std::cos(to_rad(1.0)));
 }
 
+// Rolled with the slope.
+TEST(WheelContact, WheelAcrossASlopeIsNoHigherThanOnLevelGround) {
+  for (const double slope_deg : {5.0, 15.0, 20.0}) {
+    const PlaneSurface plane(Soil::kFirm, to_rad(slope_deg));
+    const Eigen::Vector3d normal(-std::sin(to_rad(slope_deg)), 0.0, std::cos(to_rad(slope_deg)));
+    Eigen::Matrix3d R;
+    R << Eigen::Vector3d::UnitY(), normal.cross(Eigen::Vector3d::UnitY()), normal;
+    HeightCache heights(plane);
+    const auto load_n = [&](double axle_m) {
+      const Eigen::Vector3d axle = Eigen::Vector3d(2.0, 0.0, std::tan(to_rad(slope_deg)) * 2.0) + axle_m * normal;
+      return find_contact({}, test_vehicle(), heights, axle, R).load_n;
+    };
+    EXPECT_NEAR(load_n(0.122), 62.0, 8.0) << slope_deg;
+    EXPECT_EQ(load_n(0.126), 0.0) << slope_deg;
+  }
+}
+
 TEST(WheelContact, WallPushesWheelBack) {
   const FeatureSurface wall([](double x, double) { return x > 5.11 ? 0.5 : 0.0; });
   const WheelContact contact = contact_at(wall, {5.0, 5.0, 0.125});

@@ -95,8 +95,7 @@ int main(int argc, char** argv) {
   CLI::App app(
       "./rover calibration FILE...: cameras.yaml from a calibration of OpenCV's (intrinsics and extrinsics), "
       "Kalibr's (camchain) or ROS's (camera_info, left and right)\nExample: ./rover calibration camchain-imucam.yaml "
-      "--imu-rpy 0 0 0 --out "
-      "my_config/cameras.yaml");
+      "--imu-rpy 0 0 0 --config my_config --out new.yaml");
   app.name("./rover calibration");
   app.add_option("files", arguments.files, "calibration files; for camera_info the left camera first")
       ->required()

@@ -95,8 +95,10 @@ CLI::App* add_drive_command(CLI::App& app, rover::DriveArguments& drive) {
       ->transform(rover::is_user_path());
   command->add_option("--ground", drive.ground, "start pose and path; default: ground.yaml of the configuration")
       ->transform(rover::is_user_path());
-  CLI::Option* map = command->add_option("--map", drive.map, "orbital map (GeoTIFF) for the page and the report")
-                         ->transform(rover::is_user_path());
+  CLI::Option* map =
+      command
+          ->add_option("--map", drive.map, "orbital map (GeoTIFF) for the page, the report and the Full level's fixes")
+          ->transform(rover::is_user_path());
   command->add_option("--picture", drive.picture, "picture from orbit of the map's ground, to localize on plains")
       ->needs(map)
       ->transform(rover::is_user_path());

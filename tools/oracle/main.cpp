@@ -8,6 +8,7 @@
 #include "common/bus/command_line.hpp"
 #include "common/bus/user_files.hpp"
 #include "common/bus/vehicle_config.hpp"
+#include "rover_simulator/world/rover_streams.hpp"
 #include "rover_simulator/world/scenario.hpp"
 #include "tools/launcher/arguments.hpp"
 #include "tools/oracle/oracle.hpp"
@@ -16,6 +17,10 @@ namespace {
 
 void print_seed(const rover::Scenario& scenario, std::uint64_t seed, rover::oracle::Request& request) {
   const auto begin = std::chrono::steady_clock::now();
+  const std::array<double, 3> error = rover::start_error(seed);
+  const rover::Pose2 told = scenario.start_pose();
+  request.start = {told.x_m + scenario.start.sigma_m * error[0], told.y_m + scenario.start.sigma_m * error[1],
+                   told.yaw_rad + scenario.start.sigma_yaw_rad * error[2]};
   const rover::World world(scenario.world, scenario.dtm, seed);
   request.height_m = [&world](double x_m, double y_m) { return world.height_m(x_m, y_m); };
   request.ground_m = [&world](double x_m, double y_m) { return world.ground_height_m(x_m, y_m); };
@@ -54,7 +59,6 @@ int main(int argc, char** argv) {
     rover::oracle::Request request{.map_width_m = scenario.dtm.width_m(),
                                    .map_length_m = scenario.dtm.height_m(),
                                    .vehicle = rover::load_vehicle(config_dir),
-                                   .start = scenario.start_pose(),
                                    .goal_tolerance_m = scenario.path.goal_tolerance_m,
                                    .corridor_half_width_m = scenario.path.corridor_half_width_m,
                                    .zones = scenario.zones};

@@ -65,17 +65,21 @@ void evaluate_length(const TrueTrack& truth, const Footprint& footprint, Metrics
   }
 }
 
+// The rover's place, to which paths and the goal refer: its ground point.
+Eigen::Vector2d place_at(const TrueTrack& truth, const Footprint& footprint, double t_s) {
+  return ground_pose(truth.at(t_s), footprint.origin_height_m).translation().head<2>();
+}
+
 // The planned length up to where the drive ended: all of it at the goal.
-double made_good_m(const RunRecord& run, const TrueTrack& truth, const Metrics& m) {
+double made_good_m(const RunRecord& run, const TrueTrack& truth, const Footprint& footprint, const Metrics& m) {
   if (goal_reached(run)) return m.planned_length_m;
   if (truth.empty() || m.paths.size() != 1) return kNaN;
   const Points& planned = m.paths.front().points;
-  return m.planned_length_m -
-         length_m(part_ahead(planned, truth.at(m.window.end_s).translation().head<2>(), kInfinity));
+  return m.planned_length_m - length_m(part_ahead(planned, place_at(truth, footprint, m.window.end_s), kInfinity));
 }
 
 void evaluate_time(const RunRecord& run, const TrueTrack& truth, const Footprint& footprint, Metrics& m) {
-  if (m.duration_s > 0.0) m.progress = made_good_m(run, truth, m) / (footprint.top_speed_mps * m.duration_s);
+  if (m.duration_s > 0.0) m.progress = made_good_m(run, truth, footprint, m) / (footprint.top_speed_mps * m.duration_s);
   m.time = account_time(run, footprint.wheels, m.window);
   m.reverse_m = reverse_distance_m(run, m.window);
 }
@@ -139,7 +143,7 @@ void evaluate_lease(const RunRecord& run, Metrics& m) {
   }
 }
 
-void evaluate_deviation(const RunRecord& run, const TrueTrack& truth, Metrics& m) {
+void evaluate_deviation(const RunRecord& run, const TrueTrack& truth, const Footprint& footprint, Metrics& m) {
   constexpr double kStepS = 0.2;
   double next = m.window.begin_s;
   for (const ControlSample& control : run.control) {
@@ -153,7 +157,7 @@ void evaluate_deviation(const RunRecord& run, const TrueTrack& truth, Metrics& m
       path = std::find_if(run.global_paths.rbegin(), run.global_paths.rend(), followed);
       if (path == run.global_paths.rend()) continue;
     }
-    Eigen::Vector2d p = truth.at(control.t_s).translation().head<2>();
+    Eigen::Vector2d p = place_at(truth, footprint, control.t_s);
     if (path->in_odom) p = transform(inverse(planar(pose->T_map_odom)), p);
     m.truth_deviation_max_m = std::fmax(m.truth_deviation_max_m, distance_m(path->points, p));
   }
@@ -204,10 +208,9 @@ void evaluate_estimate(const RunRecord& run, const TrueTrack& truth, Metrics& m)
   }
 }
 
-void evaluate_goal(const TrueTrack& truth, Metrics& m) {
+void evaluate_goal(const TrueTrack& truth, const Footprint& footprint, Metrics& m) {
   if (m.paths.empty() || m.paths.back().points.empty() || truth.empty()) return;
-  const Eigen::Vector2d end = truth.at(m.window.end_s).translation().head<2>();
-  m.final_error_m = (m.paths.back().points.back() - end).norm();
+  m.final_error_m = (m.paths.back().points.back() - place_at(truth, footprint, m.window.end_s)).norm();
 }
 
 // Within the drive.
@@ -371,11 +374,11 @@ RunEvaluation evaluate(const RunRecord& run, const RunInfo& info, const Footprin
   evaluate_truth(run, m);
   evaluate_lease(run, m);
   evaluate_control(run, m);
-  evaluate_deviation(run, truth, m);
+  evaluate_deviation(run, truth, footprint, m);
   evaluate_drift(run, truth, m);
   evaluate_slam(run, truth, m);
   evaluate_estimate(run, truth, m);
-  evaluate_goal(truth, m);
+  evaluate_goal(truth, footprint, m);
   const std::vector<PosePair> odometry = visual_poses(run, truth);
   const SegmentRule rule = segment_rule(trajectory_length_m(odometry));
   m.visual_odometry = trajectory_error(odometry, rule);

@@ -9,6 +9,12 @@ namespace {
 constexpr double kReachM = 5.0;
 constexpr double kGridM = 0.02;
 
+// A rock reaches beyond the circle of its diameter: the axes of its ellipse differ by up to 1.6 (world/rocks.cpp).
+std::vector<Rock> with_reach(std::vector<Rock> rocks) {
+  for (Rock& rock : rocks) rock.radius_m *= std::sqrt(1.6);
+  return rocks;
+}
+
 // Points of a rock, 2 cm apart, that rise 0.15 m or more.
 Points tall_points(const Rock& rock, const TrueWorld& world) {
   Points points;
@@ -36,7 +42,7 @@ std::array<double, 6> steering_of(const WheelSample* sample) {
 class WheelClearance {
  public:
   WheelClearance(const VehicleWheels& wheels, const TrueWorld& world)
-      : wheels_(wheels), world_(world), field_(hazards_of(world.rocks)), tall_(field_.rocks().size()) {}
+      : wheels_(wheels), world_(world), field_(with_reach(hazards_of(world.rocks))), tall_(field_.rocks().size()) {}
 
   void add(const Pose2& wheel) {
     const double reach_m = closest_m_ + std::hypot(wheels_.radius_m, 0.5 * wheels_.width_m);

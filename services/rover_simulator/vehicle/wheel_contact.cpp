@@ -37,8 +37,8 @@ void add_strip(const ContactConfig& config, const Vehicle& vehicle, HeightCache&
   for (int i = 0; i <= config.segments; ++i) {
     const double x1 = -radius + i * dx;
     const double px = base.x() + x1 * plane.f.x(), py = base.y() + x1 * plane.f.y();
-    // A column above the axle is a wall; its nearest point is at axle height.
-    const double z1 = std::min(0.0, (heights.height_m(px, py) - center.z()) * plane.u.z());
+    // Along u from the axle. A column above it is a wall; its nearest point is at axle height.
+    const double z1 = std::min(0.0, (heights.height_m(px, py) - base.z()) * plane.u.z() - radius);
     const double x = 0.5 * (x0 + x1), z = 0.5 * (z0 + z1), rise = z1 - z0;
     x0 = x1;
     z0 = z1;

@@ -135,7 +135,7 @@ PlannedPath read_path(const Config& config, const ElevationRaster& dtm) {
 PlannedStart read_start(const Config& config) {
   PlannedStart start;
   if (config.has("yaw_deg")) start.yaw_rad = to_rad(config.number("yaw_deg", {-360, 360}));
-  config.read("clear_radius_m", start.clear_radius_m, {0, 10});
+  config.read("clear_radius_m", start.clear_radius_m, {0, 5});
   config.read("sigma_m", start.sigma_m, {0, 5});
   config.read_deg("sigma_yaw_deg", start.sigma_yaw_rad, {0, 30});
   return start;

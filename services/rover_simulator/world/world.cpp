@@ -108,7 +108,10 @@ double World::height_m(double x_m, double y_m) const {
 
 Material World::material(double x_m, double y_m) const {
   const RockField::Hit hit = rocks_.at(x_m, y_m);
-  if (hit.rock_id >= 0) return {Soil::kBedrock, hit.rock_id, hit.height_m};
+  // Of the rock's own hash, not its number in this world; 31 bits, never negative.
+  if (hit.rock_id >= 0)
+    return {Soil::kBedrock, static_cast<int>(rocks_.all()[static_cast<size_t>(hit.rock_id)].shape_seed >> 33),
+            hit.height_m};
   return {soils_.soil(soils_.zone(x_m, y_m), smooth_ground(x_m, y_m).slope_rad), -1, 0.0};
 }
 
