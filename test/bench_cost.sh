@@ -74,6 +74,8 @@ table() {  # SCENARIO
   done < <(variants)
 }
 
+commits() { variants | cut -d'|' -f1 | while read -r name; do cat "$LOGS/$name/rows.jsonl"; done | jq -rs '[.[].commit] | unique | join(", ")'; }
+
 compare() {  # VARIANT: drive by drive with geometric
   "$BUILD/bin/rover_campaign" compare $LOGS/geometric "$LOGS/$1" --out "$LOGS/$1/compare_geometric.md" >/dev/null
   sed 's/^#/##/' "$LOGS/$1/compare_geometric.md"
@@ -85,7 +87,7 @@ done < <(variants)
 {
   echo "# What the path costs: the map or the policy"
   echo
-  echo "Command: \`$COMMAND\`; commit $(git describe --always --dirty --abbrev=12); $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1), $(nproc) cores; seeds $SEEDS of truth and geometric, else $FEW_SEEDS."
+  echo "Command: \`$COMMAND\`; commit $(commits); $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1), $(nproc) cores; seeds $SEEDS of truth and geometric, else $FEW_SEEDS."
   for scenario in full_hard seed_traverse_2; do
     echo
     echo "## \`$scenario\`, level $(level_of "$scenario")"

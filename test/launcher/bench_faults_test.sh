@@ -3,7 +3,7 @@
 . "$(dirname "$0")/../integration/lib.sh"
 
 mkdir -p "$WORK"/{test,config/scenarios,build/bin}
-cp "$SOURCE/test/bench_faults.sh" "$WORK/test/"
+cp "$SOURCE"/test/bench_{faults,lib}.sh "$WORK/test/"
 cp "$SOURCE/config/scenarios/default.yaml" "$WORK/config/scenarios/"
 git -C "$WORK" init -q
 git -C "$WORK" -c user.name=a -c user.email=a@b commit -qm first --allow-empty
