@@ -6,9 +6,10 @@ import { createCamera } from "/camera.js";
 import { createCommands } from "/commands.js";
 
 const byId = (id) => document.getElementById(id);
-const SILENT_MS = 3000;  // a connection without data for so long is lost
+const SILENT_MS = 3000;  // a stream without data for so long is lost
+const FETCH_MS = 15000;  // a long history over a slow link takes seconds
 export const getJson = async (url) => {
-  const response = await fetch(url, { signal: AbortSignal.timeout(SILENT_MS) });
+  const response = await fetch(url, { signal: AbortSignal.timeout(FETCH_MS) });
   if (!response.ok) throw new Error(`${url}: ${response.status}`);
   return response.json();
 };
