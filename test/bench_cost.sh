@@ -74,7 +74,7 @@ table() {  # SCENARIO
   done < <(variants)
 }
 
-commits() { variants | cut -d'|' -f1 | while read -r name; do cat "$LOGS/$name/rows.jsonl"; done | jq -rs '[.[].commit] | unique | join(", ")'; }
+commits() { for name in $names; do cat "$LOGS/$name/rows.jsonl"; done | jq -rs '[.[].commit] | unique | join(", ")'; }
 
 compare() {  # VARIANT: drive by drive with geometric
   "$BUILD/bin/rover_campaign" compare $LOGS/geometric "$LOGS/$1" --out "$LOGS/$1/compare_geometric.md" >/dev/null

@@ -2,6 +2,8 @@
 // visual odometry. Continues over restarts.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <rover/pose_t.hpp>
 
