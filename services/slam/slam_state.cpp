@@ -92,7 +92,7 @@ std::vector<std::uint8_t> Slam::save() const {
   out.put(travelled_m_);
   out.put(anchor_travelled_m_);
   out.put(gap_at_m_);
-  out.put(gap_unmeasured_);
+  out.put(static_cast<std::uint8_t>(gap_unmeasured_));
   out.put(match_error_.state());
   out.put(lost_count_);
   out.put(anchor_.state());
@@ -116,7 +116,7 @@ bool Slam::restore(const std::vector<std::uint8_t>& bytes) {
   fresh.travelled_m_ = in.get<double>();
   fresh.anchor_travelled_m_ = in.get<double>();
   fresh.gap_at_m_ = in.get<double>();
-  fresh.gap_unmeasured_ = in.get<bool>();
+  fresh.gap_unmeasured_ = in.get<std::uint8_t>() != 0;
   const auto match_error = in.get<MatchError::State>();
   fresh.match_error_.restore(match_error);
   fresh.lost_count_ = in.get<int>();
@@ -124,7 +124,8 @@ bool Slam::restore(const std::vector<std::uint8_t>& bytes) {
   fresh.anchor_.restore(anchor);
   std::vector<Particle> particles(in.count(sizeof(Particle)));
   bool valid = !particles.empty() && is_finite_pose(anchor.T_map_slam) && is_finite_pose(anchor.T_map_odom) &&
-               is_finite(fresh.previous_.T_odom_body) && std::isfinite(fresh.z_m_) &&
+               is_finite(fresh.previous_.T_odom_body) && std::isfinite(fresh.previous_.dead_reckoned_m) &&
+               std::isfinite(fresh.previous_.travelled_m) && std::isfinite(fresh.z_m_) &&
                is_finite_pose(match_error.bias) && match_error.bias_variance_m2 >= 0.0 && match_error.scatter >= 1.0;
   for (Particle& particle : particles) {
     particle = in.get<Particle>();
